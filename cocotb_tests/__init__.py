@@ -1,0 +1,1 @@
+"""Simulations: one folder a part, and the shared harness in `common`."""

@@ -1,0 +1,346 @@
+"""`Bench`: clock, reset, pin driver, edge monitors and time arithmetic around one part.
+
+Time is the index of rising clk edges; edge 0 is the first one that sees rst_n = 1 after the first reset.
+Pins are driven on falling edges: a change made now is stamped `bench.now`, the next rising edge. Monitors
+wake on value changes only, so a quiet second costs nothing in Python.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import signal as unix_signal
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import First, Timer
+from cocotb.utils import get_sim_time
+
+from .config import F16, Config
+from .part import PPMC104, Part
+from .stimulus import Access, Change, Edge, Recording
+
+TIMEOUT = 1_000_000
+
+
+class Bench:
+    """A part on the bench. Make one with `await Bench.start(dut)`.
+
+    Attributes: `config` (Config), `part` (Part), `seed` (int), `rng` (random.Random(seed)), `out`
+    (Path for files of this run), `host` (set by the caller's bus; see `bus.HostBus`), `stimulus`
+    (list[Change]), `accesses` (list[Access]).
+    """
+
+    def __init__(self, dut: Any, part: Part = PPMC104) -> None:
+        self.dut = dut
+        self.part = part
+        text = os.environ.get("OPENPPMC_CONFIG", "")
+        self.config = Config.from_json(text) if text else F16
+        self.seed = int(os.environ.get("OPENPPMC_SEED", "1"))
+        self.rng = random.Random(self.seed)
+        self.out = Path(os.environ.get("OPENPPMC_OUT", "."))
+        self.repro = os.environ.get("OPENPPMC_REPRO", "")
+        self.period = self.config.period_ps
+        self.half = self.period // 2
+        self.pins: dict[str, int] = {}
+        self.stimulus: list[Change] = []
+        self.accesses: list[Access] = []
+        self.initial: dict[str, int] = {}
+        self._log: list[Edge] = []
+        self._edges: dict[str, list[tuple[int, int]]] = {name: [] for name in part.outputs}
+        self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
+        self._t0 = 0
+
+    # ---------------------------------------------------------------- start, reset
+
+    @classmethod
+    async def start(
+        cls, dut: Any, part: Part = PPMC104, reset_clk: int = 4, settle: int = 4, **pins: int
+    ) -> Bench:
+        """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
+
+        The parts take bytes from edge 4 on (P104-PORT-03); settle = 0 returns before edge 0.
+
+        `pins` override idle input levels; they are stamped with edge 0. `reset_clk` is the length of
+        the reset in clk (>= 2).
+        """
+        bench = cls(dut, part)
+        bench._arm_wall_clock()
+        for pin, level in {**part.inputs, **pins}.items():
+            bench._handles[pin].value = level
+            bench.pins[pin] = level
+        bench._handles["rst_n"].value = 1
+        # Falling edges lie on multiples of the period, rising edges half a period later.
+        Clock(dut.clk, bench.period, "ps").start(start_high=False)
+        await Timer(bench.period, "ps")
+        bench._handles["rst_n"].value = 0
+        await Timer(bench.period * max(2, reset_clk), "ps")
+        bench._t0 = int(get_sim_time("ps")) + bench.half
+        bench._handles["rst_n"].value = 1
+        bench.pins["rst_n"] = 1
+        for pin, level in pins.items():
+            if level != part.inputs[pin]:
+                bench.stimulus.append(Change(0, pin, level))
+        for name in part.outputs:
+            bench.initial[name] = bench.level(name)
+            cocotb.start_soon(bench._monitor(name))
+        if settle:
+            await bench.until(settle)
+        return bench
+
+    def _arm_wall_clock(self) -> None:
+        """End this simulator process if it runs away (a test of seconds that takes minutes)."""
+        unix_signal.alarm(int(os.environ.get("OPENPPMC_WALL_S", "300")))
+
+    async def reset(self, clocks: int = 4, settle: int = 4) -> int:
+        """Pulse rst_n low for some clk; returns the stamp of the release (first edge that sees 1).
+
+        Time goes on for `settle` clk after it (P104-PORT-03: bytes are taken from then on).
+        """
+        await self.align()
+        self.set(rst_n=0)
+        await self.clocks(clocks)
+        self.set(rst_n=1)
+        release = self.now
+        if settle:
+            await self.clocks(settle)
+        return release
+
+    # ---------------------------------------------------------------- time
+
+    @property
+    def now(self) -> int:
+        """Index of the next rising clk edge: the stamp of a pin change made at this moment."""
+        return (int(get_sim_time("ps")) - self._t0) // self.period + 1
+
+    async def until(self, edge: int) -> int:
+        """Go to the falling clk edge before rising edge `edge` (then now == edge).
+
+        Raises ValueError if that moment has passed.
+        """
+        target = self._t0 + (edge - 1) * self.period + self.half
+        delta = target - int(get_sim_time("ps"))
+        if delta < 0:
+            if self.now == edge:
+                return edge
+            raise ValueError(f"until({edge}): it is already edge {self.now}")
+        if delta:
+            await Timer(delta, "ps")
+        return edge
+
+    async def clocks(self, n: int) -> int:
+        """Wait n clk; returns `now`."""
+        return await self.until(self.now + n)
+
+    async def align(self) -> int:
+        """Go to the next falling edge if just after a rising one; returns `now`."""
+        target = self._t0 + (self.now - 1) * self.period + self.half
+        delta = target - int(get_sim_time("ps"))
+        if delta > 0:
+            await Timer(delta, "ps")
+        return self.now
+
+    # ---------------------------------------------------------------- pins
+
+    def set(self, **levels: int) -> int:
+        """Drive input pins now (falling-edge half only) and log them; returns the stamp.
+
+        Raises RuntimeError in the high half of clk, KeyError for an unknown pin. Unchanged levels are
+        neither driven nor logged.
+        """
+        stamp = self.now
+        if self._t0 + (stamp - 1) * self.period + self.half > int(get_sim_time("ps")):
+            raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
+        for pin, level in levels.items():
+            if self.pins[pin] != level:
+                self.pins[pin] = level
+                self._handles[pin].value = level
+                self.stimulus.append(Change(stamp, pin, level))
+        return stamp
+
+    def set_between_edges(self, **levels: int) -> int:
+        """As `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
+        stamp = self.now
+        for pin, level in levels.items():
+            self.pins[pin] = level
+            self._handles[pin].value = level
+            self.stimulus.append(Change(stamp, pin, level))
+        return stamp
+
+    def at(self, edge: int, **levels: int) -> Any:
+        """Schedule pin levels so that rising edge `edge` is the first to sample them; returns the task."""
+
+        async def later() -> None:
+            await self.until(edge)
+            self.set(**levels)
+
+        return cocotb.start_soon(later())
+
+    async def pulse_pin(self, pin: str, level: int, clocks: int) -> int:
+        """Hold a pin at `level` for some clk, then put the old level back; returns the first stamp."""
+        await self.align()
+        before, stamp = self.pins[pin], self.now
+        self.set(**{pin: level})
+        await self.clocks(clocks)
+        self.set(**{pin: before})
+        return stamp
+
+    def external_clock(self, intervals: Iterable[int], pin: str = "clock", high: int = 2) -> Any:
+        """Run the external clock: each item is the clk count from one rising edge to the next.
+
+        The first rising edge comes at once; it ends with the iterable. Each high time is `high` clk.
+        Returns the task (cancel() stops it).
+        """
+
+        async def run() -> None:
+            await self.align()
+            for interval in intervals:
+                self.set(**{pin: 1})
+                await self.clocks(high)
+                self.set(**{pin: 0})
+                await self.clocks(interval - high)
+
+        return cocotb.start_soon(run())
+
+    # ---------------------------------------------------------------- outputs
+
+    def _index(self) -> int:
+        """Index of the edge that made a change visible now (asynchronous changes: the next edge)."""
+        return -((self._t0 - int(get_sim_time("ps"))) // self.period)
+
+    async def _monitor(self, name: str) -> None:
+        handle, changes = self._handles[name], self._edges[name]
+        trigger = handle.value_change
+        while True:
+            await trigger
+            t, value = self._index(), int(handle.value)
+            if changes and changes[-1][0] == t:
+                changes[-1] = (t, value)
+            else:
+                changes.append((t, value))
+            self._log.append(Edge(t, name, value))
+
+    def level(self, output: str) -> int:
+        """Present level of an output."""
+        return int(self._handles[output].value)
+
+    def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
+        """Changes (edge, level) of an output from edge `since` on."""
+        return [(t, value) for t, value in self._edges[output] if t >= since]
+
+    def falls(self, output: str, since: int = 0) -> list[int]:
+        """Edges on which a one-bit output fell."""
+        return [t for t, value in self._edges[output] if t >= since and value == 0]
+
+    def rises(self, output: str, since: int = 0) -> list[int]:
+        """Edges on which a one-bit output rose."""
+        return [t for t, value in self._edges[output] if t >= since and value == 1]
+
+    def pulses(self, since: int = 0, pin: str = "pout_n") -> list[int]:
+        """Pulses (P104-GEN-05): falling edges of pout_n."""
+        return self.falls(pin, since)
+
+    def intervals(self, since: int = 0, pin: str = "pout_n") -> list[int]:
+        """Distances of successive pulses in clk."""
+        pulses = self.pulses(since, pin)
+        return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
+
+    def low_times(self, since: int = 0, pin: str = "pout_n") -> list[int]:
+        """Low time of each complete pulse in clk."""
+        changes = self.edges(pin, since)
+        return [
+            b - a for (a, low), (b, high) in zip(changes, changes[1:], strict=False) if low == 0 and high == 1
+        ]
+
+    def level_at(self, output: str, edge: int) -> int:
+        """Level of an output just after rising edge `edge`."""
+        level = self.initial[output]
+        for t, value in self._edges[output]:
+            if t > edge:
+                break
+            level = value
+        return level
+
+    # ---------------------------------------------------------------- waiting for outputs
+
+    async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
+        """Wait for the next change (to `level` if given); returns its edge, aligned so that set() works.
+
+        Raises TimeoutError after `timeout` clk.
+        """
+        end = self.now + timeout
+        handle = self._handles[output]
+        while True:
+            left = (end - self.now) * self.period
+            if left <= 0:
+                break
+            limit = Timer(left, "ps")
+            fired = await First(handle.value_change, limit)
+            if fired is limit:
+                break
+            if level is None or int(handle.value) == level:
+                t = self._index()
+                await self.align()
+                return t
+        want = "a change" if level is None else f"level {level}"
+        raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
+
+    async def nth_fall(self, n: int, since: int = 0, pin: str = "pout_n", timeout: int = TIMEOUT) -> int:
+        """Wait until `pin` has fallen n times from edge `since` on; returns the edge of the n-th fall."""
+        end = self.now + timeout
+        while len(self.falls(pin, since)) < n:
+            await self.edge(pin, 0, max(1, end - self.now))
+        await self.align()
+        return self.falls(pin, since)[n - 1]
+
+    async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
+        """Wait until an output has this level (returns at once if it has); returns `now`."""
+        if self.level(output) != level:
+            await self.edge(output, level, timeout)
+        return await self.align()
+
+    # ---------------------------------------------------------------- checking and reporting
+
+    def context(self, last: int = 8) -> str:
+        """The last output edges, pin changes and host accesses, for messages."""
+        pins = [c for c in self.stimulus if c.pin not in ("a0", "d_i", "cs_n", "rd_n", "wr_n", "clock")]
+        shown = [edge for edge in self._log if edge.signal not in ("d_o", "d_oe")]
+        lines = [f"now: edge {self.now}, config {self.config.name}, seed {self.seed}", "last output edges:"]
+        lines += [f"  {e.t:>9} {e.signal} = {e.value:#x}" for e in shown[-last:]]
+        lines += ["last pin changes:"] + [f"  {c.t:>9} {c.pin} = {c.value:#x}" for c in pins[-last:]]
+        lines += ["last host accesses:"] + [f"  {a}" for a in self.accesses[-last:]]
+        return "\n".join(lines)
+
+    def check(self, rule: str, what: str, got: Any, expected: Any) -> None:
+        """Assert got == expected; the message carries rule, edge and context."""
+        assert got == expected, (
+            f"{rule}: {what}: expected {_show(expected)}, got {_show(got)}\n{self.context()}"
+        )
+
+    def check_window(self, rule: str, what: str, got: int, low: int, high: int) -> None:
+        """Assert low <= got <= high; the message carries rule, edge and context."""
+        assert low <= got <= high, f"{rule}: {what}: expected {low}..{high}, got {got}\n{self.context()}"
+
+    def recording(self) -> Recording:
+        """Everything up to now, for `compare`; the last complete clk edge is `now` - 1."""
+        return Recording(
+            part=self.part.name,
+            params=self.config.params,
+            seed=self.seed,
+            end=self.now - 1,
+            stimulus=list(self.stimulus),
+            edges=sorted(
+                (Edge(t, name, value) for name, rows in self._edges.items() for t, value in rows),
+                key=lambda edge: edge.t,
+            ),
+            accesses=list(self.accesses),
+        )
+
+
+def _show(value: Any) -> str:
+    if isinstance(value, int) and not isinstance(value, bool):
+        return f"{value} ({value:#x})"
+    return str(value)

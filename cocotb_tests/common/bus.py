@@ -1,0 +1,215 @@
+"""`HostBus`: the host side of the strobe bus, one access at a time, driven on falling clk edges.
+
+Registers: DATA = 0, STATUS = COMMAND = 1 (the level of a0). Times are in clk. The pin style is a table
+(`BusStyle`), so the same class serves the RD*/WR* bus and the DS*/R-W* bus of the sister part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+
+from .bench import Bench
+from .stimulus import Access
+
+DATA = 0
+STATUS = 1
+COMMAND = 1
+
+OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
+
+
+@dataclass(frozen=True)
+class BusStyle:
+    """Pin levels of each half of an access; `address` is the register-select pin."""
+
+    write_on: Mapping[str, int]
+    write_off: Mapping[str, int]
+    read_on: Mapping[str, int]
+    read_off: Mapping[str, int]
+    address: str = "a0"
+
+
+STROBES_RD_WR = BusStyle(
+    write_on={"cs_n": 0, "wr_n": 0},
+    write_off={"cs_n": 1, "wr_n": 1},
+    read_on={"cs_n": 0, "rd_n": 0},
+    read_off={"cs_n": 1, "rd_n": 1},
+)
+
+
+class HostBus:
+    """A host. `bench.accesses` keeps the history.
+
+    strobe, read_strobe, gap: lengths in clk (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
+    pause: called before each access, returns extra idle clk. timeout: limit in clk of every poll.
+    """
+
+    def __init__(
+        self,
+        bench: Bench,
+        style: BusStyle = STROBES_RD_WR,
+        strobe: int = 2,
+        read_strobe: int = 4,
+        gap: int = 2,
+        pause: Callable[[], int] | None = None,
+        timeout: int = 1_000_000,
+    ) -> None:
+        self.bench = bench
+        self.style = style
+        self.strobe = strobe
+        self.read_strobe = read_strobe
+        self.gap = gap
+        self.pause = pause
+        self.timeout = timeout
+        self._owner: str | None = None
+
+    # ---------------------------------------------------------------- single accesses
+
+    async def _begin(self, what: str) -> None:
+        if self._owner:
+            raise RuntimeError(f"HostBus: {what} started while {self._owner} is on the bus")
+        self._owner = what
+        await self.bench.align()
+        if self.pause and (extra := self.pause()):
+            await self.bench.clocks(extra)
+
+    async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
+        """One write cycle; returns its edge 0: the first edge that samples WS false (P104-BUS-06).
+
+        The write event is two edges later. Returns after `gap` idle clk.
+        """
+        await self._begin(f"write({reg}, {byte:#04x})")
+        bench = self.bench
+        bench.set(**{self.style.address: reg, "d_i": byte, **self.style.write_on})
+        await bench.clocks(self.strobe if strobe is None else strobe)
+        edge0 = bench.set(**self.style.write_off)
+        bench.accesses.append(Access(edge0, "write", reg, byte))
+        await bench.clocks(self.gap if gap is None else gap)
+        self._owner = None
+        return edge0
+
+    async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
+        """One read cycle; returns d_o as it stands at the end of the strobe.
+
+        Raises AssertionError if d_oe is not 1 there (strobes of 3 clk and more).
+        """
+        await self._begin(f"read({reg})")
+        bench = self.bench
+        length = self.read_strobe if strobe is None else strobe
+        edge0 = bench.set(**{self.style.address: reg, **self.style.read_on})
+        await bench.clocks(length)
+        byte = bench.level("d_o")
+        assert length < 3 or bench.level("d_oe") == 1, (
+            f"P104-BUS-05: d_oe = 0 at the end of a {length} clk read strobe\n{bench.context()}"
+        )
+        bench.set(**self.style.read_off)
+        bench.accesses.append(Access(edge0, "read", reg, byte))
+        await bench.clocks(self.gap if gap is None else gap)
+        self._owner = None
+        return byte
+
+    async def raw(self, clocks: int, **levels: int) -> int:
+        """Put any pin levels on the bus for some clk (illegal cycles); returns the first stamp.
+
+        The levels stay: a second call puts the idle ones back.
+        """
+        stamp = self.bench.set(**levels)
+        await self.bench.clocks(clocks)
+        return stamp
+
+    async def idle(self) -> None:
+        """All strobes off."""
+        await self.bench.align()
+        self.bench.set(**{**self.style.write_off, **self.style.read_off})
+
+    # ---------------------------------------------------------------- polled accesses
+
+    async def status(self) -> int:
+        """Read the status register once."""
+        return await self.read(STATUS)
+
+    async def poll(self, mask: int, value: int, timeout: int | None = None, dense: int = 16) -> int:
+        """Read status until (status & mask) == value; returns that status.
+
+        The first `dense` polls follow each other at once, later ones with growing pauses (up to 256 clk).
+        Raises TimeoutError.
+        """
+        bench = self.bench
+        limit = self.timeout if timeout is None else timeout
+        end, count, wait = bench.now + limit, 0, 4
+        while True:
+            status = await self.status()
+            if status & mask == value:
+                return status
+            if bench.now > end:
+                raise TimeoutError(
+                    f"status {status:#04x}: bits {mask:#04x} did not become {value:#04x} "
+                    f"within {limit} clk\n{bench.context()}"
+                )
+            count += 1
+            if count >= dense:
+                wait = min(256, wait * 5 // 4 + 1)
+                await bench.clocks(wait)
+
+    async def command(self, code: int, poll: bool = True) -> int:
+        """Write a command byte; with `poll` wait for IBF = 0 and return that status, else edge 0."""
+        edge0 = await self.write(COMMAND, code)
+        return await self.poll(IBF, 0) if poll else edge0
+
+    async def data(self, byte: int, poll: bool = True) -> int:
+        """Write a data byte; with `poll` wait for IBF = 0 and return that status, else edge 0."""
+        edge0 = await self.write(DATA, byte)
+        return await self.poll(IBF, 0) if poll else edge0
+
+    async def read_data(self) -> int:
+        """Wait for OBF = 1, then read the data register."""
+        await self.poll(OBF, OBF)
+        return await self.read(DATA)
+
+    async def send(self, code: int | str, data: Iterable[int] = (), poll: bool = True) -> int:
+        """Command (int or hex text such as "0A") and its data bytes; returns what the last one returned."""
+        result = await self.command(int(code, 16) if isinstance(code, str) else code, poll)
+        for byte in data:
+            result = await self.data(byte, poll)
+        return result
+
+    async def fetch(self, code: int | str, count: int = 1) -> list[int]:
+        """Read command, then `count` data reads after OBF = 1."""
+        await self.send(code)
+        return [await self.read_data() for _ in range(count)]
+
+    async def run(self, script: str) -> list[int]:
+        """Play a script of the acceptance tables, e.g. "c 0A d 09 d 04 d 04 d 00" or "c 83 rrr".
+
+        c XX and d XX are polled writes, r is a data read after OBF = 1, s is a status read. Returns the
+        bytes of all r and s in order. Raises ValueError for anything else.
+        """
+        words, got, place = script.replace(";", " ").split(), [], 0
+        while place < len(words):
+            word = words[place]
+            if word in ("c", "d"):
+                byte = int(words[place + 1], 16)
+                await (self.command(byte) if word == "c" else self.data(byte))
+                place += 2
+                continue
+            if set(word) - {"r", "s"}:
+                raise ValueError(f"script word {word!r} is none of c XX, d XX, r, s")
+            for letter in word:
+                got.append(await (self.read_data() if letter == "r" else self.status()))
+            place += 1
+        return got
+
+    async def init(self, code: int, rl: int, rh: int, pa: int) -> int:
+        """Initialisation command with its four bytes; returns the status after the last one."""
+        return await self.send(code, [rl, rh, pa & 0xFF, pa >> 8])
+
+    async def move(self, code: int, n: int, rate: int | None = None) -> int:
+        """Operation 011 (no rate) or 100 (rate) of n pulses, 1..2^24; returns the final status."""
+        d = n - 1
+        head = [] if rate is None else [rate]
+        return await self.send(code, [*head, d & 0xFF, d >> 8 & 0xFF, d >> 16 & 0xFF])
+
+    async def wait_idle(self, timeout: int | None = None) -> int:
+        """Poll until BUSY = 0; returns that status."""
+        return await self.poll(BUSY, 0, timeout)

@@ -1,0 +1,71 @@
+"""Turns the cocotb tests of tb_* modules into pytest items: one item a test and build configuration.
+
+# test_ppmc104.py
+ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_bus", "tb_status")
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_ppmc104(item, sim_options):
+    run_item(item, sim_options)
+"""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass, replace
+from typing import Any
+
+import pytest
+
+from .config import F16, Config
+from .part import PPMC104, Part
+from .verifies import rules_of
+
+
+@dataclass(frozen=True)
+class Item:
+    """One simulation to run: a cocotb test of a module under one configuration."""
+
+    module: str
+    test: str
+    config: Config
+    part: str
+    rules: tuple[str, ...]
+    seed: int = 1
+    tag: str = ""
+
+    @property
+    def id(self) -> str:
+        """ID within the pytest parametrization; also what `make test T=` (pytest -k) takes."""
+        tag = f"-{self.tag}" if self.tag else ""
+        return f"{self.test}-{self.config.name}{tag}".replace("/", ".").replace("=", ".")
+
+    def with_seed(self, seed: int) -> Item:
+        """The same simulation under another seed."""
+        return replace(self, seed=seed)
+
+
+def cocotb_items(package: str, *modules: str, part: Part = PPMC104) -> list[Any]:
+    """pytest.param list of every cocotb test in `package`'s modules, under the configs each one names.
+
+    Raises ValueError if a module has no cocotb test or two tests share a name.
+    """
+    params, seen = [], set()
+    for name in modules:
+        module = importlib.import_module(f"{package}.{name}")
+        tests = [obj for obj in vars(module).values() if _is_cocotb_test(obj, module.__name__)]
+        if not tests:
+            raise ValueError(f"{package}.{name} holds no cocotb test")
+        for test in tests:
+            wanted: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
+            for case in test.generate_tests():
+                for config in wanted:
+                    item = Item(module.__name__, case.name, config, part.name, rules_of(test))
+                    if item.id in seen:
+                        raise ValueError(f"{package}.{name}: second test called {item.id}")
+                    seen.add(item.id)
+                    params.append(pytest.param(item, id=item.id))
+    return params
+
+
+def _is_cocotb_test(obj: Any, module: str) -> bool:
+    return hasattr(obj, "generate_tests") and hasattr(obj, "func") and obj.func.__module__ == module

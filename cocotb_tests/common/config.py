@@ -1,0 +1,102 @@
+"""Build configurations: one Verilator build each, shared by all tests of a part."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+F = TypeVar("F")
+
+
+@dataclass(frozen=True)
+class Config:
+    """Parameters of one build; `name` is what the test IDs show (no name is a prefix of another).
+
+    clk_hz, xtal_hz in Hz; `extra` holds further top-level parameters as (name, value) pairs.
+    """
+
+    name: str
+    clk_hz: int = 16_000_000
+    xtal_hz: int = 16_000_000
+    timing: str = "FAST"
+    phase_idle: int = 1
+    extra: tuple[tuple[str, Any], ...] = field(default=())
+
+    @property
+    def datasheet(self) -> bool:
+        """True for the DATASHEET timing model."""
+        return self.timing == "DATASHEET"
+
+    @property
+    def params(self) -> dict[str, Any]:
+        """Parameters of the top module."""
+        return {
+            "CLK_HZ": self.clk_hz,
+            "XTAL_HZ": self.xtal_hz,
+            "TIMING": self.timing,
+            "PHASE_IDLE": self.phase_idle,
+            **dict(self.extra),
+        }
+
+    def cyc(self, xtal_cycles: int) -> int:
+        """CYC(n): clk periods for n XTAL cycles, rounded up (P104-GEN-03)."""
+        return -(-xtal_cycles * self.clk_hz // self.xtal_hz)
+
+    @property
+    def w(self) -> int:
+        """W = CYC(80), the 5 us pulse and set-up time, in clk (P104-GEN-03)."""
+        return self.cyc(80)
+
+    def quanta(self, n: int) -> int:
+        """clk edge of quantum tick n after its restart (P104-BCK-03)."""
+        return self.cyc(4 * n)
+
+    def us(self, micros: float) -> int:
+        """CYC of a time in us at a 16 MHz crystal (P104-GEN-02)."""
+        return self.cyc(round(micros * 16))
+
+    @property
+    def period_ps(self) -> int:
+        """clk period in ps, rounded to even so that both halves are whole time steps."""
+        return max(2, 2 * round(5e11 / self.clk_hz))
+
+    def to_json(self) -> str:
+        """Text form handed to the simulator process."""
+        return json.dumps({**self.__dict__, "extra": list(map(list, self.extra))})
+
+    @classmethod
+    def from_json(cls, text: str) -> Config:
+        """Inverse of `to_json`."""
+        fields = json.loads(text)
+        fields["extra"] = tuple((name, value) for name, value in fields["extra"])
+        return cls(**fields)
+
+
+# The shared set. Each one costs a build of some 10 s: add one only if none of these will do.
+F16 = Config("f16")
+F8 = Config("f8m", clk_hz=8_000_000)
+F11 = Config("f11m", clk_hz=11_059_200)
+F25 = Config("f25m", clk_hz=25_000_000)
+F50 = Config("f50m", clk_hz=50_000_000, phase_idle=0)
+F100 = Config("f100m", clk_hz=100_000_000)
+F16X1 = Config("f16x1", xtal_hz=1_000_000, phase_idle=0)
+D16 = Config("d16", timing="DATASHEET")
+D11 = Config("d11m", clk_hz=11_059_200, timing="DATASHEET")
+D25X8 = Config("d25x8", clk_hz=25_000_000, xtal_hz=8_000_000, timing="DATASHEET", phase_idle=0)
+
+ALL_CONFIGS: tuple[Config, ...] = (F16, F8, F11, F25, F50, F100, F16X1, D16, D11, D25X8)
+CONFIGS: dict[str, Config] = {config.name: config for config in ALL_CONFIGS}
+
+
+def configs(*wanted: Config) -> Callable[[F], F]:
+    """Decorator: the build configurations a cocotb test runs under (default: only `F16`)."""
+    if not wanted:
+        raise ValueError("configs() needs at least one Config")
+
+    def mark(test: F) -> F:
+        getattr(test, "func", test)._openppmc_configs = wanted  # type: ignore[attr-defined]
+        return test
+
+    return mark

@@ -1,0 +1,21 @@
+"""Where things are, relative to the project root (no absolute path is ever written down)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build"
+SIM_BUILDS = BUILD / "sim"
+RUNS = BUILD / "runs"
+FAILURES = BUILD / "failures"
+TRACE = BUILD / "trace"
+
+
+def relative(path: Path | str) -> str:
+    """Path as shown to the user: relative to the project root where possible."""
+    path = Path(path)
+    try:
+        return str(path.resolve().relative_to(ROOT))
+    except ValueError:
+        return str(path)

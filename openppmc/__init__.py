@@ -1,0 +1,3 @@
+"""OpenPPMC in Python: golden models of the parts, a move predictor and the host side."""
+
+__version__ = "0.1.0"

@@ -1,0 +1,75 @@
+"""Phase excitation: which phases are energised at each index, made from the definition of the drive.
+
+P104-PHS-01..06 and section 6.1: neighbours of a ring of 3, 4 or 5 phases are energised; full step always
+two, half step alternately two and one (3- and 4-phase) or two and three (5-phase). Patterns are integers,
+bit 0 = S1.
+"""
+
+from __future__ import annotations
+
+ALL_PHASES = 0b11111
+
+
+def step_list(phases: int, half: bool) -> tuple[int, ...]:
+    """Energised phases by index, 1 = on. phases: 3, 4 or 5 (ValueError otherwise)."""
+    if phases not in (3, 4, 5):
+        raise ValueError(f"{phases} phases")
+
+    def ring(first: int, count: int) -> int:
+        return sum(1 << (first + i) % phases for i in range(count))
+
+    steps: list[int] = []
+    for first in range(phases):
+        steps.append(ring(first, 2))
+        if half:
+            # Between two full steps: the phase they share (1-2 phase), or all three (2-3 phase).
+            steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
+    return tuple(steps)
+
+
+class Excitation:
+    """Index and output levels of the phase pins.
+
+    idle: level of all five pins until the first initialisation (P104-PHS-02).
+    """
+
+    def __init__(self, idle: int = 1) -> None:
+        self._rest = ALL_PHASES if idle else 0
+        self.energised = False
+        self.index = 0
+        self.positive = False
+        self._steps: tuple[int, ...] = (0,)
+
+    def configure(self, phases: int, half: bool, positive: bool) -> None:
+        """First accepted initialisation: freeze type, method and logic, go to index 0 (P104-PHS-03)."""
+        self._steps = step_list(phases, half)
+        self.positive = positive
+        self.index = 0
+        self.energised = True
+
+    def off(self) -> None:
+        """Excitation OFF: the pins rest at the off level of the logic in force (P104-PHS-05)."""
+        if self.energised:
+            self._rest = self.off_level
+            self.energised = False
+
+    def step(self, direction: int) -> None:
+        """One pulse: CW (0) forward, CCW (1) back (P104-OPR-05)."""
+        self.index = (self.index + (-1 if direction else 1)) % len(self._steps)
+
+    @property
+    def off_level(self) -> int:
+        """All five pins off in the logic in force (P104-PHS-01)."""
+        return 0 if self.positive else ALL_PHASES
+
+    @property
+    def pattern(self) -> int:
+        """Pin levels without chopping."""
+        if not self.energised:
+            return self._rest
+        return self._steps[self.index] ^ self.off_level
+
+    @property
+    def chopped(self) -> int:
+        """Pin levels in the OFF phase of the chopper."""
+        return self.off_level if self.energised else self._rest

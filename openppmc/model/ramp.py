@@ -1,0 +1,139 @@
+"""The family's linear ramp, exact: speed squared grows linearly with the pulse index.
+
+P104-RMP-01: the interval of index k has the period x(k) = 1/sqrt(1/A + (1/B - 1/A) k/PA) in base clocks,
+A and B the squares of the start and high-speed periods, rounded half up. All values are found by exact
+integer square roots of the closed formula. Generic: `period` is the number of base clocks of an interval
+(rate + 1 for parts with rates, the divisor itself for parts with divisors).
+
+P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, walked or closed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import isqrt
+
+
+def ramp_period(start: int, high: int, pa: int, k: int) -> int:
+    """Base clocks of the interval with index k, 0 <= k <= pa.
+
+    start, high: periods of index 0 and pa, 1 <= high <= start. Raises ValueError for anything else.
+    """
+    if not 1 <= high <= start or pa < 1 or not 0 <= k <= pa:
+        raise ValueError(f"no ramp value for start {start}, high {high}, pa {pa}, k {k}")
+    a, b = start * start, high * high
+    numerator, denominator = a * b * pa, b * pa + (a - b) * k
+    # p is the greatest integer with p - 1/2 <= sqrt(n/d), i.e. (2p - 1)^2 <= 4 n/d.
+    return (isqrt(4 * numerator // denominator) + 1) // 2
+
+
+def ramp_rate(rl: int, rh: int, pa: int, k: int) -> int:
+    """R(k) of P104-RMP-01 for rates 0 <= rh <= rl."""
+    return ramp_period(rl + 1, rh + 1, pa, k) - 1
+
+
+def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
+    """Index of the next interval at a pulse event, None if that pulse was the last (P104-PRO-04).
+
+    kp: index of the interval just ended, -1 at pulse 1. m: pulses left. forced: deceleration flagged.
+    """
+    if m == 0:
+        return None
+    if not forced:
+        return min(kp + 1, m - 1, pa)
+    k = min(kp - 1, m - 1)
+    return k if k >= 0 else None
+
+
+def natural_deceleration(kp: int, m: int, pa: int) -> bool:
+    """True at the pulse event where the move begins to slow down by count (P104-PRO-05)."""
+    return 0 < m and m - 1 < min(kp + 1, pa)
+
+
+def profile_index(n: int, pa: int, j: int) -> int:
+    """Index of interval j (1..n-1) of an undisturbed move of n pulses (P104-PRO-01)."""
+    return min(j - 1, n - 1 - j, pa)
+
+
+def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
+    """Indices of all intervals of a move of n pulses, by the closed formula.
+
+    flagged_in: number of the interval in which forced deceleration is flagged, 0 = before pulse 1; the
+    move then ends as P104-FDC-02/03 say. Memory grows with the number of pulses.
+    """
+    plain = [profile_index(n, pa, j) for j in range(1, n)]
+    if flagged_in is None or flagged_in >= n:
+        return plain
+    if flagged_in == 0:
+        return []
+    peak = plain[flagged_in - 1]
+    if flagged_in < len(plain) and plain[flagged_in] < peak:
+        return plain
+    return (plain[:flagged_in] + list(range(peak - 1, -1, -1)))[: n - 1]
+
+
+def walk(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list[int]:
+    """Indices of all intervals by the pulse-event walk; flag(j) = forced deceleration at pulse j."""
+    indices: list[int] = []
+    kp, forced = -1, False
+    for j in range(1, n + 1):
+        forced = forced or flag(j)
+        k = next_index(kp, n - j, pa, forced)
+        if k is None:
+            break
+        indices.append(k)
+        kp = k
+    return indices
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """One initialised ramp: start rate rl, high-speed rate rh, pa ramp pulses.
+
+    `limit` on each is the part's business; here only 0 <= rh <= rl and pa >= 1. Raises ValueError.
+    """
+
+    rl: int
+    rh: int
+    pa: int
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.rh <= self.rl or self.pa < 1:
+            raise ValueError(f"no ramp: rl {self.rl}, rh {self.rh}, pa {self.pa}")
+
+    @cached_property
+    def _known(self) -> dict[int, int]:
+        return {}
+
+    def rate(self, k: int) -> int:
+        """R(k), 0 <= k <= pa; remembered."""
+        known = self._known
+        if k not in known:
+            known[k] = ramp_rate(self.rl, self.rh, self.pa, k)
+        return known[k]
+
+    def rates(self) -> list[int]:
+        """R(0) .. R(pa)."""
+        return [self.rate(k) for k in range(self.pa + 1)]
+
+
+@dataclass(frozen=True)
+class BaseClock:
+    """Internal base clock of an interval: period and addition in quanta (P104-BCK-01, P104-INT-01/02).
+
+    tclock: 8 (500 kHz) or 32 (125 kHz). extra: 0, or 30 (7.5 us).
+    """
+
+    tclock: int = 8
+    extra: int = 0
+
+    @classmethod
+    def of_pins(cls, csel: int, vsel: int) -> BaseClock:
+        """Clock chosen by the two pins."""
+        return cls(8 if csel else 32, 0 if vsel else 30)
+
+    def quanta(self, rate: int) -> int:
+        """Length of an interval at this rate."""
+        return (rate + 1) * self.tclock + self.extra

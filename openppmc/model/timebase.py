@@ -1,0 +1,121 @@
+"""Time: XTAL cycles, quanta, clk edges, and the constants a core may choose inside the spec's windows.
+
+Rules: P104-GEN-02..04 (CYC, quantum), P104-BCK-03 (tick n of the quantum counter), section 8 (`ds_*`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+BuildClk = Callable[[int, int, int], int]
+
+
+@dataclass(frozen=True)
+class Latency:
+    """Constants of one core, in clk. The defaults are those of the RTL of this project.
+
+    c_event: write event to C-event when the mailbox is open (P104-HSK-03, 0..8).
+    window_open: end of a closed window to the C-event of a byte that waited.
+    host_pins: internal change to int_n, aux_n, auxo. motor_pins: to s, pout_n, hold, dir (both 0..2).
+    start_extra: internal pulse 1 beyond W (P104-TIM-02, 0..2).
+    end_extra: pout_n rise to BUSY fall (P104-END-01, 0..4).
+    imm_end: deciding edge to BUSY fall when pout_n is high (P104-END-02, 0..4).
+    input_sync: pin edge to the internal level (2).
+    flag_lead: a forced-deceleration flag set this long before a pulse event still counts for it
+    (P104-FDC-06, 0..4).
+    queue_next: OBF fall to the next byte of a longer answer (P104-HSK-05, 0..4).
+    reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
+    build_base, build_per_rate: ramp-table build, base + per_rate * (RL - RH) (P104-HSK-04, <= 40000);
+    `build_clk`, a function of (RL, RH, PA), replaces them.
+    ds_host: added to the times measured from a write event, ds_waited: from the end of a wait, ds_motor:
+    from a pulse, a deciding edge or an input level (section 8, -0/+16).
+    ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12.
+    """
+
+    c_event: int = 2
+    window_open: int = 0
+    host_pins: int = 0
+    motor_pins: int = 1
+    start_extra: int = 1
+    end_extra: int = 0
+    imm_end: int = 1
+    input_sync: int = 2
+    flag_lead: int = 1
+    queue_next: int = 2
+    reset_tick: int = -1
+    build_base: int = 64
+    build_per_rate: int = 48
+    build_clk: BuildClk | None = None
+    ds_host: int = 0
+    ds_waited: int = 0
+    ds_motor: int = 0
+    ds12_lag: int = 1
+
+    def build(self, rl: int, rh: int, pa: int) -> int:
+        """Length of the ramp-table build in clk."""
+        if self.build_clk is not None:
+            return self.build_clk(rl, rh, pa)
+        return self.build_base + self.build_per_rate * (rl - rh)
+
+
+@dataclass(frozen=True)
+class Timebase:
+    """Conversion between XTAL cycles, quanta (4 XTAL cycles) and clk.
+
+    clk_hz: frequency of clk, 8e6..200e6. xtal_hz: emulated crystal, 1e6..16e6. Raises ValueError outside.
+    """
+
+    clk_hz: int = 16_000_000
+    xtal_hz: int = 16_000_000
+
+    def __post_init__(self) -> None:
+        if not 8_000_000 <= self.clk_hz <= 200_000_000:
+            raise ValueError(f"clk_hz {self.clk_hz} is outside 8e6..200e6")
+        if not 1_000_000 <= self.xtal_hz <= 16_000_000:
+            raise ValueError(f"xtal_hz {self.xtal_hz} is outside 1e6..16e6")
+
+    def cyc(self, cycles: int) -> int:
+        """CYC(n): clk that cover n XTAL cycles, rounded up (P104-GEN-03)."""
+        return -(-cycles * self.clk_hz // self.xtal_hz)
+
+    def nearest(self, cycles: int) -> int:
+        """clk nearest to n XTAL cycles, halves up (X and H of P104-INT-03)."""
+        return (2 * cycles * self.clk_hz + self.xtal_hz) // (2 * self.xtal_hz)
+
+    @property
+    def w(self) -> int:
+        """W = CYC(80): pulse width and direction set-up, 5 us at a 16 MHz crystal."""
+        return self.cyc(80)
+
+    def tick(self, n: int) -> int:
+        """clk from the restart of the quantum counter to its tick n (P104-BCK-03)."""
+        return self.cyc(4 * n)
+
+    def ticks_in(self, clk: int) -> int:
+        """Number of the last tick at or before `clk` clk after the restart; 0 for clk < 0."""
+        return max(0, clk * self.xtal_hz // (4 * self.clk_hz))
+
+    def seconds(self, clk: int) -> float:
+        """Seconds of so many clk."""
+        return clk / self.clk_hz
+
+
+class QuantumCounter:
+    """The one quantum counter of a part: restarted at an edge, runs on for ever (P104-BCK-03)."""
+
+    def __init__(self, timebase: Timebase, origin: int) -> None:
+        self._timebase = timebase
+        self.origin = origin
+
+    def restart(self, t: int) -> None:
+        """Tick 0 is at edge t."""
+        self.origin = t
+
+    def edge_of(self, n: int) -> int:
+        """Edge of tick n."""
+        return self.origin + self._timebase.tick(n)
+
+    def last_tick(self, t: int) -> int:
+        """Number of the last tick at or before edge t."""
+        return self._timebase.ticks_in(t - self.origin)

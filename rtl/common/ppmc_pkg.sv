@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_pkg: arithmetic that every part needs at elaboration time; knows nothing of motors.
+// Rules: P104-GEN-02, P104-GEN-03 (times are given in crystal cycles and turned into clk here, once).
+`default_nettype none
+
+package ppmc_pkg;
+
+  // clk periods that `xtal_cycles` crystal cycles last, rounded up: CYC(n) of the specifications.
+  function automatic int unsigned cyc(int unsigned xtal_cycles, int unsigned clk_hz,
+                                      int unsigned xtal_hz);
+    longint unsigned product;
+    product = 64'(xtal_cycles) * 64'(clk_hz);
+    return 32'((product + 64'(xtal_hz) - 64'd1) / 64'(xtal_hz));
+  endfunction
+
+  // The same, rounded to the nearest clk (half up).
+  function automatic int unsigned cyc_round(int unsigned xtal_cycles, int unsigned clk_hz,
+                                            int unsigned xtal_hz);
+    longint unsigned product;
+    product = 64'(xtal_cycles) * 64'(clk_hz);
+    return 32'((64'd2 * product + 64'(xtal_hz)) / (64'd2 * 64'(xtal_hz)));
+  endfunction
+
+  // Bits of a counter that must hold 0 .. `top`; never 0.
+  function automatic int unsigned cnt_width(int unsigned top);
+    return (top < 2) ? 1 : 32'($clog2(64'(top) + 64'd1));
+  endfunction
+
+  // Greatest common divisor, to keep phase accumulators narrow.
+  function automatic longint unsigned gcd(longint unsigned a, longint unsigned b);
+    longint unsigned x, y, t;
+    x = a;
+    y = b;
+    while (y != 0) begin
+      t = x % y;
+      x = y;
+      y = t;
+    end
+    return x;
+  endfunction
+
+endpackage
+
+`default_nettype wire

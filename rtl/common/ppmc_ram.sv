@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ram: block RAM with one write and one read port.
+// Timing: rdata_o stands one clk after raddr_i. Nobody reads the address that is being written (it may give either word).
+// Note:   contents are not reset; they start as zeros, and every user writes before it reads.
+`default_nettype none
+
+module ppmc_ram #(
+    parameter int unsigned Width    = 16,
+    parameter int unsigned AddrBits = 8
+) (
+    input  wire logic                clk_i,
+    input  wire logic                we_i,
+    input  wire logic [AddrBits-1:0] waddr_i,
+    input  wire logic [   Width-1:0] wdata_i,
+    input  wire logic [AddrBits-1:0] raddr_i,
+    output logic      [   Width-1:0] rdata_o
+);
+
+  (* ram_style = "block", no_rw_check *)
+  logic [Width-1:0] mem[2**AddrBits];
+
+  initial for (int unsigned i = 0; i < 2 ** AddrBits; i++) mem[i] = '0;
+
+  always_ff @(posedge clk_i) begin
+    if (we_i) mem[waddr_i] <= wdata_i;
+    rdata_o <= mem[raddr_i];
+  end
+
+endmodule
+
+`default_nettype wire

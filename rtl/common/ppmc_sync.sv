@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_sync: the family's two-stage synchroniser, one for every asynchronous pin.
+// Rules:  P104-PORT-02.
+// Timing: a level first sampled at edge t stands on q1_o after t and on q2_o after t + 1.
+`default_nettype none
+
+module ppmc_sync #(
+    parameter int unsigned      Width    = 1,
+    parameter logic [Width-1:0] ResetVal = '1  // level during reset: the inactive one
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic [Width-1:0] d_i,     // raw pins
+    output logic      [Width-1:0] q1_o,    // first stage; may be metastable, for same-depth decoding only
+    output logic      [Width-1:0] q2_o     // synchronous level
+);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {q2_o, q1_o} <= {ResetVal, ResetVal};
+    else {q2_o, q1_o} <= {q1_o, d_i};
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_mailbox: one byte in, a short queue out, between a host port and a command unit.
+// Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
+// Timing: a byte written in a cycle with wr_i stands on byte_o at once after the edge; ready_o follows one clk later, so that its decoding may be
+//         registered. take_i may come in the cycle of another wr_i: the old byte is taken, the new one stays.
+//         After rd_done_i the next byte of the queue is valid again one clk after the gap of one clk.
+`default_nettype none
+
+module ppmc_mailbox #(
+    parameter int unsigned QueueBytes = 3
+) (
+    input  wire logic                      clk_i,
+    input  wire logic                      rst_ni,
+    // host port
+    input  wire logic                      wr_i,
+    input  wire logic                      wr_a0_i,
+    input  wire logic [               7:0] wr_data_i,
+    input  wire logic                      rd_done_i,
+    output logic      [               7:0] out_o,
+    output logic                           obf_o,
+    output logic                           ibf_o,
+    // command unit
+    output logic                           ready_o,    // byte_o may be taken
+    output logic                           command_o,  // it was written as a command
+    output logic      [               7:0] byte_o,
+    input  wire logic                      take_i,
+    input  wire logic                      load_i,     // new answer, drops what was not read
+    input  wire logic [8*QueueBytes-1:0]   answer_i,   // first byte in the low bits
+    input  wire logic                      long_i      // all bytes count, otherwise one
+);
+
+  logic settled_q;
+
+  assign ready_o = ibf_o && settled_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ibf_o     <= 1'b0;
+      settled_q <= 1'b0;
+      command_o <= 1'b0;
+      byte_o    <= '0;
+    end else begin
+      settled_q <= ibf_o && !wr_i;
+      if (wr_i) begin
+        ibf_o     <= 1'b1;
+        command_o <= wr_a0_i;
+        byte_o    <= wr_data_i;
+      end else if (take_i) begin
+        ibf_o <= 1'b0;
+      end
+    end
+  end
+
+  localparam int unsigned MoreBits = 8 * (QueueBytes - 1);
+  logic [MoreBits-1:0] more_q;  // bytes behind the one shown
+  logic [QueueBytes-2:0] have_q;  // which of them are there
+  logic next;
+
+  assign next = !obf_o && have_q[0];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      out_o  <= '0;
+      obf_o  <= 1'b0;
+      more_q <= '0;
+      have_q <= '0;
+    end else if (load_i) begin
+      {more_q, out_o} <= answer_i;
+      have_q          <= {(QueueBytes - 1) {long_i}};
+      obf_o           <= 1'b1;
+    end else if (next) begin
+      {more_q, out_o} <= {8'h00, more_q};
+      have_q          <= have_q >> 1;
+      obf_o           <= 1'b1;
+    end else if (rd_done_i) begin
+      obf_o <= 1'b0;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, into the clock of the core.
+// Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02.
+// Timing: a write whose end is first sampled at edge 0 gives wr_o in the cycle before edge 2. Reads are answered early: d_oe_o and
+//         d_o alone sample raw pins, at edge 0; the data is refreshed once at edge 1 and then stands still until the next read.
+// Styles: 0 = read and write strobe (rd_ni, wr_ni); 1 = data strobe on wr_ni with direction on rd_ni (1 = read).
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_strobe_bus (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic       style_i,       // static
+    // pins
+    input  wire logic       cs_ni,
+    input  wire logic       rd_ni,
+    input  wire logic       wr_ni,
+    input  wire logic       a0_i,          // 1 = status or command, 0 = data
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe_o,
+    // write side
+    output logic            wr_o,          // a write is complete
+    output logic            wr_a0_o,
+    output logic      [7:0] wr_data_o,
+    output logic            wr_busy_o,     // one is on its way: status must show a full input buffer
+    // read side
+    input  wire logic [7:0] status_i,
+    input  wire logic [7:0] data_i,
+    input  wire logic       data_valid_i,  // data_i has not been read yet
+    output logic            rd_busy_o,     // it is being read: status must not show it again
+    output logic            rd_done_o      // it has been read
+);
+
+  typedef struct packed {
+    logic cs_n;
+    logic rd_n;
+    logic wr_n;
+  } strobes_t;
+
+  function automatic logic is_read(strobes_t p, logic style);
+    return !p.cs_n && (style ? !p.wr_n && p.rd_n : !p.rd_n && p.wr_n);
+  endfunction
+
+  function automatic logic is_write(strobes_t p, logic style);
+    return !p.cs_n && !p.wr_n && (p.rd_n ^ style);
+  endfunction
+
+  strobes_t raw, s1, s2;
+  logic a01, a02, rd_raw, rd1, rd2, wr1, wr2;
+  logic [7:0] unused_d1, d2;
+
+  assign raw = {cs_ni, rd_ni, wr_ni};
+
+  ppmc_sync #(
+      .Width(12)
+  ) u_sync (
+      .clk_i,
+      .rst_ni,
+      .d_i ({raw, a0_i, d_i}),
+      .q1_o({s1, a01, unused_d1}),
+      .q2_o({s2, a02, d2})
+  );
+
+  always_comb begin
+    rd_raw = is_read(raw, style_i);
+    rd1    = is_read(s1, style_i);
+    rd2    = is_read(s2, style_i);
+    wr1    = is_write(s1, style_i);
+    wr2    = is_write(s2, style_i);
+  end
+
+  // Write: the byte of the last sample that had the strobe.
+  logic wr3_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      wr3_q     <= 1'b0;
+      wr_a0_o   <= 1'b0;
+      wr_data_o <= '0;
+    end else begin
+      wr3_q <= wr2;
+      if (wr2) begin
+        wr_a0_o   <= a02;
+        wr_data_o <= d2;
+      end
+    end
+  end
+
+  assign wr_o      = wr3_q && !wr2;
+  assign wr_busy_o = wr1 || wr2 || wr3_q;
+
+  // Read: the byte counts as taken if it was valid in the last refresh.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      d_oe_o    <= 1'b0;
+      d_o       <= '0;
+      rd_busy_o <= 1'b0;
+    end else begin
+      d_oe_o <= rd_raw;
+      if (rd_raw && !rd2) d_o <= a0_i ? status_i : data_i;
+      if (rd1 && !rd2) rd_busy_o <= !a01 && data_valid_i && !rd_done_o;
+      else if (!rd2) rd_busy_o <= 1'b0;
+    end
+  end
+
+  assign rd_done_o = rd_busy_o && !rd2;
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p104_bus_02, !(rd1 && wr1))
+  `PPMC_ASSERT(p104_bus_06_once, !(wr_o && $past(wr_o)))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_axis: one motion from its start to its end: when each pulse comes, how long it is low, why the motion stops.
+// Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06, P104-LIM-01..10.
+// Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later (external clock: first
+//         edge at or after). A motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
+//         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
+// Proof:  never a pulse at or after an immediate cause; exactly count_i + 1 pulses unless stopped (assertions below).
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_axis
+  import ppmc_motion_pkg::*;
+#(
+    parameter int unsigned ClkHz       = 16_000_000,
+    parameter int unsigned XtalHz      = 16_000_000,
+    parameter int unsigned CountBits   = 24,
+    parameter int unsigned RateBits    = 8,
+    parameter int unsigned StepBits    = 14,
+    parameter int unsigned WidthXtal   = 80,   // pulse width and direction set-up, crystal cycles
+    parameter int unsigned FastQuanta  = 8,    // fast internal base clock
+    parameter int unsigned SlowQuanta  = 32,   // slow internal base clock
+    parameter int unsigned ExtraQuanta = 30,   // extra time of an interval where extra_i is set
+    parameter int unsigned HalfRates   = 3     // fastest rates that get half an interval as pulse width
+) (
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    // start; the operation and its data are taken with start_i
+    input  wire logic                 start_i,
+    input  wire op_t                  op_i,
+    input  wire logic [CountBits-1:0] count_i,     // pulses - 1
+    input  wire logic [ RateBits-1:0] rate_i,      // constant-speed rate
+    input  wire logic                 external_i,  // base clock from the clock pin
+    input  wire logic                 slow_i,      // slow internal base clock
+    input  wire logic                 extra_i,     // extra time in every interval
+    // ramp in force, steady while busy
+    input  wire logic [ RateBits-1:0] rate_slow_i,
+    input  wire logic [ RateBits-1:0] rate_fast_i,
+    input  wire logic [ StepBits-1:0] steps_i,
+    output logic      [ RateBits-1:0] lut_addr_o,
+    input  wire logic [ StepBits-1:0] lut_data_i,
+    // stops
+    input  wire logic                 halt_i,      // immediate stop command
+    input  wire logic                 decel_i,     // decelerating stop command
+    input  wire switches_t            switches_i,
+    input  wire logic                 go_i,        // 0 keeps pulse 1 back
+    input  wire logic                 linger_i,    // 1 keeps the motion from ending
+    // clocks
+    input  wire logic                 quantum_i,   // quantum tick, restarted by restart_o
+    input  wire logic                 clock_pin_i,
+    output logic                      restart_o,   // the quantum count begins anew: pulse 1, end of a motion
+    // state
+    output logic                      busy_o,
+    output logic                      moving_o,    // before pulse 1 or between pulses (not yet stopping)
+    output logic                      decel_o,     // decelerating, forced or natural
+    output logic                      top_o,       // on the plateau of the ramp
+    output op_t                       op_o,        // the running or last operation
+    output logic                      low_o,       // a pulse is active
+    output logic                      pulse_o,     // pulse event at the coming edge
+    output logic                      stop_o,      // immediate end decided at the coming edge
+    output logic                      done_o,      // the motion ends at the coming edge
+    output cause_t                    cause_o,     // valid with done_o
+    output logic      [CountBits-1:0] left_o       // remaining pulses as the host reads them
+);
+
+  localparam int unsigned BriskXtal = 128;  // P104-TIM-05 (c)
+  localparam int unsigned LongXtal = 136;  // P104-INT-03: 8.5 us at 16 MHz
+  localparam int unsigned LagXtal = 4 * ExtraQuanta;
+
+  typedef enum logic [1:0] {
+    StIdle,
+    StStart,  // direction set-up, wait for the first base edge
+    StRun,    // between pulses
+    StFinish  // no more pulses; the last one runs out
+  } state_e;
+
+  state_e state_q;
+  logic external_q, slow_q, extra_q, brisk_q;
+  logic armed, fire, last, final_pulse, due, up, seek, forced, flagged, dec;
+  logic base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
+  logic [RateBits-1:0] rate;
+
+  assign armed = state_q == StStart || state_q == StRun;
+  assign busy_o = state_q != StIdle;
+  assign moving_o = armed;
+  assign decel_o = dec || flagged;
+  assign done_o = state_q == StFinish && !low_o && !linger_i;
+  assign restart_o = (fire && state_q == StStart) || done_o;
+  assign pulse_o = fire;
+
+  // An immediate cause also takes away a pulse that is due at the same edge.
+  always_comb begin
+    fire = 1'b0;
+    if (state_q == StStart) fire = up && go_i && (op_o.single || !external_q || rise);
+    if (state_q == StRun) fire = due && !(external_q && low_o);
+    if (stop_o) fire = 1'b0;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q    <= StIdle;
+      op_o       <= '0;
+      external_q <= 1'b0;
+      slow_q     <= 1'b0;
+      extra_q    <= 1'b0;
+      brisk_q    <= 1'b0;
+    end else begin
+      if (start_i) begin
+        state_q    <= StStart;
+        op_o       <= op_i;
+        external_q <= external_i;
+        slow_q     <= slow_i;
+        extra_q    <= extra_i;
+      end else if (stop_o) state_q <= StFinish;
+      else if (fire) state_q <= last ? StFinish : StRun;
+      else if (done_o) state_q <= StIdle;
+      if (fire) brisk_q <= ext_brisk && external_q;
+    end
+  end
+
+  ppmc_stop_guard u_guard (
+      .clk_i,
+      .rst_ni,
+      .clear_i   (start_i),
+      .complete_i(fire && final_pulse),
+      .armed_i   (armed),
+      .op_i      (op_o),
+      .switches_i,
+      .top_i     (top_o),
+      .dec_i     (dec),
+      .halt_i,
+      .decel_i,
+      .stop_o,
+      .forced_o  (forced),
+      .flagged_o (flagged),
+      .cause_o
+  );
+
+  ppmc_ramp_seq #(
+      .CountBits(CountBits),
+      .RateBits (RateBits),
+      .StepBits (StepBits),
+      .LutBits  (StepBits)
+  ) u_seq (
+      .clk_i,
+      .rst_ni,
+      .slow_i  (rate_slow_i),
+      .fast_i  (rate_fast_i),
+      .steps_i,
+      .lut_addr_o,
+      .lut_data_i,
+      .load_i  (start_i),
+      .count_i,
+      .rate_i,
+      .ramp_i  (start_i ? op_i.ramp : op_o.ramp),
+      .pulse_i (fire),
+      .forced_i(forced),
+      .rate_o  (rate),
+      .seek_o  (seek),
+      .last_o  (last),
+      .final_o (final_pulse),
+      .top_o,
+      .dec_o   (dec),
+      .left_o
+  );
+
+  ppmc_pulse_shaper #(
+      .ClkHz    (ClkHz),
+      .XtalHz   (XtalHz),
+      .RateBits (RateBits),
+      .WidthXtal(WidthXtal),
+      .HalfXtal (2 * FastQuanta),
+      .HalfRates(HalfRates)
+  ) u_shaper (
+      .clk_i,
+      .rst_ni,
+      .arm_i  (start_i),
+      .pulse_i(fire),
+      .full_i (last || extra_q),
+      .halve_i(!external_q && !slow_q),
+      .rate_i (rate),
+      .cut_i  (cut),
+      .low_o,
+      .up_o   (up)
+  );
+
+  // Interval: base clock from inside or from the pin, counted, and the extra time.
+  assign edges = external_q && rise;
+  assign tick = external_q ? edges && ext_count : base_tick;
+  assign cut = external_q && ((half && rate != '0) || (brisk_q && fall && rate == '0 && !seek));
+
+  ppmc_base_clock #(
+      .FastQuanta (FastQuanta),
+      .SlowQuanta (SlowQuanta),
+      .ExtraQuanta(ExtraQuanta)
+  ) u_base (
+      .clk_i,
+      .rst_ni,
+      .restart_i(fire),
+      .quantum_i,
+      .slow_i   (slow_q),
+      .extra_i  (extra_q),
+      .tick_o   (base_tick)
+  );
+
+  ppmc_ext_clock #(
+      .LongClk (ppmc_pkg::cyc_round(LongXtal, ClkHz, XtalHz)),
+      .BriskClk(ppmc_pkg::cyc(BriskXtal, ClkHz, XtalHz))
+  ) u_ext (
+      .clk_i,
+      .rst_ni,
+      .pin_i  (clock_pin_i),
+      .rise_o (rise),
+      .fall_o (fall),
+      .long_o (ext_long),
+      .brisk_o(ext_brisk)
+  );
+
+  ppmc_rate_counter #(
+      .RateBits(RateBits)
+  ) u_rate (
+      .clk_i,
+      .rst_ni,
+      .restart_i(fire),
+      .tick_i   (tick),
+      .rate_i   (rate),
+      .wait_i   (seek),
+      .hit_o    (hit),
+      .half_o   (half)
+  );
+
+  ppmc_ext_lag #(
+      .LagClk(ppmc_pkg::cyc_round(LagXtal, ClkHz, XtalHz))
+  ) u_lag (
+      .clk_i,
+      .rst_ni,
+      .en_i     (external_q && extra_q),
+      .restart_i(fire),
+      .edge_i   (edges),
+      .long_i   (ext_long),
+      .hit_i    (hit),
+      .count_o  (ext_count),
+      .fire_o   (due)
+  );
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop_o))
+  `PPMC_ASSERT(p104_opr_12, !(start_i && busy_o))
+  `PPMC_ASSERT(p104_end_05, !done_o || op_o.origin || final_seen_q || cause_o != '0)
+  logic final_seen_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) final_seen_q <= 1'b0;
+    else if (start_i) final_seen_q <= 1'b0;
+    else if (fire && final_pulse) final_seen_q <= 1'b1;
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

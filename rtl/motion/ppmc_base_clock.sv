@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_base_clock: the internal base clock of one interval, counted in quanta from the pulse that began it.
+// Rules:  P104-BCK-01 (period), P104-INT-01/02 (an extra stretch before the first period of every interval).
+// Timing: tick_o is combinational from quantum_i, in the same cycle.
+`default_nettype none
+
+module ppmc_base_clock #(
+    parameter int unsigned FastQuanta  = 8,   // quanta a period, fast base clock
+    parameter int unsigned SlowQuanta  = 32,  // quanta a period, slow base clock
+    parameter int unsigned ExtraQuanta = 30   // stretch of an interval when extra_i is set
+) (
+    input  wire logic clk_i,
+    input  wire logic rst_ni,
+    input  wire logic restart_i,  // a pulse: a new interval begins at the coming edge
+    input  wire logic quantum_i,  // quantum tick
+    input  wire logic slow_i,     // 1 = slow base clock; steady during an operation
+    input  wire logic extra_i,    // 1 = begin each interval with the extra stretch
+    output logic      tick_o      // a base clock period has ended
+);
+
+  localparam int unsigned Longest = (SlowQuanta > ExtraQuanta) ? SlowQuanta : ExtraQuanta;
+  localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
+
+  logic [Width-1:0] left_q;  // whole quanta left before the one that ends the period
+  logic extra_q;             // the extra stretch is running
+  logic ends;
+
+  assign ends   = quantum_i && left_q == '0;
+  assign tick_o = ends && !extra_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      left_q  <= '0;
+      extra_q <= 1'b0;
+    end else if (restart_i || ends) begin
+      extra_q <= restart_i && extra_i;
+      if (restart_i && extra_i) left_q <= Width'(ExtraQuanta - 1);
+      else left_q <= slow_i ? Width'(SlowQuanta - 1) : Width'(FastQuanta - 1);
+    end else if (quantum_i) begin
+      left_q <= left_q - 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_chopper: switches the phases of a resting motor on and off.
+// Rules:  P104-SW-01..06, P104-AUX-03. A phase lasts base + UnitQuanta * units quanta; both are taken at its beginning.
+// Timing: on_o changes on a quantum tick; restart_i acts at the coming edge, run_i = 0 switches the phases on at once.
+`default_nettype none
+
+module ppmc_chopper #(
+    parameter int unsigned UnitQuanta = 12,  // quanta a unit of the host's parameter
+    parameter int unsigned BaseBits   = 9,
+    parameter int unsigned UnitBits   = 8
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire logic                run_i,        // 0: phases stay on
+    input  wire logic                restart_i,    // begin a complete ON phase now
+    input  wire logic                quantum_i,
+    input  wire logic [BaseBits-1:0] on_base_i,    // quanta, at least 1
+    input  wire logic [BaseBits-1:0] off_base_i,   // quanta, at least 1
+    input  wire logic [UnitBits-1:0] on_units_i,
+    input  wire logic [UnitBits-1:0] off_units_i,
+    output logic                     on_o          // 1 = phases on
+);
+
+  localparam int unsigned CountBits = (BaseBits > UnitBits) ? BaseBits : UnitBits;
+  localparam int unsigned ScaleBits = ppmc_pkg::cnt_width(UnitQuanta - 1);
+
+  logic [CountBits-1:0] left_q;  // quanta, then units, left before the last one
+  logic [ScaleBits-1:0] scale_q; // quanta left in the running unit
+  logic [UnitBits-1:0] units_q;  // of this phase, still to come
+  logic in_base_q;               // the fixed part runs
+  logic on_q, next_on, tick, part_ends, phase_ends;
+
+  assign on_o = on_q || !run_i;
+
+  always_comb begin
+    tick       = quantum_i && scale_q == '0;
+    part_ends  = tick && left_q == '0;
+    phase_ends = part_ends && (!in_base_q || units_q == '0);
+    next_on    = restart_i || !run_i || !on_q;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      left_q    <= '0;
+      scale_q   <= '0;
+      units_q   <= '0;
+      in_base_q <= 1'b1;
+      on_q      <= 1'b1;
+    end else if (restart_i || !run_i || phase_ends) begin
+      on_q      <= next_on;
+      left_q    <= CountBits'(next_on ? on_base_i : off_base_i) - 1'b1;
+      units_q   <= next_on ? on_units_i : off_units_i;
+      scale_q   <= '0;
+      in_base_q <= 1'b1;
+    end else if (part_ends) begin
+      left_q    <= CountBits'(units_q) - 1'b1;
+      scale_q   <= ScaleBits'(UnitQuanta - 1);
+      in_base_q <= 1'b0;
+    end else if (tick) begin
+      left_q  <= left_q - 1'b1;
+      scale_q <= in_base_q ? '0 : ScaleBits'(UnitQuanta - 1);
+    end else if (quantum_i) begin
+      scale_q <= scale_q - 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

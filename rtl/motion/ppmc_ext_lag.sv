@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ext_lag: the fixed extra time of an interval when the base clock comes from outside.
+// Rules:  P104-INT-03, P104-INT-04: the time from a pulse to the first base edge at or after it is put back behind the edge that
+//         ends the interval, so that (rate + 1) periods and the extra time add up without a frequency being measured.
+// Timing: fire_o is combinational: in the cycle of hit_i, or the lag later.
+`default_nettype none
+
+module ppmc_ext_lag #(
+    parameter int unsigned LagClk = 120  // extra time of an interval, clk
+) (
+    input  wire logic clk_i,
+    input  wire logic rst_ni,
+    input  wire logic en_i,       // 0: no extra time, hits pass straight through
+    input  wire logic restart_i,  // a pulse
+    input  wire logic edge_i,     // a base edge
+    input  wire logic long_i,     // the period it ends is too long for the extra time
+    input  wire logic hit_i,      // this base edge ends the count
+    output logic      count_o,    // base edges count from here on
+    output logic      fire_o      // the interval is over
+);
+
+  localparam int unsigned Width = ppmc_pkg::cnt_width(LagClk);
+
+  logic [Width-1:0] left_q;  // extra time not yet spent
+  logic before_q;            // no base edge since the pulse
+  logic after_q;             // the count is over, the lag runs
+  logic spend;
+
+  assign count_o = !(en_i && before_q);
+  assign fire_o = (after_q && left_q == Width'(1)) || (hit_i && (!en_i || long_i || left_q == '0));
+  assign spend = (before_q || after_q) && left_q != '0;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      left_q   <= '0;
+      before_q <= 1'b0;
+      after_q  <= 1'b0;
+    end else if (restart_i) begin
+      left_q   <= Width'(LagClk);
+      before_q <= !edge_i;
+      after_q  <= 1'b0;
+    end else begin
+      if (spend) left_q <= left_q - 1'b1;
+      if (edge_i) before_q <= 1'b0;
+      if (hit_i && !fire_o) after_q <= 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_motion_pkg: types that the motion blocks share; nothing of any host.
+`default_nettype none
+
+package ppmc_motion_pkg;
+
+  // Number of motor phases, coded as in the family's initialisation byte (P104-INI-01).
+  typedef enum logic [1:0] {
+    MotorNone = 2'b00,
+    Motor3    = 2'b01,
+    Motor4    = 2'b10,
+    Motor5    = 2'b11
+  } motor_e;
+
+  // What an operation is; latched by the axis at its start.
+  typedef struct packed {
+    logic ramp;      // accelerates and decelerates by the ramp table
+    logic single;    // one pulse, no wait for a base clock
+    logic origin;    // ends at the origin
+    logic pout_only; // phases stand still; slow-down limit seen on the plateau only
+    logic ccw;       // direction
+  } op_t;
+
+  // Why a motion ended before its last pulse (P104-END-04); bit order of the finish status.
+  typedef struct packed {
+    logic stop;   // stop command
+    logic alarm;  // ALM
+    logic limit;  // limit of the direction
+    logic slow;   // slow-down limit of the direction
+  } cause_t;
+
+  // Levels of the switches after the synchroniser, 1 = active.
+  typedef struct packed {
+    logic limit_cw;
+    logic limit_ccw;
+    logic slow_cw;
+    logic slow_ccw;
+    logic origin;
+    logic alarm;
+  } switches_t;
+
+endpackage
+
+`default_nettype wire

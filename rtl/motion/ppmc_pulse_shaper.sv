@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_pulse_shaper: the low time of a pulse, and the same time as direction set-up before the first one.
+// Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not changed).
+// Timing: low_o stands from the edge of pulse_i for exactly WidthClk clk unless cut; up_o comes WidthClk clk after arm_i.
+`default_nettype none
+
+module ppmc_pulse_shaper #(
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter int unsigned RateBits  = 8,
+    parameter int unsigned WidthXtal = 80,  // low time, crystal cycles
+    parameter int unsigned HalfXtal  = 16,  // half a fast base clock, crystal cycles
+    parameter int unsigned HalfRates = 3    // rates 0 .. HalfRates - 1 get half an interval instead
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire logic                arm_i,    // start the time without a pulse
+    input  wire logic                pulse_i,  // pulse event
+    input  wire logic                full_i,   // with pulse_i: this pulse is not cut
+    input  wire logic                halve_i,  // half intervals apply (fast internal base clock)
+    input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
+    input  wire logic                cut_i,    // end the low time now, unless the pulse is a full one
+    output logic                     low_o,    // 1 = pulse active
+    output logic                     up_o      // WidthClk clk have passed
+);
+
+  localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
+  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
+
+  logic [Width-1:0] age_q;  // clk since the pulse, stops with up_o
+  logic full_q;
+  logic half;
+
+  always_comb begin
+    half = 1'b0;
+    for (int unsigned r = 0; r < HalfRates; r++) begin
+      if (rate_i == RateBits'(r) &&
+          age_q == Width'(ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz) - 1)) half = halve_i;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      age_q  <= '0;
+      full_q <= 1'b0;
+      low_o  <= 1'b0;
+      up_o   <= 1'b0;
+    end else begin
+      if (arm_i || pulse_i) begin
+        age_q <= '0;
+        up_o  <= 1'b0;
+      end else if (!up_o) begin
+        age_q <= age_q + 1'b1;
+        up_o  <= age_q == Width'(WidthClk - 2);
+      end
+      if (pulse_i) begin
+        low_o  <= 1'b1;
+        full_q <= full_i;
+      end else if (up_o || (!full_q && (half || cut_i))) begin
+        low_o <= 1'b0;
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_rate_counter: counts the base clocks of an interval; the (rate + 1)-th one ends it.
+// Rules:  P104-INT-01, P104-BCK-05 (base clocks are passed over while the rate is still being looked up).
+// Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. A part whose hosts give
+//         divisors (J105 STMC) passes divisor - 1.
+// Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_rate_counter #(
+    parameter int unsigned RateBits = 8
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire logic                restart_i,  // a pulse: count from 0
+    input  wire logic                tick_i,     // a base clock that counts
+    input  wire logic [RateBits-1:0] rate_i,
+    input  wire logic                wait_i,     // rate_i is not final yet
+    output logic                     hit_o,      // this base clock ends the interval
+    output logic                     half_o      // this base clock is number floor((rate + 1) / 2)
+);
+
+  logic [RateBits-1:0] count_q;  // base clocks since the pulse
+  logic match_q, half_q;
+
+  assign hit_o  = tick_i && match_q;
+  assign half_o = tick_i && half_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      count_q <= '0;
+      match_q <= 1'b0;
+      half_q  <= 1'b0;
+    end else begin
+      if (restart_i) count_q <= '0;
+      else if (tick_i && count_q != rate_i) count_q <= count_q + 1'b1;
+      match_q <= !restart_i && !wait_i && count_q == rate_i;
+      // the coming base clock has number count_q + 1
+      half_q <= !restart_i && !wait_i &&
+          count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(rate_count_in_range, restart_i || wait_i || count_q <= rate_i)
+`endif
+
+endmodule
+
+`default_nettype wire

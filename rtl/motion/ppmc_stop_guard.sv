@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_stop_guard: what may end or slow down a motion, and what it leaves in the finish status.
+// Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05.
+// Timing: stop_o and forced_o are combinational, so that a cause seen in a cycle also acts on a pulse due at its end.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_stop_guard
+  import ppmc_motion_pkg::*;
+(
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic       clear_i,     // a new operation starts: forget causes
+    input  wire logic       complete_i,  // the last pulse of the count is output: no cause remains
+    input  wire logic       armed_i,     // before the first pulse or between pulses
+    input  wire op_t        op_i,        // the running operation
+    input  wire switches_t  switches_i,  // synchronous levels
+    input  wire logic       top_i,       // the running interval is on the plateau
+    input  wire logic       dec_i,       // natural deceleration has begun
+    input  wire logic       halt_i,      // immediate stop command
+    input  wire logic       decel_i,     // decelerating stop command
+    output logic            stop_o,      // end the motion now, no further pulse
+    output logic            forced_o,    // forced deceleration is requested
+    output logic            flagged_o,   // the same, as a state (registered)
+    output cause_t          cause_o
+);
+
+  logic limit, slow, halt, slow_now, decel_now, free;
+  logic unused_single;
+
+  assign unused_single = op_i.single;
+
+  always_comb begin
+    limit     = op_i.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+    slow      = op_i.ccw ? switches_i.slow_ccw : switches_i.slow_cw;
+    halt      = halt_i || (decel_i && !op_i.ramp);
+    stop_o    = armed_i && (limit || switches_i.alarm || halt || (switches_i.origin && op_i.origin));
+    free      = armed_i && op_i.ramp && !stop_o && !flagged_o && !dec_i;
+    slow_now  = free && slow && (top_i || !op_i.pout_only);
+    decel_now = free && decel_i;
+    forced_o  = flagged_o || slow_now || decel_now;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      flagged_o <= 1'b0;
+      cause_o   <= '0;
+    end else if (clear_i || complete_i) begin
+      flagged_o <= 1'b0;
+      cause_o   <= '0;
+    end else begin
+      flagged_o <= forced_o;
+      if (stop_o) begin
+        cause_o.alarm <= switches_i.alarm;
+        cause_o.limit <= limit;
+      end
+      cause_o.stop <= cause_o.stop || decel_now || (armed_i && halt);
+      cause_o.slow <= cause_o.slow || slow_now;
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p104_fdc_04, !($past(flagged_o) && !flagged_o) || $past(clear_i || complete_i))
+`endif
+
+endmodule
+
+`default_nettype wire

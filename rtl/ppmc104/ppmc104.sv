@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc104: single-axis stepper controller, a replacement for the Ampere PPMC-104BFP.
+// Rules:  P104-PORT-01..04, P104-PAR-01 and, through its blocks, all others. Manual: docs/ppmc104.md.
+// Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow one clk later.
+`default_nettype none
+
+module ppmc104
+  import ppmc104_pkg::*;
+  import ppmc_motion_pkg::*;
+#(
+    parameter int unsigned CLK_HZ     = 16_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter string       TIMING     = "FAST",      // or "DATASHEET": with the old chip's processing times
+    parameter bit          PHASE_IDLE = 1'b1         // level of s until the first initialisation
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // host bus
+    input  wire logic       a0,     // 0 data, 1 status or command
+    input  wire logic       cs_n,
+    input  wire logic       rd_n,
+    input  wire logic       wr_n,
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe,
+    output logic            int_n,  // L: a motion has ended
+    // clock selection
+    input  wire logic       csel,   // internal base clock: H 500 kHz, L 125 kHz
+    input  wire logic       vsel,   // L: 7.5 us more in every interval
+    input  wire logic       clock,  // external base clock, rising edges
+    // switches, L = active
+    input  wire logic       l1_n,   // CW limit
+    input  wire logic       l2_n,   // CCW limit
+    input  wire logic       l3_n,   // CW slow-down limit
+    input  wire logic       l4_n,   // CCW slow-down limit
+    input  wire logic       cnp_n,  // origin
+    input  wire logic       alm_n,  // alarm
+    // auxiliary
+    input  wire logic [3:0] auxi,
+    output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir     // 0 = CW
+);
+
+  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+    $fatal(1, "ppmc104: TIMING must be FAST or DATASHEET");
+  end
+  if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
+    $fatal(1, "ppmc104: CLK_HZ must be 8e6 .. 200e6");
+  end
+  if (XTAL_HZ < 1_000_000 || XTAL_HZ > 16_000_000) begin : g_check_xtal
+    $fatal(1, "ppmc104: XTAL_HZ must be 1e6 .. 16e6");
+  end
+
+  logic rst;
+
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .rst_no(rst)
+  );
+
+  // ---- inputs ---------------------------------------------------------------------------------------------------------
+
+  logic l1, l2, l3, l4, cnp, alm, csel_s, vsel_s;
+  logic [3:0] auxi_s;
+  logic [11:0] unused_meta;
+  switches_t switches;
+
+  ppmc_sync #(
+      .Width(12)
+  ) u_sync (
+      .clk_i (clk),
+      .rst_ni(rst),
+      .d_i   ({l1_n, l2_n, l3_n, l4_n, cnp_n, alm_n, csel, vsel, auxi}),
+      .q1_o  (unused_meta),
+      .q2_o  ({l1, l2, l3, l4, cnp, alm, csel_s, vsel_s, auxi_s})
+  );
+
+  assign switches = '{
+          limit_cw: !l1,
+          limit_ccw: !l2,
+          slow_cw: !l3,
+          slow_ccw: !l4,
+          origin: !cnp,
+          alarm: !alm
+      };
+
+  // ---- host -----------------------------------------------------------------------------------------------------------
+
+  logic wr, wr_a0, wr_busy, rd_busy, rd_done, obf, ibf, ready, is_command, take;
+  logic [7:0] wr_data, status, out, in_byte, code;
+  logic [3:0] judgement;
+  logic [31:0] params;
+  logic [23:0] answer;
+  action_t act;
+
+  ppmc_strobe_bus u_bus (
+      .clk_i       (clk),
+      .rst_ni      (rst),
+      .style_i     (1'b0),
+      .cs_ni       (cs_n),
+      .rd_ni       (rd_n),
+      .wr_ni       (wr_n),
+      .a0_i        (a0),
+      .d_i         (d_i),
+      .d_o         (d_o),
+      .d_oe_o      (d_oe),
+      .wr_o        (wr),
+      .wr_a0_o     (wr_a0),
+      .wr_data_o   (wr_data),
+      .wr_busy_o   (wr_busy),
+      .status_i    (status),
+      .data_i      (out),
+      .data_valid_i(obf),
+      .rd_busy_o   (rd_busy),
+      .rd_done_o   (rd_done)
+  );
+
+  ppmc_mailbox #(
+      .QueueBytes(3)
+  ) u_mailbox (
+      .clk_i    (clk),
+      .rst_ni   (rst),
+      .wr_i     (wr),
+      .wr_a0_i  (wr_a0),
+      .wr_data_i(wr_data),
+      .rd_done_i(rd_done),
+      .out_o    (out),
+      .obf_o    (obf),
+      .ibf_o    (ibf),
+      .ready_o  (ready),
+      .command_o(is_command),
+      .byte_o   (in_byte),
+      .take_i   (take),
+      .load_i   (act.read),
+      .answer_i (answer),
+      .long_i   (code[2:0] == SEL_REMAINING)
+  );
+
+  logic busy, moving, decelerating, initialised, building;
+  op_t op_run;
+
+  ppmc104_command u_command (
+      .clk_i         (clk),
+      .rst_ni        (rst),
+      .ready_i       (ready),
+      .command_i     (is_command),
+      .byte_i        (in_byte),
+      .open_i        (!building && !built_q),
+      .stops_only_i  (1'b0),
+      .take_o        (take),
+      .busy_i        (busy),
+      .ramp_i        (op_run.ramp),
+      .decelerating_i(decelerating || !moving),
+      .initialised_i (initialised),
+      .status_o      (judgement),
+      .act_o         (act),
+      .code_o        (code),
+      .params_o      (params)
+  );
+
+  assign status = {judgement, 1'b0, busy, ibf || wr_busy, obf && !rd_busy};
+
+  // ---- set-up: initialisation, switching parameters, auxiliary outputs ---------------------------------------------------
+
+  init_code_t init_code;  // the code, read as one or as the other
+  op_code_t op_code;
+  logic [7:0] rate_slow_q, rate_fast_q, on_units_q, off_units_q;
+  logic [STEP_BITS-1:0] steps_q;
+  logic external_q, chop_q, chop_next_q, built_q, positive_q, half_q, programmed_q;
+  motor_e motor_q;
+  logic first_init, build_done, unused_bits;
+
+  assign init_code  = init_code_t'(code);
+  assign op_code    = op_code_t'(code);
+  assign unused_bits = &{1'b0, init_code.prefix, op_code.prefix, op_code.ignored, op_run.single, op_run.origin};
+  assign first_init = act.init && !initialised;
+  assign build_done = built_q && !building;
+
+  always_ff @(posedge clk or negedge rst) begin
+    if (!rst) begin
+      rate_slow_q  <= '0;
+      rate_fast_q  <= '0;
+      steps_q      <= '0;
+      external_q   <= 1'b0;
+      chop_q       <= 1'b0;
+      chop_next_q  <= 1'b0;
+      built_q      <= 1'b0;
+      initialised  <= 1'b0;
+      positive_q   <= !PHASE_IDLE;
+      half_q       <= 1'b0;
+      motor_q      <= MotorNone;
+      programmed_q <= 1'b0;
+      on_units_q   <= '0;
+      off_units_q  <= '0;
+      auxo         <= '1;
+      aux_n        <= 1'b1;
+    end else begin
+      built_q <= building;
+      if (act.init) begin
+        rate_slow_q <= params[7:0];
+        rate_fast_q <= params[15:8];
+        steps_q     <= params[16+:STEP_BITS];
+        external_q  <= init_code.external;
+        chop_next_q <= init_code.chop;
+      end
+      if (first_init) begin
+        positive_q <= init_code.positive;
+        half_q     <= init_code.half;
+        motor_q    <= motor_e'(init_code.motor);
+      end
+      if (build_done) begin
+        initialised <= 1'b1;
+        chop_q      <= chop_next_q;
+      end
+      if (act.exc_off) begin
+        initialised <= 1'b0;
+        chop_q      <= 1'b0;
+      end
+      if (act.switching) begin
+        programmed_q <= 1'b1;
+        on_units_q   <= params[23:16];
+        off_units_q  <= params[31:24];
+      end
+      if (act.aux_out) auxo <= ~params[27:24];
+      if (act.aux_on || act.aux_off) aux_n <= act.aux_off;
+    end
+  end
+
+  // ---- ramp table -------------------------------------------------------------------------------------------------------
+
+  logic lut_we;
+  logic [RATE_BITS-1:0] lut_waddr, lut_raddr;
+  logic [STEP_BITS-1:0] lut_wdata, lut_rdata;
+
+  ppmc_ramp_builder #(
+      .RateBits(RATE_BITS),
+      .StepBits(STEP_BITS)
+  ) u_builder (
+      .clk_i  (clk),
+      .rst_ni (rst),
+      .start_i(act.init),
+      .slow_i (rate_slow_q),
+      .fast_i (rate_fast_q),
+      .steps_i(steps_q),
+      .busy_o (building),
+      .we_o   (lut_we),
+      .addr_o (lut_waddr),
+      .data_o (lut_wdata)
+  );
+
+  ppmc_ram #(
+      .Width   (STEP_BITS),
+      .AddrBits(RATE_BITS)
+  ) u_lut (
+      .clk_i  (clk),
+      .we_i   (lut_we),
+      .waddr_i(lut_waddr),
+      .wdata_i(lut_wdata),
+      .raddr_i(lut_raddr),
+      .rdata_o(lut_rdata)
+  );
+
+  // ---- motion -----------------------------------------------------------------------------------------------------------
+
+  op_t op;
+  logic [23:0] count;
+  logic quantum, restart, low, pulse, done;
+  logic unused_stop, unused_top;
+  cause_t cause;
+  logic [23:0] remaining;
+
+  assign op = '{
+          ramp: op_code.op inside {OP_ACC_DEC, OP_CONT_HIGH},
+          single: op_code.op == OP_SINGLE,
+          origin: op_code.op == OP_ORIGIN,
+          pout_only: op_code.pout_only,
+          ccw: op_code.ccw
+      };
+
+  always_comb begin
+    unique case (op_code.op)
+      OP_ACC_DEC, OP_CONSTANT: count = params[31:8];
+      OP_SINGLE:               count = '0;
+      default:                 count = '1;
+    endcase
+  end
+
+  ppmc_tick_gen #(
+      .ClkHz   (CLK_HZ),
+      .XtalHz  (XTAL_HZ),
+      .TickXtal(QUANTUM_XTAL)
+  ) u_quantum (
+      .clk_i    (clk),
+      .rst_ni   (rst),
+      .restart_i(restart),
+      .tick_o   (quantum)
+  );
+
+  ppmc_axis #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .CountBits(COUNT_BITS),
+      .RateBits (RATE_BITS),
+      .StepBits (STEP_BITS)
+  ) u_axis (
+      .clk_i      (clk),
+      .rst_ni     (rst),
+      .start_i    (act.start),
+      .op_i       (op),
+      .count_i    (count),
+      .rate_i     ((op_code.op == OP_CONSTANT) ? params[7:0] : params[31:24]),
+      .external_i (external_q),
+      .slow_i     (!csel_s),
+      .extra_i    (!vsel_s),
+      .rate_slow_i(rate_slow_q),
+      .rate_fast_i(rate_fast_q),
+      .steps_i    (steps_q),
+      .lut_addr_o (lut_raddr),
+      .lut_data_i (lut_rdata),
+      .halt_i     (act.halt),
+      .decel_i    (act.decel),
+      .switches_i (switches),
+      .go_i       (1'b1),
+      .linger_i   (1'b0),
+      .quantum_i  (quantum),
+      .clock_pin_i(clock),
+      .restart_o  (restart),
+      .busy_o     (busy),
+      .moving_o   (moving),
+      .decel_o    (decelerating),
+      .top_o      (unused_top),
+      .op_o       (op_run),
+      .low_o      (low),
+      .pulse_o    (pulse),
+      .stop_o     (unused_stop),
+      .done_o     (done),
+      .cause_o    (cause),
+      .left_o     (remaining)
+  );
+
+  // ---- end of a motion: finish status, interrupt ----------------------------------------------------------------------------
+
+  logic fresh_q, silent_q;
+  logic [2:0] op_q;
+  cause_t finish_q;
+
+  always_ff @(posedge clk or negedge rst) begin
+    if (!rst) begin
+      int_n    <= 1'b1;
+      fresh_q  <= 1'b0;
+      silent_q <= 1'b0;
+      op_q     <= '0;
+      finish_q <= '0;
+    end else begin
+      if (act.start) begin
+        silent_q <= op_code.silent;
+        op_q     <= op_code.op;
+      end
+      if (done) begin
+        fresh_q  <= 1'b1;
+        finish_q <= cause;
+        if (!silent_q) int_n <= 1'b0;
+      end
+      if (act.read && code[2:0] == SEL_FINISH) begin
+        fresh_q <= 1'b0;
+        int_n   <= 1'b1;
+      end
+    end
+  end
+
+  // ---- motor pins -------------------------------------------------------------------------------------------------------
+
+  logic [8:0] on_base, off_base;
+  logic [5:1] levels;
+
+  always_comb begin
+    on_base  = vsel_s ? 9'(CHOP_ON_VSEL_H) : 9'(CHOP_ON_VSEL_L);
+    off_base = vsel_s ? 9'(CHOP_OFF_VSEL_H) : 9'(CHOP_OFF_VSEL_L);
+    if (!programmed_q) begin
+      on_base  = 9'(CHOP_ON_DEFAULT);
+      off_base = 9'(CHOP_OFF_DEFAULT);
+    end
+  end
+
+  ppmc_motor_port #(
+      .HoldQuanta(HOLD_QUANTA),
+      .UnitQuanta(CHOP_UNIT),
+      .PhaseIdle (PHASE_IDLE)
+  ) u_motor (
+      .clk_i         (clk),
+      .rst_ni        (rst),
+      .busy_i        (busy),
+      .low_i         (low),
+      .step_i        (pulse && !op_run.pout_only),
+      .ccw_i         (op_run.ccw),
+      .quantum_i     (quantum),
+      .motor_i       (motor_q),
+      .half_i        (half_q),
+      .positive_i    (positive_q),
+      .home_i        (first_init),
+      .off_i         (act.exc_off),
+      .chop_i        (chop_q),
+      .chop_restart_i(build_done),
+      .on_base_i     (on_base),
+      .off_base_i    (off_base),
+      .on_units_i    (on_units_q),
+      .off_units_i   (off_units_q),
+      .levels_o      (levels),
+      .s_o           (s),
+      .hold_o        (hold),
+      .pout_no       (pout_n),
+      .dir_o         (dir)
+  );
+
+  // ---- answers to read commands -----------------------------------------------------------------------------------------------
+
+  always_comb begin
+    answer = '0;
+    unique case (code[2:0])
+      SEL_FINISH:  answer[7:0] = {fresh_q, finish_q, op_q};
+      SEL_INPUTS:  answer[7:0] = {cnp, alm, 2'b00, l1, l2, l3, l4};
+      SEL_OUTPUTS: answer[7:0] = {levels[1], levels[2], levels[3], levels[4], levels[5], hold, dir, 1'b0};
+      SEL_AUX_IN:  answer[7:0] = {4'b0000, auxi_s};
+      default:     answer = remaining;
+    endcase
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc104_command: takes the bytes of the host, judges them, collects parameters and says what to do.
+// Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08, P104-FSM-01..03.
+// Timing: take_o is the C-event: everything this block changes, and act_o, belongs to the edge that ends that cycle.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc104_command
+  import ppmc104_pkg::*;
+(
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    // mailbox
+    input  wire logic        ready_i,
+    input  wire logic        command_i,
+    input  wire logic  [7:0] byte_i,
+    input  wire logic        open_i,         // bytes may be taken
+    input  wire logic        stops_only_i,   // of those, stop commands only
+    output logic             take_o,
+    // state of the part
+    input  wire logic        busy_i,
+    input  wire logic        ramp_i,         // running operation has a ramp
+    input  wire logic        decelerating_i, // DEC, or pulses over
+    input  wire logic        initialised_i,
+    // result
+    output logic       [3:0] status_o,       // ERR, NUM
+    output action_t          act_o,
+    output logic       [7:0] code_o,         // code the action belongs to
+    output logic      [31:0] params_o        // its parameter bytes, the last one in the high bits
+);
+
+  decoded_t dec_q;  // of byte_i, a clk behind it
+  logic error_q;
+  logic [2:0] number_q;  // error number, or parameters still to come
+  logic [7:0] code_q;
+  logic [23:0] params_q;
+  logic stop, harmless, last, error;
+  error_e number;
+
+  assign status_o = {error_q, number_q};
+  assign params_o = {byte_i, params_q};
+  assign code_o   = command_i ? byte_i : code_q;
+
+  // Judgement. Order of the checks: P104-ERR-01, P104-ERR-02.
+  logic [15:0] steps;
+  logic steps_high, rates_bad;
+
+  always_comb begin
+    steps      = params_o[31:16];
+    steps_high = steps > 16'(STEPS_MAX);
+    rates_bad  = params_o[15:8] > params_o[7:0] || steps < 16'(STEPS_MIN);
+  end
+
+  always_comb begin
+    stop     = dec_q.kind inside {KindHalt, KindDecel};
+    harmless = dec_q.kind inside {KindAuxOut, KindExcOff, KindAuxOn, KindAuxOff};
+    last     = !error_q && number_q == 3'd1;
+    error    = 1'b1;
+    number   = ErrUndefined;
+    if (command_i) begin
+      if (dec_q.kind == KindUndefined || (stop && !busy_i)) number = ErrUndefined;
+      else if (busy_i && !stop && !harmless) number = ErrBusy;
+      else if (dec_q.kind == KindOperation && !initialised_i) number = ErrNotReady;
+      else if (dec_q.kind == KindDecel && ramp_i && decelerating_i) number = ErrDecelAgain;
+      else error = 1'b0;
+    end else begin
+      if (error_q || number_q == '0) number = busy_i ? ErrDataBusy : ErrData;
+      else if (last && code_q[7:6] == 2'b00 && steps_high) number = ErrStepsHigh;
+      else if (last && code_q[7:6] == 2'b00 && rates_bad) number = ErrRates;
+      else error = 1'b0;
+    end
+  end
+
+  assign take_o = ready_i && open_i && (!stops_only_i || (command_i && stop));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      dec_q    <= '0;
+      error_q  <= 1'b0;
+      number_q <= '0;
+      code_q   <= '0;
+      params_q <= '0;
+    end else begin
+      dec_q <= decode(byte_i);
+      if (take_o) begin
+        error_q <= error;
+        if (error) number_q <= number;
+        else number_q <= command_i ? dec_q.params : number_q - 1'b1;
+        if (command_i) code_q <= byte_i;
+        else params_q <= {byte_i, params_q[23:8]};
+      end
+    end
+  end
+
+  // Action: at once for codes without parameters, else with the last parameter.
+  always_comb begin
+    act_o = '0;
+    if (take_o && !error) begin
+      if (command_i) begin
+        act_o.start   = dec_q.kind == KindOperation && dec_q.params == '0;
+        act_o.halt    = dec_q.kind == KindHalt;
+        act_o.decel   = dec_q.kind == KindDecel;
+        act_o.exc_off = dec_q.kind == KindExcOff && !busy_i;
+        act_o.aux_on  = dec_q.kind == KindAuxOn || (dec_q.kind == KindExcOff && busy_i);
+        act_o.aux_off = dec_q.kind == KindAuxOff;
+        act_o.read    = dec_q.kind == KindRead;
+      end else if (last) begin
+        act_o.init      = code_q[7:6] == 2'b00;
+        act_o.start     = code_q[6];
+        act_o.switching = code_q[7:6] == 2'b10 && !code_q[1];
+        act_o.aux_out   = code_q[7:6] == 2'b10 && code_q[1];
+      end
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p104_opr_12, !(act_o.start && busy_i))
+  `PPMC_ASSERT(p104_err_03, !(take_o && error) || act_o == '0)
+`endif
+
+endmodule
+
+`default_nettype wire

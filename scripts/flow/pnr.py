@@ -1,0 +1,80 @@
+"""Place and route of a mapped netlist with nextpnr, once per seed: Fmax and the cells the packer used."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+
+from scripts.project import ROOT, ProjectError, relative
+
+CLOCK = "clk"
+
+
+@dataclass(frozen=True)
+class Device:
+    """One FPGA: how nextpnr is told, the clock it is asked for (MHz), and what the part must reach on it (MHz)."""
+
+    name: str
+    family: str
+    arguments: tuple[str, ...]
+    ask_mhz: float
+    goal_mhz: float
+    wrapped: bool = False  # fewer pins than the part: pins go through shift registers
+
+
+DEVICES = (
+    Device("ECP5-25F", "ecp5", ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"), 120, 100),
+    Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"), 60, 48),
+    Device("iCE40 UP5K", "ice40", ("--up5k", "--package", "sg48", "--pcf-allow-unconstrained"), 30, 24, wrapped=True),
+)
+
+
+@dataclass(frozen=True)
+class Run:
+    """One place and route: seed, Fmax of `clk` in MHz, cells the packer used by type."""
+
+    seed: int
+    fmax: float
+    used: dict[str, int]
+
+
+def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> Run:
+    """Run nextpnr with one seed; ProjectError with its error lines when it fails.
+
+    The WebAssembly build sees the working folder only, so all paths are relative to it.
+    """
+    stem = f"{device.name.replace(' ', '-').lower()}-s{seed}"
+    folder.mkdir(parents=True, exist_ok=True)
+    local = folder / f"{stem}-netlist.json"
+    shutil.copyfile(netlist, local)
+    report, log = folder / f"{stem}.json", folder / f"{stem}.log"
+    report.unlink(missing_ok=True)
+    command = [
+        f"yowasp-nextpnr-{device.family}", "--quiet", "--json", local.name, "--seed", str(seed),
+        "--freq", str(device.ask_mhz), "--timing-allow-fail", "--report", report.name, "--log", log.name,
+        *device.arguments,
+    ]  # fmt: skip
+    try:
+        done = subprocess.run(
+            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+        )
+    except FileNotFoundError:
+        raise ProjectError(f"{command[0]} is not installed: run `make setup`") from None
+    if done.returncode or not report.is_file():
+        text = done.stderr + done.stdout
+        lines = [line for line in text.splitlines() if "ERROR" in line][:4] or text.splitlines()[-4:]
+        raise ProjectError("\n".join([f"{command[0]} failed for {device.name} ({relative(log)} below {ROOT.name})", *lines]))
+    data = json.loads(report.read_text())
+    clocks = {name: entry["achieved"] for name, entry in data["fmax"].items()}
+    ours = [mhz for name, mhz in clocks.items() if CLOCK in name] or list(clocks.values())
+    used = {kind: entry["used"] for kind, entry in data["utilization"].items() if entry["used"]}
+    return Run(seed, round(min(ours), 2), used)
+
+
+def median_fmax(runs: list[Run]) -> float:
+    """Median Fmax of several seeds, MHz."""
+    return round(median(run.fmax for run in runs), 1)

@@ -1,0 +1,116 @@
+"""The synthesis report: tables for the terminal and the Markdown block of docs/benchmarks.md."""
+
+from __future__ import annotations
+
+from rich import box
+from rich.table import Table
+
+from .netlist import Breakdown, Count
+
+LUT_NAME = {"ecp5": "COMB", "ice40": "LUT4"}
+GOALS = {"ecp5": {"lut": 1100, "ram": 2}, "ice40": {"lut": 1100}}
+
+# Measured on open designs with the same tools, ECP5-25F: COMB, FF, block RAM, median Fmax of five seeds.
+YARDSTICKS = (
+    ("hostmot2 stepgen (LinuxCNC)", "velocity DDS; the host makes the ramp", 271, 212, 0, 173),
+    ("riocore stepdir", "divider; the host makes the ramp", 392, 100, 0, 136),
+    ("LiteX-CNC stepgen", "velocity with an acceleration limit", 887, 213, 0, 99),
+    ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0, 163),
+    ("fsref step_motor", "ramp table of its own; no bus, limits, phases", 870, 348, 2, 86),
+    ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1, 46),
+)
+
+
+def breakdown_table(results: dict[str, Breakdown]) -> Table:
+    """Cells per instance, all families side by side."""
+    table = Table(title="where the cells are", title_justify="left", caption_justify="left", box=box.SIMPLE_HEAD)
+    table.caption = "flat: flattened, a LUT is credited to the instance it feeds; own: each module mapped by itself"
+    table.add_column("instance", no_wrap=True)
+    table.add_column("module", no_wrap=True)
+    for family in results:
+        for head in (f"{family}\nflat", "\nown", "\nFF", "\nRAM"):
+            table.add_column(head, justify="right", no_wrap=True)
+    for row in breakdown_rows(results, indent="  "):
+        if row[0] == "total":
+            table.add_section()
+        table.add_row(*row, style="bold" if row[0] == "total" else None)
+    return table
+
+
+def breakdown_rows(results: dict[str, Breakdown], indent: str) -> list[list[str]]:
+    """Rows of instance, module, and flat LUTs, own LUTs, FF, RAM of each family; the last row is the total."""
+    first = next(iter(results.values()))
+    rows = []
+    for path in sorted(first.kept):
+        depth = path.count(".") + 1 if path else 0
+        row = [indent * depth + (path.rsplit(".", 1)[-1] or "(top itself)"), first.module[path]]
+        for result in results.values():
+            flat, kept = result.flat.get(path, Count()), result.kept.get(path, Count())
+            row += [str(flat.lut), str(kept.lut), str(flat.ff), str(flat.ram or "")]
+        rows.append(row)
+    total = ["total", ""]
+    for result in results.values():
+        own = sum(count.lut for count in result.kept.values())
+        total += [str(result.total.lut), str(own), str(result.total.ff), str(result.total.ram or "")]
+    return [*rows, total]
+
+
+def markdown_table(heads: list[str], rows: list[list[str]], left: int = 1) -> str:
+    """A Markdown table whose first `left` columns are left-aligned and the rest right-aligned."""
+    rule = ["---" if index < left else "---:" for index in range(len(heads))]
+    return "\n".join("| " + " | ".join(row) + " |" for row in [heads, rule, *rows])
+
+
+def verdict(value: float, goal: float, at_most: bool) -> str:
+    """'reached', or by how much a goal is missed."""
+    if (value <= goal) if at_most else (value >= goal):
+        return "reached"
+    return f"missed by {abs(value - goal):g}"
+
+
+def device_rows(devices: list[dict]) -> list[list[str]]:
+    """One row a device: cells, Fmax over the seeds, goals and whether they are reached."""
+    rows = []
+    for entry in devices:
+        goal = GOALS[entry["family"]]
+        name = LUT_NAME[entry["family"]]
+        goals = [f"{name} ≤ {goal['lut']}: {verdict(entry['lut'], goal['lut'], True)}"]
+        if "ram" in goal:
+            goals.append(f"RAM ≤ {goal['ram']}: {verdict(entry['ram'], goal['ram'], True)}")
+        goals.append(f"≥ {entry['goal_mhz']:g} MHz: {verdict(entry['fmax'], entry['goal_mhz'], False)}")
+        seeds = entry["seeds"]
+        rows.append([
+            entry["device"], f"{entry['lut']} {name}", str(entry["ff"]), str(entry["ram"]), f"{entry['fmax']:.1f}",
+            f"{min(seeds):.1f} … {max(seeds):.1f}", "; ".join(goals),
+        ])  # fmt: skip
+    return rows
+
+
+def markdown(report: dict, results: dict[str, Breakdown]) -> str:
+    """The whole block between the markers of a part."""
+    heads = ["device", "logic", "FF", "block RAM", "Fmax / MHz", "all seeds", "goals"]
+    parts = [
+        f"Median Fmax of {report['seed_count']} place-and-route seeds; default parameters "
+        "(CLK_HZ 16 MHz, FAST). COMB counts as nextpnr packs (a carry cell is two), LUT4 as synthesized.",
+        markdown_table(heads, device_rows(report["devices"])),
+        "With other parameters (synthesis only):",
+        markdown_table(
+            ["parameters", "ECP5 COMB", "ECP5 FF", "iCE40 LUT4", "iCE40 FF"],
+            [[entry["name"], *(str(entry[family][key]) for family in ("ecp5", "ice40") for key in ("lut", "ff"))]
+             for entry in report["variants"]],
+        ),
+        "Where the cells are. *flat*: the flattened netlist, a LUT credited to the instance it feeds (the total is "
+        "exact); *own*: each module mapped by itself.",
+        markdown_table(
+            ["instance", "module", "ECP5 flat", "own", "FF", "RAM", "iCE40 flat", "own", "FF", "RAM"],
+            breakdown_rows(results, indent="&nbsp;&nbsp;"), left=2,
+        ),
+        "Yardsticks: open designs, same tools, ECP5-25F.",
+        markdown_table(
+            ["design", "what it is", "COMB", "FF", "RAM", "Fmax / MHz"],
+            [[f"**this {report['part']}**", "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, "
+              "chopper", *(f"**{report['devices'][0][key]:g}**" for key in ("lut", "ff", "ram", "fmax"))]]
+            + [[name, what, *(str(figure) for figure in figures)] for name, what, *figures in YARDSTICKS], left=2,
+        ),
+    ]  # fmt: skip
+    return "\n\n".join(parts)

@@ -1,0 +1,66 @@
+"""One yosys run in a process of its own: SystemVerilog in, mapped JSON netlist out.
+
+Started as ``python -m scripts.flow.yosys_job JOB.json``; the job names sources, top, parameters, family, recipe
+and output. A process of its own keeps yosys' log in one file and lets two families run side by side.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+# What each recipe adds: a command before the family's pass, and options of that pass. The delay targets (in ps) let
+# abc9 give back area on paths that are fast enough already.
+RECIPES: dict[str, dict[str, tuple[str, str]]] = {
+    "ecp5": {
+        "default": ("", ""),
+        "nowidelut": ("", "-nowidelut"),
+        "relaxed": ("scratchpad -set abc9.D 9000", ""),
+        "relaxed-nowidelut": ("scratchpad -set abc9.D 9000", "-nowidelut"),
+        "soft": ("", "-nowidelut -cmp2softlogic"),
+        "flow3": ("scratchpad -copy abc9.script.flow3 abc9.script", "-nowidelut"),
+    },
+    "ice40": {
+        "default": ("", ""),
+        "dff": ("", "-dff"),
+        "relaxed": ("scratchpad -set abc9.D 18000", ""),
+        "relaxed-dff": ("scratchpad -set abc9.D 18000", "-dff"),
+        "ce4": ("scratchpad -set abc9.D 18000", "-dffe_min_ce_use 4"),
+        "flow3": ("scratchpad -copy abc9.script.flow3 abc9.script", ""),
+    },
+}
+BEST = {"ecp5": "default", "ice40": "default"}
+
+
+def commands(job: dict) -> list[str]:
+    """The yosys commands of a job, in order."""
+    read = ["read_slang", "--top", job["top"], *(f"-I{path}" for path in job["include"])]
+    for name, value in job["params"].items():
+        read += ["-G", f'{name}="{value}"' if isinstance(value, str) else f"{name}={value}"]
+    pre, args = RECIPES[job["family"]][job["recipe"]]
+    synth = f"synth_{job['family']} -top {job['top']} {args}".strip()
+    if job["keep"]:
+        read += ["--keep-hierarchy", *job["sources"]]
+        passes = [f"{synth} -noflatten"]
+    else:
+        read += job["sources"]
+        # Registers take the name of the signal they drive before abc9 forgets the signals inside the hierarchy.
+        passes = [f"{synth} -run begin:map_luts", "rename -wire", f"{synth} -run map_luts:"]
+    return [*filter(None, [" ".join(read), pre]), *passes, f"write_json {job['json']}"]
+
+
+def main() -> int:
+    """Run the job file named on the command line."""
+    job = json.loads(Path(sys.argv[1]).read_text())
+    import pyosys.libyosys as ys
+
+    design = ys.Design()
+    for command in commands(job):
+        print(f"\n>>> {command}", flush=True)
+        ys.run_pass(command, design)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,221 @@
+"""`make lint`: every check of the sources; all findings are printed, then one summary line.
+
+With ``--fix`` (`make format`) the layout of RTL and Python is put right instead.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rich.markup import escape
+
+from scripts import project
+from scripts.project import ProjectError, console, relative
+
+CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
+FORMAT_FLAGS = "--flagfile=.verible-format.flags"
+TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json"}
+MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: the tool, what it looks at, and a function that returns its findings, empty when all is well."""
+
+    tool: str
+    target: str
+    run: Callable[[], str]
+
+
+def tool(*command: str, ok_output: bool = False) -> str:
+    """Run a tool from the project's root; its output when it failed or, unless `ok_output`, said anything."""
+    env = {key: value for key, value in os.environ.items() if key != "VERILATOR_ROOT"}
+    try:
+        done = subprocess.run(
+            command, cwd=project.ROOT, env=env, text=True, check=False,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+    except FileNotFoundError:
+        return f"{command[0]}: not installed (run `make setup`)"
+    text = done.stdout.strip()
+    if done.returncode:
+        return text or f"{Path(command[0]).name} ended with exit code {done.returncode}"
+    return "" if ok_output else text
+
+
+def rtl_files(*suffixes: str) -> list[str]:
+    """All SystemVerilog files below rtl/, relative to the root."""
+    return sorted(relative(path) for suffix in suffixes for path in project.RTL.rglob(f"*{suffix}"))
+
+
+def python_paths() -> list[str]:
+    """Folders and files that ruff looks at."""
+    return [name for name in ("openppmc", "scripts", "cocotb_tests", "tests", "conftest.py") if Path(name).exists()]
+
+
+def verible_lint() -> str:
+    """Style of the RTL."""
+    return tool("verible-verilog-lint", "--rules_config=.rules.verible_lint", *rtl_files(".sv", ".svh"))
+
+
+def verible_format() -> str:
+    """Layout of the RTL: names the files that `make format` would change."""
+    text = tool("verible-verilog-format", FORMAT_FLAGS, "--verify", "--inplace", *rtl_files(".sv"))
+    return "\n".join(line for line in text.splitlines() if line.strip())
+
+
+def verilator(part: project.Part, params: dict[str, int | str]) -> str:
+    """Verilator -Wall for one set of parameters; assertions are read as in simulation."""
+    settings = [f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}" for name, value in params.items()]
+    includes = [f"-I{relative(path)}" for path in project.include_dirs()]
+    sources = [relative(path) for path in project.sources(part)]
+    text = tool(
+        "verilator", "--lint-only", "--assert", "-Wall", "--timing", "--top-module", part.name,
+        *includes, *settings, "lint/verilator.vlt", *sources,
+    )  # fmt: skip
+    return "\n".join(line for line in text.splitlines() if not line.startswith("- "))  # the rest is statistics
+
+
+def slang(part: project.Part, params: dict[str, int | str]) -> str:
+    """Elaboration by yosys' read_slang, assertions included, then yosys' own checks; warnings count."""
+    job = {
+        "includes": [relative(path) for path in project.include_dirs()],
+        "sources": [relative(path) for path in project.sources(part)],
+        "top": part.name,
+        "params": params,
+    }
+    done = subprocess.run(
+        [sys.executable, "-m", "scripts.flow.elaborate", json.dumps(job)], cwd=project.ROOT, text=True, check=False,
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    )  # fmt: skip
+    lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
+    told = [line for line in lines if "warning:" in line.lower() or "error:" in line.lower()]
+    if done.returncode and not told:
+        told = lines[-4:] or [f"ended with exit code {done.returncode}"]
+    return "\n".join(dict.fromkeys(told))
+
+
+def listed() -> str:
+    """Every RTL file is in rtl/files.yml, once, and every listed one exists."""
+    groups = project.file_groups()
+    names = [path for files in groups.values() for path in files]
+    found = [f"rtl/files.yml does not list {relative(p)}" for p in sorted(project.RTL.rglob("*.sv")) if p not in names]
+    found += [f"rtl/files.yml lists {relative(path)} twice" for path in sorted(set(names)) if names.count(path) > 1]
+    found += [f"rtl/files.yml lists {relative(path)}, which does not exist" for path in names if not path.is_file()]
+    known = {group for part in project.PARTS.values() for group in part.groups}
+    found += [f"rtl/files.yml: group {group} belongs to no part" for group in groups if group not in known]
+    return "\n".join(found)
+
+
+def tracked_text() -> list[Path]:
+    """Text files of the project: what git knows plus what it would add."""
+    names = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=project.ROOT, text=True, capture_output=True, check=False,
+    ).stdout.splitlines()  # fmt: skip
+    paths = [project.ROOT / name for name in names]
+    return [path for path in paths if path.suffix in TEXT_SUFFIXES and path.is_file()]
+
+
+def texts() -> str:
+    """No leftover marks, tabs, or spaces at line ends."""
+    found = []
+    for path in tracked_text():
+        if path.suffix == ".json" or path.name == "Makefile":
+            continue
+        for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+            words = line.replace(":", " ").replace("(", " ").split()
+            if any(mark in words for mark in MARKS):
+                found.append(f"{relative(path)}:{number}: leftover mark")
+            if line != line.rstrip():
+                found.append(f"{relative(path)}:{number}: spaces at the end of the line")
+            if "\t" in line:
+                found.append(f"{relative(path)}:{number}: tab")
+    return "\n".join(found)
+
+
+def checks() -> list[Check]:
+    """All checks, the slow ones first so that two workers end together."""
+    every = []
+    for part in project.PARTS.values():
+        for index, clk_hz in enumerate(CLOCKS):
+            for timing in ("FAST", "DATASHEET"):
+                idle = (index + (timing == "FAST")) % 2  # both levels with both timings without doubling the runs
+                params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing, "PHASE_IDLE": idle}
+                label = f"{part.name} {clk_hz / 1e6:g} MHz {timing} PHASE_IDLE={idle}"
+                every.append(Check("verilator -Wall", label, partial(verilator, part, params)))
+                every.append(Check("read_slang", label, partial(slang, part, params)))
+    return [
+        *every,
+        Check("verible-verilog-lint", "rtl/", verible_lint),
+        Check("verible-verilog-format", "rtl/", verible_format),
+        Check("ruff check", "Python", lambda: tool(sys.executable, "-m", "ruff", "check", "-q", *python_paths())),
+        Check("ruff format", "Python", lambda: tool(sys.executable, "-m", "ruff", "format", "--diff", "-q", *python_paths())),
+        Check("rtl/files.yml", "complete", listed),
+        Check("texts", "marks, tabs, line ends", texts),
+    ]
+
+
+def guarded(check: Check) -> str:
+    """A check's findings, a ProjectError among them."""
+    try:
+        return check.run()
+    except ProjectError as error:
+        return str(error)
+
+
+def fix() -> int:
+    """Lay out RTL and Python in place."""
+    problems = [
+        tool("verible-verilog-format", FORMAT_FLAGS, "--inplace", *rtl_files(".sv"), ok_output=True),
+        tool(sys.executable, "-m", "ruff", "check", "-q", "--fix", "--select", "I", *python_paths()),
+        tool(sys.executable, "-m", "ruff", "format", "-q", *python_paths()),
+    ]
+    for text in filter(None, problems):
+        console.print(escape(text))
+    console.print("format: done" if not any(problems) else "[bold red]format: not everything could be laid out[/]")
+    return int(any(problems))
+
+
+def main() -> int:
+    """Run all checks; exit code 1 when any of them found something."""
+    parser = argparse.ArgumentParser(prog="lint.py", description=__doc__)
+    parser.add_argument("--fix", action="store_true", help="lay out the sources instead of checking them")
+    os.chdir(project.ROOT)
+    if parser.parse_args().fix:
+        return fix()
+    every = checks()
+    bad, seen = 0, dict[str, str]()
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        for check, findings in zip(every, pool.map(guarded, every), strict=True):
+            name = f"{check.tool:22} {check.target}"
+            if not findings:
+                console.print(f"[green]ok[/]   {name}")
+                continue
+            bad += 1
+            console.print(f"[bold red]FAIL[/] {name}")
+            if findings in seen:
+                console.print(f"     the same as for {seen[findings]}")
+            else:
+                console.print(escape("\n".join("     " + line for line in findings.splitlines())))
+            seen.setdefault(findings, check.target)
+    if bad:
+        console.print(f"[bold red]lint: {bad} of {len(every)} checks have findings[/]")
+        return 1
+    console.print(f"[bold green]lint: {len(every)} checks, no findings[/]")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

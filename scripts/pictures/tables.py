@@ -1,0 +1,35 @@
+"""Tables of the manual that are computed: the speeds of the rates."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+RATES = (0, 1, 2, 3, 4, 7, 8, 9, 12, 13, 14, 17, 18, 19, 24, 29, 39, 49, 74, 99, 124, 149, 199, 249, 255)
+PHASE_LIMIT_US = 37  # shortest interval of the old chip with phases (P104-DS-12)
+POUT_LIMIT_US = 25  # and with pulses only
+
+
+def interval_us(rate: int, base_us: int, extra: bool) -> Fraction:
+    """Interval in µs at a rate of 0…255 on an internal base clock (P104-INT-01, P104-INT-02)."""
+    return (rate + 1) * base_us + (Fraction(15, 2) if extra else Fraction(0))
+
+
+def _cell(interval: Fraction) -> str:
+    pps = Fraction(1_000_000) / interval
+    digits = 0 if pps >= 10_000 else 1
+    text = f"{float(pps):,.{digits}f}".replace(",", " ").removesuffix(".0")
+    if interval < POUT_LIMIT_US:
+        return f"**{text}** *"
+    return f"**{text}**" if interval < PHASE_LIMIT_US else text
+
+
+def speed_table() -> str:
+    """Markdown table: rate against pps for both internal base clocks and both levels of vsel."""
+    lines = [
+        "| R | hex | 500 kHz, `vsel` H | 500 kHz, `vsel` L | 125 kHz, `vsel` H | 125 kHz, `vsel` L |",
+        "|---|---|---|---|---|---|",
+    ]
+    for rate in RATES:
+        cells = [_cell(interval_us(rate, base, extra)) for base in (2, 8) for extra in (False, True)]
+        lines.append(f"| {rate} | {rate:02X} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)

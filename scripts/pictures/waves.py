@@ -1,0 +1,63 @@
+"""Timing diagrams and bit fields: WaveDrom JSON to a small, stand-alone SVG that is the same on each run."""
+
+from __future__ import annotations
+
+import json
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import wavedrom
+
+SVG = "http://www.w3.org/2000/svg"
+XLINK = "http://www.w3.org/1999/xlink"
+FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
+# Pixels instead of points (not every viewer knows the dpi), larger labels, darker tick numbers.
+STYLES = (
+    ("font-family:Helvetica", f"font-family:{FONTS}"),
+    ('font-family="sans-serif"', f'font-family="{FONTS}"'),
+    ("text{font-size:11pt", "text{font-size:13px"),
+    ("font-size:8px", "font-size:11px"),
+    (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
+)
+REF = re.compile(r"url\(#([^)]+)\)")
+
+
+def _referenced(root: ET.Element) -> set[str]:
+    """Every id that `root` points at, by use elements and by url(#id) markers in styles."""
+    found: set[str] = set()
+    for node in root.iter():
+        for name, value in node.attrib.items():
+            if name.endswith("href"):
+                found.add(value.lstrip("#"))
+            found.update(REF.findall(value))
+    return found
+
+
+def _tidy(svg: str) -> str:
+    """Drop the unused bricks, put a white sheet below the drawing and name fonts that exist everywhere."""
+    ET.register_namespace("", SVG)
+    ET.register_namespace("xlink", XLINK)
+    root = ET.fromstring(svg)
+    wanted = _referenced(root)
+    for defs in root.iter(f"{{{SVG}}}defs"):
+        for brick in list(defs):
+            if brick.get("id") not in wanted:
+                defs.remove(brick)
+    sheet = ET.Element(f"{{{SVG}}}rect", {"width": "100%", "height": "100%", "fill": "white"})
+    root.insert(0, sheet)
+    text = ET.tostring(root, encoding="unicode")
+    for old, new in STYLES:
+        text = text.replace(old, new)
+    return re.sub(r">\s*<g ", ">\n<g ", text).rstrip() + "\n"
+
+
+def render(source: Path) -> bytes:
+    """The SVG of one WaveDrom JSON file; ValueError names the file when it is not a valid diagram."""
+    try:
+        drawing = wavedrom.render(json.dumps(json.loads(source.read_text(encoding="utf-8"))))
+    except (ValueError, KeyError, IndexError) as error:
+        raise ValueError(f"{source.name}: {error}") from error
+    if drawing is None:
+        raise ValueError(f"{source.name}: neither a signal nor a reg diagram")
+    return _tidy(drawing.tostring()).encode()

@@ -1,0 +1,47 @@
+#!/bin/sh
+# Checks make variables and the machine before anything runs. Arguments are NAME=VALUE pairs and the words `env`
+# (a goal needs the environment) and `parts=a,b`. Prints the first problem on one line, or nothing.
+here=$(dirname "$0")
+
+problem() { printf '%s\n' "$*"; exit 0; }
+
+# number NAME VALUE MIN MAX: a decimal number in that range
+number() {
+    case $2 in
+        '' | *[!0-9]* | ?????????????*) problem "$1=$2: expected a whole number from $3 to $4" ;;
+    esac
+    if [ "$2" -lt "$3" ] || [ "$2" -gt "$4" ]; then problem "$1=$2: expected a whole number from $3 to $4"; fi
+}
+
+need_env=''
+python=''
+parts=''
+for word in "$@"; do
+    name=${word%%=*}
+    value=${word#*=}
+    case $word in
+        env) need_env=1 ;;
+        parts=*) parts=$value ;;
+        python=*) python=$value ;;
+        PART=*) case ",$parts," in *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac ;;
+        SEED=*) number "$name" "$value" 0 4294967295 ;;
+        COUNT=*) number "$name" "$value" 1 1000000 ;;
+        CLK_HZ=*) number "$name" "$value" 8000000 200000000 ;;
+        J=*) number "$name" "$value" 1 64 ;;
+    esac
+done
+[ -n "$need_env" ] || exit 0
+
+for tool in git g++; do
+    command -v "$tool" >/dev/null 2>&1 || problem "$tool is not installed: install it with the package manager (Debian: apt install $tool)"
+done
+[ ! -x .venv/bin/python ] || exit 0
+found=$("$here/find_python.sh" "$python")
+if [ -z "$found" ]; then
+    asked=${python:-python3}
+    have=$("$asked" --version 2>&1 </dev/null | head -n 1)
+    command -v "$asked" >/dev/null 2>&1 || have='not found'
+    problem "Python 3.10 or newer is needed ($asked: $have): install one, or name it with PYTHON=/path/to/python3"
+fi
+"$found" -c 'import venv, ensurepip' >/dev/null 2>&1 </dev/null ||
+    problem "$found has no venv module: install it (Debian: apt install python3-venv)"

@@ -1,0 +1,108 @@
+"""`make soak SEED= COUNT=`: random hosts without end, each against the golden model, edge by edge.
+
+Seeds S, S+1, … S+N-1 run on J worker processes. A failure does not stop the rest; at the end the failing
+seeds are listed with the line that repeats each. Exit code 1 if any failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from itertools import islice
+
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from scripts.project import ProjectError, console, part
+
+
+def one(part_name: str, seed: int) -> tuple[int, str, str]:
+    """Run one seed in this process; returns (seed, test id, message or "")."""
+    from cocotb_tests.common.runner import attempt
+
+    item = importlib.import_module(f"cocotb_tests.{part_name}.test_random").random_item(seed)
+    return seed, item.id, attempt(item)
+
+
+def results(part_name: str, seeds: Sequence[int], jobs: int) -> Iterator[tuple[int, str, str]]:
+    """Results as they come; at most 2 * jobs seeds are under way, so that Ctrl-C ends soon."""
+    left = iter(seeds)
+    with ProcessPoolExecutor(jobs) as pool:
+        running = {pool.submit(one, part_name, seed) for seed in islice(left, 2 * jobs)}
+        try:
+            while running:
+                done, running = wait(running, return_when=FIRST_COMPLETED)
+                running |= {pool.submit(one, part_name, seed) for seed in islice(left, len(done))}
+                for future in done:
+                    yield future.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def soak(part_name: str, first: int, count: int, jobs: int) -> int:
+    """Run the seeds with a progress bar; returns the exit code."""
+    failures: list[tuple[int, str]] = []
+    done = 0
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("[red]{task.fields[bad]}"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console) as progress:
+        task = progress.add_task(f"{part_name} seeds {first}…{first + count - 1}", total=count, bad="")
+        try:
+            for seed, name, message in results(part_name, range(first, first + count), jobs):
+                done += 1
+                if message:
+                    failures.append((seed, name))
+                    console.print(f"[red]seed {seed} failed[/red]")
+                    console.print(message, markup=False)
+                bad = f"{len(failures)} failed" if failures else ""
+                progress.update(task, advance=1, bad=bad)
+        except KeyboardInterrupt:
+            console.print("stopped by the keyboard")
+    if failures:
+        console.print(f"[red]{len(failures)} of {done} seeds failed[/red]; to repeat one:")
+        for seed, name in sorted(failures):
+            console.print(f"  make test T={name} SEED={seed}", markup=False)
+        return 1
+    console.print(f"{done} seeds passed: every output edge as in the golden model")
+    return 0 if done == count else 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(
+        prog="python -m scripts.soak", description=(__doc__ or "").splitlines()[0]
+    )
+    parser.add_argument("part", nargs="?", default="ppmc104")
+    parser.add_argument("--seed", type=int, default=1, help="first seed (default 1)")
+    parser.add_argument("--count", type=int, default=1000, help="number of seeds (default 1000)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2, help="worker processes")
+    given = parser.parse_args(arguments)
+    try:
+        part(given.part)
+        if given.count < 1 or given.jobs < 1:
+            raise ProjectError("--count and --jobs must be 1 or more")
+    except ProjectError as error:
+        console.print(f"error: {error}", markup=False)
+        return 2
+    return soak(given.part, given.seed, given.count, given.jobs)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,78 @@
+"""The traceability script and `@verifies`: gaps, unknown IDs and failures are all reported."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.verifies import RULE_ID, part_of_rule, rules_of, verifies
+from scripts.trace import join, page
+
+RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Reset levels"}
+
+
+def record(test: str, *rules: str, outcome: str = "passed", config: str = "f16") -> dict[str, object]:
+    """A result line as the pytest plugin writes it."""
+    return {"test": f"t.py::t[{test}-{config}]", "name": test, "part": "ppmc104", "config": config,
+            "rules": list(rules), "outcome": outcome}  # fmt: skip
+
+
+def test_all_covered_and_passing_has_no_problem() -> None:
+    trace = join(RULES, [record("a", *RULES), record("a", *RULES, config="f8m")], "ppmc104")
+    assert trace.problems == []
+    assert "`a` ×2 (f16, f8m) | pass |" in page(trace, "ppmc104")
+    assert "2 of 2 rules and 1 of 1 acceptance checks" in page(trace, "ppmc104")
+
+
+def test_rule_without_test_is_a_problem() -> None:
+    trace = join(RULES, [record("a", "P104-BUS-01", "AC-01")], "ppmc104")
+    assert trace.problems == ["rule without a passing test: P104-BUS-02"]
+    assert "| P104-BUS-02 | Strobes | none | NO TEST |" in page(trace, "ppmc104")
+
+
+def test_unknown_rule_is_a_problem() -> None:
+    trace = join(RULES, [record("a", *RULES, "P104-BUS-99")], "ppmc104")
+    assert trace.problems == ["unknown rule P104-BUS-99: named by t.py::t[a-f16]"]
+
+
+def test_failed_test_is_a_problem_even_if_another_passes() -> None:
+    trace = join(RULES, [record("a", *RULES), record("b", "P104-BUS-01", outcome="failed")], "ppmc104")
+    assert trace.problems == ["test failed: t.py::t[b-f16]"]
+    assert "| P104-BUS-01 | Register map | `a` (f16)<br>`b` (f16) | FAIL |" in page(trace, "ppmc104")
+
+
+def test_rule_whose_only_test_failed_is_reported_twice() -> None:
+    trace = join({"P104-BUS-01": "x"}, [record("b", "P104-BUS-01", outcome="failed")], "ppmc104")
+    assert trace.problems == ["rule without a passing test: P104-BUS-01", "test failed: t.py::t[b-f16]"]
+
+
+def test_rules_of_other_parts_are_left_alone() -> None:
+    trace = join(RULES, [record("a", *RULES, "P2104-BUS-01")], "ppmc104")
+    assert trace.problems == []
+
+
+def test_page_does_not_depend_on_the_order_of_results() -> None:
+    records = [record(name, *RULES) for name in "cab"]
+    assert page(join(RULES, records, "ppmc104"), "ppmc104") == page(
+        join(RULES, records[::-1], "ppmc104"), "ppmc104"
+    )
+
+
+def test_verifies_keeps_order_and_merges() -> None:
+    @verifies("P104-BUS-01")
+    @verifies("AC-01", "P104-BUS-01")
+    def target() -> None: ...
+
+    assert rules_of(target) == ("P104-BUS-01", "AC-01")
+
+
+@pytest.mark.parametrize("rule", ["P104-BUS-1", "BUS-01", "P999-BUS-01", "AC-1", "p104-bus-01", ""])
+def test_verifies_refuses_what_is_no_rule_id(rule: str) -> None:
+    assert not RULE_ID.match(rule)
+    with pytest.raises(ValueError, match="not a rule ID"):
+        verifies(rule)
+
+
+def test_part_of_rule() -> None:
+    assert part_of_rule("P104-BUS-01") == "ppmc104"
+    assert part_of_rule("P2104-BUS-01") == "ppmc2104"
+    assert part_of_rule("AC-07") is None
