@@ -16,6 +16,7 @@ from typing import Any
 
 import cocotb
 from cocotb.clock import Clock
+from cocotb.handle import Immediate
 from cocotb.triggers import First, Timer
 from cocotb.utils import get_sim_time
 
@@ -69,14 +70,16 @@ class Bench:
         """
         bench = cls(dut, part)
         bench._arm_wall_clock()
+        # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0.
+        dut.clk.set(Immediate(0))
+        dut.rst_n.set(Immediate(1))
         for pin, level in {**part.inputs, **pins}.items():
             bench._handles[pin].value = level
             bench.pins[pin] = level
-        bench._handles["rst_n"].value = 1
-        # Falling edges lie on multiples of the period, rising edges half a period later.
+        await Timer(bench.half, "ps")
+        dut.rst_n.value = 0
+        # Falling edges lie half a period behind rising edges; the first edge is a rising one.
         Clock(dut.clk, bench.period, "ps").start(start_high=False)
-        await Timer(bench.period, "ps")
-        bench._handles["rst_n"].value = 0
         await Timer(bench.period * max(2, reset_clk), "ps")
         bench._t0 = int(get_sim_time("ps")) + bench.half
         bench._handles["rst_n"].value = 1
@@ -110,6 +113,14 @@ class Bench:
         return release
 
     # ---------------------------------------------------------------- time
+
+    def sim_time(self) -> int:
+        """Simulation time in ps."""
+        return int(get_sim_time("ps"))
+
+    def edge_time(self, edge: int) -> int:
+        """Simulation time of rising edge `edge` in ps."""
+        return self._t0 + edge * self.period
 
     @property
     def now(self) -> int:

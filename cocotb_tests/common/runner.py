@@ -17,6 +17,7 @@ import re
 import shutil
 import sys
 import textwrap
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -118,8 +119,10 @@ def build(design: Design, waves: bool = False) -> Path:
     done, log = folder / "done", SIM_BUILDS / f"{design.top}-{name}.log"
     with locked(SIM_BUILDS / f"{design.top}-{name}.lock"):
         if done.is_file():
+            done.touch()
             return folder
         shutil.rmtree(folder, ignore_errors=True)
+        _forget_old_builds()
         runner = _runner()
         try:
             runner.build(
@@ -139,6 +142,13 @@ def build(design: Design, waves: bool = False) -> Path:
     return folder
 
 
+def _forget_old_builds(days: float = 7.0) -> None:
+    """Remove builds that no run has used for a week: every change of the RTL leaves a set behind."""
+    for done in SIM_BUILDS.glob("*/done"):
+        if time.time() - done.stat().st_mtime > days * 86_400:
+            shutil.rmtree(done.parent, ignore_errors=True)
+
+
 def _runner() -> Any:
     runner = get_runner("verilator")
     runner.log.setLevel(logging.ERROR)
@@ -148,7 +158,7 @@ def _runner() -> Any:
 def _tail(log: Path, lines: int) -> str:
     if not log.is_file():
         return "(no log)"
-    text = log.read_text(encoding="utf-8", errors="replace")
+    text = log.read_text(encoding="utf-8", errors="replace").replace(f"{ROOT}/", "")
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
@@ -157,11 +167,15 @@ def _failure_text(log: Path, lines: int = 40) -> str:
     if not log.is_file():
         return "(no log)"
     text = re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace"))
-    start = max(text.rfind("Traceback (most recent call last)"), text.rfind("%Error"))
-    chosen = text[start:] if start >= 0 else text
+    text = text.replace(f"{ROOT}/", "")
+    error = text.find("%Error")
+    start = error if error >= 0 else text.rfind("Traceback (most recent call last)")
+    chosen = text[max(0, text.rfind("\n", 0, start) + 1) :] if start >= 0 else text
     # The summary table of cocotb says nothing that the message does not.
     chosen = re.split(r"\n[^\n]*\*{20,}", chosen)[0]
-    rows = textwrap.dedent("\n".join(chosen.rstrip().splitlines()[1:])).splitlines()
+    if chosen.lstrip().startswith("Traceback"):
+        chosen = chosen.split("\n", 1)[-1]
+    rows = textwrap.dedent(chosen.rstrip()).splitlines()
     return "\n".join(rows if len(rows) <= lines else [*rows[:6], "  ...", *rows[-lines + 7 :]])
 
 
@@ -265,7 +279,7 @@ def attempt(item: Item, options: SimOptions | None = None, env: Mapping[str, str
     except SimError as error:
         message = str(error)
     if not first.is_dir():
-        return message
+        return f"{item.id}: {message}\nrepeat with: {repro_line(item, seed)}"
     if options.waves_on_failure:
         try:
             run_sim(design, item, seed, waves=True, env=env, folder=kept)

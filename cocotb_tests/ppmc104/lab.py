@@ -126,6 +126,11 @@ class Lab:
             rule, "low times", self.bench.low_times(self.since), low_times(self.cfg, rates, csel, vsel)
         )
 
+    def stretches(self, since: int) -> list[tuple[int, int]]:
+        """(pattern, clk) of every complete stretch of `s` that began at edge `since` or later."""
+        edges = self.bench.edges("s", since)
+        return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
+
     def outputs(self) -> dict[str, int]:
         """Present levels of all outputs but the host bus."""
         return {name: self.bench.level(name) for name in self.bench.part.outputs if name not in ("d_o", "d_oe")}

@@ -83,7 +83,7 @@ class _Writer:
             for _ in range(rng.randint(1, 4)):
                 self.any_bytes()
         self.init(first=True)
-        for _ in range(rng.randint(2, 6) if not self.config.datasheet else rng.randint(1, 4)):
+        for _ in range(rng.randint(5, 14) if not self.config.datasheet else rng.randint(2, 6)):
             rng.choices(
                 (self.operation, self.read, self.switching, self.any_bytes, self.aux, self.init_again,
                  self.select_pins, self.reset, self.overrun, self.bad_bus, self.excitation_off),
@@ -201,15 +201,14 @@ class _Writer:
             | (rng.random() < 0.3) << 4
             | rng.getrandbits(1) << 5
         )
-        if rng.random() < 0.2:
-            pin = rng.choice(LIMIT_PINS)
-            self.add("pins", {pin: 0})
+        if rng.random() < 0.12:
+            self.add("pins", {rng.choice(LIMIT_PINS): 0})
         data = self.parameters(code)
         if rng.random() < 0.85:
             self.add("send", code, data)
         else:
             self.blind([(1, code), *((0, byte) for byte in data)])
-        for _ in range(rng.choice((0, 0, 1, 1, 2, 3, 5))):
+        for _ in range(rng.choice((0, 0, 0, 1, 1, 2, 3, 5))):
             self.disturb()
         if rng.random() < 0.9:
             self.add("finish", self.limit_clk)
@@ -217,7 +216,7 @@ class _Writer:
                 self.add("wait", self.clk(1, 6_000))
             if rng.random() < 0.5:
                 self.add("fetch", 0x80, 1)
-        if rng.random() < 0.5:
+        if rng.random() < 0.75:
             self.add("pins", dict.fromkeys(LIMIT_PINS, 1))
 
     def parameters(self, code: int) -> list[int]:

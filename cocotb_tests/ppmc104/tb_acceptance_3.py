@@ -16,12 +16,6 @@ from .lab import Lab
 A_DATA = (9, 4, 4)
 
 
-def phase_times(lab: Lab, since: int) -> list[tuple[int, int]]:
-    """(pattern, clk) of every complete stretch of `s` from edge `since` on."""
-    edges = lab.bench.edges("s", since)
-    return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
-
-
 @cocotb.test()
 @verifies("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
 async def p104_ac_45_chopping(dut):
@@ -29,20 +23,20 @@ async def p104_ac_45_chopping(dut):
     lab = await Lab.start(dut, (0x2A, *A_DATA))
     on, off = 0b00011, 0b00000
     await lab.bench.clocks(9000)
-    times = phase_times(lab, lab.bench.now - 8900)
+    times = lab.stretches(lab.bench.now - 8900)
     lab.check("AC-45", "default phases", set(times), {(on, 1040), (off, 1740)})
     await lab.host.run("c 84 d 10 d 20")
     await lab.bench.clocks(4000)
     since = lab.bench.now
     await lab.bench.clocks(9000)
-    lab.check("AC-45", "phases, vsel = 1", set(phase_times(lab, since)), {(on, 1200), (off, 2064)})
+    lab.check("AC-45", "phases, vsel = 1", set(lab.stretches(since)), {(on, 1200), (off, 2064)})
     lab.bench.set(vsel=0)
     await lab.bench.clocks(4000)
     since = lab.bench.now
     for _ in range(8):
         lab.check("AC-45", "0x82", await lab.host.run("c 82 r"), [0xC4])
         await lab.bench.clocks(1100)
-    lab.check("AC-45", "phases, vsel = 0", set(phase_times(lab, since)), {(on, 1168), (off, 1996)})
+    lab.check("AC-45", "phases, vsel = 0", set(lab.stretches(since)), {(on, 1168), (off, 1996)})
     await lab.go(0x42)
     pulse = await lab.pulse(1)
     started = lab.bench.falls("hold", lab.since)[0]
@@ -255,7 +249,7 @@ async def p104_ac_57_reset_in_motion(dut):
     await Timer(bench.period // 4 // 2 * 2, "ps")
     bench.set_between_edges(rst_n=0)
     await Timer(bench.period // 8, "ps")
-    expected = dict(int_n=1, pout_n=1, hold=1, dir=0, aux_n=1, auxo=0xF, s=0x1F)
+    expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
     lab.check("AC-57", "outputs", lab.outputs(), expected)
     await bench.align()
     await bench.clocks(4)

@@ -12,6 +12,10 @@ ITEMS = cocotb_items(
     "tb_acceptance_1",
     "tb_acceptance_2",
     "tb_acceptance_3",
+    "tb_bus",
+    "tb_status",
+    "tb_commands",
+    "tb_init",
 )
 
 

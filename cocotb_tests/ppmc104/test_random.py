@@ -5,33 +5,56 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.config import D16, F11, F16, F100, Config
 from cocotb_tests.common.runner import SimOptions, run_item
 from cocotb_tests.ppmc104.random_host import scenario
 
 SEEDS = range(1, 221)
+CHAOS_SEEDS = range(1, 31)
+
+
+def _item(test: str, seed: int, config: Config) -> Item:
+    base = next(
+        param.values[0]
+        for param in cocotb_items("cocotb_tests.ppmc104", "tb_random")
+        if param.values[0].test == test
+    )
+    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
 
 
 def random_item(seed: int) -> Item:
-    """The simulation of one seed; the seed decides the build configuration, too."""
-    base: Item = cocotb_items("cocotb_tests.ppmc104", "tb_random")[0].values[0]
-    return Item(
-        base.module, base.test, scenario(seed).config, base.part, base.rules, seed=seed, tag=f"r{seed:04d}"
-    )
+    """The random host of one seed; the seed decides the build configuration, too."""
+    return _item("random_host", seed, scenario(seed).config)
+
+
+def chaos_item(seed: int) -> Item:
+    """The noise run of one seed."""
+    return _item("random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """One pytest item a seed."""
     if "item" in metafunc.fixturenames:
         chosen = metafunc.config.getoption("--seed")
-        items = [random_item(seed) for seed in (SEEDS if chosen is None else [chosen])]
+        make, fixed = (
+            (chaos_item, CHAOS_SEEDS) if "chaos" in metafunc.function.__name__ else (random_item, SEEDS)
+        )
+        items = [make(seed) for seed in (fixed if chosen is None else [chosen])]
         metafunc.parametrize("item", items, ids=[item.id for item in items])
 
 
 def test_random(item: Item, sim_options: SimOptions) -> None:
     """The scenario of a seed: every output edge equals the golden model's."""
+    run_item(item, sim_options)
+
+
+def test_chaos(item: Item, sim_options: SimOptions) -> None:
+    """Noise on all pins, then recovery by the documented sequence."""
     run_item(item, sim_options)
 
 

@@ -21,11 +21,12 @@ class Edge(NamedTuple):
 class EdgeLog:
     """Present levels of all outputs and the list of their changes, in time order.
 
-    `levels` maps each output to its level; `edges` never holds a change to the same level, and at most
-    one entry per signal and clk edge.
+    `initial` and `levels` map each output to its first and its present level; `edges` never holds a
+    change to the same level, and at most one entry per signal and clk edge.
     """
 
     def __init__(self, initial: Mapping[str, int]) -> None:
+        self.initial: dict[str, int] = dict(initial)
         self.levels: dict[str, int] = dict(initial)
         self.edges: list[Edge] = []
 
@@ -47,12 +48,12 @@ class EdgeLog:
                 break
         self.edges.append(Edge(t, signal, value))
 
-    def level_before(self, signal: str, place: int) -> int | None:
-        """Level of `signal` before entry `place`, None if it had not changed by then."""
+    def level_before(self, signal: str, place: int) -> int:
+        """Level of `signal` before entry `place` of the list."""
         for edge in reversed(self.edges[:place]):
             if edge.signal == signal:
                 return edge.value
-        return None
+        return self.initial[signal]
 
     def of(self, signal: str, since: int = 0) -> list[tuple[int, int]]:
         """Changes (t, value) of one signal from edge `since` on."""

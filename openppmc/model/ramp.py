@@ -69,9 +69,7 @@ def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
     if flagged_in == 0:
         return []
     peak = plain[flagged_in - 1]
-    if flagged_in < len(plain) and plain[flagged_in] < peak:
-        return plain
-    return (plain[:flagged_in] + list(range(peak - 1, -1, -1)))[: n - 1]
+    return plain[:flagged_in] + list(range(peak - 1, -1, -1))
 
 
 def walk(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list[int]:

@@ -29,9 +29,7 @@ module ppmc_axis
     input  wire op_t                  op_i,
     input  wire logic [CountBits-1:0] count_i,     // pulses - 1
     input  wire logic [ RateBits-1:0] rate_i,      // constant-speed rate
-    input  wire logic                 external_i,  // base clock from the clock pin
-    input  wire logic                 slow_i,      // slow internal base clock
-    input  wire logic                 extra_i,     // extra time in every interval
+    input  wire base_t                base_i,
     // ramp in force, steady while busy
     input  wire logic [ RateBits-1:0] rate_slow_i,
     input  wire logic [ RateBits-1:0] rate_fast_i,
@@ -42,6 +40,8 @@ module ppmc_axis
     input  wire logic                 halt_i,      // immediate stop command
     input  wire logic                 decel_i,     // decelerating stop command
     input  wire switches_t            switches_i,
+    input  wire logic                 slow_i,      // act on a slow-down limit; slow_seen_o, or later
+    output logic                      slow_seen_o,
     input  wire logic                 go_i,        // 0 keeps pulse 1 back
     input  wire logic                 linger_i,    // 1 keeps the motion from ending
     // clocks
@@ -54,8 +54,13 @@ module ppmc_axis
     output logic                      decel_o,     // decelerating, forced or natural
     output logic                      top_o,       // on the plateau of the ramp
     output op_t                       op_o,        // the running or last operation
+    output base_t                     base_o,      // and its base clock
+    output logic      [ RateBits-1:0] rate_o,      // rate of the running interval
+    output logic                      running_o,   // between pulses
     output logic                      low_o,       // a pulse is active
     output logic                      pulse_o,     // pulse event at the coming edge
+    output logic                      last_o,      // with pulse_o: the last one
+    output logic                      final_o,     // with pulse_o: and the count is complete
     output logic                      stop_o,      // immediate end decided at the coming edge
     output logic                      done_o,      // the motion ends at the coming edge
     output cause_t                    cause_o,     // valid with done_o
@@ -74,14 +79,14 @@ module ppmc_axis
   } state_e;
 
   state_e state_q;
-  logic external_q, slow_q, extra_q, brisk_q;
-  logic armed, fire, last, final_pulse, due, up, seek, forced, flagged, dec;
+  logic brisk_q;
+  logic armed, fire, due, up, seek, forced, flagged, dec;
   logic base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
-  logic [RateBits-1:0] rate;
 
   assign armed = state_q == StStart || state_q == StRun;
   assign busy_o = state_q != StIdle;
   assign moving_o = armed;
+  assign running_o = state_q == StRun;
   assign decel_o = dec || flagged;
   assign done_o = state_q == StFinish && !low_o && !linger_i;
   assign restart_o = (fire && state_q == StStart) || done_o;
@@ -90,30 +95,26 @@ module ppmc_axis
   // An immediate cause also takes away a pulse that is due at the same edge.
   always_comb begin
     fire = 1'b0;
-    if (state_q == StStart) fire = up && go_i && (op_o.single || !external_q || rise);
-    if (state_q == StRun) fire = due && !(external_q && low_o);
+    if (state_q == StStart) fire = up && go_i && (op_o.single || !base_o.external || rise);
+    if (state_q == StRun) fire = due && !(base_o.external && low_o);
     if (stop_o) fire = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q    <= StIdle;
-      op_o       <= '0;
-      external_q <= 1'b0;
-      slow_q     <= 1'b0;
-      extra_q    <= 1'b0;
-      brisk_q    <= 1'b0;
+      state_q <= StIdle;
+      op_o    <= '0;
+      base_o  <= '0;
+      brisk_q <= 1'b0;
     end else begin
       if (start_i) begin
-        state_q    <= StStart;
-        op_o       <= op_i;
-        external_q <= external_i;
-        slow_q     <= slow_i;
-        extra_q    <= extra_i;
+        state_q <= StStart;
+        op_o    <= op_i;
+        base_o  <= base_i;
       end else if (stop_o) state_q <= StFinish;
-      else if (fire) state_q <= last ? StFinish : StRun;
+      else if (fire) state_q <= last_o ? StFinish : StRun;
       else if (done_o) state_q <= StIdle;
-      if (fire) brisk_q <= ext_brisk && external_q;
+      if (fire) brisk_q <= ext_brisk && base_o.external;
     end
   end
 
@@ -121,7 +122,7 @@ module ppmc_axis
       .clk_i,
       .rst_ni,
       .clear_i   (start_i),
-      .complete_i(fire && final_pulse),
+      .complete_i(fire && final_o),
       .armed_i   (armed),
       .op_i      (op_o),
       .switches_i,
@@ -129,6 +130,8 @@ module ppmc_axis
       .dec_i     (dec),
       .halt_i,
       .decel_i,
+      .slow_i,
+      .slow_seen_o,
       .stop_o,
       .forced_o  (forced),
       .flagged_o (flagged),
@@ -154,10 +157,10 @@ module ppmc_axis
       .ramp_i  (start_i ? op_i.ramp : op_o.ramp),
       .pulse_i (fire),
       .forced_i(forced),
-      .rate_o  (rate),
+      .rate_o,
       .seek_o  (seek),
-      .last_o  (last),
-      .final_o (final_pulse),
+      .last_o,
+      .final_o,
       .top_o,
       .dec_o   (dec),
       .left_o
@@ -175,18 +178,18 @@ module ppmc_axis
       .rst_ni,
       .arm_i  (start_i),
       .pulse_i(fire),
-      .full_i (last || extra_q),
-      .halve_i(!external_q && !slow_q),
-      .rate_i (rate),
+      .full_i (last_o || base_o.extra),
+      .halve_i(!base_o.external && !base_o.slow),
+      .rate_i (rate_o),
       .cut_i  (cut),
       .low_o,
       .up_o   (up)
   );
 
   // Interval: base clock from inside or from the pin, counted, and the extra time.
-  assign edges = external_q && rise;
-  assign tick = external_q ? edges && ext_count : base_tick;
-  assign cut = external_q && ((half && rate != '0) || (brisk_q && fall && rate == '0 && !seek));
+  assign edges = base_o.external && rise;
+  assign tick = base_o.external ? edges && ext_count : base_tick;
+  assign cut = base_o.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !seek));
 
   ppmc_base_clock #(
       .FastQuanta (FastQuanta),
@@ -197,8 +200,8 @@ module ppmc_axis
       .rst_ni,
       .restart_i(fire),
       .quantum_i,
-      .slow_i   (slow_q),
-      .extra_i  (extra_q),
+      .slow_i   (base_o.slow),
+      .extra_i  (base_o.extra),
       .tick_o   (base_tick)
   );
 
@@ -222,7 +225,7 @@ module ppmc_axis
       .rst_ni,
       .restart_i(fire),
       .tick_i   (tick),
-      .rate_i   (rate),
+      .rate_i   (rate_o),
       .wait_i   (seek),
       .hit_o    (hit),
       .half_o   (half)
@@ -233,7 +236,7 @@ module ppmc_axis
   ) u_lag (
       .clk_i,
       .rst_ni,
-      .en_i     (external_q && extra_q),
+      .en_i     (base_o.external && base_o.extra),
       .restart_i(fire),
       .edge_i   (edges),
       .long_i   (ext_long),
@@ -250,7 +253,7 @@ module ppmc_axis
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) final_seen_q <= 1'b0;
     else if (start_i) final_seen_q <= 1'b0;
-    else if (fire && final_pulse) final_seen_q <= 1'b1;
+    else if (fire && final_o) final_seen_q <= 1'b1;
   end
 `endif
 

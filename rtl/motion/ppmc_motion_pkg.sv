@@ -21,6 +21,13 @@ package ppmc_motion_pkg;
     logic ccw;       // direction
   } op_t;
 
+  // Base clock of an operation; latched by the axis at its start.
+  typedef struct packed {
+    logic external;  // edges of the clock pin
+    logic slow;      // slow internal base clock
+    logic extra;     // extra time in every interval
+  } base_t;
+
   // Why a motion ended before its last pulse (P104-END-04); bit order of the finish status.
   typedef struct packed {
     logic stop;   // stop command

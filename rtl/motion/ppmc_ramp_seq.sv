@@ -139,7 +139,7 @@ module ppmc_ramp_seq #(
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_rmp_rate_range, !(pulse_i && ramp_i) || (rate_o <= slow_i && rate_o >= fast_i))
-  `PPMC_ASSERT(p104_pro_index, 32'(climb_q) <= 32'(steps_i) + 1)
+  `PPMC_ASSERT(p104_pro_index, !(pulse_i && ramp_i) || 32'(climb_q) <= 32'(steps_i) + 1)
 `endif
 
 endmodule

@@ -42,7 +42,7 @@ module ppmc_rate_counter #(
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(rate_count_in_range, restart_i || wait_i || count_q <= rate_i)
+  `PPMC_ASSERT(p104_int_01, !hit_o || count_q == rate_i)
 `endif
 
 endmodule

@@ -19,6 +19,8 @@ module ppmc_stop_guard
     input  wire logic       dec_i,       // natural deceleration has begun
     input  wire logic       halt_i,      // immediate stop command
     input  wire logic       decel_i,     // decelerating stop command
+    input  wire logic       slow_i,      // act on a slow-down limit now; slow_seen_o, or later
+    output logic            slow_seen_o, // one is seen that counts
     output logic            stop_o,      // end the motion now, no further pulse
     output logic            forced_o,    // forced deceleration is requested
     output logic            flagged_o,   // the same, as a state (registered)
@@ -30,16 +32,17 @@ module ppmc_stop_guard
 
   assign unused_single = op_i.single;
 
-  always_comb begin
-    limit     = op_i.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
-    slow      = op_i.ccw ? switches_i.slow_ccw : switches_i.slow_cw;
-    halt      = halt_i || (decel_i && !op_i.ramp);
-    stop_o    = armed_i && (limit || switches_i.alarm || halt || (switches_i.origin && op_i.origin));
-    free      = armed_i && op_i.ramp && !stop_o && !flagged_o && !dec_i;
-    slow_now  = free && slow && (top_i || !op_i.pout_only);
-    decel_now = free && decel_i;
-    forced_o  = flagged_o || slow_now || decel_now;
-  end
+  assign limit = op_i.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign slow = op_i.ccw ? switches_i.slow_ccw : switches_i.slow_cw;
+  assign halt = halt_i || (decel_i && !op_i.ramp);
+  assign stop_o = armed_i && (limit || switches_i.alarm || halt || (switches_i.origin && op_i.origin));
+
+  // Deceleration can be asked for once; an immediate end at the same edge goes first.
+  assign free = armed_i && op_i.ramp && !stop_o && !flagged_o && !dec_i;
+  assign slow_seen_o = free && slow && (top_i || !op_i.pout_only);
+  assign slow_now = free && slow_i;
+  assign decel_now = free && decel_i;
+  assign forced_o = flagged_o || slow_now || decel_now;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -95,9 +95,11 @@ module ppmc104
   logic wr, wr_a0, wr_busy, rd_busy, rd_done, obf, ibf, ready, is_command, take;
   logic [7:0] wr_data, status, out, in_byte, code;
   logic [3:0] judgement;
-  logic [31:0] params;
+  logic [31:0] params, params_held, params_late;
+  logic [7:0] code_held, code_late;
   logic [23:0] answer;
-  action_t act;
+  action_t act_taken, act;  // what a byte asks for at its C-event, and when it happens
+  logic open, stops_only;
 
   ppmc_strobe_bus u_bus (
       .clk_i       (clk),
@@ -137,7 +139,7 @@ module ppmc104
       .command_o(is_command),
       .byte_o   (in_byte),
       .take_i   (take),
-      .load_i   (act.read),
+      .load_i   (act_taken.read),
       .answer_i (answer),
       .long_i   (code[2:0] == SEL_REMAINING)
   );
@@ -151,36 +153,38 @@ module ppmc104
       .ready_i       (ready),
       .command_i     (is_command),
       .byte_i        (in_byte),
-      .open_i        (!building && !built_q),
-      .stops_only_i  (1'b0),
+      .open_i        (open),
+      .stops_only_i  (stops_only),
       .take_o        (take),
       .busy_i        (busy),
       .ramp_i        (op_run.ramp),
       .decelerating_i(decelerating || !moving),
       .initialised_i (initialised),
       .status_o      (judgement),
-      .act_o         (act),
+      .act_o         (act_taken),
       .code_o        (code),
-      .params_o      (params)
+      .params_o      (params),
+      .code_held_o   (code_held),
+      .params_held_o (params_held)
   );
 
   assign status = {judgement, 1'b0, busy, ibf || wr_busy, obf && !rd_busy};
 
   // ---- set-up: initialisation, switching parameters, auxiliary outputs ---------------------------------------------------
 
-  init_code_t init_code;  // the code, read as one or as the other
+  init_code_t init_code, init_late;  // the code, read as one or as the other
   op_code_t op_code;
   logic [7:0] rate_slow_q, rate_fast_q, on_units_q, off_units_q;
   logic [STEP_BITS-1:0] steps_q;
-  logic external_q, chop_q, chop_next_q, built_q, positive_q, half_q, programmed_q;
+  logic external_q, chop_q, chop_next_q, positive_q, half_q, programmed_q;
   motor_e motor_q;
-  logic first_init, build_done, unused_bits;
+  logic first_init, home, ready_init, unused_bits;
 
   assign init_code  = init_code_t'(code);
-  assign op_code    = op_code_t'(code);
-  assign unused_bits = &{1'b0, init_code.prefix, op_code.prefix, op_code.ignored, op_run.single, op_run.origin};
+  assign init_late  = init_code_t'(code_late);
+  assign op_code    = op_code_t'(code_late);
+  assign unused_bits = &{1'b0, act.read, init_code.prefix, init_code.positive, init_late, op_code.prefix, op_code.ignored, op_run.single, op_run.origin};
   assign first_init = act.init && !initialised;
-  assign build_done = built_q && !building;
 
   always_ff @(posedge clk or negedge rst) begin
     if (!rst) begin
@@ -190,7 +194,6 @@ module ppmc104
       external_q   <= 1'b0;
       chop_q       <= 1'b0;
       chop_next_q  <= 1'b0;
-      built_q      <= 1'b0;
       initialised  <= 1'b0;
       positive_q   <= !PHASE_IDLE;
       half_q       <= 1'b0;
@@ -201,7 +204,6 @@ module ppmc104
       auxo         <= '1;
       aux_n        <= 1'b1;
     end else begin
-      built_q <= building;
       if (act.init) begin
         rate_slow_q <= params[7:0];
         rate_fast_q <= params[15:8];
@@ -210,11 +212,11 @@ module ppmc104
         chop_next_q <= init_code.chop;
       end
       if (first_init) begin
-        positive_q <= init_code.positive;
-        half_q     <= init_code.half;
-        motor_q    <= motor_e'(init_code.motor);
+        half_q  <= init_code.half;
+        motor_q <= motor_e'(init_code.motor);
       end
-      if (build_done) begin
+      if (home) positive_q <= init_late.positive;
+      if (ready_init) begin
         initialised <= 1'b1;
         chop_q      <= chop_next_q;
       end
@@ -227,7 +229,7 @@ module ppmc104
         on_units_q   <= params[23:16];
         off_units_q  <= params[31:24];
       end
-      if (act.aux_out) auxo <= ~params[27:24];
+      if (act.aux_out) auxo <= ~params_late[27:24];
       if (act.aux_on || act.aux_off) aux_n <= act.aux_off;
     end
   end
@@ -271,10 +273,13 @@ module ppmc104
   op_t op;
   logic [23:0] count;
   logic quantum, restart, low, pulse, done;
-  logic unused_stop, unused_top;
+  logic top, running, last, final_pulse, stop, slow_seen, slow_take, go, linger;
+  base_t base_run, base_now, base_late;
+  logic [RATE_BITS-1:0] rate_run;
   cause_t cause;
   logic [23:0] remaining;
 
+  assign base_now = '{external: external_q, slow: !csel_s, extra: !vsel_s};
   assign op = '{
           ramp: op_code.op inside {OP_ACC_DEC, OP_CONT_HIGH},
           single: op_code.op == OP_SINGLE,
@@ -285,7 +290,7 @@ module ppmc104
 
   always_comb begin
     unique case (op_code.op)
-      OP_ACC_DEC, OP_CONSTANT: count = params[31:8];
+      OP_ACC_DEC, OP_CONSTANT: count = params_late[31:8];
       OP_SINGLE:               count = '0;
       default:                 count = '1;
     endcase
@@ -314,10 +319,8 @@ module ppmc104
       .start_i    (act.start),
       .op_i       (op),
       .count_i    (count),
-      .rate_i     ((op_code.op == OP_CONSTANT) ? params[7:0] : params[31:24]),
-      .external_i (external_q),
-      .slow_i     (!csel_s),
-      .extra_i    (!vsel_s),
+      .rate_i     ((op_code.op == OP_CONSTANT) ? params_late[7:0] : params_late[31:24]),
+      .base_i     (base_late),
       .rate_slow_i(rate_slow_q),
       .rate_fast_i(rate_fast_q),
       .steps_i    (steps_q),
@@ -326,23 +329,100 @@ module ppmc104
       .halt_i     (act.halt),
       .decel_i    (act.decel),
       .switches_i (switches),
-      .go_i       (1'b1),
-      .linger_i   (1'b0),
+      .slow_i     (slow_take),
+      .slow_seen_o(slow_seen),
+      .go_i       (go),
+      .linger_i   (linger),
       .quantum_i  (quantum),
       .clock_pin_i(clock),
       .restart_o  (restart),
       .busy_o     (busy),
       .moving_o   (moving),
       .decel_o    (decelerating),
-      .top_o      (unused_top),
+      .top_o      (top),
       .op_o       (op_run),
+      .base_o     (base_run),
+      .rate_o     (rate_run),
+      .running_o  (running),
       .low_o      (low),
       .pulse_o    (pulse),
-      .stop_o     (unused_stop),
+      .last_o     (last),
+      .final_o    (final_pulse),
+      .stop_o     (stop),
       .done_o     (done),
       .cause_o    (cause),
       .left_o     (remaining)
   );
+
+  // ---- processing times ---------------------------------------------------------------------------------------------------
+
+  if (TIMING == "DATASHEET") begin : g_datasheet
+    logic pace_open, pace_home;
+
+    ppmc104_pace #(
+        .ClkHz (CLK_HZ),
+        .XtalHz(XTAL_HZ)
+    ) u_pace (
+        .clk_i       (clk),
+        .rst_ni      (rst),
+        .act_i       (act_taken),
+        .op_code_i   (op_code_t'(code)),
+        .count_i     (params[31:8]),
+        .new_steps_i (params[16+:STEP_BITS]),
+        .steps_i     (steps_q),
+        .act_o       (act),
+        .open_o      (pace_open),
+        .stops_only_o(stops_only),
+        .home_o      (pace_home),
+        .ready_o     (ready_init),
+        .moving_i    (moving),
+        .running_i   (running),
+        .busy_i      (busy),
+        .top_i       (top),
+        .op_i        (op_run),
+        .base_i      (base_run),
+        .rate_i      (rate_run),
+        .slow_seen_i (slow_seen),
+        .stop_i      (stop),
+        .pulse_i     (pulse),
+        .last_i      (last),
+        .final_i     (final_pulse),
+        .slow_o      (slow_take),
+        .go_o        (go),
+        .linger_o    (linger)
+    );
+
+    assign open        = pace_open && !building;
+    assign home        = pace_home && !initialised;
+    assign code_late   = code_held;
+    assign params_late = params_held;
+
+    // sampled with the byte, used when the motion starts
+    always_ff @(posedge clk or negedge rst) begin
+      if (!rst) base_late <= '0;
+      else if (act_taken.start) base_late <= base_now;
+    end
+  end else begin : g_fast
+    logic built_q, unused_state;
+
+    always_ff @(posedge clk or negedge rst) begin
+      if (!rst) built_q <= 1'b0;
+      else built_q <= building;
+    end
+
+    assign act          = act_taken;
+    assign open         = !building && !built_q;
+    assign stops_only   = 1'b0;
+    assign home         = first_init;
+    assign ready_init   = built_q && !building;
+    assign slow_take    = slow_seen;
+    assign go           = 1'b1;
+    assign linger       = 1'b0;
+    assign code_late    = code;
+    assign params_late  = params;
+    assign base_late    = base_now;
+    assign unused_state = &{1'b0, top, running, last, final_pulse, stop, base_run, rate_run, code_held, params_held};
+  end
 
   // ---- end of a motion: finish status, interrupt ----------------------------------------------------------------------------
 
@@ -367,7 +447,7 @@ module ppmc104
         finish_q <= cause;
         if (!silent_q) int_n <= 1'b0;
       end
-      if (act.read && code[2:0] == SEL_FINISH) begin
+      if (act_taken.read && code[2:0] == SEL_FINISH) begin
         fresh_q <= 1'b0;
         int_n   <= 1'b1;
       end
@@ -403,10 +483,10 @@ module ppmc104
       .motor_i       (motor_q),
       .half_i        (half_q),
       .positive_i    (positive_q),
-      .home_i        (first_init),
+      .home_i        (home),
       .off_i         (act.exc_off),
       .chop_i        (chop_q),
-      .chop_restart_i(build_done),
+      .chop_restart_i(ready_init),
       .on_base_i     (on_base),
       .off_base_i    (off_base),
       .on_units_i    (on_units_q),

@@ -26,19 +26,23 @@ module ppmc104_command
     output logic       [3:0] status_o,       // ERR, NUM
     output action_t          act_o,
     output logic       [7:0] code_o,         // code the action belongs to
-    output logic      [31:0] params_o        // its parameter bytes, the last one in the high bits
+    output logic      [31:0] params_o,       // its parameter bytes, the last one in the high bits
+    output logic       [7:0] code_held_o,    // the same after the C-event, while no further byte is taken
+    output logic      [31:0] params_held_o
 );
 
   decoded_t dec_q;  // of byte_i, a clk behind it
   logic error_q;
   logic [2:0] number_q;  // error number, or parameters still to come
   logic [7:0] code_q;
-  logic [23:0] params_q;
+  logic [31:0] params_q;
   logic stop, harmless, last, error;
   error_e number;
 
   assign status_o = {error_q, number_q};
-  assign params_o = {byte_i, params_q};
+  assign params_o = {byte_i, params_q[31:8]};
+  assign params_held_o = params_q;
+  assign code_held_o = code_q;
   assign code_o   = command_i ? byte_i : code_q;
 
   // Judgement. Order of the checks: P104-ERR-01, P104-ERR-02.
@@ -87,7 +91,7 @@ module ppmc104_command
         if (error) number_q <= number;
         else number_q <= command_i ? dec_q.params : number_q - 1'b1;
         if (command_i) code_q <= byte_i;
-        else params_q <= {byte_i, params_q[23:8]};
+        else params_q <= params_o;
       end
     end
   end

@@ -1,0 +1,89 @@
+"""What `make demo` plays: a host that initialises a PPMC-104, makes two moves and lets the motor rest.
+
+It leaves recording.json (all pin changes and output edges) and story.json (the chapters) in the run's folder, and
+tells how far it is in the file `progress`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.bus import HostBus
+
+# 4-phase motor, full step, high level = coil on, internal clock, phases chopped at rest.
+INIT = 0x2A
+SLOW, FAST, RAMP = 199, 19, 250  # 2.5 kpps to 25 kpps within 250 pulses
+ACC_DEC, CONTINUOUS = 0x43, 0x45
+RATE = 49  # 10 kpps
+PULSES_TO_LIMIT = 60
+
+
+class Story:
+    """Chapters of the run: what happened between which clk edges."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        self.chapters: list[dict[str, Any]] = []
+
+    @contextmanager
+    def chapter(self, key: str, title: str) -> Iterator[None]:
+        """Everything that the block does belongs to this chapter."""
+        with (self.bench.out / "progress").open("a") as file:
+            file.write(title + "\n")
+        begin = self.bench.now
+        yield
+        self.chapters.append({"key": key, "title": title, "begin": begin, "end": self.bench.now})
+
+    def save(self) -> None:
+        """Write story.json and recording.json."""
+        (self.bench.out / "story.json").write_text(json.dumps(self.chapters, indent=1))
+        (self.bench.out / "recording.json").write_text(self.bench.recording().to_json())
+
+
+async def results(host: HostBus) -> None:
+    """Wait for the interrupt, then read finish status and remaining pulses as a host does."""
+    bench = host.bench
+    if bench.level("int_n"):
+        await bench.edge("int_n", 0, timeout=3_000_000)
+    await host.status()
+    await host.fetch(0x80)
+    await host.fetch(0x83, 3)
+
+
+@cocotb.test()
+async def demo_move(dut: Any) -> None:
+    """Given a reset chip, when a host moves 1000 pulses and then runs into L1, then all of it is recorded."""
+    bench = await Bench.start(dut)
+    host = HostBus(bench)
+    story = Story(bench)
+    with story.chapter("reset", "look at the chip after reset"):
+        await host.status()
+        await host.fetch(0x81)
+    with story.chapter("init", "initialise: 4 phases, full step, chopping at rest"):
+        await host.init(INIT, SLOW, FAST, RAMP)
+        await host.status()
+        # The table build keeps this one in the buffer: IBF tells when the chip is ready.
+        await host.fetch(0x82)
+    with story.chapter("move", "accelerate, run, decelerate: 1000 pulses"):
+        await host.move(ACC_DEC, 1000)
+        await results(host)
+    with story.chapter("pause", "a chopped rest"):
+        await bench.clocks(32_000)
+    with story.chapter("limit", "continuous constant speed into limit L1"):
+        start = bench.now
+        await host.send(CONTINUOUS, [RATE])
+        last = await bench.nth_fall(PULSES_TO_LIMIT, since=start)
+        bench.at(last + 700, l1_n=0)
+        await results(host)
+        await host.fetch(0x81)
+        bench.set(l1_n=1)
+    with story.chapter("rest", "rest until HOLD rises, 34 ms after the stop"):
+        await bench.edge("hold", 1, timeout=2_000_000)
+        await bench.clocks(16_000)
+    story.save()

@@ -1,0 +1,224 @@
+"""Code map, don't-care bits, the accept/reject table of every state (P104-CMD, P104-FSM), operation starts (P104-OPR)."""
+
+from __future__ import annotations
+
+import cocotb
+from cocotb_tests.common.bus import BUSY, DATA, ERR
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A
+from .lab import Lab
+from .states import CONSTANT, MOVING, enter
+from .tb_acceptance_1 import kind_of
+
+OPERATIONS = (0x42, 0x43, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC6)
+READS = (0x80, 0x81, 0x82, 0x83, 0x85)
+UNDEFINED = (0x00, 0x3C, 0x87, 0x88, 0xA0, 0xBF, 0xC4, 0xC5, 0xC7, 0xFF)
+PARAMETERS = {0x42: 0, 0x43: 3, 0x44: 4, 0x45: 1, 0x46: 0, 0x47: 1, 0xC3: 3, 0xC6: 0}
+STOPPABLE = ("START ramp", "ACC", "HIGH", "DEC", "START constant", "CONST")
+
+
+@cocotb.test()
+@verifies("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
+async def p104_cmd_01_all_codes_ready(dut):
+    """Given an initialised core, when each of the 256 codes comes, then its parameter count or effect follows."""
+    lab = await Lab.start(dut, INIT_A)
+    expected = {"undefined": 0x80, "stop": 0x80, "init": 0x40, "switching": 0x20, "aux": 0x10, "on": 0x00}
+    expected |= {"read": 0x01, "off": 0x00}
+    for code in range(256):
+        kind = kind_of(code)
+        if kind == "operation":
+            count = PARAMETERS[code & 0xC7]
+            status = count << 4 if count else BUSY
+        else:
+            status = expected[kind]
+        lab.check("P104-CMD-01", f"status of {code:#04x}", await lab.host.command(code), status)
+        if status & BUSY:
+            await lab.host.command(0x40)
+            await lab.idle()
+        if kind == "read":
+            await lab.host.run("rrr" if code == 0x83 else "r")
+        if kind == "off" and code & 7 == 0:
+            await lab.init(*INIT_A)
+
+
+@cocotb.test()
+@verifies("P104-CMD-04", "P104-CMD-03", "P104-AUX-05", "P104-OPR-12", "P104-RD-01", "P104-INI-04")
+async def p104_cmd_04_all_codes_busy(dut):
+    """Given a running move, when each of the 256 codes comes, then only the BUSY list is executed."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 10, rate=255)
+    for code in range(256):
+        kind = kind_of(code)
+        if kind == "stop":
+            continue
+        status = {"undefined": 0x84, "aux": 0x14, "on": 0x04, "off": 0x04}.get(kind, 0x94)
+        lab.check("P104-CMD-04", f"status of {code:#04x}", await lab.host.command(code), status)
+        if kind == "aux":
+            lab.check("P104-CMD-04", "its data byte", await lab.host.data(code), 0x04)
+        elif kind in ("on", "off"):
+            await lab.bench.clocks(2)
+            level = 1 if code & 7 == 2 else 0
+            lab.check("P104-AUX-05", f"aux_n after {code:#04x}", lab.bench.level("aux_n"), level)
+        elif kind != "undefined":
+            lab.check("P104-CMD-04", f"data after {code:#04x}", await lab.host.data(code), 0xE4)
+    await lab.result("P104-CMD-04", 10, 0x84, 0)
+    lab.check_train("P104-CMD-04", [255] * 9)
+
+
+@cocotb.test()
+@verifies("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
+async def p104_cmd_04_stop_codes_busy(dut):
+    """Given running moves with and without I, when any code of the two stops comes, then it stops, INT as asked."""
+    lab = await Lab.start(dut, INIT_A)
+    for code in (c for c in range(0x40, 0x80) if c & 7 < 2):
+        masked = bool(code & 0x20)
+        await lab.go(0x54 if masked else 0x44, 10, rate=9)
+        await lab.pulse(2, 100)
+        lab.check("P104-CMD-04", f"ERR of {code:#04x}", await lab.host.command(code) & ERR, 0)
+        await lab.idle()
+        lab.check("P104-STP-07", f"int_n after {code:#04x}", lab.bench.level("int_n"), int(masked))
+        await lab.result("P104-STP-01", 2, 0xC4, 7)
+
+
+@cocotb.test()
+@verifies("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
+async def p104_cmd_02_bits_of_operations(dut):
+    """Given every operation with X, I, D in all values, when it runs, then dir is D, INT is not I, X is nothing."""
+    lab = await Lab.start(dut, INIT_A)
+    for base in OPERATIONS:
+        for bits in range(8):
+            code = base | bits << 3
+            since = lab.bench.now
+            count = PARAMETERS[base]
+            data = {0: [], 1: [3], 3: [2, 0, 0], 4: [3, 2, 0, 0]}[count]
+            status = await lab.host.send(code, data)
+            lab.check("P104-OPR-01", f"status after {code:#04x}", status, BUSY)
+            await lab.bench.clocks(2)
+            lab.check("P104-CMD-02", f"dir of {code:#04x}", lab.bench.level("dir"), bits & 1)
+            lab.check("P104-OPR-01", f"hold of {code:#04x}", lab.bench.level("hold"), 0)
+            await lab.bench.nth_fall(1, since)
+            if base in (0x45, 0x46, 0x47, 0xC6):
+                await lab.host.command(0x40)
+            await lab.idle()
+            lab.check("P104-CMD-02", f"int_n of {code:#04x}", lab.bench.level("int_n"), bits >> 1 & 1)
+            lab.check("P104-RD-03", f"op bits of {code:#04x}", await lab.finish() & 0x87, 0x80 | base & 7)
+
+
+@cocotb.test()
+@verifies("P104-CMD-02", "P104-CMD-03", "P104-AUX-04")
+async def p104_cmd_02_bits_of_others(dut):
+    """Given bits 5..3 set in AUX and Excitation OFF codes, when sent, then they are ignored."""
+    lab = await Lab.start(dut, INIT_A)
+    for bits in range(8):
+        for low, level in ((1, 0), (2, 1)):
+            await lab.host.command(0xC0 | bits << 3 | low)
+            await lab.bench.clocks(2)
+            lab.check("P104-CMD-02", f"aux_n, bits {bits}", lab.bench.level("aux_n"), level)
+        lab.check("P104-CMD-02", f"Excitation OFF, bits {bits}", await lab.host.command(0xC0 | bits << 3), 0x00)
+        await lab.bench.clocks(2)
+        lab.check("P104-AUX-04", "s", lab.bench.level("s"), 0)
+        lab.check("P104-AUX-04", "0x42 afterwards", await lab.host.command(0x42), 0xA0)
+        await lab.init(*INIT_A)
+
+
+async def reactions(lab: Lab, state: str) -> dict[str, int]:
+    """Status that each command class must give in `state` (P104-FSM-01), stops apart."""
+    moving = state in MOVING
+    busy = BUSY if moving else 0
+    table = {f"{code:02X}": 0x80 | busy for code in UNDEFINED}
+    table |= {"0A": 0x94 if moving else 0x40, "84": 0x94 if moving else 0x20, "86": 0x10 | busy}
+    table |= {f"{code:02X}": 0x94 if moving else 0x01 for code in READS}
+    table |= {"C0": busy, "C1": busy, "C2": busy}
+    for code in OPERATIONS:
+        start = PARAMETERS[code] << 4 or BUSY
+        table[f"{code:02X}"] = 0x94 if moving else (start if state == "READY" else 0xA0)
+    return table
+
+
+@cocotb.test()
+@verifies("P104-FSM-01", "P104-CMD-04", "P104-BAD-12", "P104-BAD-21", "P104-BAD-02")
+async def p104_fsm_01_table(dut):
+    """Given each state, when each command class and stray data come, then the reaction is that of the table."""
+    lab = await Lab.start(dut, None)
+    for state in ("UNINIT", "READY", *MOVING):
+        for text, status in (await reactions(lab, state)).items():
+            await enter(lab, state)
+            code = int(text, 16)
+            lab.check("P104-FSM-01", f"{text} in {state}", await lab.host.command(code), status)
+            if code == 0x86:
+                await lab.host.data(0x0F)
+                await lab.bench.clocks(2)
+                lab.check("P104-FSM-01", f"auxo in {state}", lab.bench.level("auxo"), 0)
+            elif code in (0xC0, 0xC1):
+                await lab.bench.clocks(2)
+                on = code == 0xC1 or state in MOVING
+                lab.check("P104-BAD-21", f"aux_n after {text} in {state}", lab.bench.level("aux_n"), 1 - on)
+        await enter(lab, state)
+        stray = 0xE4 if state in MOVING else 0xB0
+        lab.check("P104-FSM-01", f"stray data in {state}", await lab.host.data(0x42), stray)
+
+
+@cocotb.test()
+@verifies("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
+async def p104_fsm_01_stops(dut):
+    """Given each state, when the two stops come, then stop, flag, error or nothing as the table says."""
+    lab = await Lab.start(dut, None)
+    for state in ("UNINIT", "READY"):
+        for code in (0x40, 0x41):
+            await enter(lab, state)
+            lab.check("P104-STP-02", f"{code:#x} in {state}", await lab.host.command(code), 0x80)
+            lab.check("P104-STP-02", "hold", lab.bench.level("hold"), 1)
+    for state in MOVING:
+        await enter(lab, state)
+        status = await lab.host.command(0x40)
+        lab.check("P104-FSM-01", f"ERR of 0x40 in {state}", status & ERR, 0)
+        if state.startswith("FIN"):
+            lab.check("P104-STP-08", f"0x40 in {state}: still BUSY", status, BUSY)
+            await lab.result("P104-STP-08", 1, 0x84 if state in CONSTANT else 0x83, 0)
+        else:
+            await lab.idle()
+            lab.check("P104-STP-01", f"finish bits 7, 6 in {state}", await lab.finish() & 0xF8, 0xC0)
+    for state in MOVING:
+        await enter(lab, state)
+        status = await lab.host.command(0x41)
+        if state in ("DEC", "DEC natural", "FIN ramp"):
+            lab.check("P104-STP-04", f"0x41 in {state}", status, 0xF4)
+        elif state == "FIN constant":
+            lab.check("P104-STP-08", f"0x41 in {state}", status, BUSY)
+            await lab.result("P104-STP-08", 1, 0x84, 0)
+        elif state in CONSTANT:
+            lab.check("P104-STP-05", f"ERR of 0x41 in {state}", status & ERR, 0)
+            await lab.idle()
+            lab.check("P104-STP-05", f"finish status in {state}", await lab.finish(), 0xC4)
+        else:
+            lab.check("P104-STP-03", f"0x41 in {state}", status, BUSY)
+            lab.check("P104-STP-04", f"second 0x41 in {state}", await lab.host.command(0x41), 0xF4)
+
+
+@cocotb.test()
+@verifies("P104-FSM-01", "P104-OPR-12", "P104-BAD-12", "P104-CMD-04")
+async def p104_fsm_01_parameters_of_refused_operations(dut):
+    """Given a move, when a second operation with its parameters comes, then error 1, error 6s and no harm."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 8, rate=99)
+    await lab.pulse(1)
+    got = await lab.statuses("c 43 d 01 d 00 d 00 c 4C d 09 d 01 d 00 d 00 c 0A d 01 c C6")
+    lab.check("P104-BAD-12", "statuses", got, [0x94, *[0xE4] * 3, 0x94, *[0xE4] * 4, 0x94, 0xE4, 0x94])
+    await lab.result("P104-OPR-12", 8, 0x84, 0)
+    lab.check_train("P104-OPR-12", [99] * 7)
+
+
+@cocotb.test()
+@verifies("P104-FSM-03", "P104-AUX-02")
+async def p104_fsm_03_parameter_across_the_end(dut):
+    """Given 0x86 taken in a move, when its data comes after the end, then it is still the parameter."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 2, rate=99)
+    lab.check("P104-FSM-03", "status of 0x86", await lab.host.command(0x86), 0x14)
+    await lab.idle()
+    lab.check("P104-FSM-03", "NUM after the end", await lab.host.status(), 0x10)
+    lab.check("P104-FSM-03", "status of the data", await lab.host.data(0x0C), 0x00)
+    await lab.bench.clocks(2)
+    lab.check("P104-FSM-03", "auxo", lab.bench.level("auxo"), 0x3)
+    lab.check("P104-FSM-03", "one byte only", await lab.status_after(0x00, DATA), 0xB0)

@@ -1,0 +1,321 @@
+"""Status register, error numbers and the handshake (P104-STA, P104-ERR, P104-HSK)."""
+
+from __future__ import annotations
+
+import cocotb
+from cocotb_tests.common.bus import BUSY, COMMAND, DATA, IBF, OBF
+from cocotb_tests.common.config import D16, F16, F100, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A, INIT_B
+from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab
+from .states import enter
+
+LONGEST_BUILD = (0x0A, 255, 0, 11220)
+
+
+@cocotb.test()
+@verifies("P104-STA-01", "P104-STA-02", "P104-STA-03", "P104-STA-04", "P104-STA-05", "P104-GEN-01")
+async def p104_sta_01_status_bits(dut):
+    """Given bytes, reads and a motion, when status is read, then each bit shows its own condition only."""
+    lab = await Lab.start(dut, None)
+    host, check = lab.host, lab.check
+    check("P104-STA-07", "status after reset", await host.status(), 0x00)
+    check("P104-STA-05", "NUM through a switching command", await lab.statuses("c 84 d 10 d 20"), [0x20, 0x10, 0x00])
+    await host.command(0x81)
+    check("P104-STA-02", "OBF while a byte is unread", await host.status(), OBF)
+    await host.read(DATA)
+    check("P104-STA-02", "OBF after the read", await host.status(), 0x00)
+    check("P104-STA-05", "ERR with number 2", await host.command(0x42), 0xA0)
+    await host.init(*LONGEST_BUILD)
+    await host.command(0x80, poll=False)
+    check("P104-STA-03", "IBF, and BUSY = 0 while initialising", await host.status(), IBF)
+    await host.poll(IBF, 0)
+    await host.read_data()
+    await lab.init(*INIT_A)
+    await lab.go(0x44, 3, rate=99)
+    check("P104-STA-04", "BUSY in START", await host.status(), BUSY)
+    await lab.busy_until(lambda: lab.bench.level("int_n") == 0, "P104-STA-04")
+    check("P104-STA-04", "BUSY after the end", await host.status(), 0x00)
+    await lab.go(0x43, 40)
+    await lab.busy_until(lambda: len(lab.bench.rises("pout_n", lab.since)) == 40, "P104-STA-04")
+    await lab.bench.clocks(6)
+    check("P104-STA-04", "BUSY after the ramp", await host.status(), 0x00)
+
+
+@cocotb.test()
+@verifies("P104-STA-06", "P104-ERR-00", "P104-ERR-03", "P104-STA-05")
+async def p104_sta_06_errors_replace(dut):
+    """Given every error number in turn, when bytes follow, then the field is that of the last byte taken."""
+    lab = await Lab.start(dut, None)
+    got = await lab.statuses("c 00 c 42 d 00 c 40 c 0A d 09 d 04 d C0 d FF d 00 c 0A d 04 d 09 d 04 d 00 c 86 d 00")
+    expected = [0x80, 0xA0, 0xB0, 0x80, 0x40, 0x30, 0x20, 0x10, 0xC0, 0xB0, 0x40, 0x30, 0x20, 0x10, 0xD0, 0x10, 0x00]
+    lab.check("P104-ERR-00", "statuses at rest", got, expected)
+    await lab.init(*INIT_A)
+    await lab.go(0x43, 40)
+    await lab.pulse(6)
+    got = await lab.statuses("c 42 d 00 c 87 c 41 c 41 c C2")
+    lab.check("P104-ERR-00", "statuses while BUSY", got, [0x94, 0xE4, 0x84, 0x04, 0xF4, 0x04])
+    await lab.idle()
+    before = await lab.host.command(0x87)
+    reads = [await lab.host.status() for _ in range(4)]
+    reads += [await lab.host.read(DATA), await lab.host.status()]
+    lab.check("P104-STA-06", "reading changes nothing", (before, reads[:4], reads[5]), (0x80, [0x80] * 4, 0x80))
+    lab.check("P104-STA-06", "a good byte clears ERR", await lab.host.command(0xC2), 0x00)
+    await lab.host.command(0x87)
+    await lab.bench.reset()
+    await lab.bench.clocks(6)
+    lab.check("P104-STA-06", "reset clears ERR", await lab.host.status(), 0x00)
+
+
+@cocotb.test()
+@verifies("P104-ERR-01")
+async def p104_err_01_check_order(dut):
+    """Given commands with several faults, when checked, then the order is undefined, stop at rest, BUSY, init, 7."""
+    lab = await Lab.start(dut, None)
+    for code, status in ((0xC4, 0x80), (0x00, 0x80), (0x40, 0x80), (0x46, 0xA0), (0xC6, 0xA0)):
+        lab.check("P104-ERR-01", f"{code:#x}, not initialised", await lab.host.command(code), status)
+    for state, code, status in (
+        ("DEC", 0xC4, 0x84),
+        ("DEC", 0x42, 0x94),
+        ("DEC", 0x41, 0xF4),
+        ("DEC natural", 0x41, 0xF4),
+        ("FIN ramp", 0x41, 0xF4),
+        ("FIN constant", 0x41, 0x04),
+        ("FIN ramp", 0x46, 0x94),
+        ("FIN ramp", 0xC7, 0x84),
+        ("READY", 0x41, 0x80),
+    ):
+        await enter(lab, state)
+        lab.check("P104-ERR-01", f"{code:#x} in {state}", await lab.host.command(code), status)
+
+
+@cocotb.test()
+@verifies("P104-ERR-02", "P104-INI-03")
+async def p104_err_02_init_checks(dut):
+    """Given illegal values, when the 4th byte is taken, then error 4 goes before 5, and not earlier."""
+    lab = await Lab.start(dut, None)
+    cases = {(5, 6, 100): 0xD0, (0, 255, 11220): 0xD0, (9, 4, 3): 0xD0, (9, 4, 0): 0xD0, (9, 4, 11221): 0xC0}
+    cases |= {(9, 4, 0xFFFF): 0xC0, (5, 6, 11221): 0xC0, (5, 6, 3): 0xD0, (255, 255, 4): 0, (0, 0, 11220): 0}
+    for (rl, rh, pa), status in cases.items():
+        got = [await lab.status_after(0x0A)]
+        got += [await lab.status_after(byte, DATA) for byte in (rl, rh, pa & 0xFF, pa >> 8)]
+        lab.check("P104-ERR-02", f"statuses of {(rl, rh, pa)}", got, [0x40, 0x30, 0x20, 0x10, status])
+
+
+@cocotb.test()
+@verifies("P104-ERR-03", "P104-BAD-01", "P104-BAD-02")
+async def p104_err_03_faulty_bytes_are_harmless(dut):
+    """Given a motion with INT pending, when faulty bytes rain, then pulses, INT, outputs and queue stay."""
+    lab = await Lab.start(dut, INIT_B)
+    await lab.move(0x42)
+    await lab.host.command(0x83)
+    await lab.go(0x43, 30)
+    since = lab.bench.now
+    while len(lab.pulses) < 29:
+        for byte, reg, status in ((0x87, 1, 0x85), (0x43, 1, 0x95), (0x77, 0, 0xE5), (0x83, 1, 0x95), (0xFF, 1, 0x85)):
+            lab.check("P104-ERR-03", f"status after {byte:#x}", await lab.status_after(byte, reg), status)
+        await lab.bench.clocks(200)
+    await lab.idle()
+    ramp = [19, 17, 15, 14, 12, 12, 11, 10, 10, 9, *[9] * 9, 9, 10, 10, 11, 12, 12, 14, 15, 17, 19]
+    lab.check_train("P104-ERR-03", ramp)
+    for name in ("int_n", "aux_n", "auxo", "dir", "hold"):
+        lab.check("P104-ERR-03", f"edges of {name}", lab.bench.edges(name, since), [])
+    lab.check("P104-ERR-03", "queue", [await lab.host.read_data() for _ in range(3)], [0, 0, 0])
+    for byte, reg, status in ((0x87, 1, 0x80), (0x77, 0, 0xB0), (0x40, 1, 0x80), (0x00, 1, 0x80)):
+        lab.check("P104-ERR-03", f"status at rest after {byte:#x}", await lab.status_after(byte, reg), status)
+    lab.check("P104-ERR-03", "int_n", lab.bench.edges("int_n", since), [])
+    await lab.result("P104-ERR-03", 30, 0x83, 0)
+
+
+@cocotb.test()
+@verifies("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
+async def p104_hsk_04_table_build_window(dut):
+    """Given the longest ramp table, when bytes come in its window, then they wait, and only the newest is taken."""
+    lab = await Lab.start(dut, None)
+    last = 0
+    for bytes_in in ([], [(1, 0xC1)], [(1, 0xC1), (1, 0xC2), (1, 0x86)], [(1, 0x87), (0, 0x55)]):
+        await lab.host.send(0x0A, [255, 0, 11220 & 0xFF])
+        edge0 = await lab.host.data(11220 >> 8, poll=False)
+        await lab.host.poll(IBF, 0)
+        for reg, byte in bytes_in or [(1, 0xC2)]:
+            last = byte if reg else 0
+            await lab.host.write(reg, byte)
+        waited = 0
+        while (status := await lab.host.status()) & IBF:
+            lab.check("P104-HSK-04", "status in the window", status, IBF)
+            waited = lab.bench.now - edge0
+            await lab.bench.clocks(50)
+        lab.window("P104-HSK-04", "length of the window", waited, 100, 40_000 + C_EVENT_LATEST + 8)
+        expected = {0xC1: 0x00, 0xC2: 0x00, 0x86: 0x10, 0: 0xB0}[last]
+        lab.check("P104-FSM-02", f"status after {bytes_in}", status, expected)
+    await lab.bench.clocks(4)
+    lab.check("P104-HSK-02", "aux_n: C1 of the second run, C2 of the third lost", lab.bench.level("aux_n"), 0)
+
+
+@cocotb.test()
+@verifies("P104-HSK-02", "P104-BAD-06")
+@configs(F16, F100)
+async def p104_hsk_02_replacement(dut):
+    """Given two writes 3 to 16 clk apart, when they meet a C-event, then the second is kept and none is doubled."""
+    lab = await Lab.start(dut, None)
+    first_seen = []
+    for gap in range(1, 15):
+        await lab.host.command(0xC2)
+        await lab.host.write(COMMAND, 0xC1, gap=gap)
+        await lab.host.write(COMMAND, 0x86)
+        await lab.bench.clocks(16)
+        lab.check("P104-HSK-02", f"second byte, gap {gap}", await lab.host.status(), 0x10)
+        first_seen.append(1 - lab.bench.level("aux_n"))
+    lab.check("P104-HSK-02", "first byte taken, per gap", first_seen, sorted(first_seen))
+    lab.check("P104-HSK-01", "first byte taken from gap 6 on", first_seen[5:], [1] * 9)
+    counts = []
+    for gap in range(1, 15):
+        # Both bytes are data: the flag that goes with the byte is replaced too.
+        await lab.host.command(0x84)
+        await lab.host.write(COMMAND, 0x86, gap=gap)
+        await lab.host.write(DATA, 0x0F)
+        await lab.bench.clocks(16)
+        counts.append((await lab.host.status(), lab.bench.level("auxo")))
+        await lab.host.send(0x86, [0x00])
+        await lab.bench.clocks(2)
+    lab.check("P104-HSK-02", "kinds of outcome", set(counts) <= {(0x10, 0xF), (0x00, 0x0)}, True)
+    lab.check("P104-HSK-02", "command taken before its data, late gaps", counts[5:], [(0x00, 0x0)] * 9)
+
+
+@cocotb.test()
+@verifies("P104-HSK-02", "P104-DS-02")
+@configs(D16)
+async def p104_hsk_02_replacement_when_closed(dut):
+    """Given a closed mailbox, when command and data bytes replace each other, then only the last counts."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 2, rate=50)
+    last = await lab.pulse(2)
+    for reg, byte in ((1, 0xC1), (0, 0x00), (1, 0x86), (0, 0x0F), (1, 0x81)):
+        await lab.host.write(reg, byte)
+    lab.check("P104-HSK-01", "status while closed", await lab.host.status() & IBF, IBF)
+    status = await lab.host.poll(IBF, 0, dense=1000)
+    lab.check("P104-HSK-02", "status after", status, OBF)
+    lab.window("P104-DS-07", "time of the C-event", lab.bench.now - last, 2496, 2530)
+    lab.check("P104-HSK-02", "0x81", await lab.host.read_data(), 0xCF)
+    lab.check("P104-HSK-02", "aux pins", (lab.bench.edges("aux_n"), lab.bench.edges("auxo")), ([], []))
+
+
+@cocotb.test()
+@verifies("P104-HSK-03", "P104-GEN-07", "P104-OPR-01")
+@configs(F16, F100)
+async def p104_hsk_03_all_on_one_edge(dut):
+    """Given the OFF phase of the chopper, when a CCW step starts, then hold, dir and s move on one edge."""
+    lab = await Lab.start(dut, (0x2A, 9, 4, 4))
+    await lab.bench.edge("s", 0)
+    await lab.bench.clocks(20)
+    edge0 = await lab.go(0x4A, poll=False)
+    await lab.bench.clocks(8)
+    status = await lab.host.status()
+    await lab.pulse(1)
+    edges = {name: lab.bench.edges(name, edge0) for name in ("hold", "dir", "s")}
+    started = edges["hold"][0][0]
+    expected = {"hold": [(started, 0)], "dir": [(started, 1)], "s": [(started, 0b00011), (lab.pulses[0], 0b01001)]}
+    lab.check("P104-HSK-03", "edges of the start", edges, expected)
+    lab.window("P104-HSK-03", "edge 0 to pins", started - edge0, WRITE_EVENT, C_EVENT_LATEST + 2)
+    lab.check("P104-HSK-03", "status with IBF = 0", status, BUSY)
+    await lab.idle()
+    for code, pin in ((0xC1, "aux_n"), (0x80, "int_n")):
+        edge0 = await lab.host.write(COMMAND, code)
+        await lab.bench.clocks(12)
+        lab.window("P104-HSK-03", f"edge 0 to {pin}", lab.bench.edges(pin, edge0)[0][0] - edge0, 2, 12)
+    await lab.host.read_data()
+    await lab.host.command(0x86)
+    edge0 = await lab.host.write(DATA, 0x0F)
+    await lab.bench.clocks(12)
+    lab.check("P104-AUX-02", "auxo: all four at once", [v for _, v in lab.bench.edges("auxo", edge0)], [0])
+
+
+@cocotb.test()
+@verifies("P104-HSK-05", "P104-STA-02", "P104-RD-07")
+@configs(F16, F100)
+async def p104_hsk_05_output_queue(dut):
+    """Given a 3-byte read, when data reads follow at any distance, then OBF goes, comes and never lies."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x45, rate=9)
+    await lab.pulse(2, 50)
+    await lab.host.command(0x40)
+    await lab.idle()
+    for gap in range(1, 9):
+        for length in (4, 5, 8):
+            await lab.host.command(0x83)
+            got = []
+            for _ in range(3):
+                await lab.host.poll(OBF, OBF)
+                got.append(await lab.host.read(DATA, strobe=length, gap=gap))
+                soon = await lab.host.read(1)
+                if gap >= 7:
+                    # 2 clk to the clearing edge, 4 more to the next byte.
+                    lab.check("P104-HSK-05", "OBF 8 clk after the read", soon & OBF, int(len(got) < 3))
+            lab.check("P104-HSK-05", f"bytes, gap {gap}, strobe {length}", got, [0xFD, 0xFF, 0xFF])
+            lab.check("P104-HSK-05", "OBF after the third byte", await lab.host.status() & OBF, 0)
+    await lab.host.command(0x81)
+    for gap in (1, 2, 3):
+        await lab.host.command(0x81)
+        await lab.host.read(DATA, gap=gap)
+        lab.check("P104-HSK-05", f"OBF of a read byte, gap {gap}", await lab.host.status() & OBF, 0)
+
+
+@cocotb.test()
+@verifies("P104-HSK-06", "P104-BAD-07")
+async def p104_hsk_06_empty_read(dut):
+    """Given OBF = 0, when the data register is read, then the last byte comes and nothing changes."""
+    lab = await Lab.start(dut, INIT_A)
+    lab.check("P104-HSK-06", "before any byte", await lab.host.read(DATA), 0x00)
+    await lab.host.fetch(0x81)
+    await lab.host.command(0x43)
+    got = [await lab.host.read(DATA) for _ in range(3)] + [await lab.host.status()]
+    lab.check("P104-HSK-06", "stale bytes and status", got, [0xCF, 0xCF, 0xCF, 0x30])
+    lab.bench.set(alm_n=0)
+    await lab.bench.clocks(8)
+    lab.check("P104-HSK-06", "stale byte does not follow pins", await lab.host.read(DATA), 0xCF)
+
+
+@cocotb.test()
+@verifies("P104-HSK-07", "P104-BAD-03", "P104-BAD-04", "P104-INI-02")
+async def p104_hsk_07_cancel(dut):
+    """Given half-entered commands, when any command comes, then they are dropped and it is judged alone."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.host.send(0x43, [0x09])
+    await lab.bench.clocks(40_000)
+    lab.check("P104-BAD-03", "NUM after a long silence", await lab.host.status(), 0x20)
+    for code, status in ((0x40, 0x80), (0x41, 0x80), (0xC2, 0x00), (0x87, 0x80), (0x00, 0x80), (0x84, 0x20), (0x44, 0x40)):
+        for half in ((0x43, [1, 2]), (0x0A, [1, 1, 4]), (0x84, [1]), (0x86, []), (0x44, [1, 2, 3])):
+            await lab.host.send(*half)
+            lab.check("P104-HSK-07", f"{code:#x} after {half}", await lab.host.command(code), status)
+            if status & 0x80 or not status:
+                lab.check("P104-HSK-07", "a late byte is not expected", await lab.host.data(0), 0xB0)
+    await lab.host.send(0x44, [9, 1, 0, 0])
+    await lab.result("P104-HSK-07", 2, 0x84, 0)
+    lab.check("P104-HSK-07", "old init still valid: interval", lab.bench.intervals(), [320])
+    await lab.go(0x44, 3, rate=99)
+    await lab.host.command(0x86)
+    lab.check("P104-HSK-07", "faulty command cancels 0x86", await lab.host.command(0x42), 0x94)
+    lab.check("P104-HSK-07", "its data is error 6", await lab.host.data(0x0F), 0xE4)
+    lab.check("P104-HSK-07", "auxo", lab.bench.edges("auxo"), [])
+
+
+@cocotb.test()
+@verifies("P104-HSK-08", "P104-BAD-22")
+async def p104_hsk_08_queue_stays(dut):
+    """Given unread bytes, when other commands and motions run, then only an executed read command replaces them."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.move(0x44, 2, rate=9)
+    await lab.host.command(0x80)
+    for code in (0x87, 0x40, 0xC1, 0xC2, 0x43, 0xC0):
+        await lab.host.command(code)
+        lab.check("P104-HSK-08", f"OBF after {code:#x}", await lab.host.status() & OBF, OBF)
+    await lab.init(*INIT_A)
+    await lab.go(0x44, 3, rate=50)
+    lab.check("P104-HSK-08", "a read while BUSY", await lab.host.command(0x81), 0x95)
+    lab.check("P104-HSK-08", "byte read during BUSY", await lab.host.read_data(), 0x84)
+    await lab.idle()
+    await lab.host.command(0x83)
+    await lab.host.command(0x82)
+    lab.check("P104-HSK-08", "byte of the newer command", await lab.host.read_data(), 0x90)
+    lab.check("P104-HSK-08", "queue is empty", await lab.host.status() & OBF, 0)

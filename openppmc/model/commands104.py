@@ -1,0 +1,206 @@
+"""Command processor of the PPMC-104 model: what each byte does, and which error it makes.
+
+Errors and their order: P104-ERR-00..03, P104-STA-05/06, P104-FSM-01..03. Parameters: P104-HSK-07.
+Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary: P104-AUX-01..06,
+P104-DS-11.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .chopper104 import Chopper
+from .codes104 import BUSY, ERR, FINISH_NEW, PA_MAX, PA_MIN, Command, Error, Kind, decode
+from .excitation import Excitation
+from .guard104 import input_register
+from .hostport104 import HostPort
+from .motion104 import Motion, Setup
+from .parts104 import Context, Phase
+from .ramp import Ramp
+
+_DS_PATTERN = 704
+_DS_AUX, _DS_EXCITATION_OFF = 224, 288
+_WHILE_BUSY = (
+    Kind.STOP,
+    Kind.SLOW_STOP,
+    Kind.AUX_ON,
+    Kind.AUX_OFF,
+    Kind.AUX_OUTPUT,
+    Kind.EXCITATION_OFF,
+)
+
+
+class CommandUnit:
+    """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
+
+    def __init__(
+        self, context: Context, port: HostPort, motion: Motion, excitation: Excitation, chopper: Chopper
+    ) -> None:
+        self._context = context
+        self._port = port
+        self._motion = motion
+        self._excitation = excitation
+        self._chopper = chopper
+        self.reset()
+
+    def reset(self) -> None:
+        """UNINIT, no error, nothing expected."""
+        self.error: Error | None = None
+        self.setup: Setup | None = None
+        self._pending: Command | None = None
+        self._data: list[int] = []
+        self._auxo = 0b1111
+
+    @property
+    def expected(self) -> int:
+        """Parameter bytes still to come for the current command."""
+        return self._pending.parameters - len(self._data) if self._pending else 0
+
+    def state(self) -> int:
+        """ERR, NUM and BUSY as they stand in the status register (P104-STA-04..06)."""
+        field = self.expected << 4 if self.error is None else ERR | self.error << 4
+        return field | (BUSY if self._motion.busy else 0)
+
+    def take(self, t: int, byte: int, command: bool, reference: int) -> None:
+        """C-event at edge t."""
+        self.error = self._command(t, byte, reference) if command else self._parameter(t, byte, reference)
+
+    # ------------------------------------------------------------------ command bytes
+
+    def _command(self, t: int, byte: int, reference: int) -> Error | None:
+        """A command byte; drops what an earlier one still asked for (P104-HSK-07). Returns its error."""
+        self._pending, self._data = None, []
+        command = decode(byte)
+        error = self._refusal(command)
+        if error is not None:
+            return error
+        if command.parameters:
+            self._pending = command
+        else:
+            self._execute(t, command, reference)
+        return None
+
+    def _refusal(self, command: Command) -> Error | None:
+        """Checks in the order of P104-ERR-01."""
+        motion, kind = self._motion, command.kind
+        if kind is Kind.UNDEFINED:
+            return Error.UNDEFINED
+        if kind in (Kind.STOP, Kind.SLOW_STOP) and not motion.busy:
+            return Error.UNDEFINED
+        if motion.busy and kind not in _WHILE_BUSY:
+            return Error.NOT_WHILE_BUSY
+        if kind is Kind.OPERATION and self.setup is None:
+            return Error.NOT_INITIALISED
+        if kind is Kind.SLOW_STOP and motion.is_ramp and (motion.decelerating or motion.finishing):
+            return Error.ALREADY_DECELERATING
+        return None
+
+    def _parameter(self, t: int, byte: int, reference: int) -> Error | None:
+        """A data byte; the last one a command asks for executes it (P104-FSM-03). Returns its error."""
+        if self._pending is None:
+            return Error.UNASKED_DATA_BUSY if self._motion.busy else Error.UNASKED_DATA
+        self._data.append(byte)
+        if self.expected:
+            return None
+        command, data = self._pending, self._data
+        self._pending, self._data = None, []
+        if command.kind is Kind.INITIALISE:
+            return self._initialise(t, command.code, data, reference)
+        self._execute(t, command, reference, data)
+        return None
+
+    def _execute(self, t: int, command: Command, reference: int, data: list[int] | None = None) -> None:
+        data = data or []
+        kind = command.kind
+        if kind is Kind.OPERATION:
+            assert self.setup is not None
+            self._motion.start(t, command, data, self.setup, reference)
+        elif kind is Kind.STOP or (kind is Kind.SLOW_STOP and not self._motion.is_ramp):
+            self._motion.stop(t)
+        elif kind is Kind.SLOW_STOP:
+            self._motion.slow_stop(t, reference)
+        elif kind is Kind.READ:
+            self._port.answer(self._register(t, command.code))
+        elif kind is Kind.SWITCHING:
+            self._chopper.set_parameters(*data)
+        elif kind is Kind.AUX_OUTPUT:
+            level = ~data[0] & 0xF
+            self._later(t, reference, _DS_AUX, lambda at: self._context.drive(at, "auxo", level))
+        elif kind is Kind.EXCITATION_OFF and not self._motion.busy:
+            self._later(t, reference, _DS_EXCITATION_OFF, self._excitation_off)
+        else:
+            level = int(kind is Kind.AUX_OFF)
+            self._later(t, reference, _DS_AUX, lambda at: self._context.drive(at, "aux_n", level))
+
+    def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
+        """Now in FAST; in DATASHEET after so many XTAL cycles with the mailbox closed (P104-DS-11)."""
+        if not self._context.datasheet:
+            action(t)
+            return
+        at = reference + self._context.timebase.cyc(cycles)
+        self._port.close_until(at)
+        self._context.queue.at(at, Phase.BEGIN, action)
+
+    def _excitation_off(self, t: int) -> None:
+        """Software reset (P104-AUX-04, -06)."""
+        self._chopper.stop()
+        self._excitation.off()
+        self.setup = None
+
+    # ------------------------------------------------------------------ registers
+
+    def _register(self, t: int, code: int) -> list[int]:
+        """Bytes of a read command, sampled at edge t (P104-RD-02..08)."""
+        motion, levels = self._motion, self._context.levels
+        if code == 0x80:
+            value = motion.finish
+            motion.finish &= ~FINISH_NEW
+            self._context.drive(t, "int_n", 1)
+            return [value]
+        if code == 0x81:
+            return [input_register(levels)]
+        if code == 0x82:
+            pins, pattern = self._context.log.levels, self._excitation.pattern
+            phases = sum((pattern >> i & 1) << (7 - i) for i in range(5))
+            return [phases | pins["hold"] << 2 | pins["dir"] << 1]
+        if code == 0x83:
+            return list(motion.remaining.to_bytes(3, "little"))
+        return [levels["auxi"]]
+
+    # ------------------------------------------------------------------ initialisation
+
+    def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
+        """Fourth byte of an initialisation: check, store, begin the table build (P104-INI-05..08)."""
+        rl, rh = data[0], data[1]
+        pa = data[2] | data[3] << 8
+        if pa > PA_MAX:
+            return Error.PA_TOO_LARGE
+        if rh > rl or pa < PA_MIN:
+            return Error.BAD_RAMP
+        context = self._context
+        if self.setup is None:
+            phases, half, positive = (code & 3) + 2, bool(code & 4), bool(code & 8)
+
+            def show(at: int) -> None:
+                self._excitation.configure(phases, half, positive)
+
+            if context.datasheet:
+                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, show)
+            else:
+                show(t)
+        self.setup = Setup(Ramp(rl, rh, pa), external=bool(code & 0x10), chopping=bool(code & 0x20))
+        if context.datasheet:
+            done = reference + context.timebase.cyc(264_000 + 209 * (pa - 4))
+        else:
+            done = t + context.latency.build(rl, rh, pa)
+        self._port.close_until(done)
+        context.queue.at(done, Phase.BEGIN, self._complete)
+        return None
+
+    def _complete(self, t: int) -> None:
+        """End of the table build: S takes effect (P104-INI-07, -08)."""
+        assert self.setup is not None
+        if self.setup.chopping:
+            self._chopper.start(t)
+        else:
+            self._chopper.stop()

@@ -1,0 +1,71 @@
+"""Prediction of one move from its initialisation bytes: pulse times and speeds, for plots and tables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .codes104 import PA_MAX, PA_MIN
+from .ramp import BaseClock, Ramp, profile_index
+from .timebase import Timebase
+
+
+@dataclass(frozen=True)
+class Move:
+    """A predicted move. `clk[j]` is pulse j+1 in clk after pulse 1; `indices`, `rates`, `quanta` belong
+    to its intervals (indices is empty for constant speed)."""
+
+    timebase: Timebase
+    clk: tuple[int, ...]
+    indices: tuple[int, ...]
+    rates: tuple[int, ...]
+    quanta: tuple[int, ...]
+
+    @property
+    def seconds(self) -> list[float]:
+        """Pulse times in s after pulse 1."""
+        return [self.timebase.seconds(t) for t in self.clk]
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speed of each interval in pulses per second."""
+        return [self.timebase.xtal_hz / (4 * q) for q in self.quanta]
+
+    @property
+    def intervals(self) -> list[int]:
+        """Length of each interval in clk."""
+        return [b - a for a, b in zip(self.clk, self.clk[1:], strict=False)]
+
+
+def predict_move(
+    init: bytes,
+    n: int,
+    rate: int | None = None,
+    csel: int = 1,
+    vsel: int = 1,
+    timebase: Timebase | None = None,
+) -> Move:
+    """Undisturbed move of n pulses with the internal clock.
+
+    init: the four initialisation bytes RL, RH, PA low, PA high. rate: None for an acceleration /
+    deceleration move, else the rate of a constant-speed move. Raises ValueError for bytes that the part
+    refuses and for n outside 1..2^24.
+    """
+    if len(init) != 4:
+        raise ValueError(f"an initialisation has 4 data bytes, not {len(init)}")
+    rl, rh, pa = init[0], init[1], init[2] | init[3] << 8
+    if rh > rl or not PA_MIN <= pa <= PA_MAX:
+        raise ValueError(f"refused initialisation: RL {rl}, RH {rh}, PA {pa}")
+    if not 1 <= n <= 1 << 24:
+        raise ValueError(f"{n} pulses")
+    if rate is not None and not 0 <= rate <= 255:
+        raise ValueError(f"rate {rate}")
+    timebase = timebase or Timebase()
+    clock, ramp = BaseClock.of_pins(csel, vsel), Ramp(rl, rh, pa)
+    indices = tuple(profile_index(n, pa, j) for j in range(1, n)) if rate is None else ()
+    rates = tuple(ramp.rate(k) for k in indices) if rate is None else (rate,) * (n - 1)
+    quanta = tuple(clock.quanta(r) for r in rates)
+    ticks, clk = 0, [0]
+    for q in quanta:
+        ticks += q
+        clk.append(timebase.tick(ticks))
+    return Move(timebase, tuple(clk), indices, rates, quanta)

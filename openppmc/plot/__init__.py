@@ -1,0 +1,1 @@
+"""Plots of what a part did: pictures made from edge lists, with matplotlib."""

@@ -1,0 +1,71 @@
+"""Redraw the pictures of docs/: WaveDrom JSON and plots to docs/img/, computed tables into the manual.
+
+``python scripts/docs.py`` (or ``make docs``) writes; ``--check`` writes nothing, lists what is stale and
+exits with 1 if anything is. The files are the same byte for byte on each run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from scripts.pictures import plots, tables, waves  # noqa: E402
+from scripts.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
+
+IMAGES = DOCS / "img"
+MANUAL = DOCS / "ppmc104.md"
+
+
+def wanted() -> dict[Path, bytes]:
+    """Path and content of every generated file of docs/."""
+    files: dict[Path, bytes] = {}
+    for source in sorted((DOCS / "wavedrom").glob("*.json")):
+        try:
+            files[IMAGES / f"{source.stem}.svg"] = waves.render(source)
+        except ValueError as error:
+            raise ProjectError(str(error)) from None
+    for name in plots.PLOTS:
+        files[IMAGES / f"{name}.svg"] = plots.render(name)
+    manual = MANUAL.read_text(encoding="utf-8")
+    files[MANUAL] = replace_between(manual, "speed-table", tables.speed_table()).encode()
+    return files
+
+
+def stale(files: dict[Path, bytes]) -> list[Path]:
+    """Generated files that are missing or differ, and pictures of a part that have lost their source."""
+    changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
+    parts = {path.stem.split("_")[0] for path in files if path.parent == IMAGES}
+    kept = [path for part in sorted(parts) for path in sorted(IMAGES.glob(f"{part}_*.svg"))]
+    return changed + [path for path in kept if path not in files]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="docs", description="Redraw the pictures of docs/.")
+    parser.add_argument("--check", action="store_true", help="change nothing, fail if something is stale")
+    check = parser.parse_args(arguments).check
+    try:
+        files = wanted()
+    except ProjectError as error:
+        return fail(str(error))
+    found = stale(files)
+    for path in found:
+        console.print(f"{'stale' if check else 'written' if path in files else 'removed'}: {relative(path)}")
+    if check:
+        console.print(f"{len(files)} generated files, {len(found)} stale")
+        return 1 if found else 0
+    IMAGES.mkdir(exist_ok=True)
+    for path in found:
+        if path in files:
+            path.write_bytes(files[path])
+        else:
+            path.unlink()
+    console.print(f"{len(files)} generated files, {len(found)} changed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
