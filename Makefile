@@ -70,7 +70,7 @@ synth: $(DEV) ## cells and clock rate of PART=ppmc104 on iCE40 and ECP5, into do
 	@$(PY) -m scripts.synth --part $(PART)
 
 bench: $(SIM) ## clk cycles per second of RTL and golden model, into docs/benchmarks.md
-	@$(PY) -m scripts.bench
+	@$(PY) -m scripts.bench --part $(PART)
 
 trace: $(SIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)

@@ -1,7 +1,7 @@
 """Make the virtual environment .venv from the pinned requirement files, with a progress line.
 
-Started by the Makefile with a Python that is new enough: ``python scripts/bootstrap.py requirements-sim.txt …``.
-Only the standard library is used, because nothing else is there yet.
+Started by the Makefile with a Python that is new enough: ``python scripts/bootstrap.py requirements-sim.txt
+…``. Only the standard library is used, because nothing else is there yet.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ class Progress:
         """Show `done` of the total, and what is being worked on."""
         seconds = time.monotonic() - self.begin
         filled = 20 * min(done, self.total) // self.total
-        line = f"{self.label} [{'#' * filled}{'.' * (20 - filled)}] {done}/{self.total} {what} ({seconds:.0f} s)"
+        line = (
+            f"{self.label} [{'#' * filled}{'.' * (20 - filled)}] {done}/{self.total} {what} ({seconds:.0f} s)"
+        )
         if sys.stdout.isatty():
             width = shutil.get_terminal_size().columns - 1
             print("\r\033[K" + line[:width], end="", flush=True)
@@ -59,7 +61,9 @@ def make_venv() -> None:
         shutil.rmtree(VENV)
     progress = Progress("environment", 1)
     progress.show(0, ".venv")
-    made = subprocess.run([sys.executable, "-m", "venv", str(VENV)], capture_output=True, text=True, check=False)
+    made = subprocess.run(
+        [sys.executable, "-m", "venv", str(VENV)], capture_output=True, text=True, check=False
+    )
     if made.returncode:
         shutil.rmtree(VENV, ignore_errors=True)
         lines = (made.stderr or made.stdout).strip().splitlines() or ["no reason given"]
@@ -80,14 +84,37 @@ def install(requirements: Path) -> None:
     label = requirements.stem.replace("requirements-", "packages: ")
     progress = Progress(label, wanted(requirements))
     progress.show(0, "starting")
-    command = [str(BIN / "python"), "-m", "pip", "--disable-pip-version-check", "--no-input", "install",
-               "--retries", "2", "--timeout", "20", "--progress-bar", "off", "--no-deps", "-r", str(requirements)]  # fmt: skip
+    command = [
+        str(BIN / "python"),
+        "-m",
+        "pip",
+        "--disable-pip-version-check",
+        "--no-input",
+        "install",
+        "--retries",
+        "2",
+        "--timeout",
+        "20",
+        "--progress-bar",
+        "off",
+        "--no-deps",
+        "-r",
+        str(requirements),
+    ]
     env = {**os.environ, "PYTHONUNBUFFERED": "1", "PIP_REQUIRE_VIRTUALENV": "0"}
     reason, done = "", 0
-    with LOG.open("a") as log, subprocess.Popen(
-        command, cwd=ROOT, env=env, text=True, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-    ) as pip:  # fmt: skip
+    with (
+        LOG.open("a") as log,
+        subprocess.Popen(
+            command,
+            cwd=ROOT,
+            env=env,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        ) as pip,
+    ):
         assert pip.stdout is not None
         for line in pip.stdout:
             log.write(line)

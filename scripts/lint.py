@@ -31,7 +31,7 @@ MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA"
 
 @dataclass(frozen=True)
 class Check:
-    """One check: the tool, what it looks at, and a function that returns its findings, empty when all is well."""
+    """One check: the tool, what it looks at, and a function returning its findings (empty: all is well)."""
 
     tool: str
     target: str
@@ -43,9 +43,15 @@ def tool(*command: str, ok_output: bool = False) -> str:
     env = {key: value for key, value in os.environ.items() if key != "VERILATOR_ROOT"}
     try:
         done = subprocess.run(
-            command, cwd=project.ROOT, env=env, text=True, check=False,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            command,
+            cwd=project.ROOT,
+            env=env,
+            text=True,
+            check=False,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
     except FileNotFoundError:
         return f"{command[0]}: not installed (run `make setup`)"
     text = done.stdout.strip()
@@ -61,7 +67,16 @@ def rtl_files(*suffixes: str) -> list[str]:
 
 def python_paths() -> list[str]:
     """Folders and files that ruff looks at."""
-    return [name for name in ("openppmc", "scripts", "cocotb_tests", "tests", "conftest.py") if Path(name).exists()]
+    return [
+        name
+        for name in ("openppmc", "scripts", "cocotb_tests", "tests", "conftest.py")
+        if Path(name).exists()
+    ]
+
+
+def ruff(*arguments: str) -> str:
+    """Findings of ruff in all Python of the project."""
+    return tool(sys.executable, "-m", "ruff", *arguments, "-q", *python_paths())
 
 
 def verible_lint() -> str:
@@ -76,15 +91,19 @@ def verible_format() -> str:
 
 
 def verilator(part: project.Part, params: dict[str, int | str]) -> str:
-    """Verilator -Wall for one set of parameters; assertions are read as in simulation."""
-    settings = [f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}" for name, value in params.items()]
-    includes = [f"-I{relative(path)}" for path in project.include_dirs()]
-    sources = [relative(path) for path in project.sources(part)]
-    text = tool(
-        "verilator", "--lint-only", "--assert", "-Wall", "--timing", "--top-module", part.name,
-        *includes, *settings, "lint/verilator.vlt", *sources,
-    )  # fmt: skip
-    return "\n".join(line for line in text.splitlines() if not line.startswith("- "))  # the rest is statistics
+    """Verilator -Wall for one set of parameters, assertions as in simulation.
+
+    It goes as far as C++, because --lint-only does not see combinational loops.
+    """
+    folder = project.BUILD / "lint" / "-".join([part.name, *map(str, params.values())])
+    folder.mkdir(parents=True, exist_ok=True)
+    command = ["verilator", "--cc", "--assert", "-Wall", "--timing", "--Mdir", relative(folder)]
+    command += ["--top-module", part.name, *(f"-I{relative(path)}" for path in project.include_dirs())]
+    for name, value in params.items():
+        command.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
+    text = tool(*command, "lint/verilator.vlt", *(relative(path) for path in project.sources(part)))
+    # What begins with a dash is statistics.
+    return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
 
 
 def slang(part: project.Part, params: dict[str, int | str]) -> str:
@@ -96,9 +115,14 @@ def slang(part: project.Part, params: dict[str, int | str]) -> str:
         "params": params,
     }
     done = subprocess.run(
-        [sys.executable, "-m", "scripts.flow.elaborate", json.dumps(job)], cwd=project.ROOT, text=True, check=False,
-        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-    )  # fmt: skip
+        [sys.executable, "-m", "scripts.flow.elaborate", json.dumps(job)],
+        cwd=project.ROOT,
+        text=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
     told = [line for line in lines if "warning:" in line.lower() or "error:" in line.lower()]
     if done.returncode and not told:
@@ -110,9 +134,17 @@ def listed() -> str:
     """Every RTL file is in rtl/files.yml, once, and every listed one exists."""
     groups = project.file_groups()
     names = [path for files in groups.values() for path in files]
-    found = [f"rtl/files.yml does not list {relative(p)}" for p in sorted(project.RTL.rglob("*.sv")) if p not in names]
-    found += [f"rtl/files.yml lists {relative(path)} twice" for path in sorted(set(names)) if names.count(path) > 1]
-    found += [f"rtl/files.yml lists {relative(path)}, which does not exist" for path in names if not path.is_file()]
+    found = [
+        f"rtl/files.yml does not list {relative(p)}"
+        for p in sorted(project.RTL.rglob("*.sv"))
+        if p not in names
+    ]
+    found += [
+        f"rtl/files.yml lists {relative(path)} twice" for path in sorted(set(names)) if names.count(path) > 1
+    ]
+    found += [
+        f"rtl/files.yml lists {relative(path)}, which does not exist" for path in names if not path.is_file()
+    ]
     known = {group for part in project.PARTS.values() for group in part.groups}
     found += [f"rtl/files.yml: group {group} belongs to no part" for group in groups if group not in known]
     return "\n".join(found)
@@ -122,8 +154,11 @@ def tracked_text() -> list[Path]:
     """Text files of the project: what git knows plus what it would add."""
     names = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-        cwd=project.ROOT, text=True, capture_output=True, check=False,
-    ).stdout.splitlines()  # fmt: skip
+        cwd=project.ROOT,
+        text=True,
+        capture_output=True,
+        check=False,
+    ).stdout.splitlines()
     paths = [project.ROOT / name for name in names]
     return [path for path in paths if path.suffix in TEXT_SUFFIXES and path.is_file()]
 
@@ -151,7 +186,9 @@ def checks() -> list[Check]:
     for part in project.PARTS.values():
         for index, clk_hz in enumerate(CLOCKS):
             for timing in ("FAST", "DATASHEET"):
-                idle = (index + (timing == "FAST")) % 2  # both levels with both timings without doubling the runs
+                idle = (
+                    index + (timing == "FAST")
+                ) % 2  # both levels with both timings without doubling the runs
                 params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing, "PHASE_IDLE": idle}
                 label = f"{part.name} {clk_hz / 1e6:g} MHz {timing} PHASE_IDLE={idle}"
                 every.append(Check("verilator -Wall", label, partial(verilator, part, params)))
@@ -160,8 +197,12 @@ def checks() -> list[Check]:
         *every,
         Check("verible-verilog-lint", "rtl/", verible_lint),
         Check("verible-verilog-format", "rtl/", verible_format),
-        Check("ruff check", "Python", lambda: tool(sys.executable, "-m", "ruff", "check", "-q", *python_paths())),
-        Check("ruff format", "Python", lambda: tool(sys.executable, "-m", "ruff", "format", "--diff", "-q", *python_paths())),
+        Check("ruff check", "Python", lambda: ruff("check", "--output-format=concise")),
+        Check(
+            "ruff format",
+            "Python",
+            lambda: ruff("format", "--check"),
+        ),
         Check("rtl/files.yml", "complete", listed),
         Check("texts", "marks, tabs, line ends", texts),
     ]
@@ -179,12 +220,14 @@ def fix() -> int:
     """Lay out RTL and Python in place."""
     problems = [
         tool("verible-verilog-format", FORMAT_FLAGS, "--inplace", *rtl_files(".sv"), ok_output=True),
-        tool(sys.executable, "-m", "ruff", "check", "-q", "--fix", "--select", "I", *python_paths()),
-        tool(sys.executable, "-m", "ruff", "format", "-q", *python_paths()),
+        ruff("check", "--output-format=concise", "--fix", "--select", "I"),
+        ruff("format"),
     ]
     for text in filter(None, problems):
         console.print(escape(text))
-    console.print("format: done" if not any(problems) else "[bold red]format: not everything could be laid out[/]")
+    console.print(
+        "format: done" if not any(problems) else "[bold red]format: not everything could be laid out[/]"
+    )
     return int(any(problems))
 
 

@@ -16,8 +16,8 @@ DOCS = ROOT / "docs"
 
 BENCHMARKS_HEAD = """# Benchmarks
 
-Figures between the markers are written by scripts: size and clock rate by `make synth PART=ppmc104`, simulation speed by
-`make bench`.
+Figures between the markers are written by scripts: size and clock rate by `make synth PART=ppmc104`,
+simulation speed by `make bench`.
 """
 
 # Logs get lines as long as they are; tables in them are not squeezed.
@@ -85,7 +85,7 @@ def fail(message: str) -> int:
 
 
 def replace_between(text: str, marker: str, body: str) -> str:
-    """Put `body` between ``<!-- marker -->`` and ``<!-- /marker -->``; append the block when it is not there."""
+    """Put `body` between ``<!-- marker -->`` and ``<!-- /marker -->``; append the block if there is none."""
     start, end = f"<!-- {marker} -->", f"<!-- /{marker} -->"
     block = f"{start}\n{body.strip()}\n{end}"
     if start in text and end in text:

@@ -1,7 +1,7 @@
 """`make synth PART=…`: how large a part is and how fast it runs on iCE40 and ECP5, and where its cells are.
 
-``--quick`` synthesizes only (seconds); without it every device is placed and routed with five seeds, the median Fmax
-is reported, build/synth/<part>.json is written and the table in docs/benchmarks.md is renewed.
+``--quick`` synthesizes only (seconds); without it every device is placed and routed with five seeds, the
+median Fmax is reported, build/synth/<part>.json is written and the table in docs/benchmarks.md is renewed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    SpinnerColumn,
+    TextColumn,
+    TimeElapsedColumn,
+)
 from rich.table import Table
 
 from scripts import project
@@ -44,8 +51,12 @@ def run_yosys(folder: Path, job: dict) -> Path:
     with log.open("w") as sink:
         done = subprocess.run(
             [sys.executable, "-m", "scripts.flow.yosys_job", str(job_file)],
-            cwd=project.ROOT, stdout=sink, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=False,
-        )  # fmt: skip
+            cwd=project.ROOT,
+            stdout=sink,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            check=False,
+        )
     if done.returncode:
         lines = [line for line in log.read_text().splitlines() if line.strip()]
         errors = [line for line in lines if "error" in line.lower()][:12] or lines[-8:]
@@ -64,7 +75,9 @@ def synthesize(folder: Path, base: dict, family: str, recipe: str) -> tuple[Brea
     return result, flat
 
 
-def synthesize_all(folder: Path, base: dict, recipes: dict[str, str]) -> tuple[dict[str, Breakdown], dict[str, Path]]:
+def synthesize_all(
+    folder: Path, base: dict, recipes: dict[str, str]
+) -> tuple[dict[str, Breakdown], dict[str, Path]]:
     """Synthesize for all families, two at a time; figures and netlists."""
     with ThreadPoolExecutor(2) as pool:
         jobs = {f: pool.submit(synthesize, folder, base, f, recipes[f]) for f in FAMILIES}
@@ -78,7 +91,12 @@ def variants(folder: Path, base: dict, recipes: dict[str, str]) -> list[dict]:
     for name, params in VARIANTS:
         counts = {"name": name}
         for family in FAMILIES:
-            job = {**base, "params": {**base["params"], **params}, "family": family, "recipe": recipes[family]}
+            job = {
+                **base,
+                "params": {**base["params"], **params},
+                "family": family,
+                "recipe": recipes[family],
+            }
             flat = run_yosys(folder / "variants", {**job, "keep": False})
             counts[family] = asdict(flat_counts(flat, base["top"], set())[0])
         rows.append(counts)
@@ -90,13 +108,24 @@ def wrapped_netlist(folder: Path, base: dict, netlist: Path, recipe: str) -> Pat
     wrapper = folder / "wrapped" / f"{scan_wrapper.NAME}.sv"
     wrapper.parent.mkdir(parents=True, exist_ok=True)
     wrapper.write_text(scan_wrapper.source(netlist, base["top"], base["params"]))
-    job = {**base, "top": scan_wrapper.NAME, "sources": [*base["sources"], project.relative(wrapper)], "params": {}}
+    job = {
+        **base,
+        "top": scan_wrapper.NAME,
+        "sources": [*base["sources"], project.relative(wrapper)],
+        "params": {},
+    }
     return run_yosys(wrapper.parent, {**job, "family": "ice40", "recipe": recipe, "keep": False})
 
 
 def full(folder: Path, base: dict, recipes: dict[str, str], seeds: int) -> None:
-    """Everything: synthesis, place and route with all seeds, build/synth/<part>.json and docs/benchmarks.md."""
-    columns = (SpinnerColumn(), TextColumn("{task.description:34}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    """Synthesis, place and route with all seeds, build/synth/<part>.json and docs/benchmarks.md."""
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description:34}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+    )
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
         task = progress.add_task("synthesis", total=3 + len(pnr.DEVICES) * seeds)
         results, netlists = synthesize_all(folder, base, recipes)
@@ -117,22 +146,36 @@ def full(folder: Path, base: dict, recipes: dict[str, str], seeds: int) -> None:
                     console.print(f"{device.name} seed {seed}: {result.fmax} MHz")
                 return result
 
-            # The first start of a WebAssembly tool compiles it into its cache; two at once would do that twice.
+            # The first start of a WebAssembly tool compiles it; two at once would do that twice.
             runs = [run(1)]
             with ThreadPoolExecutor(2) as pool:
                 runs += pool.map(run, range(2, seeds + 1))
             total = results[device.family].total
             packed = runs[0].used.get("TRELLIS_COMB", total.lut)
-            devices.append({
-                "device": device.name, "family": device.family, "goal_mhz": device.goal_mhz,
-                "lut": total.lut if device.family == "ice40" else packed, "ff": total.ff, "ram": total.ram,
-                "fmax": pnr.median_fmax(runs), "seeds": [run.fmax for run in runs], "packer": runs[0].used,
-                "wrapped": device.wrapped,
-            })  # fmt: skip
+            devices.append(
+                {
+                    "device": device.name,
+                    "family": device.family,
+                    "goal_mhz": device.goal_mhz,
+                    "lut": total.lut if device.family == "ice40" else packed,
+                    "ff": total.ff,
+                    "ram": total.ram,
+                    "fmax": round(pnr.median_run(runs).fmax, 1),
+                    "path": pnr.median_run(runs).path,
+                    "seeds": [run.fmax for run in runs],
+                    "packer": runs[0].used,
+                    "wrapped": device.wrapped,
+                }
+            )
     report = {
-        "part": base["top"], "params": base["params"], "recipes": recipes, "seed_count": seeds, "devices": devices,
-        "variants": others, "breakdown": {family: result.as_dict() for family, result in results.items()},
-    }  # fmt: skip
+        "part": base["top"],
+        "params": base["params"],
+        "recipes": recipes,
+        "seed_count": seeds,
+        "devices": devices,
+        "variants": others,
+        "breakdown": {family: result.as_dict() for family, result in results.items()},
+    }
     target = project.BUILD / "synth" / f"{base['top']}.json"
     target.write_text(json.dumps(report, indent=1, default=vars) + "\n")
     show(report, results)
@@ -140,19 +183,27 @@ def full(folder: Path, base: dict, recipes: dict[str, str], seeds: int) -> None:
         project.update_benchmarks(f"synth:{base['top']}", markdown(report, results))
         console.print(f"written: {project.relative(target)}, docs/benchmarks.md")
     else:
-        console.print(f"written: {project.relative(target)} (docs/benchmarks.md only with default parameters and seeds)")
+        console.print(
+            f"written: {project.relative(target)} (docs/benchmarks.md only with default parameters and seeds)"
+        )
 
 
 def show(report: dict, results: dict[str, Breakdown]) -> None:
     """Print devices and breakdown."""
-    table = Table(title=f"{report['part']}: Fmax is the median of {report['seed_count']} seeds", title_justify="left")
+    table = Table(
+        title=f"{report['part']}: Fmax is the median of {report['seed_count']} seeds", title_justify="left"
+    )
     for head in ("device", "logic", "FF", "RAM", "Fmax / MHz", "all seeds", "goals"):
         table.add_column(head, justify="left" if head in ("device", "goals") else "right")
     for row in device_rows(report["devices"]):
         table.add_row(*row[:-1], row[-1].replace("; ", "\n"))
     console.print(table)
+    for entry in report["devices"]:
+        console.print(f"slowest path, {entry['device']}: {entry['path']}")
     for entry in report["variants"]:
-        console.print(f"with {entry['name']}: ECP5 {entry['ecp5']['lut']} COMB, iCE40 {entry['ice40']['lut']} LUT4")
+        console.print(
+            f"with {entry['name']}: ECP5 {entry['ecp5']['lut']} COMB, iCE40 {entry['ice40']['lut']} LUT4"
+        )
     console.print(breakdown_table(results))
 
 
@@ -161,21 +212,31 @@ def sweep(folder: Path, base: dict) -> None:
     for family in FAMILIES:
         for recipe in RECIPES[family]:
             total = synthesize(folder, base, family, recipe)[0].total
-            console.print(f"{family:6} {recipe:18} {LUT_NAME[family]} {total.lut:5}  FF {total.ff:5}  RAM {total.ram}")
+            console.print(
+                f"{family:6} {recipe:18} {LUT_NAME[family]} {total.lut:5}  FF {total.ff:5}  RAM {total.ram}"
+            )
 
 
 def arguments() -> argparse.Namespace:
     """The command line."""
     parser = argparse.ArgumentParser(prog="synth.py", description=__doc__)
     parser.add_argument("--part", default="ppmc104")
-    parser.add_argument("--top", help="another module than the part's top (its own default parameters are used)")
-    parser.add_argument("--files", nargs="+", type=Path, help="these sources instead of those of rtl/files.yml")
+    parser.add_argument(
+        "--top", help="another module than the part's top (its own default parameters are used)"
+    )
+    parser.add_argument(
+        "--files", nargs="+", type=Path, help="these sources instead of those of rtl/files.yml"
+    )
     parser.add_argument("--quick", action="store_true", help="size only, no place and route")
-    parser.add_argument("--seeds", type=int, default=SEEDS, help="place-and-route runs per device (default %(default)s)")
+    parser.add_argument(
+        "--seeds", type=int, default=SEEDS, help="place-and-route runs per device (default %(default)s)"
+    )
     parser.add_argument("--sweep", action="store_true", help="size with every recipe")
     parser.add_argument("--clk-hz", type=int, help="CLK_HZ of the part (default: the part's own default)")
     parser.add_argument("--timing", choices=("FAST", "DATASHEET"))
-    parser.add_argument("-G", metavar="NAME=VALUE", action="append", default=[], help="any parameter of the top")
+    parser.add_argument(
+        "-G", metavar="NAME=VALUE", action="append", default=[], help="any parameter of the top"
+    )
     for family in FAMILIES:
         parser.add_argument(f"--{family}-recipe", choices=list(RECIPES[family]), default=BEST[family])
     return parser.parse_args()

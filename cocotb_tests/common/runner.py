@@ -151,7 +151,7 @@ def _forget_old_builds(days: float = 7.0) -> None:
 
 def _runner() -> Any:
     runner = get_runner("verilator")
-    runner.log.setLevel(logging.ERROR)
+    runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 
 
@@ -162,7 +162,7 @@ def _tail(log: Path, lines: int) -> str:
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
-def _failure_text(log: Path, lines: int = 40) -> str:
+def _failure_text(log: Path, lines: int = 100) -> str:
     """The exception of the test from the log if there is one, else the log's end."""
     if not log.is_file():
         return "(no log)"

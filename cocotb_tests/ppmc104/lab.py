@@ -46,17 +46,24 @@ class Lab:
     async def built(self) -> None:
         """Wait until the mailbox is open again: a command without effect on the state is taken."""
         await self.host.command(0xC2 if self.bench.level("aux_n") else 0xC1)
+        if self.cfg.datasheet:
+            # That command closes the mailbox again, for 14 us.
+            await self.bench.clocks(self.cfg.us(14) + 20)
 
     # ---------------------------------------------------------------- moves
 
     async def go(self, code: int, n: int | None = None, rate: int | None = None, poll: bool = True) -> int:
-        """Send an operation of n pulses (None: an operation without a count); returns the last result.
+        """Send an operation of n pulses (None: an operation without a count).
 
-        `since` becomes the edge from which pulses of this operation count.
+        Returns the status after the last byte, or with poll = False edge 0 of its write. `since` becomes
+        the edge from which pulses of this operation count.
         """
         self.since = self.bench.now
         data = ([] if rate is None else [rate]) + ([] if n is None else bytes_of(n - 1))
-        return await self.host.send(code, data, poll)
+        if not data:
+            return await self.host.command(code, poll)
+        await self.host.send(code, data[:-1])
+        return await self.host.data(data[-1], poll)
 
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
         """`go`, then wait for the end; returns the pulses."""

@@ -231,7 +231,9 @@ async def p104_port_02_registers_only(dut):
         await bench.clocks(6)
     after = [t for name in ("int_n", "d_oe", "aux_n") for t in bench.edges(name)]
     lab.check("P104-PORT-02", "edges of int_n, d_oe, aux_n from glitches", after, before)
-    await lab.host.run("c 86 d 05 c C1 c 40 c 81 r")
+    await lab.host.run("c 86 d 05 c C1 c 40")
+    await lab.idle()
+    await lab.host.run("c 81 r")
     lab.check("P104-PORT-02", "output changes off the rising edge", wrong, [])
 
 

@@ -34,7 +34,7 @@ async def p104_ini_01_code_bits(dut):
         external = bool(code & 0x10)
         lab.check("P104-INI-01", f"pulses without a clock, {code:#04x}", len(lab.pulses), 0 if external else 2)
         if external:
-            await lab.ticks(2)
+            await lab.ticks(2, 200)
         await lab.idle()
         patterns = [value for _, value in lab.bench.edges("s", since)]
         lab.check("P104-INI-01", f"steps of {code:#04x}", patterns[-2:], [table[1], table[2]])
@@ -193,9 +193,9 @@ async def p104_ini_10_leaves_the_rest(dut):
             await lab.host.command(0xC1)
         for pin in ("aux_n", "auxo", "dir", "hold", "int_n", "pout_n"):
             lab.check("P104-INI-10", f"edges of {pin}, {step}", lab.bench.edges(pin, since), [])
-    await lab.bench.clocks(1000)
+    await lab.bench.clocks(1200)
     since = lab.bench.now
-    await lab.bench.clocks(1000)
+    await lab.bench.clocks(2400)
     times = {clk for _, clk in lab.stretches(since)}
     lab.check("P104-AUX-04", "switching parameters stay", times, {4 * (12 + 108), 4 * (24 + 132)})
     lab.check("P104-AUX-04", "queue stays", await lab.host.read_data(), 0x00)

@@ -51,6 +51,8 @@ async def random_chaos(dut: Any) -> None:
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
     await noise.stop()
     host = HostBus(bench, timeout=bench.config.us(200_000))
+    # In DATASHEET timing an operation taken just now raises BUSY up to 112 us later.
+    await bench.clocks(bench.config.us(300))
     for _ in range(4):
         if not await host.poll(IBF, 0) & BUSY:
             break
@@ -63,6 +65,7 @@ async def random_chaos(dut: Any) -> None:
     bench.check("P104-BAD-23", "status after recovery", await host.status() & 0xFE, 0)
     start = bench.now
     await host.move(0x43, 14)
+    await bench.nth_fall(14, start)
     await host.wait_idle()
     rates = (9, 7, 5, 5, 4, 4, 4, 4, 4, 5, 5, 7, 9)
     quanta = [sum(8 * (rate + 1) for rate in rates[:n]) for n in range(14)]

@@ -16,6 +16,8 @@ ITEMS = cocotb_items(
     "tb_status",
     "tb_commands",
     "tb_init",
+    "tb_stops",
+    "tb_reads",
 )
 
 

@@ -84,6 +84,11 @@ class Ppmc104:
         """The last edge that was run, -1 before edge 0."""
         return self._queue.now
 
+    @property
+    def next_event(self) -> int | None:
+        """The next edge on which anything happens by itself, None if nothing ever will."""
+        return self._queue.next_edge()
+
     def run_until(self, t: int) -> None:
         """Run all edges up to and including t. Raises ValueError if t lies before `now`."""
         queue = self._queue

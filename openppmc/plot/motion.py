@@ -1,12 +1,12 @@
 """A picture of a run: speed profile and pins over time, an overview above and close-ups below.
 
-Input is plain data: per signal the level before the first edge and the changes (clk edge, level). Nothing is computed
-from the host's commands, so the picture shows what the pins did.
+Input is plain data: per signal the level before the first edge and the changes (clk edge, level). Nothing is
+computed from the host's commands, so the picture shows what the pins did.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,19 +18,29 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+SLOWEST = 2.1e-3  # s; pulses farther apart belong to different motions (rate 255 at 125 kHz is 2.048 ms)
+
 Changes = Sequence[tuple[int, int]]
 
 INK, GREY, PALE = "#1b2733", "#6b7785", "#dfe4ea"
 SPEED = "#0b6fb8"
 COLOURS = {
-    "S1": "#1b7f79", "S2": "#2f9e6e", "S3": "#6aa84f", "S4": "#a8a032", "S5": "#a9b0b8",
-    "POUT": INK, "DIR": "#7a4fa3", "HOLD": "#c26a1b", "INT": "#c0392b", "L1": "#8c2d62",
-}  # fmt: skip
+    "S1": "#1b7f79",
+    "S2": "#2f9e6e",
+    "S3": "#6aa84f",
+    "S4": "#a8a032",
+    "S5": "#a9b0b8",
+    "POUT": INK,
+    "DIR": "#7a4fa3",
+    "HOLD": "#c26a1b",
+    "INT": "#c0392b",
+    "L1": "#8c2d62",
+}
 
 
 @dataclass(frozen=True)
 class Trace:
-    """One pin: name as drawn, level before the first change, changes as (clk edge, level)."""
+    """One pin: name as drawn (* = active low), level before the first change, changes (clk edge, level)."""
 
     name: str
     initial: int
@@ -110,7 +120,7 @@ def bare(axes: Axes) -> None:
 def draw_traces(
     axes: Axes, traces: Sequence[Trace], begin: int, end: int, scale: float, label_size: int = 9
 ) -> None:
-    """Logic levels stacked from top to bottom, x in units of `scale` clk, counted from `begin` of the axis."""
+    """Logic levels stacked from top to bottom, x in units of `scale` clk from `begin` on."""
     count = len(traces)
     for row, trace in enumerate(traces):
         base = (count - 1 - row) * 1.5
@@ -118,13 +128,23 @@ def draw_traces(
         times, levels = trace.within(begin, end)
         xs = [(t - begin) / scale for t in times]
         ys = [base + level for level in levels]
-        axes.fill_between(xs, base, ys, step="post", color=colour, alpha=0.16, linewidth=0)
+        idle = base + trace.name.endswith("*")  # what is filled is the active level
+        axes.fill_between(xs, idle, ys, step="post", color=colour, alpha=0.18, linewidth=0)
         dense = len(times) > 400
         axes.step(
             xs, ys, where="post", color=colour, linewidth=0.35 if dense else 1.3, solid_joinstyle="miter"
         )
-        axes.text(-0.008, base + 0.5, trace.name, transform=axes.get_yaxis_transform(), ha="right", va="center",
-                  fontsize=label_size, color=colour, fontweight="bold")  # fmt: skip
+        axes.text(
+            -0.008,
+            base + 0.5,
+            trace.name,
+            transform=axes.get_yaxis_transform(),
+            ha="right",
+            va="center",
+            fontsize=label_size,
+            color=colour,
+            fontweight="bold",
+        )
     axes.set_ylim(-0.4, count * 1.5 - 0.1)
     axes.set_yticks([])
     axes.set_xlim(0, (end - begin) / scale)
@@ -133,7 +153,7 @@ def draw_traces(
 
 def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None:
     """Speed over time, filled."""
-    for times, values in speeds(run.pulses, run.clk_hz, gap=run.clk_hz // 200):
+    for times, values in speeds(run.pulses, run.clk_hz, gap=round(SLOWEST * run.clk_hz)):
         xs = [(t - begin) / scale for t in times]
         ys = [value / 1000 for value in values]
         axes.fill_between(xs, 0, ys, step="post", color=SPEED, alpha=0.18, linewidth=0)
@@ -157,7 +177,7 @@ def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
     speed.set_ylim(0, top)
     speed.set_ylabel("speed / kpps", fontsize=9, color=GREY)
     draw_traces(pins, run.traces, 0, run.end, scale)
-    pins.set_xlabel("time after reset / ms", fontsize=9, color=GREY)
+    pins.set_xlabel("time after reset / ms", fontsize=9, color=GREY, loc="right", labelpad=2)
     speed.tick_params(labelbottom=False)
     for index, chapter in enumerate(run.chapters):
         left, right = chapter.begin / scale, chapter.end / scale
@@ -165,14 +185,32 @@ def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
             if index % 2 == 0:
                 axes.axvspan(left, right, color="#f4f6f8", zorder=-5, linewidth=0)
             axes.axvline(left, color=PALE, linewidth=0.8, zorder=-4)
-        speed.text((left + right) / 2, top * 0.985, chapter.title, ha="center", va="top", fontsize=9,
-                   color=INK, linespacing=1.25)  # fmt: skip
+        speed.text(
+            (left + right) / 2,
+            top * 0.985,
+            chapter.title,
+            ha="center",
+            va="top",
+            fontsize=9,
+            color=INK,
+            linespacing=1.25,
+        )
     for index, zoom in enumerate(run.zooms):
         middle = (zoom.begin + zoom.end) / 2 / scale
-        pins.annotate("ABCDEF"[index], (middle, 0), xycoords=("data", "axes fraction"), xytext=(0, -20),
-                      textcoords="offset points", ha="center", va="center", fontsize=9, color="white",
-                      fontweight="bold", bbox={"boxstyle": "circle,pad=0.25", "color": SPEED},
-                      arrowprops={"arrowstyle": "-", "color": SPEED, "linewidth": 1})  # fmt: skip
+        pins.annotate(
+            "ABCDEF"[index],
+            (middle, 0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, -32),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=9,
+            color="white",
+            fontweight="bold",
+            bbox={"boxstyle": "circle,pad=0.25", "color": SPEED},
+            arrowprops={"arrowstyle": "-", "color": SPEED, "linewidth": 1},
+        )
 
 
 def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
@@ -180,8 +218,18 @@ def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
     scale = run.clk_hz / 1e6
     draw_traces(axes, run.traces, zoom.begin, zoom.end, scale, label_size=8)
     axes.set_xlabel("µs", fontsize=9, color=GREY, labelpad=1)
-    axes.text(0, 1.115, letter, transform=axes.transAxes, fontsize=9, color="white", fontweight="bold", ha="center",
-              va="center", bbox={"boxstyle": "circle,pad=0.25", "color": SPEED})  # fmt: skip
+    axes.text(
+        0,
+        1.115,
+        letter,
+        transform=axes.transAxes,
+        fontsize=9,
+        color="white",
+        fontweight="bold",
+        ha="center",
+        va="center",
+        bbox={"boxstyle": "circle,pad=0.25", "color": SPEED},
+    )
     axes.text(
         0.035,
         1.115,

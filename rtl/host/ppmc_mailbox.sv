@@ -69,9 +69,10 @@ module ppmc_mailbox #(
       have_q          <= {(QueueBytes - 1) {long_i}};
       obf_o           <= 1'b1;
     end else if (next) begin
-      {more_q, out_o} <= {8'h00, more_q};
-      have_q          <= have_q >> 1;
-      obf_o           <= 1'b1;
+      out_o  <= more_q[7:0];
+      more_q <= {more_q[MoreBits-1-:8], more_q[MoreBits-1:8]};
+      have_q <= have_q >> 1;
+      obf_o  <= 1'b1;
     end else if (rd_done_i) begin
       obf_o <= 1'b0;
     end

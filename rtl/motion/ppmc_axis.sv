@@ -153,6 +153,7 @@ module ppmc_axis
       .lut_data_i,
       .load_i  (start_i),
       .count_i,
+      .single_i(op_i.single),
       .rate_i,
       .ramp_i  (start_i ? op_i.ramp : op_o.ramp),
       .pulse_i (fire),

@@ -24,7 +24,7 @@ module ppmc_chopper #(
   localparam int unsigned CountBits = (BaseBits > UnitBits) ? BaseBits : UnitBits;
   localparam int unsigned ScaleBits = ppmc_pkg::cnt_width(UnitQuanta - 1);
 
-  logic [CountBits-1:0] left_q;  // quanta, then units, left before the last one
+  logic [CountBits-1:0] left_q;  // quanta, then units, left in this part
   logic [ScaleBits-1:0] scale_q; // quanta left in the running unit
   logic [UnitBits-1:0] units_q;  // of this phase, still to come
   logic in_base_q;               // the fixed part runs
@@ -34,7 +34,7 @@ module ppmc_chopper #(
 
   always_comb begin
     tick       = quantum_i && scale_q == '0;
-    part_ends  = tick && left_q == '0;
+    part_ends  = tick && left_q == CountBits'(1);
     phase_ends = part_ends && (!in_base_q || units_q == '0);
     next_on    = restart_i || !run_i || !on_q;
   end
@@ -48,12 +48,12 @@ module ppmc_chopper #(
       on_q      <= 1'b1;
     end else if (restart_i || !run_i || phase_ends) begin
       on_q      <= next_on;
-      left_q    <= CountBits'(next_on ? on_base_i : off_base_i) - 1'b1;
+      left_q    <= CountBits'(next_on ? on_base_i : off_base_i);
       units_q   <= next_on ? on_units_i : off_units_i;
       scale_q   <= '0;
       in_base_q <= 1'b1;
     end else if (part_ends) begin
-      left_q    <= CountBits'(units_q) - 1'b1;
+      left_q    <= CountBits'(units_q);
       scale_q   <= ScaleBits'(UnitQuanta - 1);
       in_base_q <= 1'b0;
     end else if (tick) begin

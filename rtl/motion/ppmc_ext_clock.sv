@@ -22,7 +22,7 @@ module ppmc_ext_clock #(
 
   logic level, last_q, slow_q;
   logic unused_meta;
-  logic [Width-1:0] age_q;  // clk since the last rising edge, stops when long
+  logic [Width-1:0] age_q;  // clk since the last rising edge, of no use when long
 
   ppmc_sync #(
       .Width   (1),
@@ -42,21 +42,24 @@ module ppmc_ext_clock #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       last_q <= 1'b1;
-      age_q  <= '0;
       slow_q <= 1'b1;  // no edge before: an endless period
       long_o <= 1'b1;
     end else begin
       last_q <= level;
       if (rise_o) begin
-        age_q  <= '0;
         slow_q <= 1'b0;
         long_o <= 1'b0;
       end else if (!long_o) begin
-        age_q <= age_q + 1'b1;
         if (age_q == Width'(BriskClk - 2)) slow_q <= 1'b1;
         if (age_q == Width'(LongClk - 1)) long_o <= 1'b1;
       end
     end
+  end
+
+  // No reset: long_o is set until the first edge clears it.
+  always_ff @(posedge clk_i) begin
+    if (rise_o) age_q <= '0;
+    else age_q <= age_q + 1'b1;
   end
 
 endmodule

@@ -23,13 +23,14 @@ module ppmc_hold_timer #(
   assign done = (count_q & Width'(Quanta)) == Width'(Quanta);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      count_q <= '0;
-      hold_o  <= 1'b1;
-    end else begin
-      if (busy_i || (quantum_i && !hold_o)) count_q <= busy_i ? '0 : count_q + 1'b1;
-      if (busy_i || done) hold_o <= !busy_i;
-    end
+    if (!rst_ni) hold_o <= 1'b1;
+    else if (busy_i || done) hold_o <= !busy_i;
+  end
+
+  // No reset: every motion clears it, and before the first one it does not count.
+  always_ff @(posedge clk_i) begin
+    if (busy_i) count_q <= '0;
+    else if (quantum_i && !hold_o) count_q <= count_q + 1'b1;
   end
 
 endmodule

@@ -27,7 +27,7 @@ module ppmc_pulse_shaper #(
   localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
   localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
 
-  logic [Width-1:0] age_q;  // clk since the pulse, stops with up_o
+  logic [Width-1:0] age_q;  // clk since the pulse; of no use after up_o
   logic full_q;
   logic half;
 
@@ -41,18 +41,11 @@ module ppmc_pulse_shaper #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      age_q  <= '0;
       full_q <= 1'b0;
       low_o  <= 1'b0;
       up_o   <= 1'b0;
     end else begin
-      if (arm_i || pulse_i) begin
-        age_q <= '0;
-        up_o  <= 1'b0;
-      end else if (!up_o) begin
-        age_q <= age_q + 1'b1;
-        up_o  <= age_q == Width'(WidthClk - 2);
-      end
+      up_o <= !(arm_i || pulse_i) && (up_o || age_q == Width'(WidthClk - 2));
       if (pulse_i) begin
         low_o  <= 1'b1;
         full_q <= full_i;
@@ -60,6 +53,12 @@ module ppmc_pulse_shaper #(
         low_o <= 1'b0;
       end
     end
+  end
+
+  // No reset: it is cleared before each use.
+  always_ff @(posedge clk_i) begin
+    if (arm_i || pulse_i) age_q <= '0;
+    else age_q <= age_q + 1'b1;
   end
 
 endmodule

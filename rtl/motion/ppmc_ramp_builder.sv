@@ -142,19 +142,19 @@ module ppmc_ramp_builder
   end
 
   // Divider. No reset: every use begins with a full load.
-  logic [Bits-1:0] rem_q, div_shift_q;
+  logic [Bits-1:0] rem_q, inv_q;  // remainder, divisor with all bits inverted
   logic [Bits:0] diff;
   logic [StepBits-1:0] quot_q;
 
-  assign diff  = {1'b0, rem_q} - {1'b0, div_shift_q};
-  assign below = diff[Bits];
+  assign diff  = {1'b0, rem_q} + {1'b0, inv_q} + (Bits + 1)'(1);
+  assign below = !diff[Bits];
 
   always_ff @(posedge clk_i) begin
     if (state_q == StPass && pass_q != PassRead) rem_q <= '0;
     else if (state_q == StNum || (state_q == StDivide && !below)) rem_q <= diff[Bits-1:0];
 
     if (valid || state_q == StDivide) begin
-      div_shift_q <= {valid && ((pass_q == PassRead) ? den : num), div_shift_q[Bits-1:1]};
+      inv_q <= {!(valid && ((pass_q == PassRead) ? den : num)), inv_q[Bits-1:1]};
     end
     if (state_q == StDivide) quot_q <= {quot_q[StepBits-2:0], !below};
   end

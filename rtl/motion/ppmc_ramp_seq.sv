@@ -24,6 +24,7 @@ module ppmc_ramp_seq #(
     // operation
     input  wire logic                 load_i,       // start: takes count and rate
     input  wire logic [CountBits-1:0] count_i,      // pulses to make, minus 1
+    input  wire logic                 single_i,     // one pulse, whatever count_i says
     input  wire logic [ RateBits-1:0] rate_i,       // rate of a constant-speed operation
     input  wire logic                 ramp_i,       // use the ramp; steady while the motion lasts
     input  wire logic                 pulse_i,      // pulse event
@@ -50,7 +51,7 @@ module ppmc_ramp_seq #(
   logic [RateBits-1:0] probe_q;  // rate under test
   logic near_q, full_q, zero_q, low_q;  // comparisons, a clk after the counters
   logic load_q, slower_q;
-  logic up, down, odd, reached, more;
+  logic up, down, odd, high, reached, more;
 
   // Where the walk goes at a pulse event. left_o is the number of pulses that follow this one.
   always_comb begin
@@ -63,8 +64,6 @@ module ppmc_ramp_seq #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      left_o  <= '0;
-      climb_q <= '0;
       near_q  <= 1'b0;
       full_q  <= 1'b0;
       zero_q  <= 1'b0;
@@ -72,29 +71,38 @@ module ppmc_ramp_seq #(
       top_o   <= 1'b0;
       dec_o   <= 1'b0;
     end else begin
-      near_q <= left_o <= CountBits'(climb_q);
+      near_q <= !high && left_o[StepBits-1:0] <= climb_q;
       full_q <= climb_q == steps_i;
-      zero_q <= left_o == '0;
+      zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= climb_q[StepBits-1:1] == '0;
       if (load_i) begin
-        left_o  <= count_i;
-        climb_q <= '0;
-        top_o   <= 1'b0;
-        dec_o   <= 1'b0;
+        top_o <= 1'b0;
+        dec_o <= 1'b0;
       end else if (pulse_i) begin
-        if (!zero_q) left_o <= left_o - 1'b1;
-        if (up || down) begin
-          climb_q <= down ? climb_q - 1'b1 : climb_q + 1'b1;
-          top_o   <= up && full_q;
-        end
+        if (up || down) top_o <= up && full_q;
         if (ramp_i && near_q && (odd || !top_o)) dec_o <= 1'b1;
       end
     end
   end
 
+  // Synchronous reset, which the part's reset is long enough for: it doubles as the load of a single step.
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || (load_i && single_i)) left_o <= '0;
+    else if (load_i) left_o <= count_i;
+    else if (pulse_i && !zero_q) left_o <= left_o - 1'b1;
+  end
+
+  assign high = left_o[CountBits-1:StepBits] != '0;
+
+  // No reset: every motion begins with a load.
+  always_ff @(posedge clk_i) begin
+    if (load_i) climb_q <= '0;
+    else if (pulse_i && (up || down)) climb_q <= climb_q + {{(StepBits - 1) {down}}, 1'b1};
+  end
+
   // Rate look-up. Downhill in rate (acceleration): probe_q goes down while climb_q has reached its threshold, and becomes the
   // rate at the next step up. Uphill: the rate follows probe_q while the index, climb_q - 1, is below its threshold.
-  assign reached = slower_q ? climb_q > StepBits'(lut_data_i) : climb_q >= StepBits'(lut_data_i);
+  assign reached = {climb_q, !slower_q} >= {StepBits'(lut_data_i), slower_q};  // > where slower, else >=
   assign more = slower_q ? (rate_o != slow_i && !reached) : (probe_q != fast_i && reached);
   assign seek_o = state_q != StRest;
   assign lut_addr_o = probe_q;

@@ -88,6 +88,9 @@ module ppmc_ramp_serial
   logic final_pass, an, bn, av, bv, ad, bd, ae, be;
   logic sum_n, sum_v, sum_u, sum_d, sum_e, u_new, g_new;
 
+  logic [15:0] steps;
+  assign steps = 16'(steps_i);
+
   function automatic logic maj(logic a, logic b, logic c);
     return (a & b) | (a & c) | (b & c);
   endfunction
@@ -123,7 +126,7 @@ module ppmc_ramp_serial
     wr = rd;
     unique case (pass_i)
       PassInit: begin
-        wr.n = (32'(at_q) < StepBits) && steps_i[4'(at_q)];
+        wr.n = at_q[AddrBits-1:4] == '0 && steps[at_q[3:0]];
         wr.d = first_q;
         wr.v = 1'b0;
         wr.e = 1'b0;

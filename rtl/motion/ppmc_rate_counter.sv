@@ -21,28 +21,32 @@ module ppmc_rate_counter #(
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse
-  logic match_q, half_q;
+  logic equal, match_q, half_q;
 
+  assign equal  = count_q == rate_i;
   assign hit_o  = tick_i && match_q;
   assign half_o = tick_i && half_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      count_q <= '0;
       match_q <= 1'b0;
       half_q  <= 1'b0;
     end else begin
-      if (restart_i) count_q <= '0;
-      else if (tick_i && count_q != rate_i) count_q <= count_q + 1'b1;
-      match_q <= !restart_i && !wait_i && count_q == rate_i;
+      match_q <= !restart_i && !wait_i && equal;
       // the coming base clock has number count_q + 1
       half_q <= !restart_i && !wait_i &&
           count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
     end
   end
 
+  // No reset: the first pulse of a motion restarts it. It waits where it cannot be used (P104-BCK-05).
+  always_ff @(posedge clk_i) begin
+    if (restart_i) count_q <= '0;
+    else if (tick_i && !equal) count_q <= count_q + 1'b1;
+  end
+
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p104_int_01, !hit_o || count_q == rate_i)
+  `PPMC_ASSERT(p104_int_01, !hit_o || count_q == rate_i || rate_i != $past(rate_i))
 `endif
 
 endmodule

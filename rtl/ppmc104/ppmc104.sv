@@ -291,7 +291,6 @@ module ppmc104
   always_comb begin
     unique case (op_code.op)
       OP_ACC_DEC, OP_CONSTANT: count = params_late[31:8];
-      OP_SINGLE:               count = '0;
       default:                 count = '1;
     endcase
   end
@@ -501,13 +500,13 @@ module ppmc104
   // ---- answers to read commands -----------------------------------------------------------------------------------------------
 
   always_comb begin
-    answer = '0;
+    answer = remaining;  // bytes behind the first are shown for this answer only
     unique case (code[2:0])
       SEL_FINISH:  answer[7:0] = {fresh_q, finish_q, op_q};
       SEL_INPUTS:  answer[7:0] = {cnp, alm, 2'b00, l1, l2, l3, l4};
       SEL_OUTPUTS: answer[7:0] = {levels[1], levels[2], levels[3], levels[4], levels[5], hold, dir, 1'b0};
       SEL_AUX_IN:  answer[7:0] = {4'b0000, auxi_s};
-      default:     answer = remaining;
+      default:     ;
     endcase
   end
 

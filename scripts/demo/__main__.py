@@ -1,4 +1,4 @@
-"""`make demo`: build the RTL, drive it as a host would, compare it with the golden model, and show all of it."""
+"""`make demo`: build the RTL, drive it as a host would, compare it with the golden model, show all of it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from cocotb_tests.common.compare import Comparison, compare_recording, write_rep
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
-from scripts.demo import views, words
+from scripts.demo import waves, words
 from scripts.demo.picture import draw_demo
 from scripts.project import BUILD, ProjectError, console, fail, relative
 
@@ -46,14 +46,14 @@ class Steps:
         return text.append(f"{mark} {running} … {seconds:.0f} s  ", style="bold").append(detail, style="dim")
 
     def run(self, what: str, work: Callable[[], T], detail: Callable[[], str] = lambda: "") -> T:
-        """Do `work` in a thread and show `what` with its detail; returns the result, raises what it raised."""
-        box_: dict[str, Any] = {}
+        """Do `work` in a thread, show `what` with its detail; returns its result, raises what it raised."""
+        outcome: dict[str, Any] = {}
 
         def inner() -> None:
             try:
-                box_["result"] = work()
+                outcome["result"] = work()
             except BaseException as error:  # handed to the caller, SystemExit of a runner among them
-                box_["error"] = error
+                outcome["error"] = error
 
         begin, shown = time.monotonic(), ""
         thread = threading.Thread(target=inner, daemon=True)
@@ -66,13 +66,13 @@ class Steps:
                 if not console.is_terminal and note != shown:
                     console.print(f"  {what}: {note}")
                     shown = note
-        if "error" in box_:
-            raise box_["error"]
+        if "error" in outcome:
+            raise outcome["error"]
         line = f"✓ {what} ({time.monotonic() - begin:.1f} s)"
         self.done.append(line)
         if not console.is_terminal:
             console.print(line)
-        return box_["result"]
+        return outcome["result"]
 
     @contextmanager
     def display(self) -> Iterator[Callable[[Text], None]]:
@@ -103,13 +103,16 @@ def newest_build() -> str:
 def simulate(steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
     """Build and run; the recording and the chapters."""
     design = part_design(PART, F16)
-    steps.run("build the RTL with Verilator", lambda: build(design, waves=True), newest_build)
+    steps.run("build the RTL with Verilator", lambda: build(design), newest_build)
     item = Item("cocotb_tests.demo.tb_demo", "demo_move", F16, PART, ())
     steps.run(
-        "drive it over its bus", lambda: run_sim(design, item, seed=1, waves=True, folder=RUN, repro="make demo"),
+        "drive it over its bus",
+        lambda: run_sim(design, item, seed=1, folder=RUN, repro="make demo"),
         lambda: last_line(RUN / "progress"),
-    )  # fmt: skip
-    return Recording.from_json((RUN / "recording.json").read_text()), json.loads((RUN / "story.json").read_text())
+    )
+    return Recording.from_json((RUN / "recording.json").read_text()), json.loads(
+        (RUN / "story.json").read_text()
+    )
 
 
 def hexes(data: list[int]) -> str:
@@ -123,26 +126,39 @@ def show_talk(recording: Recording, chapters: list[dict[str, Any]]) -> None:
     table = Table(title="Host and chip", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("ms", justify="right")
     table.add_column("sent", no_wrap=True)
-    table.add_column("in words", ratio=3)
+    table.add_column("in words")
     table.add_column("polls", justify="right")
+    table.add_column("status seen")
     table.add_column("answer", no_wrap=True)
-    table.add_column("in words", ratio=2)
+    table.add_column("in words")
     for chapter in chapters:
         inside = [a for a in recording.accesses if chapter["begin"] <= a.t < chapter["end"]]
-        if not inside:
-            continue
-        table.add_row("", f"[bold]{chapter['title']}[/]")
-        for row in words.exchanges(inside):
-            answer = hexes(row.answer) if row.answer else f"[dim]status[/] {row.status:02X}"
-            table.add_row(f"{row.t * 1e3 / clk_hz:.3f}", hexes(row.sent) or "–", row.meaning, str(row.polls), answer, row.reply)
+        rows = words.exchanges(inside)
+        if rows:
+            table.add_row("", "", f"[bold]{chapter['title']}[/]")
+        for row in rows:
+            table.add_row(
+                f"{row.t * 1e3 / clk_hz:.3f}",
+                hexes(row.sent),
+                row.meaning,
+                str(len(row.polls)),
+                hexes(row.statuses),
+                hexes(row.answer),
+                row.reply,
+            )
     console.print(table)
 
 
 def show_comparison(comparison: Comparison) -> None:
     """The table RTL against golden model, output by output."""
-    table = Table(title="RTL against golden model, to the clk", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(
+        title="RTL against golden model, to the clk",
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        pad_edge=False,
+    )
     table.add_column("output")
-    for head in ("edges of the RTL", "edges of the model", "different"):
+    for head in ("edges of the RTL", "edges of the model", "without a twin"):
         table.add_column(head, justify="right")
     total = 0
     for name, actual in comparison.actual.items():
@@ -157,33 +173,41 @@ def show_comparison(comparison: Comparison) -> None:
     console.print(table)
 
 
+def spread(first: float, second: float) -> str:
+    """Two figures as a range, one if they are the same."""
+    return f"{first:g}" if first == second else f"{first:g} … {second:g}"
+
+
 def show_moves(comparison: Comparison, chapters: list[dict[str, Any]]) -> None:
     """What the motor was made to do, from the pins."""
     recording = comparison.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
     for chapter in chapters:
-        falls = [t for t, level in comparison.actual["pout_n"] if level == 0 and chapter["begin"] <= t < chapter["end"]]
+        falls = [
+            t
+            for t, level in comparison.actual["pout_n"]
+            if level == 0 and chapter["begin"] <= t < chapter["end"]
+        ]
         if len(falls) < 2:
             continue
         gaps = [b - a for a, b in zip(falls, falls[1:], strict=False)]
         console.print(
-            f"{chapter['title']}: [bold]{len(falls)} pulses[/] in {(falls[-1] - falls[0]) * 1e3 / clk_hz:.3f} ms, intervals "
-            f"{max(gaps)} … {min(gaps)} clk, {clk_hz / max(gaps) / 1e3:g} … {clk_hz / min(gaps) / 1e3:g} kpps"
+            f"{chapter['title']}: [bold]{len(falls)} pulses[/] "
+            f"in {(falls[-1] - falls[0]) * 1e3 / clk_hz:.3f} ms, "
+            f"intervals {spread(max(gaps), min(gaps))} clk, "
+            f"{spread(clk_hz / max(gaps) / 1e3, clk_hz / min(gaps) / 1e3)} kpps"
         )
 
 
-def keep_waves(recording: Recording, chapters: list[dict[str, Any]]) -> Path:
-    """Move the VCD to its place and write the saved views."""
-    vcd = FOLDER / f"{PART}.vcd"
-    shutil.move(RUN / "dump.vcd", vcd)
-    period = 1_000_000_000_000 // int(str(recording.params["CLK_HZ"]))
+def write_waves(comparison: Comparison, chapters: list[dict[str, Any]]) -> list[Path]:
+    """Write the VCD and its saved views; their paths."""
+    vcd, gtkw, sucl = (FOLDER / f"{PART}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
+    waves.write_vcd(comparison, vcd)
+    period = 1_000_000_000_000 // int(str(comparison.recording.params["CLK_HZ"]))
     move = next(chapter for chapter in chapters if chapter["key"] == "move")
-    begin, end = move["begin"] * period, (move["begin"] + 20_000) * period
-    if absent := views.missing(vcd, PART):
-        raise ProjectError(f"the VCD lacks {', '.join(absent)}")
-    views.gtkwave(vcd, FOLDER / f"{PART}.gtkw", PART, begin, end)
-    views.surfer(vcd, FOLDER / f"{PART}.sucl", PART)
-    return vcd
+    waves.gtkwave(vcd, gtkw, PART, move["begin"] * period, (move["begin"] + 40_000) * period)
+    waves.surfer(sucl)
+    return [vcd, gtkw, sucl]
 
 
 def main() -> int:
@@ -194,7 +218,7 @@ def main() -> int:
         shutil.rmtree(FOLDER, ignore_errors=True)
         recording, chapters = simulate(steps)
         comparison = steps.run("ask the golden model", lambda: compare_recording(recording))
-        vcd = keep_waves(recording, chapters)
+        saved = write_waves(comparison, chapters)
         picture = FOLDER / "profile.png"
         steps.run("draw the picture", lambda: draw_demo(comparison, chapters, picture))
     except (SimError, ProjectError) as error:
@@ -204,14 +228,19 @@ def main() -> int:
     show_talk(recording, chapters)
     show_moves(comparison, chapters)
     show_comparison(comparison)
-    files = [picture, vcd, FOLDER / f"{PART}.gtkw", FOLDER / f"{PART}.sucl"]
-    console.print("Look at " + ", ".join(relative(path) for path in files) + " (`make waves` opens them)")
+    console.print(
+        "Look at " + ", ".join(relative(path) for path in [picture, *saved]) + " (`make waves` opens them)"
+    )
     if comparison.mismatch is not None:
         write_report(comparison, FOLDER, "make demo")
         m = comparison.mismatch
-        return fail(f"demo: RTL and golden model differ, first at clk edge {m.t} in {m.signal}: see {relative(FOLDER)}/compare.txt")
+        return fail(
+            f"demo: RTL and golden model differ, first at clk edge {m.t} in {m.signal}: "
+            f"see {relative(FOLDER)}/compare.txt"
+        )
     console.print(
-        f"[bold green]demo: {comparison.edges_compared} edges compared, 0 differences[/] ({time.monotonic() - begin:.0f} s)"
+        f"[bold green]demo: {comparison.edges_compared} edges compared, 0 differences[/] "
+        f"({time.monotonic() - begin:.0f} s)"
     )
     return 0
 

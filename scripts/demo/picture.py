@@ -11,9 +11,13 @@ from openppmc.plot.motion import Run, Section, Trace, draw
 Levels = Mapping[str, list[tuple[int, int]]]
 
 TITLES = {
-    "reset": "", "init": "", "move": "1000 pulses:\naccelerate, run, decelerate", "pause": "",
-    "limit": "continuous,\nlimit L1", "rest": "at rest: phases chopped, HOLD rises after 34 ms",
-}  # fmt: skip
+    "reset": "",
+    "init": "",
+    "move": "1000 pulses:\naccelerate, run, decelerate",
+    "pause": "rest",
+    "limit": "continuous,\nlimit L1",
+    "rest": "at rest: phases chopped, HOLD rises after 34 ms",
+}
 
 
 def bit(changes: Sequence[tuple[int, int]], index: int) -> list[tuple[int, int]]:
@@ -29,7 +33,10 @@ def bit(changes: Sequence[tuple[int, int]], index: int) -> list[tuple[int, int]]
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
     """Phases, pulses and flags, and the limit switch that the demo presses."""
     rows = [Trace(f"S{n}", initial["s"] >> (n - 1) & 1, bit(outputs["s"], n - 1)) for n in range(1, 6)]
-    rows += [Trace(name, initial[pin], outputs[pin]) for name, pin in (("POUT*", "pout_n"), ("HOLD", "hold"), ("INT*", "int_n"))]
+    rows += [
+        Trace(name, initial[pin], outputs[pin])
+        for name, pin in (("POUT*", "pout_n"), ("HOLD", "hold"), ("INT*", "int_n"))
+    ]
     rows.append(Trace("L1*", 1, [(change.t, change.value) for change in stimulus if change.pin == "l1_n"]))
     return rows
 
@@ -39,7 +46,9 @@ def micros(clk: int, clk_hz: int) -> str:
     return f"{clk * 1e6 / clk_hz:.6g} µs"
 
 
-def zooms(outputs: Levels, stimulus: Sequence[Any], chapters: Mapping[str, Any], pulses: Sequence[int], clk_hz: int) -> list[Section]:
+def zooms(
+    outputs: Levels, stimulus: Sequence[Any], chapters: Mapping[str, Any], pulses: Sequence[int], clk_hz: int
+) -> list[Section]:
     """Start of the ramp, limit stop, chopped rest."""
     us = clk_hz // 1_000_000
     begin = chapters["move"]["begin"]
@@ -47,23 +56,32 @@ def zooms(outputs: Levels, stimulus: Sequence[Any], chapters: Mapping[str, Any],
     first = [t for t in pulses if t >= start][:7]
     spans = [(a, b, micros(b - a, clk_hz)) for a, b in zip(first, first[1:], strict=False)]
     ramp = Section(
-        "start of the ramp", start - 150 * us, first[-1] + 100 * us,
-        f"HOLD falls at the start, POUT follows {micros(first[0] - start, clk_hz)} later; then one phase step a pulse",
+        "start of the ramp",
+        start - 150 * us,
+        first[-1] + 100 * us,
+        f"HOLD falls, POUT follows {micros(first[0] - start, clk_hz)} later; one phase step a pulse",
         spans=spans,
-    )  # fmt: skip
+    )
     press = next(change.t for change in stimulus if change.pin == "l1_n" and change.value == 0)
     done = next(t for t, level in outputs["int_n"] if level == 0 and t >= press)
+    before = [t for t in pulses if press - 310 * us < t < press]
     limit = Section(
-        "limit stop", press - 330 * us, press + 170 * us,
-        f"no pulse after L1; INT {done - press} clk ({micros(done - press, clk_hz)}) later, then chopping begins with ON",
+        "limit stop",
+        press - 330 * us,
+        press + 170 * us,
+        f"no pulse after L1; INT {done - press} clk later, until the finish status is read",
         marks=[(press, "L1 closes")],
-    )  # fmt: skip
-    rest = chapters["rest"]["begin"]
+        spans=[(a, b, micros(b - a, clk_hz)) for a, b in zip(before, before[1:], strict=False)],
+    )
+    rest = chapters["rest"]["begin"] + 12_000 * us
     edges = [t for t, _ in outputs["s"] if t >= rest][:6]
     chop = Section(
-        "chopped rest", edges[0] - 60 * us, edges[-1] + 40 * us, "the two phases that hold the motor, switched on and off",
+        "chopped rest",
+        edges[0] - 60 * us,
+        edges[-1] + 40 * us,
+        "the two phases that hold the motor, switched on and off",
         spans=[(a, b, micros(b - a, clk_hz)) for a, b in zip(edges[:4], edges[1:5], strict=False)],
-    )  # fmt: skip
+    )
     return [ramp, limit, chop]
 
 
@@ -76,8 +94,8 @@ def draw_demo(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path
     verdict = "no difference" if comparison.mismatch is None else "DIFFERENT, see compare.txt"
     run = Run(
         title="PPMC-104 from the host bus to the motor pins",
-        subtitle=f"RTL in simulation at {clk_hz / 1e6:g} MHz. {comparison.edges_compared} edges of all outputs compared with the "
-        f"golden model: {verdict}. Pins with * are active low.",
+        subtitle=f"RTL in simulation at {clk_hz / 1e6:g} MHz. {comparison.edges_compared} edges of all "
+        f"outputs compared with the golden model: {verdict}. Pins with * are active low.",
         clk_hz=clk_hz,
         end=recording.end,
         traces=traces(outputs, comparison.initial, recording.stimulus),

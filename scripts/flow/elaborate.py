@@ -1,7 +1,7 @@
 """read_slang and yosys' structural checks of one top; the log goes to stdout, the exit code is yosys' own.
 
-Started by `make lint` as ``python -m scripts.flow.elaborate JOB`` with a JSON text of sources, includes, top and
-params, in a process of its own because yosys leaves through exit() on an error.
+Started by `make lint` as ``python -m scripts.flow.elaborate JOB`` with a JSON text of sources, includes, top
+and params, in a process of its own because yosys leaves through exit() on an error.
 """
 
 from __future__ import annotations
@@ -20,7 +20,12 @@ def main() -> int:
         read += ["-G", f'{name}="{value}"' if isinstance(value, str) else f"{name}={value}"]
     read += [f"-I{path}" for path in job["includes"]] + job["sources"]
     design = ys.Design()
-    for command in (" ".join(read), f"hierarchy -check -top {job['top']}", "proc -latches error", "check -assert"):
+    for command in (
+        " ".join(read),
+        f"hierarchy -check -top {job['top']}",
+        "proc -latches error",
+        "check -assert",
+    ):
         ys.run_pass(command, design)
     return 0
 

@@ -78,8 +78,8 @@ def owner(name: str, instances: set[str]) -> str | None:
 def flat_counts(path: Path, top: str, instances: set[str]) -> tuple[Count, dict[str, Count]]:
     """Total of a flattened netlist and its split per instance.
 
-    Flip-flops and RAMs belong to the instance in their name. A LUT, whose name abc9 has lost, is credited to the
-    instance that most of its sinks belong to, walking back from flip-flops and outputs.
+    Flip-flops and RAMs belong to the instance in their name. A LUT, whose name abc9 has lost, is credited to
+    the instance that most of its sinks belong to, walking back from flip-flops and outputs.
     """
     module = json.loads(path.read_text())["modules"][top]
     total, split = Count(), defaultdict(Count)

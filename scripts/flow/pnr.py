@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import median
 
 from scripts.project import ROOT, ProjectError, relative
 
@@ -16,7 +16,7 @@ CLOCK = "clk"
 
 @dataclass(frozen=True)
 class Device:
-    """One FPGA: how nextpnr is told, the clock it is asked for (MHz), and what the part must reach on it (MHz)."""
+    """One FPGA: nextpnr's arguments, the clock it is asked for and the clock to be reached, both in MHz."""
 
     name: str
     family: str
@@ -27,19 +27,54 @@ class Device:
 
 
 DEVICES = (
-    Device("ECP5-25F", "ecp5", ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"), 120, 100),
+    Device(
+        "ECP5-25F",
+        "ecp5",
+        ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"),
+        120,
+        100,
+    ),
     Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"), 60, 48),
-    Device("iCE40 UP5K", "ice40", ("--up5k", "--package", "sg48", "--pcf-allow-unconstrained"), 30, 24, wrapped=True),
+    Device(
+        "iCE40 UP5K",
+        "ice40",
+        ("--up5k", "--package", "sg48", "--pcf-allow-unconstrained"),
+        30,
+        24,
+        wrapped=True,
+    ),
 )
 
 
 @dataclass(frozen=True)
 class Run:
-    """One place and route: seed, Fmax of `clk` in MHz, cells the packer used by type."""
+    """One place and route: seed, Fmax of `clk` in MHz, cells used by type, slowest path in words."""
 
     seed: int
     fmax: float
     used: dict[str, int]
+    path: str
+
+
+def slowest_path(report: dict) -> str:
+    """The slowest register-to-register path of `clk`: its ends, and what its time goes into."""
+    paths = [p["path"] for p in report["critical_paths"] if "posedge" in p["from"] and "posedge" in p["to"]]
+    if not paths:
+        return ""
+    steps = max(paths, key=lambda path: sum(step["delay"] for step in path))
+    first, last = (
+        re.split(r"\\\\|_(?:LUT4|SB_|TRELLIS|CCU2C|PFUMX)", step[side]["cell"])[0]
+        for step, side in ((steps[0], "from"), (steps[-1], "to"))
+    )
+    spent = {
+        kind: sum(step["delay"] for step in steps if step["type"] == kind)
+        for kind in ("clk-to-q", "logic", "routing")
+    }
+    levels = sum(step["type"] == "logic" for step in steps)
+    return (
+        f"{first} → {last}: {sum(step['delay'] for step in steps):.1f} ns ({spent['clk-to-q']:.1f} clk-to-q, "
+        f"{levels} cells {spent['logic']:.1f}, routing {spent['routing']:.1f})"
+    )
 
 
 def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> Run:
@@ -54,10 +89,21 @@ def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> R
     report, log = folder / f"{stem}.json", folder / f"{stem}.log"
     report.unlink(missing_ok=True)
     command = [
-        f"yowasp-nextpnr-{device.family}", "--quiet", "--json", local.name, "--seed", str(seed),
-        "--freq", str(device.ask_mhz), "--timing-allow-fail", "--report", report.name, "--log", log.name,
+        f"yowasp-nextpnr-{device.family}",
+        "--quiet",
+        "--json",
+        local.name,
+        "--seed",
+        str(seed),
+        "--freq",
+        str(device.ask_mhz),
+        "--timing-allow-fail",
+        "--report",
+        report.name,
+        "--log",
+        log.name,
         *device.arguments,
-    ]  # fmt: skip
+    ]
     try:
         done = subprocess.run(
             command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
@@ -67,14 +113,16 @@ def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> R
     if done.returncode or not report.is_file():
         text = done.stderr + done.stdout
         lines = [line for line in text.splitlines() if "ERROR" in line][:4] or text.splitlines()[-4:]
-        raise ProjectError("\n".join([f"{command[0]} failed for {device.name} ({relative(log)} below {ROOT.name})", *lines]))
+        raise ProjectError(
+            "\n".join([f"{command[0]} failed for {device.name} ({relative(log)} below {ROOT.name})", *lines])
+        )
     data = json.loads(report.read_text())
     clocks = {name: entry["achieved"] for name, entry in data["fmax"].items()}
     ours = [mhz for name, mhz in clocks.items() if CLOCK in name] or list(clocks.values())
     used = {kind: entry["used"] for kind, entry in data["utilization"].items() if entry["used"]}
-    return Run(seed, round(min(ours), 2), used)
+    return Run(seed, round(min(ours), 2), used, slowest_path(data))
 
 
-def median_fmax(runs: list[Run]) -> float:
-    """Median Fmax of several seeds, MHz."""
-    return round(median(run.fmax for run in runs), 1)
+def median_run(runs: list[Run]) -> Run:
+    """The run with the median Fmax (the lower one of two in the middle)."""
+    return sorted(runs, key=lambda run: run.fmax)[(len(runs) - 1) // 2]

@@ -23,8 +23,12 @@ YARDSTICKS = (
 
 def breakdown_table(results: dict[str, Breakdown]) -> Table:
     """Cells per instance, all families side by side."""
-    table = Table(title="where the cells are", title_justify="left", caption_justify="left", box=box.SIMPLE_HEAD)
-    table.caption = "flat: flattened, a LUT is credited to the instance it feeds; own: each module mapped by itself"
+    table = Table(
+        title="where the cells are", title_justify="left", caption_justify="left", box=box.SIMPLE_HEAD
+    )
+    table.caption = (
+        "flat: flattened, a LUT is credited to the instance it feeds; own: each module mapped by itself"
+    )
     table.add_column("instance", no_wrap=True)
     table.add_column("module", no_wrap=True)
     for family in results:
@@ -38,7 +42,7 @@ def breakdown_table(results: dict[str, Breakdown]) -> Table:
 
 
 def breakdown_rows(results: dict[str, Breakdown], indent: str) -> list[list[str]]:
-    """Rows of instance, module, and flat LUTs, own LUTs, FF, RAM of each family; the last row is the total."""
+    """Rows of instance, module, then flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
     first = next(iter(results.values()))
     rows = []
     for path in sorted(first.kept):
@@ -79,10 +83,17 @@ def device_rows(devices: list[dict]) -> list[list[str]]:
             goals.append(f"RAM ≤ {goal['ram']}: {verdict(entry['ram'], goal['ram'], True)}")
         goals.append(f"≥ {entry['goal_mhz']:g} MHz: {verdict(entry['fmax'], entry['goal_mhz'], False)}")
         seeds = entry["seeds"]
-        rows.append([
-            entry["device"], f"{entry['lut']} {name}", str(entry["ff"]), str(entry["ram"]), f"{entry['fmax']:.1f}",
-            f"{min(seeds):.1f} … {max(seeds):.1f}", "; ".join(goals),
-        ])  # fmt: skip
+        rows.append(
+            [
+                entry["device"],
+                f"{entry['lut']} {name}",
+                str(entry["ff"]),
+                str(entry["ram"]),
+                f"{entry['fmax']:.1f}",
+                f"{min(seeds):.1f} … {max(seeds):.1f}",
+                "; ".join(goals),
+            ]
+        )
     return rows
 
 
@@ -93,24 +104,38 @@ def markdown(report: dict, results: dict[str, Breakdown]) -> str:
         f"Median Fmax of {report['seed_count']} place-and-route seeds; default parameters "
         "(CLK_HZ 16 MHz, FAST). COMB counts as nextpnr packs (a carry cell is two), LUT4 as synthesized.",
         markdown_table(heads, device_rows(report["devices"])),
+        "Slowest path of the median seed:",
+        "\n".join(f"- {entry['device']}: `{entry['path']}`" for entry in report["devices"]),
         "With other parameters (synthesis only):",
         markdown_table(
             ["parameters", "ECP5 COMB", "ECP5 FF", "iCE40 LUT4", "iCE40 FF"],
-            [[entry["name"], *(str(entry[family][key]) for family in ("ecp5", "ice40") for key in ("lut", "ff"))]
-             for entry in report["variants"]],
+            [
+                [
+                    entry["name"],
+                    *(str(entry[family][key]) for family in ("ecp5", "ice40") for key in ("lut", "ff")),
+                ]
+                for entry in report["variants"]
+            ],
         ),
-        "Where the cells are. *flat*: the flattened netlist, a LUT credited to the instance it feeds (the total is "
-        "exact); *own*: each module mapped by itself.",
+        "Where the cells are. *flat*: the flattened netlist, a LUT credited to the instance it feeds (the "
+        "total is exact); *own*: each module mapped by itself.",
         markdown_table(
             ["instance", "module", "ECP5 flat", "own", "FF", "RAM", "iCE40 flat", "own", "FF", "RAM"],
-            breakdown_rows(results, indent="&nbsp;&nbsp;"), left=2,
+            breakdown_rows(results, indent="&nbsp;&nbsp;"),
+            left=2,
         ),
         "Yardsticks: open designs, same tools, ECP5-25F.",
         markdown_table(
             ["design", "what it is", "COMB", "FF", "RAM", "Fmax / MHz"],
-            [[f"**this {report['part']}**", "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, "
-              "chopper", *(f"**{report['devices'][0][key]:g}**" for key in ("lut", "ff", "ram", "fmax"))]]
-            + [[name, what, *(str(figure) for figure in figures)] for name, what, *figures in YARDSTICKS], left=2,
+            [
+                [
+                    f"**this {report['part']}**",
+                    "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, chopper",
+                    *(f"**{report['devices'][0][key]:g}**" for key in ("lut", "ff", "ram", "fmax")),
+                ]
+            ]
+            + [[name, what, *(str(figure) for figure in figures)] for name, what, *figures in YARDSTICKS],
+            left=2,
         ),
-    ]  # fmt: skip
+    ]
     return "\n\n".join(parts)

@@ -1,7 +1,8 @@
 """A throw-away top for devices with fewer pins than the part: inputs and outputs go through shift registers.
 
-Only the clock rate is taken from the wrapped design; the cells are counted without the wrapper. All paths into and out
-of the part start and end at a flip-flop, so the wrapper hides no path of the part and adds none that is slower.
+Only the clock rate is taken from the wrapped design; the cells are counted without the wrapper. All paths
+into and out of the part start and end at a flip-flop, so the wrapper hides no path of the part and adds none
+that is slower.
 """
 
 from __future__ import annotations
@@ -25,13 +26,18 @@ def ports(netlist: Path, top: str) -> tuple[dict[str, list[int]], dict[str, list
 
 def source(netlist: Path, top: str, params: dict[str, int | str]) -> str:
     """SystemVerilog text of the wrapper of `top` with these parameters."""
-    given = ", ".join(f'.{name}("{value}")' if isinstance(value, str) else f".{name}({value})" for name, value in params.items())
+    given = ", ".join(
+        f'.{name}("{value}")' if isinstance(value, str) else f".{name}({value})"
+        for name, value in params.items()
+    )
     inputs, outputs = ports(netlist, top)
     pins = {name: rng for name, rng in inputs.items() if name not in ("clk", "rst_n")}
     count_in = sum(high - low + 1 for high, low in pins.values())
     count_out = sum(high - low + 1 for high, low in outputs.values())
     lines = [
-        f"module {NAME} (input wire clk, input wire rst_n, input wire scan_i, input wire take_i, output logic scan_o);",
+        f"module {NAME} (",
+        "  input wire clk, input wire rst_n, input wire scan_i, input wire take_i, output logic scan_o",
+        ");",
         f"  logic [{count_in - 1}:0] in_q;",
         f"  logic [{count_out - 1}:0] out_q;",
         f"  wire [{count_out - 1}:0] out;",

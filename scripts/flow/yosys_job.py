@@ -1,7 +1,7 @@
 """One yosys run in a process of its own: SystemVerilog in, mapped JSON netlist out.
 
-Started as ``python -m scripts.flow.yosys_job JOB.json``; the job names sources, top, parameters, family, recipe
-and output. A process of its own keeps yosys' log in one file and lets two families run side by side.
+Started as ``python -m scripts.flow.yosys_job JOB.json``; the job names sources, top, parameters, family,
+recipe and output. A process of its own keeps yosys' log in one file and lets two families run side by side.
 """
 
 from __future__ import annotations
@@ -10,27 +10,35 @@ import json
 import sys
 from pathlib import Path
 
-# What each recipe adds: a command before the family's pass, and options of that pass. The delay targets (in ps) let
-# abc9 give back area on paths that are fast enough already.
+FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
+FLOW3 = "scratchpad -copy abc9.script.flow3mfs abc9.script"
+
+# What each recipe adds: a command before the family's pass, and options of that pass. flow2 and flow3 are
+# abc9 scripts that repeat mapping and restructuring; the delay targets (in ps) let abc9 give back area where there
+# is time; -cmp2softlogic compares with constants without carry chains, whose ends cost a cell each on ECP5.
 RECIPES: dict[str, dict[str, tuple[str, str]]] = {
     "ecp5": {
         "default": ("", ""),
         "nowidelut": ("", "-nowidelut"),
-        "relaxed": ("scratchpad -set abc9.D 9000", ""),
-        "relaxed-nowidelut": ("scratchpad -set abc9.D 9000", "-nowidelut"),
+        "relaxed": ("scratchpad -set abc9.D 9000", "-nowidelut"),
         "soft": ("", "-nowidelut -cmp2softlogic"),
-        "flow3": ("scratchpad -copy abc9.script.flow3 abc9.script", "-nowidelut"),
+        "flow2": (FLOW2, "-nowidelut"),
+        "flow3": (FLOW3, "-nowidelut"),
+        "flow2-soft": (FLOW2, "-nowidelut -cmp2softlogic"),
+        "flow3-soft": (FLOW3, "-nowidelut -cmp2softlogic"),
+        "flow2-noccu2": (FLOW2, "-nowidelut -noccu2"),
     },
     "ice40": {
         "default": ("", ""),
         "dff": ("", "-dff"),
         "relaxed": ("scratchpad -set abc9.D 18000", ""),
-        "relaxed-dff": ("scratchpad -set abc9.D 18000", "-dff"),
-        "ce4": ("scratchpad -set abc9.D 18000", "-dffe_min_ce_use 4"),
-        "flow3": ("scratchpad -copy abc9.script.flow3 abc9.script", ""),
+        "flow2": (FLOW2, ""),
+        "flow3": (FLOW3, ""),
+        "flow2-dff": (FLOW2, "-dff"),
     },
 }
-BEST = {"ecp5": "default", "ice40": "default"}
+# Chosen with `synth.py --sweep`: smallest without losing clock rate.
+BEST = {"ecp5": "flow2-soft", "ice40": "flow2"}
 
 
 def commands(job: dict) -> list[str]:
@@ -45,7 +53,7 @@ def commands(job: dict) -> list[str]:
         passes = [f"{synth} -noflatten"]
     else:
         read += job["sources"]
-        # Registers take the name of the signal they drive before abc9 forgets the signals inside the hierarchy.
+        # Registers take the name of the signal they drive, before abc9 forgets the signals of the hierarchy.
         passes = [f"{synth} -run begin:map_luts", "rename -wire", f"{synth} -run map_luts:"]
     return [*filter(None, [" ".join(read), pre]), *passes, f"write_json {job['json']}"]
 

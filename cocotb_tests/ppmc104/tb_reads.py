@@ -1,0 +1,220 @@
+"""Register reads and auxiliary ports (P104-RD, P104-AUX)."""
+
+from __future__ import annotations
+
+import cocotb
+from cocotb_tests.common.bus import DATA, OBF
+from cocotb_tests.common.config import F16, F25, F50, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A, STEP_CODES, steps
+from .lab import PINS_LATEST, Lab
+
+READS = (0x80, 0x81, 0x82, 0x83, 0x85)
+
+
+def output_signals(s: int, hold: int, direction: int) -> int:
+    """Byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, HOLD, DIR (P104-RD-06)."""
+    bits = sum((s >> i & 1) << (7 - i) for i in range(5))
+    return bits | hold << 2 | direction << 1
+
+
+@cocotb.test()
+@verifies("P104-RD-01", "P104-AUX-03")
+async def p104_rd_01_when_allowed(dut):
+    """Given reads and 0x84 before init, after it and in a move, when sent, then only BUSY forbids them."""
+    lab = await Lab.start(dut, None)
+    for phase in range(3):
+        if phase == 1:
+            await lab.init(*INIT_A)
+        if phase == 2:
+            await lab.go(0x44, 4, rate=99)
+        for code in READS:
+            status = await lab.host.command(code)
+            lab.check("P104-RD-01", f"{code:#x}, phase {phase}", status, 0x94 if phase == 2 else 0x01)
+            if phase < 2:
+                await lab.host.run("rrr" if code == 0x83 else "r")
+        got = await lab.statuses("c 84 d 00 d FF")
+        expected = [0x94, 0xE4, 0xE4] if phase == 2 else [0x20, 0x10, 0x00]
+        lab.check("P104-AUX-03", f"0x84, phase {phase}", got, expected)
+    lab.check("P104-RD-01", "OBF after refused reads", await lab.host.status() & OBF, 0)
+    await lab.result("P104-RD-01", 4, 0x84, 0)
+
+
+@cocotb.test()
+@verifies("P104-RD-02", "P104-RD-05", "P104-LIM-10")
+async def p104_rd_02_sampled_at_the_c_event(dut):
+    """Given pins that change after the command, when the byte is read later, then it holds the earlier levels."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.host.command(0x81)
+    lab.bench.set(alm_n=0, l1_n=0)
+    await lab.bench.clocks(50)
+    lab.check("P104-RD-02", "byte from before the change", await lab.host.read(DATA), 0xCF)
+    lab.check("P104-RD-02", "byte from after it", await lab.host.fetch(0x81), [0x87])
+    await lab.host.command(0x85)
+    lab.bench.set(auxi=0xF)
+    await lab.bench.clocks(50)
+    lab.check("P104-RD-02", "auxiliary inputs from before", await lab.host.read(DATA), 0x00)
+    lab.check("P104-LIM-10", "int_n, hold", (lab.bench.edges("int_n"), lab.bench.edges("hold")), ([], []))
+
+
+@cocotb.test()
+@verifies("P104-RD-05", "P104-RD-08", "P104-LIM-10")
+async def p104_rd_05_input_bits(dut):
+    """Given every single input and random mixtures, when 0x81 and 0x85 are read, then each bit is its own pin."""
+    lab = await Lab.start(dut, None)
+    place = {"cnp_n": 7, "alm_n": 6, "l1_n": 3, "l2_n": 2, "l3_n": 1, "l4_n": 0}
+    sets = [{pin: int(pin != low) for pin in place} for low in place]
+    sets += [{pin: int(pin == high) for pin in place} for high in place]
+    sets += [{pin: lab.bench.rng.randrange(2) for pin in place} for _ in range(20)]
+    for aux, levels in enumerate(sets):
+        lab.bench.set(auxi=aux & 0xF, csel=aux & 1, vsel=aux >> 1 & 1, clock=aux & 1, **levels)
+        await lab.bench.clocks(4)
+        expected = sum(level << place[pin] for pin, level in levels.items())
+        lab.check("P104-RD-05", f"0x81 with {levels}", await lab.host.fetch(0x81), [expected])
+        lab.check("P104-RD-08", f"0x85 with {aux & 0xF}", await lab.host.fetch(0x85), [aux & 0xF])
+    quiet = {name: lab.bench.edges(name) for name in lab.outputs()}
+    lab.check("P104-LIM-10", "edges of outputs at rest", quiet, {name: [] for name in quiet})
+
+
+@cocotb.test()
+@verifies("P104-RD-06", "P104-SW-07")
+async def p104_rd_06_output_bits(dut):
+    """Given all patterns, both logics, hold and dir, when 0x82 is read, then its bits are the un-chopped pins."""
+    lab = await Lab.start(dut, None)
+    for name, code in STEP_CODES.items():
+        for positive in (True, False):
+            await lab.init((code if positive else code & ~8) | 0x20, 9, 4, 4)
+            table = steps(name, positive)
+            for i in range(1, len(table) + 1):
+                ccw = positive
+                await lab.move(0x5A if ccw else 0x52)
+                pattern = table[-i % len(table) if ccw else i % len(table)]
+                # Both chopper phases: the byte does not tell them apart.
+                for _ in range(2):
+                    expected = output_signals(pattern, 0, int(ccw))
+                    lab.check("P104-RD-06", f"{name}, step {i}", await lab.host.fetch(0x82), [expected])
+                    await lab.bench.clocks(1100)
+            await lab.host.command(0xC0)
+            off = 0 if positive else 0x1F
+            lab.check(
+                "P104-RD-06", "after 0xC0", await lab.host.fetch(0x82), [output_signals(off, 0, int(positive))]
+            )
+
+
+@cocotb.test()
+@verifies("P104-RD-03", "P104-RD-04", "P104-END-07")
+@configs(F16, F25)
+async def p104_rd_04_read_finish_status(dut):
+    """Given an INT, when 0x80 is taken, then it rises without a data read, and bit 7 is there just once."""
+    lab = await Lab.start(dut, INIT_A)
+    lab.check("P104-RD-03", "before any operation", await lab.finish(), 0x00)
+    for code, rate, finish in ((0x42, None, 0x02), (0x43, None, 0x03), (0x44, 3, 0x04)):
+        await lab.move(code, None if code == 0x42 else 2, rate)
+        edge0 = await lab.host.write(1, 0x80)
+        await lab.bench.clocks(12)
+        lab.window("P104-RD-04", "0x80 to int_n", lab.bench.rises("int_n")[-1] - edge0, 2, PINS_LATEST)
+        lab.check("P104-RD-04", "byte: bit 7 as it was", await lab.host.read_data(), 0x80 | finish)
+        lab.check("P104-RD-03", "second read", await lab.finish(), finish)
+        lab.check("P104-RD-03", "third read", await lab.finish(), finish)
+    await lab.move(0x42)
+    for other in (0x81, 0x82, 0x83, 0x85):
+        await lab.host.fetch(other, 3 if other == 0x83 else 1)
+    lab.check("P104-RD-04", "int_n after other reads", lab.bench.level("int_n"), 0)
+
+
+@cocotb.test()
+@verifies("P104-RD-07", "P104-END-06", "P104-EX-10")
+async def p104_rd_07_remaining_resumes(dut):
+    """Given a stopped move, when the rest is read and sent back, then both parts make the whole count."""
+    lab = await Lab.start(dut, INIT_A)
+    lab.check("P104-RD-07", "after reset", await lab.remaining(), 0)
+    for stop_at in (1, 5, 19):
+        await lab.go(0x44, 20, rate=9)
+        await lab.pulse(stop_at, 150)
+        await lab.host.command(0x40)
+        await lab.result("P104-RD-07", stop_at, 0xC4, 20 - stop_at - 1)
+        lab.check("P104-RD-07", "second read", await lab.remaining(), 20 - stop_at - 1)
+        low, middle, high = await lab.host.fetch(0x83, 3)
+        lab.since = lab.bench.now
+        await lab.host.send(0x44, [9, low, middle, high])
+        await lab.result("P104-END-06", 20 - stop_at, 0x84, 0)
+
+
+@cocotb.test()
+@verifies("P104-AUX-01", "P104-CMD-02")
+@configs(F16, F50)
+async def p104_aux_01_aux_pin(dut):
+    """Given UNINIT, READY, init and Excitation OFF, when AUX ON and OFF come, then only they move aux_n."""
+    lab = await Lab.start(dut, None)
+    for phase in range(3):
+        for code, level in ((0xC1, 0), (0xC1, 0), (0xC2, 1), (0xC2, 1), (0xC1, 0)):
+            edge0 = await lab.host.write(1, code)
+            await lab.bench.clocks(PINS_LATEST)
+            lab.check("P104-AUX-01", f"aux_n after {code:#x}", lab.bench.level("aux_n"), level)
+            for t, _ in lab.bench.edges("aux_n", edge0):
+                lab.window("P104-AUX-01", "edge 0 to pin", t - edge0, 2, PINS_LATEST)
+        await lab.host.init(*INIT_A)
+        await lab.host.command(0xC0 if phase == 1 else 0x81)
+        await lab.bench.clocks(4)
+        lab.check("P104-AUX-01", "aux_n untouched by init and 0xC0", lab.bench.level("aux_n"), 0)
+
+
+@cocotb.test()
+@verifies("P104-AUX-02")
+async def p104_aux_02_all_values(dut):
+    """Given all 256 data bytes, when each follows 0x86, then auxo is the inverted low nibble, in one edge."""
+    lab = await Lab.start(dut, None)
+    for byte in range(256):
+        before, since = lab.bench.level("auxo"), lab.bench.now
+        lab.check("P104-AUX-02", "status", await lab.host.send(0x86, [byte]), 0x00)
+        await lab.bench.clocks(2)
+        now = ~byte & 0xF
+        values = [value for _, value in lab.bench.edges("auxo", since)]
+        lab.check("P104-AUX-02", f"auxo after {byte:#x}", values, [] if now == before else [now])
+
+
+@cocotb.test()
+@verifies("P104-AUX-03", "P104-SW-05", "P104-SW-04")
+async def p104_aux_03_switching_parameters(dut):
+    """Given 0x84 before init and while chopping, when sent, then both values act together, from a phase boundary."""
+    lab = await Lab.start(dut, None)
+    await lab.host.send(0x84, [0, 255])
+    await lab.init(0x2A, 9, 4, 4)
+    await lab.bench.clocks(600)
+    since = lab.bench.now
+    await lab.bench.clocks(28_000)
+    lab.check("P104-AUX-03", "phases", set(lab.stretches(since)), {(3, 4 * 108), (0, 4 * (12 * 255 + 132))})
+    await lab.bench.edge("s", 3)
+    since = lab.bench.now - 8
+    await lab.host.send(0x84, [255])
+    await lab.bench.clocks(600)
+    lab.check("P104-AUX-03", "nothing changes at Pon", lab.stretches(since)[0], (3, 4 * 108))
+    off = await lab.host.data(0)
+    lab.check("P104-AUX-03", "status", off, 0x00)
+    await lab.bench.clocks(36_000)
+    got = lab.stretches(since)
+    expected = [(3, 4 * 108), (0, 4 * (12 * 255 + 132)), (3, 4 * (12 * 255 + 108)), (0, 4 * 132)]
+    lab.check("P104-SW-05", "phases around the change", got[:4], expected)
+
+
+@cocotb.test()
+@verifies("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
+async def p104_aux_04_excitation_off(dut):
+    """Given a chopping motor, when 0xC0 comes in ON or OFF, then all pins go off and stay; hold runs on."""
+    lab = await Lab.start(dut, None)
+    for code, off in ((0x2A, 0), (0x22, 0x1F)):
+        for phase in (0, 1):
+            await lab.init(code, 9, 4, 4)
+            await lab.bench.edge("s")
+            if phase:
+                await lab.bench.edge("s")
+            await lab.bench.clocks(100)
+            edge0 = await lab.host.write(1, 0xC0)
+            await lab.bench.clocks(PINS_LATEST)
+            lab.check("P104-AUX-04", f"s, phase {phase}", lab.bench.level("s"), off)
+            await lab.bench.clocks(6000)
+            late = [t - edge0 for t, _ in lab.bench.edges("s", edge0 + PINS_LATEST + 1)]
+            lab.check("P104-AUX-04", "s stays off", late, [])
+            lab.check("P104-AUX-06", "0xC0 again", await lab.host.command(0xC0), 0x00)
+            lab.check("P104-AUX-06", "s", lab.bench.level("s"), off)
