@@ -32,7 +32,7 @@ for word in "$@"; do
 done
 [ -n "$need_env" ] || exit 0
 
-for tool in git g++; do
+for tool in git g++ perl; do
     command -v "$tool" >/dev/null 2>&1 || problem "$tool is not installed: install it with the package manager (Debian: apt install $tool)"
 done
 [ ! -x .venv/bin/python ] || exit 0

@@ -18,6 +18,9 @@ ITEMS = cocotb_items(
     "tb_init",
     "tb_stops",
     "tb_reads",
+    "tb_baseclock",
+    "tb_ramp",
+    "tb_forced_decel",
 )
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ram: block RAM with one write and one read port.
-// Timing: rdata_o stands one clk after raddr_i. Nobody reads the address that is being written (it may give either word).
+// Timing: rdata_o stands two clk after raddr_i: block RAMs answer slowly, so their output has a register. Nobody reads the address that is being written (it may give either word).
 // Note:   contents are not reset; they start as zeros, and every user writes before it reads.
 `default_nettype none
 
@@ -18,12 +18,14 @@ module ppmc_ram #(
 
   (* ram_style = "block", no_rw_check *)
   logic [Width-1:0] mem[2**AddrBits];
+  logic [Width-1:0] read_q;
 
   initial for (int unsigned i = 0; i < 2 ** AddrBits; i++) mem[i] = '0;
 
   always_ff @(posedge clk_i) begin
     if (we_i) mem[waddr_i] <= wdata_i;
-    rdata_o <= mem[raddr_i];
+    read_q  <= mem[raddr_i];
+    rdata_o <= read_q;
   end
 
 endmodule

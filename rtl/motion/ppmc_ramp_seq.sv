@@ -19,7 +19,7 @@ module ppmc_ramp_seq #(
     input  wire logic [ RateBits-1:0] slow_i,       // start-up rate
     input  wire logic [ RateBits-1:0] fast_i,       // high-speed rate
     input  wire logic [ StepBits-1:0] steps_i,      // acceleration pulses PA
-    output logic      [ RateBits-1:0] lut_addr_o,   // r; thr(r) is expected one clk later
+    output logic      [ RateBits-1:0] lut_addr_o,   // r; thr(r) is expected two clk later
     input  wire logic [  LutBits-1:0] lut_data_i,
     // operation
     input  wire logic                 load_i,       // start: takes count and rate
@@ -39,10 +39,11 @@ module ppmc_ramp_seq #(
     output logic      [CountBits-1:0] left_o        // pulses left minus 1, but at least 0
 );
 
-  typedef enum logic [1:0] {
+  typedef enum logic [2:0] {
     StRest,
     StTurn,  // from the running rate to the next slower one
     StRead,  // table access
+    StWait,
     StTest
   } state_e;
 
@@ -131,7 +132,8 @@ module ppmc_ramp_seq #(
             probe_q <= probe_q + 1'b1;
             state_q <= StRead;
           end
-          StRead:  state_q <= StTest;
+          StRead:  state_q <= StWait;
+          StWait:  state_q <= StTest;
           StTest: begin
             state_q <= more ? StRead : StRest;
             if (more) begin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_serial: the bit-serial arithmetic of the ramp builder: six long numbers in one block RAM, a bit of each a word.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
-// Timing: a pass over all bits takes Bits + 1 clk from start_i (which may overlap nothing); last_o marks its last clk.
+// Timing: a pass over all bits takes Bits + 2 clk from start_i (which may overlap nothing); last_o marks its last clk.
 // How:    with U = B*PA - (A-B), numerator and denominator of thr(r) = floor(num/den) are quadratic in r, so they follow from
 //         additions alone (second differences). Products before that are made one multiplier bit a pass.
 //           num = -n   v = first difference of n   u = U       den = d   e = first difference of d   g = A-B
@@ -32,8 +32,9 @@ module ppmc_ramp_serial
   typedef struct packed {logic n, v, u, d, e, g;} word_t;
 
   word_t rd, wr;
-  logic run_q, use_q, first_q, lead_q, we;
+  logic run_q, read_q, use_q, first_q, lead_q, we;
   logic [CountBits-1:0] bit_q, last_bit;
+  logic [CountBits-1:0] read_bit_q;
   logic [AddrBits-1:0] at_q;
 
   ppmc_ram #(
@@ -51,15 +52,17 @@ module ppmc_ramp_serial
   // den comes out behind leading zeros, that is shifted to the left; its own top bits are zeros and stay behind.
   assign last_bit = (pass_i == PassRead) ? CountBits'(Bits - StepBits) : CountBits'(Bits - 1);
 
-  // Address stage, then use stage one clk later.
+  // Address, RAM, use: three stages.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       run_q   <= 1'b0;
+      read_q  <= 1'b0;
       use_q   <= 1'b0;
       first_q <= 1'b0;
       lead_q  <= 1'b0;
       bit_q   <= '0;
       at_q    <= '0;
+      read_bit_q <= '0;
     end else begin
       if (start_i) begin
         run_q <= 1'b1;
@@ -68,14 +71,15 @@ module ppmc_ramp_serial
         if (bit_q == last_bit) run_q <= 1'b0;
         bit_q <= bit_q + 1'b1;
       end
-      use_q   <= run_q;
-      first_q <= bit_q == '0;
-      lead_q  <= bit_q[CountBits-1];
-      at_q    <= bit_q[AddrBits-1:0];
+      {use_q, read_q} <= {read_q, run_q};
+      read_bit_q      <= bit_q;
+      first_q         <= read_bit_q == '0;
+      lead_q          <= read_bit_q[CountBits-1];
+      at_q            <= read_bit_q[AddrBits-1:0];
     end
   end
 
-  assign last_o  = use_q && !run_q;
+  assign last_o  = use_q && !read_q;
   assign valid_o = use_q;
   assign we      = use_q && !lead_q && pass_i != PassRead;
 

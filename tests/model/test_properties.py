@@ -142,38 +142,25 @@ def test_one_move_with_one_disturbance(move):
     flag_after = None
     if cause is not None and target >= 1:
         edge = host.fall(target)
-        t = edge + move["after"]
-        following = host.model.next_event
-        while following is not None and following < t + 12 and len(host.pulses()) == target:
-            host.step()
-            following = host.model.next_event
-        t = max(t, host.t)
-        # Keep away from pulse events: their neighbourhood has tests of its own.
-        while True:
-            seen = len(host.pulses())
-            host.go(max(t, host.model.now + 1))
-            probe = host.model.intervals[seen - 1 : seen]
-            if not host.model.busy or not probe:
-                break
-            begin = host.pulses()[-1]
-            length = 4 * probe[0].quanta
-            if host.t - begin > 4 and begin + length - host.t > 16:
-                break
-            if length <= 24:
-                cause = None
-                break
-            t = begin + length + 6
-            while len(host.pulses()) == seen and host.model.busy:
-                host.step()
-        if cause is not None and host.model.busy and len(host.pulses()) < n:
-            flag_after = len(host.pulses())
+        length = 4 * host.model.intervals[target - 1].quanta
+        if length >= 64:
+            # Keep away from pulse events: their neighbourhood has tests of its own.
+            host.go(edge + 5 + move["after"] % (length - 30))
+            flag_after = target
             if cause.startswith("0x"):
                 host.write(1, int(cause, 16))
             else:
                 host.pins(**{cause: 0})
-    if cause is None and endless:
+    if endless and flag_after is None:
         host.command(0x40)
-        flag_after = None
+    ignored = False
+    if endless:
+        # A cause that the operation ignores leaves it running.
+        host.pause(30_000)
+        host.sync()
+        if host.model.busy:
+            host.command(0x40)
+            ignored = True
     mark = host.mark
     host.idle()
     host.mark = mark
@@ -204,7 +191,8 @@ def test_one_move_with_one_disturbance(move):
             if not natural:
                 expected = begin + 1 + profile[begin - 1]
                 wanted_bits = 0x40 if cause == "0x41" else 0x08
-    elif endless:
+    if ignored or (endless and flag_after is None):
+        assert bits == 0x40
         return
     assert pulses == expected, (cause, flag_after)
     assert bits == (wanted_bits if left else 0)
@@ -255,7 +243,7 @@ def test_external_clock_counts_edges(n, rate, periods, vsel, ramp):
 
 @given(st.lists(st.tuples(st.integers(1, 6), st.integers(0, 1), st.integers(0, 1)), max_size=60))
 def test_any_bus_noise_stores_whole_bytes_only(changes):
-    """Strobes of any length: what comes through is a byte that stood on the bus, and reads never drive late."""
+    """Strobes of any length: a byte that stood on the bus comes through, or none."""
     model, t = Ppmc104(), 5
     for wait, wr_n, rd_n in changes:
         model.pins(t, cs_n=0, wr_n=wr_n, rd_n=rd_n, a0=1, d_i=0x87)

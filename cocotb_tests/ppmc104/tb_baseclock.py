@@ -1,0 +1,311 @@
+"""Base clocks, external clock and interval lengths (P104-BCK, P104-INT, P104-GEN-02..04, P104-TIM-03)."""
+
+from __future__ import annotations
+
+from itertools import chain, repeat
+
+import cocotb
+from cocotb_tests.common.bus import BUSY
+from cocotb_tests.common.config import F8, F11, F16, F16X1, F25, F50, F100, Config, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A, differences, rates
+from .lab import Lab
+
+EXTERNAL = (0x1A, 9, 4, 4)
+
+
+def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) -> list[int]:
+    """Pulse times with vsel = L on external edges, pulse 1 on edges[first] (P104-INT-03).
+
+    All times share the one constant delay between a pin edge and its effect.
+    """
+    x = (240 * config.clk_hz // config.xtal_hz + 1) // 2
+    h = (272 * config.clk_hz // config.xtal_hz + 1) // 2
+    pulses = [edges[first]]
+    for r in rate_list:
+        a = next(i for i, t in enumerate(edges) if t >= pulses[-1])
+        b = a + r + 1
+        wait = x - (edges[a] - pulses[-1])
+        slow = edges[b] - edges[b - 1] > h
+        pulses.append(edges[b] if slow else edges[b] + max(0, wait))
+    return pulses
+
+
+@cocotb.test()
+@verifies("P104-BCK-01", "P104-INT-01", "P104-INT-02", "P104-GEN-02", "P104-GEN-03", "P104-GEN-04")
+@configs(F16, F8, F11, F25, F50, F100, F16X1)
+async def p104_bck_01_internal_clocks(dut):
+    """Given each core clock and crystal, when csel and vsel vary, then every pulse lies on its quantum tick."""
+    lab = await Lab.start(dut, INIT_A)
+    for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
+        lab.bench.set(csel=csel, vsel=vsel)
+        await lab.bench.clocks(4)
+        for r in (0, 1, 2, 3, 7):
+            await lab.move(0x44, 4, rate=r)
+            lab.check_train("P104-BCK-01", [r] * 3, csel, vsel)
+            lab.check_lows("P104-TIM-05", [r] * 3, csel, vsel)
+        await lab.move(0x43, 11)
+        ramp = rates(INIT_A[1:], [0, 1, 2, 3, 4, 4, 3, 2, 1, 0])
+        lab.check_train("P104-INT-02", ramp, csel, vsel)
+
+
+@cocotb.test()
+@verifies("P104-BCK-02", "P104-BAD-16", "P104-INI-09")
+async def p104_bck_02_latched(dut):
+    """Given csel and vsel toggling in motion, when a move runs, then only their levels at its start count."""
+    lab = await Lab.start(dut, INIT_A)
+    for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
+        lab.bench.set(csel=csel, vsel=vsel)
+        await lab.bench.clocks(4)
+        await lab.go(0x43, 9)
+        while len(lab.pulses) < 9:
+            lab.bench.set(csel=lab.bench.rng.randrange(2), vsel=lab.bench.rng.randrange(2))
+            await lab.bench.clocks(lab.bench.rng.randrange(1, 200))
+        await lab.idle()
+        lab.check_train("P104-BCK-02", rates(INIT_A[1:], [0, 1, 2, 3, 3, 2, 1, 0]), csel, vsel)
+
+
+@cocotb.test()
+@verifies("P104-BCK-03", "P104-GEN-03", "P104-EX-12")
+@configs(F11, F25, F50)
+async def p104_bck_03_cumulative(dut):
+    """Given fractional clk per quantum, when mixed intervals add up, then no pulse drifts and each is within 1 clk."""
+    lab = await Lab.start(dut, (0x0A, 40, 0, 23))
+    await lab.move(0x43, 300)
+    which = [min(j, 298 - j, 23) for j in range(299)]
+    ramp = rates((40, 0, 23), which)
+    lab.check_train("P104-BCK-03", ramp)
+    exact = lab.cfg.clk_hz * 32 / lab.cfg.xtal_hz
+    for got, r in zip(lab.intervals, ramp, strict=True):
+        lab.window("P104-BCK-03", "interval against the fraction", round(abs(got - exact * (r + 1)) * 1000), 0, 1000)
+
+
+@cocotb.test()
+@verifies("P104-BCK-03")
+async def p104_bck_03_phase_restart(dut):
+    """Given starts at any phase of the free-running quantum, when pulse 1 is out, then intervals count from it."""
+    lab = await Lab.start(dut, INIT_A)
+    for wait in range(0, 34, 3):
+        await lab.move(0x44, 3, rate=1)
+        lab.check_train("P104-BCK-03", [1, 1])
+        await lab.bench.clocks(wait)
+
+
+@cocotb.test()
+@verifies("P104-BCK-04", "P104-INT-01", "P104-INI-01", "P104-TIM-03")
+@configs(F16, F25, F100)
+async def p104_bck_04_external_edges(dut):
+    """Given external clocks with any duty and jitter, when moves run, then pulses keep to their own edges."""
+    lab = await Lab.start(dut, EXTERNAL)
+    rng = lab.bench.rng
+    delays = set()
+    for low, high_time in ((16, 2), (16, 14), (40, 20), (23, 7), (100, 98)):
+        gaps = [low] * 400 if low != 23 else [rng.randrange(23, 60) for _ in range(400)]
+        clock = lab.bench.external_clock(gaps, high=high_time)
+        await lab.move(0x43, 14)
+        clock.cancel()
+        await lab.bench.align()
+        lab.bench.set(clock=0)
+        edges = [t for t in lab.clock_edges(lab.since) if t <= lab.pulses[-1]]
+        first = max(i for i, t in enumerate(edges) if t < lab.pulses[0] - 1)
+        at, expected = first, [first]
+        for r in rates((9, 4, 4), [0, 1, 2, 3, 4, 4, 4, 4, 4, 3, 2, 1, 0]):
+            at += r + 1
+            expected.append(at)
+        delays |= {pulse - edges[i] for pulse, i in zip(lab.pulses, expected, strict=True)}
+        await lab.bench.clocks(20)
+    lab.check("P104-BCK-04", "different delays from edge to pulse", len(delays), 1)
+    lab.window("P104-BCK-04", "delay from edge to pulse", min(delays), 2, 5)
+
+
+@cocotb.test()
+@verifies("P104-BCK-05", "P104-BAD-14")
+async def p104_bck_05_too_fast_clock(dut):
+    """Given clocks of 4 to 15 clk at rate 0, when moves run, then count, phases and results hold, nothing is early."""
+    lab = await Lab.start(dut, (0x1A, 3, 0, 4))
+    for period in (4, 5, 7, 9, 12, 15):
+        clock = lab.bench.external_clock(repeat(period), high=2)
+        for code, rate in ((0x44, 0), (0x43, None), (0xC3, None)):
+            before = lab.bench.level("s")
+            await lab.move(code, 25, rate)
+            lab.check("P104-BCK-05", f"pulses at {period} clk", len(lab.pulses), 25)
+            lab.check("P104-BCK-05", "shortest interval", min(lab.intervals) >= period, True)
+            lab.check("P104-BCK-05", "intervals are whole periods", {i % period for i in lab.intervals}, {0})
+            turns = 25 if code != 0xC3 else 0
+            table = [0b00011, 0b00110, 0b01100, 0b01001]
+            expected = table[(table.index(before) + turns) % 4]
+            lab.check("P104-BCK-05", "s", lab.bench.level("s"), expected)
+            await lab.result("P104-BCK-05", 25, 0x80 | code & 7, 0)
+        await lab.go(0x46)
+        await lab.pulse(30)
+        lab.bench.set(l1_n=0)
+        await lab.idle()
+        count = len(lab.pulses)
+        lab.check("P104-BCK-05", "finish status", await lab.finish(), 0x96)
+        lab.check("P104-BCK-05", "pulses and rest", await lab.remaining(), (1 << 24) - count - 1)
+        lab.bench.set(l1_n=1)
+        clock.cancel()
+        await lab.bench.align()
+        lab.bench.set(clock=0)
+        await lab.bench.clocks(8)
+
+
+@cocotb.test()
+@verifies("P104-INT-03", "P104-INT-04")
+@configs(F16, F25)
+async def p104_int_03_vsel_low_external(dut):
+    """Given vsel = L and steady or changing external clocks, when moves run, then each pulse is where INT-03 has it."""
+    lab = await Lab.start(dut, EXTERNAL, vsel=0)
+    rng = lab.bench.rng
+    us = lab.cfg.us
+    steady = [us(x) for x in (1.5, 2.5, 4, 7, 7.5, 7.75, 8, 8.375, 8.75, 9, 12)]
+    trains = [[period] * 400 for period in steady]
+    trains.append([rng.randrange(us(2), us(14)) for _ in range(400)])
+    trains.append([us(8.5) + rng.randrange(-3, 4) for _ in range(400)])
+    trains.append(list(chain.from_iterable([us(3)] * 5 + [us(11)] * 2 for _ in range(60))))
+    for gaps in trains:
+        for code, n, rate_list in (
+            (0x44, 9, [3] * 8),
+            (0x43, 8, rates((9, 4, 4), [0, 1, 2, 3, 2, 1, 0])),
+            (0x44, 7, [0] * 6),
+        ):
+            clock = lab.bench.external_clock(gaps, high=8)
+            await lab.go(code, n, rate_list[0] if code == 0x44 else None)
+            await lab.pulse(n, 300)
+            clock.cancel()
+            await lab.bench.align()
+            lab.bench.set(clock=0)
+            await lab.idle()
+            edges = lab.clock_edges(lab.since)
+            first = max(i for i, t in enumerate(edges) if t < lab.pulses[0] - 1)
+            delay = lab.pulses[0] - edges[first]
+            got = [t - delay for t in lab.pulses]
+            expected = carried(lab.cfg, edges, first, rate_list)
+            same = f"pulses at {gaps[:3]} clk, {code:#x}"
+            lab.check("P104-INT-03", same, differences(got), differences(expected))
+            await lab.bench.clocks(20)
+
+
+@cocotb.test()
+@verifies("P104-INT-04", "P104-EX-08")
+@configs(F16, F100)
+async def p104_int_04_steady_consequences(dut):
+    """Given steady clocks up to 7.5 us and from 9 us on, when vsel = L, then +7.5 us or nothing is added."""
+    lab = await Lab.start(dut, EXTERNAL, vsel=0)
+    us = lab.cfg.us
+    for micros in (2, 4, 7.5, 8, 9, 10):
+        period = us(micros)
+        clock = lab.bench.external_clock(repeat(period), high=period // 2)
+        await lab.move(0x44, 6, rate=9)
+        clock.cancel()
+        await lab.bench.align()
+        lab.bench.set(clock=0)
+        expected = 10 * period + (us(7.5) if micros <= 8 else 0)
+        for interval in lab.intervals:
+            more = us(0.5) if micros == 8 else 0
+            lab.window("P104-INT-04", f"interval at {micros} us", interval, expected - 2, expected + 2 + more)
+        await lab.bench.clocks(20)
+
+
+@cocotb.test()
+@verifies("P104-INT-05", "P104-BAD-17", "P104-TIM-05")
+@configs(F16, F11, F100)
+async def p104_int_05_no_speed_limit(dut):
+    """Given RH = 0, when a ramp and commands meet top speed, then every interval holds and commands are served."""
+    lab = await Lab.start(dut, (0x0A, 7, 0, 9))
+    await lab.go(0x43, 200)
+    await lab.pulse(60)
+    lab.check("P104-INT-05", "0x86 at top speed", await lab.host.command(0x86), 0x14)
+    lab.check("P104-INT-05", "its data", await lab.host.data(0x0F), BUSY)
+    await lab.idle()
+    ramp = rates((7, 0, 9), [min(j, 198 - j, 9) for j in range(199)])
+    lab.check_train("P104-INT-05", ramp)
+    lab.check_lows("P104-TIM-05", ramp)
+
+
+@cocotb.test()
+@verifies("P104-TIM-03", "P104-BAD-13", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-FDC-03")
+async def p104_tim_03_waiting_for_the_clock(dut):
+    """Given no external clock, when operations start, then they wait in START, and all stop causes work."""
+    lab = await Lab.start(dut, EXTERNAL)
+    causes = {"l1_n": 0x90, "alm_n": 0xA0, "cnp_n": 0x80}
+    for code, rate in ((0x44, 9), (0x45, 9), (0x47, 9), (0x43, None), (0x46, None)):
+        n = 10 if code in (0x43, 0x44) else None
+        rest = 9 if n else (1 << 24) - 1
+        for pin, bits in causes.items():
+            await lab.go(code, n, rate)
+            await lab.bench.clocks(700)
+            lab.check("P104-TIM-03", "BUSY without edges", await lab.host.status(), BUSY)
+            ends = pin != "cnp_n" or code == 0x47
+            lab.bench.set(**{pin: 0})
+            await lab.bench.clocks(20)
+            lab.check("P104-BAD-13", f"BUSY of {code:#x}, {pin}", await lab.host.status(), 0 if ends else BUSY)
+            if not ends:
+                await lab.host.command(0x40)
+                bits = 0xC0
+            lab.bench.set(**{pin: 1})
+            await lab.result("P104-TIM-03", 0, bits | code & 7, rest)
+            bits = causes[pin]
+        await lab.go(code, n, rate)
+        await lab.host.command(0x41)
+        if code & 7 in (3, 6):
+            await lab.bench.clocks(700)
+            lab.check("P104-BAD-13", "0x41 waits for an edge", await lab.host.status(), BUSY)
+            await lab.ticks(2, 100)
+            await lab.result("P104-FDC-03", 1, 0xC0 | code & 7, rest - 1)
+        else:
+            await lab.result("P104-BAD-13", 0, 0xC0 | code & 7, rest)
+
+
+@cocotb.test()
+@verifies("P104-TIM-03", "P104-BCK-04")
+@configs(F16, F100)
+async def p104_tim_03_first_edge(dut):
+    """Given single clock edges around W after the start, when pulse 1 is due, then the first edge at or after counts."""
+    lab = await Lab.start(dut, EXTERNAL)
+    w = lab.cfg.w
+    for offset in (-20, -8, 0, 8, 20):
+        await lab.host.send(0x44, [9, 1, 0])
+        lab.since = lab.bench.now
+        await lab.host.write(0, 0)
+        fell = await lab.bench.edge("hold", 0) if lab.bench.level("hold") else lab.bench.falls("hold")[-1]
+        # An edge given at t is effective 2 to 3 clk later; pins 1 clk after that.
+        at = fell + w - 3 + offset
+        await lab.bench.until(at)
+        await lab.ticks(1, 4)
+        await lab.bench.clocks(40)
+        expected = 0 if offset < -2 else 1
+        if abs(offset) > 2:
+            lab.check("P104-TIM-03", f"pulses, edge at W {offset:+d}", len(lab.pulses), expected)
+        if not lab.pulses:
+            await lab.ticks(1, 40)
+        lab.check("P104-TIM-03", "pulses after the next edge", len(lab.pulses), 1)
+        await lab.host.command(0x40)
+        await lab.result("P104-TIM-03", 1, 0xC4, 0)
+        await lab.bench.clocks(lab.cfg.us(34_100) if offset == 99 else 10)
+        await lab.bench.reset()
+        await lab.bench.clocks(8)
+        await lab.init(*EXTERNAL)
+
+
+@cocotb.test()
+@verifies("P104-BCK-04", "P104-BAD-13")
+async def p104_bck_04_clock_stops_and_resumes(dut):
+    """Given a clock that stops for 50 us in mid-interval, when it resumes, then no edge is lost or added."""
+    lab = await Lab.start(dut, EXTERNAL)
+    for stop_after in (3, 12, 20, 21):
+        gaps = [32] * stop_after + [800] + [32] * 200
+        await lab.go(0x44, 5, rate=9)
+        await lab.bench.clocks(100)
+        clock = lab.bench.external_clock(gaps, high=16)
+        await lab.idle()
+        clock.cancel()
+        await lab.bench.align()
+        lab.bench.set(clock=0)
+        edges = lab.clock_edges(lab.since)
+        got = [t - edges[0] for t in lab.pulses]
+        expected = [edges[10 * j] - edges[0] + got[0] for j in range(5)]
+        lab.check("P104-BCK-04", f"pulses, stop after edge {stop_after}", got, expected)
+        await lab.finish()
+        await lab.bench.clocks(8)

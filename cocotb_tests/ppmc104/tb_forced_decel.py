@@ -1,0 +1,174 @@
+"""Forced deceleration (P104-FDC, P104-EX-04, P104-EX-05)."""
+
+from __future__ import annotations
+
+import cocotb
+from cocotb_tests.common.config import F16, F25, F100, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_B, forced, indices, rates
+from .lab import Lab
+
+RAMP = INIT_B[1:]
+LIMITS = {0: "l3_n", 1: "l4_n"}
+
+
+@cocotb.test()
+@verifies("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
+async def p104_ex_04_stop_in_each_phase(dut):
+    """Given EX-04, when 0x41 or L3 acts in acceleration, I(1), plateau, START, then the printed figures come."""
+    lab = await Lab.start(dut, INIT_B)
+    cases = ((4, 8, [19, 17, 15, 14, 15, 17, 19], 0x3DF), (1, 2, [19], 0x3E5))
+    for j, count, expected, rest in cases:
+        await lab.go(0x43, 1000)
+        await lab.pulse(j, 100)
+        await lab.host.command(0x41)
+        await lab.result("P104-EX-04", count, 0xC3, rest)
+        lab.check_train("P104-EX-04", expected)
+    await lab.go(0x43, 1000)
+    await lab.pulse(29, 100)
+    await lab.host.command(0x41)
+    await lab.result("P104-EX-04", 40, 0xC3, 0x3BF)
+    lab.check("P104-EX-04", "tail", [i // 32 - 1 for i in lab.intervals[29:]], [9, 10, 10, 11, 12, 12, 14, 15, 17, 19])
+    lab.bench.set(l3_n=0)
+    await lab.go(0x43, 1000)
+    await lab.result("P104-EX-04", 1, 0x8B, 0x3E6)
+    await lab.go(0xC3, 1000)
+    await lab.result("P104-EX-05", 22, 0x8B, 0x3D1)
+
+
+@cocotb.test()
+@verifies("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04")
+@configs(F16, F100)
+async def p104_fdc_01_limit_in_each_interval(dut):
+    """Given CW and CCW phase moves, when the slow-down limit falls in each interval, then the ramp is mirrored."""
+    lab = await Lab.start(dut, INIT_B)
+    for direction in (0, 1):
+        pin = LIMITS[direction]
+        for j in range(1, 14, 1 if lab.cfg is F16 or lab.cfg.name == "f16" else 4):
+            await lab.go(0x43 | direction << 3, 200)
+            await lab.pulse(j, 30)
+            lab.bench.set(**{pin: 0})
+            await lab.idle()
+            lab.bench.set(**{pin: 1})
+            which = forced(200, 10, j)
+            lab.check_train("P104-FDC-02", rates(RAMP, which))
+            count = len(which) + 1
+            await lab.result("P104-FDC-01", count, 0x8B, 200 - count - 1)
+
+
+@cocotb.test()
+@verifies("P104-FDC-01", "P104-STP-04", "P104-GEN-07")
+async def p104_fdc_01_running_interval_unaltered(dut):
+    """Given one interval, when the limit falls anywhere in it, then that interval and the rest are the same."""
+    lab = await Lab.start(dut, INIT_B)
+    for delay in (1, 2, 3, 79, 80, 81, 300, 470):
+        await lab.go(0x43, 200)
+        await lab.pulse(4, delay)
+        lab.bench.set(l3_n=0)
+        await lab.bench.clocks(4)
+        lab.bench.set(l3_n=1)
+        lab.check("P104-FDC-01", "state is DEC: 0x41 gives", await lab.host.command(0x41), 0xF4)
+        await lab.result("P104-FDC-01", 8, 0x8B, 191)
+        lab.check_train("P104-FDC-01", [19, 17, 15, 14, 15, 17, 19])
+
+
+@cocotb.test()
+@verifies("P104-FDC-03", "P104-LIM-04", "P104-EX-04")
+async def p104_fdc_03_flag_in_start(dut):
+    """Given START, when 0x41 or the limit comes before pulse 1, then exactly one pulse is output."""
+    lab = await Lab.start(dut, INIT_B)
+    for code, n in ((0x43, 50), (0x46, None), (0xC3, 50), (0x43, 1)):
+        await lab.go(code, n)
+        lab.check("P104-FDC-03", "0x41 in START", await lab.host.command(0x41), 0x04)
+        rest = (n or 1 << 24) - 2
+        await lab.result("P104-FDC-03", 1, 0x83 if n == 1 else 0xC0 | code & 7, max(rest, 0))
+    for code in (0x43, 0x4B, 0x46, 0x4E):
+        pin = LIMITS[code >> 3 & 1]
+        await lab.go(code, 50 if code & 7 == 3 else None)
+        await lab.bench.pulse_pin(pin, 0, 3)
+        await lab.result("P104-FDC-03", 1, 0x88 | code & 7)
+
+
+@cocotb.test()
+@verifies("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
+async def p104_fdc_04_never_withdrawn(dut):
+    """Given a flagged motion, when the limit chatters or is released, then the deceleration goes on unchanged."""
+    lab = await Lab.start(dut, INIT_B)
+    await lab.go(0x43, 200)
+    await lab.pulse(12, 30)
+    lab.bench.set(l3_n=0)
+    while len(lab.pulses) < 22:
+        await lab.bench.clocks(lab.bench.rng.randrange(2, 60))
+        lab.bench.set(l3_n=lab.bench.rng.randrange(2))
+    lab.bench.set(l3_n=1)
+    await lab.result("P104-FDC-04", 23, 0x8B, 176)
+    lab.check_train("P104-FDC-04", rates(RAMP, forced(200, 10, 12)))
+
+
+@cocotb.test()
+@verifies("P104-FDC-05", "P104-END-05", "P104-PRO-04")
+async def p104_fdc_05_complete_all_the_same(dut):
+    """Given N equal to the mirrored ramp, when 0x41 or L3 is taken, then the motion counts as complete."""
+    lab = await Lab.start(dut, INIT_B)
+    for j in (1, 4, 10):
+        # Forced at index j - 1: 2j pulses. Natural deceleration of N = 2j begins later, at the next pulse.
+        for stop in ("41", "l3"):
+            await lab.go(0x43, 2 * j)
+            await lab.pulse(j, 20)
+            if stop == "41":
+                lab.check("P104-FDC-05", f"0x41 in I({j})", await lab.host.command(0x41), 0x04)
+            else:
+                await lab.bench.pulse_pin("l3_n", 0, 4)
+            await lab.result("P104-FDC-05", 2 * j, 0x83, 0)
+            lab.check_train("P104-FDC-05", rates(RAMP, indices(2 * j, 10)))
+
+
+@cocotb.test()
+@verifies("P104-FDC-06", "P104-LIM-01")
+@configs(F16, F25)
+async def p104_fdc_06_latency(dut):
+    """Given a slow-down limit 4 clk before a pulse event, when it falls, then that event counts down already."""
+    lab = await Lab.start(dut, INIT_B)
+    fifth = lab.cfg.quanta(8 * (20 + 18 + 16 + 15))
+    outcomes = []
+    for before in range(12, -6, -1):
+        await lab.go(0x43, 200)
+        first = await lab.pulse(1)
+        await lab.bench.until(first + fifth - before)
+        lab.bench.set(l3_n=0)
+        await lab.bench.clocks(2)
+        lab.bench.set(l3_n=1)
+        await lab.idle()
+        count = len(lab.pulses)
+        outcomes.append(count)
+        lab.check("P104-FDC-06", "8 pulses in time, 10 too late", count in (8, 10), True)
+        # The pin shows pulse events at most 2 clk after they happen.
+        if before >= 4 + 2:
+            lab.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
+        await lab.result("P104-FDC-06", count, 0x8B, 200 - count - 1)
+    lab.check("P104-FDC-06", "one switch-over", outcomes, sorted(outcomes))
+    lab.check("P104-FDC-06", "both outcomes were met", set(outcomes), {8, 10})
+
+
+@cocotb.test()
+@verifies("P104-FDC-06", "P104-STP-03")
+async def p104_fdc_06_latency_of_the_command(dut):
+    """Given 0x41 around a pulse event, when its C-event is 4 clk before, then that event counts down already."""
+    lab = await Lab.start(dut, INIT_B)
+    fifth = 32 * (20 + 18 + 16 + 15)
+    outcomes = []
+    for before in range(22, 0, -1):
+        await lab.go(0x43, 200)
+        first = await lab.pulse(1)
+        await lab.bench.until(first + fifth - before - 2)
+        await lab.host.write(1, 0x41)
+        await lab.idle()
+        count = len(lab.pulses)
+        outcomes.append(count)
+        # Edge 0 is `before` clk early; the C-event comes 2 to 10 clk after it, the pin up to 2 after the event.
+        if before >= 10 + 4 + 2:
+            lab.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
+        await lab.result("P104-FDC-06", count, 0xC3, 200 - count - 1)
+    lab.check("P104-FDC-06", "one switch-over", outcomes, sorted(outcomes))
+    lab.check("P104-FDC-06", "both outcomes were met", set(outcomes), {8, 10})

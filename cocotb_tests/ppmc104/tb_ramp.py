@@ -1,0 +1,221 @@
+"""Ramp table and profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import isqrt
+
+import cocotb
+from cocotb_tests.common.config import F8, F16, F100, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A, INIT_B, forced, indices, rate, rates
+from .lab import Lab
+
+EX_01 = (9, 4, 4)
+
+
+async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:
+    """Run a trapezoid with a short plateau over the whole table and check every pulse."""
+    n = 2 * ramp[2] + 4
+    await lab.init(0x0A, *ramp)
+    await lab.move(code, n)
+    lab.check_train(rule, rates(ramp, indices(n, ramp[2])))
+
+
+@cocotb.test()
+@verifies("P104-RMP-01", "P104-RMP-02")
+@configs(F8, F16)
+async def p104_rmp_01_corner_ramps(dut):
+    """Given ramps at the corners of the legal values, when the whole table runs, then every rate is exact."""
+    lab = await Lab.start(dut, None)
+    for ramp in ((255, 0, 4), (255, 254, 5), (1, 0, 4), (0, 0, 4), (255, 255, 4), (100, 99, 30), (16, 0, 200)):
+        await whole_ramp(lab, "P104-RMP-01", ramp)
+
+
+@cocotb.test()
+@verifies("P104-RMP-01", "P104-RMP-02", "P104-PRO-01")
+async def p104_rmp_01_random_ramps(dut):
+    """Given random ramps, when the whole table runs, then every rate is exact."""
+    lab = await Lab.start(dut, None)
+    for _ in range(24):
+        rl = lab.bench.rng.choice((3, 9, 20, 41, 64, 90))
+        rh = lab.bench.rng.randrange(0, rl + 1)
+        await whole_ramp(lab, "P104-RMP-01", (rl, rh, lab.bench.rng.randrange(4, 60)))
+
+
+@cocotb.test()
+@verifies("P104-RMP-01", "P104-RMP-04", "P104-RMP-05", "P104-PRO-02")
+@configs(F8)
+async def p104_rmp_04_longest_ramp(dut):
+    """Given RL 255, RH 0, PA 11220, when 22444 pulses run, then the widest figures come out exact."""
+    lab = await Lab.start(dut, None)
+    ramp = (255, 0, 11220)
+    await lab.init(0x0A, *ramp)
+    n = 2 * ramp[2] + 4
+    await lab.go(0xC3, n)
+    await lab.ended(4_000_000)
+    lab.check_train("P104-RMP-04", rates(ramp, indices(n, ramp[2])))
+
+
+@cocotb.test()
+@verifies("P104-RMP-02", "P104-RMP-05")
+async def p104_rmp_02_thresholds(dut):
+    """Given the threshold form, when its first index of each rate is compared with a run, then both agree."""
+    lab = await Lab.start(dut, None)
+    for rl, rh, pa in ((9, 4, 4), (199, 190, 100), (30, 2, 33), (12, 0, 77)):
+        await lab.init(0x0A, rl, rh, pa)
+        await lab.move(0xC3, 2 * pa + 3)
+        seen = [clk // 32 - 1 for clk in lab.intervals[: pa + 1]]
+        a, b = (rl + 1) ** 2, (rh + 1) ** 2
+        for r in range(rh + 1, rl + 1):
+            threshold = pa * b * (4 * a - (2 * r + 1) ** 2) // ((a - b) * (2 * r + 1) ** 2) + 1
+            first = next(k for k, got in enumerate(seen) if got < r)
+            lab.check("P104-RMP-02", f"first k with R(k) < {r} of {(rl, rh, pa)}", first, threshold)
+
+
+def half_cases() -> list[tuple[int, int, int]]:
+    """Small ramps in which x(k) is exactly n + 1/2 for some k: the ones where rounding shows."""
+    found = []
+    for rl in range(2, 12):
+        for rh in range(rl):
+            for pa in range(4, 33):
+                a, b = (rl + 1) ** 2, (rh + 1) ** 2
+                for k in range(1, pa):
+                    x2 = Fraction(a * b * pa, b * pa + (a - b) * k) * 4
+                    root = isqrt(x2.numerator) if x2.denominator == 1 else 0
+                    if root % 2 and root * root == x2:
+                        found.append((rl, rh, pa))
+                        break
+    return found
+
+
+@cocotb.test()
+@verifies("P104-RMP-03", "P104-RMP-01")
+async def p104_rmp_03_exact_halves(dut):
+    """Given ramps with x(k) exactly on a half, when they run, then the half is rounded up."""
+    lab = await Lab.start(dut, None)
+    cases = half_cases()
+    lab.check("P104-RMP-03", "the example of the rule is among them", (4, 0, 8) in cases, True)
+    for ramp in [(4, 0, 8), *cases[:: max(1, len(cases) // 20)]]:
+        await whole_ramp(lab, "P104-RMP-03", ramp)
+    lab.check("P104-RMP-03", "R(0..8)", [rate(4, 0, 8, k) for k in range(9)], [4, 2, 1, 1, 0, 0, 0, 0, 0])
+
+
+@cocotb.test()
+@verifies("P104-PRO-01", "P104-PRO-02", "P104-PRO-03", "P104-PRO-04", "P104-EX-02")
+@configs(F16, F100)
+async def p104_pro_01_all_lengths(dut):
+    """Given a ramp of 6, when N goes from 1 to 24 in both modes, then triangles and trapezoids are symmetric."""
+    lab = await Lab.start(dut, (0x0A, 30, 3, 6))
+    ramp = (30, 3, 6)
+    for n in range(1, 25):
+        for code in (0x43, 0xCB):
+            await lab.move(code, n)
+            lab.check_train("P104-PRO-01", rates(ramp, indices(n, 6)))
+            await lab.result("P104-PRO-01", n, 0x83, 0)
+
+
+@cocotb.test()
+@verifies("P104-PRO-02", "P104-PRO-03", "P104-EX-02")
+async def p104_pro_03_shapes_in_full(dut):
+    """Given init A, when N = 3, 6, 7, 10, 11 run, then the index lists written out in the rules come out."""
+    lab = await Lab.start(dut, INIT_A)
+    lists = {2: [0], 3: [0, 0], 6: [0, 1, 2, 1, 0], 7: [0, 1, 2, 2, 1, 0], 9: [0, 1, 2, 3, 3, 2, 1, 0]}
+    lists |= {10: [0, 1, 2, 3, 4, 3, 2, 1, 0], 11: [0, 1, 2, 3, 4, 4, 3, 2, 1, 0]}
+    by_index = [9, 7, 5, 5, 4]
+    for n, which in lists.items():
+        await lab.move(0x43, n)
+        lab.check_train("P104-PRO-03", [by_index[k] for k in which])
+
+
+@cocotb.test()
+@verifies("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
+async def p104_pro_04_forced_meets_the_end(dut):
+    """Given N near the mirrored ramp, when deceleration is forced, then the move ends by index or by count."""
+    lab = await Lab.start(dut, INIT_B)
+    ramp = INIT_B[1:]
+    for j in (3, 5, 8):
+        short = forced(1000, 10, j)
+        for n in range(len(short), len(short) + 4):
+            await lab.go(0x43, n)
+            await lab.pulse(j, 20)
+            natural = indices(n, 10)
+            in_dec = j < n and natural[j - 1] == n - 1 - j < min(j - 1, 10)
+            status = await lab.host.command(0x41)
+            lab.check("P104-STP-04", f"status, N = {n}, j = {j}", status, 0xF4 if in_dec else 0x04)
+            count = min(n, len(short) + 1)
+            which = natural if count == n else short
+            await lab.idle()
+            lab.check_train("P104-PRO-04", rates(ramp, which))
+            complete = count == n
+            await lab.result("P104-FDC-05", count, 0x83 if complete else 0xC3, 0 if complete else n - count - 1)
+
+
+@cocotb.test()
+@verifies("P104-PRO-05", "P104-STP-04")
+async def p104_pro_05_natural_deceleration_begins(dut):
+    """Given several N, when 0x41 comes in each interval, then error 7 starts exactly where PRO-05 says."""
+    lab = await Lab.start(dut, INIT_A)
+    for n in (5, 8, 10, 12):
+        running = indices(n, 4)
+        for j in range(1, n):
+            kp = running[j - 2] if j > 1 else -1
+            decelerating = any(
+                n - i - 1 < min((running[i - 2] if i > 1 else -1) + 1, 4) for i in range(1, j + 1)
+            )
+            lab.check("P104-PRO-04", "index", running[j - 1], min(kp + 1, n - j - 1, 4))
+            await lab.go(0x43, n)
+            await lab.pulse(j, 20)
+            got = await lab.host.command(0x41)
+            lab.check("P104-PRO-05", f"0x41 in I({j}) of N = {n}", got, 0xF4 if decelerating else 0x04)
+            await lab.host.command(0x40)
+            await lab.idle()
+
+
+@cocotb.test()
+@verifies("P104-PRO-06", "P104-LIM-04")
+async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
+    """Given POUT mode and L3 low, when N is 2·PA+1 and 2·PA+2, then only the longer one has a HIGH to act in."""
+    lab = await Lab.start(dut, INIT_A)
+    lab.bench.set(l3_n=0)
+    await lab.go(0xC3, 9)
+    await lab.result("P104-PRO-06", 9, 0x83, 0)
+    for n in (10, 11, 12, 40):
+        await lab.go(0xC3, n)
+        lab.bench.set(l3_n=0)
+        await lab.idle()
+        # Flag in the first plateau interval I(5): 5 + 1 + 4 pulses, which is the whole move for N = 10.
+        complete = n == 10
+        await lab.result("P104-PRO-06", 10, 0x83 if complete else 0x8B, 0 if complete else n - 11)
+
+
+@cocotb.test()
+@verifies("P104-EX-01", "P104-EX-07", "P104-EX-11", "P104-INT-02")
+async def p104_ex_07_worked_examples(dut):
+    """Given the examples with vsel = L and with RL = RH, when they run, then the printed intervals come out."""
+    lab = await Lab.start(dut, INIT_A, vsel=0)
+    await lab.move(0x43, 14)
+    expected = [440, 376, 312, 312, 280, 280, 280, 280, 280, 312, 312, 376, 440]
+    lab.check("P104-EX-07", "intervals", lab.intervals, expected)
+    lab.check("P104-EX-07", "total", sum(lab.intervals), 4280)
+    lab.bench.set(vsel=1)
+    await lab.bench.clocks(4)
+    await lab.move(0x43, 14)
+    lab.check("P104-EX-01", "total", sum(lab.intervals), 2720)
+    await lab.init(0x0A, 10, 10, 4)
+    await lab.move(0x43, 12)
+    lab.check("P104-EX-11", "intervals", lab.intervals, [352] * 11)
+
+
+@cocotb.test()
+@verifies("P104-EX-03")
+@configs(F8)
+async def p104_ex_03_slow_base_clock(dut):
+    """Given EX-03 with csel = L, when the start of it runs, then every interval is four times as long."""
+    lab = await Lab.start(dut, (0x0A, 199, 49, 100), csel=0)
+    lab.check("P104-EX-03", "R(89..100)", rates((199, 49, 100), range(89, 101)), [52, 52, 51, 51, 51, *[50] * 4, 49, 49, 49])
+    await lab.move(0x43, 28)
+    lab.check_train("P104-EX-03", rates((199, 49, 100), indices(28, 100)), csel=0)
+    got = [clk * 2 for clk in lab.intervals[:8]]
+    lab.check("P104-EX-03", "first intervals", got, [4 * x for x in (6400, 5984, 5600, 5312, 5056, 4832, 4640, 4480)])
