@@ -22,7 +22,7 @@ endif
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
 quote = '$(subst ','\'',$1)'
 NEED_ENV := setup demo test soak lint format synth bench trace docs
-CHECKED  := $(foreach v,PART SEED COUNT CLK_HZ J,$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
+CHECKED  := $(foreach v,T PART SEED COUNT CLK_HZ J,$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(PARTS) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))

@@ -27,7 +27,7 @@ from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
 from scripts import project
 from scripts.flow.report import markdown_table
-from scripts.project import ProjectError, console
+from scripts.project import console
 
 RUNS = 3
 FOLDER = project.BUILD / "bench"
@@ -82,7 +82,7 @@ def main() -> int:
     try:
         part = project.part(parser.parse_args().part).name
         recording, times = measure(part)
-    except (SimError, ProjectError) as error:
+    except SimError as error:
         return project.fail(str(error))
     clocks = recording.end
     labels = {"rtl": "RTL in Verilator with its cocotb host", "model": "golden model, same pin changes"}
@@ -99,11 +99,12 @@ def main() -> int:
     for row in rows:
         table.add_row(*row)
     console.print(table)
-    text = f"The run of `make demo` at 16 MHz, median of {RUNS} runs, start of the simulator included.\n{machine()}."
+    text = f"The run of `make demo` at 16 MHz, median of {RUNS} runs, start of the simulator included.\n"
+    text += f"{machine()}."
     project.update_benchmarks(f"bench:{part}", text + "\n\n" + markdown_table(heads, rows))
     console.print("written: docs/benchmarks.md")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(project.run(main))

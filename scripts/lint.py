@@ -26,6 +26,7 @@ from scripts.project import ProjectError, console, relative
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json"}
+BUILT = {".venv", "build", ".git"}
 MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
 
 
@@ -150,23 +151,28 @@ def listed() -> str:
     return "\n".join(found)
 
 
-def tracked_text() -> list[Path]:
-    """Text files of the project: what git knows plus what it would add."""
-    names = subprocess.run(
+def text_files() -> list[Path]:
+    """Text files of the project: what git knows and would add; without git all but what is built."""
+    listing = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
         cwd=project.ROOT,
         text=True,
         capture_output=True,
         check=False,
-    ).stdout.splitlines()
-    paths = [project.ROOT / name for name in names]
+    )
+    if listing.returncode == 0:
+        paths = [project.ROOT / name for name in listing.stdout.splitlines()]
+    else:
+        paths = [
+            path for path in project.ROOT.rglob("*") if not BUILT & set(path.relative_to(project.ROOT).parts)
+        ]
     return [path for path in paths if path.suffix in TEXT_SUFFIXES and path.is_file()]
 
 
 def texts() -> str:
     """No leftover marks, tabs, or spaces at line ends."""
     found = []
-    for path in tracked_text():
+    for path in text_files():
         if path.suffix == ".json" or path.name == "Makefile":
             continue
         for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
@@ -261,4 +267,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(project.run(main))

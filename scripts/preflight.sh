@@ -24,6 +24,11 @@ for word in "$@"; do
         parts=*) parts=$value ;;
         python=*) python=$value ;;
         PART=*) case ",$parts," in *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac ;;
+        T=*)
+            case $value in
+                and | or | not | '' | *[!A-Za-z0-9_.:-]*)
+                    problem "T=$value: expected (a part of) one test's name, of letters, digits and _ . : -" ;;
+            esac ;;
         SEED=*) number "$name" "$value" 0 4294967295 ;;
         COUNT=*) number "$name" "$value" 1 1000000 ;;
         CLK_HZ=*) number "$name" "$value" 8000000 200000000 ;;

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 from rich.console import Console
+from rich.markup import escape
 
 ROOT = Path(__file__).resolve().parents[1]
 RTL = ROOT / "rtl"
@@ -80,8 +82,19 @@ def relative(path: Path) -> str:
 
 def fail(message: str) -> int:
     """Print one red line and return the exit code 1."""
-    Console(stderr=True, highlight=False, soft_wrap=True).print(f"[bold red]error:[/] {message}")
+    Console(stderr=True, highlight=False, soft_wrap=True).print(f"[bold red]error:[/] {escape(message)}")
     return 1
+
+
+def run(main: Callable[[], int]) -> int:
+    """Run a script's `main`: a ProjectError and Ctrl-C become one line and a non-zero exit code."""
+    try:
+        return main()
+    except ProjectError as error:
+        return fail(str(error))
+    except KeyboardInterrupt:
+        fail("interrupted")
+        return 130
 
 
 def replace_between(text: str, marker: str, body: str) -> str:

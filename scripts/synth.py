@@ -10,6 +10,7 @@ import argparse
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
@@ -28,7 +29,7 @@ from rich.table import Table
 
 from scripts import project
 from scripts.flow import pnr, scan_wrapper
-from scripts.flow.netlist import Breakdown, flat_counts, kept_counts
+from scripts.flow.netlist import Breakdown, Count, flat_counts, kept_counts
 from scripts.flow.report import LUT_NAME, breakdown_table, device_rows, markdown
 from scripts.flow.yosys_job import BEST, RECIPES
 from scripts.project import ProjectError, console
@@ -117,6 +118,39 @@ def wrapped_netlist(folder: Path, base: dict, netlist: Path, recipe: str) -> Pat
     return run_yosys(wrapper.parent, {**job, "family": "ice40", "recipe": recipe, "keep": False})
 
 
+def all_seeds(
+    device: pnr.Device, netlist: Path, folder: Path, seeds: int, done: Callable[[pnr.Run], None]
+) -> list[pnr.Run]:
+    """Place and route with seeds 1 … `seeds`, two at a time; `done` hears of each."""
+
+    def one(seed: int) -> pnr.Run:
+        result = pnr.place_and_route(device, netlist, folder, seed)
+        done(result)
+        return result
+
+    # The first start of a WebAssembly tool compiles it; two at once would do that twice.
+    first = one(1)
+    with ThreadPoolExecutor(2) as pool:
+        return [first, *pool.map(one, range(2, seeds + 1))]
+
+
+def device_entry(device: pnr.Device, total: Count, runs: list[pnr.Run]) -> dict:
+    """One device's figures for the report."""
+    return {
+        "device": device.name,
+        "family": device.family,
+        "goal_mhz": device.goal_mhz,
+        "lut": total.lut if device.family == "ice40" else runs[0].used["TRELLIS_COMB"],
+        "ff": total.ff,
+        "ram": total.ram,
+        "fmax": round(pnr.median_run(runs).fmax, 1),
+        "path": pnr.median_run(runs).path,
+        "seeds": [run.fmax for run in runs],
+        "packer": runs[0].used,
+        "wrapped": device.wrapped,
+    }
+
+
 def full(folder: Path, base: dict, recipes: dict[str, str], seeds: int) -> None:
     """Synthesis, place and route with all seeds, build/synth/<part>.json and docs/benchmarks.md."""
     columns = (
@@ -127,52 +161,40 @@ def full(folder: Path, base: dict, recipes: dict[str, str], seeds: int) -> None:
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        task = progress.add_task("synthesis", total=3 + len(pnr.DEVICES) * seeds)
+        task = progress.add_task("synthesis", total=4 + (len(pnr.DEVICES) + 1) * seeds)
         results, netlists = synthesize_all(folder, base, recipes)
         progress.update(task, advance=1, description="synthesis with other parameters")
         others = variants(folder, base, recipes)
         progress.update(task, advance=1, description="synthesis of the wrapped part")
         wrapped = wrapped_netlist(folder, base, netlists["ice40"], recipes["ice40"])
+        progress.update(task, advance=1, description="synthesis with yosys' own defaults")
+        plain = run_yosys(folder / "plain", {**base, "family": "ecp5", "recipe": "default", "keep": False})
         progress.advance(task)
-        devices = []
-        for device in pnr.DEVICES:
-            progress.update(task, description=f"place and route {device.name}")
-            netlist = wrapped if device.wrapped else netlists[device.family]
 
-            def run(seed: int, device: pnr.Device = device, netlist: Path = netlist) -> pnr.Run:
-                result = pnr.place_and_route(device, netlist, folder / "pnr", seed)
+        def routed(device: pnr.Device, netlist: Path, label: str, where: str) -> list[pnr.Run]:
+            def done(run: pnr.Run) -> None:
                 progress.advance(task)
                 if not console.is_terminal:
-                    console.print(f"{device.name} seed {seed}: {result.fmax} MHz")
-                return result
+                    console.print(f"{label} seed {run.seed}: {run.fmax} MHz")
 
-            # The first start of a WebAssembly tool compiles it; two at once would do that twice.
-            runs = [run(1)]
-            with ThreadPoolExecutor(2) as pool:
-                runs += pool.map(run, range(2, seeds + 1))
-            total = results[device.family].total
-            packed = runs[0].used.get("TRELLIS_COMB", total.lut)
-            devices.append(
-                {
-                    "device": device.name,
-                    "family": device.family,
-                    "goal_mhz": device.goal_mhz,
-                    "lut": total.lut if device.family == "ice40" else packed,
-                    "ff": total.ff,
-                    "ram": total.ram,
-                    "fmax": round(pnr.median_run(runs).fmax, 1),
-                    "path": pnr.median_run(runs).path,
-                    "seeds": [run.fmax for run in runs],
-                    "packer": runs[0].used,
-                    "wrapped": device.wrapped,
-                }
-            )
+            progress.update(task, description=f"place and route {label}")
+            return all_seeds(device, netlist, folder / where, seeds, done)
+
+        devices = []
+        for device in pnr.DEVICES:
+            netlist = wrapped if device.wrapped else netlists[device.family]
+            runs = routed(device, netlist, device.name, "pnr")
+            devices.append(device_entry(device, results[device.family].total, runs))
+        ecp5 = pnr.DEVICES[0]
+        plain_total = flat_counts(plain, base["top"], set())[0]
+        plain_runs = routed(ecp5, plain, f"{ecp5.name}, yosys' defaults", "plain")
     report = {
         "part": base["top"],
         "params": base["params"],
         "recipes": recipes,
         "seed_count": seeds,
         "devices": devices,
+        "plain": device_entry(ecp5, plain_total, plain_runs),
         "variants": others,
         "breakdown": {family: result.as_dict() for family, result in results.items()},
     }
@@ -256,36 +278,33 @@ def parameters(args: argparse.Namespace) -> dict[str, int | str]:
 
 
 def main() -> int:
-    """Entry point; one line and exit code 1 on a mistake."""
+    """Entry point."""
     args = arguments()
-    try:
-        part = project.part(args.part)
-        base = {
-            "top": args.top or part.name,
-            "include": [project.relative(path) for path in project.include_dirs()],
-            "sources": [project.relative(path) for path in args.files or project.sources(part)],
-            "params": parameters(args),
-        }
-        folder = project.BUILD / "synth" / base["top"]
-        recipes = {"ecp5": args.ecp5_recipe, "ice40": args.ice40_recipe}
-        if args.sweep:
-            sweep(folder, base)
-            return 0
-        if not args.quick:
-            full(folder, base, recipes, args.seeds)
-            return 0
-        results, _ = synthesize_all(folder, base, recipes)
-        for family, result in results.items():
-            total = result.total
-            console.print(
-                f"[bold]{family:6}[/] {LUT_NAME[family]} {total.lut}  FF {total.ff}  RAM {total.ram}  "
-                f"carry {total.carry}  (recipe {recipes[family]})"
-            )
-        console.print(breakdown_table(results))
+    part = project.part(args.part)
+    base = {
+        "top": args.top or part.name,
+        "include": [project.relative(path) for path in project.include_dirs()],
+        "sources": [project.relative(path) for path in args.files or project.sources(part)],
+        "params": parameters(args),
+    }
+    folder = project.BUILD / "synth" / base["top"]
+    recipes = {"ecp5": args.ecp5_recipe, "ice40": args.ice40_recipe}
+    if args.sweep:
+        sweep(folder, base)
         return 0
-    except ProjectError as error:
-        return project.fail(str(error))
+    if not args.quick:
+        full(folder, base, recipes, args.seeds)
+        return 0
+    results, _ = synthesize_all(folder, base, recipes)
+    for family, result in results.items():
+        total = result.total
+        console.print(
+            f"[bold]{family:6}[/] {LUT_NAME[family]} {total.lut}  FF {total.ff}  RAM {total.ram}  "
+            f"carry {total.carry}  (recipe {recipes[family]})"
+        )
+    console.print(breakdown_table(results))
+    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(project.run(main))

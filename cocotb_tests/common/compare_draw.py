@@ -67,8 +67,8 @@ def window(comparison: Comparison) -> tuple[int, int]:
     after = [t for t in times if t > m.t][:5]
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
     start, stop = min([m.t - 12, *before]), max([m.t + 12, *after, *ends])
-    # Far neighbours would squeeze the difference to nothing: keep within 8000 clk of it.
-    start, stop = max(start, m.t - 8000), min(stop, max(m.t + 8000, max(ends) + 12))
+    # Far neighbours would squeeze the difference to nothing: keep within 4000 clk of it.
+    start, stop = max(start, m.t - 4000), min(stop, max(m.t + 4000, max(ends) + 12))
     margin = max(2, (stop - start) // 20)
     return start - margin, stop + margin
 
@@ -87,7 +87,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     outputs = _outputs_to_draw(comparison, low, high)
     pins = _pins_to_draw(comparison, low, high)
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
-    reach = max(12, 2 * (max(ends) - m.t))
+    reach = max(30, 2 * (max(ends) - m.t))
     zoom = (m.t - reach, max(ends) + reach)
     zoomed = (high - low) > 4 * (zoom[1] - zoom[0])
     rows = 2.1 * len(outputs) + 1.1 * len(pins)

@@ -64,27 +64,27 @@ async def demo_move(dut: Any) -> None:
     bench = await Bench.start(dut)
     host = HostBus(bench)
     story = Story(bench)
-    with story.chapter("reset", "look at the chip after reset"):
+    with story.chapter("reset", "after reset"):
         await host.status()
         await host.fetch(0x81)
-    with story.chapter("init", "initialise: 4 phases, full step, chopping at rest"):
+    with story.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
         # The table build keeps this one in the buffer: IBF tells when the chip is ready.
         await host.fetch(0x82)
-    with story.chapter("move", "accelerate, run, decelerate: 1000 pulses"):
+    with story.chapter("move", "1000 pulses with ramps"):
         await host.move(ACC_DEC, 1000)
         await results(host)
-    with story.chapter("pause", "a chopped rest"):
+    with story.chapter("pause", "rest"):
         await bench.clocks(64_000)
-    with story.chapter("limit", "continuous constant speed into limit L1"):
+    with story.chapter("limit", "run into limit L1"):
         start = bench.now
         await host.send(CONTINUOUS, [RATE])
         last = await bench.nth_fall(PULSES_TO_LIMIT, since=start)
         bench.at(last + 700, l1_n=0)
         await results(host)
         await host.fetch(0x81)
-    with story.chapter("rest", "rest until HOLD rises, 34 ms after the stop"):
+    with story.chapter("rest", "rest until HOLD rises"):
         await bench.edge("hold", 1, timeout=2_000_000)
         await bench.clocks(16_000)
     story.save()

@@ -68,6 +68,9 @@ class Lab:
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
         """`go`, then wait for the end; returns the pulses."""
         await self.go(code, n, rate)
+        if self.cfg.datasheet:
+            # BUSY rises long after IBF has fallen (P104-DS-03).
+            await self.host.poll(BUSY, BUSY, timeout=self.cfg.us(150), dense=1000)
         await self.host.wait_idle()
         return self.pulses
 
@@ -93,7 +96,10 @@ class Lab:
         await self.host.wait_idle()
 
     async def ended(self, timeout: int = 1_000_000) -> int:
-        """Wait for int_n to fall (a motion with I = 0 and no INT pending); returns its edge."""
+        """Edge on which the last `go` let int_n fall; waits for it (I = 0 and no INT pending)."""
+        if falls := self.bench.falls("int_n", self.since):
+            await self.bench.align()
+            return falls[0]
         return await self.bench.edge("int_n", 0, timeout)
 
     # ---------------------------------------------------------------- results
@@ -140,7 +146,9 @@ class Lab:
 
     def outputs(self) -> dict[str, int]:
         """Present levels of all outputs but the host bus."""
-        return {name: self.bench.level(name) for name in self.bench.part.outputs if name not in ("d_o", "d_oe")}
+        return {
+            name: self.bench.level(name) for name in self.bench.part.outputs if name not in ("d_o", "d_oe")
+        }
 
     # ---------------------------------------------------------------- external clock by hand
 

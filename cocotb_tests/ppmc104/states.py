@@ -1,4 +1,6 @@
-"""Puts the core into each state of the state table and keeps it there, by clocking it from outside by hand."""
+"""Puts the core into each state of the state table and keeps it there, by clocking it from outside
+by hand.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,14 @@ async def enter(lab: Lab, state: str, ramp_code: int = 0x43, constant_code: int 
     if state == "READY":
         return
     if state in RAMP:
-        pulses = {"START ramp": 0, "ACC": 2, "HIGH": PLATEAU, "DEC": PLATEAU, "DEC natural": 6, "FIN ramp": 0}[state]
+        pulses = {
+            "START ramp": 0,
+            "ACC": 2,
+            "HIGH": PLATEAU,
+            "DEC": PLATEAU,
+            "DEC natural": 6,
+            "FIN ramp": 0,
+        }[state]
         count = {"FIN ramp": 1, "DEC natural": 8}.get(state, 1000)
         await lab.go(ramp_code, None if ramp_code & 7 == 6 else count)
     else:

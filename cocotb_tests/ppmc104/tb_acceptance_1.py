@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import BUSY, IBF, OBF, STATUS
 from cocotb_tests.common.verifies import verifies
 
@@ -77,7 +78,9 @@ async def p104_ac_03_not_initialised(dut):
 @cocotb.test()
 @verifies("AC-04", "P104-CMD-01", "P104-CMD-03", "P104-STA-06")
 async def p104_ac_04_all_codes(dut):
-    """Given a reset before each of the 256 codes, when the code is sent, then the status is as its kind says."""
+    """Given a reset before each of the 256 codes, when the code is sent,
+    then the status is as its kind says.
+    """
     lab = await Lab.start(dut, None)
     status = {"undefined": 0x80, "stop": 0x80, "operation": 0xA0, "init": 0x40, "switching": 0x20}
     status |= {"aux": 0x10, "read": 0x01, "on": 0x00, "off": 0x00}

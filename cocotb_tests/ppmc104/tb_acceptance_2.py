@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import ERR, OBF
 from cocotb_tests.common.verifies import verifies
 
@@ -117,7 +118,9 @@ async def p104_ac_32_alarm(dut):
 @cocotb.test()
 @verifies("AC-33", "P104-LIM-07", "P104-LIM-09")
 async def p104_ac_33_causes_at_start(dut):
-    """Given L1 and ALM low, when 0x43 and 0x42 start, then no pulse, both bits, the whole rest, INT each time."""
+    """Given L1 and ALM low, when 0x43 and 0x42 start,
+    then no pulse, both bits, the whole rest, INT each time.
+    """
     lab = await Lab.start(dut, INIT_A)
     lab.bench.set(l1_n=0, alm_n=0)
     pattern = lab.bench.level("s")

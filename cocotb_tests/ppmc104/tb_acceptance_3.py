@@ -6,6 +6,7 @@ from itertools import repeat
 
 import cocotb
 from cocotb.triggers import Timer
+
 from cocotb_tests.common.bus import BUSY, COMMAND, IBF
 from cocotb_tests.common.config import D16, F11, configs
 from cocotb_tests.common.verifies import verifies
@@ -19,7 +20,9 @@ A_DATA = (9, 4, 4)
 @cocotb.test()
 @verifies("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
 async def p104_ac_45_chopping(dut):
-    """Given S = 1, when parameters and vsel change, then the chopper follows; a step sees the full pattern."""
+    """Given S = 1, when parameters and vsel change,
+    then the chopper follows; a step sees the full pattern.
+    """
     lab = await Lab.start(dut, (0x2A, *A_DATA))
     on, off = 0b00011, 0b00000
     await lab.bench.clocks(9000)
@@ -113,7 +116,9 @@ async def p104_ac_49_external_clock(dut):
         await lab.bench.clocks(4)
         lab.check("AC-49", "pulses", len(lab.pulses), 10)
         for interval in lab.intervals:
-            lab.window("AC-49", f"interval at {period} clk, vsel {vsel}", interval, expected - 2, expected + 2)
+            lab.window(
+                "AC-49", f"interval at {period} clk, vsel {vsel}", interval, expected - 2, expected + 2
+            )
         lab.check("AC-49", "sum of intervals", sum(lab.intervals), 9 * expected)
 
 
@@ -146,7 +151,9 @@ async def p104_ac_51_no_drift(dut):
 @verifies("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02")
 @configs(D16)
 async def p104_ac_52_init_time(dut):
-    """Given DATASHEET, when C1 and C2 are written into the closed mailbox, then only C2 is taken, at 16.5 ms."""
+    """Given DATASHEET, when C1 and C2 are written into the closed mailbox,
+    then only C2 is taken, at 16.5 ms.
+    """
     lab = await Lab.start(dut, None)
     await lab.host.run("c 0A d 09 d 04 d 04")
     event = await lab.host.data(0x00, poll=False) + 2
@@ -167,7 +174,9 @@ async def p104_ac_52_init_time(dut):
 @verifies("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07")
 @configs(D16)
 async def p104_ac_53_constant_speed_times(dut):
-    """Given DATASHEET, when 0x44 runs 3 pulses, then BUSY, pulse 1, INT and the next command keep their times."""
+    """Given DATASHEET, when 0x44 runs 3 pulses,
+    then BUSY, pulse 1, INT and the next command keep their times.
+    """
     lab = await Lab.start(dut, INIT_A)
     lab.since = lab.bench.now
     await lab.host.run("c 44 d 63 d 02 d 00")

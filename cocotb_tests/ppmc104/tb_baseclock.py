@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import chain, repeat
 
 import cocotb
+
 from cocotb_tests.common.bus import BUSY
 from cocotb_tests.common.config import F8, F11, F16, F16X1, F25, F50, F100, Config, configs
 from cocotb_tests.common.verifies import verifies
@@ -36,7 +37,9 @@ def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) 
 @verifies("P104-BCK-01", "P104-INT-01", "P104-INT-02", "P104-GEN-02", "P104-GEN-03", "P104-GEN-04")
 @configs(F16, F8, F11, F25, F50, F100, F16X1)
 async def p104_bck_01_internal_clocks(dut):
-    """Given each core clock and crystal, when csel and vsel vary, then every pulse lies on its quantum tick."""
+    """Given each core clock and crystal, when csel and vsel vary,
+    then every pulse lies on its quantum tick.
+    """
     lab = await Lab.start(dut, INIT_A)
     for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
         lab.bench.set(csel=csel, vsel=vsel)
@@ -70,7 +73,9 @@ async def p104_bck_02_latched(dut):
 @verifies("P104-BCK-03", "P104-GEN-03", "P104-EX-12")
 @configs(F11, F25, F50)
 async def p104_bck_03_cumulative(dut):
-    """Given fractional clk per quantum, when mixed intervals add up, then no pulse drifts and each is within 1 clk."""
+    """Given fractional clk per quantum, when mixed intervals add up,
+    then no pulse drifts and each is within 1 clk.
+    """
     lab = await Lab.start(dut, (0x0A, 40, 0, 23))
     await lab.move(0x43, 300)
     which = [min(j, 298 - j, 23) for j in range(299)]
@@ -78,13 +83,17 @@ async def p104_bck_03_cumulative(dut):
     lab.check_train("P104-BCK-03", ramp)
     exact = lab.cfg.clk_hz * 32 / lab.cfg.xtal_hz
     for got, r in zip(lab.intervals, ramp, strict=True):
-        lab.window("P104-BCK-03", "interval against the fraction", round(abs(got - exact * (r + 1)) * 1000), 0, 1000)
+        lab.window(
+            "P104-BCK-03", "interval against the fraction", round(abs(got - exact * (r + 1)) * 1000), 0, 1000
+        )
 
 
 @cocotb.test()
 @verifies("P104-BCK-03")
 async def p104_bck_03_phase_restart(dut):
-    """Given starts at any phase of the free-running quantum, when pulse 1 is out, then intervals count from it."""
+    """Given starts at any phase of the free-running quantum, when pulse 1 is out,
+    then intervals count from it.
+    """
     lab = await Lab.start(dut, INIT_A)
     for wait in range(0, 34, 3):
         await lab.move(0x44, 3, rate=1)
@@ -122,7 +131,9 @@ async def p104_bck_04_external_edges(dut):
 @cocotb.test()
 @verifies("P104-BCK-05", "P104-BAD-14")
 async def p104_bck_05_too_fast_clock(dut):
-    """Given clocks of 4 to 15 clk at rate 0, when moves run, then count, phases and results hold, nothing is early."""
+    """Given clocks of 4 to 15 clk at rate 0, when moves run,
+    then count, phases and results hold, nothing is early.
+    """
     lab = await Lab.start(dut, (0x1A, 3, 0, 4))
     for period in (4, 5, 7, 9, 12, 15):
         clock = lab.bench.external_clock(repeat(period), high=2)
@@ -155,7 +166,9 @@ async def p104_bck_05_too_fast_clock(dut):
 @verifies("P104-INT-03", "P104-INT-04")
 @configs(F16, F25)
 async def p104_int_03_vsel_low_external(dut):
-    """Given vsel = L and steady or changing external clocks, when moves run, then each pulse is where INT-03 has it."""
+    """Given vsel = L and steady or changing external clocks, when moves run,
+    then each pulse is where INT-03 has it.
+    """
     lab = await Lab.start(dut, EXTERNAL, vsel=0)
     rng = lab.bench.rng
     us = lab.cfg.us
@@ -212,7 +225,9 @@ async def p104_int_04_steady_consequences(dut):
 @verifies("P104-INT-05", "P104-BAD-17", "P104-TIM-05")
 @configs(F16, F11, F100)
 async def p104_int_05_no_speed_limit(dut):
-    """Given RH = 0, when a ramp and commands meet top speed, then every interval holds and commands are served."""
+    """Given RH = 0, when a ramp and commands meet top speed,
+    then every interval holds and commands are served.
+    """
     lab = await Lab.start(dut, (0x0A, 7, 0, 9))
     await lab.go(0x43, 200)
     await lab.pulse(60)
@@ -240,7 +255,9 @@ async def p104_tim_03_waiting_for_the_clock(dut):
             ends = pin != "cnp_n" or code == 0x47
             lab.bench.set(**{pin: 0})
             await lab.bench.clocks(20)
-            lab.check("P104-BAD-13", f"BUSY of {code:#x}, {pin}", await lab.host.status(), 0 if ends else BUSY)
+            lab.check(
+                "P104-BAD-13", f"BUSY of {code:#x}, {pin}", await lab.host.status(), 0 if ends else BUSY
+            )
             if not ends:
                 await lab.host.command(0x40)
                 bits = 0xC0
@@ -262,7 +279,9 @@ async def p104_tim_03_waiting_for_the_clock(dut):
 @verifies("P104-TIM-03", "P104-BCK-04")
 @configs(F16, F100)
 async def p104_tim_03_first_edge(dut):
-    """Given single clock edges around W after the start, when pulse 1 is due, then the first edge at or after counts."""
+    """Given single clock edges around W after the start, when pulse 1 is due,
+    then the first edge at or after counts.
+    """
     lab = await Lab.start(dut, EXTERNAL)
     w = lab.cfg.w
     for offset in (-20, -8, 0, 8, 20):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cocotb
 from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
+
 from cocotb_tests.common.bus import COMMAND, DATA, IBF, STATUS
 from cocotb_tests.common.config import F8, F16, F50, F100, configs
 from cocotb_tests.common.verifies import verifies
@@ -29,7 +30,9 @@ def off_edge(lab: Lab, part: int) -> int:
 @cocotb.test()
 @verifies("P104-BUS-01", "P104-GEN-01")
 async def p104_bus_01_register_map(dut):
-    """Given all combinations of cs_n, a0 and strobes, when used, then only the selected register is touched."""
+    """Given all combinations of cs_n, a0 and strobes, when used,
+    then only the selected register is touched.
+    """
     lab = await Lab.start(dut, None)
     bench, host = lab.bench, lab.host
     lab.check("P104-BUS-01", "a0 = 0 writes data: error 3", await host.data(0x86), 0xB0)
@@ -87,7 +90,9 @@ async def p104_bus_02_overlapping_strobes(dut):
 @verifies("P104-BUS-03", "P104-BUS-04")
 @configs(F8, F16, F50, F100)
 async def p104_bus_03_shortest_strobes(dut):
-    """Given the shortest legal strobes at any phase, when bytes go in and out, then none is lost or damaged."""
+    """Given the shortest legal strobes at any phase, when bytes go in and out,
+    then none is lost or damaged.
+    """
     lab = await Lab.start(dut, None)
     bench = lab.bench
     clk = bench.period
@@ -121,7 +126,9 @@ async def p104_bus_03_shortest_strobes(dut):
 @cocotb.test()
 @verifies("P104-BUS-05")
 async def p104_bus_05_snapshot(dut):
-    """Given read strobes of 3 to 60 clk, when the state changes meanwhile, then d_o is one frozen snapshot."""
+    """Given read strobes of 3 to 60 clk, when the state changes meanwhile,
+    then d_o is one frozen snapshot.
+    """
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
     for length in (3, 4, 5, 9, 60):
@@ -152,7 +159,9 @@ async def p104_bus_05_snapshot(dut):
 @verifies("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18")
 @configs(F16, F100)
 async def p104_bus_06_last_sample_counts(dut):
-    """Given d_i and a0 that change every clk, when WS ends, then the last sample is the byte, at one latency."""
+    """Given d_i and a0 that change every clk, when WS ends,
+    then the last sample is the byte, at one latency.
+    """
     lab = await Lab.start(dut, None)
     bench = lab.bench
     latencies = set()
@@ -196,14 +205,18 @@ async def p104_bus_07_no_invisible_byte(dut):
                 lab.check("P104-BUS-07", f"status {gap} clk after {code:#x}", status in final, True)
             elif gap > 10:
                 lab.check("P104-HSK-03", f"IBF {gap} clk after {code:#x}", status, "IBF = 0")
-        lab.check("P104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, key=lambda s: ~s & IBF))
+        lab.check(
+            "P104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, key=lambda s: ~s & IBF)
+        )
 
 
 @cocotb.test()
 @verifies("P104-PORT-02")
 @configs(F16, F50)
 async def p104_port_02_registers_only(dut):
-    """Given short glitches between clk edges, when all outputs are watched, then only rising edges move them."""
+    """Given short glitches between clk edges, when all outputs are watched,
+    then only rising edges move them.
+    """
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
     rising = (int(get_sim_time("ps")) + bench.half) % bench.period
@@ -286,7 +299,9 @@ async def p104_port_04_tied_inputs(dut):
 @cocotb.test()
 @verifies("P104-BAD-09")
 async def p104_bad_09_too_short_strobes(dut):
-    """Given strobes and gaps below the limits at any phase, when bytes are written, then each is whole or absent."""
+    """Given strobes and gaps below the limits at any phase, when bytes are written,
+    then each is whole or absent.
+    """
     lab = await Lab.start(dut, None)
     bench = lab.bench
     clk = bench.period

@@ -1,8 +1,11 @@
-"""Code map, don't-care bits, the accept/reject table of every state (P104-CMD, P104-FSM), operation starts (P104-OPR)."""
+"""Code map, don't-care bits, the accept/reject table of every state (P104-CMD, P104-FSM), operation
+starts (P104-OPR).
+"""
 
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import BUSY, DATA, ERR
 from cocotb_tests.common.verifies import verifies
 
@@ -21,7 +24,9 @@ STOPPABLE = ("START ramp", "ACC", "HIGH", "DEC", "START constant", "CONST")
 @cocotb.test()
 @verifies("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
 async def p104_cmd_01_all_codes_ready(dut):
-    """Given an initialised core, when each of the 256 codes comes, then its parameter count or effect follows."""
+    """Given an initialised core, when each of the 256 codes comes,
+    then its parameter count or effect follows.
+    """
     lab = await Lab.start(dut, INIT_A)
     expected = {"undefined": 0x80, "stop": 0x80, "init": 0x40, "switching": 0x20, "aux": 0x10, "on": 0x00}
     expected |= {"read": 0x01, "off": 0x00}
@@ -69,7 +74,9 @@ async def p104_cmd_04_all_codes_busy(dut):
 @cocotb.test()
 @verifies("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
 async def p104_cmd_04_stop_codes_busy(dut):
-    """Given running moves with and without I, when any code of the two stops comes, then it stops, INT as asked."""
+    """Given running moves with and without I, when any code of the two stops comes,
+    then it stops, INT as asked.
+    """
     lab = await Lab.start(dut, INIT_A)
     for code in (c for c in range(0x40, 0x80) if c & 7 < 2):
         masked = bool(code & 0x20)
@@ -84,7 +91,9 @@ async def p104_cmd_04_stop_codes_busy(dut):
 @cocotb.test()
 @verifies("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
 async def p104_cmd_02_bits_of_operations(dut):
-    """Given every operation with X, I, D in all values, when it runs, then dir is D, INT is not I, X is nothing."""
+    """Given every operation with X, I, D in all values, when it runs,
+    then dir is D, INT is not I, X is nothing.
+    """
     lab = await Lab.start(dut, INIT_A)
     for base in OPERATIONS:
         for bits in range(8):
@@ -115,7 +124,9 @@ async def p104_cmd_02_bits_of_others(dut):
             await lab.host.command(0xC0 | bits << 3 | low)
             await lab.bench.clocks(2)
             lab.check("P104-CMD-02", f"aux_n, bits {bits}", lab.bench.level("aux_n"), level)
-        lab.check("P104-CMD-02", f"Excitation OFF, bits {bits}", await lab.host.command(0xC0 | bits << 3), 0x00)
+        lab.check(
+            "P104-CMD-02", f"Excitation OFF, bits {bits}", await lab.host.command(0xC0 | bits << 3), 0x00
+        )
         await lab.bench.clocks(2)
         lab.check("P104-AUX-04", "s", lab.bench.level("s"), 0)
         lab.check("P104-AUX-04", "0x42 afterwards", await lab.host.command(0x42), 0xA0)
@@ -139,7 +150,9 @@ async def reactions(lab: Lab, state: str) -> dict[str, int]:
 @cocotb.test()
 @verifies("P104-FSM-01", "P104-CMD-04", "P104-BAD-12", "P104-BAD-21", "P104-BAD-02")
 async def p104_fsm_01_table(dut):
-    """Given each state, when each command class and stray data come, then the reaction is that of the table."""
+    """Given each state, when each command class and stray data come,
+    then the reaction is that of the table.
+    """
     lab = await Lab.start(dut, None)
     for state in ("UNINIT", "READY", *MOVING):
         for text, status in (await reactions(lab, state)).items():

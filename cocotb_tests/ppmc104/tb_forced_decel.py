@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.config import F16, F25, F100, configs
 from cocotb_tests.common.verifies import verifies
 
@@ -16,7 +17,9 @@ LIMITS = {0: "l3_n", 1: "l4_n"}
 @cocotb.test()
 @verifies("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
 async def p104_ex_04_stop_in_each_phase(dut):
-    """Given EX-04, when 0x41 or L3 acts in acceleration, I(1), plateau, START, then the printed figures come."""
+    """Given EX-04, when 0x41 or L3 acts in acceleration, I(1), plateau, START,
+    then the printed figures come.
+    """
     lab = await Lab.start(dut, INIT_B)
     cases = ((4, 8, [19, 17, 15, 14, 15, 17, 19], 0x3DF), (1, 2, [19], 0x3E5))
     for j, count, expected, rest in cases:
@@ -29,7 +32,12 @@ async def p104_ex_04_stop_in_each_phase(dut):
     await lab.pulse(29, 100)
     await lab.host.command(0x41)
     await lab.result("P104-EX-04", 40, 0xC3, 0x3BF)
-    lab.check("P104-EX-04", "tail", [i // 32 - 1 for i in lab.intervals[29:]], [9, 10, 10, 11, 12, 12, 14, 15, 17, 19])
+    lab.check(
+        "P104-EX-04",
+        "tail",
+        [i // 32 - 1 for i in lab.intervals[29:]],
+        [9, 10, 10, 11, 12, 12, 14, 15, 17, 19],
+    )
     lab.bench.set(l3_n=0)
     await lab.go(0x43, 1000)
     await lab.result("P104-EX-04", 1, 0x8B, 0x3E6)
@@ -41,7 +49,9 @@ async def p104_ex_04_stop_in_each_phase(dut):
 @verifies("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04")
 @configs(F16, F100)
 async def p104_fdc_01_limit_in_each_interval(dut):
-    """Given CW and CCW phase moves, when the slow-down limit falls in each interval, then the ramp is mirrored."""
+    """Given CW and CCW phase moves, when the slow-down limit falls in each interval,
+    then the ramp is mirrored.
+    """
     lab = await Lab.start(dut, INIT_B)
     for direction in (0, 1):
         pin = LIMITS[direction]
@@ -60,7 +70,9 @@ async def p104_fdc_01_limit_in_each_interval(dut):
 @cocotb.test()
 @verifies("P104-FDC-01", "P104-STP-04", "P104-GEN-07")
 async def p104_fdc_01_running_interval_unaltered(dut):
-    """Given one interval, when the limit falls anywhere in it, then that interval and the rest are the same."""
+    """Given one interval, when the limit falls anywhere in it,
+    then that interval and the rest are the same.
+    """
     lab = await Lab.start(dut, INIT_B)
     for delay in (1, 2, 3, 79, 80, 81, 300, 470):
         await lab.go(0x43, 200)
@@ -93,7 +105,9 @@ async def p104_fdc_03_flag_in_start(dut):
 @cocotb.test()
 @verifies("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
 async def p104_fdc_04_never_withdrawn(dut):
-    """Given a flagged motion, when the limit chatters or is released, then the deceleration goes on unchanged."""
+    """Given a flagged motion, when the limit chatters or is released,
+    then the deceleration goes on unchanged.
+    """
     lab = await Lab.start(dut, INIT_B)
     await lab.go(0x43, 200)
     await lab.pulse(12, 30)
@@ -128,7 +142,9 @@ async def p104_fdc_05_complete_all_the_same(dut):
 @verifies("P104-FDC-06", "P104-LIM-01")
 @configs(F16, F25)
 async def p104_fdc_06_latency(dut):
-    """Given a slow-down limit 4 clk before a pulse event, when it falls, then that event counts down already."""
+    """Given a slow-down limit 4 clk before a pulse event, when it falls,
+    then that event counts down already.
+    """
     lab = await Lab.start(dut, INIT_B)
     fifth = lab.cfg.quanta(8 * (20 + 18 + 16 + 15))
     outcomes = []
@@ -154,7 +170,9 @@ async def p104_fdc_06_latency(dut):
 @cocotb.test()
 @verifies("P104-FDC-06", "P104-STP-03")
 async def p104_fdc_06_latency_of_the_command(dut):
-    """Given 0x41 around a pulse event, when its C-event is 4 clk before, then that event counts down already."""
+    """Given 0x41 around a pulse event, when its C-event is 4 clk before,
+    then that event counts down already.
+    """
     lab = await Lab.start(dut, INIT_B)
     fifth = 32 * (20 + 18 + 16 + 15)
     outcomes = []
@@ -166,7 +184,7 @@ async def p104_fdc_06_latency_of_the_command(dut):
         await lab.idle()
         count = len(lab.pulses)
         outcomes.append(count)
-        # Edge 0 is `before` clk early; the C-event comes 2 to 10 clk after it, the pin up to 2 after the event.
+        # Edge 0 is `before` clk early; the C-event comes 2 to 10 clk after it, the pin 2 after the event.
         if before >= 10 + 4 + 2:
             lab.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
         await lab.result("P104-FDC-06", count, 0xC3, 200 - count - 1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import DATA, IBF
 from cocotb_tests.common.config import F16, F16X1, F50, configs
 from cocotb_tests.common.verifies import verifies
@@ -21,7 +22,9 @@ def off_level(code: int) -> int:
 @cocotb.test()
 @verifies("P104-INI-01", "P104-PHS-01", "P104-PHS-03", "P104-INI-05")
 async def p104_ini_01_code_bits(dut):
-    """Given all 48 codes, when each initialises, then motor type, method, logic, clock and chopping are its bits."""
+    """Given all 48 codes, when each initialises,
+    then motor type, method, logic, clock and chopping are its bits.
+    """
     lab = await Lab.start(dut, None)
     for code in (c for c in range(0x40) if c & 3):
         table = steps(f"{(code & 3) + 2} {'half' if code & 4 else 'full'}", bool(code & 8))
@@ -32,7 +35,9 @@ async def p104_ini_01_code_bits(dut):
         await lab.go(0x44, 2, rate=0)
         await lab.bench.clocks(200)
         external = bool(code & 0x10)
-        lab.check("P104-INI-01", f"pulses without a clock, {code:#04x}", len(lab.pulses), 0 if external else 2)
+        lab.check(
+            "P104-INI-01", f"pulses without a clock, {code:#04x}", len(lab.pulses), 0 if external else 2
+        )
         if external:
             await lab.ticks(2, 200)
         await lab.idle()
@@ -41,14 +46,18 @@ async def p104_ini_01_code_bits(dut):
         rest = lab.bench.now
         await lab.bench.clocks(2000)
         off = [v for _, v in lab.bench.edges("s", rest)]
-        lab.check("P104-INI-01", f"chopping of {code:#04x}", off[:1], [off_level(code)] if code & 0x20 else [])
+        lab.check(
+            "P104-INI-01", f"chopping of {code:#04x}", off[:1], [off_level(code)] if code & 0x20 else []
+        )
         await lab.host.command(0xC0)
 
 
 @cocotb.test()
 @verifies("P104-INI-05", "P104-INI-07", "P104-TIM-01", "P104-INI-02")
 async def p104_ini_07_pattern_at_the_last_byte(dut):
-    """Given the longest table, when the 4th byte is taken, then s shows index 0 at once, and no byte earlier."""
+    """Given the longest table, when the 4th byte is taken,
+    then s shows index 0 at once, and no byte earlier.
+    """
     lab = await Lab.start(dut, None)
     await lab.host.send(0x0A, [255, 0, 11220 & 0xFF])
     lab.check("P104-INI-05", "edges of s before the last byte", lab.bench.edges("s"), [])
@@ -89,7 +98,9 @@ async def p104_ini_06_rejected(dut):
 @cocotb.test()
 @verifies("P104-INI-04", "P104-INI-09", "P104-INI-05")
 async def p104_ini_09_reinit(dut):
-    """Given an initialised core, when rates, ramp and clock source are set anew, then the next moves use them."""
+    """Given an initialised core, when rates, ramp and clock source are set anew,
+    then the next moves use them.
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x43, 6)
     for code, rl, rh, pa in ((0x0A, 20, 6, 7), (0x0A, 3, 3, 100), (0x0E, 12, 0, 5)):
@@ -114,7 +125,9 @@ async def p104_ini_09_reinit(dut):
 @cocotb.test()
 @verifies("P104-INI-05", "P104-PHS-03", "P104-PHS-04", "P104-PHS-05", "P104-AUX-04")
 async def p104_ini_05_index_kept(dut):
-    """Given a motor at index 3, when it is re-initialised, then index and pattern stay; after 0xC0 it is index 0."""
+    """Given a motor at index 3, when it is re-initialised,
+    then index and pattern stay; after 0xC0 it is index 0.
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x44, 3, rate=5)
     table = steps("4 full")
@@ -142,7 +155,9 @@ async def p104_ini_05_index_kept(dut):
 @cocotb.test()
 @verifies("P104-INI-08", "P104-SW-02", "P104-SW-03")
 async def p104_ini_08_chopping_and_completion(dut):
-    """Given S = 1, when re-inits run, then chopping goes on with the old S until completion, then starts with ON."""
+    """Given S = 1, when re-inits run, then chopping goes on with the old S until completion,
+    then starts with ON.
+    """
     lab = await Lab.start(dut, None)
     on, off = 0b00011, 0
     await lab.host.send(0x2A, [255, 0, 11220 & 0xFF])
@@ -176,7 +191,9 @@ async def p104_ini_08_chopping_and_completion(dut):
 @cocotb.test()
 @verifies("P104-INI-10", "P104-AUX-04", "P104-AUX-06")
 async def p104_ini_10_leaves_the_rest(dut):
-    """Given pins and registers in use, when init and Excitation OFF come, then all but excitation is unchanged."""
+    """Given pins and registers in use, when init and Excitation OFF come,
+    then all but excitation is unchanged.
+    """
     lab = await Lab.start(dut, INIT_B)
     await lab.host.run("c C1 c 86 d 05 c 84 d 01 d 02")
     await lab.go(0x4B, 200)

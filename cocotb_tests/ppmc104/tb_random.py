@@ -51,13 +51,13 @@ async def random_chaos(dut: Any) -> None:
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
     await noise.stop()
     host = HostBus(bench, timeout=bench.config.us(200_000))
-    # In DATASHEET timing an operation taken just now raises BUSY up to 112 us later.
-    await bench.clocks(bench.config.us(300))
     for _ in range(4):
+        await host.poll(IBF, 0)
+        # In DATASHEET timing an operation taken just now raises BUSY up to 112 us later.
+        await bench.clocks(bench.config.us(300))
         if not await host.poll(IBF, 0) & BUSY:
             break
         await host.command(0x40)
-        await bench.clocks(bench.config.us(300))
     bench.check("P104-BAD-23", "BUSY after stop commands", await host.status() & BUSY, 0)
     await host.command(0xC0)
     await host.init(0x0A, 9, 4, 4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import DATA, OBF
 from cocotb_tests.common.config import F16, F25, F50, configs
 from cocotb_tests.common.verifies import verifies
@@ -44,7 +45,9 @@ async def p104_rd_01_when_allowed(dut):
 @cocotb.test()
 @verifies("P104-RD-02", "P104-RD-05", "P104-LIM-10")
 async def p104_rd_02_sampled_at_the_c_event(dut):
-    """Given pins that change after the command, when the byte is read later, then it holds the earlier levels."""
+    """Given pins that change after the command, when the byte is read later,
+    then it holds the earlier levels.
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.host.command(0x81)
     lab.bench.set(alm_n=0, l1_n=0)
@@ -61,7 +64,9 @@ async def p104_rd_02_sampled_at_the_c_event(dut):
 @cocotb.test()
 @verifies("P104-RD-05", "P104-RD-08", "P104-LIM-10")
 async def p104_rd_05_input_bits(dut):
-    """Given every single input and random mixtures, when 0x81 and 0x85 are read, then each bit is its own pin."""
+    """Given every single input and random mixtures, when 0x81 and 0x85 are read,
+    then each bit is its own pin.
+    """
     lab = await Lab.start(dut, None)
     place = {"cnp_n": 7, "alm_n": 6, "l1_n": 3, "l2_n": 2, "l3_n": 1, "l4_n": 0}
     sets = [{pin: int(pin != low) for pin in place} for low in place]
@@ -80,7 +85,9 @@ async def p104_rd_05_input_bits(dut):
 @cocotb.test()
 @verifies("P104-RD-06", "P104-SW-07")
 async def p104_rd_06_output_bits(dut):
-    """Given all patterns, both logics, hold and dir, when 0x82 is read, then its bits are the un-chopped pins."""
+    """Given all patterns, both logics, hold and dir, when 0x82 is read,
+    then its bits are the un-chopped pins.
+    """
     lab = await Lab.start(dut, None)
     for name, code in STEP_CODES.items():
         for positive in (True, False):
@@ -98,7 +105,10 @@ async def p104_rd_06_output_bits(dut):
             await lab.host.command(0xC0)
             off = 0 if positive else 0x1F
             lab.check(
-                "P104-RD-06", "after 0xC0", await lab.host.fetch(0x82), [output_signals(off, 0, int(positive))]
+                "P104-RD-06",
+                "after 0xC0",
+                await lab.host.fetch(0x82),
+                [output_signals(off, 0, int(positive))],
             )
 
 
@@ -177,7 +187,9 @@ async def p104_aux_02_all_values(dut):
 @cocotb.test()
 @verifies("P104-AUX-03", "P104-SW-05", "P104-SW-04")
 async def p104_aux_03_switching_parameters(dut):
-    """Given 0x84 before init and while chopping, when sent, then both values act together, from a phase boundary."""
+    """Given 0x84 before init and while chopping, when sent,
+    then both values act together, from a phase boundary.
+    """
     lab = await Lab.start(dut, None)
     await lab.host.send(0x84, [0, 255])
     await lab.init(0x2A, 9, 4, 4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import BUSY, COMMAND, DATA, IBF, OBF
 from cocotb_tests.common.config import D16, F16, F100, configs
 from cocotb_tests.common.verifies import verifies
@@ -21,7 +22,12 @@ async def p104_sta_01_status_bits(dut):
     lab = await Lab.start(dut, None)
     host, check = lab.host, lab.check
     check("P104-STA-07", "status after reset", await host.status(), 0x00)
-    check("P104-STA-05", "NUM through a switching command", await lab.statuses("c 84 d 10 d 20"), [0x20, 0x10, 0x00])
+    check(
+        "P104-STA-05",
+        "NUM through a switching command",
+        await lab.statuses("c 84 d 10 d 20"),
+        [0x20, 0x10, 0x00],
+    )
     await host.command(0x81)
     check("P104-STA-02", "OBF while a byte is unread", await host.status(), OBF)
     await host.read(DATA)
@@ -48,8 +54,28 @@ async def p104_sta_01_status_bits(dut):
 async def p104_sta_06_errors_replace(dut):
     """Given every error number in turn, when bytes follow, then the field is that of the last byte taken."""
     lab = await Lab.start(dut, None)
-    got = await lab.statuses("c 00 c 42 d 00 c 40 c 0A d 09 d 04 d C0 d FF d 00 c 0A d 04 d 09 d 04 d 00 c 86 d 00")
-    expected = [0x80, 0xA0, 0xB0, 0x80, 0x40, 0x30, 0x20, 0x10, 0xC0, 0xB0, 0x40, 0x30, 0x20, 0x10, 0xD0, 0x10, 0x00]
+    got = await lab.statuses(
+        "c 00 c 42 d 00 c 40 c 0A d 09 d 04 d C0 d FF d 00 c 0A d 04 d 09 d 04 d 00 c 86 d 00"
+    )
+    expected = [
+        0x80,
+        0xA0,
+        0xB0,
+        0x80,
+        0x40,
+        0x30,
+        0x20,
+        0x10,
+        0xC0,
+        0xB0,
+        0x40,
+        0x30,
+        0x20,
+        0x10,
+        0xD0,
+        0x10,
+        0x00,
+    ]
     lab.check("P104-ERR-00", "statuses at rest", got, expected)
     await lab.init(*INIT_A)
     await lab.go(0x43, 40)
@@ -60,7 +86,9 @@ async def p104_sta_06_errors_replace(dut):
     before = await lab.host.command(0x87)
     reads = [await lab.host.status() for _ in range(4)]
     reads += [await lab.host.read(DATA), await lab.host.status()]
-    lab.check("P104-STA-06", "reading changes nothing", (before, reads[:4], reads[5]), (0x80, [0x80] * 4, 0x80))
+    lab.check(
+        "P104-STA-06", "reading changes nothing", (before, reads[:4], reads[5]), (0x80, [0x80] * 4, 0x80)
+    )
     lab.check("P104-STA-06", "a good byte clears ERR", await lab.host.command(0xC2), 0x00)
     await lab.host.command(0x87)
     await lab.bench.reset()
@@ -71,7 +99,9 @@ async def p104_sta_06_errors_replace(dut):
 @cocotb.test()
 @verifies("P104-ERR-01")
 async def p104_err_01_check_order(dut):
-    """Given commands with several faults, when checked, then the order is undefined, stop at rest, BUSY, init, 7."""
+    """Given commands with several faults, when checked,
+    then the order is undefined, stop at rest, BUSY, init, 7.
+    """
     lab = await Lab.start(dut, None)
     for code, status in ((0xC4, 0x80), (0x00, 0x80), (0x40, 0x80), (0x46, 0xA0), (0xC6, 0xA0)):
         lab.check("P104-ERR-01", f"{code:#x}, not initialised", await lab.host.command(code), status)
@@ -113,7 +143,13 @@ async def p104_err_03_faulty_bytes_are_harmless(dut):
     await lab.go(0x43, 30)
     since = lab.bench.now
     while len(lab.pulses) < 29:
-        for byte, reg, status in ((0x87, 1, 0x85), (0x43, 1, 0x95), (0x77, 0, 0xE5), (0x83, 1, 0x95), (0xFF, 1, 0x85)):
+        for byte, reg, status in (
+            (0x87, 1, 0x85),
+            (0x43, 1, 0x95),
+            (0x77, 0, 0xE5),
+            (0x83, 1, 0x95),
+            (0xFF, 1, 0x85),
+        ):
             lab.check("P104-ERR-03", f"status after {byte:#x}", await lab.status_after(byte, reg), status)
         await lab.bench.clocks(200)
     await lab.idle()
@@ -131,7 +167,9 @@ async def p104_err_03_faulty_bytes_are_harmless(dut):
 @cocotb.test()
 @verifies("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
 async def p104_hsk_04_table_build_window(dut):
-    """Given the longest ramp table, when bytes come in its window, then they wait, and only the newest is taken."""
+    """Given the longest ramp table, when bytes come in its window,
+    then they wait, and only the newest is taken.
+    """
     lab = await Lab.start(dut, None)
     last = 0
     for bytes_in in ([], [(1, 0xC1)], [(1, 0xC1), (1, 0xC2), (1, 0x86)], [(1, 0x87), (0, 0x55)]):
@@ -157,7 +195,9 @@ async def p104_hsk_04_table_build_window(dut):
 @verifies("P104-HSK-02", "P104-BAD-06")
 @configs(F16, F100)
 async def p104_hsk_02_replacement(dut):
-    """Given two writes 3 to 16 clk apart, when they meet a C-event, then the second is kept and none is doubled."""
+    """Given two writes 3 to 16 clk apart, when they meet a C-event,
+    then the second is kept and none is doubled.
+    """
     lab = await Lab.start(dut, None)
     first_seen = []
     for gap in range(1, 15):
@@ -215,7 +255,11 @@ async def p104_hsk_03_all_on_one_edge(dut):
     await lab.pulse(1)
     edges = {name: lab.bench.edges(name, edge0) for name in ("hold", "dir", "s")}
     started = edges["hold"][0][0]
-    expected = {"hold": [(started, 0)], "dir": [(started, 1)], "s": [(started, 0b00011), (lab.pulses[0], 0b01001)]}
+    expected = {
+        "hold": [(started, 0)],
+        "dir": [(started, 1)],
+        "s": [(started, 0b00011), (lab.pulses[0], 0b01001)],
+    }
     lab.check("P104-HSK-03", "edges of the start", edges, expected)
     lab.window("P104-HSK-03", "edge 0 to pins", started - edge0, WRITE_EVENT, C_EVENT_LATEST + 2)
     lab.check("P104-HSK-03", "status with IBF = 0", status, BUSY)
@@ -284,7 +328,15 @@ async def p104_hsk_07_cancel(dut):
     await lab.host.send(0x43, [0x09])
     await lab.bench.clocks(40_000)
     lab.check("P104-BAD-03", "NUM after a long silence", await lab.host.status(), 0x20)
-    for code, status in ((0x40, 0x80), (0x41, 0x80), (0xC2, 0x00), (0x87, 0x80), (0x00, 0x80), (0x84, 0x20), (0x44, 0x40)):
+    for code, status in (
+        (0x40, 0x80),
+        (0x41, 0x80),
+        (0xC2, 0x00),
+        (0x87, 0x80),
+        (0x00, 0x80),
+        (0x84, 0x20),
+        (0x44, 0x40),
+    ):
         for half in ((0x43, [1, 2]), (0x0A, [1, 1, 4]), (0x84, [1]), (0x86, []), (0x44, [1, 2, 3])):
             await lab.host.send(*half)
             lab.check("P104-HSK-07", f"{code:#x} after {half}", await lab.host.command(code), status)
@@ -303,7 +355,9 @@ async def p104_hsk_07_cancel(dut):
 @cocotb.test()
 @verifies("P104-HSK-08", "P104-BAD-22")
 async def p104_hsk_08_queue_stays(dut):
-    """Given unread bytes, when other commands and motions run, then only an executed read command replaces them."""
+    """Given unread bytes, when other commands and motions run,
+    then only an executed read command replaces them.
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x44, 2, rate=9)
     await lab.host.command(0x80)

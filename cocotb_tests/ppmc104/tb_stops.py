@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cocotb
+
 from cocotb_tests.common.bus import BUSY, ERR
 from cocotb_tests.common.config import F8, F16, F100, configs
 from cocotb_tests.common.verifies import verifies
@@ -17,10 +18,18 @@ ALL = 1 << 24
 @verifies("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01")
 @configs(F16, F100)
 async def p104_stp_01_immediate(dut):
-    """Given every kind of move, when 0x40 comes high or low in a pulse, then it ends there, energised, bit 6."""
+    """Given every kind of move, when 0x40 comes high or low in a pulse,
+    then it ends there, energised, bit 6.
+    """
     lab = await Lab.start(dut, INIT_A)
     w = lab.cfg.w
-    for code, n, rate in ((0x43, 500, None), (0x44, 500, 20), (0x45, None, 20), (0x46, None, None), (0x47, None, 20)):
+    for code, n, rate in (
+        (0x43, 500, None),
+        (0x44, 500, 20),
+        (0x45, None, 20),
+        (0x46, None, None),
+        (0x47, None, 20),
+    ):
         for delay in (4, w - 8, w + 2, w + 40):
             await lab.go(code, n, rate)
             fall = await lab.pulse(3, delay)
@@ -28,7 +37,9 @@ async def p104_stp_01_immediate(dut):
             end = await lab.ended()
             await lab.idle()
             late = end - max(edge0, fall + w)
-            lab.window("P104-STP-01", f"end of {code:#x} after the stop or the pulse", late, 0, PINS_LATEST + 4)
+            lab.window(
+                "P104-STP-01", f"end of {code:#x} after the stop or the pulse", late, 0, PINS_LATEST + 4
+            )
             pattern = lab.bench.level("s")
             lab.check("P104-STP-01", "s is a pattern, not off", pattern in steps("4 full"), True)
             lab.check("P104-TIM-05", "low times", lab.bench.low_times(lab.since), [w] * 3)
@@ -39,7 +50,9 @@ async def p104_stp_01_immediate(dut):
 @cocotb.test()
 @verifies("P104-STP-01", "P104-LIM-09")
 async def p104_stp_01_no_pulse_after_the_c_event(dut):
-    """Given a pulse that is due, when 0x40 comes at each clk around it, then the pulse is out or it is not left over."""
+    """Given a pulse that is due, when 0x40 comes at each clk around it,
+    then the pulse is out or it is not left over.
+    """
     lab = await Lab.start(dut, INIT_A)
     seen = set()
     for before in range(2, 14):
@@ -61,7 +74,9 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
 @cocotb.test()
 @verifies("P104-STP-02", "P104-STP-06", "P104-ERR-01")
 async def p104_stp_02_at_rest(dut):
-    """Given a core at rest, fresh, initialised or after a move, when a stop comes, then error 0 and no effect."""
+    """Given a core at rest, fresh, initialised or after a move, when a stop comes,
+    then error 0 and no effect.
+    """
     lab = await Lab.start(dut, None)
     for phase in range(4):
         if phase == 1:
@@ -79,10 +94,14 @@ async def p104_stp_02_at_rest(dut):
 
 
 @cocotb.test()
-@verifies("P104-STP-03", "P104-STP-04", "P104-FDC-01", "P104-FDC-02", "P104-END-03", "P104-OPR-07", "P104-OPR-10")
+@verifies(
+    "P104-STP-03", "P104-STP-04", "P104-FDC-01", "P104-FDC-02", "P104-END-03", "P104-OPR-07", "P104-OPR-10"
+)
 @configs(F16, F8)
 async def p104_stp_03_decelerating(dut):
-    """Given 0x43 and 0x46 in phase and POUT mode, when 0x41 comes in any interval, then the ramp is mirrored."""
+    """Given 0x43 and 0x46 in phase and POUT mode, when 0x41 comes in any interval,
+    then the ramp is mirrored.
+    """
     lab = await Lab.start(dut, INIT_B)
     ramp = INIT_B[1:]
     for code in (0x43, 0x46, 0xC3, 0xC6):
@@ -95,7 +114,9 @@ async def p104_stp_03_decelerating(dut):
             await lab.idle()
             which = forced(1000, ramp[2], j)
             lab.check_train("P104-FDC-02", rates(ramp, which))
-            await lab.result("P104-END-03", j + 1 + which[j - 1], 0xC0 | code & 7, n - (j + 1 + which[j - 1]) - 1)
+            await lab.result(
+                "P104-END-03", j + 1 + which[j - 1], 0xC0 | code & 7, n - (j + 1 + which[j - 1]) - 1
+            )
 
 
 @cocotb.test()
@@ -122,7 +143,9 @@ def await_end(lab: Lab) -> int:
 @cocotb.test()
 @verifies("P104-STP-07", "P104-END-07")
 async def p104_stp_07_mask_is_of_the_operation(dut):
-    """Given moves with I = 0 and 1, when each stop comes with either bit 4, then INT follows the move's bit."""
+    """Given moves with I = 0 and 1, when each stop comes with either bit 4,
+    then INT follows the move's bit.
+    """
     lab = await Lab.start(dut, INIT_A)
     for operation in (0x45, 0x55, 0x46, 0x56):
         for stop in (0x40, 0x50, 0x41, 0x51):
@@ -181,7 +204,9 @@ async def p104_opr_02_counts(dut):
 @cocotb.test()
 @verifies("P104-OPR-04", "P104-OPR-08", "P104-INT-01", "P104-INT-05", "P104-BAD-17")
 async def p104_opr_04_all_rates(dut):
-    """Given every rate byte 0..255, when 3 pulses run at it, then intervals and low times keep to the formula."""
+    """Given every rate byte 0..255, when 3 pulses run at it,
+    then intervals and low times keep to the formula.
+    """
     lab = await Lab.start(dut, INIT_A)
     for r in range(256):
         await lab.move(0x44, 3, rate=r)
@@ -192,7 +217,9 @@ async def p104_opr_04_all_rates(dut):
 @cocotb.test()
 @verifies("P104-OPR-05", "P104-EX-09", "P104-TIM-04", "P104-PHS-01")
 async def p104_opr_05_phase_and_pout_mode(dut):
-    """Given a 5-phase half-step motor, when phase and POUT moves run both ways, then only phase mode moves s."""
+    """Given a 5-phase half-step motor, when phase and POUT moves run both ways,
+    then only phase mode moves s.
+    """
     lab = await Lab.start(dut, (0x0F, 9, 4, 4))
     since = lab.bench.now
     await lab.move(0x4C, 4, rate=9)
@@ -248,7 +275,9 @@ async def p104_opr_06_single_step(dut):
 @cocotb.test()
 @verifies("P104-OPR-11", "P104-LIM-06", "P104-END-06")
 async def p104_opr_11_origin_search(dut):
-    """Given 0x47 CW and CCW, when CNP falls at once or between pulses, then it ends, no cause bit, rest kept."""
+    """Given 0x47 CW and CCW, when CNP falls at once or between pulses,
+    then it ends, no cause bit, rest kept.
+    """
     lab = await Lab.start(dut, INIT_A)
     for code in (0x47, 0x4F):
         for count in (1, 2, 6):
@@ -264,7 +293,9 @@ async def p104_opr_11_origin_search(dut):
 @cocotb.test()
 @verifies("P104-OPR-01", "P104-RD-07", "P104-RD-03")
 async def p104_opr_01_status_of_old_move_replaced(dut):
-    """Given a stopped move, when a complete one follows, then no cause bit and no rest of the old one is left."""
+    """Given a stopped move, when a complete one follows,
+    then no cause bit and no rest of the old one is left.
+    """
     lab = await Lab.start(dut, INIT_A)
     for stop_first in (True, False, True):
         await lab.go(0x4C, 100, rate=9)

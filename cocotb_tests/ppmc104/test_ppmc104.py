@@ -21,6 +21,12 @@ ITEMS = cocotb_items(
     "tb_baseclock",
     "tb_ramp",
     "tb_forced_decel",
+    "tb_timing_end",
+    "tb_excitation",
+    "tb_limits",
+    "tb_bad_input",
+    "tb_datasheet",
+    "tb_datasheet_2",
 )
 
 

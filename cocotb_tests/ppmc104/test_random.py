@@ -15,7 +15,7 @@ from cocotb_tests.common.runner import SimOptions, run_item
 from cocotb_tests.ppmc104.random_host import scenario
 
 SEEDS = range(1, 221)
-CHAOS_SEEDS = range(1, 31)
+CHAOS_SEEDS = range(1, 41)
 
 
 def _item(test: str, seed: int, config: Config) -> Item:

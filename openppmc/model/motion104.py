@@ -190,7 +190,7 @@ class Motion:
             )
 
     def _slow_counts(self) -> bool:
-        if self._flag_edge is not None or self._natural or "slow" in self._events:
+        if self._flag_edge is not None or "slow" in self._events:
             return False
         return self.high or not self._command.pulse_only
 
@@ -224,7 +224,13 @@ class Motion:
         gap = None if self._last_rise is None else t - self._last_rise
         self._last_rise = t
         external = self._external
-        if not self.busy or self.finishing or external is None:
+        if not self.busy or external is None:
+            return
+        if self.finishing:  # the low time that has begun keeps its length (P104-TIM-05)
+            if self.low and self._cut_at:
+                external.rise(t, gap, self.low)
+                if external.edges == self._cut_at:
+                    self._cut_low(t)
             return
         if self.done == 0:
             if self._armed_from is not None and t >= self._armed_from:
@@ -334,7 +340,8 @@ class Motion:
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))
         self._port.set_fast(t, False)
-        context.queue.at(since + context.timebase.cyc(end_cycles), Phase.END, self._finish)
+        # Before COMMAND: a byte that waited for this very edge is judged with BUSY = 0.
+        context.queue.at(since + context.timebase.cyc(end_cycles), Phase.BEGIN, self._finish)
 
     def _plan_end(self, low_ended: int) -> None:
         latency = self._context.latency

@@ -26,7 +26,8 @@ class Latency:
     (P104-FDC-06, 0..4).
     queue_next: OBF fall to the next byte of a longer answer (P104-HSK-05, 0..4).
     reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
-    build_base, build_per_rate: ramp-table build, base + per_rate * (RL - RH) (P104-HSK-04, <= 40000);
+    build_base, build_per_slow, build_per_rate: ramp-table build, base + per_slow * RL +
+    per_rate * (RL - RH) (P104-HSK-04, <= 40000), 2 for RL = RH, which needs no table;
     `build_clk`, a function of (RL, RH, PA), replaces them.
     ds_host: added to the times measured from a write event, ds_waited: from the end of a wait, ds_motor:
     from a pulse, a deciding edge or an input level (section 8, -0/+16).
@@ -34,29 +35,32 @@ class Latency:
     """
 
     c_event: int = 2
-    window_open: int = 0
+    window_open: int = 1
     host_pins: int = 0
     motor_pins: int = 1
-    start_extra: int = 1
+    start_extra: int = 0
     end_extra: int = 0
     imm_end: int = 1
     input_sync: int = 2
-    flag_lead: int = 1
-    queue_next: int = 2
-    reset_tick: int = -1
-    build_base: int = 64
-    build_per_rate: int = 48
+    flag_lead: int = 0
+    queue_next: int = 1
+    reset_tick: int = 1
+    build_base: int = 1990
+    build_per_slow: int = 51
+    build_per_rate: int = 67
     build_clk: BuildClk | None = None
-    ds_host: int = 0
-    ds_waited: int = 0
-    ds_motor: int = 0
+    ds_host: int = 3
+    ds_waited: int = 1
+    ds_motor: int = 1
     ds12_lag: int = 1
 
     def build(self, rl: int, rh: int, pa: int) -> int:
         """Length of the ramp-table build in clk."""
         if self.build_clk is not None:
             return self.build_clk(rl, rh, pa)
-        return self.build_base + self.build_per_rate * (rl - rh)
+        if rl == rh:
+            return 2
+        return self.build_base + self.build_per_slow * rl + self.build_per_rate * (rl - rh)
 
 
 @dataclass(frozen=True)

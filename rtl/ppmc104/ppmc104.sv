@@ -376,7 +376,6 @@ module ppmc104
         .ready_o     (ready_init),
         .moving_i    (moving),
         .running_i   (running),
-        .busy_i      (busy),
         .top_i       (top),
         .op_i        (op_run),
         .base_i      (base_run),

@@ -29,7 +29,6 @@ module ppmc104_pace
     // motion
     input  wire logic                 moving_i,
     input  wire logic                 running_i,
-    input  wire logic                 busy_i,
     input  wire logic                 top_i,
     input  wire op_t                  op_i,
     input  wire base_t                base_i,
@@ -53,7 +52,6 @@ module ppmc104_pace
   localparam int unsigned FIRST_CONSTANT = 194 * 16;
   localparam int unsigned FIRST_RAMP = 200 * 16;
   localparam int unsigned FIRST_SINGLE = 86 * 16;
-  localparam int unsigned END_SINGLE = 112 * 16;
   localparam int unsigned END_BUSY = 26 * 16;
   localparam int unsigned END_OPEN = 156 * 16;
   localparam int unsigned END_RAMP = 200 * 16;
@@ -140,7 +138,7 @@ module ppmc104_pace
 
   // ---- motion ------------------------------------------------------------------------------------------------------
 
-  logic first_q, ending_q, mot_past, open_past;
+  logic first_q, ending_q, last_q, mot_past, open_past;
   logic [MotBits-1:0] first_limit_q, busy_limit_q, open_limit_q;
   logic [21:0] pulses;
   logic triangle;
@@ -181,19 +179,22 @@ module ppmc104_pace
         ending_q     <= 1'b1;
         busy_limit_q <= final_i ? MotBits'(END_BUSY) : MotBits'(END_RAMP);
         open_limit_q <= final_i ? MotBits'(END_OPEN) : MotBits'(END_RAMP);
-        if (op_i.single) begin
-          busy_limit_q <= MotBits'(END_SINGLE);
-          open_limit_q <= MotBits'(END_SINGLE);
-        end
-      end else if (ending_q && open_past && !busy_i) begin
+        if (op_i.single) open_limit_q <= MotBits'(END_BUSY);
+      end else if (ending_q && open_past && !last_q) begin
         ending_q <= 1'b0;
       end
     end
   end
 
-  // One count, two ends: the fall of BUSY and the opening of the mailbox.
+  // One count, two ends: the fall of BUSY and the opening of the mailbox. After a pulse it starts with the fall of the pin.
   logic mot_restart;
-  assign mot_restart = act_i.start || stop_i || (pulse_i && last_i && !op_i.single);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) last_q <= 1'b0;
+    else last_q <= pulse_i && last_i;
+  end
+
+  assign mot_restart = act_i.start || stop_i || last_q;
 
   ppmc_xtal_timer #(
       .ClkHz (ClkHz),
@@ -264,7 +265,7 @@ module ppmc104_pace
     if (base_i.extra) interval = interval + 14'd30;
     stops_only_o = running_i && !base_i.external &&
         interval < (op_i.pout_only ? 14'(BRISK_POUT) : 14'(BRISK_PHASE));
-    open_o = !cmd_busy_q && !(ending_q && !open_past);
+    open_o = !cmd_busy_q && !ending_q;
   end
 
 endmodule

@@ -24,7 +24,7 @@ from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
 from scripts.demo import waves, words
 from scripts.demo.picture import draw_demo
-from scripts.project import BUILD, ProjectError, console, fail, relative
+from scripts.project import BUILD, console, fail, relative, run
 
 PART = "ppmc104"
 FOLDER = BUILD / "demo"
@@ -126,11 +126,11 @@ def show_talk(recording: Recording, chapters: list[dict[str, Any]]) -> None:
     table = Table(title="Host and chip", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("ms", justify="right")
     table.add_column("sent", no_wrap=True)
-    table.add_column("in words")
+    table.add_column("in words", overflow="fold")
     table.add_column("polls", justify="right")
     table.add_column("status seen")
     table.add_column("answer", no_wrap=True)
-    table.add_column("in words")
+    table.add_column("in words", overflow="fold")
     for chapter in chapters:
         inside = [a for a in recording.accesses if chapter["begin"] <= a.t < chapter["end"]]
         rows = words.exchanges(inside)
@@ -204,8 +204,8 @@ def write_waves(comparison: Comparison, chapters: list[dict[str, Any]]) -> list[
     vcd, gtkw, sucl = (FOLDER / f"{PART}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
     waves.write_vcd(comparison, vcd)
     period = 1_000_000_000_000 // int(str(comparison.recording.params["CLK_HZ"]))
-    move = next(chapter for chapter in chapters if chapter["key"] == "move")
-    waves.gtkwave(vcd, gtkw, PART, move["begin"] * period, (move["begin"] + 40_000) * period)
+    marks = [chapter["begin"] * period for chapter in chapters if chapter["key"] in ("move", "limit", "rest")]
+    waves.gtkwave(vcd, gtkw, PART, comparison.recording.end * period, marks)
     waves.surfer(sucl)
     return [vcd, gtkw, sucl]
 
@@ -221,7 +221,7 @@ def main() -> int:
         saved = write_waves(comparison, chapters)
         picture = FOLDER / "profile.png"
         steps.run("draw the picture", lambda: draw_demo(comparison, chapters, picture))
-    except (SimError, ProjectError) as error:
+    except SimError as error:
         return fail(str(error))
     if console.is_terminal:
         console.print("\n".join(steps.done), style="green")
@@ -246,4 +246,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main))

@@ -7,6 +7,7 @@ a gigabyte.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,9 @@ from typing import Any
 from vcd import VCDWriter
 
 from cocotb_tests.common.part import PARTS
+from scripts.demo.picture import bit
 
-# The view: groups of (title, signals); * marks a speed curve.
+# The view: groups of (title, signals).
 GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (
         "host",
@@ -31,9 +33,24 @@ GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
             "pins.int_n",
         ),
     ),
-    ("motor", ("motor.speed_pps", "motor.pulses", "pins.pout_n", "pins.dir", "pins.s", "pins.hold")),
+    (
+        "motor",
+        (
+            "motor.speed_pps",
+            "motor.pulses",
+            "pins.pout_n",
+            "pins.dir",
+            "pins.s1",
+            "pins.s2",
+            "pins.s3",
+            "pins.s4",
+            "pins.s5",
+            "pins.hold",
+        ),
+    ),
     ("switches", ("pins.l1_n", "pins.l2_n", "pins.l3_n", "pins.l4_n", "pins.cnp_n", "pins.alm_n")),
 )
+PHASES = ("s1", "s2", "s3", "s4", "s5")
 WIDTHS = {"d_i": 8, "auxi": 4}
 LATEST_FALL = 2.1e-3  # s without a pulse: speed 0
 
@@ -54,6 +71,14 @@ def speed_changes(pulses: Sequence[int], clk_hz: int) -> Iterator[tuple[int, flo
             level = speed
 
 
+def single_pins(outputs: Mapping[str, Sequence[tuple[int, int]]]) -> dict[str, Sequence[tuple[int, int]]]:
+    """Outputs with the phase vector taken apart into s1 … s5."""
+    pins: dict[str, Sequence[tuple[int, int]]] = {
+        name: changes for name, changes in outputs.items() if name != "s"
+    }
+    return pins | {name: bit(outputs["s"], index) for index, name in enumerate(PHASES)}
+
+
 def write_vcd(comparison: Any, path: Path) -> None:
     """Write all pins, the host's accesses, pulse count and speed."""
     recording = comparison.recording
@@ -66,9 +91,10 @@ def write_vcd(comparison: Any, path: Path) -> None:
         for pin, level in {"rst_n": 1, **part.inputs}.items():
             var = writer.register_var("pins", pin, "wire", size=WIDTHS.get(pin, 1), init=level)
             rows += [(change.t, var, change.value) for change in recording.stimulus if change.pin == pin]
-        for name, changes in comparison.actual.items():
+        for name, changes in single_pins(comparison.actual).items():
+            level = comparison.initial["s"] & 1 if name in PHASES else comparison.initial[name]
             var = writer.register_var(
-                "pins", name, "wire", size=part.width(name), init=comparison.initial[name]
+                "pins", name, "wire", size=1 if name in PHASES else part.width(name), init=level
             )
             rows += [(t, var, value) for t, value in changes]
         text = writer.register_var("host", "access", "string", init="")
@@ -89,17 +115,17 @@ def full_names(part: str) -> Mapping[str, str]:
     return {name: name + vectors.get(name, "") for _, names in GROUPS for name in names}
 
 
-def gtkwave(vcd: Path, target: Path, part: str, begin_ps: int, end_ps: int) -> None:
-    """Write a GTKWave save file that opens on a stretch of time, the speed as an analog curve."""
-    # The zoom is minus the power of two of time units in a pixel; the view is some 1200 pixels wide.
-    exponent = max((end_ps - begin_ps) // 1200, 1).bit_length()
+def gtkwave(vcd: Path, target: Path, part: str, end_ps: int, marks: Sequence[int]) -> None:
+    """Write a GTKWave save file: the whole run, the speed as an analog curve, marks (in ps) as A, B, …"""
+    # The zoom is minus log2 of the time between two grid lines, of which the window shows some five.
+    zoom = math.log2(end_ps / 5)
     names = full_names(part)
     lines = [
         f'[dumpfile] "{vcd.name}"',
         f'[savefile] "{target.name}"',
-        f"[timestart] {begin_ps}",
+        "[timestart] 0",
         "[size] 1500 900",
-        f"*-{exponent:.6f} {begin_ps} -1 -1 -1",
+        f"*-{zoom:.6f} -1 {' '.join(map(str, marks))}",
         "[sst_width] 200",
         "[signals_width] 180",
         "[sst_expanded] 1",
@@ -114,7 +140,7 @@ def gtkwave(vcd: Path, target: Path, part: str, begin_ps: int, end_ps: int) -> N
             elif name == "host.access":
                 lines += ["@20", names[name]]
             else:
-                lines += ["@28" if name == "pins.s" or "[" not in names[name] else "@22", names[name]]
+                lines += ["@22" if "[" in names[name] else "@28", names[name]]
     target.write_text("\n".join(lines) + "\n")
 
 

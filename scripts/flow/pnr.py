@@ -63,7 +63,7 @@ def slowest_path(report: dict) -> str:
         return ""
     steps = max(paths, key=lambda path: sum(step["delay"] for step in path))
     first, last = (
-        re.split(r"\\\\|_(?:LUT4|SB_|TRELLIS|CCU2C|PFUMX)", step[side]["cell"])[0]
+        re.split(r"\\|_(?:LUT4|SB_|TRELLIS|CCU2C|PFUMX)", step[side]["cell"])[0]
         for step, side in ((steps[0], "from"), (steps[-1], "to"))
     )
     spent = {

@@ -6,6 +6,7 @@ from rich import box
 from rich.table import Table
 
 from .netlist import Breakdown, Count
+from .yosys_job import RECIPES
 
 LUT_NAME = {"ecp5": "COMB", "ice40": "LUT4"}
 GOALS = {"ecp5": {"lut": 1100, "ram": 2}, "ice40": {"lut": 1100}}
@@ -19,6 +20,9 @@ YARDSTICKS = (
     ("fsref step_motor", "ramp table of its own; no bus, limits, phases", 870, 348, 2, 86),
     ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1, 46),
 )
+
+
+OWN = "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, chopper"
 
 
 def breakdown_table(results: dict[str, Breakdown]) -> Table:
@@ -97,12 +101,29 @@ def device_rows(devices: list[dict]) -> list[list[str]]:
     return rows
 
 
+def recipe_words(recipes: dict[str, str]) -> str:
+    """The recipes as the options they stand for."""
+    words = []
+    for family, name in recipes.items():
+        pre, options = RECIPES[family][name]
+        script = f" after `{pre}`" if pre else ""
+        words.append(f"`{f'synth_{family} {options}'.strip()}`{script}")
+    return ", ".join(words)
+
+
+def figures_of(entry: dict) -> list[str]:
+    """COMB, FF, RAM and Fmax of a device entry, in bold."""
+    return [f"**{entry[key]:g}**" for key in ("lut", "ff", "ram", "fmax")]
+
+
 def markdown(report: dict, results: dict[str, Breakdown]) -> str:
     """The whole block between the markers of a part."""
     heads = ["device", "logic", "FF", "block RAM", "Fmax / MHz", "all seeds", "goals"]
     parts = [
         f"Median Fmax of {report['seed_count']} place-and-route seeds; default parameters "
-        "(CLK_HZ 16 MHz, FAST). COMB counts as nextpnr packs (a carry cell is two), LUT4 as synthesized.",
+        "(CLK_HZ 16 MHz, FAST), pins unconstrained. COMB counts as nextpnr packs (a carry cell is two), LUT4 as "
+        f"synthesized. Recipes: {recipe_words(report['recipes'])}. UP5K has fewer pins than the part: for its clock "
+        "rate they go through shift registers, which are not counted.",
         markdown_table(heads, device_rows(report["devices"])),
         "Slowest path of the median seed:",
         "\n".join(f"- {entry['device']}: `{entry['path']}`" for entry in report["devices"]),
@@ -128,11 +149,12 @@ def markdown(report: dict, results: dict[str, Breakdown]) -> str:
         markdown_table(
             ["design", "what it is", "COMB", "FF", "RAM", "Fmax / MHz"],
             [
+                [f"**this {report['part']}**", OWN, *figures_of(report["devices"][0])],
                 [
                     f"**this {report['part']}**",
-                    "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, chopper",
-                    *(f"**{report['devices'][0][key]:g}**" for key in ("lut", "ff", "ram", "fmax")),
-                ]
+                    "the same with plain `synth_ecp5`",
+                    *figures_of(report["plain"]),
+                ],
             ]
             + [[name, what, *(str(figure) for figure in figures)] for name, what, *figures in YARDSTICKS],
             left=2,

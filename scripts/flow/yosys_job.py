@@ -14,8 +14,9 @@ FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
 FLOW3 = "scratchpad -copy abc9.script.flow3mfs abc9.script"
 
 # What each recipe adds: a command before the family's pass, and options of that pass. flow2 and flow3 are
-# abc9 scripts that repeat mapping and restructuring; the delay targets (in ps) let abc9 give back area where there
-# is time; -cmp2softlogic compares with constants without carry chains, whose ends cost a cell each on ECP5.
+# abc9 scripts that repeat mapping and restructuring; the delay targets (in ps) let abc9 give back area where
+# there is time; -cmp2softlogic compares with constants without carry chains, whose ends cost a cell each on
+# ECP5.
 RECIPES: dict[str, dict[str, tuple[str, str]]] = {
     "ecp5": {
         "default": ("", ""),

@@ -89,6 +89,7 @@ def test_any_host_can_be_recovered_from(actions, timing, clk_hz):
         host.pause(20 * clk_hz // 1000)
     assert host.run("c 82 r")[0] & 0xF8 == 0xC0
     host.run("c 43 d 0D d 00 d 00")
+    host.pause(clk_hz // 500)
     host.idle()
     exact = [32 * (rate + 1) * clk_hz / 16e6 for rate in (9, 7, 5, 5, 4, 4, 4, 4, 4, 5, 5, 7, 9)]
     assert all(abs(a - b) < 1 for a, b in zip(host.intervals(), exact, strict=True))

@@ -177,3 +177,25 @@ def test_predicted_examples():
         predict_move(bytes((9, 4, 4, 0)), 0)
     with pytest.raises(ValueError, match="rate 256"):
         predict_move(bytes((9, 4, 4, 0)), 2, rate=256)
+
+
+@verifies("P104-HSK-04", "P104-FDC-06")
+def test_constants_of_the_core_lie_in_the_windows_of_the_rules():
+    core = Latency()
+    windows = {
+        "c_event": (0, 8),
+        "host_pins": (0, 2),
+        "motor_pins": (0, 2),
+        "start_extra": (0, 2),
+        "end_extra": (0, 4),
+        "imm_end": (0, 4),
+        "flag_lead": (0, 4),
+        "queue_next": (0, 4),
+        "ds_host": (0, 14),
+        "ds_waited": (0, 14),
+        "ds_motor": (0, 14),
+    }
+    for name, (low, high) in windows.items():
+        assert low <= getattr(core, name) <= high, name
+    assert core.input_sync == 2
+    assert max(core.build(rl, rh, pa) for rl in (0, 255) for rh in (0, rl) for pa in (4, 11220)) <= 40_000

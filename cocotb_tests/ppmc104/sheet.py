@@ -1,0 +1,45 @@
+"""`Sheet`: a `Lab` for the DATASHEET timing model, with the measurements its tests are made of."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bus import BUSY, IBF
+
+from .lab import WRITE_EVENT, Lab
+
+TOLERANCE = 16
+# A pin may follow the internal event by up to 2 clk (P104-HSK-03).
+PIN = 2
+# XTAL cycles of one us at 16 MHz (P104-GEN-02).
+US = 16
+
+
+class Sheet(Lab):
+    """`Lab` with the two measurements all these tests are made of."""
+
+    def after(self, rule: str, what: str, got: int, xtal_cycles: int, pin: int = PIN) -> None:
+        """`got` clk is CYC(xtal_cycles), -0/+16, plus the way to the pin."""
+        nominal = self.cfg.cyc(xtal_cycles)
+        self.window(rule, what, got, nominal, nominal + TOLERANCE + pin)
+
+    async def event(self, code: int, n: int | None = None, rate: int | None = None) -> int:
+        """Start an operation; returns the write event of its last byte."""
+        return await self.go(code, n, rate, poll=False) + WRITE_EVENT
+
+    async def opens(self, rule: str, since: int, xtal_cycles: int, code: int = 0xC1) -> int:
+        """A command written now is taken `xtal_cycles` after `since`, and not before; returns that edge."""
+        nominal = since + self.cfg.cyc(xtal_cycles)
+        await self.host.command(code, poll=False)
+        await self.bench.until(max(self.bench.now, nominal - 20))
+        while self.bench.now < nominal - 4:
+            self.check(rule, "IBF while closed", await self.host.status() & IBF, IBF)
+        await self.host.poll(IBF, 0, dense=100)
+        self.window(
+            rule, "command taken", self.bench.now - since, nominal - since, nominal - since + TOLERANCE + 24
+        )
+        return self.bench.now
+
+    async def rest(self) -> None:
+        """Let all closed times and the INT of an operation pass."""
+        await self.host.poll(BUSY | IBF, 0)
+        await self.finish()
+        await self.bench.clocks(self.cfg.us(14) + 40)

@@ -1,0 +1,273 @@
+"""Processing times of the old chip, TIMING = "DATASHEET" (P104-DS). All times: -0/+16 clk of CYC(16·us)."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.common.bus import BUSY, DATA, IBF
+from cocotb_tests.common.config import D11, D16, D25X8, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A
+from .lab import WRITE_EVENT
+from .sheet import PIN, TOLERANCE, US, Sheet
+
+
+@cocotb.test()
+@verifies("P104-DS-01", "P104-INI-07")
+@configs(D16, D11)
+async def p104_ds_01_phase_outputs(dut):
+    """Given the first init, when its last byte is stored,
+    then s shows index 0 44 us later; a re-init leaves it.
+    """
+    lab = await Sheet.start(dut, None)
+    await lab.host.send(0x0A, [9, 4, 4])
+    event = await lab.host.data(0, poll=False) + WRITE_EVENT
+    shown = await lab.bench.edge("s", 3)
+    lab.after("P104-DS-01", "s after the write event", shown - event, 44 * US)
+    await lab.opens("P104-DS-02", event, 264_000)
+    await lab.bench.clocks(lab.cfg.us(20))
+    await lab.move(0x42)
+    await lab.rest()
+    since = lab.bench.now
+    await lab.host.init(*INIT_A)
+    await lab.bench.clocks(lab.cfg.us(100))
+    lab.check("P104-DS-01", "edges of s at a re-init", lab.bench.edges("s", since), [])
+
+
+@cocotb.test()
+@verifies("P104-DS-02", "P104-INI-08", "P104-HSK-01")
+@configs(D16, D25X8)
+async def p104_ds_02_init_time(dut):
+    """Given PA 4 and 104, when an init runs, then the mailbox opens after 264000 + 209·(PA - 4),
+    then chopping.
+    """
+    lab = await Sheet.start(dut, None)
+    for pa in (4, 104):
+        await lab.host.send(0x2A, [9, 4, pa])
+        event = await lab.host.data(0, poll=False) + WRITE_EVENT
+        opened = event + lab.cfg.cyc(264_000 + 209 * (pa - 4))
+        await lab.host.poll(IBF, 0)
+        lab.check("P104-DS-02", "BUSY while closed", await lab.host.status(), 0x00)
+        await lab.opens("P104-DS-02", event, 264_000 + 209 * (pa - 4))
+        off = await lab.bench.edge("s", 0)
+        on_time = lab.cfg.quanta(260)
+        late = lab.cfg.quanta(1) + TOLERANCE + PIN
+        lab.window("P104-INI-08", "end of init to the first OFF", off - opened, on_time, on_time + late)
+        await lab.host.command(0xC0)
+        await lab.bench.clocks(lab.cfg.us(20))
+
+
+@cocotb.test()
+@verifies("P104-DS-02", "P104-DS-13", "P104-INI-06")
+@configs(D16)
+async def p104_ds_13_no_time_for_the_rest(dut):
+    """Given a rejected init, reads, 0x84 and errors, when more bytes follow,
+    then all are taken as in FAST.
+    """
+    lab = await Sheet.start(dut, None)
+    got = []
+    for script in (
+        "c 0A d 04 d 09 d 04 d 00",
+        "c 81",
+        "c 80",
+        "c 84 d 10 d 20",
+        "c 87",
+        "c 42",
+        "c 00",
+        "d 00",
+    ):
+        words = script.split()
+        for kind, byte in zip(words[::2], words[1::2], strict=True):
+            edge0 = await lab.host.write(int(kind == "c"), int(byte, 16))
+            await lab.bench.until(edge0 + 12)
+            got.append(await lab.host.status())
+    expected = [0x40, 0x30, 0x20, 0x10, 0xD0, 0x01, 0x01, 0x21, 0x11, 0x01, 0x81, 0xA1, 0x81, 0xB1]
+    lab.check("P104-DS-13", "statuses 12 clk after each byte", got, expected)
+    edge0 = await lab.host.write(1, 0x82)
+    await lab.bench.until(edge0 + 12)
+    lab.check("P104-DS-13", "0x82", await lab.host.read(DATA), 0xFC)
+
+
+@cocotb.test()
+@verifies("P104-DS-03", "P104-DS-04", "P104-DS-05", "P104-TIM-04")
+@configs(D16, D11)
+async def p104_ds_03_start_times(dut):
+    """Given every operation, when its last byte is stored,
+    then BUSY, hold, dir, s and pulse 1 keep their times.
+    """
+    lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
+    for code, n, rate, busy, first in (
+        (0x4C, 3, 99, 27, 194 * US),
+        (0x45, None, 99, 27, 194 * US),
+        (0x4F, None, 99, 27, 194 * US),
+        (0x43, 9, None, 112, 200 * US),
+        (0x4B, 8, None, 112, 3200 + 123 * 8 // 16),
+        (0x46, None, None, 112, 200 * US),
+        (0xCB, 10, None, 112, 200 * US),
+        (0xC3, 6, None, 112, 3200 + 123 * 6 // 16),
+        (0xCE, None, None, 112, 200 * US),
+    ):
+        await lab.bench.edge("s", 0)
+        await lab.bench.clocks(20)
+        before = lab.bench.level("dir")
+        event = await lab.event(code, n, rate)
+        await lab.bench.until(event + 10)
+        lab.check("P104-DS-03", "IBF falls as in FAST, BUSY still 0", await lab.host.status(), 0x00)
+        nominal = lab.cfg.us(busy)
+        if nominal > 450:
+            await lab.bench.until(event + nominal - 16)
+            lab.check("P104-DS-03", "BUSY just before", await lab.host.status(), 0x00)
+        await lab.bench.until(event + nominal + TOLERANCE)
+        lab.check("P104-DS-03", "BUSY just after", await lab.host.status(), BUSY)
+        pulse = await lab.pulse(1)
+        moved = [(t, v) for t, v in lab.bench.edges("s", event) if t < pulse]
+        full = [t for t, v in moved if v][-1] if moved else None
+        falls = lab.bench.falls("hold", event)
+        dirs = [t for t, _ in lab.bench.edges("dir", event)]
+        places = {t for t in [*falls[:1], *dirs] if t is not None}
+        if full and full - event >= nominal:
+            places.add(full)
+        what = f"hold, dir of {code:#x}"
+        lab.check("P104-DS-03", f"{what}: number of edges", len(places) <= 1, True)
+        for t in places:
+            lab.after("P104-DS-03", what, t - event, busy * US)
+        lab.check("P104-DS-03", "dir edge there if dir turns", len(dirs), int(before != code >> 3 & 1))
+        rule = "P104-DS-04" if code & 7 in (4, 5, 7) else "P104-DS-05"
+        lab.after(rule, f"pulse 1 of {code:#x}", pulse - event, first)
+        await lab.host.command(0x40)
+        await lab.rest()
+
+
+@cocotb.test()
+@verifies("P104-DS-03", "P104-HSK-01")
+@configs(D16)
+async def p104_ds_03_closed_until_busy(dut):
+    """Given a start, when AUX ON waits for it,
+    then it is taken once BUSY has risen, and the chopper is off then.
+    """
+    lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
+    for code, n, rate, busy in ((0x44, 3, 99, 27), (0x43, 9, None, 112)):
+        await lab.host.command(0xC2)
+        await lab.bench.clocks(300)
+        event = await lab.event(code, n, rate)
+        await lab.bench.until(event + 10)
+        await lab.opens("P104-DS-03", event, busy * US)
+        lab.check("P104-DS-03", "BUSY", await lab.host.status() & BUSY, BUSY)
+        lab.check("P104-SW-03", "s has the full pattern", lab.bench.level("s") != 0, True)
+        await lab.idle()
+        await lab.rest()
+
+
+@cocotb.test()
+@verifies("P104-DS-06", "P104-SW-02")
+@configs(D16, D25X8)
+async def p104_ds_06_single_step(dut):
+    """Given 0x42, when it runs, then the pulse is at 86 us, INT, chopper and mailbox at 112 us."""
+    lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
+    event = await lab.event(0x42)
+    fall = await lab.pulse(1)
+    lab.after("P104-DS-06", "pulse", fall - event, 86 * US)
+    lab.check("P104-TIM-05", "BUSY at the pulse", await lab.host.status() & BUSY, BUSY)
+    await lab.opens("P104-DS-06", event, 112 * US)
+    end = await lab.ended()
+    lab.after("P104-DS-06", "INT", end - event, 112 * US)
+    lab.check("P104-TIM-05", "low time", lab.bench.low_times(lab.since), [lab.cfg.w])
+    off = await lab.bench.edge("s", 0)
+    on_time = lab.cfg.quanta(260)
+    lab.window("P104-SW-02", "INT to the first OFF", off - end, on_time, on_time + lab.cfg.quanta(1) + 3)
+    await lab.result("P104-DS-06", 1, 0x82, 0)
+
+
+@cocotb.test()
+@verifies("P104-DS-07", "P104-END-01", "P104-SW-02", "P104-DS-09")
+@configs(D16, D11)
+async def p104_ds_07_normal_end(dut):
+    """Given complete moves, when the last pulse falls, then INT 26 us and the mailbox 156 us after it."""
+    lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
+    for code, n, rate in ((0x44, 3, 99), (0x43, 9, None), (0xC3, 12, None)):
+        await lab.host.command(0xC2)
+        await lab.rest()
+        await lab.event(code, n, rate)
+        last = await lab.pulse(n, 20)
+        await lab.opens("P104-DS-07", last, 156 * US)
+        end = await lab.ended()
+        lab.after("P104-DS-07", f"INT of {code:#x}", end - last, 26 * US)
+        off = [t for t, v in lab.bench.edges("s", end) if v == 0][0]
+        on_time = lab.cfg.quanta(260)
+        lab.window("P104-SW-02", "INT to the first OFF", off - end, on_time, on_time + lab.cfg.quanta(1) + 3)
+        await lab.result("P104-DS-07", n, 0x80 | code & 7, 0)
+    rise = await lab.bench.edge("hold", 1)
+    lab.window("P104-DS-09", "BUSY fall to hold", rise - end, lab.cfg.us(34_000), lab.cfg.us(34_100))
+
+
+@cocotb.test()
+@verifies("P104-DS-08", "P104-DS-14", "P104-END-02")
+@configs(D16, D11)
+async def p104_ds_08_immediate_end(dut):
+    """Given 0x40 and ALM, when they end a move,
+    then INT 26 or 200 us after the decision, mailbox 156 or 200 us.
+    """
+    lab = await Sheet.start(dut, INIT_A)
+    for code, n, rate, quiet, closed in (
+        (0x44, 50, 99, 26, 156),
+        (0x43, 50, None, 200, 200),
+        (0xC6, None, None, 200, 200),
+    ):
+        for cause in ("40", "alm_n"):
+            await lab.host.command(0xC2)
+            await lab.rest()
+            await lab.event(code, n, rate)
+            await lab.pulse(3, 110)
+            if cause == "40":
+                decided = await lab.host.command(0x40, poll=False) + WRITE_EVENT
+                await lab.host.poll(IBF, 0)
+                slack = 8
+            else:
+                decided = lab.bench.set(alm_n=0)
+                await lab.bench.clocks(8)
+                slack = 4
+            await lab.host.command(0xC1, poll=False)
+            taken_after = decided + lab.cfg.us(closed)
+            await lab.bench.until(taken_after - 8)
+            lab.check("P104-DS-08", "IBF while closed", await lab.host.status() & IBF, IBF)
+            await lab.host.poll(IBF, 0, dense=100)
+            late = lab.bench.now - decided
+            lab.window(
+                "P104-DS-08",
+                f"C1 taken, {code:#x}, {cause}",
+                late,
+                lab.cfg.us(closed),
+                lab.cfg.us(closed) + 48,
+            )
+            low = lab.cfg.us(quiet)
+            end = await lab.ended() - decided
+            lab.window("P104-DS-08", f"INT of {code:#x}, {cause}", end, low, low + TOLERANCE + slack + PIN)
+            lab.bench.set(alm_n=1)
+            await lab.result(
+                "P104-DS-14", 3, (0xC0 if cause == "40" else 0xA0) | code & 7, (n or 1 << 24) - 4
+            )
+
+
+@cocotb.test()
+@verifies("P104-DS-08", "P104-LIM-07", "P104-DS-03")
+@configs(D16)
+async def p104_ds_08_cause_at_start(dut):
+    """Given ALM low at the start, when moves start,
+    then BUSY rises at its time and ends 26 or 200 us later.
+    """
+    lab = await Sheet.start(dut, INIT_A)
+    lab.bench.set(alm_n=0)
+    for code, n, rate, busy, quiet in (
+        (0x44, 5, 99, 27, 26),
+        (0x43, 5, None, 112, 200),
+        (0x42, None, None, 27, 26),
+    ):
+        event = await lab.event(code, n, rate)
+        end = await lab.ended()
+        nominal = lab.cfg.us(busy) + lab.cfg.us(quiet)
+        lab.window("P104-DS-08", f"INT of {code:#x}", end - event, nominal, nominal + 2 * TOLERANCE + PIN)
+        await lab.host.poll(IBF, 0)
+        await lab.bench.clocks(lab.cfg.us(200))
+        await lab.result("P104-LIM-07", 0, 0xA0 | code & 7, (n or 1) - 1)
+        await lab.rest()

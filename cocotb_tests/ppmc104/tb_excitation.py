@@ -1,0 +1,225 @@
+"""Excitation (P104-PHS) and stop-time switching (P104-SW)."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.common.config import F8, F11, F16, F25, F50, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A, STEP_CODES, steps
+from .lab import Lab
+
+A_VALUES = (9, 4, 4)
+
+
+@cocotb.test()
+@verifies("P104-PHS-01", "P104-PHS-06", "P104-OPR-05", "P104-EX-09")
+@configs(F16, F50)
+async def p104_phs_01_lists_in_motion(dut):
+    """Given all motors and logics, when moves cross the wrap both ways,
+    then each pulse takes the next row.
+    """
+    lab = await Lab.start(dut, None)
+    for name, code in STEP_CODES.items():
+        for positive in (True, False):
+            table = steps(name, positive)
+            await lab.host.command(0xC0)
+            await lab.init(code if positive else code & ~8, *A_VALUES)
+            index = 0
+            for op, count in ((0x44, 13), (0x4C, 20), (0x44, 7)):
+                since = lab.bench.now
+                await lab.move(op, count, rate=4)
+                step = -1 if op & 8 else 1
+                expected = [table[(index + step * i) % len(table)] for i in range(1, count + 1)]
+                index += step * count
+                got = lab.bench.edges("s", since)
+                lab.check("P104-PHS-01", f"{name}, {op:#x}", [v for _, v in got], expected)
+                lab.check("P104-TIM-04", "edges of s are the pulses", [t for t, _ in got], lab.pulses)
+
+
+@cocotb.test()
+@verifies("P104-PHS-06", "P104-PHS-01")
+async def p104_phs_06_half_step_alignment(dut):
+    """Given half-step motors, when every second step is compared, then it is the full-step list."""
+    lab = await Lab.start(dut, None)
+    for phases in (3, 4, 5):
+        await lab.host.command(0xC0)
+        await lab.init(STEP_CODES[f"{phases} half"], *A_VALUES)
+        await lab.bench.clocks(2)
+        got = [lab.bench.level("s")]
+        for _ in range(2 * phases):
+            await lab.move(0x42)
+            got.append(lab.bench.level("s"))
+        full = steps(f"{phases} full")
+        lab.check("P104-PHS-06", f"even indices, {phases} phases", got[::2], [*full, full[0]])
+        ones = [bin(value).count("1") for value in got[1::2]]
+        lab.check("P104-PHS-06", "windings on at odd indices", set(ones), {3 if phases == 5 else 1})
+
+
+@cocotb.test()
+@verifies("P104-PHS-02", "P104-PHS-03", "P104-PAR-01")
+@configs(F16, F50)
+async def p104_phs_02_idle_level(dut):
+    """Given PHASE_IDLE 1 or 0, when nothing was initialised, then s has that level through all commands."""
+    lab = await Lab.start(dut, None)
+    idle = 0x1F if lab.cfg.phase_idle else 0
+    lab.check("P104-PHS-02", "s", lab.bench.level("s"), idle)
+    await lab.statuses("c C0 c 42 c 46 c 84 d 01 d 01 c 0A d 04 d 09 d 04 d 00 c C1 c C2 c 82")
+    await lab.bench.clocks(4000)
+    lab.check("P104-PHS-02", "edges of s", lab.bench.edges("s"), [])
+    await lab.init(*INIT_A)
+    lab.check("P104-PHS-03", "edges of s by init", [v for _, v in lab.bench.edges("s")], [0b00011])
+
+
+@cocotb.test()
+@verifies("P104-PHS-04", "P104-STP-01", "P104-END-02")
+async def p104_phs_04_held_at_every_stop(dut):
+    """Given stops by 0x40, 0x41, L1, ALM, CNP, when the motor rests, then its pattern stays on."""
+    lab = await Lab.start(dut, INIT_A)
+    for stop in ("40", "41", "l1_n", "alm_n", "cnp_n"):
+        await lab.go(0x47, None, 9)
+        await lab.pulse(3, 100)
+        if stop in ("40", "41"):
+            await lab.host.command(int(stop, 16))
+        else:
+            lab.bench.set(**{stop: 0})
+        await lab.idle()
+        rest, pattern = lab.bench.now, lab.bench.level("s")
+        lab.check("P104-PHS-04", "a pattern", pattern in steps("4 full"), True)
+        if stop.endswith("_n"):
+            lab.bench.set(**{stop: 1})
+        await lab.bench.clocks(3000)
+        lab.check("P104-PHS-04", f"edges of s after {stop}", lab.bench.edges("s", rest), [])
+
+
+@cocotb.test()
+@verifies("P104-SW-01", "P104-SW-04", "P104-SW-06", "P104-GEN-04")
+@configs(F16, F8, F11, F25, F50)
+async def p104_sw_06_accuracy(dut):
+    """Given each core clock, when the chopper runs 12 periods,
+    then phases are in a quantum and nothing drifts.
+    """
+    lab = await Lab.start(dut, (0x2E, *A_VALUES))
+    quantum = 4 * lab.cfg.clk_hz / lab.cfg.xtal_hz
+    for vsel, parameters, on, off in (
+        (1, None, 260, 435),
+        (0, None, 260, 435),
+        (1, (2, 3), 12 * 2 + 108, 12 * 3 + 132),
+        (0, (2, 3), 12 * 2 + 100, 12 * 3 + 115),
+        (1, (0, 0), 108, 132),
+        (0, (0, 9), 100, 12 * 9 + 115),
+    ):
+        lab.bench.set(vsel=vsel)
+        if parameters:
+            await lab.host.send(0x84, parameters)
+        await lab.bench.edge("s", 0)
+        await lab.bench.edge("s", 3)
+        since = lab.bench.now - 8
+        await lab.bench.clocks(round(12.2 * (on + off) * quantum))
+        edges = [t for t, v in lab.bench.edges("s", since) if v == 3]
+        lab.check("P104-SW-06", "complete periods", len(edges) >= 12, True)
+        for value, clk in lab.stretches(since):
+            nominal = (on if value == 3 else off) * quantum
+            lab.window(
+                "P104-SW-06",
+                f"phase {value}, vsel {vsel}",
+                round(abs(clk - nominal) * 100),
+                0,
+                round(quantum * 100 + 100),
+            )
+        for i, t in enumerate(edges):
+            drift = abs(t - edges[0] - i * (on + off) * quantum)
+            lab.window(
+                "P104-SW-06", f"drift after {i} periods", round(drift * 100), 0, round(quantum * 100 + 100)
+            )
+
+
+@cocotb.test()
+@verifies("P104-SW-01", "P104-SW-02", "P104-PHS-01")
+async def p104_sw_01_off_phase_levels(dut):
+    """Given every motor and logic with S = 1, when it rests,
+    then OFF is all five at the off level, no gap.
+    """
+    lab = await Lab.start(dut, None)
+    for name, code in STEP_CODES.items():
+        for positive in (True, False):
+            await lab.host.command(0xC0)
+            await lab.init((code if positive else code & ~8) | 0x20, *A_VALUES)
+            since = lab.bench.now
+            await lab.bench.clocks(4000)
+            values = {v for _, v in lab.bench.edges("s", since)}
+            off = 0 if positive else 0x1F
+            lab.check("P104-SW-01", f"levels of {name}", values, {steps(name, positive)[0], off})
+
+
+@cocotb.test()
+@verifies("P104-SW-02", "P104-SW-03", "P104-SW-04")
+@configs(F16, F25)
+async def p104_sw_02_start_and_stop(dut):
+    """Given S = 1, when moves run,
+    then the pattern is full from the start edge and ON is whole after BUSY falls.
+    """
+    lab = await Lab.start(dut, (0x2A, *A_VALUES))
+    us, w = lab.cfg.us, lab.cfg.w
+    for wait in (10, 300, 1030, 1100, 2000):
+        await lab.bench.clocks(lab.cfg.cyc(wait))
+        await lab.host.fetch(0x80)
+        since = lab.bench.now
+        await lab.go(0x4B, 3)
+        first = await lab.pulse(1)
+        end = await lab.ended()
+        off = await lab.bench.edge("s", 0)
+        lab.check("P104-SW-03", "s just before pulse 1", lab.bench.level_at("s", first - w) != 0, True)
+        inside = [t for t, _ in lab.bench.edges("s", first - w + 1) if t < off]
+        lab.check("P104-SW-03", "edges of s up to the first OFF", inside, lab.pulses)
+        lab.window("P104-SW-02", "BUSY fall to the first OFF", off - end, us(65), us(65) + us(0.25) + 3)
+        lab.check("P104-SW-02", "the start was later", since < first, True)
+
+
+@cocotb.test()
+@verifies("P104-SW-05")
+async def p104_sw_05_sampled_at_phase_starts(dut):
+    """Given parameters, when vsel turns within a phase,
+    then that phase keeps its length, the next has the new.
+    """
+    lab = await Lab.start(dut, (0x2A, *A_VALUES))
+    await lab.host.send(0x84, [5, 5])
+    on = {1: 4 * (60 + 108), 0: 4 * (60 + 100)}
+    off = {1: 4 * (60 + 132), 0: 4 * (60 + 115)}
+    await lab.bench.clocks(4000)
+    for vsel in (0, 1, 0):
+        for phase, current, other in ((3, on, off), (0, off, on)):
+            await lab.bench.edge("s", phase)
+            since = lab.bench.now - 4
+            await lab.bench.clocks(300)
+            before = lab.bench.pins["vsel"]
+            lab.bench.set(vsel=vsel)
+            await lab.bench.clocks(1200)
+            got = [clk for _, clk in lab.stretches(since)][:2]
+            lab.check("P104-SW-05", f"phase {phase}, vsel -> {vsel}", got, [current[before], other[vsel]])
+
+
+@cocotb.test()
+@verifies("P104-SW-07", "P104-SW-01", "P104-SW-03")
+async def p104_sw_07_others_do_not_see_it(dut):
+    """Given a chopping motor, when it rests,
+    then pout_n, dir, hold, 0x82 are still; 0xC0 ends the chopping.
+    """
+    lab = await Lab.start(dut, (0x2A, *A_VALUES))
+    await lab.move(0x4A)
+    await lab.finish()
+    since = lab.bench.now
+    seen = set()
+    for _ in range(12):
+        seen.add(tuple(await lab.host.fetch(0x82)))
+        await lab.bench.clocks(377)
+    moved = {pin: lab.bench.edges(pin, since) for pin in ("pout_n", "dir", "hold", "int_n")}
+    lab.check("P104-SW-07", "edges", moved, {pin: [] for pin in moved})
+    lab.check("P104-SW-07", "0x82", seen, {(0x92,)})
+    lab.check("P104-SW-01", "it was chopping", len(lab.bench.edges("s", since)) > 2, True)
+    await lab.host.command(0xC0)
+    await lab.bench.clocks(4)
+    since = lab.bench.now
+    await lab.bench.clocks(4000)
+    lab.check("P104-SW-03", "edges of s after 0xC0", lab.bench.edges("s", since), [])

@@ -1,0 +1,297 @@
+"""Limit, alarm and origin inputs (P104-LIM): the table of what ends or slows each operation,
+priorities, timing.
+"""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.common.bus import BUSY
+from cocotb_tests.common.config import F16, F50, F100, configs
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A, INIT_B, forced, rates
+from .lab import Lab
+from .states import PLATEAU, enter
+
+ALL = 1 << 24
+PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")
+# Operation, pulse count, rate.
+OPERATIONS = (
+    (0x42, None, None),
+    (0x43, 24, None),
+    (0xC3, 24, None),
+    (0x44, 24, 9),
+    (0x45, None, 9),
+    (0x46, None, None),
+    (0xC6, None, None),
+    (0x47, None, 9),
+)
+
+
+def effect(code: int, pin: str) -> str:
+    """What an active pin does to an operation in HIGH or at constant speed: end, slow or nothing."""
+    ccw = code >> 3 & 1
+    if pin == "alm_n" or pin == ("l1_n", "l2_n")[ccw] or (pin == "cnp_n" and code & 7 == 7):
+        return "end"
+    if pin == ("l3_n", "l4_n")[ccw] and code & 7 in (3, 6):
+        return "slow"
+    return ""
+
+
+def bit(pin: str) -> int:
+    """Finish bit of a pin."""
+    return {"alm_n": 0x20, "cnp_n": 0}.get(pin, 0x10 if pin in ("l1_n", "l2_n") else 0x08)
+
+
+@cocotb.test()
+@verifies(
+    "P104-LIM-02", "P104-LIM-03", "P104-LIM-04", "P104-LIM-05", "P104-LIM-06", "P104-LIM-08", "P104-OPR-06"
+)
+@configs(F16, F50)
+async def p104_lim_02_matrix_in_motion(dut):
+    """Given every operation CW and CCW, when each input falls on the plateau,
+    then it ends, slows or nothing.
+    """
+    lab = await Lab.start(dut, INIT_A)
+    for base, n, rate in OPERATIONS[1:]:
+        for code in (base, base | 8):
+            for pin in PINS:
+                await lab.go(code, n, rate)
+                await lab.pulse(6, 100)
+                lab.bench.set(**{pin: 0})
+                kind = effect(code, pin)
+                if not kind and n is None:
+                    await lab.pulse(12, 100)
+                    await lab.host.command(0x40)
+                await lab.idle()
+                lab.bench.set(**{pin: 1})
+                what = f"P104-LIM-02 {code:#x} {pin}"
+                low = code & 7
+                if kind == "end":
+                    await lab.result(what, 6, 0x80 | bit(pin) | low, (n or ALL) - 7)
+                elif kind == "slow":
+                    # Flag in I(6), on the plateau: pulse 7 ends it, 4 more follow.
+                    await lab.result(what, 11, 0x88 | low, (n or ALL) - 12)
+                    lab.check_train("P104-FDC-02", rates((9, 4, 4), forced(1000, 4, 6)))
+                elif n:
+                    await lab.result(what, n, 0x80 | low, 0)
+                else:
+                    await lab.result(what, 12, 0xC0 | low, ALL - 13)
+
+
+@cocotb.test()
+@verifies(
+    "P104-LIM-07", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-LIM-04", "P104-LIM-08", "P104-OPR-06"
+)
+@configs(F16, F50)
+async def p104_lim_07_matrix_at_start(dut):
+    """Given each input low at the start, when every operation starts,
+    then no pulse, one pulse, or a whole move.
+    """
+    lab = await Lab.start(dut, INIT_A)
+    for base, n, rate in OPERATIONS:
+        for code in (base, base | 8):
+            for pin in PINS:
+                lab.bench.set(**{pin: 0})
+                await lab.bench.clocks(4)
+                pattern = lab.bench.level("s")
+                await lab.go(code, n, rate)
+                count = n or (1 if base == 0x42 else ALL)
+                kind = effect(code, pin)
+                what, low = f"P104-LIM-07 {code:#x} {pin}", code & 7
+                if kind == "end":
+                    await lab.result(what, 0, 0x80 | bit(pin) | low, count - 1)
+                    lab.check(what, "s", lab.bench.level("s"), pattern)
+                elif kind == "slow":
+                    # POUT mode: first plateau interval I(5), then 5 + 1 + 4 pulses (P104-LIM-04).
+                    pulses = 1 if base < 0xC0 else 10
+                    await lab.result(what, pulses, 0x88 | low, count - pulses - 1)
+                elif count < ALL:
+                    await lab.result(what, count, 0x80 | low, 0)
+                else:
+                    await lab.pulse(8, 100)
+                    await lab.host.command(0x40)
+                    await lab.result(what, 8, 0xC0 | low, count - 9)
+                lab.bench.set(**{pin: 1})
+                await lab.bench.clocks(4)
+
+
+@cocotb.test()
+@verifies("P104-LIM-03", "P104-LIM-05", "P104-LIM-09", "P104-END-02", "P104-BAD-20")
+async def p104_lim_03_every_phase(dut):
+    """Given START, ACC, HIGH, DEC, CONST, when ALM or the hard limit falls, then the motion ends there."""
+    lab = await Lab.start(dut, None)
+    states = {"START ramp": 0, "ACC": 2, "HIGH": PLATEAU, "DEC": PLATEAU, "DEC natural": 6}
+    states |= {"START constant": 0, "CONST": 2}
+    for state, pulses in states.items():
+        for ccw in (0, 8):
+            for pin in ("alm_n", "l2_n" if ccw else "l1_n"):
+                await enter(lab, state, 0x43 | ccw, 0x44 | ccw)
+                hit = lab.bench.set(**{pin: 0})
+                end = await lab.ended()
+                lab.window("P104-END-02", f"{pin} to the end in {state}", end - hit, 0, 8)
+                op = 4 if "CONST" in state.upper() else 3
+                total = 8 if state == "DEC natural" else 1000
+                flag = 0x40 if state == "DEC" else 0
+                lab.bench.set(**{pin: 1})
+                await lab.result("P104-LIM-03", pulses, 0x80 | flag | bit(pin) | op, total - pulses - 1)
+
+
+@cocotb.test()
+@verifies("P104-LIM-04", "P104-FDC-01", "P104-FDC-04")
+async def p104_lim_04_per_state(dut):
+    """Given each state of ramp moves in phase and POUT mode, when L3 is seen for 3 clk,
+    then it acts as listed.
+    """
+    lab = await Lab.start(dut, None)
+    for code in (0x43, 0x46, 0xC3, 0xC6):
+        for state, flags in (
+            ("START ramp", code < 0xC0),
+            ("ACC", code < 0xC0),
+            ("HIGH", True),
+            ("DEC natural", False),
+        ):
+            if state == "DEC natural" and code & 7 == 6:
+                continue
+            await enter(lab, state, code)
+            await lab.bench.pulse_pin("l3_n", 0, 3)
+            await lab.bench.clocks(4)
+            status = await lab.host.command(0x41)
+            decelerating = flags or state == "DEC natural"
+            lab.check(
+                "P104-LIM-04",
+                f"0x41 after L3 in {state} of {code:#x}",
+                status,
+                0xF4 if decelerating else BUSY,
+            )
+            lab.bench.set(alm_n=0)
+            await lab.idle()
+            lab.bench.set(alm_n=1)
+            cause = 0x08 if flags else (0 if state == "DEC natural" else 0x40)
+            lab.check("P104-LIM-04", f"finish, {state} of {code:#x}", await lab.finish() & 0xF8, 0xA0 | cause)
+
+
+@cocotb.test()
+@verifies("P104-LIM-04", "P104-PRO-06", "P104-EX-05")
+async def p104_lim_04_pout_mode_plateau(dut):
+    """Given POUT mode and L3 from any interval on, when the plateau is reached, then it acts from there."""
+    lab = await Lab.start(dut, INIT_B)
+    for j in (1, 5, 9, 10, 11, 12, 15):
+        await lab.go(0xC3, 60)
+        await lab.pulse(j, 60)
+        lab.bench.set(l3_n=0)
+        await lab.idle()
+        lab.bench.set(l3_n=1)
+        at = max(j, 11)
+        which = forced(1000, 10, at)
+        lab.check_train("P104-LIM-04", rates(INIT_B[1:], which))
+        await lab.result("P104-LIM-04", len(which) + 1, 0x8B, 60 - len(which) - 2)
+    await lab.go(0xC3, 60)
+    await lab.pulse(2, 60)
+    lab.bench.set(l3_n=0)
+    await lab.pulse(11)
+    await lab.bench.until(lab.pulses[10] - 0 + 1)
+    lab.bench.set(l3_n=1)
+    await lab.idle()
+    lab.check("P104-LIM-04", "a level still there when HIGH begins", await lab.finish() in (0x8B, 0x83), True)
+
+
+@cocotb.test()
+@verifies("P104-LIM-01", "P104-GEN-07")
+@configs(F16, F100)
+async def p104_lim_01_two_clk_levels(dut):
+    """Given levels of 2 clk at every phase of an interval, when they end, then they were seen, each once."""
+    lab = await Lab.start(dut, INIT_A)
+    for pin, bits in (("l1_n", 0x94), ("alm_n", 0xA4)):
+        for delay in (1, 2, 17, lab.cfg.w - 1, lab.cfg.w, lab.cfg.w + 9):
+            await lab.go(0x44, 30, 9)
+            await lab.pulse(3, delay)
+            await lab.bench.pulse_pin(pin, 0, 2)
+            await lab.result("P104-LIM-01", 3, bits, 26)
+    # In START as well, and nothing of a level that went away before the start.
+    await lab.bench.pulse_pin("l1_n", 0, 8)
+    await lab.bench.clocks(2)
+    await lab.go(0x44, 3, 9)
+    await lab.result("P104-LIM-01", 3, 0x84, 0)
+    await lab.go(0x44, 3, 9)
+    await lab.bench.pulse_pin("l1_n", 0, 2)
+    await lab.result("P104-LIM-01", 0, 0x94, 2)
+
+
+@cocotb.test()
+@verifies("P104-LIM-09", "P104-END-04", "P104-LIM-01")
+async def p104_lim_09_priority_at_a_pulse(dut):
+    """Given a pulse event that is due, when ALM falls at each clk around it,
+    then one side or the other, no third.
+    """
+    lab = await Lab.start(dut, INIT_A)
+    outcomes = []
+    for before in range(8, -6, -1):
+        await lab.go(0x44, 4, 9)
+        third = await lab.pulse(3)
+        await lab.bench.until(third + 320 - before)
+        lab.bench.set(alm_n=0)
+        await lab.idle()
+        lab.bench.set(alm_n=1)
+        count = len(lab.pulses)
+        outcomes.append(count)
+        # Pulse 4 is the last: once it is out the move is complete.
+        await lab.result("P104-LIM-09", count, 0x84 if count == 4 else 0xA4, 0)
+        if before >= 6:
+            lab.check("P104-LIM-09", f"pulses, ALM {before} clk before", count, 3)
+    lab.check("P104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
+    lab.check("P104-LIM-09", "both sides were met", set(outcomes), {3, 4})
+
+
+@cocotb.test()
+@verifies("P104-LIM-09", "P104-END-04", "P104-FDC-01", "P104-STP-04")
+async def p104_lim_09_two_requests_on_one_edge(dut):
+    """Given 0x41 and L3 some clk apart, when both ask,
+    then the first sets its bit, on one edge both bits, no error.
+    """
+    lab = await Lab.start(dut, INIT_B)
+    kinds = []
+    for shift in range(-4, 14):
+        await lab.go(0x43, 200)
+        fall = await lab.pulse(4)
+        base = fall + 60
+        lab.bench.at(base + shift, l3_n=0)
+        await lab.bench.until(base - 2)
+        await lab.host.write(1, 0x41)
+        await lab.bench.clocks(14)
+        status = await lab.host.status()
+        await lab.idle()
+        lab.bench.set(l3_n=1)
+        finish = await lab.finish()
+        lab.check("P104-LIM-09", "pulses", len(lab.pulses), 8)
+        kinds.append(finish)
+        lab.check("P104-STP-04", f"status at {finish:#x}", status, 0xF4 if finish == 0x8B else BUSY)
+    order = [0x8B, 0xCB, 0xC3]
+    lab.check("P104-LIM-09", "L3 first, both, 0x41 first", kinds, sorted(kinds, key=order.index))
+    lab.check(
+        "P104-LIM-09",
+        "each outcome was met, both on exactly one edge",
+        (set(kinds), kinds.count(0xCB)),
+        (set(order), 1),
+    )
+
+
+@cocotb.test()
+@verifies("P104-LIM-10", "P104-RD-05")
+async def p104_lim_10_nothing_at_rest(dut):
+    """Given a core at rest, when all inputs toggle,
+    then no output moves and later moves know nothing of it.
+    """
+    lab = await Lab.start(dut, INIT_A)
+    since = lab.bench.now
+    for _ in range(60):
+        lab.bench.set(**{pin: lab.bench.rng.randrange(2) for pin in PINS})
+        await lab.bench.clocks(lab.bench.rng.randrange(1, 12))
+    lab.bench.set(**dict.fromkeys(PINS, 1))
+    await lab.bench.clocks(4)
+    moved = {name: lab.bench.edges(name, since) for name in lab.outputs()}
+    lab.check("P104-LIM-10", "edges of outputs", moved, {name: [] for name in moved})
+    lab.check("P104-LIM-10", "finish status", await lab.finish(), 0x00)
+    await lab.move(0x43, 12)
+    await lab.result("P104-LIM-10", 12, 0x83, 0)
