@@ -38,6 +38,12 @@ class Sheet(Lab):
         )
         return self.bench.now
 
+    def full_on_phase(self, rule: str, start: int, off: int, slack: int = 0) -> None:
+        """The first OFF phase begins a default ON phase after `start`, within 1 quantum (P104-SW-06)."""
+        nominal, quantum = self.cfg.quanta(260), self.cfg.quanta(1) + 1
+        low, high = nominal - quantum, nominal + quantum + PIN + slack
+        self.window(rule, "start of chopping to the first OFF phase", off - start, low, high)
+
     async def rest(self) -> None:
         """Let all closed times and the INT of an operation pass."""
         await self.host.poll(BUSY | IBF, 0)

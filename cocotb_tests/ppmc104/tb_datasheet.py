@@ -51,9 +51,7 @@ async def p104_ds_02_init_time(dut):
         lab.check("P104-DS-02", "BUSY while closed", await lab.host.status(), 0x00)
         await lab.opens("P104-DS-02", event, 264_000 + 209 * (pa - 4))
         off = await lab.bench.edge("s", 0)
-        on_time = lab.cfg.quanta(260)
-        late = lab.cfg.quanta(1) + TOLERANCE + PIN
-        lab.window("P104-INI-08", "end of init to the first OFF", off - opened, on_time, on_time + late)
+        lab.full_on_phase("P104-INI-08", opened, off, TOLERANCE)
         await lab.host.command(0xC0)
         await lab.bench.clocks(lab.cfg.us(20))
 
@@ -174,8 +172,7 @@ async def p104_ds_06_single_step(dut):
     lab.after("P104-DS-06", "INT", end - event, 112 * US)
     lab.check("P104-TIM-05", "low time", lab.bench.low_times(lab.since), [lab.cfg.w])
     off = await lab.bench.edge("s", 0)
-    on_time = lab.cfg.quanta(260)
-    lab.window("P104-SW-02", "INT to the first OFF", off - end, on_time, on_time + lab.cfg.quanta(1) + 3)
+    lab.full_on_phase("P104-SW-02", end, off)
     await lab.result("P104-DS-06", 1, 0x82, 0)
 
 
@@ -194,8 +191,7 @@ async def p104_ds_07_normal_end(dut):
         end = await lab.ended()
         lab.after("P104-DS-07", f"INT of {code:#x}", end - last, 26 * US)
         off = [t for t, v in lab.bench.edges("s", end) if v == 0][0]
-        on_time = lab.cfg.quanta(260)
-        lab.window("P104-SW-02", "INT to the first OFF", off - end, on_time, on_time + lab.cfg.quanta(1) + 3)
+        lab.full_on_phase("P104-SW-02", end, off)
         await lab.result("P104-DS-07", n, 0x80 | code & 7, 0)
     rise = await lab.bench.edge("hold", 1)
     lab.window("P104-DS-09", "BUSY fall to hold", rise - end, lab.cfg.us(34_000), lab.cfg.us(34_100))

@@ -22,8 +22,10 @@ async def p104_ds_10_decelerating_stop(dut):
     """Given 0x41 in I(4), when the flag comes 17 us later,
     then I(4) or I(5) is the last up; INT 200 us after the end.
     """
-    lab = await Sheet.start(dut, INIT_B)
-    fourth = lab.cfg.quanta(8 * 15)
+    # Slow enough that no interval closes the mailbox by itself (P104-DS-12).
+    ramp = (60, 30, 10)
+    lab = await Sheet.start(dut, (0x0A, *ramp))
+    fourth = lab.cfg.quanta(8 * (rates(ramp, [3])[0] + 1))
     for early, interval in ((50, 4), (-50, 5)):
         await lab.event(0x43, 200)
         fall = await lab.pulse(4)
@@ -37,7 +39,7 @@ async def p104_ds_10_decelerating_stop(dut):
         end = await lab.ended()
         lab.after("P104-DS-08", "INT after the last fall", end - last, 200 * US)
         await lab.idle()
-        lab.check_train("P104-DS-10", rates(INIT_B[1:], which))
+        lab.check_train("P104-DS-10", rates(ramp, which))
         await lab.result("P104-DS-10", len(which) + 1, 0xC3, 200 - len(which) - 2)
         await lab.host.command(0xC2)
         await lab.rest()

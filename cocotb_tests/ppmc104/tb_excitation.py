@@ -173,7 +173,8 @@ async def p104_sw_02_start_and_stop(dut):
         lab.check("P104-SW-03", "s just before pulse 1", lab.bench.level_at("s", first - w) != 0, True)
         inside = [t for t, _ in lab.bench.edges("s", first - w + 1) if t < off]
         lab.check("P104-SW-03", "edges of s up to the first OFF", inside, lab.pulses)
-        lab.window("P104-SW-02", "BUSY fall to the first OFF", off - end, us(65), us(65) + us(0.25) + 3)
+        quantum = us(0.25) + 1
+        lab.window("P104-SW-02", "BUSY fall to OFF", off - end, us(65) - quantum, us(65) + quantum + 2)
         lab.check("P104-SW-02", "the start was later", since < first, True)
 
 

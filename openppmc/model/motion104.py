@@ -276,9 +276,18 @@ class Motion:
             self._events["pulse"] = context.queue.at(edge, Phase.PULSE, self._pulse)
             if context.datasheet:
                 limit = DS_FAST_PULSE if self._command.pulse_only else DS_FAST_PHASE
-                self._port.set_fast(t + context.latency.ds12_lag, quanta < limit)
+                self._port.set_fast(t + self._fast_lag(rate, limit), quanta < limit)
         if self.high and self._command.pulse_only:
             context.queue.at(t + 1, Phase.GUARD, self.judge)
+
+    def _fast_lag(self, rate: int, limit: int) -> int:
+        """Pulse event to the decision about P104-DS-12 (see Latency.ds12_lag)."""
+        latency, quanta = self._context.latency, self._clock.quanta
+        before = self.intervals[-2].rate if len(self.intervals) > 1 else rate
+        passed = 0
+        while before + passed < rate and quanta(before + passed) < limit:
+            passed += 1
+        return latency.ds12_lag + (latency.seek_start + latency.seek_per_rate * passed if passed else 0)
 
     def _next_rate(self, t: int) -> int | None:
         """Rate of the interval that pulse `done` opens, None if it was the last."""

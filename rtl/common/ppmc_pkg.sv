@@ -6,8 +6,7 @@
 package ppmc_pkg;
 
   // clk periods that `xtal_cycles` crystal cycles last, rounded up: CYC(n) of the specifications.
-  function automatic int unsigned cyc(int unsigned xtal_cycles, int unsigned clk_hz,
-                                      int unsigned xtal_hz);
+  function automatic int unsigned cyc(int unsigned xtal_cycles, int unsigned clk_hz, int unsigned xtal_hz);
     longint unsigned product;
     product = 64'(xtal_cycles) * 64'(clk_hz);
     return 32'((product + 64'(xtal_hz) - 64'd1) / 64'(xtal_hz));

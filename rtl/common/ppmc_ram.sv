@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ram: block RAM with one write and one read port.
-// Timing: rdata_o stands two clk after raddr_i: block RAMs answer slowly, so their output has a register. Nobody reads the address that is being written (it may give either word).
+// Timing: rdata_o stands two clk after raddr_i: block RAMs answer slowly, so their output has a register.
+//         Nobody reads the address that is being written (it may give either word).
 // Note:   contents are not reset; they start as zeros, and every user writes before it reads.
 `default_nettype none
 

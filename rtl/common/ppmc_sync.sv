@@ -5,8 +5,8 @@
 `default_nettype none
 
 module ppmc_sync #(
-    parameter int unsigned      Width    = 1,
-    parameter logic [Width-1:0] ResetVal = '1  // level during reset: the inactive one
+    parameter int unsigned             Width    = 1,
+    parameter logic        [Width-1:0] ResetVal = '1  // level during reset: the inactive one
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,

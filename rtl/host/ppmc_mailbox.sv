@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_mailbox: one byte in, a short queue out, between a host port and a command unit.
 // Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
-// Timing: a byte written in a cycle with wr_i stands on byte_o at once after the edge; ready_o follows one clk later, so that its decoding may be
+// Timing: a byte written in a cycle with wr_i stands on byte_o at once after the edge; ready_o follows one
+//         clk later, so that its decoding may be
 //         registered. take_i may come in the cycle of another wr_i: the old byte is taken, the new one stays.
 //         After rd_done_i the next byte of the queue is valid again one clk after the gap of one clk.
 `default_nettype none
@@ -9,24 +10,24 @@
 module ppmc_mailbox #(
     parameter int unsigned QueueBytes = 3
 ) (
-    input  wire logic                      clk_i,
-    input  wire logic                      rst_ni,
+    input  wire logic                    clk_i,
+    input  wire logic                    rst_ni,
     // host port
-    input  wire logic                      wr_i,
-    input  wire logic                      wr_a0_i,
-    input  wire logic [               7:0] wr_data_i,
-    input  wire logic                      rd_done_i,
-    output logic      [               7:0] out_o,
-    output logic                           obf_o,
-    output logic                           ibf_o,
+    input  wire logic                    wr_i,
+    input  wire logic                    wr_a0_i,
+    input  wire logic [             7:0] wr_data_i,
+    input  wire logic                    rd_done_i,
+    output logic      [             7:0] out_o,
+    output logic                         obf_o,
+    output logic                         ibf_o,
     // command unit
-    output logic                           ready_o,    // byte_o may be taken
-    output logic                           command_o,  // it was written as a command
-    output logic      [               7:0] byte_o,
-    input  wire logic                      take_i,
-    input  wire logic                      load_i,     // new answer, drops what was not read
-    input  wire logic [8*QueueBytes-1:0]   answer_i,   // first byte in the low bits
-    input  wire logic                      long_i      // all bytes count, otherwise one
+    output logic                         ready_o,    // byte_o may be taken
+    output logic                         command_o,  // it was written as a command
+    output logic      [             7:0] byte_o,
+    input  wire logic                    take_i,
+    input  wire logic                    load_i,     // new answer, drops what was not read
+    input  wire logic [8*QueueBytes-1:0] answer_i,   // first byte in the low bits
+    input  wire logic                    long_i      // all bytes count, otherwise one
 );
 
   logic settled_q;

@@ -1,70 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axis: one motion from its start to its end: when each pulse comes, how long it is low, why the motion stops.
-// Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06, P104-LIM-01..10.
-// Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later (external clock: first
-//         edge at or after). A motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
+// ppmc_axis: one motion from its start to its end: when each pulse comes, how long it is low, why the motion
+// stops.
+// Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
+//         P104-LIM-01..10.
+// Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later
+//         (external clock: first
+//         edge at or after). A motion leaves busy_o one clk after low_o has gone, or at once; done_o is high
+//         in the clk before.
 //         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
-// Proof:  never a pulse at or after an immediate cause; exactly count_i + 1 pulses unless stopped (assertions below).
+// Proof:  never a pulse at or after an immediate cause; exactly count_i + 1 pulses unless stopped (assertions
+//         below).
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_axis
   import ppmc_motion_pkg::*;
 #(
-    parameter int unsigned ClkHz       = 16_000_000,
-    parameter int unsigned XtalHz      = 16_000_000,
-    parameter int unsigned CountBits   = 24,
-    parameter int unsigned RateBits    = 8,
-    parameter int unsigned StepBits    = 14,
-    parameter int unsigned WidthXtal   = 80,   // pulse width and direction set-up, crystal cycles
-    parameter int unsigned FastQuanta  = 8,    // fast internal base clock
-    parameter int unsigned SlowQuanta  = 32,   // slow internal base clock
-    parameter int unsigned ExtraQuanta = 30,   // extra time of an interval where extra_i is set
-    parameter int unsigned HalfRates   = 3     // fastest rates that get half an interval as pulse width
+    parameter int unsigned ClkHz = 16_000_000,
+    parameter int unsigned XtalHz = 16_000_000,
+    parameter int unsigned CountBits = 24,
+    parameter int unsigned RateBits = 8,
+    parameter int unsigned StepBits = 14,
+    parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
+    parameter int unsigned FastQuanta = 8,  // fast internal base clock
+    parameter int unsigned SlowQuanta = 32,  // slow internal base clock
+    parameter int unsigned ExtraQuanta = 30,  // extra time of an interval where extra_i is set
+    parameter int unsigned HalfRates = 3  // fastest rates that get half an interval as pulse width
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
+    input wire logic clk_i,
+    input wire logic rst_ni,
     // start; the operation and its data are taken with start_i
-    input  wire logic                 start_i,
-    input  wire op_t                  op_i,
-    input  wire logic [CountBits-1:0] count_i,     // pulses - 1
-    input  wire logic [ RateBits-1:0] rate_i,      // constant-speed rate
-    input  wire base_t                base_i,
+    input wire logic start_i,
+    input wire op_t op_i,
+    input wire logic [CountBits-1:0] count_i,  // pulses - 1
+    input wire logic [RateBits-1:0] rate_i,  // constant-speed rate
+    input wire base_t base_i,
     // ramp in force, steady while busy
-    input  wire logic [ RateBits-1:0] rate_slow_i,
-    input  wire logic [ RateBits-1:0] rate_fast_i,
-    input  wire logic [ StepBits-1:0] steps_i,
-    output logic      [ RateBits-1:0] lut_addr_o,
-    input  wire logic [ StepBits-1:0] lut_data_i,
+    input wire logic [RateBits-1:0] rate_slow_i,
+    input wire logic [RateBits-1:0] rate_fast_i,
+    input wire logic [StepBits-1:0] steps_i,
+    output logic [RateBits-1:0] lut_addr_o,
+    input wire logic [StepBits-1:0] lut_data_i,
     // stops
-    input  wire logic                 halt_i,      // immediate stop command
-    input  wire logic                 decel_i,     // decelerating stop command
-    input  wire switches_t            switches_i,
-    input  wire logic                 slow_i,      // act on a slow-down limit; slow_seen_o, or later
-    output logic                      slow_seen_o,
-    input  wire logic                 go_i,        // 0 keeps pulse 1 back
-    input  wire logic                 linger_i,    // 1 keeps the motion from ending
+    input wire logic halt_i,  // immediate stop command
+    input wire logic decel_i,  // decelerating stop command
+    input wire switches_t switches_i,
+    input wire logic slow_i,  // act on a slow-down limit; slow_seen_o, or later
+    output logic slow_seen_o,
+    input wire logic go_i,  // 0 keeps pulse 1 back
+    input wire logic linger_i,  // 1 keeps the motion from ending
     // clocks
-    input  wire logic                 quantum_i,   // quantum tick, restarted by restart_o
-    input  wire logic                 clock_pin_i,
-    output logic                      restart_o,   // the quantum count begins anew: pulse 1, end of a motion
+    input wire logic quantum_i,  // quantum tick, restarted by restart_o
+    input wire logic clock_pin_i,
+    output logic restart_o,  // the quantum count begins anew: pulse 1, end of a motion
     // state
-    output logic                      busy_o,
-    output logic                      moving_o,    // before pulse 1 or between pulses (not yet stopping)
-    output logic                      decel_o,     // decelerating, forced or natural
-    output logic                      top_o,       // on the plateau of the ramp
-    output op_t                       op_o,        // the running or last operation
-    output base_t                     base_o,      // and its base clock
-    output logic      [ RateBits-1:0] rate_o,      // rate of the running interval
-    output logic                      running_o,   // between pulses
-    output logic                      low_o,       // a pulse is active
-    output logic                      pulse_o,     // pulse event at the coming edge
-    output logic                      last_o,      // with pulse_o: the last one
-    output logic                      final_o,     // with pulse_o: and the count is complete
-    output logic                      stop_o,      // immediate end decided at the coming edge
-    output logic                      done_o,      // the motion ends at the coming edge
-    output cause_t                    cause_o,     // valid with done_o
-    output logic      [CountBits-1:0] left_o       // remaining pulses as the host reads them
+    output logic busy_o,
+    output logic moving_o,  // before pulse 1 or between pulses (not yet stopping)
+    output logic decel_o,  // decelerating, forced or natural
+    output logic top_o,  // on the plateau of the ramp
+    output op_t op_o,  // the running or last operation
+    output base_t base_o,  // and its base clock
+    output logic [RateBits-1:0] rate_o,  // rate of the running interval
+    output logic running_o,  // between pulses
+    output logic low_o,  // a pulse is active
+    output logic pulse_o,  // pulse event at the coming edge
+    output logic last_o,  // with pulse_o: the last one
+    output logic final_o,  // with pulse_o: and the count is complete
+    output logic stop_o,  // immediate end decided at the coming edge
+    output logic done_o,  // the motion ends at the coming edge
+    output cause_t cause_o,  // valid with done_o
+    output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
 
   localparam int unsigned BriskXtal = 128;  // P104-TIM-05 (c)
@@ -79,7 +84,7 @@ module ppmc_axis
   } state_e;
 
   state_e state_q;
-  logic brisk_q;
+  logic   brisk_q;
   logic armed, fire, due, up, seek, forced, flagged, dec;
   logic base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
 
@@ -189,8 +194,8 @@ module ppmc_axis
 
   // Interval: base clock from inside or from the pin, counted, and the extra time.
   assign edges = base_o.external && rise;
-  assign tick = base_o.external ? edges && ext_count : base_tick;
-  assign cut = base_o.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !seek));
+  assign tick  = base_o.external ? edges && ext_count : base_tick;
+  assign cut   = base_o.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !seek));
 
   ppmc_base_clock #(
       .FastQuanta (FastQuanta),
@@ -249,13 +254,13 @@ module ppmc_axis
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop_o))
   `PPMC_ASSERT(p104_opr_12, !(start_i && busy_o))
-  `PPMC_ASSERT(p104_end_05, !done_o || op_o.origin || final_seen_q || cause_o != '0)
   logic final_seen_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) final_seen_q <= 1'b0;
     else if (start_i) final_seen_q <= 1'b0;
     else if (fire && final_o) final_seen_q <= 1'b1;
   end
+  `PPMC_ASSERT(p104_end_05, !done_o || op_o.origin || final_seen_q || cause_o != '0)
 `endif
 
 endmodule

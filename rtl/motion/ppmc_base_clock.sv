@@ -22,8 +22,8 @@ module ppmc_base_clock #(
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
   logic [Width-1:0] left_q;  // whole quanta left before the one that ends the period
-  logic extra_q;             // the extra stretch is running
-  logic ends;
+  logic             extra_q;  // the extra stretch is running
+  logic             ends;
 
   assign ends   = quantum_i && left_q == '0;
   assign tick_o = ends && !extra_q;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_chopper: switches the phases of a resting motor on and off.
-// Rules:  P104-SW-01..06, P104-AUX-03. A phase lasts base + UnitQuanta * units quanta; both are taken at its beginning.
-// Timing: on_o changes on a quantum tick; restart_i acts at the coming edge, run_i = 0 switches the phases on at once.
+// Rules:  P104-SW-01..06, P104-AUX-03. A phase lasts base + UnitQuanta * units quanta; both are taken at its
+//         beginning.
+// Timing: on_o changes on a quantum tick; restart_i acts at the coming edge, run_i = 0 switches the phases on
+//         at once.
 `default_nettype none
 
 module ppmc_chopper #(
@@ -25,9 +27,9 @@ module ppmc_chopper #(
   localparam int unsigned ScaleBits = ppmc_pkg::cnt_width(UnitQuanta - 1);
 
   logic [CountBits-1:0] left_q;  // quanta, then units, left in this part
-  logic [ScaleBits-1:0] scale_q; // quanta left in the running unit
-  logic [UnitBits-1:0] units_q;  // of this phase, still to come
-  logic in_base_q;               // the fixed part runs
+  logic [ScaleBits-1:0] scale_q;  // quanta left in the running unit
+  logic [ UnitBits-1:0] units_q;  // of this phase, still to come
+  logic                 in_base_q;  // the fixed part runs
   logic on_q, next_on, tick, part_ends, phase_ends;
 
   assign on_o = on_q || !run_i;

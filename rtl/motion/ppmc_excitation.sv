@@ -2,8 +2,10 @@
 // ppmc_excitation: the phases that are energised, for 3-, 4- and 5-phase motors in full and half step.
 // Rules:  P104-PHS-01..06 (tables of section 6.1), P104-PHS-03/05 home and off.
 // Timing: pattern_o changes at the edge that ends the cycle of home_i, off_i or step_i.
-// How:    there is no table. Full step turns the pair of phases by one place. Half step takes, in turn, the phases that the
-//         pattern and its turned self share (AND) or cover together (OR); a 5-phase motor starts with OR, the others with AND.
+// How:    there is no table. Full step turns the pair of phases by one place. Half step takes, in turn, the
+//         phases that the
+//         pattern and its turned self share (AND) or cover together (OR); a 5-phase motor starts with OR, the
+//         others with AND.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -12,17 +14,17 @@ module ppmc_excitation
 (
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
-    input  wire motor_e       motor_i,    // number of phases
-    input  wire logic         half_i,     // 1 = half step
-    input  wire logic         home_i,     // to index 0: S1 and S2
-    input  wire logic         off_i,      // no phase energised, until home_i
-    input  wire logic         step_i,     // one step
-    input  wire logic         ccw_i,      // direction of the step: 1 = down the table
-    output logic      [5:1]   pattern_o   // 1 = energised
+    input  wire motor_e       motor_i,   // number of phases
+    input  wire logic         half_i,    // 1 = half step
+    input  wire logic         home_i,    // to index 0: S1 and S2
+    input  wire logic         off_i,     // no phase energised, until home_i
+    input  wire logic         step_i,    // one step
+    input  wire logic         ccw_i,     // direction of the step: 1 = down the table
+    output logic        [5:1] pattern_o  // 1 = energised
 );
 
   logic [5:1] turned;  // pattern moved by one phase in the direction of the step
-  logic pair_q;        // even index of the half-step table: two neighbours are on
+  logic       pair_q;  // even index of the half-step table: two neighbours are on
 
   always_comb begin
     if (ccw_i) begin

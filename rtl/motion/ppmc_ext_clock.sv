@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_clock: edges of an external base clock and the length of its last period.
 // Rules:  P104-BCK-04, P104-INT-03 (period against the threshold), P104-TIM-05 (c).
-// Timing: a rising pin edge first sampled at t gives rise_o in the cycle before edge t + 2, the same for falling edges.
+// Timing: a rising pin edge first sampled at t gives rise_o in the cycle before edge t + 2, the same for
+//         falling edges.
 //         long_o and brisk_o speak, in the cycle of rise_o, of the period that this edge ends.
 `default_nettype none
 
@@ -11,11 +12,11 @@ module ppmc_ext_clock #(
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic pin_i,    // external clock, asynchronous
+    input  wire logic pin_i,   // external clock, asynchronous
     output logic      rise_o,
     output logic      fall_o,
-    output logic      long_o,   // more than LongClk clk since the edge before
-    output logic      brisk_o   // less than BriskClk clk since the edge before
+    output logic      long_o,  // more than LongClk clk since the edge before
+    output logic      brisk_o  // less than BriskClk clk since the edge before
 );
 
   localparam int unsigned Width = ppmc_pkg::cnt_width(LongClk);

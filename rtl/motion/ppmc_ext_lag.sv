@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_lag: the fixed extra time of an interval when the base clock comes from outside.
-// Rules:  P104-INT-03, P104-INT-04: the time from a pulse to the first base edge at or after it is put back behind the edge that
-//         ends the interval, so that (rate + 1) periods and the extra time add up without a frequency being measured.
+// Rules:  P104-INT-03, P104-INT-04: the time from a pulse to the first base edge at or after it is put back
+//         behind the edge that
+//         ends the interval, so that (rate + 1) periods and the extra time add up without a frequency being
+//         measured.
 // Timing: fire_o is combinational: in the cycle of hit_i, or the lag later.
 `default_nettype none
 
@@ -22,13 +24,13 @@ module ppmc_ext_lag #(
   localparam int unsigned Width = ppmc_pkg::cnt_width(LagClk);
 
   logic [Width-1:0] left_q;  // extra time not yet spent
-  logic before_q;            // no base edge since the pulse
-  logic after_q;             // the count is over, the lag runs
-  logic spend;
+  logic             before_q;  // no base edge since the pulse
+  logic             after_q;  // the count is over, the lag runs
+  logic             spend;
 
   assign count_o = !(en_i && before_q);
-  assign fire_o = (after_q && left_q == Width'(1)) || (hit_i && (!en_i || long_i || left_q == '0));
-  assign spend = (before_q || after_q) && left_q != '0;
+  assign fire_o  = (after_q && left_q == Width'(1)) || (hit_i && (!en_i || long_i || left_q == '0));
+  assign spend   = (before_q || after_q) && left_q != '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

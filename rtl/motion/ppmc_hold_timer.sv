@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_hold_timer: tells that the motor has been at rest for the hold time.
 // Rules:  P104-END-08, P104-DS-09.
-// Timing: hold_o falls one clk after busy_i rises and rises one clk after quantum tick number Quanta since busy_i fell.
+// Timing: hold_o falls one clk after busy_i rises and rises one clk after quantum tick number Quanta since
+//         busy_i fell.
 `default_nettype none
 
 module ppmc_hold_timer #(

@@ -14,11 +14,11 @@ package ppmc_motion_pkg;
 
   // What an operation is; latched by the axis at its start.
   typedef struct packed {
-    logic ramp;      // accelerates and decelerates by the ramp table
-    logic single;    // one pulse, no wait for a base clock
-    logic origin;    // ends at the origin
-    logic pout_only; // phases stand still; slow-down limit seen on the plateau only
-    logic ccw;       // direction
+    logic ramp;       // accelerates and decelerates by the ramp table
+    logic single;     // one pulse, no wait for a base clock
+    logic origin;     // ends at the origin
+    logic pout_only;  // phases stand still; slow-down limit seen on the plateau only
+    logic ccw;        // direction
   } op_t;
 
   // Base clock of an operation; latched by the axis at its start.

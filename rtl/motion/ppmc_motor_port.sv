@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_motor_port: the pins of one axis: phases with polarity and chopping, POUT, DIR, HOLD.
-// Rules:  P104-TIM-04 (pulse and phase change on one edge), P104-PHS-01..07, P104-SW-01..07, P104-PORT-02, P104-END-08.
+// Rules:  P104-TIM-04 (pulse and phase change on one edge), P104-PHS-01..07, P104-SW-01..07, P104-PORT-02,
+//         P104-END-08.
 // Timing: every pin is a flip-flop one clk behind the axis, so that all pins of one event change on one edge.
 `default_nettype none
 
@@ -10,36 +11,36 @@ module ppmc_motor_port
     parameter int unsigned HoldQuanta = 136_000,
     parameter int unsigned UnitQuanta = 12,
     parameter int unsigned BaseBits   = 9,
-    parameter bit          PhaseIdle  = 1'b1     // level of s_o until the first home_i
+    parameter bit          PhaseIdle  = 1'b1      // level of s_o until the first home_i
 ) (
-    input  wire logic                clk_i,
-    input  wire logic                rst_ni,
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
     // axis
-    input  wire logic                busy_i,
-    input  wire logic                low_i,
-    input  wire logic                step_i,       // pulse event that moves the phases
-    input  wire logic                ccw_i,
-    input  wire logic                quantum_i,
+    input  wire logic                  busy_i,
+    input  wire logic                  low_i,
+    input  wire logic                  step_i,          // pulse event that moves the phases
+    input  wire logic                  ccw_i,
+    input  wire logic                  quantum_i,
     // excitation
-    input  wire motor_e              motor_i,
-    input  wire logic                half_i,
-    input  wire logic                positive_i,   // 1 = high is on; steady while energised
-    input  wire logic                home_i,
-    input  wire logic                off_i,
+    input  wire motor_e                motor_i,
+    input  wire logic                  half_i,
+    input  wire logic                  positive_i,      // 1 = high is on; steady while energised
+    input  wire logic                  home_i,
+    input  wire logic                  off_i,
     // chopper
-    input  wire logic                chop_i,       // chop while at rest
-    input  wire logic                chop_restart_i,
-    input  wire logic [BaseBits-1:0] on_base_i,
-    input  wire logic [BaseBits-1:0] off_base_i,
-    input  wire logic [         7:0] on_units_i,
-    input  wire logic [         7:0] off_units_i,
+    input  wire logic                  chop_i,          // chop while at rest
+    input  wire logic                  chop_restart_i,
+    input  wire logic   [BaseBits-1:0] on_base_i,
+    input  wire logic   [BaseBits-1:0] off_base_i,
+    input  wire logic   [         7:0] on_units_i,
+    input  wire logic   [         7:0] off_units_i,
     // what the host reads
-    output logic      [         5:1] levels_o,     // phases at pin polarity, not chopped
+    output logic        [         5:1] levels_o,        // phases at pin polarity, not chopped
     // pins
-    output logic      [         5:1] s_o,
-    output logic                     hold_o,
-    output logic                     pout_no,
-    output logic                     dir_o
+    output logic        [         5:1] s_o,
+    output logic                       hold_o,
+    output logic                       pout_no,
+    output logic                       dir_o
 );
 
   logic [5:1] pattern, invert;

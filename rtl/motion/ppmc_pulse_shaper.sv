@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_pulse_shaper: the low time of a pulse, and the same time as direction set-up before the first one.
-// Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not changed).
-// Timing: low_o stands from the edge of pulse_i for exactly WidthClk clk unless cut; up_o comes WidthClk clk after arm_i.
+// Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
+//         changed).
+// Timing: low_o stands from the edge of pulse_i for exactly WidthClk clk unless cut; up_o comes WidthClk clk
+//         after arm_i.
 `default_nettype none
 
 module ppmc_pulse_shaper #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter int unsigned RateBits  = 8,
-    parameter int unsigned WidthXtal = 80,  // low time, crystal cycles
-    parameter int unsigned HalfXtal  = 16,  // half a fast base clock, crystal cycles
-    parameter int unsigned HalfRates = 3    // rates 0 .. HalfRates - 1 get half an interval instead
+    parameter int unsigned WidthXtal = 80,          // low time, crystal cycles
+    parameter int unsigned HalfXtal  = 16,          // half a fast base clock, crystal cycles
+    parameter int unsigned HalfRates = 3            // rates 0 .. HalfRates - 1 get half an interval instead
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -34,8 +36,8 @@ module ppmc_pulse_shaper #(
   always_comb begin
     half = 1'b0;
     for (int unsigned r = 0; r < HalfRates; r++) begin
-      if (rate_i == RateBits'(r) &&
-          age_q == Width'(ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz) - 1)) half = halve_i;
+      if (rate_i == RateBits'(r) && age_q == Width'(ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz) - 1))
+        half = halve_i;
     end
   end
 

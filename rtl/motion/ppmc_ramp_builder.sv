@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder: fills the ramp table: for every rate r from fast + 1 to slow the first step with a rate below r.
+// ppmc_ramp_builder: fills the ramp table: for every rate r from fast + 1 to slow the first step with a rate
+// below r.
 // Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 clk for every legal initialisation).
 // Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete.
-//         slow_i, fast_i, steps_i must stand still meanwhile. fast_i = slow_i: no table is needed, busy_o is short.
-// How:    numerator and denominator come bit by bit from ppmc_ramp_serial; the quotient by repeated subtraction of a divisor
+//         slow_i, fast_i, steps_i must stand still meanwhile. fast_i = slow_i: no table is needed, busy_o is
+//         short.
+// How:    numerator and denominator come bit by bit from ppmc_ramp_serial; the quotient by repeated
+//         subtraction of a divisor
 //         that moves right, so that the remainder needs an enable but no multiplexer.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -39,14 +42,14 @@ module ppmc_ramp_builder
     StWrite
   } state_e;
 
-  state_e state_q;
-  pass_e pass_q;
-  logic second_q;              // second multiplication by the same factor
-  logic low_q;                 // multiplying by slow_i + 1
-  logic above_q;               // rate_q is above fast_i
-  logic [MulBits-1:0] mul_q;   // multiplier bit
-  logic [DivBits-1:0] div_q;   // quotient bits to come
-  logic [RateBits-1:0] rate_q;
+  state_e                state_q;
+  pass_e                 pass_q;
+  logic                  second_q;  // second multiplication by the same factor
+  logic                  low_q;  // multiplying by slow_i + 1
+  logic                  above_q;  // rate_q is above fast_i
+  logic   [ MulBits-1:0] mul_q;  // multiplier bit
+  logic   [ DivBits-1:0] div_q;  // quotient bits to come
+  logic   [RateBits-1:0] rate_q;
   logic valid, num, den, last, mul_bit, below;
 
   assign busy_o  = state_q != StIdle;
@@ -126,7 +129,7 @@ module ppmc_ramp_builder
             end
           endcase
         end
-        StNum: state_q <= StStart;
+        StNum:   state_q <= StStart;
         StDivide: begin
           div_q <= div_q - 1'b1;
           if (div_q == '0) state_q <= StWrite;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_seq: pulse count and place on the ramp: how many pulses are left and at which rate the next interval runs.
+// ppmc_ramp_seq: pulse count and place on the ramp: how many pulses are left and at which rate the next
+// interval runs.
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07.
-// Timing: all that pulse_i changes stands after its edge, but rate_o may still rise while seek_o is set: a deceleration step
-//         looks its rate up while its interval already runs. An acceleration step is looked up one interval ahead.
-// How:    climb_q is the number of acceleration pulses made and not yet walked back (index of the running interval + 1).
+// Timing: all that pulse_i changes stands after its edge, but rate_o may still rise while seek_o is set: a
+//         deceleration step
+//         looks its rate up while its interval already runs. An acceleration step is looked up one interval
+//         ahead.
+// How:    climb_q is the number of acceleration pulses made and not yet walked back (index of the running
+//         interval + 1).
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,27 +20,27 @@ module ppmc_ramp_seq #(
     input  wire logic                 clk_i,
     input  wire logic                 rst_ni,
     // ramp in force
-    input  wire logic [ RateBits-1:0] slow_i,       // start-up rate
-    input  wire logic [ RateBits-1:0] fast_i,       // high-speed rate
-    input  wire logic [ StepBits-1:0] steps_i,      // acceleration pulses PA
-    output logic      [ RateBits-1:0] lut_addr_o,   // r; thr(r) is expected two clk later
+    input  wire logic [ RateBits-1:0] slow_i,      // start-up rate
+    input  wire logic [ RateBits-1:0] fast_i,      // high-speed rate
+    input  wire logic [ StepBits-1:0] steps_i,     // acceleration pulses PA
+    output logic      [ RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two clk later
     input  wire logic [  LutBits-1:0] lut_data_i,
     // operation
-    input  wire logic                 load_i,       // start: takes count and rate
-    input  wire logic [CountBits-1:0] count_i,      // pulses to make, minus 1
-    input  wire logic                 single_i,     // one pulse, whatever count_i says
-    input  wire logic [ RateBits-1:0] rate_i,       // rate of a constant-speed operation
-    input  wire logic                 ramp_i,       // use the ramp; steady while the motion lasts
-    input  wire logic                 pulse_i,      // pulse event
-    input  wire logic                 forced_i,     // forced deceleration; never withdrawn
+    input  wire logic                 load_i,      // start: takes count and rate
+    input  wire logic [CountBits-1:0] count_i,     // pulses to make, minus 1
+    input  wire logic                 single_i,    // one pulse, whatever count_i says
+    input  wire logic [ RateBits-1:0] rate_i,      // rate of a constant-speed operation
+    input  wire logic                 ramp_i,      // use the ramp; steady while the motion lasts
+    input  wire logic                 pulse_i,     // pulse event
+    input  wire logic                 forced_i,    // forced deceleration; never withdrawn
     // state
-    output logic      [ RateBits-1:0] rate_o,       // rate of the running interval
-    output logic                      seek_o,       // rate_o is not final yet
-    output logic                      last_o,       // a pulse now would be the last one
-    output logic                      final_o,      // and would complete the count
-    output logic                      top_o,        // running interval is on the plateau
-    output logic                      dec_o,        // natural deceleration has begun
-    output logic      [CountBits-1:0] left_o        // pulses left minus 1, but at least 0
+    output logic      [ RateBits-1:0] rate_o,      // rate of the running interval
+    output logic                      seek_o,      // rate_o is not final yet
+    output logic                      last_o,      // a pulse now would be the last one
+    output logic                      final_o,     // and would complete the count
+    output logic                      top_o,       // running interval is on the plateau
+    output logic                      dec_o,       // natural deceleration has begun
+    output logic      [CountBits-1:0] left_o       // pulses left minus 1, but at least 0
 );
 
   typedef enum logic [2:0] {
@@ -56,7 +60,7 @@ module ppmc_ramp_seq #(
 
   // Where the walk goes at a pulse event. left_o is the number of pulses that follow this one.
   always_comb begin
-    odd     = left_o[0] ^ climb_q[0];  // near_q: an odd distance means that the way down is as long as the way left
+    odd     = left_o[0] ^ climb_q[0];  // with near_q: the way down is as long as the way left
     down    = ramp_i && (forced_i || dec_o || (near_q && odd));
     up      = ramp_i && !down && !near_q && !top_o;
     final_o = zero_q;
@@ -65,12 +69,12 @@ module ppmc_ramp_seq #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      near_q  <= 1'b0;
-      full_q  <= 1'b0;
-      zero_q  <= 1'b0;
-      low_q   <= 1'b0;
-      top_o   <= 1'b0;
-      dec_o   <= 1'b0;
+      near_q <= 1'b0;
+      full_q <= 1'b0;
+      zero_q <= 1'b0;
+      low_q  <= 1'b0;
+      top_o  <= 1'b0;
+      dec_o  <= 1'b0;
     end else begin
       near_q <= !high && left_o[StepBits-1:0] <= climb_q;
       full_q <= climb_q == steps_i;
@@ -101,8 +105,10 @@ module ppmc_ramp_seq #(
     else if (pulse_i && (up || down)) climb_q <= climb_q + {{(StepBits - 1) {down}}, 1'b1};
   end
 
-  // Rate look-up. Downhill in rate (acceleration): probe_q goes down while climb_q has reached its threshold, and becomes the
-  // rate at the next step up. Uphill: the rate follows probe_q while the index, climb_q - 1, is below its threshold.
+  // Rate look-up. Downhill in rate (acceleration): probe_q goes down while climb_q has reached its
+  // threshold, and becomes the
+  // rate at the next step up. Uphill: the rate follows probe_q while the index, climb_q - 1, is below its
+  // threshold.
   assign reached = {climb_q, !slower_q} >= {StepBits'(lut_data_i), slower_q};  // > where slower, else >=
   assign more = slower_q ? (rate_o != slow_i && !reached) : (probe_q != fast_i && reached);
   assign seek_o = state_q != StRest;

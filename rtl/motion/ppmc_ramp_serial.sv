@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial: the bit-serial arithmetic of the ramp builder: six long numbers in one block RAM, a bit of each a word.
+// ppmc_ramp_serial: the bit-serial arithmetic of the ramp builder: six long numbers in one block RAM, a bit
+// of each a word.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
-// Timing: a pass over all bits takes Bits + 2 clk from start_i (which may overlap nothing); last_o marks its last clk.
-// How:    with U = B*PA - (A-B), numerator and denominator of thr(r) = floor(num/den) are quadratic in r, so they follow from
+// Timing: a pass over all bits takes Bits + 2 clk from start_i (which may overlap nothing); last_o marks its
+//         last clk.
+// How:    with U = B*PA - (A-B), numerator and denominator of thr(r) = floor(num/den) are quadratic in r, so
+//         they follow from
 //         additions alone (second differences). Products before that are made one multiplier bit a pass.
 //           num = -n   v = first difference of n   u = U       den = d   e = first difference of d   g = A-B
 `default_nettype none
@@ -13,17 +16,17 @@ module ppmc_ramp_serial
     parameter int unsigned Bits     = 48,
     parameter int unsigned StepBits = 14   // bits of steps_i
 ) (
-    input  wire logic                clk_i,
-    input  wire logic                rst_ni,
-    input  wire logic                start_i,    // begin a pass
-    input  wire pass_e               pass_i,     // which; steady during the pass
-    input  wire logic                mul_i,      // multiplier bit of a PassMulBit; steady during the pass
-    input  wire logic [StepBits-1:0] steps_i,    // PA
-    input  wire logic                lead_i,     // with start_i: StepBits - 1 zeros come before the bits
-    output logic                     valid_o,    // bit_o is a bit of the result, LSB first
-    output logic                     num_o,      // bit of the new -num
-    output logic                     den_o,      // bit of den
-    output logic                     last_o      // the pass ends with this clk
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire logic                 start_i,  // begin a pass
+    input  wire pass_e                pass_i,   // which; steady during the pass
+    input  wire logic                 mul_i,    // multiplier bit of a PassMulBit; steady during the pass
+    input  wire logic  [StepBits-1:0] steps_i,  // PA
+    input  wire logic                 lead_i,   // with start_i: StepBits - 1 zeros come before the bits
+    output logic                      valid_o,  // bit_o is a bit of the result, LSB first
+    output logic                      num_o,    // bit of the new -num
+    output logic                      den_o,    // bit of den
+    output logic                      last_o    // the pass ends with this clk
 );
 
   localparam int unsigned AddrBits = ppmc_pkg::cnt_width(Bits - 1);
@@ -35,7 +38,7 @@ module ppmc_ramp_serial
   logic run_q, read_q, use_q, first_q, lead_q, we;
   logic [CountBits-1:0] bit_q, last_bit;
   logic [CountBits-1:0] read_bit_q;
-  logic [AddrBits-1:0] at_q;
+  logic [ AddrBits-1:0] at_q;
 
   ppmc_ram #(
       .Width   ($bits(word_t)),
@@ -49,7 +52,8 @@ module ppmc_ramp_serial
       .rdata_o(rd)
   );
 
-  // den comes out behind leading zeros, that is shifted to the left; its own top bits are zeros and stay behind.
+  // den comes out behind leading zeros, that is shifted to the left; its own top bits are zeros and stay
+  // behind.
   assign last_bit = (pass_i == PassRead) ? CountBits'(Bits - StepBits) : CountBits'(Bits - 1);
 
   // Address, RAM, use: three stages.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_rate_counter: counts the base clocks of an interval; the (rate + 1)-th one ends it.
 // Rules:  P104-INT-01, P104-BCK-05 (base clocks are passed over while the rate is still being looked up).
-// Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. A part whose hosts give
+// Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. A part whose
+//         hosts give
 //         divisors (J105 STMC) passes divisor - 1.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
 `include "ppmc_assert.svh"
@@ -34,8 +35,7 @@ module ppmc_rate_counter #(
     end else begin
       match_q <= !restart_i && !wait_i && equal;
       // the coming base clock has number count_q + 1
-      half_q <= !restart_i && !wait_i &&
-          count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
+      half_q  <= !restart_i && !wait_i && count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
     end
   end
 

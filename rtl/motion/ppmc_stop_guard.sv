@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_stop_guard: what may end or slow down a motion, and what it leaves in the finish status.
 // Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05.
-// Timing: stop_o and forced_o are combinational, so that a cause seen in a cycle also acts on a pulse due at its end.
+// Timing: stop_o and forced_o are combinational, so that a cause seen in a cycle also acts on a pulse due at
+//         its end.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_stop_guard
   import ppmc_motion_pkg::*;
 (
-    input  wire logic       clk_i,
-    input  wire logic       rst_ni,
-    input  wire logic       clear_i,     // a new operation starts: forget causes
-    input  wire logic       complete_i,  // the last pulse of the count is output: no cause remains
-    input  wire logic       armed_i,     // before the first pulse or between pulses
-    input  wire op_t        op_i,        // the running operation
-    input  wire switches_t  switches_i,  // synchronous levels
-    input  wire logic       top_i,       // the running interval is on the plateau
-    input  wire logic       dec_i,       // natural deceleration has begun
-    input  wire logic       halt_i,      // immediate stop command
-    input  wire logic       decel_i,     // decelerating stop command
-    input  wire logic       slow_i,      // act on a slow-down limit now; slow_seen_o, or later
-    output logic            slow_seen_o, // one is seen that counts
-    output logic            stop_o,      // end the motion now, no further pulse
-    output logic            forced_o,    // forced deceleration is requested
-    output logic            flagged_o,   // the same, as a state (registered)
-    output cause_t          cause_o
+    input  wire logic      clk_i,
+    input  wire logic      rst_ni,
+    input  wire logic      clear_i,      // a new operation starts: forget causes
+    input  wire logic      complete_i,   // the last pulse of the count is output: no cause remains
+    input  wire logic      armed_i,      // before the first pulse or between pulses
+    input  wire op_t       op_i,         // the running operation
+    input  wire switches_t switches_i,   // synchronous levels
+    input  wire logic      top_i,        // the running interval is on the plateau
+    input  wire logic      dec_i,        // natural deceleration has begun
+    input  wire logic      halt_i,       // immediate stop command
+    input  wire logic      decel_i,      // decelerating stop command
+    input  wire logic      slow_i,       // act on a slow-down limit now; slow_seen_o, or later
+    output logic           slow_seen_o,  // one is seen that counts
+    output logic           stop_o,       // end the motion now, no further pulse
+    output logic           forced_o,     // forced deceleration is requested
+    output logic           flagged_o,    // the same, as a state (registered)
+    output cause_t         cause_o
 );
 
   logic limit, slow, halt, slow_now, decel_now, free;

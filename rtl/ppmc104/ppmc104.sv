@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc104: single-axis stepper controller, a replacement for the Ampere PPMC-104BFP.
 // Rules:  P104-PORT-01..04, P104-PAR-01 and, through its blocks, all others. Manual: docs/ppmc104.md.
-// Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow one clk later.
+// Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
+//         one clk later.
 `default_nettype none
 
 module ppmc104
@@ -16,25 +17,25 @@ module ppmc104
     input  wire logic       clk,
     input  wire logic       rst_n,
     // host bus
-    input  wire logic       a0,     // 0 data, 1 status or command
+    input  wire logic       a0,      // 0 data, 1 status or command
     input  wire logic       cs_n,
     input  wire logic       rd_n,
     input  wire logic       wr_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
     output logic            d_oe,
-    output logic            int_n,  // L: a motion has ended
+    output logic            int_n,   // L: a motion has ended
     // clock selection
-    input  wire logic       csel,   // internal base clock: H 500 kHz, L 125 kHz
-    input  wire logic       vsel,   // L: 7.5 us more in every interval
-    input  wire logic       clock,  // external base clock, rising edges
+    input  wire logic       csel,    // internal base clock: H 500 kHz, L 125 kHz
+    input  wire logic       vsel,    // L: 7.5 us more in every interval
+    input  wire logic       clock,   // external base clock, rising edges
     // switches, L = active
-    input  wire logic       l1_n,   // CW limit
-    input  wire logic       l2_n,   // CCW limit
-    input  wire logic       l3_n,   // CW slow-down limit
-    input  wire logic       l4_n,   // CCW slow-down limit
-    input  wire logic       cnp_n,  // origin
-    input  wire logic       alm_n,  // alarm
+    input  wire logic       l1_n,    // CW limit
+    input  wire logic       l2_n,    // CCW limit
+    input  wire logic       l3_n,    // CW slow-down limit
+    input  wire logic       l4_n,    // CCW slow-down limit
+    input  wire logic       cnp_n,   // origin
+    input  wire logic       alm_n,   // alarm
     // auxiliary
     input  wire logic [3:0] auxi,
     output logic      [3:0] auxo,
@@ -43,7 +44,7 @@ module ppmc104
     output logic      [5:1] s,
     output logic            hold,
     output logic            pout_n,
-    output logic            dir     // 0 = CW
+    output logic            dir      // 0 = CW
 );
 
   if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
@@ -64,7 +65,7 @@ module ppmc104
       .rst_no(rst)
   );
 
-  // ---- inputs ---------------------------------------------------------------------------------------------------------
+  // ---- inputs --------------------------------------------------------------------------------------
 
   logic l1, l2, l3, l4, cnp, alm, csel_s, vsel_s;
   logic [3:0] auxi_s;
@@ -90,62 +91,39 @@ module ppmc104
           alarm: !alm
       };
 
-  // ---- host -----------------------------------------------------------------------------------------------------------
+  // ---- host ----------------------------------------------------------------------------------------
 
-  logic wr, wr_a0, wr_busy, rd_busy, rd_done, obf, ibf, ready, is_command, take;
-  logic [7:0] wr_data, status, out, in_byte, code;
-  logic [3:0] judgement;
+  logic ready, is_command, take, open, stops_only;
+  logic busy, moving, decelerating, initialised, building;
+  op_t op_run;
+  logic [7:0] in_byte, code, code_held, code_late;
   logic [31:0] params, params_held, params_late;
-  logic [7:0] code_held, code_late;
+  logic [ 3:0] judgement;
   logic [23:0] answer;
   action_t act_taken, act;  // what a byte asks for at its C-event, and when it happens
-  logic open, stops_only;
 
-  ppmc_strobe_bus u_bus (
-      .clk_i       (clk),
-      .rst_ni      (rst),
-      .style_i     (1'b0),
-      .cs_ni       (cs_n),
-      .rd_ni       (rd_n),
-      .wr_ni       (wr_n),
-      .a0_i        (a0),
-      .d_i         (d_i),
-      .d_o         (d_o),
-      .d_oe_o      (d_oe),
-      .wr_o        (wr),
-      .wr_a0_o     (wr_a0),
-      .wr_data_o   (wr_data),
-      .wr_busy_o   (wr_busy),
-      .status_i    (status),
-      .data_i      (out),
-      .data_valid_i(obf),
-      .rd_busy_o   (rd_busy),
-      .rd_done_o   (rd_done)
-  );
-
-  ppmc_mailbox #(
+  ppmc_host_port #(
       .QueueBytes(3)
-  ) u_mailbox (
+  ) u_host (
       .clk_i    (clk),
       .rst_ni   (rst),
-      .wr_i     (wr),
-      .wr_a0_i  (wr_a0),
-      .wr_data_i(wr_data),
-      .rd_done_i(rd_done),
-      .out_o    (out),
-      .obf_o    (obf),
-      .ibf_o    (ibf),
+      .style_i  (1'b0),
+      .cs_ni    (cs_n),
+      .rd_ni    (rd_n),
+      .wr_ni    (wr_n),
+      .a0_i     (a0),
+      .d_i      (d_i),
+      .d_o      (d_o),
+      .d_oe_o   (d_oe),
+      .state_i  ({judgement, 1'b0, busy}),
       .ready_o  (ready),
       .command_o(is_command),
       .byte_o   (in_byte),
       .take_i   (take),
       .load_i   (act_taken.read),
-      .answer_i (answer),
-      .long_i   (code[2:0] == SEL_REMAINING)
+      .long_i   (code[2:0] == SEL_REMAINING),
+      .answer_i (answer)
   );
-
-  logic busy, moving, decelerating, initialised, building;
-  op_t op_run;
 
   ppmc104_command u_command (
       .clk_i         (clk),
@@ -168,107 +146,57 @@ module ppmc104
       .params_held_o (params_held)
   );
 
-  assign status = {judgement, 1'b0, busy, ibf || wr_busy, obf && !rd_busy};
+  // ---- what the host has set -----------------------------------------------------------------------
 
-  // ---- set-up: initialisation, switching parameters, auxiliary outputs ---------------------------------------------------
-
-  init_code_t init_code, init_late;  // the code, read as one or as the other
+  setup_t setup;
   op_code_t op_code;
-  logic [7:0] rate_slow_q, rate_fast_q, on_units_q, off_units_q;
-  logic [STEP_BITS-1:0] steps_q;
-  logic external_q, chop_q, chop_next_q, positive_q, half_q, programmed_q;
-  motor_e motor_q;
-  logic first_init, home, ready_init, unused_bits;
+  init_code_t init_late;
+  logic home, ready_init, unused_bits;
 
-  assign init_code  = init_code_t'(code);
-  assign init_late  = init_code_t'(code_late);
-  assign op_code    = op_code_t'(code_late);
-  assign unused_bits = &{1'b0, act.read, init_code.prefix, init_code.positive, init_late, op_code.prefix, op_code.ignored, op_run.single, op_run.origin};
-  assign first_init = act.init && !initialised;
+  assign init_late   = init_code_t'(code_late);  // a code, read as one or as the other
+  assign op_code     = op_code_t'(code_late);
+  assign unused_bits = &{1'b0, act.read, init_late, op_code, op_run};
 
-  always_ff @(posedge clk or negedge rst) begin
-    if (!rst) begin
-      rate_slow_q  <= '0;
-      rate_fast_q  <= '0;
-      steps_q      <= '0;
-      external_q   <= 1'b0;
-      chop_q       <= 1'b0;
-      chop_next_q  <= 1'b0;
-      initialised  <= 1'b0;
-      positive_q   <= !PHASE_IDLE;
-      half_q       <= 1'b0;
-      motor_q      <= MotorNone;
-      programmed_q <= 1'b0;
-      on_units_q   <= '0;
-      off_units_q  <= '0;
-      auxo         <= '1;
-      aux_n        <= 1'b1;
-    end else begin
-      if (act.init) begin
-        rate_slow_q <= params[7:0];
-        rate_fast_q <= params[15:8];
-        steps_q     <= params[16+:STEP_BITS];
-        external_q  <= init_code.external;
-        chop_next_q <= init_code.chop;
-      end
-      if (first_init) begin
-        half_q  <= init_code.half;
-        motor_q <= motor_e'(init_code.motor);
-      end
-      if (home) positive_q <= init_late.positive;
-      if (ready_init) begin
-        initialised <= 1'b1;
-        chop_q      <= chop_next_q;
-      end
-      if (act.exc_off) begin
-        initialised <= 1'b0;
-        chop_q      <= 1'b0;
-      end
-      if (act.switching) begin
-        programmed_q <= 1'b1;
-        on_units_q   <= params[23:16];
-        off_units_q  <= params[31:24];
-      end
-      if (act.aux_out) auxo <= ~params_late[27:24];
-      if (act.aux_on || act.aux_off) aux_n <= act.aux_off;
-    end
-  end
+  ppmc104_setup #(
+      .PhaseIdle(PHASE_IDLE)
+  ) u_setup (
+      .clk_i        (clk),
+      .rst_ni       (rst),
+      .act_i        (act),
+      .code_i       (init_code_t'(code)),
+      .params_i     (params),
+      .aux_i        (params_late[27:24]),
+      .home_i       (home),
+      .positive_i   (init_late.positive),
+      .ready_i      (ready_init),
+      .vsel_i       (vsel_s),
+      .setup_o      (setup),
+      .initialised_o(initialised),
+      .auxo_o       (auxo),
+      .aux_no       (aux_n)
+  );
 
-  // ---- ramp table -------------------------------------------------------------------------------------------------------
+  // ---- ramp table ----------------------------------------------------------------------------------
 
-  logic lut_we;
-  logic [RATE_BITS-1:0] lut_waddr, lut_raddr;
-  logic [STEP_BITS-1:0] lut_wdata, lut_rdata;
+  logic [RATE_BITS-1:0] lut_addr;
+  logic [STEP_BITS-1:0] lut_data;
 
-  ppmc_ramp_builder #(
+  ppmc_ramp_table #(
       .RateBits(RATE_BITS),
       .StepBits(STEP_BITS)
-  ) u_builder (
+  ) u_table (
       .clk_i  (clk),
       .rst_ni (rst),
       .start_i(act.init),
-      .slow_i (rate_slow_q),
-      .fast_i (rate_fast_q),
-      .steps_i(steps_q),
+      .slow_i (setup.slow),
+      .fast_i (setup.fast),
+      .steps_i(setup.steps),
       .busy_o (building),
-      .we_o   (lut_we),
-      .addr_o (lut_waddr),
-      .data_o (lut_wdata)
+      .addr_i (lut_addr),
+      .data_o (lut_data)
   );
 
-  ppmc_ram #(
-      .Width   (STEP_BITS),
-      .AddrBits(RATE_BITS)
-  ) u_lut (
-      .clk_i  (clk),
-      .we_i   (lut_we),
-      .waddr_i(lut_waddr),
-      .wdata_i(lut_wdata),
-      .raddr_i(lut_raddr),
-      .rdata_o(lut_rdata)
-  );
-
-  // ---- motion -----------------------------------------------------------------------------------------------------------
+  // ---- motion --------------------------------------------------------------------------------------
 
   op_t op;
   logic [23:0] count;
@@ -279,7 +207,7 @@ module ppmc104
   cause_t cause;
   logic [23:0] remaining;
 
-  assign base_now = '{external: external_q, slow: !csel_s, extra: !vsel_s};
+  assign base_now = '{external: setup.external, slow: !csel_s, extra: !vsel_s};
   assign op = '{
           ramp: op_code.op inside {OP_ACC_DEC, OP_CONT_HIGH},
           single: op_code.op == OP_SINGLE,
@@ -320,11 +248,11 @@ module ppmc104
       .count_i    (count),
       .rate_i     ((op_code.op == OP_CONSTANT) ? params_late[7:0] : params_late[31:24]),
       .base_i     (base_late),
-      .rate_slow_i(rate_slow_q),
-      .rate_fast_i(rate_fast_q),
-      .steps_i    (steps_q),
-      .lut_addr_o (lut_raddr),
-      .lut_data_i (lut_rdata),
+      .rate_slow_i(setup.slow),
+      .rate_fast_i(setup.fast),
+      .steps_i    (setup.steps),
+      .lut_addr_o (lut_addr),
+      .lut_data_i (lut_data),
       .halt_i     (act.halt),
       .decel_i    (act.decel),
       .switches_i (switches),
@@ -353,7 +281,7 @@ module ppmc104
       .left_o     (remaining)
   );
 
-  // ---- processing times ---------------------------------------------------------------------------------------------------
+  // ---- processing times ----------------------------------------------------------------------------
 
   if (TIMING == "DATASHEET") begin : g_datasheet
     logic pace_open, pace_home;
@@ -368,7 +296,7 @@ module ppmc104
         .op_code_i   (op_code_t'(code)),
         .count_i     (params[31:8]),
         .new_steps_i (params[16+:STEP_BITS]),
-        .steps_i     (steps_q),
+        .steps_i     (setup.steps),
         .act_o       (act),
         .open_o      (pace_open),
         .stops_only_o(stops_only),
@@ -408,63 +336,43 @@ module ppmc104
       else built_q <= building;
     end
 
-    assign act          = act_taken;
-    assign open         = !building && !built_q;
-    assign stops_only   = 1'b0;
-    assign home         = first_init;
-    assign ready_init   = built_q && !building;
-    assign slow_take    = slow_seen;
-    assign go           = 1'b1;
-    assign linger       = 1'b0;
-    assign code_late    = code;
-    assign params_late  = params;
-    assign base_late    = base_now;
-    assign unused_state = &{1'b0, top, running, last, final_pulse, stop, base_run, rate_run, code_held, params_held};
+    assign act = act_taken;
+    assign open = !building && !built_q;
+    assign stops_only = 1'b0;
+    assign home = act.init && !initialised;
+    assign ready_init = built_q && !building;
+    assign slow_take = slow_seen;
+    assign go = 1'b1;
+    assign linger = 1'b0;
+    assign code_late = code;
+    assign params_late = params;
+    assign base_late = base_now;
+    assign unused_state = &{1'b0, top, running, last, final_pulse, stop, base_run, rate_run,
+        code_held, params_held};
   end
 
-  // ---- end of a motion: finish status, interrupt ----------------------------------------------------------------------------
+  // ---- end of a motion, answers --------------------------------------------------------------------
 
-  logic fresh_q, silent_q;
-  logic [2:0] op_q;
-  cause_t finish_q;
-
-  always_ff @(posedge clk or negedge rst) begin
-    if (!rst) begin
-      int_n    <= 1'b1;
-      fresh_q  <= 1'b0;
-      silent_q <= 1'b0;
-      op_q     <= '0;
-      finish_q <= '0;
-    end else begin
-      if (act.start) begin
-        silent_q <= op_code.silent;
-        op_q     <= op_code.op;
-      end
-      if (done) begin
-        fresh_q  <= 1'b1;
-        finish_q <= cause;
-        if (!silent_q) int_n <= 1'b0;
-      end
-      if (act_taken.read && code[2:0] == SEL_FINISH) begin
-        fresh_q <= 1'b0;
-        int_n   <= 1'b1;
-      end
-    end
-  end
-
-  // ---- motor pins -------------------------------------------------------------------------------------------------------
-
-  logic [8:0] on_base, off_base;
   logic [5:1] levels;
 
-  always_comb begin
-    on_base  = vsel_s ? 9'(CHOP_ON_VSEL_H) : 9'(CHOP_ON_VSEL_L);
-    off_base = vsel_s ? 9'(CHOP_OFF_VSEL_H) : 9'(CHOP_OFF_VSEL_L);
-    if (!programmed_q) begin
-      on_base  = 9'(CHOP_ON_DEFAULT);
-      off_base = 9'(CHOP_OFF_DEFAULT);
-    end
-  end
+  ppmc104_finish u_finish (
+      .clk_i      (clk),
+      .rst_ni     (rst),
+      .start_i    (act.start),
+      .op_code_i  (op_code),
+      .done_i     (done),
+      .cause_i    (cause),
+      .read_i     (act_taken.read),
+      .select_i   (code[2:0]),
+      .remaining_i(remaining),
+      .inputs_i   ({cnp, alm, 2'b00, l1, l2, l3, l4}),
+      .outputs_i  ({levels[1], levels[2], levels[3], levels[4], levels[5], hold, dir, 1'b0}),
+      .auxi_i     (auxi_s),
+      .answer_o   (answer),
+      .int_no     (int_n)
+  );
+
+  // ---- motor pins ----------------------------------------------------------------------------------
 
   ppmc_motor_port #(
       .HoldQuanta(HOLD_QUANTA),
@@ -478,36 +386,23 @@ module ppmc104
       .step_i        (pulse && !op_run.pout_only),
       .ccw_i         (op_run.ccw),
       .quantum_i     (quantum),
-      .motor_i       (motor_q),
-      .half_i        (half_q),
-      .positive_i    (positive_q),
+      .motor_i       (motor_e'(setup.motor)),
+      .half_i        (setup.half),
+      .positive_i    (setup.positive),
       .home_i        (home),
       .off_i         (act.exc_off),
-      .chop_i        (chop_q),
+      .chop_i        (setup.chop),
       .chop_restart_i(ready_init),
-      .on_base_i     (on_base),
-      .off_base_i    (off_base),
-      .on_units_i    (on_units_q),
-      .off_units_i   (off_units_q),
+      .on_base_i     (setup.on_base),
+      .off_base_i    (setup.off_base),
+      .on_units_i    (setup.on_units),
+      .off_units_i   (setup.off_units),
       .levels_o      (levels),
       .s_o           (s),
       .hold_o        (hold),
       .pout_no       (pout_n),
       .dir_o         (dir)
   );
-
-  // ---- answers to read commands -----------------------------------------------------------------------------------------------
-
-  always_comb begin
-    answer = remaining;  // bytes behind the first are shown for this answer only
-    unique case (code[2:0])
-      SEL_FINISH:  answer[7:0] = {fresh_q, finish_q, op_q};
-      SEL_INPUTS:  answer[7:0] = {cnp, alm, 2'b00, l1, l2, l3, l4};
-      SEL_OUTPUTS: answer[7:0] = {levels[1], levels[2], levels[3], levels[4], levels[5], hold, dir, 1'b0};
-      SEL_AUX_IN:  answer[7:0] = {4'b0000, auxi_s};
-      default:     ;
-    endcase
-  end
 
 endmodule
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc104_command: takes the bytes of the host, judges them, collects parameters and says what to do.
-// Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08, P104-FSM-01..03.
-// Timing: take_o is the C-event: everything this block changes, and act_o, belongs to the edge that ends that cycle.
+// Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
+//         P104-STP-02..08, P104-FSM-01..03.
+// Timing: take_o is the C-event: everything this block changes, and act_o, belongs to the edge that ends that
+//         cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,21 +15,21 @@ module ppmc104_command
     // mailbox
     input  wire logic        ready_i,
     input  wire logic        command_i,
-    input  wire logic  [7:0] byte_i,
-    input  wire logic        open_i,         // bytes may be taken
-    input  wire logic        stops_only_i,   // of those, stop commands only
+    input  wire logic [ 7:0] byte_i,
+    input  wire logic        open_i,          // bytes may be taken
+    input  wire logic        stops_only_i,    // of those, stop commands only
     output logic             take_o,
     // state of the part
     input  wire logic        busy_i,
-    input  wire logic        ramp_i,         // running operation has a ramp
-    input  wire logic        decelerating_i, // DEC, or pulses over
+    input  wire logic        ramp_i,          // running operation has a ramp
+    input  wire logic        decelerating_i,  // DEC, or pulses over
     input  wire logic        initialised_i,
     // result
-    output logic       [3:0] status_o,       // ERR, NUM
+    output logic      [ 3:0] status_o,        // ERR, NUM
     output action_t          act_o,
-    output logic       [7:0] code_o,         // code the action belongs to
-    output logic      [31:0] params_o,       // its parameter bytes, the last one in the high bits
-    output logic       [7:0] code_held_o,    // the same after the C-event, while no further byte is taken
+    output logic      [ 7:0] code_o,          // code the action belongs to
+    output logic      [31:0] params_o,        // its parameter bytes, the last one in the high bits
+    output logic      [ 7:0] code_held_o,     // the same after the C-event, while no further byte is taken
     output logic      [31:0] params_held_o
 );
 
@@ -43,7 +45,7 @@ module ppmc104_command
   assign params_o = {byte_i, params_q[31:8]};
   assign params_held_o = params_q;
   assign code_held_o = code_q;
-  assign code_o   = command_i ? byte_i : code_q;
+  assign code_o = command_i ? byte_i : code_q;
 
   // Judgement. Order of the checks: P104-ERR-01, P104-ERR-02.
   logic [15:0] steps;

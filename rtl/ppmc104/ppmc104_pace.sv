@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pace: the processing times of the old chip, between the command unit and the rest (TIMING = "DATASHEET").
+// ppmc104_pace: the processing times of the old chip, between the command unit and the rest (TIMING =
+// "DATASHEET").
 // Rules:  P104-DS-01..12, P104-DS-14 (section 8); P104-LIM-01 (the guard is never blinded).
-// Timing: times run from the C-event (2 clk after the write event) or from the pulse or decision they belong to; what they release
+// Timing: times run from the C-event (2 clk after the write event) or from the pulse or decision they belong
+//         to; what they release
 //         happens one clk after the nominal time.
-// How:    three timers: one for the command at hand (mailbox closed), one for the motion (pulse 1, end), one for a slow-down limit.
+// How:    three timers: one for the command at hand (mailbox closed), one for the motion (pulse 1, end), one
+//         for a slow-down limit.
 `default_nettype none
 
 module ppmc104_pace
@@ -13,34 +16,34 @@ module ppmc104_pace
     parameter int unsigned ClkHz  = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
+    input  wire logic                     clk_i,
+    input  wire logic                     rst_ni,
     // command unit
-    input  wire action_t              act_i,         // at the C-event
-    input  wire op_code_t             op_code_i,     // operation code at the C-event
-    input  wire logic          [23:0] count_i,       // and its D
-    input  wire logic [STEP_BITS-1:0] new_steps_i,   // PA of an initialisation at the C-event
-    input  wire logic [STEP_BITS-1:0] steps_i,       // PA in force
-    output action_t                   act_o,         // when it happens
-    output logic                      open_o,        // bytes may be taken
-    output logic                      stops_only_o,  // of those, stop commands only
-    output logic                      home_o,        // phase outputs after an initialisation
-    output logic                      ready_o,       // an initialisation is complete
+    input  wire action_t                  act_i,         // at the C-event
+    input  wire op_code_t                 op_code_i,     // operation code at the C-event
+    input  wire logic     [         23:0] count_i,       // and its D
+    input  wire logic     [STEP_BITS-1:0] new_steps_i,   // PA of an initialisation at the C-event
+    input  wire logic     [STEP_BITS-1:0] steps_i,       // PA in force
+    output action_t                       act_o,         // when it happens
+    output logic                          open_o,        // bytes may be taken
+    output logic                          stops_only_o,  // of those, stop commands only
+    output logic                          home_o,        // phase outputs after an initialisation
+    output logic                          ready_o,       // an initialisation is complete
     // motion
-    input  wire logic                 moving_i,
-    input  wire logic                 running_i,
-    input  wire logic                 top_i,
-    input  wire op_t                  op_i,
-    input  wire base_t                base_i,
-    input  wire logic [RATE_BITS-1:0] rate_i,
-    input  wire logic                 slow_seen_i,
-    input  wire logic                 stop_i,
-    input  wire logic                 pulse_i,
-    input  wire logic                 last_i,
-    input  wire logic                 final_i,
-    output logic                      slow_o,
-    output logic                      go_o,
-    output logic                      linger_o
+    input  wire logic                     moving_i,
+    input  wire logic                     running_i,
+    input  wire logic                     top_i,
+    input  wire op_t                      op_i,
+    input  wire base_t                    base_i,
+    input  wire logic     [RATE_BITS-1:0] rate_i,
+    input  wire logic                     slow_seen_i,
+    input  wire logic                     stop_i,
+    input  wire logic                     pulse_i,
+    input  wire logic                     last_i,
+    input  wire logic                     final_i,
+    output logic                          slow_o,
+    output logic                          go_o,
+    output logic                          linger_o
 );
 
   // Crystal cycles; microseconds times 16.
@@ -68,7 +71,8 @@ module ppmc104_pace
   localparam int unsigned MotBits = 18;  // 3200 + 123/16 of at most 2 PA pulses
   localparam int unsigned SlowBits = 9;
 
-  // ---- command at hand ---------------------------------------------------------------------------------------------
+  // ---- command at hand
+  // ---------------------------------------------------------------------------------------------
 
   action_t now, late, held_q;
   logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start;
@@ -76,8 +80,14 @@ module ppmc104_pace
 
   always_comb begin
     // A decelerating stop that acts as an immediate one has no time of its own (P104-DS-14).
-    now  = '{init: act_i.init, halt: act_i.halt, switching: act_i.switching, read: act_i.read,
-             decel: act_i.decel && !op_i.ramp, default: 1'b0};
+    now = '{
+        init: act_i.init,
+        halt: act_i.halt,
+        switching: act_i.switching,
+        read: act_i.read,
+        decel: act_i.decel && !op_i.ramp,
+        default: 1'b0
+    };
     late = act_i & ~now;
     late.init = act_i.init;
     cmd_start = late != '0;
@@ -89,8 +99,7 @@ module ppmc104_pace
           CmdBits'(BUSY_RAMP) : CmdBits'(BUSY_CONSTANT);
     end
     if (act_i.init) begin
-      cmd_limit = CmdBits'(INIT_BASE) +
-          CmdBits'(INIT_STEP) * (CmdBits'(new_steps_i) - CmdBits'(STEPS_MIN));
+      cmd_limit = CmdBits'(INIT_BASE) + CmdBits'(INIT_STEP) * (CmdBits'(new_steps_i) - CmdBits'(STEPS_MIN));
     end
   end
 
@@ -136,7 +145,8 @@ module ppmc104_pace
     act_o.init = now.init;
   end
 
-  // ---- motion ------------------------------------------------------------------------------------------------------
+  // ---- motion
+  // ------------------------------------------------------------------------------------------------------
 
   logic first_q, ending_q, last_q, mot_past, open_past;
   logic [MotBits-1:0] first_limit_q, busy_limit_q, open_limit_q;
@@ -162,8 +172,7 @@ module ppmc104_pace
           OP_ACC_DEC, OP_CONT_HIGH: begin
             first_limit_q <= MotBits'(FIRST_RAMP);
             if (op_code_i.op == OP_ACC_DEC && triangle) begin
-              first_limit_q <= MotBits'(FIRST_RAMP) +
-                  MotBits'((pulses * 22'd123) >> 4);
+              first_limit_q <= MotBits'(FIRST_RAMP) + MotBits'((pulses * 22'd123) >> 4);
             end
           end
           default:   first_limit_q <= MotBits'(FIRST_CONSTANT);
@@ -186,7 +195,8 @@ module ppmc104_pace
     end
   end
 
-  // One count, two ends: the fall of BUSY and the opening of the mailbox. After a pulse it starts with the fall of the pin.
+  // One count, two ends: the fall of BUSY and the opening of the mailbox. After a pulse it starts with the
+  // fall of the pin.
   logic mot_restart;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -221,10 +231,11 @@ module ppmc104_pace
   );
 
   assign unused_bits = &{1'b0, op_code_i, op_i};
-  assign go_o     = mot_past;
-  assign linger_o = !mot_past;
+  assign go_o        = mot_past;
+  assign linger_o    = !mot_past;
 
-  // ---- slow-down limit ---------------------------------------------------------------------------------------------
+  // ---- slow-down limit
+  // ---------------------------------------------------------------------------------------------
 
   logic slow_busy_q, slow_top_q, slow_past;
 
@@ -256,7 +267,8 @@ module ppmc104_pace
 
   assign slow_o = slow_busy_q && slow_past;
 
-  // ---- when the mailbox is open --------------------------------------------------------------------------------------
+  // ---- when the mailbox is open
+  // --------------------------------------------------------------------------------------
 
   logic [13:0] interval;  // quanta of the running interval
 

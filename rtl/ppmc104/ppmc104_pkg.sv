@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pkg: codes, error numbers and limits of the PPMC-104BFP; what makes this part differ from its sisters.
+// ppmc104_pkg: codes, error numbers and limits of the PPMC-104BFP; what makes this part differ from its
+// sisters.
 // Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01/03, P104-SW-04.
 `default_nettype none
 
@@ -69,12 +70,12 @@ package ppmc104_pkg;
 
   // Bits of the initialisation code.
   typedef struct packed {
-    logic [1:0] prefix;   // 00
-    logic       chop;     // S: chop at rest
-    logic       external; // C: base clock from the pin
-    logic       positive; // L: high is on
-    logic       half;     // E: half step
-    logic [1:0] motor;    // MM
+    logic [1:0] prefix;    // 00
+    logic       chop;      // S: chop at rest
+    logic       external;  // C: base clock from the pin
+    logic       positive;  // L: high is on
+    logic       half;      // E: half step
+    logic [1:0] motor;     // MM
   } init_code_t;
 
   // Bits of an operation code.
@@ -82,8 +83,8 @@ package ppmc104_pkg;
     logic       pout_only;
     logic       prefix;
     logic       ignored;
-    logic       silent;    // I: no interrupt at the end
-    logic       ccw;       // D
+    logic       silent;     // I: no interrupt at the end
+    logic       ccw;        // D
     logic [2:0] op;
   } op_code_t;
 
@@ -145,6 +146,22 @@ package ppmc104_pkg;
     logic switching;
     logic read;
   } action_t;
+
+  // What the host has set (ppmc104_setup).
+  typedef struct packed {
+    logic [RATE_BITS-1:0] slow;       // start-up rate RL
+    logic [RATE_BITS-1:0] fast;       // high-speed rate RH
+    logic [STEP_BITS-1:0] steps;      // acceleration pulses PA
+    logic                 external;   // base clock from the pin
+    logic                 chop;       // chop at rest; 0 until an initialisation is complete
+    logic                 positive;   // phases: high is on
+    logic                 half;       // half step
+    logic [1:0]           motor;      // phases of the motor, as motor_e
+    logic [8:0]           on_base;    // chopper, quanta
+    logic [8:0]           off_base;
+    logic [7:0]           on_units;   // chopper, units of CHOP_UNIT quanta
+    logic [7:0]           off_units;
+  } setup_t;
 
 endpackage
 

@@ -121,9 +121,9 @@ def markdown(report: dict, results: dict[str, Breakdown]) -> str:
     heads = ["device", "logic", "FF", "block RAM", "Fmax / MHz", "all seeds", "goals"]
     parts = [
         f"Median Fmax of {report['seed_count']} place-and-route seeds; default parameters "
-        "(CLK_HZ 16 MHz, FAST), pins unconstrained. COMB counts as nextpnr packs (a carry cell is two), LUT4 as "
-        f"synthesized. Recipes: {recipe_words(report['recipes'])}. UP5K has fewer pins than the part: for its clock "
-        "rate they go through shift registers, which are not counted.",
+        "(CLK_HZ 16 MHz, FAST), pins unconstrained. COMB counts as nextpnr packs (a carry cell is two), "
+        f"LUT4 as synthesized. Recipes: {recipe_words(report['recipes'])}. UP5K has fewer pins than the "
+        "part: for its clock rate they go through shift registers, which are not counted.",
         markdown_table(heads, device_rows(report["devices"])),
         "Slowest path of the median seed:",
         "\n".join(f"- {entry['device']}: `{entry['path']}`" for entry in report["devices"]),

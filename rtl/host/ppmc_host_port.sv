@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_host_port: bus front end and mailbox as one: what a part shows its host.
+// Rules:  P104-BUS-01..07, P104-STA-01..03, P104-HSK-01..08. Timing: see ppmc_strobe_bus and ppmc_mailbox.
+`default_nettype none
+
+module ppmc_host_port #(
+    parameter int unsigned QueueBytes = 3
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic style_i,  // 0 = read and write strobe, 1 = data strobe and direction
+    // pins
+    input wire logic cs_ni,
+    input wire logic rd_ni,
+    input wire logic wr_ni,
+    input wire logic a0_i,
+    input wire logic [7:0] d_i,
+    output logic [7:0] d_o,
+    output logic d_oe_o,
+    // command unit
+    input wire logic [5:0] state_i,  // status bits 7..2; 1 and 0 are IBF and OBF
+    output logic ready_o,  // byte_o may be taken
+    output logic command_o,
+    output logic [7:0] byte_o,
+    input wire logic take_i,
+    input wire logic load_i,  // new answer
+    input wire logic long_i,  // of QueueBytes bytes, otherwise one
+    input wire logic [8*QueueBytes-1:0] answer_i
+);
+
+  logic wr, wr_a0, wr_busy, rd_busy, rd_done, ibf, obf;
+  logic [7:0] wr_data, out;
+
+  ppmc_strobe_bus u_bus (
+      .clk_i,
+      .rst_ni,
+      .style_i,
+      .cs_ni,
+      .rd_ni,
+      .wr_ni,
+      .a0_i,
+      .d_i,
+      .d_o,
+      .d_oe_o,
+      .wr_o        (wr),
+      .wr_a0_o     (wr_a0),
+      .wr_data_o   (wr_data),
+      .wr_busy_o   (wr_busy),
+      .status_i    ({state_i, ibf || wr_busy, obf && !rd_busy}),
+      .data_i      (out),
+      .data_valid_i(obf),
+      .rd_busy_o   (rd_busy),
+      .rd_done_o   (rd_done)
+  );
+
+  ppmc_mailbox #(
+      .QueueBytes(QueueBytes)
+  ) u_mailbox (
+      .clk_i,
+      .rst_ni,
+      .wr_i     (wr),
+      .wr_a0_i  (wr_a0),
+      .wr_data_i(wr_data),
+      .rd_done_i(rd_done),
+      .out_o    (out),
+      .obf_o    (obf),
+      .ibf_o    (ibf),
+      .ready_o,
+      .command_o,
+      .byte_o,
+      .take_i,
+      .load_i,
+      .answer_i,
+      .long_i
+  );
+
+endmodule
+
+`default_nettype wire

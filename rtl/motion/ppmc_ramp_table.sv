@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ramp_table: a ramp in block RAM, and what fills it.
+// Rules:  P104-RMP-02, P104-INI-07. Timing: see ppmc_ramp_builder; data_o stands two clk after addr_i.
+`default_nettype none
+
+module ppmc_ramp_table #(
+    parameter int unsigned RateBits = 8,
+    parameter int unsigned StepBits = 14
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire logic                start_i,  // build
+    input  wire logic [RateBits-1:0] slow_i,   // steady while busy_o
+    input  wire logic [RateBits-1:0] fast_i,
+    input  wire logic [StepBits-1:0] steps_i,
+    output logic                     busy_o,   // no use may be made of data_o
+    input  wire logic [RateBits-1:0] addr_i,   // r
+    output logic      [StepBits-1:0] data_o    // thr(r)
+);
+
+  logic we;
+  logic [RateBits-1:0] waddr;
+  logic [StepBits-1:0] wdata;
+
+  ppmc_ramp_builder #(
+      .RateBits(RateBits),
+      .StepBits(StepBits)
+  ) u_builder (
+      .clk_i,
+      .rst_ni,
+      .start_i,
+      .slow_i,
+      .fast_i,
+      .steps_i,
+      .busy_o,
+      .we_o  (we),
+      .addr_o(waddr),
+      .data_o(wdata)
+  );
+
+  ppmc_ram #(
+      .Width   (StepBits),
+      .AddrBits(RateBits)
+  ) u_lut (
+      .clk_i,
+      .we_i   (we),
+      .waddr_i(waddr),
+      .wdata_i(wdata),
+      .raddr_i(addr_i),
+      .rdata_o(data_o)
+  );
+
+endmodule
+
+`default_nettype wire
