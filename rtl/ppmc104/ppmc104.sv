@@ -208,13 +208,7 @@ module ppmc104
   logic [23:0] remaining;
 
   assign base_now = '{external: setup.external, slow: !csel_s, extra: !vsel_s};
-  assign op = '{
-          ramp: op_code.op inside {OP_ACC_DEC, OP_CONT_HIGH},
-          single: op_code.op == OP_SINGLE,
-          origin: op_code.op == OP_ORIGIN,
-          pout_only: op_code.pout_only,
-          ccw: op_code.ccw
-      };
+  assign op = op_of(op_code.pout_only, op_code.ccw, op_code.op);
 
   always_comb begin
     unique case (op_code.op)
@@ -283,73 +277,45 @@ module ppmc104
 
   // ---- processing times ----------------------------------------------------------------------------
 
-  if (TIMING == "DATASHEET") begin : g_datasheet
-    logic pace_open, pace_home;
-
-    ppmc104_pace #(
-        .ClkHz (CLK_HZ),
-        .XtalHz(XTAL_HZ)
-    ) u_pace (
-        .clk_i       (clk),
-        .rst_ni      (rst),
-        .act_i       (act_taken),
-        .op_code_i   (op_code_t'(code)),
-        .count_i     (params[31:8]),
-        .new_steps_i (params[16+:STEP_BITS]),
-        .steps_i     (setup.steps),
-        .act_o       (act),
-        .open_o      (pace_open),
-        .stops_only_o(stops_only),
-        .home_o      (pace_home),
-        .ready_o     (ready_init),
-        .moving_i    (moving),
-        .running_i   (running),
-        .top_i       (top),
-        .op_i        (op_run),
-        .base_i      (base_run),
-        .rate_i      (rate_run),
-        .slow_seen_i (slow_seen),
-        .stop_i      (stop),
-        .pulse_i     (pulse),
-        .last_i      (last),
-        .final_i     (final_pulse),
-        .slow_o      (slow_take),
-        .go_o        (go),
-        .linger_o    (linger)
-    );
-
-    assign open        = pace_open && !building;
-    assign home        = pace_home && !initialised;
-    assign code_late   = code_held;
-    assign params_late = params_held;
-
-    // sampled with the byte, used when the motion starts
-    always_ff @(posedge clk or negedge rst) begin
-      if (!rst) base_late <= '0;
-      else if (act_taken.start) base_late <= base_now;
-    end
-  end else begin : g_fast
-    logic built_q, unused_state;
-
-    always_ff @(posedge clk or negedge rst) begin
-      if (!rst) built_q <= 1'b0;
-      else built_q <= building;
-    end
-
-    assign act = act_taken;
-    assign open = !building && !built_q;
-    assign stops_only = 1'b0;
-    assign home = act.init && !initialised;
-    assign ready_init = built_q && !building;
-    assign slow_take = slow_seen;
-    assign go = 1'b1;
-    assign linger = 1'b0;
-    assign code_late = code;
-    assign params_late = params;
-    assign base_late = base_now;
-    assign unused_state = &{1'b0, top, running, last, final_pulse, stop, base_run, rate_run,
-        code_held, params_held};
-  end
+  ppmc104_pace #(
+      .Datasheet(TIMING == "DATASHEET"),
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ)
+  ) u_pace (
+      .clk_i        (clk),
+      .rst_ni       (rst),
+      .act_i        (act_taken),
+      .code_i       (code),
+      .params_i     (params),
+      .code_held_i  (code_held),
+      .params_held_i(params_held),
+      .base_i       (base_now),
+      .open_o       (open),
+      .stops_only_o (stops_only),
+      .act_o        (act),
+      .code_o       (code_late),
+      .params_o     (params_late),
+      .base_o       (base_late),
+      .initialised_i(initialised),
+      .building_i   (building),
+      .steps_i      (setup.steps),
+      .home_o       (home),
+      .ready_o      (ready_init),
+      .moving_i     (moving),
+      .running_i    (running),
+      .top_i        (top),
+      .op_run_i     (op_run),
+      .base_run_i   (base_run),
+      .rate_i       (rate_run),
+      .slow_seen_i  (slow_seen),
+      .stop_i       (stop),
+      .pulse_i      (pulse),
+      .last_i       (last),
+      .final_i      (final_pulse),
+      .slow_o       (slow_take),
+      .go_o         (go),
+      .linger_o     (linger)
+  );
 
   // ---- end of a motion, answers --------------------------------------------------------------------
 

@@ -88,6 +88,19 @@ package ppmc104_pkg;
     logic [2:0] op;
   } op_code_t;
 
+  // The same for the axis.
+  function automatic ppmc_motion_pkg::op_t op_of(logic pout_only, logic ccw, logic [2:0] op);
+    return
+    '{
+        ramp: op inside {OP_ACC_DEC, OP_CONT_HIGH},
+        single: op == OP_SINGLE,
+        origin: op == OP_ORIGIN,
+        pout_only: pout_only,
+        ccw: ccw
+    }
+    ;
+  endfunction
+
   typedef struct packed {
     kind_e      kind;
     logic [2:0] params;  // bytes that follow
