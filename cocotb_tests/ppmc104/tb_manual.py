@@ -1,0 +1,189 @@
+"""Plays the sessions of docs/ppmc104_examples.md on the core: every status and data byte must be the printed one."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.bus import HostBus
+from cocotb_tests.common.config import F16, configs
+from cocotb_tests.common.paths import ROOT
+
+PAGE = ROOT / "docs" / "ppmc104_examples.md"
+SHORT = (0x42, 0x52, 0x5A)  # single steps last 10 µs
+LINE = re.compile(r"^(?:(c|d) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})| +st ([0-9A-F]{2}))\b")
+
+
+@dataclass(frozen=True)
+class Step:
+    """One printed line: c/d byte with status, r with its byte, or a status alone (kind s)."""
+
+    kind: str
+    byte: int
+    status: int
+
+
+def blocks(chapter: int) -> list[list[Step]]:
+    """The code blocks of one chapter of the page."""
+    text = PAGE.read_text(encoding="utf-8")
+    part = re.split(r"^## ", text, flags=re.M)
+    body = next(p for p in part if p.startswith(f"{chapter} "))
+    found = []
+    for block in re.findall(r"```\n(.*?)```", body, re.S):
+        steps = []
+        for line in block.splitlines():
+            match = LINE.match(line)
+            if not match:
+                raise ValueError(f"{PAGE.name}, chapter {chapter}: cannot read {line!r}")
+            kind, byte, status, read, alone = match.groups()
+            if kind:
+                steps.append(Step(kind, int(byte, 16), int(status, 16)))
+            elif read:
+                steps.append(Step("r", int(read, 16), 0))
+            else:
+                steps.append(Step("s", 0, int(alone, 16)))
+        found.append(steps)
+    return found
+
+
+async def play(bench: Bench, host: HostBus, steps: list[Step], where: str) -> None:
+    for number, step in enumerate(steps, 1):
+        at = f"{where} line {number}: {step.kind} {step.byte:02X}"
+        if step.kind == "r":
+            bench.check(at, "data", f"{await host.read_data():02X}", f"{step.byte:02X}")
+            continue
+        if step.kind == "c":
+            await host.command(step.byte)
+        elif step.kind == "d":
+            await host.data(step.byte)
+        status = await host.status()
+        if step.kind == "c" and step.byte in SHORT and status == 0x00:
+            continue  # the step is over before a slow host looks
+        bench.check(at, "status", f"{status:02X}", f"{step.status:02X}")
+
+
+async def begin(dut, first: bool = True) -> tuple[Bench, HostBus]:
+    bench = await Bench.start(dut)
+    host = HostBus(bench)
+    if first:
+        await play(bench, host, blocks(1)[0], "example 1")
+    return bench, host
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples(dut):
+    """All chapters, each after a reset."""
+    bench, host = await begin(dut)  # 1
+    start = bench.now
+    two = blocks(2)
+    await play(bench, host, two[0], "example 2")
+    await host.wait_idle(timeout=3_000_000)
+    pulses = bench.pulses(start)
+    bench.check("example 2", "pulses", len(pulses), 1000)
+    bench.check("example 2", "clk", pulses[-1] - pulses[0], 1_795_008)
+    bench.check("example 2", "int_n", bench.level("int_n"), 0)
+    await play(bench, host, two[1], "example 2b")
+    bench.check("example 2", "int_n", bench.level("int_n"), 1)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_3(dut):
+    bench, host = await begin(dut)
+    start = bench.now
+    a, b = blocks(3)
+    await play(bench, host, a, "example 3")
+    tenth = await bench.nth_fall(10, since=start)
+    await bench.until(tenth + 400)
+    await play(bench, host, b, "example 3b")
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_5(dut):
+    bench, host = await begin(dut)
+    bench.set(csel=0)
+    a, b = blocks(5)
+    start = bench.now
+    await play(bench, host, a, "example 5")
+    await bench.until(await bench.nth_fall(7, since=start) + 400)
+    pulses = bench.pulses(start)
+    bench.check("example 5", "interval", pulses[1] - pulses[0], 12_800)
+    bench.set(cnp_n=0)
+    await bench.clocks(20)
+    await play(bench, host, b, "example 5b")
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_6(dut):
+    bench, host = await begin(dut)
+    a, b = blocks(6)
+    start = bench.now
+    await play(bench, host, a, "example 6")
+    await bench.until(await bench.nth_fall(5, since=start) + 400)
+    bench.set(l1_n=0)
+    await bench.clocks(20)
+    await play(bench, host, b, "example 6b")
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_7(dut):
+    bench, host = await begin(dut)
+    a, b = blocks(7)
+    await play(bench, host, a, "example 7")
+    await host.wait_idle()
+    await play(bench, host, b, "example 7b")
+    await host.wait_idle()
+    bench.check("example 7", "s", bench.level("s"), 0b00011)
+    bench.check("example 7", "int_n", bench.level("int_n"), 1)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_8(dut):
+    bench, host = await begin(dut, first=False)
+    await play(bench, host, blocks(8)[0], "example 8")
+    start = bench.now
+    await bench.clocks(12_000)
+    times = [t for t, _ in bench.edges("s", start)][3:]
+    gaps = sorted({b - a for a, b in zip(times, times[1:], strict=False)})
+    bench.check("example 8", "phases", gaps, [1200, 2064])
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_9_10(dut):
+    bench, host = await begin(dut)
+    await play(bench, host, blocks(9)[0], "example 9")
+    await host.wait_idle()
+    bench.check("example 9", "s", bench.level("s"), 0b00010)
+    bench, host = await begin(dut)
+    await play(bench, host, blocks(10)[0], "example 10")
+    bench.check("example 10", "dir", bench.level("dir"), 1)
+    await bench.clocks(20_000)
+    bench.check("example 10", "s", bench.level("s"), 0b00011)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_examples_11_12(dut):
+    bench, host = await begin(dut, first=False)
+    bench.set(auxi=0b1001)
+    await bench.clocks(4)
+    await play(bench, host, blocks(11)[0], "example 11")
+    bench.check("example 11", "auxo", bench.level("auxo"), 0b1010)
+    bench, host = await begin(dut, first=False)
+    a, b = blocks(12)
+    await play(bench, host, a, "example 12")
+    bench, host = await begin(dut)
+    start = bench.now
+    await play(bench, host, blocks(2)[0], "example 2")
+    await bench.nth_fall(20, since=start)
+    await play(bench, host, b, "example 12b")
