@@ -1,10 +1,9 @@
-"""Plays the sessions of docs/ppmc104_examples.md on the core: every status and data byte must be the printed one."""
+"""Plays the sessions of docs/ppmc104_examples.md on the core: every byte must be the printed one."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from pathlib import Path
 
 import cocotb
 
