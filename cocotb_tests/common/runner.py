@@ -263,17 +263,23 @@ def _safe(name: str) -> str:
     return re.sub(r"[^\w.=-]+", "_", name)
 
 
-def attempt(item: Item, options: SimOptions | None = None, env: Mapping[str, str] | None = None) -> str:
+def attempt(
+    item: Item,
+    options: SimOptions | None = None,
+    env: Mapping[str, str] | None = None,
+    design: Design | None = None,
+) -> str:
     """Run one item; "" if it passed, else a short message with the repro line.
 
     A failing test is run a second time with waves; its files go to build/failures/<test>/.
+    `design` (default: the part of the item) is what is simulated.
     """
     options = options or SimOptions()
     seed = item.seed if options.seed is None else options.seed
     kept, first = FAILURES / f"{_safe(item.id)}-s{seed}", run_folder(item, seed)
     shutil.rmtree(kept, ignore_errors=True)
     try:
-        design = part_design(item.part, item.config)
+        design = design or part_design(item.part, item.config)
         shutil.rmtree(run_sim(design, item, seed, env=env), ignore_errors=True)
         return ""
     except SimError as error:
@@ -296,10 +302,15 @@ def attempt(item: Item, options: SimOptions | None = None, env: Mapping[str, str
     return message.replace(relative(first), relative(kept))
 
 
-def run_item(item: Item, options: SimOptions | None = None, env: Mapping[str, str] | None = None) -> None:
+def run_item(
+    item: Item,
+    options: SimOptions | None = None,
+    env: Mapping[str, str] | None = None,
+    design: Design | None = None,
+) -> None:
     """Run one collected item as a pytest test: silent if it passes, else the message of `attempt`."""
     __tracebackhide__ = True
-    if message := attempt(item, options, env):
+    if message := attempt(item, options, env, design):
         pytest.fail(message, pytrace=False)
 
 

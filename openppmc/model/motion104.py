@@ -287,7 +287,11 @@ class Motion:
         passed = 0
         while before + passed < rate and quanta(before + passed) < limit:
             passed += 1
-        return latency.ds12_lag + (latency.seek_start + latency.seek_per_rate * passed if passed else 0)
+        if not passed:
+            return latency.ds12_lag
+        turned = len(self.intervals) > 2 and self.intervals[-2].index <= self.intervals[-3].index
+        start = latency.seek_start if turned else latency.seek_turn
+        return latency.ds12_lag + start + latency.seek_per_rate * passed
 
     def _next_rate(self, t: int) -> int | None:
         """Rate of the interval that pulse `done` opens, None if it was the last."""

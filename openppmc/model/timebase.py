@@ -32,8 +32,9 @@ class Latency:
     ds_host: added to the times measured from a write event, ds_waited: from the end of a wait, ds_motor:
     from a pulse, a deciding edge or an input level (section 8, -0/+16).
     ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12. Where an interval is
-    slower than the one before, the core looks its rate up while it runs, seek_start + seek_per_rate clk a
-    rate, and the mailbox opens when the look-up has passed the limit.
+    slower than the one before, the core looks its rate up while it runs, seek_per_rate clk a rate, and the
+    mailbox opens when the look-up has passed the limit; seek_start is added, after an acceleration step
+    (whose look-up went the other way) seek_turn instead.
     """
 
     c_event: int = 2
@@ -55,7 +56,8 @@ class Latency:
     ds_waited: int = 1
     ds_motor: int = 1
     ds12_lag: int = 1
-    seek_start: int = 1
+    seek_start: int = -2
+    seek_turn: int = 1
     seek_per_rate: int = 3
 
     def build(self, rl: int, rh: int, pa: int) -> int:

@@ -85,7 +85,7 @@ module ppmc_axis
 
   state_e state_q;
   logic   brisk_q;
-  logic armed, fire, due, up, seek, forced, flagged, dec;
+  logic armed, fire, due, up, seek, rising, forced, flagged, dec;
   logic base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
 
   assign armed = state_q == StStart || state_q == StRun;
@@ -165,6 +165,7 @@ module ppmc_axis
       .forced_i(forced),
       .rate_o,
       .seek_o  (seek),
+      .rising_o(rising),
       .last_o,
       .final_o,
       .top_o,
@@ -195,7 +196,7 @@ module ppmc_axis
   // Interval: base clock from inside or from the pin, counted, and the extra time.
   assign edges = base_o.external && rise;
   assign tick  = base_o.external ? edges && ext_count : base_tick;
-  assign cut   = base_o.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !seek));
+  assign cut   = base_o.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !rising));
 
   ppmc_base_clock #(
       .FastQuanta (FastQuanta),
@@ -233,6 +234,7 @@ module ppmc_axis
       .tick_i   (tick),
       .rate_i   (rate_o),
       .wait_i   (seek),
+      .rising_i (rising),
       .hit_o    (hit),
       .half_o   (half)
   );

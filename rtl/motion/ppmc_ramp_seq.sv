@@ -35,7 +35,8 @@ module ppmc_ramp_seq #(
     input  wire logic                 forced_i,    // forced deceleration; never withdrawn
     // state
     output logic      [ RateBits-1:0] rate_o,      // rate of the running interval
-    output logic                      seek_o,      // rate_o is not final yet
+    output logic                      seek_o,      // a look-up runs: no pulse may come
+    output logic                      rising_o,    // and rate_o is not final yet
     output logic                      last_o,      // a pulse now would be the last one
     output logic                      final_o,     // and would complete the count
     output logic                      top_o,       // running interval is on the plateau
@@ -55,7 +56,7 @@ module ppmc_ramp_seq #(
   logic [StepBits-1:0] climb_q;
   logic [RateBits-1:0] probe_q;  // rate under test
   logic near_q, full_q, zero_q, low_q;  // comparisons, a clk after the counters
-  logic load_q, slower_q;
+  logic load_q, slower_q, down_q;
   logic up, down, odd, high, reached, more;
 
   // Where the walk goes at a pulse event. left_o is the number of pulses that follow this one.
@@ -112,6 +113,7 @@ module ppmc_ramp_seq #(
   assign reached = {climb_q, !slower_q} >= {StepBits'(lut_data_i), slower_q};  // > where slower, else >=
   assign more = slower_q ? (rate_o != slow_i && !reached) : (probe_q != fast_i && reached);
   assign seek_o = state_q != StRest;
+  assign rising_o = seek_o && down_q;
   assign lut_addr_o = probe_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -121,17 +123,25 @@ module ppmc_ramp_seq #(
       rate_o   <= '0;
       load_q   <= 1'b0;
       slower_q <= 1'b0;
+      down_q   <= 1'b0;
     end else begin
       load_q <= load_i;
       if (load_q) rate_o <= probe_q;
       if (load_i) begin
-        probe_q <= ramp_i ? slow_i : rate_i;
-        state_q <= StRest;
+        probe_q  <= ramp_i ? slow_i : rate_i;
+        slower_q <= 1'b0;
+        state_q  <= StRest;
       end else if (pulse_i && ramp_i) begin
+        // Once turned, the next slower rate and its threshold already wait.
         slower_q <= !up;
-        state_q  <= up ? StRead : StTurn;
+        down_q   <= down;
         if (up) rate_o <= probe_q;
-        else probe_q <= rate_o;
+        if (up) state_q <= StRead;
+        else if (slower_q) state_q <= StTest;
+        else begin
+          probe_q <= rate_o;
+          state_q <= StTurn;
+        end
       end else begin
         unique case (state_q)
           StTurn: begin

@@ -16,7 +16,8 @@ module ppmc_rate_counter #(
     input  wire logic                restart_i,  // a pulse: count from 0
     input  wire logic                tick_i,     // a base clock that counts
     input  wire logic [RateBits-1:0] rate_i,
-    input  wire logic                wait_i,     // rate_i is not final yet
+    input  wire logic                wait_i,     // the interval must not end yet
+    input  wire logic                rising_i,   // rate_i is not final yet
     output logic                     hit_o,      // this base clock ends the interval
     output logic                     half_o      // this base clock is number floor((rate + 1) / 2)
 );
@@ -35,7 +36,7 @@ module ppmc_rate_counter #(
     end else begin
       match_q <= !restart_i && !wait_i && equal;
       // the coming base clock has number count_q + 1
-      half_q  <= !restart_i && !wait_i && count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
+      half_q  <= !restart_i && !rising_i && count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
     end
   end
 

@@ -1,0 +1,24 @@
+"""Unit tests of the shared RTL blocks: one pytest item a cocotb test, one build an area."""
+
+from __future__ import annotations
+
+import importlib
+
+import pytest
+
+from cocotb_tests.common.collect import cocotb_items
+from cocotb_tests.common.part import Part
+from cocotb_tests.common.runner import run_item
+
+from .wrapper import area_design
+
+ITEMS = cocotb_items(
+    "cocotb_tests.blocks", "tb_common", "tb_motion", "tb_ramp", "tb_host", part=Part("blocks", "BLK", {})
+)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_block(item, sim_options):
+    """Run one simulation."""
+    blocks = importlib.import_module(item.module).BLOCKS
+    run_item(item, sim_options, design=area_design(item.module.rsplit("_", 1)[-1], blocks))

@@ -1,0 +1,55 @@
+"""Steep ramps, whose rates are looked up while an interval runs: every edge against the golden model."""
+
+from __future__ import annotations
+
+from itertools import repeat
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.bus import HostBus
+from cocotb_tests.common.compare import check_against_model
+from cocotb_tests.common.config import D16, F8, F16, configs
+from cocotb_tests.common.verifies import verifies
+
+
+@cocotb.test()
+@verifies("P104-DS-12")
+@configs(D16)
+async def p104_ds_12_opens_in_a_steep_deceleration(dut):
+    """Given DATASHEET and steep ramps, when a byte waits, then it is taken as soon as it may."""
+    bench = await Bench.start(dut)
+    host = HostBus(bench)
+    await host.init(0x0A, 120, 3, 12)
+    for n in (30, 18, 33, 26):
+        await bench.until(bench.now + 300_000)
+        await host.send(0x43, (n, 0, 0))
+        await bench.nth_fall(5, since=bench.now)
+        await host.command(0xC1, poll=False)
+        await host.wait_idle(1_000_000)
+        await host.command(0xC2)
+    check_against_model(bench)
+
+
+@cocotb.test()
+@verifies("P104-TIM-05", "P104-BCK-04")
+@configs(F16, F8)
+async def p104_tim_05_external_cuts_on_steep_ramps(dut):
+    """Given external clocks with short high times, when ramps jump, then every low time is right."""
+    bench = await Bench.start(dut)
+    host = HostBus(bench)
+    for slow, fast, steps, period, high in (
+        (40, 0, 6, 24, 2),
+        (90, 0, 4, 120, 2),
+        (30, 3, 5, 20, 3),
+        (9, 1, 9, 17, 8),
+    ):
+        clock = bench.external_clock(repeat(period), high=high)
+        await host.init(0x1A, slow, fast, steps)
+        for code, n in ((0x43, 2 * steps + 4), (0x43, steps), (0xC3, steps + 1), (0x4B, 3 * steps)):
+            await host.send(code, (n, 0, 0))
+            await host.wait_idle(400_000)
+        clock.cancel()
+        bench.set(clock=0)
+        await bench.clocks(8)
+    check_against_model(bench)
