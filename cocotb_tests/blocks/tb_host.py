@@ -218,8 +218,8 @@ async def host_port_status(dut):
     """Given a write and an answer of three, then the status shows IBF and OBF, the reads give the bytes."""
     u = Unit(dut, "port", BLOCKS, "ready_o command_o byte_o")
 
-    async def read(a0: int) -> int:
-        for _ in range(4):
+    async def read(a0: int, length: int = 4) -> int:
+        for _ in range(length):
             await u.clk(a0_i=a0, **levels("read", style))
         value = u.get("d_o")
         for _ in range(2):
@@ -241,4 +241,5 @@ async def host_port_status(dut):
             await u.clk()
             same("OBF", await read(1), 0b10110101)
             same("data", await read(0), byte)
+        same("being taken: not shown again", await read(1, length=1), 0b10110100)
         same("empty", await read(1), 0b10110100)

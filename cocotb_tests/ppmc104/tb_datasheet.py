@@ -138,6 +138,19 @@ async def p104_ds_03_start_times(dut):
 
 
 @cocotb.test()
+@verifies("P104-DS-05")
+@configs(D16)
+async def p104_ds_05_long_triangles(dut):
+    """Given PA = 300, when D is 599, 600, 300, then only below 2·PA pulse 1 waits in proportion to N."""
+    lab = await Sheet.start(dut, (0x0A, 40, 9, 300))
+    for n, first in ((600, 3200 + 123 * 600 // 16), (601, 3200), (301, 3200 + 123 * 301 // 16)):
+        event = await lab.event(0x43, n)
+        lab.after("P104-DS-05", f"pulse 1 of N = {n}", await lab.pulse(1) - event, first)
+        await lab.host.command(0x40)
+        await lab.rest()
+
+
+@cocotb.test()
 @verifies("P104-DS-03", "P104-HSK-01")
 @configs(D16)
 async def p104_ds_03_closed_until_busy(dut):

@@ -174,6 +174,13 @@ async def p104_stp_08_in_fin(dut):
     await lab.host.command(0x40)
     lab.check("P104-STP-08", "0x41 while a stopped pulse is low", await lab.host.command(0x41), BUSY)
     await lab.result("P104-STP-08", 4, 0xC4, 5)
+    for code, n in ((0x43, 100), (0x46, None)):
+        await lab.go(code, n)
+        await lab.pulse(3, 4)
+        await lab.host.command(0x40)
+        status = await lab.host.command(0x41)
+        lab.check("P104-STP-08", f"0x41 while a stopped pulse of {code:#x} is low", status, 0xF4)
+        await lab.result("P104-STP-08", 3, 0xC0 | code & 7, (n or ALL) - 4)
 
 
 @cocotb.test()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_pkg: arithmetic that every part needs at elaboration time; knows nothing of motors.
-// Rules: P104-GEN-02, P104-GEN-03 (times are given in crystal cycles and turned into clk here, once).
+// Rules:  P104-GEN-02, P104-GEN-03 (times are given in crystal cycles and turned into clk here, once).
 `default_nettype none
 
 package ppmc_pkg;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_tick_gen: a tick every `TickXtal` crystal cycles by phase accumulation; exact, without drift.
 // Rules:  P104-BCK-03 (quantum ticks), P104-GEN-04.
-// Timing: after a restart that takes effect at edge e, tick n is high in the cycle before edge
-//         e + ceil(n * TickXtal * ClkHz / XtalHz), so what it enables changes on exactly that edge.
+// Timing: after a restart that takes effect at edge e, tick n is high in the cycle before edge e + ceil(n *
+//         TickXtal * ClkHz / XtalHz), so what it enables changes on exactly that edge.
 `include "ppmc_assert.svh"
 `default_nettype none
 

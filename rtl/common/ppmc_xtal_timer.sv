@@ -2,8 +2,8 @@
 // ppmc_xtal_timer: counts crystal cycles since its restart and says whether a number of them has passed.
 // Rules:  P104-GEN-02/03 for times that are not known at elaboration.
 // Timing: after a restart at edge e, past_o is high from the clk after edge e + ceil(limit * ClkHz / XtalHz)
-//         on; what it enables
-//         changes one edge later. The count stops at its end, never wraps.
+//         on; what it enables changes one edge later. The count stops at its end, never wraps: limit_i may be
+//         at most 2**Width - 2.
 `default_nettype none
 
 module ppmc_xtal_timer #(

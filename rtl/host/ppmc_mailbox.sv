@@ -2,13 +2,13 @@
 // ppmc_mailbox: one byte in, a short queue out, between a host port and a command unit.
 // Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
 // Timing: a byte written in a cycle with wr_i stands on byte_o at once after the edge; ready_o follows one
-//         clk later, so that its decoding may be
-//         registered. take_i may come in the cycle of another wr_i: the old byte is taken, the new one stays.
-//         After rd_done_i the next byte of the queue is valid again one clk after the gap of one clk.
+//         clk later, so that its decoding may be registered. take_i may come in the cycle of another wr_i:
+//         the old byte is taken, the new one stays. After rd_done_i the next byte of the queue is valid again
+//         one clk after the gap of one clk.
 `default_nettype none
 
 module ppmc_mailbox #(
-    parameter int unsigned QueueBytes = 3
+    parameter int unsigned QueueBytes = 3  // bytes of the longest answer, at least 3
 ) (
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
@@ -29,6 +29,10 @@ module ppmc_mailbox #(
     input  wire logic [8*QueueBytes-1:0] answer_i,   // first byte in the low bits
     input  wire logic                    long_i      // all bytes count, otherwise one
 );
+
+  if (QueueBytes < 3) begin : g_check
+    $fatal(1, "ppmc_mailbox: QueueBytes must be at least 3");
+  end
 
   logic settled_q;
 

@@ -3,9 +3,8 @@
 // core.
 // Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02.
 // Timing: a write whose end is first sampled at edge 0 gives wr_o in the cycle before edge 2. Reads are
-//         answered early: d_oe_o and
-//         d_o alone sample raw pins, at edge 0; the data is refreshed once at edge 1 and then stands still
-//         until the next read.
+//         answered early: d_oe_o and d_o alone sample raw pins, at edge 0; the data is refreshed once at edge
+//         1 and then stands still until the next read.
 // Styles: 0 = read and write strobe (rd_ni, wr_ni); 1 = data strobe on wr_ni with direction on rd_ni (1 =
 //         read).
 `include "ppmc_assert.svh"

@@ -4,10 +4,9 @@
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
 //         P104-LIM-01..10.
 // Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later
-//         (external clock: first
-//         edge at or after). A motion leaves busy_o one clk after low_o has gone, or at once; done_o is high
-//         in the clk before.
-//         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
+//         (external clock: first edge at or after). A motion leaves busy_o one clk after low_o has gone, or
+//         at once; done_o is high in the clk before. Nothing here is a pin: pins follow low_o and step_o
+//         through one register (ppmc_motor_port).
 // Proof:  never a pulse at or after an immediate cause; exactly count_i + 1 pulses unless stopped (assertions
 //         below).
 `include "ppmc_assert.svh"

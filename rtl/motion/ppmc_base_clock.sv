@@ -18,7 +18,8 @@ module ppmc_base_clock #(
     output logic      tick_o      // a base clock period has ended
 );
 
-  localparam int unsigned Longest = (SlowQuanta > ExtraQuanta) ? SlowQuanta : ExtraQuanta;
+  localparam int unsigned Slower = (SlowQuanta > FastQuanta) ? SlowQuanta : FastQuanta;
+  localparam int unsigned Longest = (Slower > ExtraQuanta) ? Slower : ExtraQuanta;
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
   logic [Width-1:0] left_q;  // whole quanta left before the one that ends the period

@@ -3,9 +3,8 @@
 // Rules:  P104-PHS-01..06 (tables of section 6.1), P104-PHS-03/05 home and off.
 // Timing: pattern_o changes at the edge that ends the cycle of home_i, off_i or step_i.
 // How:    there is no table. Full step turns the pair of phases by one place. Half step takes, in turn, the
-//         phases that the
-//         pattern and its turned self share (AND) or cover together (OR); a 5-phase motor starts with OR, the
-//         others with AND.
+//         phases that the pattern and its turned self share (AND) or cover together (OR); a 5-phase motor
+//         starts with OR, the others with AND.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -69,7 +68,7 @@ module ppmc_excitation
   logic [2:0] count;
   assign count = 3'($countones(pattern_o));
   `PPMC_ASSERT(p104_phs_pair, !pair_q || count == 3'd2 || count == 3'd0)
-  `PPMC_ASSERT(p104_phs_odd, pair_q || count == ((motor_i == Motor5) ? 3'd3 : 3'd1))
+  `PPMC_ASSERT(p104_phs_odd, pair_q || count == 3'd0 || count == ((motor_i == Motor5) ? 3'd3 : 3'd1))
   `PPMC_ASSERT(p104_phs_unused3, motor_i != Motor3 || pattern_o[5:4] == 2'b00)
   `PPMC_ASSERT(p104_phs_unused4, motor_i != Motor4 || !pattern_o[5])
 `endif

@@ -2,8 +2,7 @@
 // ppmc_ext_clock: edges of an external base clock and the length of its last period.
 // Rules:  P104-BCK-04, P104-INT-03 (period against the threshold), P104-TIM-05 (c).
 // Timing: a rising pin edge first sampled at t gives rise_o in the cycle before edge t + 2, the same for
-//         falling edges.
-//         long_o and brisk_o speak, in the cycle of rise_o, of the period that this edge ends.
+//         falling edges. long_o and brisk_o speak, in the cycle of rise_o, of the period that this edge ends.
 `default_nettype none
 
 module ppmc_ext_clock #(

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_lag: the fixed extra time of an interval when the base clock comes from outside.
 // Rules:  P104-INT-03, P104-INT-04: the time from a pulse to the first base edge at or after it is put back
-//         behind the edge that
-//         ends the interval, so that (rate + 1) periods and the extra time add up without a frequency being
-//         measured.
+//         behind the edge that ends the interval, so that (rate + 1) periods and the extra time add up
+//         without a frequency being measured.
 // Timing: fire_o is combinational: in the cycle of hit_i, or the lag later.
 `default_nettype none
 

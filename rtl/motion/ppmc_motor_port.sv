@@ -10,8 +10,8 @@ module ppmc_motor_port
 #(
     parameter int unsigned HoldQuanta = 136_000,
     parameter int unsigned UnitQuanta = 12,
-    parameter int unsigned BaseBits   = 9,
-    parameter bit          PhaseIdle  = 1'b1      // level of s_o until the first home_i
+    parameter int unsigned BaseBits = 9,
+    parameter bit PhaseIdle = 1'b1  // level of s_o in reset; positive_i must be !PhaseIdle until home_i
 ) (
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,

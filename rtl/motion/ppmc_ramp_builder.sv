@@ -6,8 +6,8 @@
 //         slow_i, fast_i, steps_i must stand still meanwhile. fast_i = slow_i: no table is needed, busy_o is
 //         short.
 // How:    numerator and denominator come bit by bit from ppmc_ramp_serial; the quotient by repeated
-//         subtraction of a divisor
-//         that moves right, so that the remainder needs an enable but no multiplexer.
+//         subtraction of a divisor that moves right, so that the remainder needs an enable but no
+//         multiplexer.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -3,9 +3,8 @@
 // interval runs.
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07.
 // Timing: all that pulse_i changes stands after its edge, but rate_o may still rise while seek_o is set: a
-//         deceleration step
-//         looks its rate up while its interval already runs. An acceleration step is looked up one interval
-//         ahead.
+//         deceleration step looks its rate up while its interval already runs. An acceleration step is looked
+//         up one interval ahead.
 // How:    climb_q is the number of acceleration pulses made and not yet walked back (index of the running
 //         interval + 1).
 `include "ppmc_assert.svh"

@@ -5,9 +5,9 @@
 // Timing: a pass over all bits takes Bits + 2 clk from start_i (which may overlap nothing); last_o marks its
 //         last clk.
 // How:    with U = B*PA - (A-B), numerator and denominator of thr(r) = floor(num/den) are quadratic in r, so
-//         they follow from
-//         additions alone (second differences). Products before that are made one multiplier bit a pass.
-//           num = -n   v = first difference of n   u = U       den = d   e = first difference of d   g = A-B
+//         they follow from additions alone (second differences). Products before that are made one multiplier
+//         bit a pass.
+//         num = -n, v = first difference of n, u = U, den = d, e = first difference of d, g = A-B.
 `default_nettype none
 
 module ppmc_ramp_serial

@@ -2,8 +2,7 @@
 // ppmc_rate_counter: counts the base clocks of an interval; the (rate + 1)-th one ends it.
 // Rules:  P104-INT-01, P104-BCK-05 (base clocks are passed over while the rate is still being looked up).
 // Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. A part whose
-//         hosts give
-//         divisors (J105 STMC) passes divisor - 1.
+//         hosts give divisors (J105 STMC) passes divisor - 1.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
 `include "ppmc_assert.svh"
 `default_nettype none

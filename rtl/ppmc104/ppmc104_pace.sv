@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pace: when a taken byte takes effect: at once (FAST), or after the old chip's processing times (DATASHEET).
+// ppmc104_pace: when a taken byte takes effect: at once (FAST), or after the old chip's processing times
+// (DATASHEET).
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; P104-LIM-01 (the guard is never blinded).
-// Timing: DATASHEET times run from the C-event (2 clk after the write event) or from the pulse or decision they
-//         belong to; what they release happens one clk after the nominal time.
-// How:    three timers: one for the command at hand (mailbox closed), one for the motion (pulse 1, end), one for a
-//         slow-down limit.
+// Timing: DATASHEET times run from the C-event (2 clk after the write event) or from the pulse or decision
+//         they belong to; what they release happens one clk after the nominal time.
+// How:    three timers: one for the command at hand (mailbox closed), one for the motion (pulse 1, end), one
+//         for a slow-down limit.
 `default_nettype none
 
 module ppmc104_pace
