@@ -210,6 +210,11 @@ def checks() -> list[Check]:
             lambda: ruff("format", "--check"),
         ),
         Check("rtl/files.yml", "complete", listed),
+        Check(
+            "docs",
+            "pictures and tables fresh",
+            lambda: tool(sys.executable, "-m", "scripts.docs", "--check", ok_output=True),
+        ),
         Check("texts", "marks, tabs, line ends", texts),
     ]
 
