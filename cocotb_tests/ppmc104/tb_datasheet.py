@@ -214,7 +214,7 @@ async def p104_ds_07_normal_end(dut):
 @verifies("P104-DS-08", "P104-DS-14", "P104-END-02")
 @configs(D16, D11)
 async def p104_ds_08_immediate_end(dut):
-    """Given 0x40 and ALM, when they end a move,
+    """Given 0x40, ALM and 0x41 at constant speed, when they end a move,
     then INT 26 or 200 us after the decision, mailbox 156 or 200 us.
     """
     lab = await Sheet.start(dut, INIT_A)
@@ -223,13 +223,13 @@ async def p104_ds_08_immediate_end(dut):
         (0x43, 50, None, 200, 200),
         (0xC6, None, None, 200, 200),
     ):
-        for cause in ("40", "alm_n"):
+        for cause in ("40", "alm_n", "41")[: 3 if code == 0x44 else 2]:
             await lab.host.command(0xC2)
             await lab.rest()
             await lab.event(code, n, rate)
             await lab.pulse(3, 110)
-            if cause == "40":
-                decided = await lab.host.command(0x40, poll=False) + WRITE_EVENT
+            if cause != "alm_n":
+                decided = await lab.host.command(int(cause, 16), poll=False) + WRITE_EVENT
                 await lab.host.poll(IBF, 0)
                 slack = 8
             else:
@@ -254,7 +254,7 @@ async def p104_ds_08_immediate_end(dut):
             lab.window("P104-DS-08", f"INT of {code:#x}, {cause}", end, low, low + TOLERANCE + slack + PIN)
             lab.bench.set(alm_n=1)
             await lab.result(
-                "P104-DS-14", 3, (0xC0 if cause == "40" else 0xA0) | code & 7, (n or 1 << 24) - 4
+                "P104-DS-14", 3, (0xA0 if cause == "alm_n" else 0xC0) | code & 7, (n or 1 << 24) - 4
             )
 
 

@@ -49,13 +49,9 @@ module ppmc104_command
 
   // Judgement. Order of the checks: P104-ERR-01, P104-ERR-02.
   logic [15:0] steps;
-  logic steps_high, rates_bad;
+  logic steps_high_q, rates_bad_q;  // as dec_q: the byte stands still for a clk before it is taken
 
-  always_comb begin
-    steps      = params_o[31:16];
-    steps_high = steps > 16'(STEPS_MAX);
-    rates_bad  = params_o[15:8] > params_o[7:0] || steps < 16'(STEPS_MIN);
-  end
+  assign steps = params_o[31:16];
 
   always_comb begin
     stop     = dec_q.kind inside {KindHalt, KindDecel};
@@ -71,8 +67,8 @@ module ppmc104_command
       else error = 1'b0;
     end else begin
       if (error_q || number_q == '0) number = busy_i ? ErrDataBusy : ErrData;
-      else if (last && code_q[7:6] == 2'b00 && steps_high) number = ErrStepsHigh;
-      else if (last && code_q[7:6] == 2'b00 && rates_bad) number = ErrRates;
+      else if (last && code_q[7:6] == 2'b00 && steps_high_q) number = ErrStepsHigh;
+      else if (last && code_q[7:6] == 2'b00 && rates_bad_q) number = ErrRates;
       else error = 1'b0;
     end
   end
@@ -82,12 +78,16 @@ module ppmc104_command
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       dec_q    <= '0;
+      steps_high_q <= 1'b0;
+      rates_bad_q <= 1'b0;
       error_q  <= 1'b0;
       number_q <= '0;
       code_q   <= '0;
       params_q <= '0;
     end else begin
-      dec_q <= decode(byte_i);
+      dec_q        <= decode(byte_i);
+      steps_high_q <= steps > 16'(STEPS_MAX);
+      rates_bad_q  <= params_o[15:8] > params_o[7:0] || steps < 16'(STEPS_MIN);
       if (take_o) begin
         error_q <= error;
         if (error) number_q <= number;
