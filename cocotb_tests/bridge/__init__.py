@@ -1,0 +1,9 @@
+"""Tests of the UART bridge against docs/uart_bridge.md.
+
+bench.py         Bench: clock, line (bit level, any rate error), frames, the bus slave
+slave.py         Toy: a mailbox part whose behaviour depends on its accesses only
+settings.py      build configurations
+tb_line.py       UB-LIN; tb_frames.py UB-FRM; tb_ops.py ops, UB-BUS; tb_waits.py UB-WAIT;
+tb_messages.py   UB-SEQ, UB-ANS, UB-MSG; tb_random.py random scripts against the golden model
+tb_board.py      ppmc104_board: a real part behind its bridge
+"""

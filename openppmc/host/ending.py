@@ -1,0 +1,94 @@
+"""How a motion ended: the finish status and the remaining pulses, decoded. Pure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Flag
+
+from ..model.codes104 import (
+    FINISH_ALARM,
+    FINISH_LIMIT,
+    FINISH_SLOW,
+    FINISH_STOP,
+    ORIGIN,
+)
+from .errors import AlarmStop, LimitReached, MotionError, StoppedEarly
+
+
+class Cause(Flag):
+    """Why a motion ended; several may meet. COMPLETE: all pulses were made."""
+
+    COMPLETE = 0
+    STOP = FINISH_STOP
+    ALARM = FINISH_ALARM
+    LIMIT = FINISH_LIMIT
+    SLOW_LIMIT = FINISH_SLOW
+    ORIGIN = 0x01
+
+    def __str__(self) -> str:
+        words = [text for cause, text in _WORDS.items() if cause in self]
+        return " and ".join(words) or "complete"
+
+
+_WORDS = {
+    Cause.STOP: "stop command",
+    Cause.ALARM: "alarm input",
+    Cause.LIMIT: "limit switch",
+    Cause.SLOW_LIMIT: "slow-down limit",
+    Cause.ORIGIN: "origin switch",
+}
+_CAUSE_BITS = FINISH_STOP | FINISH_ALARM | FINISH_LIMIT | FINISH_SLOW
+
+
+@dataclass(frozen=True)
+class End:
+    """End of a motion.
+
+    pulses: made, CW positive; None for a motion that another program started. left: pulses not made (of
+    endless operations: of 2^24). position: pulse counter afterwards, None if the bridge has none. finish: the
+    finish status byte.
+    """
+
+    cause: Cause
+    pulses: int | None
+    left: int
+    position: int | None
+    finish: int
+
+    @property
+    def complete(self) -> bool:
+        """All pulses were made."""
+        return self.cause is Cause.COMPLETE
+
+    def check(self, asked: int | None = None) -> End:
+        """Itself if it is complete; otherwise raises LimitReached, AlarmStop or StoppedEarly."""
+        if self.complete:
+            return self
+        where = "" if self.position is None else f" at position {self.position}"
+        of = "" if asked is None else f" of {asked}"
+        kind, advice = _trouble(self.cause)
+        raise kind(
+            f"{self.cause} ended the motion{where} after {abs(self.pulses)}{of} pulses: {advice}", self
+        )
+
+
+def _trouble(cause: Cause) -> tuple[type[MotionError], str]:
+    if Cause.ALARM in cause:
+        return AlarmStop, "clear the drive's alarm, then home again if steps may be lost"
+    if cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
+        return LimitReached, "move away from the switch in the other direction"
+    return StoppedEarly, "start again with the pulses that are left"
+
+
+def decode_end(finish: int, remaining: int, total: int | None, direction: int, position: int | None) -> End:
+    """From the bytes of 0x80 and 0x83 (P104-END-04..06).
+
+    total: pulses asked for, 2^24 for endless operations, None if nobody knows. direction: 0 CW, 1 CCW.
+    """
+    cause = Cause(finish & _CAUSE_BITS)
+    left = remaining + 1 if cause else 0
+    if not cause and finish & 7 == ORIGIN:
+        # The origin switch sets no bit; only a search through all 2^24 pulses would read the same.
+        cause, left = Cause.ORIGIN, remaining + 1
+    made = None if total is None else (left - total if direction else total - left)
+    return End(cause, made, left, position, finish)

@@ -1,0 +1,145 @@
+"""The port `model:`: golden bridge, golden part and plant instead of a board, in virtual time.
+
+The line is modelled byte-wise: bytes take their time; bytes at a wrong rate arrive as framing errors or
+breaks.
+"""
+
+from __future__ import annotations
+
+import time
+
+from ..model.board104 import Board104
+from ..model.bridge import Bridge
+from ..model.bridge_ops import RATES
+from ..model.plant import PLANT_WORDS, parse_plant
+from .errors import Disconnected, PortError
+
+BITS_PER_BYTE = 10
+_SLICE = 0.01
+_LAG = 0.25
+OPTIONS = ("speed", "clk", "xtal", "timing", "unplug")
+
+
+class ModelPort:
+    """A board that needs no hardware.
+
+    text: plant words (`openppmc.model.plant`) and `speed` (1: real time, 10: ten times as fast, max: as
+    fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `unplug` (the port goes away after
+    so many seconds of its time). Raises PortError for anything else.
+    """
+
+    def __init__(self, text: str = "", baud: int = 115_200) -> None:
+        self.name = "model:" + text
+        self._baud = baud
+        self._waiting = bytearray()
+        self._closed = False
+        try:
+            plant, options = parse_plant(text)
+            self._speed = _speed(options.pop("speed", "1"))
+            clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
+            timing = options.pop("timing", "FAST").upper()
+            self._unplug = float(options.pop("unplug", "inf"))
+            if options:
+                known = ", ".join((*PLANT_WORDS, *OPTIONS))
+                raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
+            self.board = Board104(plant, clk_hz, xtal_hz, timing, on_interrupt=self._interrupt)
+        except ValueError as error:
+            raise PortError(f"{self.name}: {error}") from error
+        self.bridge = Bridge(self.board, 104, clk_hz, xtal_hz, timing == "DATASHEET")
+        self._origin = time.monotonic()
+
+    # ------------------------------------------------------------------ port
+
+    def read(self, timeout: float) -> bytes:
+        self._check()
+        self._catch_up()
+        end = self.board.seconds + timeout
+        while not self._waiting and (left := end - self.board.seconds) > 0:
+            self._pass_time(left if self._speed is None else min(left, _SLICE * self._speed))
+            self._pace()
+            self._check()
+        data = bytes(self._waiting)
+        self._waiting.clear()
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._check()
+        self._catch_up()
+        self._line_time(len(data))
+        for start, byte in enumerate(data):
+            if self._baud == RATES[self.bridge.rate]:
+                self._arrives(self.bridge.receive(data[start:]))
+                return
+            slower = self._baud < RATES[self.bridge.rate]
+            self._arrives(self.bridge.receive_bad(0 if slower and byte == 0 else 0xFF))
+
+    def set_baud(self, baud: int) -> None:
+        self._baud = baud
+
+    def clock(self) -> float:
+        return self.board.seconds
+
+    def close(self) -> None:
+        self._closed = True
+
+    # ------------------------------------------------------------------ time
+
+    def _check(self) -> None:
+        if self._closed or self.board.seconds >= self._unplug:
+            raise Disconnected(
+                f"{self.name}: the port went away: plug the board in and run the command again"
+            )
+
+    def _pass_time(self, seconds: float) -> None:
+        """Silence on the line; ends early when a message comes."""
+        begin = self.board.seconds
+        self.board.run_until(
+            self.board.t + max(1, round(seconds * self.board.clk_hz)), stop=lambda: bool(self._waiting)
+        )
+        self._arrives(self.bridge.idle(1000 * (self.board.seconds - begin)))
+
+    def _line_time(self, count: int) -> None:
+        clk = count * BITS_PER_BYTE * self.board.clk_hz // self._baud
+        self.board.run_until(self.board.t + clk)
+
+    def _pace(self) -> None:
+        """Do not run ahead of the wall clock; forget the lag of a model that cannot keep up."""
+        if self._speed is None:
+            return
+        ahead = self.board.seconds / self._speed - (time.monotonic() - self._origin)
+        if ahead > 0:
+            time.sleep(ahead)
+        elif ahead < -_LAG:
+            self._origin -= ahead
+
+    def _catch_up(self) -> None:
+        """The board went on while the program did something else."""
+        if self._speed is None:
+            return
+        behind = (time.monotonic() - self._origin) * self._speed - self.board.seconds
+        if behind > _SLICE:
+            end = self.board.seconds + behind
+            while (left := end - self.board.seconds) > 0:
+                self._pass_time(left)
+
+    # ------------------------------------------------------------------ bytes from the bridge
+
+    def _arrives(self, data: bytes) -> None:
+        self._line_time(len(data))
+        self._waiting += data
+
+    def _interrupt(self) -> None:
+        self._waiting += self.bridge.interrupt()
+
+
+def _speed(text: str) -> float | None:
+    """Times real time, None for as fast as it goes."""
+    if text == "max":
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0
+    if not 0 < speed < float("inf"):
+        raise ValueError(f"speed={text} is neither a positive number nor max")
+    return speed

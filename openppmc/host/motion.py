@@ -1,0 +1,101 @@
+"""A motion under way: progress, waiting for its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..model.codes104 import BUSY, ENDLESS
+from .ending import End, decode_end
+from .errors import NotWhileBusy, Timeout
+from .script import Script
+
+if TYPE_CHECKING:
+    from .ppmc104 import Ppmc104
+
+READ_FINISH, READ_REMAINING = 0x80, 0x83
+SAFETY_POLL = 0.5
+"""Seconds between looks at BUSY while waiting for the interrupt message, which noise may eat."""
+PROGRESS_POLL = 0.1
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What a progress callback gets. asked: pulses of the move, None if it is endless. Times in s."""
+
+    position: int
+    made: int
+    asked: int | None
+    seconds: float
+
+
+class Motion:
+    """Handle of an operation that was started; `end` is its End once it is known.
+
+    asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. `begin`: pulse counter before.
+    """
+
+    def __init__(
+        self, axis: Ppmc104, asked: int | None, direction: int, begin: int, ours: bool = True
+    ) -> None:
+        self._axis = axis
+        self._link = axis.link
+        self._ours = ours
+        self.asked = asked
+        self.direction = direction
+        self.begin = begin
+        self.end: End | None = None
+        self._started = self._link.clock()
+
+    def poll(self) -> Progress | None:
+        """Where the motor is now; None when it has come to rest (then `end` is set)."""
+        answer = self._link.execute(Script().read(1).count())
+        if self.end is None and not answer.byte(0) & BUSY:
+            self._finish()
+        if self.end is not None:
+            return None
+        position = answer.number(1, signed=True)
+        made = abs(position - self.begin)
+        return Progress(position, made, self.asked, self._link.clock() - self._started)
+
+    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+        """Wait for the end, without judging it.
+
+        timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
+        second; what it raises ends the wait, and the motion goes on.
+        """
+        limit = None if timeout is None else self._link.clock() + timeout
+        pause = PROGRESS_POLL if progress else SAFETY_POLL
+        while self.end is None:
+            left = pause if limit is None else min(pause, limit - self._link.clock())
+            self._link.wait_event(max(0.0, left))
+            now = self.poll()
+            if now is None:
+                break
+            if progress:
+                progress(now)
+            if limit is not None and self._link.clock() >= limit:
+                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+        assert self.end is not None
+        return self.end
+
+    def _finish(self) -> None:
+        """Fetch the finish status; this also releases int_n (P104-RD-04).
+
+        With DATASHEET timing BUSY rises up to 112 us after the command, and bytes wait for that (P104-DS-03):
+        then it was no end.
+        """
+        script = Script().call(READ_FINISH).get(1).call(READ_REMAINING).get(3).count()
+        try:
+            answer = self._link.execute(script)
+        except NotWhileBusy:
+            return  # a part with DATASHEET timing was about to begin
+        total = self.asked or ENDLESS
+        self.end = decode_end(
+            answer.byte(1),
+            answer.number(3),
+            total if self._ours else None,
+            self.direction,
+            self._axis.counted(answer.number(4, signed=True)),
+        )

@@ -1,0 +1,211 @@
+"""Pulses per second to the rate bytes of the part and back, exactly (P104-INT-01, -02). Pure.
+
+All speeds are in pulses per second (pps), as exact fractions. The part cannot make every speed: it makes
+base clock / (rate + 1) with rate 0 to 255, so a speed that was asked for is rounded to the nearest interval.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isfinite
+from typing import TypeAlias
+
+from ..model.codes104 import PA_MAX, PA_MIN
+from .errors import OutOfRange
+
+Number: TypeAlias = int | float | Fraction
+SLOWEST_RATE = 255
+QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
+
+
+def nearby(speed: Fraction | float | int) -> str:
+    """A speed for messages: six digits at most, no needless zeros."""
+    return f"{float(speed):.6g}"
+
+
+def exact(value: Number, what: str, unit: str = "pps") -> Fraction:
+    """The number as a fraction. OutOfRange for infinities and what is not a number."""
+    if isinstance(value, float) and not isfinite(value):
+        raise OutOfRange(f"{what} {value} {unit} is not a number that can be used")
+    return Fraction(value)
+
+
+@dataclass(frozen=True)
+class BaseClock:
+    """What the intervals are counted in.
+
+    period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
+    the strap pins that choose it. external: it comes in at the `clock` pin.
+    """
+
+    period: Fraction
+    extra: Fraction = Fraction(0)
+    csel: int = 1
+    vsel: int = 1
+    external: bool = False
+
+    @classmethod
+    def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1) -> BaseClock:
+        """500 kHz (csel 1) or 125 kHz (csel 0) at a 16 MHz crystal; vsel 0 adds 7.5 us to each interval."""
+        quantum = Fraction(4, xtal_hz)
+        quanta = QUANTA_FAST if csel else QUANTA_SLOW
+        return cls(quanta * quantum, (0 if vsel else QUANTA_EXTRA) * quantum, csel, vsel)
+
+    @classmethod
+    def external_pin(cls, hertz: Number) -> BaseClock:
+        """A steady clock on the `clock` pin, 0 < hertz <= 1e6; vsel is kept high. OutOfRange otherwise."""
+        if not 0 < exact(hertz, "external clock", "Hz") <= 1_000_000:
+            raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")
+        return cls(1 / Fraction(hertz), external=True)
+
+    @property
+    def hertz(self) -> Fraction:
+        """Frequency in Hz."""
+        return 1 / self.period
+
+    def speed(self, rate: int) -> Fraction:
+        """Speed of a rate byte in pps."""
+        return 1 / ((rate + 1) * self.period + self.extra)
+
+    @property
+    def slowest(self) -> Fraction:
+        """Lowest speed in pps."""
+        return self.speed(SLOWEST_RATE)
+
+    @property
+    def fastest(self) -> Fraction:
+        """Highest speed in pps."""
+        return self.speed(0)
+
+    def reaches(self, pps: Number) -> bool:
+        """The speed lies between the slowest and the fastest."""
+        return self.slowest <= exact(pps, "speed") <= self.fastest
+
+    def choose(self, pps: Number, what: str = "speed") -> Speed:
+        """The rate whose interval is nearest. Raises OutOfRange with the possible range."""
+        asked = exact(pps, what)
+        if not self.slowest <= asked <= self.fastest:
+            raise OutOfRange(
+                f"{what} {nearby(asked)} pps is outside {nearby(self.slowest)} to {nearby(self.fastest)} pps "
+                f"(base clock {nearby(self.hertz)} Hz)"
+            )
+        periods = (1 / asked - self.extra) / self.period
+        rate = min(SLOWEST_RATE, max(0, int(periods + Fraction(1, 2)) - 1))
+        return Speed(asked, rate, self.speed(rate), self)
+
+
+@dataclass(frozen=True)
+class Speed:
+    """A speed as it was asked for and as the part makes it, both in pps."""
+
+    asked: Fraction
+    rate: int
+    reached: Fraction
+    clock: BaseClock
+
+    @property
+    def error(self) -> float:
+        """Relative deviation: 0.01 is one per cent too fast."""
+        return float(self.reached / self.asked - 1)
+
+    def __str__(self) -> str:
+        return f"{nearby(self.reached)} pps"
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything that an initialisation fixes, with the speeds that are really reached."""
+
+    start: Speed
+    high: Speed
+    ramp_pulses: int
+    code: int
+
+    @property
+    def clock(self) -> BaseClock:
+        """The base clock of the ramp."""
+        return self.start.clock
+
+    @property
+    def data(self) -> bytes:
+        """RL, RH, PA low, PA high."""
+        return bytes([self.start.rate, self.high.rate]) + self.ramp_pulses.to_bytes(2, "little")
+
+    @property
+    def acceleration(self) -> float:
+        """Mean acceleration of the ramp in pps per second; 0 without a ramp."""
+        v0, v1 = self.start.reached, self.high.reached
+        return float((v1 * v1 - v0 * v0) / (2 * self.ramp_pulses))
+
+    @property
+    def ramp_seconds(self) -> float:
+        """Time of the acceleration in s, from the formula of constant acceleration."""
+        return float(2 * self.ramp_pulses / (self.start.reached + self.high.reached))
+
+
+def initialisation_code(
+    phases: int, half_step: bool, positive_logic: bool, external: bool, chop: bool
+) -> int:
+    """Command byte of P104-INI-01. phases 3, 4 or 5; OutOfRange otherwise."""
+    if phases not in (3, 4, 5):
+        raise OutOfRange(f"{phases} phases: the part drives motors with 3, 4 or 5")
+    return phases - 2 | half_step << 2 | positive_logic << 3 | external << 4 | chop << 5
+
+
+def choose_clock(xtal_hz: int, start_pps: Number, base_clock: Number | None, vsel: int = 1) -> BaseClock:
+    """Internal base clock: the one asked for, or the one that reaches start_pps.
+
+    base_clock in Hz: 500 000 or 125 000 at a 16 MHz crystal, None to choose. The fast one is preferred
+    because its speeds lie closer together. Raises OutOfRange.
+    """
+    fast, slow = (BaseClock.internal(xtal_hz, csel, vsel) for csel in (1, 0))
+    if base_clock is None:
+        return fast if fast.slowest <= exact(start_pps, "start speed") else slow
+    for clock in (fast, slow):
+        if clock.hertz == exact(base_clock, "base clock", "Hz"):
+            return clock
+    raise OutOfRange(
+        f"base clock {nearby(base_clock)} Hz: this part has {nearby(fast.hertz)} and {nearby(slow.hertz)} Hz"
+    )
+
+
+def plan_setup(clock: BaseClock, start_pps: Number, high_pps: Number, ramp_pulses: int, code: int) -> Setup:
+    """Rates of a ramp. Raises OutOfRange for speeds or a length that the part cannot do."""
+    if not PA_MIN <= ramp_pulses <= PA_MAX:
+        raise OutOfRange(f"ramp of {ramp_pulses} pulses is outside {PA_MIN} to {PA_MAX} pulses")
+    start = clock.choose(start_pps, "start speed")
+    high = clock.choose(high_pps, "high speed")
+    if start.asked > high.asked:
+        raise OutOfRange(
+            f"start speed {nearby(start.asked)} pps is above high speed {nearby(high.asked)} pps: swap them"
+        )
+    return Setup(start, high, ramp_pulses, code)
+
+
+def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tuple[int, Fraction]:
+    """Parameter byte of the chopper nearest to a time, and the time it makes in us (P104-SW-04).
+
+    phase: "on" or "off". Raises OutOfRange with the possible range.
+    """
+    quantum = Fraction(4_000_000, xtal_hz)
+    offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
+    unit = 12 * quantum
+    low, high = offset, offset + 255 * unit
+    asked = exact(microseconds, f"{phase} time", "us")
+    if not low <= asked <= high:
+        raise OutOfRange(
+            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
+        )
+    byte = min(255, int((asked - offset) / unit + Fraction(1, 2)))
+    return byte, offset + byte * unit
+
+
+def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1) -> BaseClock:
+    """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
+    clocks = [BaseClock.internal(xtal_hz, csel, vsel) for csel in (first, 1 - first)]
+    for clock in clocks:
+        if clock.reaches(pps):
+            return clock
+    low, high = min(clock.slowest for clock in clocks), max(clock.fastest for clock in clocks)
+    raise OutOfRange(f"speed {nearby(pps)} pps is outside {nearby(low)} to {nearby(high)} pps")

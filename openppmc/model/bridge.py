@@ -1,0 +1,139 @@
+"""Golden model of `ppmc_uart_bridge` at the level of line bytes (docs/uart_bridge.md).
+
+Bit times are left out (UB-LIN-03, -04, UB-BUS-01). What depends on time is told: `receive_bad` for a byte
+with a framing error, `idle` for a silence. Bytes that follow a request in the same `receive` call arrive,
+by definition, while its script runs (UB-FRM-07).
+"""
+
+from __future__ import annotations
+
+from .bridge_line import NAK_BUSY, NAK_FRAMING, NAK_SEQ, NAK_SILENCE, Receiver, Request, frame
+from .bridge_ops import Bus, Engine
+
+FLAG = 0x7E
+MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
+SEQ_LIMIT = 128
+SILENCE_MS, RATE_TRIAL_MS = 100, 1000
+INT_PIN = 0x01
+
+
+class Bridge:
+    """One bridge with its part.
+
+    bus: see `bridge_ops.Bus`. part: number for IDENT. clk_hz: 1..2^32-1, decides which line rates there
+    are. xtal_hz, datasheet, counter: only for IDENT. Readable: `rate` (code of the present line rate) and
+    `scripts` (number of executed requests).
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        part: int = 104,
+        clk_hz: int = 24_000_000,
+        xtal_hz: int = 16_000_000,
+        datasheet: bool = False,
+        counter: bool = True,
+    ) -> None:
+        self._engine = Engine(bus, part, clk_hz, xtal_hz, datasheet, counter)
+        self._engine.set_events = self._set_events  # type: ignore[method-assign]
+        self._receiver = Receiver()
+        self._stored: tuple[int, bytes] | None = None
+        self._event = False
+        self._running = False
+        self.rate = 0
+        self.scripts = 0
+        self._trial_ms: float | None = None
+        self._silent_ms = 0.0
+
+    # ------------------------------------------------------------------ from the line
+
+    def receive(self, data: bytes) -> bytes:
+        """Bytes without framing error arrive; returns the line bytes that the bridge sends in return."""
+        sent = b""
+        place = 0
+        while place < len(data):
+            self._silent_ms = 0
+            item = self._receiver.take(data[place])
+            place += 1
+            if isinstance(item, Request):
+                self._trial_ms = None
+                if item.seq >= SEQ_LIMIT:
+                    sent += self._nak(NAK_SEQ)
+                    continue
+                meanwhile = any(byte != FLAG for byte in data[place:])
+                sent += self._serve(item, meanwhile)
+                place = len(data)
+            elif item is not None:
+                sent += self._nak(item)
+        return sent
+
+    def receive_bad(self, data_bits: int) -> bytes:
+        """A character with a low stop bit; data_bits 0 makes it a break (UB-LIN-05, -06)."""
+        self._silent_ms = 0
+        nak = self._receiver.drop(NAK_FRAMING)
+        if data_bits == 0:
+            self.rate = 0
+            self._trial_ms = None
+        return b"" if nak is None else self._nak(nak)
+
+    def idle(self, milliseconds: float) -> bytes:
+        """The line is silent for so long (UB-FRM-06 fault 5, UB-LIN-07)."""
+        self._silent_ms += milliseconds
+        nak = None
+        if self._silent_ms >= SILENCE_MS and self._receiver.inside:
+            nak = self._receiver.drop(NAK_SILENCE)
+        if self._trial_ms is not None:
+            self._trial_ms += milliseconds
+            if self._trial_ms >= RATE_TRIAL_MS:
+                self.rate, self._trial_ms = 0, None
+        return b"" if nak is None else self._nak(nak)
+
+    # ------------------------------------------------------------------ requests
+
+    def _serve(self, request: Request, meanwhile: bool) -> bytes:
+        """Execute or repeat; `meanwhile`: bytes arrive before the answer is out (UB-FRM-07)."""
+        code = None
+        if request.seq and self._stored and self._stored[0] == request.seq:
+            payload = self._stored[1]
+        else:
+            self._running = True
+            result, position, last, data = self._engine.run(request.script, lambda: meanwhile)
+            self._running = False
+            self.scripts += 1
+            code = self._engine.rate
+            head = bytes([request.seq, result])
+            payload = head + (bytes([position, last]) if result else b"") + data
+            self._stored = (request.seq, payload)
+        sent = frame(payload) + self._flush_event()
+        if code is not None:
+            self.rate, self._trial_ms = code, 0.0
+        if meanwhile:
+            self._receiver.hunt()
+            sent += self._nak(NAK_BUSY)
+        return sent
+
+    def _nak(self, code: int) -> bytes:
+        return frame(bytes([MESSAGE_NAK, code]))
+
+    # ------------------------------------------------------------------ events
+
+    def interrupt(self) -> bytes:
+        """`int_n` falls. Returns the event message, empty if it is disabled or must wait for an answer."""
+        if not self._engine.events:
+            return b""
+        self._event = True
+        return b"" if self._running else self._flush_event()
+
+    def _set_events(self, on: bool) -> None:
+        """Op EVENTS (UB-MSG-02)."""
+        was, self._engine.events = self._engine.events, on
+        if not on:
+            self._event = False
+        elif not was and not self._engine.hook("pins", 0xFF) & INT_PIN:
+            self._event = True
+
+    def _flush_event(self) -> bytes:
+        if not self._event:
+            return b""
+        self._event = False
+        return frame(bytes([MESSAGE_EVENT, self._engine.hook("pins", 0xFF)]))

@@ -1,0 +1,217 @@
+"""Script engine of the bridge's golden model (UB-ANS-02..05, UB-OPS, UB-WAIT and the table of ops).
+
+Every op is checked before it begins (UB-ANS-05): number, operands, length, room for its data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+IBF, OBF, ERR = 0x02, 0x01, 0x80
+RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
+PROTOCOL_VERSION = 1
+MOST_DATA = 256
+DEFAULT_LIMIT_MS = 250
+ALL_HIGH = 0xFF
+READ_CYCLE_CLK = 11
+FIXED_OPERANDS = {0: 0, 1: 0, 2: 1, 3: 1, 4: 2, 5: 0, 6: 0, 7: 1, 8: 0, 9: 0, 0xA: 0}
+
+
+class Bus(Protocol):
+    """The part behind the bridge. `read` and `write` are one bus cycle each.
+
+    A bus may also have (missing ones do what is said here): `reset()` nothing; `straps(byte)` nothing;
+    `pins() -> int` FF; `count() -> int` 0, signed; `zero()` nothing; `now_ms() -> float` the time that the
+    read cycles of this script took; `skip(limit_ms)`, called while a wait goes on: let time pass until a
+    register may read otherwise, at most so long.
+    """
+
+    def read(self, a: int) -> int:
+        """Byte of register a, 0..15."""
+
+    def write(self, a: int, byte: int) -> None:
+        """Write the byte into register a."""
+
+
+class Stop(Exception):  # noqa: N818 - not an error of the program: the script ends here
+    """Execution ends with this RESULT."""
+
+    def __init__(self, result: int) -> None:
+        super().__init__(result)
+        self.result = result
+
+
+class Engine:
+    """Runs scripts. `events` is the EVENTS switch, `rate` the rate code that op RATE asked for, or None."""
+
+    def __init__(
+        self, bus: Bus, part: int, clk_hz: int, xtal_hz: int, datasheet: bool, counter: bool
+    ) -> None:
+        self._bus = bus
+        self._clk_hz = clk_hz
+        self.best_rate = max((c for c, rate in enumerate(RATES) if c and clk_hz >= 5 * rate), default=0)
+        flags = int(datasheet) | counter << 1 | self.best_rate << 4
+        self._identity = (
+            b"PPMC"
+            + bytes([PROTOCOL_VERSION])
+            + part.to_bytes(2, "little")
+            + bytes([flags])
+            + xtal_hz.to_bytes(4, "little")
+            + clk_hz.to_bytes(4, "little")
+        )
+        self.events = False
+        self.rate: int | None = None
+
+    def hook(self, name: str, default: Any, *arguments: Any) -> Any:
+        """Call an optional method of the bus."""
+        method = getattr(self._bus, name, None)
+        return default if method is None else method(*arguments)
+
+    def run(self, script: bytes, interrupted: Callable[[], bool]) -> tuple[int, int, int, bytes]:
+        """Run a script; returns RESULT, POS, LAST and the data."""
+        self._data = bytearray()
+        self._last = 0
+        self._reads = 0
+        self._limit_ms = DEFAULT_LIMIT_MS
+        self._interrupted = interrupted
+        self.rate = None
+        position = 0
+        try:
+            while position < len(script):
+                position += self._op(script[position:])
+        except Stop as stop:
+            return stop.result, position, self._last, bytes(self._data)
+        return 0, 0, self._last, bytes(self._data)
+
+    # ------------------------------------------------------------------ one op
+
+    def _op(self, rest: bytes) -> int:
+        """Run the op at the beginning of `rest`; returns its length."""
+        code, group, low = rest[0], rest[0] >> 4, rest[0] & 15
+        length = self._length(rest)
+        if length is None or length > len(rest):
+            raise Stop(3)
+        operands = rest[1:length]
+        if group == 0:
+            self._plain(code, operands)
+        elif group == 1:
+            self._bus.write(low, operands[0])
+        elif group == 2:
+            self._give(lambda: self._read(low))
+        elif group == 3:
+            for _ in range(operands[0]):
+                self._give(lambda: self._read(low))
+        elif group == 4:
+            for byte in operands[1:]:
+                self._wait(1, IBF, 0)
+                self._bus.write(low, byte)
+        elif group == 5:
+            self._call(operands)
+        elif group == 6:
+            for _ in range(low):
+                self._give(self._fetch)
+        elif group == 7:
+            self._give(lambda: self._wait(low, *operands))
+        else:
+            for byte in operands[1:]:
+                self._bus.write(low, byte)
+        return length
+
+    def _length(self, rest: bytes) -> int | None:
+        """Length of the op with operands; None if there is no such op or a count is 0."""
+        group, low = rest[0] >> 4, rest[0] & 15
+        if group == 0:
+            return 1 + FIXED_OPERANDS[low] if low <= 9 else None
+        if group in (1, 3):
+            if group == 3 and rest[1:2] == b"\0":
+                return None
+            return 2
+        if group == 2:
+            return 1
+        if group in (4, 8):
+            if len(rest) < 2 or rest[1] == 0:
+                return None
+            return 2 + rest[1]
+        if group in (5, 6):
+            return (1 + low if group == 5 else 1) if low else None
+        return 3 if group == 7 else None
+
+    def _plain(self, code: int, operands: bytes) -> None:
+        if code == 0x01:
+            self._give_all(self._identity)
+        elif code == 0x02:
+            if operands[0] and not (operands[0] < len(RATES) and self._clk_hz >= 5 * RATES[operands[0]]):
+                raise Stop(3)
+            self.rate = operands[0]
+        elif code == 0x03:
+            if operands[0] > 1:
+                raise Stop(3)
+            self.set_events(bool(operands[0]))
+        elif code == 0x04:
+            self._limit_ms = int.from_bytes(operands, "little")
+        elif code == 0x05:
+            self.hook("reset", None)
+        elif code == 0x06:
+            self._give_all(bytes([self.hook("pins", ALL_HIGH)]))
+        elif code == 0x07:
+            self.hook("straps", None, operands[0])
+        elif code == 0x08:
+            self._give_all((self.hook("count", 0) & 0xFFFF_FFFF).to_bytes(4, "little"))
+        elif code == 0x09:
+            self.hook("zero", None)
+
+    def set_events(self, on: bool) -> None:
+        """Op EVENTS; the bridge replaces this to look after what is pending."""
+        self.events = on
+
+    def _call(self, command: bytes) -> None:
+        if len(self._data) >= MOST_DATA:
+            raise Stop(4)
+        for place, byte in enumerate(command):
+            self._wait(1, IBF, 0)
+            self._bus.write(1 if place == 0 else 0, byte)
+            status = self._wait(1, IBF, 0)
+            if status & ERR:
+                raise Stop(2)
+        self._give_all(bytes([status]))
+
+    def _fetch(self) -> int:
+        self._wait(1, OBF, OBF)
+        return self._read(0)
+
+    # ------------------------------------------------------------------ bus and data
+
+    def _give(self, make: Callable[[], int]) -> None:
+        """One byte into the answer; refused before it is read when the answer is full."""
+        if len(self._data) >= MOST_DATA:
+            raise Stop(4)
+        self._data.append(make())
+
+    def _give_all(self, values: bytes) -> None:
+        """All bytes of an op, or none."""
+        if len(self._data) + len(values) > MOST_DATA:
+            raise Stop(4)
+        self._data += values
+
+    def _read(self, a: int) -> int:
+        self._last = self._bus.read(a)
+        self._reads += 1
+        return self._last
+
+    def _now_ms(self) -> float:
+        return self.hook("now_ms", self._reads * READ_CYCLE_CLK * 1000 / self._clk_hz)
+
+    def _wait(self, a: int, mask: int, value: int) -> int:
+        """Read until the masked bits fit (UB-WAIT-01)."""
+        end = self._now_ms() + self._limit_ms
+        while True:
+            byte = self._read(a)
+            if byte & mask == value:
+                return byte
+            if self._interrupted():
+                raise Stop(5)
+            left = end - self._now_ms()
+            if left <= 0:
+                raise Stop(1)
+            self.hook("skip", None, left)

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_uart_tx: UART transmitter, 8 data bits, no parity, 1 stop bit; any rate up to clk / 2.
+// Rules:  UB-LIN-01, UB-LIN-03.
+// Timing: a byte is taken in a clk with valid_i and ready_o; its start bit begins on the next edge. ready_o is high
+//         again when its stop bit has ended, so characters may follow each other without a gap of more than 1 clk.
+// Rate:   step_i = 2**Width * rate / clk, constant while a character is on its way.
+`default_nettype none
+
+module ppmc_uart_tx #(
+    parameter int unsigned Width = 20  // of the phase accumulator
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic [Width-1:0] step_i,
+    input  wire logic [      7:0] byte_i,
+    input  wire logic             valid_i,
+    output logic                  ready_o,
+    output logic                  txd_o
+);
+
+  logic [Width-1:0] phase_q, phase_d;
+  logic [8:0] bits_q;  // data bits to come and the stop bit
+  logic [3:0] left_q;  // bits left, the present one not counted
+  logic over;
+
+  assign {over, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ready_o <= 1'b1;
+      txd_o   <= 1'b1;
+    end else if (ready_o) begin
+      ready_o <= !valid_i;
+      txd_o   <= !valid_i;
+    end else if (over) begin
+      ready_o <= left_q == '0;
+      txd_o   <= bits_q[0];
+    end
+  end
+
+  // From phase 0 on edge n comes after ceil(n * bit time): the nearest clk of a grid that begins half a clk late.
+  always_ff @(posedge clk_i) begin
+    phase_q <= ready_o ? '0 : phase_d;
+    if (ready_o) begin
+      left_q <= 4'd9;
+      bits_q <= {1'b1, byte_i};
+    end else if (over) begin
+      left_q <= left_q - 1'b1;
+      bits_q <= {1'b1, bits_q[8:1]};
+    end
+  end
+
+endmodule
+
+`default_nettype wire

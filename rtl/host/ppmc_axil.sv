@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_axil: AXI4-Lite subordinate (32 bits) in front of a part's strobe bus.
+// Rules:  register map and answers in docs/integration.md; strobes by UB-BUS-01.
+// Timing: all outputs but the data mux come from flip-flops. One write and one read may wait here; they are
+//         carried out one after the other, in turn when both wait. B comes 8 clk after AW and W are both in,
+//         R 10 clk after AR, for the bridge register 2 clk; longer behind another cycle.
+`default_nettype none
+`include "ppmc_assert.svh"
+
+module ppmc_axil #(
+    parameter int unsigned AddrBits = 1  // address lines of the part
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    // AXI4-Lite
+    input  wire logic                awvalid_i,
+    output logic                     awready_o,
+    input  wire logic [AddrBits+2:0] awaddr_i,
+    input  wire logic                wvalid_i,
+    output logic                     wready_o,
+    input  wire logic [        31:0] wdata_i,
+    input  wire logic [         3:0] wstrb_i,
+    output logic                     bvalid_o,
+    input  wire logic                bready_i,
+    output logic      [         1:0] bresp_o,
+    input  wire logic                arvalid_i,
+    output logic                     arready_o,
+    input  wire logic [AddrBits+2:0] araddr_i,
+    output logic                     rvalid_o,
+    input  wire logic                rready_i,
+    output logic      [        31:0] rdata_o,
+    output logic      [         1:0] rresp_o,
+    output logic                     irq_o,      // the part's int_n, high active
+    // the part's pins
+    output logic                     cs_no,
+    output logic                     rd_no,
+    output logic                     wr_no,
+    output logic      [AddrBits-1:0] a_o,
+    output logic      [         7:0] d_o,
+    input  wire logic [         7:0] d_i,
+    input  wire logic                int_ni
+);
+
+  typedef logic [AddrBits:0] word_t;  // address of a 32-bit word
+
+  word_t aw_q, ar_q;
+  logic [7:0] w_q;
+  logic strobe_q;  // the low byte lane of W
+  logic busy_q, write_q;  // a strobe cycle is under way; it is a write
+  logic turn_q;  // a write goes first when both wait
+  logic own_q;  // R shows the bridge register, or nothing
+  logic flag_q, unused;
+  assign unused = &{1'b0, awaddr_i[1:0], araddr_i[1:0], wdata_i[31:8], wstrb_i[3:1]};
+
+  // ---- what is next --------------------------------------------------------------------------------
+
+  logic want_write, want_read, pick_write, strobe, take, ready, done;
+  word_t word;
+  logic [7:0] rdata;
+
+  // A ready signal is low exactly while its register is full.
+  assign want_write = !busy_q && !awready_o && !wready_o && !bvalid_o;
+  assign want_read  = !busy_q && !arready_o && !rvalid_o;
+  assign pick_write = want_write && (turn_q || !want_read);
+  assign word       = pick_write ? aw_q : ar_q;
+  assign strobe     = (want_write || want_read) && !word[AddrBits] && (strobe_q || !pick_write);
+  assign take       = (want_write || want_read) && (ready || !strobe);
+
+  ppmc_strobe_master #(
+      .AddrBits(AddrBits)
+  ) u_master (
+      .clk_i,
+      .rst_ni,
+      .req_i  (strobe),
+      .we_i   (pick_write),
+      .addr_i (word[AddrBits-1:0]),
+      .wdata_i(w_q),
+      .ready_o(ready),
+      .done_o (done),
+      .rdata_o(rdata),
+      .cs_no,
+      .rd_no,
+      .wr_no,
+      .a_o,
+      .d_o,
+      .d_i
+  );
+
+  // ---- requests ------------------------------------------------------------------------------------
+
+  always_ff @(posedge clk_i) begin
+    if (awready_o) aw_q <= awaddr_i[AddrBits+2:2];
+    if (arready_o) ar_q <= araddr_i[AddrBits+2:2];
+    if (wready_o) {strobe_q, w_q} <= {wstrb_i[0], wdata_i[7:0]};
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      awready_o <= 1'b1;
+      wready_o  <= 1'b1;
+      arready_o <= 1'b1;
+      busy_q    <= 1'b0;
+      write_q   <= 1'b0;
+      turn_q    <= 1'b0;
+    end else begin
+      if (awready_o) awready_o <= !awvalid_i;
+      else if (take && pick_write) awready_o <= 1'b1;
+      if (wready_o) wready_o <= !wvalid_i;
+      else if (take && pick_write) wready_o <= 1'b1;
+      if (arready_o) arready_o <= !arvalid_i;
+      else if (take && !pick_write) arready_o <= 1'b1;
+      if (take) begin
+        busy_q  <= strobe;
+        write_q <= pick_write;
+        turn_q  <= !pick_write;
+      end else if (done) busy_q <= 1'b0;
+    end
+  end
+
+  // ---- answers -------------------------------------------------------------------------------------
+
+  logic end_write, end_read;
+  assign end_write = (take && pick_write && !strobe) || (done && write_q);
+  assign end_read  = (take && !pick_write && !strobe) || (done && !write_q);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      bvalid_o <= 1'b0;
+      rvalid_o <= 1'b0;
+      bresp_o  <= 2'b00;
+      rresp_o  <= 2'b00;
+      own_q    <= 1'b0;
+      flag_q   <= 1'b0;
+      irq_o    <= 1'b0;
+    end else begin
+      irq_o    <= !int_ni;
+      bvalid_o <= end_write || (bvalid_o && !bready_i);
+      rvalid_o <= end_read || (rvalid_o && !rready_i);
+      if (take && pick_write) bresp_o <= {word[AddrBits], 1'b0};
+      if (take && !pick_write) begin
+        own_q   <= word[AddrBits];
+        flag_q  <= irq_o && word[AddrBits-1:0] == '0;
+        rresp_o <= {word[AddrBits] && word[AddrBits-1:0] != '0, 1'b0};
+      end
+    end
+  end
+
+  assign rdata_o = 32'(own_q ? {7'b0, flag_q} : rdata);
+
+`ifndef SYNTHESIS
+  // verilog_format: off
+  `PPMC_ASSERT(axil_b_stable, !$past(bvalid_o && !bready_i) || (bvalid_o && bresp_o == $past(bresp_o)))
+  `PPMC_ASSERT(axil_r_stable, !$past(rvalid_o && !rready_i)
+               || (rvalid_o && {rdata_o, rresp_o} == $past({rdata_o, rresp_o})))
+  `PPMC_ASSERT(axil_b_earned, !(bvalid_o && !$past(bvalid_o)) || $past(end_write))
+  `PPMC_ASSERT(axil_r_earned, !(rvalid_o && !$past(rvalid_o)) || $past(end_read))
+  `PPMC_ASSERT(axil_b_room, !(end_write && bvalid_o))
+  `PPMC_ASSERT(axil_r_room, !(end_read && rvalid_o))
+  `PPMC_ASSERT(axil_answer_per_strobe, !done || busy_q)
+  // The manager's part of the contract: what it has offered stays until it is taken.
+  `PPMC_ASSERT(axil_aw_held, !$past(rst_ni && awvalid_i && !awready_o)
+               || (awvalid_i && awaddr_i == $past(awaddr_i)))
+  `PPMC_ASSERT(axil_w_held, !$past(rst_ni && wvalid_i && !wready_o)
+               || (wvalid_i && {wdata_i, wstrb_i} == $past({wdata_i, wstrb_i})))
+  `PPMC_ASSERT(axil_ar_held, !$past(rst_ni && arvalid_i && !arready_o)
+               || (arvalid_i && araddr_i == $past(araddr_i)))
+  // verilog_format: on
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bridge_exec: runs the script in the request buffer; its cycles go to the part's bus, its data to the answer.
+// Rules:  the op table of docs/uart_bridge.md, UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
+// Timing: start_i begins a script of length_i bytes, again_i brings the last answer back; both only in idle.
+//         answer_o is high until answered_i. Request bytes are read two clk after their address.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_bridge_exec
+  import ppmc_bridge_pkg::*;
+#(
+    parameter int unsigned TopCode = 6,  // highest line rate code
+    parameter logic [127:0] Ident = '0
+) (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        ms_i,             // one clk every millisecond
+    // request
+    input  wire logic        start_i,
+    input  wire logic        again_i,
+    input  wire logic [ 7:0] length_i,
+    output logic      [ 7:0] raddr_o,
+    input  wire logic [ 7:0] rdata_i,
+    input  wire logic        interrupt_i,      // a byte has come since start_i
+    // answer
+    output logic             script_o,         // running
+    output logic             answer_o,         // done, answer on its way
+    input  wire logic        answered_i,
+    output result_e          result_o,
+    output logic      [ 7:0] pos_o,
+    output logic      [ 7:0] last_o,
+    output logic      [ 8:0] answer_length_o,
+    output logic             we_o,
+    output logic      [ 7:0] waddr_o,
+    output logic      [ 7:0] wdata_o,
+    // settings
+    output logic             rate_o,           // op RATE with arg_o
+    output logic             events_o,         // op EVENTS with arg_o
+    output logic      [ 2:0] arg_o,
+    output logic      [ 7:0] straps_o,
+    // board
+    input  wire logic [ 7:0] pins_i,
+    input  wire logic [31:0] count_i,
+    output logic             count_zero_o,
+    output logic             part_rst_no,
+    // the part's bus
+    output logic             cs_no,
+    output logic             rd_no,
+    output logic             wr_no,
+    output logic      [ 3:0] a_o,
+    output logic      [ 7:0] d_o,
+    input  wire logic [ 7:0] d_i
+);
+
+  typedef enum logic [3:0] {
+    StIdle,
+    StOp,        // next op
+    StDecode,
+    StArg,       // first operand
+    StArg2,
+    StCheck,     // operands are complete
+    StLoop,      // next byte of the op
+    StPoll,      // a read of a wait
+    StJudge,     // and what it says
+    StWrite,
+    StWriteEnd,
+    StRead,
+    StReadEnd,
+    StPut,       // a byte into the answer
+    StPause,     // RESET, IDENT, COUNT
+    StAnswer
+  } state_e;
+
+  state_e state_q;
+  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then bytes left; left_q: of the script
+  logic [15:0] limit_q, wait_q;
+  logic [1:0] age_q;  // clk since the last byte was taken or put: all that hangs on them is right at 2
+  logic none_q, cut_q, zero_q, bad_q, look_once_q, hit_q, judge_q, at_limit_q, overdue_q;
+  logic first_q, written_q, seen_q;
+  logic [3:0] kind, low;
+  logic system, fetched, take;
+  logic system_q, reading_q, sends_q, pair_q;  // what kind of op it is; right behind StDecode
+
+  assign kind    = op_q[7:4];
+  assign low     = op_q[3:0];
+  assign system  = kind == OpSystem;
+  assign fetched = age_q[1];
+  assign arg_o   = n_q[2:0];
+
+  // ---------------------------------------------------------------- bus
+
+  logic req, ready, done;
+  logic [3:0] addr;
+  logic [7:0] bus_data;
+
+  always_comb begin
+    unique case (state_q)
+      StPoll:  addr = kind == OpWait ? low : 4'd1;
+      StWrite: addr = kind == OpCall ? {3'd0, first_q} : low;
+      default: addr = kind == OpGet ? 4'd0 : low;
+    endcase
+  end
+
+  assign req = state_q == StPoll || state_q == StRead || (state_q == StWrite && fetched);
+
+  ppmc_strobe_master #(
+      .AddrBits(4)
+  ) u_master (
+      .clk_i,
+      .rst_ni,
+      .req_i  (req),
+      .we_i   (state_q == StWrite),
+      .addr_i (addr),
+      .wdata_i(rdata_i),
+      .ready_o(ready),
+      .done_o (done),
+      .rdata_o(bus_data),
+      .cs_no,
+      .rd_no,
+      .wr_no,
+      .a_o,
+      .d_o,
+      .d_i
+  );
+
+  // ---------------------------------------------------------------- answer
+
+  logic ident, count, full, full4, full16, block;
+
+  assign ident  = state_q == StDecode && system && low == SysIdent && !full16;
+  assign count  = state_q == StDecode && system && low == SysCount && !full4;
+  assign last_o = bus_data & {8{seen_q}};
+
+  ppmc_bridge_answer #(
+      .Ident(Ident)
+  ) u_answer (
+      .clk_i,
+      .rst_ni,
+      .clear_i  (start_i),
+      .put_i    (state_q == StPut),
+      .data_i   (system_q ? pins_i : bus_data),
+      .ident_i  (ident),
+      .count_i  (count),
+      .counter_i(count_i),
+      .busy_o   (block),
+      .full_o   (full),
+      .full4_o  (full4),
+      .full16_o (full16),
+      .length_o (answer_length_o),
+      .we_o,
+      .waddr_o,
+      .wdata_o
+  );
+
+  // ---------------------------------------------------------------- sequence
+
+  state_e  next;
+  result_e fail;  // not ResDone: the script ends with it
+
+  always_comb begin
+    next = state_q;
+    fail = ResDone;
+    take = 1'b0;
+    unique case (state_q)
+      StIdle: begin
+        if (start_i) next = StOp;
+        else if (again_i) next = StAnswer;
+      end
+      StOp:
+      if (fetched) begin
+        take = !none_q;
+        next = none_q ? StAnswer : StDecode;
+      end
+      StDecode:
+      unique case (kind)
+        OpSystem:
+        unique case (low)
+          SysNop, SysZero: next = StOp;
+          SysRate, SysEvents, SysTimeout, SysStraps: next = StArg;
+          SysReset: next = StPause;
+          SysIdent:
+          if (full16) fail = ResOverflow;
+          else next = StPause;
+          SysCount:
+          if (full4) fail = ResOverflow;
+          else next = StPause;
+          SysPins:
+          if (full) fail = ResOverflow;
+          else next = StPut;
+          default: fail = ResIllegal;
+        endcase
+        OpReadN, OpPost, OpWait, OpWriteN: next = StArg;
+        OpWrite, OpRead, OpCall, OpGet: next = StCheck;
+        default: fail = ResIllegal;
+      endcase
+      StArg, StArg2:
+      if (fetched) begin
+        take = !none_q;
+        if (none_q) fail = ResIllegal;
+        else next = state_q == StArg && pair_q ? StArg2 : StCheck;
+      end
+      StCheck:
+      if (fetched) begin
+        next = system_q ? StOp : kind == OpWait ? StPoll : StLoop;
+        if (system_q) begin
+          if (bad_q) fail = ResIllegal;
+        end else if (kind != OpWait && zero_q) fail = ResIllegal;
+        else if (sends_q && cut_q) fail = ResIllegal;
+        else if ((kind == OpWait || kind == OpCall) && full) fail = ResOverflow;
+      end
+      StLoop:
+      if (fetched) begin
+        if (zero_q) next = kind == OpCall ? StPut : StOp;
+        else if (reading_q && full) fail = ResOverflow;
+        else if (kind == OpPost || kind == OpCall || kind == OpGet) next = StPoll;
+        else next = reading_q ? StRead : StWrite;
+      end
+      StPoll: if (ready) next = StJudge;
+      StJudge:
+      if (judge_q) begin
+        if (hit_q) begin
+          if (kind == OpWait) next = StPut;
+          else if (kind == OpGet) next = StRead;
+          else if (!written_q) next = StWrite;
+          else if (bus_data[7]) fail = ResRefused;
+          else next = StLoop;
+        end else if (interrupt_i) fail = ResInterrupted;
+        else if (overdue_q || look_once_q) fail = ResTimeout;
+        else next = StPoll;
+      end
+      StWrite:
+      if (fetched && ready) begin
+        take = 1'b1;
+        next = StWriteEnd;
+      end
+      StWriteEnd: if (done) next = kind == OpCall ? StPoll : StLoop;
+      StRead: if (ready) next = StReadEnd;
+      StReadEnd: if (done) next = StPut;
+      StPut: next = reading_q ? StLoop : StOp;
+      StPause: if (low == SysReset ? n_q[7] : !block) next = StOp;
+      default: if (answered_i) next = StIdle;  // StAnswer
+    endcase
+    if (fail != ResDone) next = StAnswer;
+  end
+
+  assign script_o = state_q != StIdle && state_q != StAnswer;
+  assign answer_o = state_q == StAnswer;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q      <= StIdle;
+      result_o     <= ResDone;
+      straps_o     <= '1;
+      rate_o       <= 1'b0;
+      events_o     <= 1'b0;
+      count_zero_o <= 1'b0;
+      part_rst_no  <= 1'b0;
+    end else begin
+      state_q <= next;
+      if (start_i) result_o <= ResDone;
+      else if (fail != ResDone) result_o <= fail;
+      rate_o       <= state_q == StCheck && fetched && system_q && low == SysRate && !bad_q;
+      events_o     <= state_q == StCheck && fetched && system_q && low == SysEvents && !bad_q;
+      count_zero_o <= state_q == StDecode && system && low == SysZero;
+      part_rst_no  <= !(state_q == StPause && low == SysReset && n_q[4] && !n_q[7]);
+      if (state_q == StCheck && system_q && low == SysStraps) straps_o <= n_q;
+    end
+  end
+
+  // Request bytes and operands.
+  always_ff @(posedge clk_i) begin
+    age_q  <= take || start_i || state_q == StPut ? 2'b00 : {age_q[0], 1'b1};
+    none_q <= left_q == '0;
+    system_q  <= system;
+    reading_q <= kind == OpRead || kind == OpReadN || kind == OpGet;
+    sends_q   <= kind == OpWrite || kind == OpWriteN || kind == OpPost || kind == OpCall;
+    pair_q    <= kind == OpWait || (system && low == SysTimeout);
+    cut_q  <= n_q > left_q;
+    zero_q <= n_q == '0;
+    bad_q  <= (low == SysRate && n_q > 8'(TopCode)) || (low == SysEvents && n_q[7:1] != '0);
+    if (start_i) begin
+      raddr_o <= '0;
+      left_q  <= length_i;
+    end else if (take) begin
+      raddr_o <= raddr_o + 1'b1;
+      left_q  <= left_q - 1'b1;
+    end
+    if (state_q == StOp && take) begin
+      op_q  <= rdata_i;
+      pos_o <= raddr_o;
+    end
+    unique case (state_q)
+      StDecode: n_q <= system ? 8'd31 : kind == OpWrite || kind == OpRead ? 8'd1 : {4'd0, low};
+      StArg: if (take) n_q <= rdata_i;
+      StPause: n_q <= n_q - 1'b1;
+      StWrite: if (take) n_q <= n_q - 1'b1;
+      StReadEnd: if (done) n_q <= n_q - 1'b1;
+      default: ;
+    endcase
+    if (state_q == StArg2) value_q <= rdata_i;
+    if (state_q == StDecode) first_q <= 1'b1;
+    else if (state_q == StWriteEnd) first_q <= 1'b0;
+    if (state_q == StLoop) written_q <= 1'b0;
+    else if (state_q == StWriteEnd) written_q <= 1'b1;
+  end
+
+  // Waits. The time starts anew in all other states.
+  logic waiting;
+  assign waiting = state_q == StPoll || state_q == StJudge;
+
+  always_ff @(posedge clk_i) begin
+    judge_q <= done;
+    unique case (kind)
+      OpWait:  hit_q <= (bus_data & n_q) == value_q;
+      OpGet:   hit_q <= bus_data[0];
+      default: hit_q <= !bus_data[1];
+    endcase
+    if (start_i) seen_q <= 1'b0;
+    else if (done && state_q != StWriteEnd) seen_q <= 1'b1;
+    if (start_i) limit_q <= DefaultLimitMs;
+    else if (state_q == StCheck && system_q && low == SysTimeout) limit_q <= {value_q, n_q};
+    look_once_q <= limit_q == '0;
+    at_limit_q  <= wait_q == limit_q;
+    if (!waiting) begin
+      overdue_q <= 1'b0;
+      wait_q    <= '0;
+    end else if (ms_i) begin
+      overdue_q <= overdue_q || at_limit_q;
+      wait_q    <= wait_q + 1'b1;
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(ub_exec_start_in_idle, !(start_i || again_i) || state_q == StIdle)
+`endif
+
+endmodule
+
+`default_nettype wire

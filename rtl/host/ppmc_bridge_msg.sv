@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bridge_msg: decides what is sent next - answer, event, NAK - and hands out its bytes.
+// Rules:  UB-ANS-01, UB-MSG-01/02, UB-FRM-07 (order).
+// Timing: of ppmc_bridge_tx. answered_o is 1 for one clk after the last stop bit of an answer.
+`default_nettype none
+
+module ppmc_bridge_msg
+  import ppmc_bridge_pkg::*;
+(
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    // answer; all of it stands still while there is one
+    input  wire logic          script_i,       // a script is running: nothing new is begun
+    input  wire logic          answer_i,       // there is an answer, until answered_o
+    input  wire logic    [6:0] seq_i,
+    input  wire result_e       result_i,
+    input  wire logic    [7:0] pos_i,
+    input  wire logic    [7:0] last_i,
+    input  wire logic    [8:0] length_i,       // of the data
+    output logic         [7:0] raddr_o,
+    input  wire logic    [7:0] rdata_i,        // two clk later
+    output logic               answered_o,
+    // event
+    input  wire logic          event_i,        // a message is due
+    input  wire logic    [7:0] pins_i,
+    output logic               event_taken_o,
+    // NAK
+    input  wire nak_e          nak_i,
+    output logic               nak_taken_o,
+    // framer
+    output logic               start_o,
+    input  wire logic          idle_i,
+    output logic         [7:0] byte_o,
+    output logic               more_o,
+    input  wire logic          take_i
+);
+
+  typedef enum logic [1:0] {
+    KindAnswer,
+    KindEvent,
+    KindNak
+  } kind_e;
+
+  kind_e kind_q;
+  logic sending_q;  // from start_o to the last stop bit
+  logic [2:0] head_q;  // byte of the head; 4: head done
+  logic [8:0] index_q;  // of the data byte
+  logic tail_q;  // no data left
+
+  assign raddr_o       = index_q[7:0];
+  assign answered_o    = sending_q && idle_i && !start_o && kind_q == KindAnswer;
+  assign event_taken_o = take_i && kind_q == KindEvent && head_q[0];
+  assign nak_taken_o   = take_i && kind_q == KindNak && head_q[0];
+  assign more_o        = !head_q[2] || !(tail_q || kind_q != KindAnswer);
+
+  always_comb begin
+    unique case (head_q)
+      3'd0: byte_o = kind_q == KindAnswer ? {1'b0, seq_i} : {7'b1000000, kind_q == KindNak};
+      3'd1: begin
+        unique case (kind_q)
+          KindAnswer: byte_o = 8'(result_i);
+          KindEvent: byte_o = pins_i;
+          default: byte_o = 8'(nak_i);
+        endcase
+      end
+      3'd2: byte_o = pos_i;
+      3'd3: byte_o = last_i;
+      default: byte_o = rdata_i;
+    endcase
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      sending_q <= 1'b0;
+      start_o   <= 1'b0;
+      kind_q    <= KindAnswer;
+    end else begin
+      start_o <= 1'b0;
+      if (sending_q) begin
+        if (idle_i && !start_o) sending_q <= 1'b0;
+      end else if (answer_i || (!script_i && (event_i || nak_i != NakNone))) begin
+        sending_q <= 1'b1;
+        start_o   <= 1'b1;
+        if (answer_i) kind_q <= KindAnswer;
+        else kind_q <= event_i ? KindEvent : KindNak;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    tail_q <= index_q == length_i;
+    if (start_o) begin
+      head_q  <= '0;
+      index_q <= '0;
+    end else if (take_i) begin
+      if (head_q[2]) index_q <= index_q + 1'b1;
+      else if (head_q == 3'd1 && (kind_q != KindAnswer || result_i == ResDone)) head_q <= 3'd4;
+      else head_q <= head_q + 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bridge_pkg: numbers of the UART bridge: op codes, results, NAK codes, line rates, CRC.
+// Rules:  docs/uart_bridge.md.
+`default_nettype none
+
+package ppmc_bridge_pkg;
+
+  localparam logic [7:0] Flag = 8'h7E;
+  localparam logic [7:0] Escape = 8'h7D;
+  localparam int unsigned EscapeBit = 5;  // which an escaped byte has inverted
+  localparam logic [7:0] ProtocolVersion = 8'd1;
+  localparam logic [15:0] DefaultLimitMs = 16'd250;  // of a wait
+  localparam int unsigned SilenceMs = 100;  // inside a frame
+  localparam int unsigned TrialMs = 1000;  // of a new rate
+
+  // Ops without a register number: low four bits of an op whose high four bits are OpSystem.
+  typedef enum logic [3:0] {
+    SysNop,
+    SysIdent,
+    SysRate,
+    SysEvents,
+    SysTimeout,
+    SysReset,
+    SysPins,
+    SysStraps,
+    SysCount,
+    SysZero
+  } sys_e;
+
+  // High four bits of an op.
+  typedef enum logic [3:0] {
+    OpSystem,
+    OpWrite,
+    OpRead,
+    OpReadN,
+    OpPost,
+    OpCall,
+    OpGet,
+    OpWait,
+    OpWriteN
+  } op_e;
+
+  typedef enum logic [2:0] {
+    ResDone,
+    ResTimeout,
+    ResRefused,
+    ResIllegal,
+    ResOverflow,
+    ResInterrupted
+  } result_e;
+
+  typedef enum logic [3:0] {
+    NakNone,
+    NakFraming,
+    NakCrc,
+    NakLong,
+    NakShort,
+    NakSilence,
+    NakAbort,
+    NakBusy,
+    NakSeq
+  } nak_e;
+
+  // Line rate of a code in baud (UB-LIN-02).
+  function automatic int unsigned rate_hz(int unsigned code, int unsigned baud);
+    unique case (code)
+      1: return 230_400;
+      2: return 460_800;
+      3: return 921_600;
+      4: return 1_000_000;
+      5: return 2_000_000;
+      6: return 3_000_000;
+      default: return baud;
+    endcase
+  endfunction
+
+  function automatic bit available(int unsigned code, int unsigned clk_hz, int unsigned baud);
+    return code <= 6 && 64'(clk_hz) >= 64'd5 * 64'(rate_hz(code, baud));
+  endfunction
+
+  // Codes are in the order of their rates: the highest available one.
+  function automatic int unsigned top_code(int unsigned clk_hz, int unsigned baud);
+    int unsigned top;
+    top = 0;
+    for (int unsigned code = 1; code <= 6; code++) if (available(code, clk_hz, baud)) top = code;
+    return top;
+  endfunction
+
+  // Bits of the phase accumulators: the rounding of the step must not move the last edge of a character by more
+  // than a quarter of a clk, 10 * (clk / rate) / (2 * step) <= 1/4, at the slowest rate.
+  function automatic int unsigned phase_width(int unsigned clk_hz, int unsigned baud);
+    longint unsigned ratio;
+    int unsigned slowest;
+    slowest = baud < 230_400 ? baud : 230_400;
+    ratio   = 64'(clk_hz) / 64'(slowest) + 64'd1;
+    return 32'($clog2(64'd20 * ratio * ratio));
+  endfunction
+
+  // Step of a phase accumulator, rounded to the nearest.
+  function automatic longint unsigned phase_step(int unsigned rate, int unsigned clk_hz, int unsigned width);
+    return ((64'(rate) << (width + 1)) / 64'(clk_hz) + 64'd1) >> 1;
+  endfunction
+
+  // CRC-16, polynomial 1021, after one more byte (UB-FRM-03).
+  function automatic logic [15:0] crc_next(logic [15:0] crc, logic [7:0] data);
+    logic [7:0] mix;
+    mix = crc[15:8] ^ data;
+    mix = mix ^ (mix >> 4);
+    return {crc[7:0], 8'd0} ^ {mix[3:0], 12'd0} ^ {3'd0, mix, 5'd0} ^ {8'd0, mix};
+  endfunction
+
+endpackage
+
+`default_nettype wire

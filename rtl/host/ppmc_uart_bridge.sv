@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_uart_bridge: UART host of a part: a frame carries a script of bus cycles, one frame answers it.
+// Rules:  docs/uart_bridge.md.
+// Timing: rxd_i is synchronised here, int_ni, pins_i and count_i are of the clock domain.
+`default_nettype none
+
+module ppmc_uart_bridge
+  import ppmc_bridge_pkg::*;
+#(
+    parameter int unsigned ClkHz     = 24_000_000,  // at least 5 * Baud
+    parameter int unsigned XtalHz    = 16_000_000,  // of the part; for IDENT only, as are the next two
+    parameter int unsigned Baud      = 115_200,     // after reset
+    parameter int unsigned Part      = 104,
+    parameter bit          Datasheet = 1'b0
+) (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        rxd_i,
+    output logic             txd_o,
+    // the part's bus
+    output logic             cs_no,
+    output logic             rd_no,
+    output logic             wr_no,
+    output logic      [ 3:0] a_o,
+    output logic      [ 7:0] d_o,
+    input  wire logic [ 7:0] d_i,
+    input  wire logic        int_ni,
+    output logic             part_rst_no,
+    // board
+    output logic      [ 7:0] straps_o,
+    input  wire logic [ 7:0] pins_i,
+    input  wire logic [31:0] count_i,
+    output logic             count_zero_o,
+    output logic             active_o       // a script is running or an answer is on its way
+);
+
+  if (!available(0, ClkHz, Baud)) begin : g_check
+    $fatal(1, "ppmc_uart_bridge: ClkHz must be at least 5 * Baud");
+  end
+
+  localparam int unsigned Width = phase_width(ClkHz, Baud);
+  localparam int unsigned TopCode = top_code(ClkHz, Baud);
+  localparam logic [7:0] IdentFlags = {4'(TopCode), 2'b00, 1'b1, Datasheet};
+  localparam logic [127:0] Ident = {
+    32'(ClkHz), 32'(XtalHz), IdentFlags, 16'(Part), ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
+  };
+
+  // ---------------------------------------------------------------- a millisecond
+
+  localparam int unsigned MsClk = ClkHz / 1000;
+  localparam int unsigned MsBits = $clog2(MsClk);
+  logic [MsBits-1:0] prescale_q;
+  logic ms_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      prescale_q <= '0;
+      ms_q       <= 1'b0;
+    end else begin
+      ms_q       <= prescale_q == '0;
+      prescale_q <= ms_q ? MsBits'(MsClk - 2) : prescale_q - 1'b1;
+    end
+  end
+
+  // ---------------------------------------------------------------- line
+
+  logic [Width-1:0] step;
+  logic [7:0] rx_byte, tx_byte;
+  logic rx_valid, rx_error, rx_break, tx_valid, tx_ready;
+  logic good, answered, rate_set;
+  logic [2:0] arg;
+
+  ppmc_bridge_rate #(
+      .ClkHz(ClkHz),
+      .Baud (Baud),
+      .Width(Width)
+  ) u_rate (
+      .clk_i,
+      .rst_ni,
+      .ms_i      (ms_q),
+      .set_i     (rate_set),
+      .code_i    (arg),
+      .answered_i(answered),
+      .good_i    (good),
+      .break_i   (rx_error && rx_break),
+      .step_o    (step)
+  );
+
+  ppmc_uart_rx #(
+      .Width(Width)
+  ) u_uart_rx (
+      .clk_i,
+      .rst_ni,
+      .step_i (step),
+      .rxd_i,
+      .byte_o (rx_byte),
+      .valid_o(rx_valid),
+      .error_o(rx_error),
+      .break_o(rx_break)
+  );
+
+  ppmc_uart_tx #(
+      .Width(Width)
+  ) u_uart_tx (
+      .clk_i,
+      .rst_ni,
+      .step_i (step),
+      .byte_i (tx_byte),
+      .valid_i(tx_valid),
+      .ready_o(tx_ready),
+      .txd_o
+  );
+
+  // ---------------------------------------------------------------- requests
+
+  logic request, start, again, dropped, script, answer, nak_taken;
+  logic req_we, ans_we;
+  logic [7:0] req_waddr, req_wdata, req_raddr, req_length, ans_waddr, ans_wdata, ans_raddr, rdata;
+  logic [6:0] seq, last_seq_q;
+  nak_e nak;
+
+  ppmc_bridge_rx u_rx (
+      .clk_i,
+      .rst_ni,
+      .ms_i       (ms_q),
+      .byte_i     (rx_byte),
+      .valid_i    (rx_valid),
+      .error_i    (rx_error),
+      .we_o       (req_we),
+      .waddr_o    (req_waddr),
+      .wdata_o    (req_wdata),
+      .good_o     (good),
+      .request_o  (request),
+      .seq_o      (seq),
+      .length_o   (req_length),
+      .busy_i     (active_o),
+      .dropped_o  (dropped),
+      .nak_o      (nak),
+      .nak_taken_i(nak_taken)
+  );
+
+  // A request that was answered is answered again from the buffer (UB-SEQ-02).
+  assign again    = request && seq == last_seq_q && seq != '0;
+  assign start    = request && !again;
+  assign active_o = script || answer;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) last_seq_q <= '0;
+    else if (start) last_seq_q <= seq;
+  end
+
+  // The request in the lower half, the answer in the upper one. No request is received while a script runs.
+  ppmc_ram #(
+      .Width   (8),
+      .AddrBits(9)
+  ) u_ram (
+      .clk_i,
+      .we_i   (req_we || ans_we),
+      .waddr_i(script ? {1'b1, ans_waddr} : {1'b0, req_waddr}),
+      .wdata_i(script ? ans_wdata : req_wdata),
+      .raddr_i(script ? {1'b0, req_raddr} : {1'b1, ans_raddr}),
+      .rdata_o(rdata)
+  );
+
+  // ---------------------------------------------------------------- scripts
+
+  result_e result;
+  logic [7:0] pos, last;
+  logic [8:0] ans_length;
+  logic events_set;
+
+  ppmc_bridge_exec #(
+      .TopCode(TopCode),
+      .Ident  (Ident)
+  ) u_exec (
+      .clk_i,
+      .rst_ni,
+      .ms_i           (ms_q),
+      .start_i        (start),
+      .again_i        (again),
+      .length_i       (req_length),
+      .raddr_o        (req_raddr),
+      .rdata_i        (rdata),
+      .interrupt_i    (dropped),
+      .script_o       (script),
+      .answer_o       (answer),
+      .answered_i     (answered),
+      .result_o       (result),
+      .pos_o          (pos),
+      .last_o         (last),
+      .answer_length_o(ans_length),
+      .we_o           (ans_we),
+      .waddr_o        (ans_waddr),
+      .wdata_o        (ans_wdata),
+      .rate_o         (rate_set),
+      .events_o       (events_set),
+      .arg_o          (arg),
+      .straps_o,
+      .pins_i,
+      .count_i,
+      .count_zero_o,
+      .part_rst_no,
+      .cs_no,
+      .rd_no,
+      .wr_no,
+      .a_o,
+      .d_o,
+      .d_i
+  );
+
+  // ---------------------------------------------------------------- events
+
+  logic enabled_q, event_q, int_nq, event_taken;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      enabled_q <= 1'b0;
+      event_q   <= 1'b0;
+      int_nq    <= 1'b1;
+    end else begin
+      int_nq <= int_ni;
+      if (events_set) enabled_q <= arg[0];
+      if (events_set) event_q <= arg[0] && (event_q || (!enabled_q && !int_ni));
+      else if (enabled_q && int_nq && !int_ni) event_q <= 1'b1;
+      else if (event_taken) event_q <= 1'b0;
+    end
+  end
+
+  // ---------------------------------------------------------------- messages
+
+  logic msg_start, msg_idle, msg_more, msg_take;
+  logic [7:0] msg_byte;
+
+  ppmc_bridge_msg u_msg (
+      .clk_i,
+      .rst_ni,
+      .script_i     (script),
+      .answer_i     (answer),
+      .seq_i        (seq),
+      .result_i     (result),
+      .pos_i        (pos),
+      .last_i       (last),
+      .length_i     (ans_length),
+      .raddr_o      (ans_raddr),
+      .rdata_i      (rdata),
+      .answered_o   (answered),
+      .event_i      (event_q),
+      .pins_i,
+      .event_taken_o(event_taken),
+      .nak_i        (nak),
+      .nak_taken_o  (nak_taken),
+      .start_o      (msg_start),
+      .idle_i       (msg_idle),
+      .byte_o       (msg_byte),
+      .more_o       (msg_more),
+      .take_i       (msg_take)
+  );
+
+  ppmc_bridge_tx u_tx (
+      .clk_i,
+      .rst_ni,
+      .start_i(msg_start),
+      .idle_o (msg_idle),
+      .byte_i (msg_byte),
+      .more_i (msg_more),
+      .take_o (msg_take),
+      .byte_o (tx_byte),
+      .valid_o(tx_valid),
+      .ready_i(tx_ready)
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) in front of a part's strobe bus.
+// Rules:  register map and answers in docs/integration.md; strobes by UB-BUS-01.
+// Timing: a part register answers 6 clk (write) or 8 clk (read) after the first clk with CYC and STB, 1 clk
+//         later right behind another cycle; the bridge register and masked accesses 1 clk after it. A master
+//         may give up: a strobe that has begun still ends, then nobody is answered.
+`default_nettype none
+`include "ppmc_assert.svh"
+
+module ppmc_wishbone #(
+    parameter int unsigned AddrBits = 1  // address lines of the part
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    // Wishbone; adr_i bits are numbered as in a byte address
+    input  wire logic                cyc_i,
+    input  wire logic                stb_i,
+    input  wire logic                we_i,
+    input  wire logic [AddrBits+2:2] adr_i,
+    input  wire logic [         3:0] sel_i,
+    input  wire logic [        31:0] dat_i,
+    output logic      [        31:0] dat_o,
+    output logic                     ack_o,
+    output logic                     err_o,
+    output logic                     irq_o,   // the part's int_n, high active
+    // the part's pins
+    output logic                     cs_no,
+    output logic                     rd_no,
+    output logic                     wr_no,
+    output logic      [AddrBits-1:0] a_o,
+    output logic      [         7:0] d_o,
+    input  wire logic [         7:0] d_i,
+    input  wire logic                int_ni
+);
+
+  logic call, own, bad, done, ready, req, unused;
+  logic [7:0] rdata;
+  logic busy_q;  // a strobe cycle of this bridge is under way
+  logic live_q;  // its master still waits
+  logic quick_q;  // answer that needs no strobe
+  logic error_q;  // it is ERR
+  logic flag_q;  // its data bit 0
+
+  assign unused = &{1'b0, sel_i[3:1], dat_i[31:8]};
+  assign call   = cyc_i && stb_i && !busy_q && !quick_q;
+  assign own    = adr_i[AddrBits+2];
+  assign bad    = own && (we_i || adr_i[AddrBits+1:2] != '0);  // reserved, or a write to the bridge register
+  assign req    = call && !own && sel_i[0];
+
+  ppmc_strobe_master #(
+      .AddrBits(AddrBits)
+  ) u_master (
+      .clk_i,
+      .rst_ni,
+      .req_i  (req),
+      .we_i,
+      .addr_i (adr_i[AddrBits+1:2]),
+      .wdata_i(dat_i[7:0]),
+      .ready_o(ready),
+      .done_o (done),
+      .rdata_o(rdata),
+      .cs_no,
+      .rd_no,
+      .wr_no,
+      .a_o,
+      .d_o,
+      .d_i
+  );
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy_q  <= 1'b0;
+      live_q  <= 1'b0;
+      quick_q <= 1'b0;
+      error_q <= 1'b0;
+      flag_q  <= 1'b0;
+      irq_o   <= 1'b0;
+    end else begin
+      irq_o   <= !int_ni;
+      quick_q <= call && (own || !sel_i[0]);
+      error_q <= bad;
+      flag_q  <= own && !bad && irq_o;
+      live_q  <= cyc_i && stb_i && (live_q || !busy_q);
+      if (req && ready) busy_q <= 1'b1;
+      else if (done) busy_q <= 1'b0;
+    end
+  end
+
+  // Gated, so that a master that gave up in the last moment sees nothing.
+  logic answer;
+  assign answer = cyc_i && stb_i && (quick_q || (done && live_q));
+  assign ack_o  = answer && !(quick_q && error_q);
+  assign err_o  = answer && quick_q && error_q;
+  assign dat_o  = 32'(quick_q ? {7'b0, flag_q} : rdata);
+
+`ifndef SYNTHESIS
+  // verilog_format: off
+  `PPMC_ASSERT(wb_one_answer, !(ack_o && err_o))
+  `PPMC_ASSERT(wb_answer_asked, !(ack_o || err_o) || (cyc_i && stb_i))
+  `PPMC_ASSERT(wb_answer_single, !((ack_o || err_o) && $past(ack_o || err_o)))
+  `PPMC_ASSERT(wb_ack_per_strobe, quick_q || ack_o == (done && live_q && cyc_i && stb_i))
+  `PPMC_ASSERT(wb_strobe_owned, !done || busy_q)
+  // The master's part of the contract: a request that is not answered and not given up stays as it is.
+  `PPMC_ASSERT(wb_request_stable, !($past(rst_ni && cyc_i && stb_i && !ack_o && !err_o) && cyc_i && stb_i)
+               || $past({we_i, adr_i, sel_i, dat_i[7:0]}) == {we_i, adr_i, sel_i, dat_i[7:0]})
+  // verilog_format: on
+`endif
+
+endmodule
+
+`default_nettype wire

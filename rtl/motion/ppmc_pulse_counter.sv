@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_pulse_counter: where the motor is, counted from the pulse output: CW up, CCW down.
+// Rules:  UB ops COUNT and ZERO (docs/uart_bridge.md).
+// Timing: count_o changes 1 clk after pout_n falls; clear_i wins over a pulse on the same edge.
+`default_nettype none
+
+module ppmc_pulse_counter #(
+    parameter int unsigned Width = 32
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic             clear_i,
+    input  wire logic             pout_ni,  // of the same clk domain
+    input  wire logic             dir_i,    // 0 = CW
+    output logic      [Width-1:0] count_o   // two's complement, wraps
+);
+
+  logic pout_nq;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pout_nq <= 1'b1;
+      count_o <= '0;
+    end else begin
+      pout_nq <= pout_ni;
+      if (clear_i) count_o <= '0;
+      else if (pout_nq && !pout_ni) count_o <= dir_i ? count_o - 1'b1 : count_o + 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

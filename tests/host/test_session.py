@@ -1,0 +1,166 @@
+"""Session of the host: SEQ, repeats, events, stale answers (UB-SEQ, UB-MSG), on good and on bad lines."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from openppmc.host.frames import Deframer, Frame, encode
+from openppmc.host.session import GaveUp, Session
+from openppmc.model.bridge import Bridge
+
+
+def answer(seq: int, body: bytes = b"\x00") -> bytes:
+    return encode(bytes([seq]) + body)
+
+
+def sent_seq(line: bytes) -> int:
+    (item,) = Deframer().feed(line)
+    assert isinstance(item, Frame)
+    return item.seq
+
+
+def test_sequence_numbers() -> None:
+    """0 once, then 1 to 127 for ever; restart begins with 0 again."""
+    session, seen = Session(), []
+    for _ in range(300):
+        seen.append(sent_seq(session.request(b"", 1, 0)))
+        assert session.receive(answer(seen[-1]), 0) == b"\x00"
+    assert seen[:129] == [*range(128), 1]
+    assert seen[127:256] == [127, *range(1, 128), 1]
+    session.restart()
+    assert sent_seq(session.request(b"", 1, 0)) == 0
+
+
+def test_one_request_at_a_time() -> None:
+    session = Session()
+    session.request(b"", 1, 0)
+    with pytest.raises(RuntimeError):
+        session.request(b"", 1, 0)
+    session.abandon()
+    assert sent_seq(session.request(b"", 1, 0)) == 1
+
+
+def test_repeats_at_the_deadline_only_and_not_for_ever() -> None:
+    session = Session(attempts=3)
+    line = session.request(b"\x06", 2.0, 10.0)
+    assert session.deadline == 12.0
+    assert session.tick(11.9) == b""
+    assert session.tick(12.0) == line
+    assert session.tick(12.1) == b""
+    assert session.tick(14.0) == line
+    with pytest.raises(GaveUp) as gone:
+        session.tick(16.0)
+    assert (gone.value.attempts, gone.value.naks, gone.value.heard) == (3, (), 0)
+    assert not session.busy
+    assert session.repeats == 2
+
+
+@pytest.mark.parametrize("code", range(1, 8))
+def test_a_nak_repeats_after_the_grace(code: int) -> None:
+    session = Session(grace=0.25)
+    line = session.request(b"\x06", 2.0, 0.0)
+    assert session.receive(encode(bytes([0x81, code])), 0.5) is None
+    assert session.tick(0.74) == b""
+    assert session.tick(0.75) == line
+
+
+def test_a_nak_about_noise_before_the_request_repeats_nothing() -> None:
+    session = Session(grace=0.05)
+    session.request(b"\x06", 2.0, 0.0)
+    assert session.receive(encode(b"\x81\x04") + answer(0, b"\x00\xff"), 0.01) == b"\x00\xff"
+    assert session.tick(1.0) == b""
+    assert session.repeats == 0
+
+
+def test_a_nak_about_seq_does_not_repeat() -> None:
+    session = Session()
+    session.request(b"\x06", 2.0, 0.0)
+    session.receive(encode(b"\x81\x08"), 0.0)
+    assert session.deadline == 2.0
+
+
+def test_events_are_kept_apart() -> None:
+    session = Session()
+    session.receive(encode(b"\x80\xfe"), 0.0)
+    session.request(b"\x06", 2.0, 0.0)
+    assert session.receive(encode(b"\x80\xfc") + answer(0) + encode(b"\x80\xf8"), 0.0) == b"\x00"
+    assert list(session.events) == [0xFE, 0xFC, 0xF8]
+
+
+def test_stale_and_foreign_frames_are_ignored() -> None:
+    session = Session()
+    for seq in range(3):
+        session.request(b"", 1, 0)
+        session.receive(answer(seq), 0)
+    session.request(b"", 1, 0)
+    stale = answer(2) + answer(0) + answer(100) + encode(b"\x82\x00") + encode(b"\x80") + encode(b"\x03")
+    assert session.receive(stale, 0) is None
+    assert session.receive(answer(3, b"\x00\x07"), 0) == b"\x00\x07"
+    assert session.receive(answer(3), 0) is None
+
+
+class Counter:
+    """A part that counts its writes."""
+
+    def __init__(self) -> None:
+        self.written: list[int] = []
+
+    def read(self, a: int) -> int:
+        return 0x01
+
+    def write(self, a: int, byte: int) -> None:
+        self.written.append(byte)
+
+
+faults = st.sampled_from(["good"] * 5 + ["lost", "flipped", "doubled", "noise before", "cut"])
+
+
+def spoil(line: bytes, fault: str, where: int) -> bytes:
+    """What arrives of a line."""
+    place = where % len(line) if line else 0
+    if not line or fault == "good":
+        return line
+    if fault == "lost":
+        return b""
+    if fault == "flipped":
+        return line[:place] + bytes([line[place] ^ 1 << where % 8]) + line[place + 1 :]
+    if fault == "doubled":
+        return line + line
+    if fault == "noise before":
+        return bytes(where >> n & 0xFF for n in range(5)) + line
+    return line[:place]
+
+
+@given(st.lists(st.tuples(faults, faults, st.integers(0, 5000)), min_size=1, max_size=60))
+def test_every_request_is_carried_out_exactly_once(weather: list[tuple[str, str, int]]) -> None:
+    """Over a line that loses, flips, doubles and cuts frames in both directions no command is lost or done
+    twice, as long as the host does not give up."""
+    part = Counter()
+    bridge = Bridge(part)
+    session = Session(attempts=100)
+    sky = iter(weather)
+    now, expected = 0.0, []
+    # SEQ 0 is always executed, so a session begins with a script that changes nothing.
+    for number in range(6):
+        script = b"\x01" if number == 0 else bytes([0x10, number])
+        if number:
+            expected.append(number)
+        out = session.request(script, 0.3, now)
+        body = None
+        for _ in range(1000):
+            there, back, where = next(sky, ("good", "good", 0))
+            arrived = spoil(out, there, where)
+            copies = [arrived[: len(out)], arrived[len(out) :]] if there == "doubled" else [arrived]
+            heard = b"".join(bridge.receive(copy) for copy in copies)
+            body = session.receive(spoil(heard, back, where), now) or body
+            if body is not None:
+                break
+            now = session.deadline or now
+            heard = bridge.idle(300)
+            body = session.receive(heard, now)
+            out = session.tick(now)
+        assert body is not None
+        assert body[0] == 0
+    assert part.written == expected

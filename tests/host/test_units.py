@@ -1,0 +1,146 @@
+"""Pulses per second, rates and ramps, against exact fractions (P104-INT-01, -02, P104-SW-04)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from openppmc.cli.forecast import key_figures
+from openppmc.host import units
+from openppmc.host.errors import OutOfRange, PpmcError
+from openppmc.model.predict import predict_move
+
+XTAL = 16_000_000
+
+
+@pytest.mark.parametrize(
+    ("csel", "vsel", "rate", "pps"),
+    [
+        (1, 1, 0, Fraction(500_000)),
+        (1, 1, 255, Fraction(500_000, 256)),
+        (0, 1, 0, Fraction(125_000)),
+        (0, 1, 255, Fraction(125_000, 256)),
+        (1, 1, 99, Fraction(5000)),
+        (1, 0, 99, Fraction(10_000_000, 2075)),
+        (0, 0, 99, Fraction(10_000_000, 8075)),
+    ],
+)
+def test_speeds_of_rates(csel: int, vsel: int, rate: int, pps: Fraction) -> None:
+    """1953 … 500 000 and 488 … 125 000 pps; 207.5 us instead of 200 us with vsel low (P104-EX-06)."""
+    assert units.BaseClock.internal(XTAL, csel, vsel).speed(rate) == pps
+
+
+@given(st.fractions(1, 600_000), st.integers(0, 1), st.integers(0, 1), st.sampled_from([XTAL, 11_059_200]))
+def test_the_nearest_interval_is_chosen(pps: Fraction, csel: int, vsel: int, xtal: int) -> None:
+    clock = units.BaseClock.internal(xtal, csel, vsel)
+    intervals = [
+        (r + 1) * Fraction(128 if not csel else 32, xtal) + (0 if vsel else Fraction(120, xtal))
+        for r in range(256)
+    ]
+    if not 1 / intervals[255] <= pps <= 1 / intervals[0]:
+        with pytest.raises(OutOfRange, match=r"is outside .* to .* pps"):
+            clock.choose(pps)
+        return
+    speed = clock.choose(pps)
+    assert speed.reached == 1 / intervals[speed.rate]
+    assert abs(intervals[speed.rate] - 1 / pps) == min(abs(i - 1 / pps) for i in intervals)
+
+
+def test_error_of_a_speed() -> None:
+    speed = units.BaseClock.internal(XTAL).choose(3333)
+    assert speed.rate == 149
+    assert speed.reached == Fraction(500_000, 150)
+    assert speed.error == pytest.approx(1.0e-4, rel=0.01)
+
+
+@pytest.mark.parametrize("bad", [0, -5, 1e9, float("nan"), float("inf"), float("-inf")])
+def test_no_speed(bad: float) -> None:
+    with pytest.raises(OutOfRange) as caught:
+        units.BaseClock.internal(XTAL).choose(bad)
+    assert isinstance(caught.value, ValueError)
+    assert isinstance(caught.value, PpmcError)
+    with pytest.raises(OutOfRange):
+        units.any_clock(XTAL, bad)
+
+
+def test_the_fast_base_clock_is_preferred() -> None:
+    assert units.choose_clock(XTAL, 1954, None).csel == 1
+    assert units.choose_clock(XTAL, Fraction(500_000, 256), None).csel == 1
+    assert units.choose_clock(XTAL, 1953, None).csel == 0
+    assert units.choose_clock(XTAL, 1954, 125_000).csel == 0
+    assert units.any_clock(XTAL, 1000).csel == 0
+    assert units.any_clock(XTAL, 300_000, first=0).csel == 1
+    with pytest.raises(OutOfRange, match="500000 and 125000 Hz"):
+        units.choose_clock(XTAL, 1954, 250_000)
+
+
+def test_external_clock() -> None:
+    clock = units.BaseClock.external_pin(1000)
+    assert clock.choose(100).rate == 9
+    assert clock.slowest == Fraction(1000, 256)
+    with pytest.raises(OutOfRange):
+        units.BaseClock.external_pin(0)
+    with pytest.raises(OutOfRange):
+        units.BaseClock.external_pin(1_000_001)
+
+
+def test_setup_bytes() -> None:
+    """Example A of the manual."""
+    clock = units.BaseClock.internal(XTAL)
+    code = units.initialisation_code(4, False, True, False, False)
+    setup = units.plan_setup(clock, 50_000, 100_000, 4, code)
+    assert bytes([setup.code]) + setup.data == bytes.fromhex("0A 09 04 04 00")
+    assert units.initialisation_code(5, True, False, True, True) == 0b110111
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        ((50_000, 40_000, 4), "above high speed"),
+        ((50_000, 60_000, 3), "4 to 11220 pulses"),
+        ((50_000, 60_000, 11_221), "4 to 11220 pulses"),
+        ((1000, 60_000, 100), "start speed 1000 pps is outside 1953.12 to 500000 pps"),
+        ((50_000, 600_000, 100), "high speed 600000 pps is outside"),
+    ],
+)
+def test_impossible_setups(arguments: tuple[int, int, int], text: str) -> None:
+    with pytest.raises(OutOfRange, match=text):
+        units.plan_setup(units.BaseClock.internal(XTAL), *arguments, 0x0A)
+
+
+def test_phases() -> None:
+    for phases in (2, 6):
+        with pytest.raises(OutOfRange, match="3, 4 or 5"):
+            units.initialisation_code(phases, False, True, False, False)
+
+
+@given(st.integers(0, 1), st.sampled_from(["on", "off"]), st.floats(0, 1000))
+def test_chopper_times(vsel: int, phase: str, asked: float) -> None:
+    offset = {("on", 1): 27, ("on", 0): 25, ("off", 1): 33, ("off", 0): Fraction(115, 4)}[phase, vsel]
+    times = [offset + 3 * n for n in range(256)]
+    if not times[0] <= Fraction(asked) <= times[-1]:
+        with pytest.raises(OutOfRange, match="us is outside"):
+            units.chop_byte(XTAL, asked, phase, vsel)
+        return
+    byte, reached = units.chop_byte(XTAL, asked, phase, vsel)
+    assert reached == times[byte]
+    assert abs(reached - Fraction(asked)) <= Fraction(3, 2)
+
+
+@given(st.integers(1, 900), st.integers(4, 120), st.integers(0, 255), st.integers(0, 255), st.integers(0, 3))
+def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, straps: int) -> None:
+    """The closed form of `plan` against the predictor, pulse by pulse."""
+    clock = units.BaseClock.internal(XTAL, straps & 1, straps >> 1)
+    low, high = sorted((clock.speed(a), clock.speed(b)))
+    setup = units.plan_setup(clock, low, high, pa, 0x0A)
+    figures = key_figures(setup, -n, None)
+    move = predict_move(setup.data, n, csel=straps & 1, vsel=straps >> 1)
+    assert figures["seconds"] == pytest.approx(move.seconds[-1], abs=1e-12)
+    if n > 1:
+        assert figures["top_pps"] == pytest.approx(max(move.speeds))
+    rates = predict_move(setup.data, n, rate=a, csel=straps & 1, vsel=straps >> 1)
+    constant = key_figures(setup, n, clock.choose(clock.speed(a)))
+    assert constant["seconds"] == pytest.approx(rates.seconds[-1], abs=1e-12)
