@@ -21,6 +21,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rich.markup import escape
 
 from scripts import project
+from scripts.flow.boards import HOSTS, parameters
+from scripts.flow.boards import sources as board_sources
 from scripts.project import ProjectError, console, relative
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
@@ -91,28 +93,28 @@ def verible_format() -> str:
     return "\n".join(line for line in text.splitlines() if line.strip())
 
 
-def verilator(part: project.Part, params: dict[str, int | str]) -> str:
-    """Verilator -Wall for one set of parameters, assertions as in simulation.
+def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
+    """Verilator -Wall of one top for one set of parameters, assertions as in simulation.
 
     It goes as far as C++, because --lint-only does not see combinational loops.
     """
-    folder = project.BUILD / "lint" / "-".join([part.name, *map(str, params.values())])
+    folder = project.BUILD / "lint" / "-".join([top, *map(str, params.values())])
     folder.mkdir(parents=True, exist_ok=True)
     command = ["verilator", "--cc", "--assert", "-Wall", "--timing", "--Mdir", relative(folder)]
-    command += ["--top-module", part.name, *(f"-I{relative(path)}" for path in project.include_dirs())]
+    command += ["--top-module", top, *(f"-I{relative(path)}" for path in project.include_dirs())]
     for name, value in params.items():
         command.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
-    text = tool(*command, "lint/verilator.vlt", *(relative(path) for path in project.sources(part)))
+    text = tool(*command, "lint/verilator.vlt", *(relative(path) for path in files))
     # What begins with a dash is statistics.
     return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
 
 
-def slang(part: project.Part, params: dict[str, int | str]) -> str:
+def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
     """Elaboration by yosys' read_slang, assertions included, then yosys' own checks; warnings count."""
     job = {
         "includes": [relative(path) for path in project.include_dirs()],
-        "sources": [relative(path) for path in project.sources(part)],
-        "top": part.name,
+        "sources": [relative(path) for path in files],
+        "top": top,
         "params": params,
     }
     done = subprocess.run(
@@ -146,7 +148,7 @@ def listed() -> str:
     found += [
         f"rtl/files.yml lists {relative(path)}, which does not exist" for path in names if not path.is_file()
     ]
-    known = {group for part in project.PARTS.values() for group in part.groups}
+    known = {group for part in project.PARTS.values() for group in part.groups} | {"boards"}
     found += [f"rtl/files.yml: group {group} belongs to no part" for group in groups if group not in known]
     return "\n".join(found)
 
@@ -186,10 +188,25 @@ def texts() -> str:
     return "\n".join(found)
 
 
+def board_checks() -> list[Check]:
+    """The board tops and what they share, with each host that they can be built for."""
+    every = []
+    tops = [path.stem for path in project.file_groups().get("boards", []) if path.stem.startswith("board_")]
+    for top in ["ppmc104_board", *tops]:
+        hosts = HOSTS if "HOST" in parameters(top) else ("",)
+        for host in hosts:
+            params: dict[str, int | str] = {"HOST": host.upper()} if host else {}
+            label, files = f"{top} {host}".rstrip(), board_sources(top)
+            every.append(Check("verilator -Wall", label, partial(verilator, top, files, params)))
+            every.append(Check("read_slang", label, partial(slang, top, files, params)))
+    return every
+
+
 def checks() -> list[Check]:
     """All checks, the slow ones first so that two workers end together."""
     every = []
     for part in project.PARTS.values():
+        files = project.sources(part)
         for index, clk_hz in enumerate(CLOCKS):
             for timing in ("FAST", "DATASHEET"):
                 idle = (
@@ -197,8 +214,9 @@ def checks() -> list[Check]:
                 ) % 2  # both levels with both timings without doubling the runs
                 params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing, "PHASE_IDLE": idle}
                 label = f"{part.name} {clk_hz / 1e6:g} MHz {timing} PHASE_IDLE={idle}"
-                every.append(Check("verilator -Wall", label, partial(verilator, part, params)))
-                every.append(Check("read_slang", label, partial(slang, part, params)))
+                every.append(Check("verilator -Wall", label, partial(verilator, part.name, files, params)))
+                every.append(Check("read_slang", label, partial(slang, part.name, files, params)))
+    every += board_checks()
     return [
         *every,
         Check("verible-verilog-lint", "rtl/", verible_lint),
@@ -214,6 +232,11 @@ def checks() -> list[Check]:
             "docs",
             "pictures and tables fresh",
             lambda: tool(sys.executable, "-m", "scripts.docs", "--check", ok_output=True),
+        ),
+        Check(
+            "packages",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.packages", "--check", ok_output=True),
         ),
         Check("texts", "marks, tabs, line ends", texts),
     ]

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// board_ulx3s: PPMC-104 on a ULX3S (ECP5 LFE5U-25F or -85F, CABGA381), clk 100 MHz from its 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s.lpf.
+// Timing: the part's inputs are synchronised inside it.
+`default_nettype none
+
+module board_ulx3s #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter string       TIMING     = "FAST",
+    parameter bit          PHASE_IDLE = 1'b0,        // 0: for drivers that are on with H, 1: on with L
+    parameter string       HOST       = "UART",      // or "BUS"
+    parameter int unsigned BAUD       = 115_200
+) (
+    input  wire logic       clk_25m,
+    input  wire logic       btn_f1,      // 1: reset
+    // host: USB-UART
+    input  wire logic       uart_rxd,
+    output logic            uart_txd,
+    // host: bus of the old chip
+    input  wire logic       a0,
+    input  wire logic       cs_n,
+    input  wire logic       rd_n,
+    input  wire logic       wr_n,
+    inout  wire logic [7:0] d,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
+    output logic            int_n,
+    input  wire logic       host_rst_n,
+    // straps and external base clock
+    input  wire logic       csel,
+    input  wire logic       vsel,
+    input  wire logic       clock,
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       alm_n,
+    // auxiliary
+    input  wire logic [3:0] auxi,
+    output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir,
+    // lamps and the boot pin of the ESP32
+    output logic      [3:0] led,
+    output logic            wifi_gpio0
+);
+
+  localparam int unsigned ClkHz = 100_000_000;
+
+  logic clk, lock;
+  logic rst_n;
+  logic part_oe, link, lamp_link;
+  logic [7:0] part_d;
+
+  ppmc_clock_ulx3s u_clock (
+      .clk_25m_i(clk_25m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_reset #(
+      .ClkHz(ClkHz)
+  ) u_reset (
+      .clk_i (clk),
+      .lock_i(lock),
+      .req_ni(host_rst_n && !btn_f1),
+      .rst_no(rst_n)
+  );
+
+  ppmc104_board #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      (HOST),
+      .BAUD      (BAUD)
+  ) u_board (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .a0,
+      .cs_n,
+      .rd_n,
+      .wr_n,
+      .d_i     (d),
+      .d_o     (part_d),
+      .d_oe    (part_oe),
+      .int_n,
+      .csel,
+      .vsel,
+      .clock,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .aux_n,
+      .s,
+      .hold,
+      .pout_n,
+      .dir,
+      .led_link(link)
+  );
+
+  // With the UART host the part's reads stay inside.
+  assign d_oe = HOST == "BUS" && part_oe;
+  assign d    = d_oe ? part_d : 'z;
+
+  ppmc_board_lamp #(
+      .ClkHz(ClkHz)
+  ) u_lamp (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .on_i  (link),
+      .lamp_o(lamp_link)
+  );
+
+  // Low would put the ESP32 into its boot loader at its next reset.
+  assign wifi_gpio0 = 1'b1;
+
+  assign led = {rst_n, !(l1_n && l2_n && l3_n && l4_n && alm_n), !hold, lamp_link};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_board_reset: the reset of a board: power-on, PLL lock, button and the reset line of a host.
+// Rules:  feeds rst_n of P104-PORT-03. Without a PLL lock_i is 1 and the start values make the power-on reset.
+// Timing: rst_no falls with lock_i at once and at the third clk edge that sees req_ni low; it rises when both have
+//         been high without a break for HoldUs at least (twice that at most), so a button may bounce.
+`default_nettype none
+
+module ppmc_board_reset #(
+    parameter int unsigned ClkHz  = 24_000_000,
+    parameter int unsigned HoldUs = 1000         // 1 .. 1000
+) (
+    input  wire logic clk_i,
+    input  wire logic lock_i,  // asynchronous; 1: clk_i is good
+    input  wire logic req_ni,  // asynchronous; 0: reset wanted
+    output logic      rst_no
+);
+
+  if (ClkHz < 1_000_000 || HoldUs < 1 || HoldUs > 1000) begin : g_check
+    $fatal(1, "ppmc_board_reset: ClkHz >= 1e6, HoldUs 1 .. 1000");
+  end
+
+  localparam int unsigned Bits = $clog2(ClkHz / 1_000_000 * HoldUs);
+
+  // The start values matter where no PLL holds lock_i low after configuration.
+  logic [Bits:0] count_q = '0;
+  logic unused_meta, req_n;
+
+  assign rst_no = count_q[Bits];
+
+  ppmc_sync #(
+      .Width   (1),
+      .ResetVal(1'b0)
+  ) u_sync (
+      .clk_i,
+      .rst_ni(lock_i),
+      .d_i   (req_ni),
+      .q1_o  (unused_meta),
+      .q2_o  (req_n)
+  );
+
+  always_ff @(posedge clk_i or negedge lock_i) begin
+    if (!lock_i) count_q <= '0;
+    else if (!req_n) count_q <= '0;
+    else if (!rst_no) count_q <= count_q + 1'b1;
+  end
+
+endmodule
+
+`default_nettype wire

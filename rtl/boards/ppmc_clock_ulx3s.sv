@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_clock_ulx3s: 100 MHz from the 25 MHz oscillator of a ULX3S, by a PLL of the ECP5.
+// Rules:  divisors from ecppll for 25 MHz in, 100 MHz out (VCO 600 MHz); feedback from CLKOP.
+// Timing: lock_o is asynchronous.
+`default_nettype none
+
+module ppmc_clock_ulx3s (
+    input  wire logic clk_25m_i,
+    output logic      clk_o,      // 100 MHz
+    output logic      lock_o
+);
+
+  // Currents and filter of the loop, which the vendor's tool would work out, are given as attributes.
+  (* FREQUENCY_PIN_CLKI = "25", FREQUENCY_PIN_CLKOP = "100", ICP_CURRENT = "12", LPF_RESISTOR = "8",
+     MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
+  EHXPLLL #(
+      .CLKI_DIV       (1),
+      .CLKFB_DIV      (4),
+      .CLKOP_DIV      (6),
+      .CLKOP_CPHASE   (2),
+      .CLKOP_FPHASE   (0),
+      .CLKOP_ENABLE   ("ENABLED"),
+      .FEEDBK_PATH    ("CLKOP"),
+      .OUTDIVIDER_MUXA("DIVA"),
+      .OUTDIVIDER_MUXB("DIVB"),
+      .OUTDIVIDER_MUXC("DIVC"),
+      .OUTDIVIDER_MUXD("DIVD"),
+      .PLLRST_ENA     ("DISABLED"),
+      .INTFB_WAKE     ("DISABLED"),
+      .STDBY_ENABLE   ("DISABLED"),
+      .DPHASE_SOURCE  ("DISABLED")
+  ) u_pll (
+      .CLKI        (clk_25m_i),
+      .CLKFB       (clk_o),
+      .PHASESEL1   (1'b0),
+      .PHASESEL0   (1'b0),
+      .PHASEDIR    (1'b1),
+      .PHASESTEP   (1'b1),
+      .PHASELOADREG(1'b1),
+      .STDBY       (1'b0),
+      .PLLWAKESYNC (1'b0),
+      .RST         (1'b0),
+      .ENCLKOP     (1'b0),
+      .ENCLKOS     (1'b0),
+      .ENCLKOS2    (1'b0),
+      .ENCLKOS3    (1'b0),
+      .CLKOP       (clk_o),
+      .CLKOS       (),
+      .CLKOS2      (),
+      .CLKOS3      (),
+      .LOCK        (lock_o),
+      .INTLOCK     (),
+      .REFCLK      (),
+      .CLKINTFB    ()
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,231 @@
+"""The boards that `make bitstream` knows, and the way from their tops to a bitstream file."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from scripts import project
+from scripts.project import ProjectError
+
+from . import board_route
+from .synthesis import run_yosys
+from .yosys_job import BEST
+
+SEEDS = 5  # tried one after the other until the clock rate is met
+HOSTS = ("uart", "bus")
+VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
+CONSTRAINTS = project.ROOT / "constraints"
+
+
+@dataclass(frozen=True)
+class Board:
+    """One board: its FPGA, its clock, and per host ("uart", "bus") the top module and its constraint file.
+
+    `clk_hz` is the frequency of `clk` that the top gives to the part, `goal_mhz` the least that the project
+    wants of this board, `oscillator` the clock input with its frequency in MHz, `loader` its name in
+    openFPGALoader.
+    """
+
+    name: str
+    title: str
+    device: str
+    family: str
+    top: dict[str, str]
+    constraints: dict[str, str]
+    oscillator: tuple[str, float]
+    clk_hz: int
+    goal_mhz: float
+    suffix: str
+    loader: str
+    route: tuple[str, ...]  # nextpnr's choice of the device
+
+    def folder(self, host: str) -> Path:
+        """build/boards/<board> for the UART host, build/boards/<board>-bus for the other."""
+        return project.BUILD / "boards" / self.stem(host)
+
+    def stem(self, host: str) -> str:
+        """The board's name with its host, as folder and file are called."""
+        return self.name if host == "uart" else f"{self.name}-{host}"
+
+    def file(self, host: str) -> Path:
+        """The bitstream file, there or not."""
+        return self.folder(host) / f"{self.stem(host)}{self.suffix}"
+
+
+def both(text: str) -> dict[str, str]:
+    """The same for both hosts."""
+    return dict.fromkeys(HOSTS, text)
+
+
+def ulx3s(size: str) -> Board:
+    """A ULX3S with an LFE5U of `size` thousand LUTs."""
+    return Board(
+        name=f"ulx3s-{size}f",
+        title=f"ULX3S-{size}F",
+        device=f"LFE5U-{size}F-6CABGA381",
+        family="ecp5",
+        top=both("board_ulx3s"),
+        constraints=both("ulx3s.lpf"),
+        oscillator=("clk_25m", 25),
+        clk_hz=100_000_000,
+        goal_mhz=100,
+        suffix=".bit",
+        loader="ulx3s",
+        route=(f"--{size}k", "--package", "CABGA381", "--speed", "6"),
+    )
+
+
+BOARDS = {
+    board.name: board
+    for board in (
+        Board(
+            name="icebreaker",
+            title="iCEBreaker",
+            device="iCE40UP5K-SG48",
+            family="ice40",
+            top={"uart": "board_icebreaker", "bus": "board_icebreaker_bus"},
+            constraints={"uart": "icebreaker.pcf", "bus": "icebreaker-bus.pcf"},
+            oscillator=("clk_12m", 12),
+            clk_hz=24_000_000,
+            goal_mhz=24,
+            suffix=".bin",
+            loader="ice40_generic",
+            route=("--up5k", "--package", "sg48"),
+        ),
+        ulx3s("25"),
+        ulx3s("85"),
+        Board(
+            name="tangnano9k",
+            title="Tang Nano 9K",
+            device="GW1NR-LV9QN88PC6/I5",
+            family="gowin",
+            top=both("board_tangnano9k"),
+            constraints=both("tangnano9k.cst"),
+            oscillator=("clk_27m", 27),
+            clk_hz=54_000_000,
+            goal_mhz=50,
+            suffix=".fs",
+            loader="tangnano9k",
+            route=("--device", "GW1NR-LV9QN88PC6/I5", "--vopt", "family=GW1N-9C"),
+        ),
+    )
+}
+
+
+def board(name: str) -> Board:
+    """The board called `name`; ProjectError lists the known ones when there is none."""
+    try:
+        return BOARDS[name]
+    except KeyError:
+        raise ProjectError(f"BOARD={name}: no such board (known: {', '.join(BOARDS)})") from None
+
+
+def sources(top: str) -> list[Path]:
+    """The sources of a board top in compile order, the declarations of the vendors' cells first."""
+    shared = project.file_groups().get("boards", [])
+    files = [path for path in shared if not path.stem.startswith("board_") or path.stem == top]
+    return [VENDOR_CELLS, *project.sources(project.part("ppmc104")), *files]
+
+
+def parameters(top: str) -> set[str]:
+    """Names of the parameters of a board top."""
+    text = (project.RTL / "boards" / f"{top}.sv").read_text()
+    return set(re.findall(r"^ *parameter +[^=]*?(\w+) *=", text, re.MULTILINE))
+
+
+def synthesize_board(on: Board, host: str, params: dict[str, int | str] | None = None) -> Path:
+    """Mapped netlist of a board's top with `params` as its parameters; ProjectError with yosys' errors."""
+    top = on.top[host]
+    given = dict(params or {})
+    known = parameters(top) - {"HOST"}
+    for name in given.keys() - known:
+        raise ProjectError(f"{on.name} has no parameter {name} (it has: {', '.join(sorted(known))})")
+    if len(set(on.top.values())) == 1:
+        given["HOST"] = host.upper()
+    job = {
+        "top": top,
+        "include": [project.relative(path) for path in project.include_dirs()],
+        "sources": [project.relative(path) for path in sources(top)],
+        "params": given,
+        "family": on.family,
+        "recipe": BEST[on.family],
+        "keep": False,
+    }
+    return run_yosys(on.folder(host), job)
+
+
+def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
+    """Place and route with one seed: the figures of `build_board` without `file`. Timing may be missed."""
+    constraints = [CONSTRAINTS / on.constraints[host]]
+    used = board_route.route(on, netlist, on.folder(host), constraints, seed)
+    clk = min(used.clocks.values(), default=0.0)
+    return {
+        "board": on.name,
+        "title": on.title,
+        "host": host,
+        "device": on.device,
+        "lut": used.lut[0],
+        "lut_total": used.lut[1],
+        "lut_name": board_route.LUT_NAME[on.family],
+        "ff": board_route.flip_flops(netlist, on.top[host]),
+        "ram": used.ram[0],
+        "ram_total": used.ram[1],
+        "fmax": clk,
+        "clocks": used.clocks,
+        "clk_hz": on.clk_hz,
+        "goal_mhz": on.goal_mhz,
+        "seed": seed,
+    }
+
+
+def met(figures: dict) -> bool:
+    """Whether a run reached the clock that the top runs with (which is not below the goal)."""
+    return figures["fmax"] >= figures["clk_hz"] / 1e6
+
+
+def build_board(
+    name: str,
+    host: str,
+    seed: int | None = None,
+    params: dict[str, int | str] | None = None,
+    notify: Callable[[str], None] = lambda text: None,
+) -> dict:
+    """Bitstream and report.json of a board in build/boards/; returns the report.
+
+    With `seed` None the seeds 1 to SEEDS are tried until timing is met. ProjectError when it is not, or when
+    a tool fails. `notify` is told what is being done.
+    """
+    on = board(name)
+    if host not in HOSTS:
+        raise ProjectError(f"HOST={host}: expected uart or bus")
+    folder = on.folder(host)
+    folder.mkdir(parents=True, exist_ok=True)
+    on.file(host).unlink(missing_ok=True)
+    (folder / "report.json").unlink(missing_ok=True)
+    notify("synthesis")
+    netlist = synthesize_board(on, host, params)
+    seen = []
+    for number in range(1, SEEDS + 1) if seed is None else [seed]:
+        notify(f"place and route, seed {number}")
+        figures = route_board(on, host, netlist, number)
+        if met(figures):
+            break
+        seen.append(f"{figures['fmax']:.1f} MHz with seed {number}")
+    else:
+        raise ProjectError(
+            f"{name}: timing missed, {on.clk_hz / 1e6:g} MHz needed: {', '.join(seen)}. "
+            f"Try another seed, such as SEED={(seed or SEEDS) + 1}"
+        )
+    notify("bitstream")
+    board_route.pack(on, folder, on.file(host))
+    figures |= {
+        "file": project.relative(on.file(host)),
+        "bytes": on.file(host).stat().st_size,
+        "params": params or {},
+    }
+    (folder / "report.json").write_text(json.dumps(figures, indent=1) + "\n")
+    return figures

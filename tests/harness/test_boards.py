@@ -1,0 +1,152 @@
+"""Board tops against their constraint files: ports, pins, pull-ups, clocks."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from scripts import project
+from scripts.flow import boards
+from scripts.flow.boards import BOARDS, HOSTS
+
+CONSTRAINTS = project.ROOT / "constraints"
+TOPS = project.RTL / "boards"
+
+# top module, file of pins, file of the clock, clock input and its MHz
+FILES = {
+    (on.top[host], on.constraints[host], on.constraints[host], *on.oscillator)
+    for on in BOARDS.values()
+    for host in HOSTS
+    if on.family != "gowin"
+} | {
+    ("board_tangnano9k", "tangnano9k.cst", "tangnano9k.sdc", "clk_27m", 27),
+    ("board_arty_a7", "arty_a7.xdc", "arty_a7.xdc", "clk", 100),
+    ("board_de10nano", "de10nano.qsf", "de10nano.sdc", "clk", 50),
+}
+ALL = sorted(FILES)
+IDS = [entry[1] for entry in ALL]
+
+# pin and port of each family's statement
+PIN = {
+    ".pcf": re.compile(r"^set_io +(?:-pullup +yes +)?(?P<port>\S+) +(?P<pin>\S+)", re.M),
+    ".lpf": re.compile(r'^LOCATE COMP "(?P<port>[^"]+)" SITE "(?P<pin>[^"]+)";', re.M),
+    ".cst": re.compile(r'^IO_LOC "(?P<port>[^"]+)" (?P<pin>\w+);', re.M),
+    ".xdc": re.compile(r"PACKAGE_PIN (?P<pin>\w+) .*get_ports \{(?P<port>[^}]+)\}", re.M),
+    ".qsf": re.compile(r"^set_location_assignment PIN_(?P<pin>\w+) -to (?P<port>\S+)", re.M),
+}
+PULLED_UP = {
+    ".pcf": r"^set_io +-pullup +yes +{}\s",
+    ".lpf": r'IOBUF PORT "{}" PULLMODE=UP ',
+    ".cst": r'^IO_PORT "{}" IO_TYPE=LVCMOS\d+ PULL_MODE=UP',
+    ".xdc": r"PULLUP TRUE\}} \[get_ports \{{{}\}}\]",
+    ".qsf": r"^set_instance_assignment -name WEAK_PULL_UP_RESISTOR ON -to {}$",
+}
+MHZ = {
+    ".pcf": re.compile(r"^set_frequency (?P<port>\S+) (?P<mhz>[\d.]+)", re.M),
+    ".lpf": re.compile(r'^FREQUENCY PORT "(?P<port>[^"]+)" (?P<mhz>[\d.]+) MHZ;', re.M),
+}
+NS = re.compile(r"^create_clock -name \S+ -period (?P<ns>[\d.]+) \[get_ports \{(?P<port>\S+)\}\]", re.M)
+
+
+@dataclass(frozen=True)
+class Port:
+    """A port of a top: its direction and the names of its bits."""
+
+    direction: str
+    bits: tuple[str, ...]
+
+
+def ports_of(text: str) -> dict[str, Port]:
+    """The ports that a top's source declares, one a line."""
+    found = {}
+    pattern = r"^ +(input|output|inout) +(?:wire )?logic *(?:\[(\d+):(\d+)\])? +(\w+)"
+    for direction, high, low, name in re.findall(pattern, text, re.M):
+        bits = [f"{name}[{bit}]" for bit in range(int(low), int(high) + 1)] if high else [name]
+        found[name] = Port(direction, tuple(bits))
+    return found
+
+
+def ports(top: str) -> dict[str, Port]:
+    """The ports of a top in rtl/boards."""
+    return ports_of((TOPS / f"{top}.sv").read_text())
+
+
+def pins(text: str, suffix: str) -> list[tuple[str, str]]:
+    """(port, pin) pairs of a constraint file's text."""
+    return [(match["port"], match["pin"]) for match in PIN[suffix].finditer(text)]
+
+
+def clocks(text: str, suffix: str) -> dict[str, float]:
+    """Clock constraints of a file: port and MHz."""
+    if suffix in MHZ:
+        return {match["port"]: float(match["mhz"]) for match in MHZ[suffix].finditer(text)}
+    return {match["port"]: 1000 / float(match["ns"]) for match in NS.finditer(text)}
+
+
+def test_every_top_has_a_constraint_file() -> None:
+    assert {path.stem for path in TOPS.glob("board_*.sv")} == {entry[0] for entry in ALL}
+    used = {name for entry in ALL for name in entry[1:3]}
+    assert {path.name for path in CONSTRAINTS.iterdir()} == used
+
+
+@pytest.mark.parametrize(("top", "file", "clock_file", "clock", "mhz"), ALL, ids=IDS)
+def test_ports_and_pins(top: str, file: str, clock_file: str, clock: str, mhz: float) -> None:
+    path = CONSTRAINTS / file
+    text = path.read_text()
+    pairs = pins(text, path.suffix)
+    wanted = sorted(bit for port in ports(top).values() for bit in port.bits)
+    assert sorted(port for port, _ in pairs) == wanted
+    sites = [pin for _, pin in pairs]
+    assert sorted(set(sites)) == sorted(sites), "a pin is used twice"
+
+    constraints = clocks((CONSTRAINTS / clock_file).read_text(), Path(clock_file).suffix)
+    assert list(constraints) == [clock]
+    assert constraints[clock] == pytest.approx(mhz, rel=1e-4)
+
+
+@pytest.mark.parametrize(("top", "file", "clock_file", "clock", "mhz"), ALL, ids=IDS)
+def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: str, mhz: float) -> None:
+    path = CONSTRAINTS / file
+    text = path.read_text()
+    buttons = {"btn_f1", "key_n"}  # one is pulled down, the other has a resistor and a Schmitt trigger
+    for name, port in ports(top).items():
+        if name in buttons | {clock}:
+            continue
+        for bit in port.bits:
+            pulled = re.search(PULLED_UP[path.suffix].format(re.escape(bit)), text, re.M) is not None
+            assert pulled == (port.direction != "output"), f"{file}: {bit}"
+
+
+@pytest.mark.parametrize(("top", "file"), [entry[:2] for entry in ALL], ids=IDS)
+def test_table_of_the_pins(top: str, file: str) -> None:
+    """docs/boards.md has each port with its pin and direction."""
+    page = (project.DOCS / "boards.md").read_text()
+    table = page.split(f"<!-- pins {file} -->")[1].split(f"<!-- /pins {file} -->")[0]
+    told = re.findall(r"^\| `([^`]+)` \| ([a-z, ]+) \| (\w+) \|", table, re.M)
+    words = {"input": "in", "output": "out", "inout": "in, out"}
+    direction = {bit: words[port.direction] for port in ports(top).values() for bit in port.bits}
+    wanted = [
+        (bit, direction[bit], pin) for bit, pin in pins((CONSTRAINTS / file).read_text(), Path(file).suffix)
+    ]
+    assert sorted(told) == sorted(wanted)
+
+
+@pytest.mark.parametrize("on", BOARDS.values(), ids=list(BOARDS))
+def test_clock_of_the_top(on: boards.Board) -> None:
+    for top in on.top.values():
+        text = (TOPS / f"{top}.sv").read_text()
+        found = re.search(r"localparam int unsigned ClkHz = ([\d_]+);", text)
+        assert found
+        assert int(found[1].replace("_", "")) == on.clk_hz
+    assert on.clk_hz / 1e6 >= on.goal_mhz
+
+
+@pytest.mark.parametrize("host", HOSTS)
+@pytest.mark.parametrize("on", BOARDS.values(), ids=list(BOARDS))
+def test_sources_of_a_board(on: boards.Board, host: str) -> None:
+    files = boards.sources(on.top[host])
+    assert all(path.is_file() for path in files)
+    assert [path.stem for path in files if path.stem.startswith("board_")] == [on.top[host]]
