@@ -1,0 +1,53 @@
+"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 130 Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from ..host.errors import PpmcError
+
+_USAGE_ERROR = typer.BadParameter.__bases__[0]  # UsageError of the click that typer brings along
+_CLICK_ERROR = _USAGE_ERROR.__bases__[0]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a command line. Errors become one line on stderr; OPENPPMC_DEBUG=1 adds the traceback."""
+    from .app import app
+
+    try:
+        result = app(arguments, prog_name="openppmc", standalone_mode=False)
+        sys.stdout.flush()
+        return result if isinstance(result, int) else 0
+    except typer.Exit as done:
+        return done.exit_code
+    except (KeyboardInterrupt, typer.Abort):
+        print("interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        if os.environ.get("OPENPPMC_DEBUG"):
+            raise
+        return _complain(error)
+
+
+def _complain(error: Exception) -> int:
+    """Print one line; returns the exit status."""
+    if isinstance(error, _CLICK_ERROR):
+        context = getattr(error, "ctx", None)
+        where = context.command_path if context is not None else "openppmc"
+        text = " ".join(error.format_message().split())  # type: ignore[attr-defined]
+        if not text:
+            return 2  # the help was shown
+        print(f"error: {text.rstrip('.')} (see {where} --help)", file=sys.stderr)
+        return 2
+    if isinstance(error, PpmcError):
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    kind = type(error).__name__
+    print(f"error: a fault of this program ({kind}: {error}): OPENPPMC_DEBUG=1 shows where", file=sys.stderr)
+    return 1

@@ -1,0 +1,118 @@
+"""What commands print: tables for people, JSON for programs."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import Any
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ..host import End, Ppmc104, units
+from ..host.link import Link
+from ..host.script import RATES
+
+out = Console(highlight=False)
+
+
+def say(text: str) -> None:
+    """One line on stdout, as it is."""
+    print(text)
+
+
+def note(text: str) -> None:
+    """One line beside the results, on stderr."""
+    print(text, file=sys.stderr)
+
+
+def table(rows: dict[str, str], title: str | None = None) -> Table:
+    """Two columns, no frame."""
+    grid = Table(box=box.SIMPLE_HEAD if title else None, show_header=False, title=title, pad_edge=False)
+    grid.add_column(style="bold")
+    grid.add_column()
+    for name, value in rows.items():
+        grid.add_row(name, value)
+    return grid
+
+
+def print_json(values: Any) -> None:
+    """One JSON document."""
+    print(json.dumps(values, indent=1))
+
+
+def identity_values(link: Link) -> dict[str, Any]:
+    """What IDENT said."""
+    identity = link.identity
+    return {
+        "port": link.name,
+        "part": f"PPMC-{identity.part}",
+        "protocol": identity.version,
+        "timing": "DATASHEET" if identity.datasheet else "FAST",
+        "pulse_counter": identity.counter,
+        "crystal_hz": identity.xtal_hz,
+        "clock_hz": identity.clk_hz,
+        "baud": link.baud,
+        "best_baud": RATES[identity.best_rate],
+    }
+
+
+def status_values(axis: Ppmc104) -> dict[str, Any]:
+    """Everything that may be read at any time."""
+    status, inputs = axis.status(), axis.inputs()
+    return {
+        "position": axis.counted(axis.position) if axis.link.identity.counter else None,
+        "moving": status.busy,
+        "error": None if status.error is None else int(status.error),
+        "status": status.raw,
+        "inputs": {name: bool(on) for name, on in vars(inputs).items()},
+    }
+
+
+def status_rows(values: dict[str, Any]) -> dict[str, str]:
+    """The same for people."""
+    active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
+    error = values["error"]
+    return {
+        "position": "no counter" if values["position"] is None else str(values["position"]),
+        "motor": "moving" if values["moving"] else "at rest",
+        "switches": ", ".join(active) or "none active",
+        "last byte": "good" if error is None else f"error {error}",
+    }
+
+
+def end_line(end: End) -> str:
+    """Where the motor stands, and why."""
+    pulses = "" if end.pulses is None else f", {abs(end.pulses)} pulses {'CCW' if end.pulses < 0 else 'CW'}"
+    return f"position {end.position}{pulses}: {end.cause}"
+
+
+def setup_rows(setup: units.Setup) -> dict[str, str]:
+    """Asked and reached speeds, ramp, bytes."""
+
+    def speed(value: units.Speed) -> str:
+        text = f"{units.nearby(value.reached)} pps (rate {value.rate})"
+        return text if value.reached == value.asked else f"{text}, asked {units.nearby(value.asked)} pps"
+
+    rows = {"start speed": speed(setup.start), "high speed": speed(setup.high)}
+    if setup.start.rate != setup.high.rate:
+        steep = units.nearby(setup.acceleration)
+        rows["ramp"] = f"{setup.ramp_pulses} pulses, {setup.ramp_seconds:.4g} s, {steep} pps/s"
+    clock = setup.clock
+    kind = "clock pin" if clock.external else "internal"
+    rows["base clock"] = f"{units.nearby(clock.hertz)} Hz ({kind})" + (", 7.5 us more" if clock.extra else "")
+    rows["bytes"] = " ".join(f"{byte:02X}" for byte in (setup.code, *setup.data))
+    return rows
+
+
+def setup_values(setup: units.Setup) -> dict[str, Any]:
+    """For JSON."""
+    return {
+        "start_pps": float(setup.start.reached),
+        "high_pps": float(setup.high.reached),
+        "ramp_pulses": setup.ramp_pulses,
+        "acceleration_pps2": setup.acceleration,
+        "base_clock_hz": float(setup.clock.hertz),
+        "bytes": [setup.code, *setup.data],
+    }

@@ -1,0 +1,39 @@
+"""Speed over time of one predicted move."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+
+from openppmc.model.predict import Move
+
+from .motion import GREY, INK, PALE, SPEED, bare
+
+FORMATS = (".png", ".svg", ".pdf")
+
+
+def draw_profile(move: Move, title: str, path: Path) -> None:
+    """Draw the move into a file of one of FORMATS. OSError if it cannot be written."""
+    times, speeds = move.seconds, move.speeds
+    figure, axes = plt.subplots(figsize=(9, 4), dpi=110, layout="constrained")
+    if speeds:
+        xs, ys = [t * 1000 for t in times], [*speeds, speeds[-1]]
+        axes.fill_between(xs, 0, ys, step="post", color=SPEED, alpha=0.18, linewidth=0)
+        axes.step(xs, ys, where="post", color=SPEED, linewidth=1.6)
+    axes.set_ylim(0, None)
+    axes.set_xlim(0, None)
+    axes.set_xlabel("time after the first pulse / ms", fontsize=9, color=GREY)
+    axes.set_ylabel("speed / pps", fontsize=9, color=GREY)
+    axes.set_title(title, fontsize=11, color=INK, loc="left")
+    bare(axes)
+    axes.grid(axis="y", color=PALE, linewidth=0.8)
+    axes.set_axisbelow(True)
+    try:
+        figure.savefig(path)
+    finally:
+        plt.close(figure)

@@ -1,0 +1,85 @@
+"""`python -m openppmc.sim [TEXT]`, `make board SIM=TEXT`: a virtual board in the foreground."""
+
+from __future__ import annotations
+
+import shutil
+import signal
+import sys
+import time
+from pathlib import Path
+
+from .board import SimBoard, Status, start
+from .build import SimError
+from .spec import KNOWN, SpecError
+
+USAGE = f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md"
+LIVE, PLAIN = 0.2, 30.0
+SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp"), ("ALM", "alm"))
+
+
+def split_link(text: str) -> tuple[str, Path | None]:
+    """Take `link=PATH` out of the text."""
+    words = text.split(",")
+    links = [word.partition("=")[2].strip() for word in words if word.strip().startswith("link=")]
+    rest = ",".join(word for word in words if not word.strip().startswith("link="))
+    if links and (not links[-1] or (Path(links[-1]).exists() and not Path(links[-1]).is_symlink())):
+        raise SpecError(f"link={links[-1]}: there is something else of that name")
+    return rest, Path(links[-1]) if links else None
+
+
+def line(now: Status) -> str:
+    """One line for the user."""
+    switches = " ".join(name for name, field in SWITCHES if getattr(now, field)) or "none"
+    state = "at rest" if now.hold else "moving"
+    host = f"{now.rate} baud" if now.open else "no host"
+    pace = "asleep" if now.asleep else f"{now.factor:.2f} x real time"
+    return (
+        f"{now.seconds:9.1f} s  {pace:16}  position {now.position:8}  {state:7}  "
+        f"active: {switches}{'  INT' if now.interrupt else ''}  [{host}]"
+    )
+
+
+def show(board: SimBoard) -> None:
+    """Status until the board ends: a live line on a terminal, else a line now and then."""
+    live = sys.stdout.isatty()
+    while True:
+        text = line(board.status())
+        if live:
+            columns = shutil.get_terminal_size().columns
+            print(f"\r{text[: columns - 1]:{columns - 1}}", end="", flush=True)
+        else:
+            print(text, flush=True)
+        time.sleep(LIVE if live else PLAIN)
+
+
+def main(arguments: list[str]) -> int:
+    """Run a board until Ctrl-C; 1 after an error."""
+    if any(word in ("-h", "--help") for word in arguments):
+        print(USAGE)
+        return 0
+    link: Path | None = None
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        text, link = split_link(",".join(arguments))
+        with start(text) as board:
+            name = board.port
+            if link is not None:
+                link.unlink(missing_ok=True)
+                link.symlink_to(board.port)
+                name = str(link)
+            print(f"virtual board at {name}; try: openppmc --port {name} info")
+            print("Ctrl-C ends it", flush=True)
+            show(board)
+    except (SimError, SpecError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print()
+    finally:
+        if link is not None and link.is_symlink():
+            link.unlink()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,139 @@
+"""A running virtual board: the program of tb/board as a child process."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import TracebackType
+
+from .build import SimError, build
+from .spec import Spec, parse_spec
+
+
+@dataclass(frozen=True)
+class Status:
+    """What the board shows. Switches: True = active; hold: True = at rest for 34 ms; interrupt: int_n low.
+
+    seconds, clk: board time. factor: board time / wall time over the last half second. asleep: nothing can
+    change before the host speaks, so nothing is computed. open: a host has the port open, at `rate` bit/s.
+    lost: bytes for the host that found no room. pulses: made since the start.
+    """
+
+    clk: int
+    seconds: float
+    factor: float
+    asleep: bool
+    open: bool
+    rate: int
+    lost: int
+    position: int
+    pulses: int
+    l1: bool
+    l2: bool
+    l3: bool
+    l4: bool
+    cnp: bool
+    alm: bool
+    hold: bool
+    interrupt: bool
+    link: bool
+    phases: str
+
+    @classmethod
+    def parse(cls, line: str) -> Status:
+        """From the program's own words."""
+        values = dict(word.partition("=")[::2] for word in line.split())
+        values["interrupt"] = values.pop("int")
+        kinds = {"int": int, "float": float, "bool": lambda text: text == "1", "str": str}
+        fields = cls.__dataclass_fields__.items()
+        return cls(**{name: kinds[str(field.type)](values[name]) for name, field in fields})
+
+
+class SimBoard:
+    """A virtual board that runs until `close`, the end of the `with` block or the end of this program.
+
+    port: path of the pseudo-terminal. process: the child. spec: what was asked for.
+    """
+
+    def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
+        self.spec = spec
+        program = build(spec.clk_hz, spec.xtal_hz, spec.timing, spec.vcd is not None, say)
+        try:
+            # The program ends with its standard input, so with this process, however that ends.
+            self.process = subprocess.Popen(
+                [program, *spec.arguments()],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                text=True,
+                bufsize=1,
+            )
+        except OSError as error:
+            raise SimError(f"the virtual board does not start: {error.strerror}") from None
+        self._lock = threading.Lock()
+        word, _, rest = self._line().partition(" ")
+        if word != "port":
+            self.close()
+            raise SimError(f"the virtual board does not start: {rest or 'it ended at once'}")
+        self.port = rest
+
+    def _line(self) -> str:
+        assert self.process.stdout is not None
+        return self.process.stdout.readline().rstrip("\n")
+
+    @property
+    def running(self) -> bool:
+        """False when the program has ended."""
+        return self.process.poll() is None
+
+    def status(self) -> Status:
+        """What the board shows now. Raises SimError when the program has ended."""
+        assert self.process.stdin is not None
+        try:
+            with self._lock:
+                self.process.stdin.write("status\n")
+                self.process.stdin.flush()
+                line = self._line()
+        except (OSError, ValueError):
+            line = ""
+        if not line.startswith("status "):
+            raise SimError("the virtual board has ended")
+        return Status.parse(line.removeprefix("status "))
+
+    def close(self) -> None:
+        """End the program; allowed twice."""
+        process = self.process
+        for pipe in (process.stdin, process.stdout):
+            try:
+                if pipe is not None:
+                    pipe.close()
+            except OSError:
+                pass  # it has ended already
+        try:
+            process.wait(timeout=2)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def __enter__(self) -> SimBoard:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def start(spec: str = "", say: Callable[[str], None] | None = None, **options: object) -> SimBoard:
+    """Start a virtual board: `start("cw=20000,speed=max")` or `start(cw=20000, speed="max")`.
+
+    spec: the text after `sim:`. say: gets a line when something takes long (default: to standard error).
+    Raises SpecError (a ValueError) for a bad text, SimError (a RuntimeError) if it does not build or start.
+    """
+    return SimBoard(parse_spec(spec, **options), say or _to_stderr)
+
+
+def _to_stderr(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)

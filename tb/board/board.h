@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The virtual board: DUT, UART, plant and pace put together.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "dut.h"
+#include "options.h"
+#include "pace.h"
+#include "plant.h"
+#include "pty.h"
+#include "uart.h"
+
+class Board {
+   public:
+    Board(const Options& options, uint64_t clk_hz);
+    ~Board();
+
+    const std::string& port() const { return pty_.path(); }
+
+    // Simulates a slice of board time (1/8 ms) and serves the host; sleeps as the pace asks. While nothing can
+    // happen before the host speaks, it waits instead: for it, for `wake_fd` (-1: none), or for 1/4 s.
+    void run(int wake_fd);
+
+    // "name=value name=value …": see docs/virtual_board.md.
+    std::string status() const;
+
+   private:
+    void simulate(uint64_t end);
+    void change();
+    void serve();
+    void doze(int wake_fd);
+    void apply_switches();
+    void trace_window();
+
+    const uint64_t clk_hz_;
+    Options options_;
+    Pty pty_;
+    Dut dut_;
+    Plant plant_;
+    Uart uart_;
+    Pace pace_;
+
+    uint64_t now_ = 0;       // number of the next clk edge
+    uint64_t wake_ = 0;      // next() of the UART
+    uint64_t busy_until_ = 0;  // no doze before this clk
+    bool txd_ = true, pout_ = true;
+    bool dozing_ = false;
+    uint64_t trace_from_ = 0, trace_end_ = 0;
+    bool tracing_ = false;
+    std::FILE* log_ = nullptr;
+    std::vector<uint8_t> bytes_;
+};

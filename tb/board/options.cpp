@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+namespace {
+
+template <class Number>
+Number whole(const std::string& text, Number value, const char* end) {
+    if (text.empty() || *end) throw std::runtime_error(text + ": not a number");
+    return value;
+}
+
+int64_t integer(const std::string& text) {
+    char* end;
+    const int64_t value = std::strtoll(text.c_str(), &end, 10);
+    return whole(text, value, end);
+}
+
+double real(const std::string& text) {
+    char* end;
+    const double value = std::strtod(text.c_str(), &end);
+    return whole(text, value, end);
+}
+
+}  // namespace
+
+Options parse_options(int argc, char** argv) {
+    Options o;
+    using Setter = std::function<void(const std::string&)>;
+    const auto position = [](int64_t& to) { return Setter([&to](const std::string& text) { to = integer(text); }); };
+    const std::map<std::string, Setter> setters = {
+        {"start", position(o.plant.start)},
+        {"cw", position(o.plant.cw)},
+        {"ccw", position(o.plant.ccw)},
+        {"slow_cw", position(o.plant.slow_cw)},
+        {"slow_ccw", position(o.plant.slow_ccw)},
+        {"origin", position(o.plant.origin)},
+        {"alarm",
+         [&o](const std::string& text) {
+             const size_t dots = text.find("..");
+             if (dots == std::string::npos) throw std::runtime_error("alarm=" + text + ": not a range");
+             o.plant.alarm_from = integer(text.substr(0, dots));
+             o.plant.alarm_to = integer(text.substr(dots + 2));
+         }},
+        {"speed", [&o](const std::string& text) { o.speed = text == "max" ? 0 : real(text); }},
+        {"vcd", [&o](const std::string& text) { o.vcd = text; }},
+        {"vcd_from", [&o](const std::string& text) { o.vcd_from = real(text); }},
+        {"vcd_for", [&o](const std::string& text) { o.vcd_for = real(text); }},
+        {"log", [&o](const std::string& text) { o.log = text; }},
+    };
+    for (int i = 1; i < argc; ++i) {
+        const char* equals = std::strchr(argv[i], '=');
+        const auto setter = setters.find(std::string(argv[i], equals ? equals - argv[i] : std::strlen(argv[i])));
+        if (!equals || setter == setters.end()) throw std::runtime_error(std::string(argv[i]) + ": no such option");
+        setter->second(equals + 1);
+    }
+    return o;
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arguments name=value of the virtual board. openppmc.sim checks them for the user; here mistakes only end the program.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "plant.h"
+
+struct Options {
+    PlantText plant;
+    double speed = 1.0;     // times real time; 0: as fast as the machine can
+    std::string vcd;        // file name; empty: none
+    double vcd_from = 0;    // ms of board time
+    double vcd_for = 20;    // ms
+    std::string log;        // file of pulses; empty: none
+};
+
+// Throws std::runtime_error with one line.
+Options parse_options(int argc, char** argv);

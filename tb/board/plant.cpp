@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plant.h"
+
+void Plant::look() {
+    l1 = position_ >= text_.cw;
+    l2 = position_ <= text_.ccw;
+    l3 = position_ >= text_.slow_cw;
+    l4 = position_ <= text_.slow_ccw;
+    cnp = position_ <= text_.origin;
+    alm = text_.alarm_from && position_ >= *text_.alarm_from && position_ <= *text_.alarm_to;
+}
