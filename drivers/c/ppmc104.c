@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Driver for the PPMC-104 stepper controller; what each function does is said in ppmc104.h. */
+#include "ppmc104.h"
+
+#include <stddef.h>
+
+/* Command codes; operations are sums of one of OP_... and the flags of the header. */
+#define CODE_INIT_S 0x20u
+#define CODE_INIT_C 0x10u
+#define CODE_INIT_L 0x08u
+#define CODE_INIT_E 0x04u
+#define CODE_STOP 0x40u
+#define CODE_STOP_SLOWLY 0x41u
+#define OP_STEP 0x42u
+#define OP_MOVE 0x43u
+#define OP_CONSTANT 0x44u
+#define OP_JOG 0x45u
+#define OP_RUN 0x46u
+#define OP_HOME 0x47u
+#define CODE_FINISH 0x80u
+#define CODE_INPUTS 0x81u
+#define CODE_OUTPUTS 0x82u
+#define CODE_REMAINING 0x83u
+#define CODE_SWITCHING 0x84u
+#define CODE_AUX_INPUTS 0x85u
+#define CODE_AUX_OUTPUTS 0x86u
+#define CODE_EXCITATION_OFF 0xC0u
+#define CODE_AUX_ON 0xC1u
+#define CODE_AUX_OFF 0xC2u
+
+#define FINISH_CAUSES 0x78u
+#define STATUS_ZERO 0x08u /* reads 0 on every part */
+#define RAMP_MIN 4u
+#define RAMP_MAX 11220u
+#define PULSES_MAX 0x1000000ul
+#define PPS_MAX 500000ul
+#define EXTRA_QUANTA 30u /* 7.5 us in units of 4 crystal cycles */
+
+const char *ppmc104_strerror(ppmc104_result_t result)
+{
+    switch (result) {
+    case PPMC104_OK: return "ok";
+    case PPMC104_ERR_UNKNOWN: return "error 0: no such command, or nothing to stop";
+    case PPMC104_ERR_BUSY: return "error 1: not while an operation runs";
+    case PPMC104_ERR_UNINITIALISED: return "error 2: not initialised";
+    case PPMC104_ERR_DATA: return "error 3: data byte nobody asked for";
+    case PPMC104_ERR_RAMP_LONG: return "error 4: ramp longer than 11220 pulses";
+    case PPMC104_ERR_RAMP: return "error 5: high speed below start speed, or ramp below 4 pulses";
+    case PPMC104_ERR_DATA_BUSY: return "error 6: data byte nobody asked for, during an operation";
+    case PPMC104_ERR_DECELERATING: return "error 7: decelerates already";
+    case PPMC104_TIMEOUT: return "time-out: the part did not get ready";
+    case PPMC104_NO_PART: return "time-out: no part answers, check address, wiring and reset";
+    case PPMC104_BAD_ARGUMENT: return "argument out of range";
+    }
+    return "unknown result";
+}
+
+/* ---- speeds ---- */
+
+static bool speed_legal(const ppmc104_speed_t *speed)
+{
+    if (speed->xtal_hz < 1000000ul || speed->xtal_hz > 16000000ul) {
+        return false;
+    }
+    if (speed->base != PPMC104_BASE_PIN) {
+        return true;
+    }
+    return !speed->extra && speed->pin_hz >= 1u && speed->pin_hz <= speed->xtal_hz / 16u;
+}
+
+/* Base clock periods in units of 4 crystal cycles. */
+static uint32_t base_quanta(const ppmc104_speed_t *speed)
+{
+    return speed->base == PPMC104_BASE_500K ? 8u : 32u;
+}
+
+ppmc104_result_t ppmc104_rate_from_pps(const ppmc104_speed_t *speed, uint32_t pps, uint8_t *rate)
+{
+    uint32_t whole, part, count;
+
+    if (!speed_legal(speed) || pps == 0u || pps > PPS_MAX) {
+        return PPMC104_BAD_ARGUMENT;
+    }
+    if (speed->base == PPMC104_BASE_PIN) {
+        whole = speed->pin_hz;
+        part = pps;
+    } else {
+        uint32_t extra = speed->extra ? 4u * EXTRA_QUANTA * pps : 0u;
+        if (extra >= speed->xtal_hz) {
+            return PPMC104_BAD_ARGUMENT;
+        }
+        whole = speed->xtal_hz - extra;
+        part = 4u * base_quanta(speed) * pps;
+    }
+    /* The interval is what is rounded: the speed is in error by at most half a step of it. */
+    count = (whole + part / 2u) / part;
+    if (count < 1u || count > 256u) {
+        return PPMC104_BAD_ARGUMENT;
+    }
+    *rate = (uint8_t)(count - 1u);
+    return PPMC104_OK;
+}
+
+uint32_t ppmc104_rate_to_mpps(const ppmc104_speed_t *speed, uint8_t rate)
+{
+    uint32_t count = (uint32_t)rate + 1u, whole, part;
+
+    if (!speed_legal(speed)) {
+        return 0u;
+    }
+    if (speed->base == PPMC104_BASE_PIN) {
+        whole = speed->pin_hz;
+        part = count;
+    } else {
+        whole = speed->xtal_hz;
+        part = 4u * (count * base_quanta(speed) + (speed->extra ? EXTRA_QUANTA : 0u));
+    }
+    /* In two steps, so that 32 bits are enough. */
+    return whole / part * 1000u + whole % part * 1000u / part;
+}
+
+/* ---- bytes ---- */
+
+void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
+                   void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx)
+{
+    dev->read = read;
+    dev->write = write;
+    dev->ctx = ctx;
+    dev->limit = PPMC104_DEFAULT_LIMIT;
+    dev->give_up = NULL;
+}
+
+uint8_t ppmc104_status(ppmc104_t *dev)
+{
+    return dev->read(dev->ctx, PPMC104_REG_STATUS);
+}
+
+bool ppmc104_busy(ppmc104_t *dev)
+{
+    return (ppmc104_status(dev) & PPMC104_STATUS_BUSY) != 0u;
+}
+
+/* Poll until status & mask == value; `status` gets the last one read. */
+static ppmc104_result_t wait_for(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t *status)
+{
+    unsigned long polls = 0;
+
+    for (;;) {
+        bool over;
+        *status = ppmc104_status(dev);
+        if ((*status & mask) == value && (*status & STATUS_ZERO) == 0u) {
+            return PPMC104_OK;
+        }
+        ++polls;
+        over = dev->give_up != NULL ? dev->give_up(dev->ctx, polls) : polls >= dev->limit;
+        if (over) {
+            return (*status & STATUS_ZERO) != 0u ? PPMC104_NO_PART : PPMC104_TIMEOUT;
+        }
+    }
+}
+
+/* One byte: room for it, the write, and what the part made of it. */
+static ppmc104_result_t put(ppmc104_t *dev, unsigned reg, uint8_t value)
+{
+    uint8_t status;
+    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_IBF, 0u, &status);
+
+    if (result != PPMC104_OK) {
+        return result;
+    }
+    dev->write(dev->ctx, reg, value);
+    result = wait_for(dev, PPMC104_STATUS_IBF, 0u, &status);
+    if (result == PPMC104_OK && (status & PPMC104_STATUS_ERR) != 0u) {
+        return (ppmc104_result_t)(PPMC104_ERR_UNKNOWN + ((status >> 4) & 7));
+    }
+    return result;
+}
+
+ppmc104_result_t ppmc104_data(ppmc104_t *dev, uint8_t value)
+{
+    return put(dev, PPMC104_REG_DATA, value);
+}
+
+ppmc104_result_t ppmc104_command(ppmc104_t *dev, uint8_t code, const uint8_t *data, unsigned count)
+{
+    unsigned n;
+    ppmc104_result_t result;
+
+    if (count > 4u) {
+        return PPMC104_BAD_ARGUMENT;
+    }
+    result = put(dev, PPMC104_REG_STATUS, code);
+    for (n = 0; n < count && result == PPMC104_OK; ++n) {
+        result = put(dev, PPMC104_REG_DATA, data[n]);
+    }
+    return result;
+}
+
+ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value)
+{
+    unsigned n;
+    uint32_t sum = 0;
+
+    if (count < 1u || count > 4u) {
+        return PPMC104_BAD_ARGUMENT;
+    }
+    for (n = 0; n < count; ++n) {
+        uint8_t status;
+        ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_OBF, PPMC104_STATUS_OBF, &status);
+        if (result != PPMC104_OK) {
+            return result;
+        }
+        sum |= (uint32_t)dev->read(dev->ctx, PPMC104_REG_DATA) << (8u * n);
+    }
+    *value = sum;
+    return PPMC104_OK;
+}
+
+static ppmc104_result_t ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value)
+{
+    ppmc104_result_t result = ppmc104_command(dev, code, NULL, 0u);
+    return result == PPMC104_OK ? ppmc104_fetch(dev, count, value) : result;
+}
+
+static ppmc104_result_t ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte)
+{
+    uint32_t value = 0;
+    ppmc104_result_t result = ask(dev, code, 1u, &value);
+    if (result == PPMC104_OK) {
+        *byte = (uint8_t)value;
+    }
+    return result;
+}
+
+/* ---- set-up ---- */
+
+ppmc104_result_t ppmc104_probe(ppmc104_t *dev)
+{
+    uint8_t levels = 0;
+    ppmc104_result_t result = ask_byte(dev, CODE_INPUTS, &levels);
+    /* Bits 5 and 4 read 0 on every part. */
+    return result == PPMC104_OK && (levels & 0x30u) != 0u ? PPMC104_NO_PART : result;
+}
+
+ppmc104_result_t ppmc104_init(ppmc104_t *dev, const ppmc104_config_t *config)
+{
+    uint8_t code, data[4];
+
+    if (config->motor < 3u || config->motor > 5u || config->rate_high > config->rate_start ||
+        config->ramp < RAMP_MIN || config->ramp > RAMP_MAX) {
+        return PPMC104_BAD_ARGUMENT;
+    }
+    code = (uint8_t)((config->motor - 2u) | (config->half_step ? CODE_INIT_E : 0u) |
+                     (config->active_high ? CODE_INIT_L : 0u) | (config->external_clock ? CODE_INIT_C : 0u) |
+                     (config->chop ? CODE_INIT_S : 0u));
+    data[0] = config->rate_start;
+    data[1] = config->rate_high;
+    data[2] = (uint8_t)(config->ramp & 0xFFu);
+    data[3] = (uint8_t)(config->ramp >> 8);
+    return ppmc104_command(dev, code, data, 4u);
+}
+
+/* ---- operations ---- */
+
+/* `skip`: parameters that the operation does not have, counted from the rate byte. */
+static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint8_t allowed, uint8_t rate,
+                                uint32_t pulses, unsigned skip, unsigned count)
+{
+    uint8_t data[4];
+
+    if ((flags & (uint8_t)~allowed) != 0u || pulses < 1u || pulses > PULSES_MAX) {
+        return PPMC104_BAD_ARGUMENT;
+    }
+    data[0] = rate;
+    --pulses; /* the part counts from 0 */
+    data[1] = (uint8_t)(pulses & 0xFFu);
+    data[2] = (uint8_t)(pulses >> 8 & 0xFFu);
+    data[3] = (uint8_t)(pulses >> 16 & 0xFFu);
+    return ppmc104_command(dev, (uint8_t)(op | flags), data + skip, count);
+}
+
+#define PLAIN (PPMC104_CCW | PPMC104_NO_INT)
+
+ppmc104_result_t ppmc104_step(ppmc104_t *dev, uint8_t flags)
+{
+    return operate(dev, OP_STEP, flags, PLAIN, 0u, 1u, 0u, 0u);
+}
+
+ppmc104_result_t ppmc104_move(ppmc104_t *dev, uint8_t flags, uint32_t pulses)
+{
+    return operate(dev, OP_MOVE, flags, PLAIN | PPMC104_POUT_ONLY, 0u, pulses, 1u, 3u);
+}
+
+ppmc104_result_t ppmc104_move_constant(ppmc104_t *dev, uint8_t flags, uint8_t rate, uint32_t pulses)
+{
+    return operate(dev, OP_CONSTANT, flags, PLAIN, rate, pulses, 0u, 4u);
+}
+
+ppmc104_result_t ppmc104_jog(ppmc104_t *dev, uint8_t flags, uint8_t rate)
+{
+    return operate(dev, OP_JOG, flags, PLAIN, rate, 1u, 0u, 1u);
+}
+
+ppmc104_result_t ppmc104_run(ppmc104_t *dev, uint8_t flags)
+{
+    return operate(dev, OP_RUN, flags, PLAIN | PPMC104_POUT_ONLY, 0u, 1u, 0u, 0u);
+}
+
+ppmc104_result_t ppmc104_home(ppmc104_t *dev, uint8_t flags, uint8_t rate)
+{
+    return operate(dev, OP_HOME, flags, PLAIN, rate, 1u, 0u, 1u);
+}
+
+ppmc104_result_t ppmc104_stop(ppmc104_t *dev)
+{
+    return ppmc104_command(dev, CODE_STOP, NULL, 0u);
+}
+
+ppmc104_result_t ppmc104_stop_slowly(ppmc104_t *dev)
+{
+    return ppmc104_command(dev, CODE_STOP_SLOWLY, NULL, 0u);
+}
+
+ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish)
+{
+    uint8_t status;
+    ppmc104_finish_t unused;
+    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_BUSY, 0u, &status);
+    return result == PPMC104_OK ? ppmc104_finish(dev, finish != NULL ? finish : &unused) : result;
+}
+
+/* ---- reads ---- */
+
+ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish)
+{
+    uint8_t raw = 0;
+    ppmc104_result_t result = ask_byte(dev, CODE_FINISH, &raw);
+    if (result == PPMC104_OK) {
+        finish->ended = (raw & 0x80u) != 0u;
+        finish->stopped = (raw & 0x40u) != 0u;
+        finish->alarm = (raw & 0x20u) != 0u;
+        finish->limit = (raw & 0x10u) != 0u;
+        finish->slow_limit = (raw & 0x08u) != 0u;
+        finish->operation = raw & 0x07u;
+        finish->raw = raw;
+    }
+    return result;
+}
+
+ppmc104_result_t ppmc104_inputs(ppmc104_t *dev, uint8_t *levels)
+{
+    return ask_byte(dev, CODE_INPUTS, levels);
+}
+
+ppmc104_result_t ppmc104_outputs(ppmc104_t *dev, uint8_t *levels)
+{
+    return ask_byte(dev, CODE_OUTPUTS, levels);
+}
+
+ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels)
+{
+    return ask_byte(dev, CODE_AUX_INPUTS, levels);
+}
+
+ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses)
+{
+    uint32_t value = 0;
+    ppmc104_result_t result = ask(dev, CODE_REMAINING, 3u, &value);
+    if (result == PPMC104_OK) {
+        bool early = (finish->raw & FINISH_CAUSES) != 0u;
+        *pulses = value != 0u || early ? value + 1u : 0u;
+    }
+    return result;
+}
+
+/* ---- the rest ---- */
+
+ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off)
+{
+    uint8_t data[2];
+    data[0] = on;
+    data[1] = off;
+    return ppmc104_command(dev, CODE_SWITCHING, data, 2u);
+}
+
+ppmc104_result_t ppmc104_aux_outputs(ppmc104_t *dev, uint8_t bits)
+{
+    return bits > 0x0Fu ? PPMC104_BAD_ARGUMENT : ppmc104_command(dev, CODE_AUX_OUTPUTS, &bits, 1u);
+}
+
+ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on)
+{
+    return ppmc104_command(dev, on ? CODE_AUX_ON : CODE_AUX_OFF, NULL, 0u);
+}
+
+ppmc104_result_t ppmc104_excitation_off(ppmc104_t *dev)
+{
+    if (ppmc104_busy(dev)) {
+        return PPMC104_ERR_BUSY;
+    }
+    return ppmc104_command(dev, CODE_EXCITATION_OFF, NULL, 0u);
+}

@@ -1,0 +1,1 @@
+"""`make packages`: everything that hands the RTL to other tools, made from rtl/files.yml."""

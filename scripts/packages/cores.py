@@ -1,0 +1,175 @@
+"""FuseSoC core files (CAPI2): one core a group of rtl/files.yml, the boards, the smoke test."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from openppmc import __version__
+from scripts.project import ROOT, file_groups, relative
+
+WAIVERS = ROOT / "rtl" / "ppmc104" / "waivers.vlt"
+HEAD = """CAPI=2:
+# Written by `make packages` from rtl/files.yml; change that, not this.
+"""
+TEXT = {
+    "common": "OpenPPMC, blocks that every part uses",
+    "motion": "OpenPPMC, pulse timing, ramps, phases",
+    "host": "OpenPPMC, host port of the parts, UART, Wishbone and AXI4-Lite bridges",
+    "ppmc104": "OpenPPMC, PPMC-104, a stepper controller for one axis",
+}
+NEEDS = {"common": [], "motion": ["common"], "host": ["common"], "ppmc104": ["common", "motion", "host"]}
+# Boards whose vendor tools FuseSoC runs: target -> (top, constraint files with their types, flow options).
+VENDOR_BOARDS: dict[str, tuple[str, dict[str, str], str]] = {
+    "arty-a7": (
+        "board_arty_a7",
+        {"constraints/arty_a7.xdc": "xdc"},
+        "    flow: vivado\n    flow_options:\n      part: xc7a35ticsg324-1L\n",
+    ),
+    "de10nano": (
+        "board_de10nano",
+        {"constraints/de10nano.qsf": "tclSource", "constraints/de10nano.sdc": "SDC"},
+        "    default_tool: quartus\n    tools:\n      quartus:\n        family: Cyclone V\n"
+        "        device: 5CSEBA6U23I7\n",
+    ),
+}
+
+
+def vlnv(name: str, library: str = "ppmc") -> str:
+    """Full name of a core."""
+    return f"openppmc:{library}:{name}:{__version__}"
+
+
+def fileset(
+    name: str,
+    files: list[str],
+    depend: list[str],
+    kind: str = "systemVerilogSource",
+    headers: tuple[str, ...] = (),
+) -> str:
+    """One entry below `filesets:`."""
+    text = f"  {name}:\n"
+    if files or headers:
+        text += "    files:\n"
+        text += "".join(f"      - {file}: {{is_include_file: true}}\n" for file in headers)
+        text += "".join(f"      - {file}\n" for file in files)
+        text += f"    file_type: {kind}\n"
+    if depend:
+        text += "    depend:\n" + "".join(f"      - {core}\n" for core in depend)
+    return text
+
+
+def group_core(group: str, files: list[Path]) -> str:
+    """Core of one group; its files are named relative to the group's folder."""
+    folder = files[0].parent
+    headers = tuple(path.name for path in sorted(folder.glob("*.svh")))
+    depend = [vlnv(need) for need in NEEDS[group]]
+    text = f"{HEAD}name: {vlnv(group)}\ndescription: {TEXT[group]}\n\nfilesets:\n"
+    text += fileset("rtl", [path.name for path in files], depend, headers=headers)
+    if group != "ppmc104":
+        return text + "\ntargets:\n  default:\n    filesets: [rtl]\n"
+    return text + PART_TARGETS
+
+
+PART_TARGETS = f"""  smoke:
+    depend:
+      - {vlnv("ppmc104_smoke", "test")}
+  waivers:
+    files:
+      - waivers.vlt
+    file_type: vlt
+
+targets:
+  default: &default
+    filesets: [rtl]
+    toplevel: ppmc104
+    parameters: [CLK_HZ, XTAL_HZ, TIMING, PHASE_IDLE]
+  # fusesoc run --target=lint openppmc:ppmc:ppmc104
+  lint:
+    <<: *default
+    filesets: [rtl, waivers]
+    flow: lint
+    flow_options:
+      tool: verilator
+      verilator_options: [-Wall, --timing]
+  # fusesoc run --target=sim openppmc:ppmc:ppmc104; it works if it prints "ppmc104_smoke: PASS"
+  sim:
+    filesets: [rtl, smoke]
+    toplevel: ppmc104_smoke
+    flow: sim
+    flow_options:
+      tool: verilator
+      mode: binary
+      # Some builds of Verilator do not know their compiler's flag for coroutines, or for split C++ output.
+      verilator_options: [--timing, --assert, --output-split, "0", -CFLAGS, -std=c++20]
+
+parameters:
+  CLK_HZ:
+    datatype: int
+    description: Frequency of clk in Hz, 8e6 .. 200e6
+    default: 16000000
+    paramtype: vlogparam
+  XTAL_HZ:
+    datatype: int
+    description: Crystal of the old chip in Hz, 1e6 .. 16e6
+    default: 16000000
+    paramtype: vlogparam
+  TIMING:
+    datatype: str
+    description: FAST or DATASHEET
+    default: FAST
+    paramtype: vlogparam
+  PHASE_IDLE:
+    datatype: int
+    description: Level of s until the first initialisation
+    default: 1
+    paramtype: vlogparam
+"""
+
+SMOKE = f"""{HEAD}name: {vlnv("ppmc104_smoke", "test")}
+description: OpenPPMC, test bench of the sim target of the PPMC-104
+
+filesets:
+  tb:
+    files:
+      - ppmc104_smoke.sv
+    file_type: systemVerilogSource
+
+targets:
+  default:
+    filesets: [tb]
+"""
+
+
+def boards_core(files: list[Path]) -> str:
+    """Core of the boards; it lies at the root, because constraints/ is not below rtl/."""
+    special = {path for path in files if path.name.startswith(("board_", "ppmc_clock_"))}
+    text = f"{HEAD}name: {vlnv('ppmc104_board', 'boards')}\n"
+    text += (
+        "description: OpenPPMC, board tops of the PPMC-104; for the open-source flows see make bitstream\n\n"
+    )
+    text += "filesets:\n"
+    text += fileset("rtl", [relative(path) for path in files if path not in special], [vlnv("ppmc104")])
+    targets = "\ntargets:\n  default:\n    filesets: [rtl]\n    toplevel: ppmc104_board\n"
+    for target, (top, constraints, flow) in VENDOR_BOARDS.items():
+        source = ROOT / "rtl" / "boards" / f"{top}.sv"
+        if source not in special:
+            continue
+        name = target.replace("-", "_")
+        text += fileset(name, [relative(source)], [])
+        text += f"  {name}_pins:\n    files:\n"
+        text += "".join(f"      - {file}: {{file_type: {kind}}}\n" for file, kind in constraints.items())
+        targets += f"  # Not run by this project's tests: it needs the vendor's tools.\n  {target}:\n"
+        targets += f"    filesets: [rtl, {name}, {name}_pins]\n    toplevel: {top}\n{flow}"
+    return text + targets
+
+
+def core_files() -> dict[Path, str]:
+    """All core files: path -> text."""
+    groups = file_groups()
+    cores = {
+        ROOT / "rtl" / group / f"openppmc_{group}.core": group_core(group, groups[group]) for group in TEXT
+    }
+    cores[WAIVERS] = (ROOT / "lint" / "verilator.vlt").read_text()
+    cores[ROOT / "tb" / "fusesoc" / "ppmc104_smoke.core"] = SMOKE
+    cores[ROOT / "openppmc_boards.core"] = boards_core(groups["boards"])
+    return cores

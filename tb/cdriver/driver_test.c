@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Runs the C driver on the simulated bus and prints what happened, a line each; pytest judges the lines. */
+#include <stdio.h>
+
+#include "../../drivers/c/ppmc104.h"
+#include "sim_bus.h"
+
+static const ppmc104_config_t CONFIG = {4, false, true, false, false, 19, 9, 6};
+
+/* A print of its own, so that arguments are evaluated one after the other. */
+static void show(const char *name, ppmc104_result_t result)
+{
+    printf("%s result=%d text=%s\n", name, (int)result, ppmc104_strerror(result));
+}
+
+static void ending(ppmc104_t *dev, const char *name)
+{
+    ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
+    uint32_t left = 0;
+    ppmc104_result_t waited = ppmc104_wait(dev, &f);
+    ppmc104_result_t asked = ppmc104_remaining(dev, &f, &left);
+    printf("%s wait=%d read=%d raw=%02x ended=%d stopped=%d alarm=%d limit=%d slow=%d op=%d left=%lu\n", name,
+           (int)waited, (int)asked, f.raw, f.ended, f.stopped, f.alarm, f.limit, f.slow_limit, f.operation,
+           (unsigned long)left);
+    sim_print_pulses(name);
+}
+
+static void moves(ppmc104_t *dev)
+{
+    uint32_t before, during;
+
+    show("init", ppmc104_init(dev, &CONFIG));
+    show("move", ppmc104_move(dev, PPMC104_CW, 30));
+    during = sim_bridge();
+    while (ppmc104_busy(dev)) {}
+    before = sim_bridge();
+    printf("irq running=%lu ended=%lu pin=%d\n", (unsigned long)during, (unsigned long)before, sim_irq());
+    ending(dev, "move");
+    printf("irq read=%lu pin=%d\n", (unsigned long)sim_bridge(), sim_irq());
+    show("constant", ppmc104_move_constant(dev, PPMC104_CCW, 14, 300));
+    ending(dev, "constant");
+    show("quiet", ppmc104_move(dev, PPMC104_CW | PPMC104_NO_INT | PPMC104_POUT_ONLY, 12));
+    while (ppmc104_busy(dev)) {}
+    printf("quiet irq=%lu\n", (unsigned long)sim_bridge());
+    ending(dev, "quiet");
+    show("step", ppmc104_step(dev, PPMC104_CCW));
+    ending(dev, "step");
+}
+
+static void ends(ppmc104_t *dev)
+{
+    static const struct {
+        sim_switch_t which;
+        const char *name;
+        uint8_t flags;
+    } cases[] = {{SIM_L1, "l1", PPMC104_CW}, {SIM_L2, "l2", PPMC104_CCW}, {SIM_ALM, "alm", PPMC104_CW},
+                 {SIM_L3, "l3", PPMC104_CW}, {SIM_L4, "l4", PPMC104_CCW}};
+    unsigned n;
+    uint8_t inputs = 0;
+
+    for (n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
+        show(cases[n].name, ppmc104_move(dev, cases[n].flags, 100));
+        sim_run_pulses(20);
+        sim_switch(cases[n].which, true);
+        while (ppmc104_busy(dev)) {}
+        ending(dev, cases[n].name);
+        (void)ppmc104_inputs(dev, &inputs);
+        printf("%s inputs=%02x\n", cases[n].name, inputs);
+        sim_switch(cases[n].which, false);
+    }
+    /* One pulse left: the part's number is 0, as if none were. */
+    show("late", ppmc104_move(dev, PPMC104_CW, 25));
+    sim_run_pulses(24);
+    sim_switch(SIM_L1, true);
+    ending(dev, "late");
+    sim_switch(SIM_L1, false);
+    show("home", ppmc104_home(dev, PPMC104_CCW, 49));
+    sim_run_pulses(7);
+    sim_switch(SIM_CNP, true);
+    ending(dev, "home");
+    sim_switch(SIM_CNP, false);
+    show("jog", ppmc104_jog(dev, PPMC104_CW, 24));
+    sim_run_pulses(9);
+    show("jog stop", ppmc104_stop(dev));
+    ending(dev, "jog");
+    show("run", ppmc104_run(dev, PPMC104_CCW));
+    sim_run_pulses(25);
+    show("run stop", ppmc104_stop_slowly(dev));
+    ending(dev, "run");
+}
+
+static void errors(ppmc104_t *dev)
+{
+    static const uint8_t long_ramp[4] = {19, 9, 0xD5, 0x2B}; /* 11 221 */
+    static const uint8_t bad_ramp[4] = {9, 19, 6, 0};
+    ppmc104_config_t bad = CONFIG;
+    uint8_t byte = 0;
+
+    sim_reset(false);
+    show("E uninitialised", ppmc104_move(dev, PPMC104_CW, 10));
+    show("E unknown", ppmc104_command(dev, 0x87, &byte, 0));
+    show("E nothing to stop", ppmc104_stop(dev));
+    show("E data", ppmc104_data(dev, 0x55));
+    show("E long ramp", ppmc104_command(dev, 0x0A, long_ramp, 4));
+    show("E bad ramp", ppmc104_command(dev, 0x0A, bad_ramp, 4));
+    show("E init", ppmc104_init(dev, &CONFIG));
+    /* The ramp table is being built: the byte waits, and so must the driver before it looks at ERR. */
+    show("E late", ppmc104_command(dev, 0x87, &byte, 0));
+    show("E start", ppmc104_move(dev, PPMC104_CW, 60));
+    show("E busy", ppmc104_inputs(dev, &byte));
+    show("E busy off", ppmc104_excitation_off(dev));
+    show("E data busy", ppmc104_data(dev, 0x55));
+    sim_run_pulses(30);
+    show("E stop slowly", ppmc104_stop_slowly(dev));
+    show("E decelerating", ppmc104_stop_slowly(dev));
+    ending(dev, "E");
+    show("E flags", ppmc104_step(dev, PPMC104_POUT_ONLY));
+    show("E none", ppmc104_move(dev, PPMC104_CW, 0));
+    show("E too many", ppmc104_move(dev, PPMC104_CW, 0x1000001));
+    bad.motor = 6;
+    show("E motor", ppmc104_init(dev, &bad));
+    bad = CONFIG;
+    bad.ramp = 11221;
+    show("E ramp", ppmc104_init(dev, &bad));
+    bad = CONFIG;
+    bad.rate_high = 20;
+    show("E rates", ppmc104_init(dev, &bad));
+}
+
+static void pins(ppmc104_t *dev)
+{
+    uint8_t outputs = 0, aux = 0xFF;
+    show("aux on", ppmc104_aux(dev, true));
+    show("aux bits", ppmc104_aux_outputs(dev, 0x5));
+    show("aux off", ppmc104_aux(dev, false));
+    show("switching", ppmc104_switching(dev, 10, 20));
+    show("aux in", ppmc104_aux_inputs(dev, &aux));
+    show("outputs", ppmc104_outputs(dev, &outputs));
+    printf("pins aux=%02x outputs=%02x\n", aux, outputs);
+    show("off", ppmc104_excitation_off(dev));
+    show("off move", ppmc104_move(dev, PPMC104_CW, 5));
+}
+
+static void motors(ppmc104_t *dev)
+{
+    unsigned n, step;
+
+    for (n = 0; n < 24; ++n) {
+        ppmc104_config_t c = CONFIG;
+        unsigned seen = 0;
+        c.motor = (uint8_t)(3 + n % 3);
+        c.half_step = (n / 3 & 1) != 0;
+        c.active_high = (n / 6 & 1) != 0;
+        c.chop = n / 12 != 0;
+        sim_reset(false);
+        printf("motor init=%d phases=%u half=%d high=%d chop=%d rows=", (int)ppmc104_init(dev, &c), c.motor,
+               c.half_step, c.active_high, c.chop);
+        for (step = 0; step < 4; ++step) {
+            uint8_t outputs = 0;
+            (void)ppmc104_outputs(dev, &outputs);
+            printf("%02x,", outputs >> 3);
+            (void)ppmc104_step(dev, PPMC104_CW);
+            (void)ppmc104_wait(dev, (ppmc104_finish_t *)0);
+        }
+        for (step = 0; step < 6000; ++step) {
+            sim_run(1);
+            seen |= 1u << (sim_phases() == (c.active_high ? 0x00u : 0x1Fu));
+        }
+        printf(" chopped=%d\n", seen == 3);
+    }
+    sim_forget();
+}
+
+static void external(ppmc104_t *dev)
+{
+    ppmc104_config_t c = CONFIG;
+    c.external_clock = true;
+    sim_reset(false);
+    show("external", ppmc104_init(dev, &c));
+    show("external", ppmc104_move(dev, PPMC104_CW, 5));
+    sim_run(20000);
+    printf("external busy=%d pulses=%u\n", ppmc104_busy(dev), sim_pulses());
+    show("external", ppmc104_stop(dev));
+}
+
+static bool three(void *ctx, unsigned long polls)
+{
+    unsigned *calls = (unsigned *)ctx;
+    ++*calls;
+    return polls >= 3;
+}
+
+static uint8_t full_read(void *ctx, unsigned reg)
+{
+    (void)ctx;
+    (void)reg;
+    return PPMC104_STATUS_IBF;
+}
+
+static uint8_t zero_read(void *ctx, unsigned reg)
+{
+    (void)ctx;
+    (void)reg;
+    return 0;
+}
+
+static void dead(ppmc104_t *dev)
+{
+    unsigned calls = 0, before;
+    ppmc104_t other;
+
+    sim_reset(true);
+    before = sim_cycles();
+    dev->limit = 50;
+    show("dead probe", ppmc104_probe(dev));
+    show("dead init", ppmc104_init(dev, &CONFIG));
+    printf("dead answered=%u\n", sim_cycles() - before);
+    ppmc104_setup(&other, full_read, sim_write, &calls);
+    other.give_up = three;
+    show("full probe", ppmc104_probe(&other));
+    printf("full calls=%u\n", calls);
+    ppmc104_setup(&other, zero_read, sim_write, &calls);
+    other.limit = 20;
+    show("zero probe", ppmc104_probe(&other));
+    sim_reset(false);
+    dev->limit = 3;
+    (void)ppmc104_command(dev, 0x0A, (const uint8_t *)"\023\011\006", 4);
+    show("short wait", ppmc104_probe(dev));
+    dev->limit = PPMC104_DEFAULT_LIMIT;
+    show("alive", ppmc104_probe(dev));
+}
+
+static void rates(void)
+{
+    static const uint32_t wanted[] = {0, 1, 488, 489, 500, 1953, 1954, 2500, 9999, 27000, 100000, 105264, 500000, 500001};
+    static const uint32_t crystals[] = {16000000, 8000000, 1000000, 500000};
+    unsigned c, b, x, n;
+
+    for (c = 0; c < 4; ++c) {
+        for (b = 0; b < 3; ++b) {
+            for (x = 0; x < 2; ++x) {
+                ppmc104_speed_t speed = {0, PPMC104_BASE_500K, 40000, false};
+                speed.xtal_hz = crystals[c];
+                speed.base = (ppmc104_base_t)b;
+                speed.extra = x != 0;
+                for (n = 0; n < sizeof wanted / sizeof wanted[0]; ++n) {
+                    uint8_t rate = 0;
+                    ppmc104_result_t result = ppmc104_rate_from_pps(&speed, wanted[n], &rate);
+                    printf("rate xtal=%lu base=%u extra=%u pps=%lu result=%d rate=%d mpps=%lu\n",
+                           (unsigned long)crystals[c], b, x, (unsigned long)wanted[n], (int)result, rate,
+                           (unsigned long)ppmc104_rate_to_mpps(&speed, rate));
+                }
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    ppmc104_t dev;
+    ppmc104_setup(&dev, sim_read, sim_write, (void *)0);
+    show("probe", ppmc104_probe(&dev));
+    moves(&dev);
+    ends(&dev);
+    pins(&dev);
+    errors(&dev);
+    motors(&dev);
+    external(&dev);
+    dead(&dev);
+    rates();
+    printf("done cycles=%u\n", sim_cycles());
+    return 0;
+}

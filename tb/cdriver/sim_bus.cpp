@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bus cycles for the C driver's test: drives ppmc104_example_wishbone clk by clk, records the pulses.
+#include "sim_bus.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "Vppmc104_example_wishbone.h"
+#include "verilated.h"
+
+namespace {
+
+constexpr unsigned kPatience = 64;        // clk without an answer
+constexpr uint64_t kLimit = 16'000'000;   // clk in one sim_run_pulses
+
+struct Pulse {
+    uint64_t clk;
+    bool ccw;
+};
+
+class Bus {
+  public:
+    Bus() : top_(std::make_unique<Vppmc104_example_wishbone>(&context_)) {
+        top_->l1_n = top_->l2_n = top_->l3_n = top_->l4_n = top_->cnp_n = top_->alm_n = 1;
+        reset(false);
+    }
+
+    ~Bus() { top_->final(); }
+
+    void clk() {
+        top_->clk = 0;
+        top_->eval();
+        context_.timeInc(1);
+        top_->clk = 1;
+        top_->eval();
+        context_.timeInc(1);
+        ++now_;
+        if (pout_n_ && !top_->pout_n) pulses.push_back({now_, top_->dir != 0});
+        pout_n_ = top_->pout_n;
+    }
+
+    void reset(bool held) {
+        top_->rst_n = 1;
+        clk();
+        top_->rst_n = 0;
+        for (int n = 0; n < 4; ++n) clk();
+        if (held) return;
+        top_->rst_n = 1;
+        for (int n = 0; n < 8; ++n) clk();
+    }
+
+    uint32_t cycle(unsigned word, bool write, uint8_t value) {
+        uint32_t data = 0xFF;
+        top_->wb_cyc = top_->wb_stb = 1;
+        top_->wb_we = write;
+        top_->wb_adr = word;
+        top_->wb_sel = 0xF;
+        top_->wb_dat_w = value;
+        for (unsigned n = 0; n < kPatience; ++n) {
+            top_->clk = 0;
+            top_->eval();
+            const bool answered = top_->wb_ack || top_->wb_err;
+            if (answered) {
+                data = top_->wb_dat_r;
+                ++cycles;
+            }
+            clk();
+            if (answered) break;
+        }
+        top_->wb_cyc = top_->wb_stb = 0;
+        clk();
+        return data;
+    }
+
+    void set(sim_switch_t which, bool active) {
+        const uint8_t level = active ? 0 : 1;
+        switch (which) {
+            case SIM_L1: top_->l1_n = level; break;
+            case SIM_L2: top_->l2_n = level; break;
+            case SIM_L3: top_->l3_n = level; break;
+            case SIM_L4: top_->l4_n = level; break;
+            case SIM_CNP: top_->cnp_n = level; break;
+            case SIM_ALM: top_->alm_n = level; break;
+        }
+    }
+
+    unsigned phases() const { return top_->s; }
+
+    bool irq() const { return top_->irq; }
+
+    std::vector<Pulse> pulses;
+    unsigned cycles = 0;
+
+  private:
+    VerilatedContext context_;
+    std::unique_ptr<Vppmc104_example_wishbone> top_;
+    uint64_t now_ = 0;
+    uint8_t pout_n_ = 1;
+};
+
+Bus& bus() {
+    static Bus one;
+    return one;
+}
+
+}  // namespace
+
+double sc_time_stamp() { return 0; }
+
+uint8_t sim_read(void*, unsigned reg) { return static_cast<uint8_t>(bus().cycle(reg, false, 0)); }
+void sim_write(void*, unsigned reg, uint8_t value) { bus().cycle(reg, true, value); }
+void sim_reset(bool held) { bus().reset(held); }
+void sim_switch(sim_switch_t which, bool active) { bus().set(which, active); }
+unsigned sim_phases() { return bus().phases(); }
+bool sim_irq() { return bus().irq(); }
+uint32_t sim_bridge() { return bus().cycle(2, false, 0); }
+unsigned sim_cycles() { return bus().cycles; }
+unsigned sim_pulses() { return static_cast<unsigned>(bus().pulses.size()); }
+void sim_forget() { bus().pulses.clear(); }
+
+void sim_run(unsigned clk) {
+    while (clk-- != 0) bus().clk();
+}
+
+void sim_run_pulses(unsigned count) {
+    for (uint64_t n = 0; bus().pulses.size() < count; ++n) {
+        if (n == kLimit) {
+            std::printf("FAIL only %zu pulses of %u\n", bus().pulses.size(), count);
+            std::exit(1);
+        }
+        bus().clk();
+    }
+}
+
+void sim_print_pulses(const char* name) {
+    unsigned ccw = 0;
+    for (const Pulse& pulse : bus().pulses) ccw += pulse.ccw;
+    std::printf("%s cw=%zu ccw=%u at", name, bus().pulses.size() - ccw, ccw);
+    for (const Pulse& pulse : bus().pulses) std::printf(" %llu", static_cast<unsigned long long>(pulse.clk));
+    std::printf("\n");
+    bus().pulses.clear();
+}

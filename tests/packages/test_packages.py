@@ -1,0 +1,62 @@
+"""The generated packages: fresh, complete, in compile order, and readable by their tools' rules."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+import yaml
+
+from cocotb_tests.common.paths import ROOT
+from scripts.packages.cores import core_files
+from scripts.packages.lists import list_files
+
+GROUPS = ("common", "motion", "host", "ppmc104")
+LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
+RTL = [f"rtl/{name}" for group in GROUPS for name in LISTED[group]]
+
+
+@pytest.mark.parametrize("path", {**core_files(), **list_files()}, ids=lambda path: path.name)
+def test_fresh(path):
+    """Given a generated file, then it is what `make packages` would write, and names nobody's machine."""
+    wanted = {**core_files(), **list_files()}[path]
+    assert path.read_text(encoding="utf-8") == wanted, "run `make packages`"
+    assert not re.search(r"(?<![\w$.*])/(?:home|work|tmp|usr)/", wanted)
+
+
+@pytest.mark.parametrize("name", ["ppmc104.f", "vivado.tcl", "quartus.qsf", "gowin.tcl"])
+def test_list_is_complete_and_in_order(name):
+    """Given a file list, then it names every RTL file of the part once, in compile order, and the board."""
+    text = (ROOT / "packages" / name).read_text(encoding="utf-8")
+    named = re.findall(r"(?:\.\.|\$root)/(rtl/\S+\.sv)\b", text)
+    assert named == [*RTL, "rtl/boards/ppmc104_board.sv"]
+    assert "rtl/common\n" in text, "no include folder"
+    assert name == "ppmc104.f" or "Not run by this project" in text
+
+
+def test_bender():
+    """Given Bender.yml, then its groups are those of rtl/files.yml, the boards only with their target."""
+    sources = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))["sources"]
+    plain = [file for group in sources if "target" not in group for file in group["files"]]
+    assert plain == RTL
+    assert [group["files"] for group in sources if "target" in group] == [["rtl/boards/ppmc104_board.sv"]]
+
+
+def test_cores():
+    """Given the FuseSoC cores, then every RTL file is in one of them, and each dependency is there."""
+    cores = [path for path in core_files() if path.suffix == ".core"]
+    texts = {path: path.read_text(encoding="utf-8") for path in cores}
+    assert all(text.startswith("CAPI=2:\n") for text in texts.values())
+    parsed = {path: yaml.safe_load(text) for path, text in texts.items()}
+    names = {core["name"] for core in parsed.values()}
+    found = []
+    for path, core in parsed.items():
+        for fileset in core["filesets"].values():
+            assert set(fileset.get("depend", [])) <= names, path.name
+            for entry in fileset.get("files", []):
+                file = path.parent / (entry if isinstance(entry, str) else next(iter(entry)))
+                assert file.is_file(), f"{path.name}: {file.name}"
+                found.append(file.relative_to(ROOT).as_posix())
+        for target in core["targets"].values():
+            assert set(target["filesets"]) <= set(core["filesets"]), path.name
+    assert [name for name in found if name in RTL] == RTL
