@@ -1,6 +1,6 @@
 #!/bin/sh
 # Checks make variables and the machine before anything runs. Arguments are NAME=VALUE pairs and the words `env`
-# (a goal needs the environment) and `parts=a,b`. Prints the first problem on one line, or nothing.
+# (a goal needs the environment), `parts=a,b` and `boards=a,b`. Prints the first problem on one line, or nothing.
 here=$(dirname "$0")
 
 problem() { printf '%s\n' "$*"; exit 0; }
@@ -16,14 +16,18 @@ number() {
 need_env=''
 python=''
 parts=''
+boards=''
 for word in "$@"; do
     name=${word%%=*}
     value=${word#*=}
     case $word in
         env) need_env=1 ;;
-        parts=*) parts=$value ;;
+        parts=*) parts=${value%,} ;;
+        boards=*) boards=${value%,} ;;
         python=*) python=$value ;;
         PART=*) case ",$parts," in *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac ;;
+        BOARD=*) case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
+        HOST=*) case $value in uart | bus) ;; *) problem "HOST=$value: expected uart or bus" ;; esac ;;
         T=*)
             case $value in
                 and | or | not | '' | *[!A-Za-z0-9_.:-]*)

@@ -10,9 +10,8 @@ import argparse
 import importlib
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
-from itertools import islice
+from collections.abc import Sequence
+from functools import partial
 
 from rich.progress import (
     BarColumn,
@@ -23,6 +22,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from scripts.pool import as_done
 from scripts.project import ProjectError, console, part
 
 
@@ -32,22 +32,6 @@ def one(part_name: str, seed: int) -> tuple[int, str, str]:
 
     item = importlib.import_module(f"cocotb_tests.{part_name}.test_random").random_item(seed)
     return seed, item.id, attempt(item)
-
-
-def results(part_name: str, seeds: Sequence[int], jobs: int) -> Iterator[tuple[int, str, str]]:
-    """Results as they come; at most 2 * jobs seeds are under way, so that Ctrl-C ends soon."""
-    left = iter(seeds)
-    with ProcessPoolExecutor(jobs) as pool:
-        running = {pool.submit(one, part_name, seed) for seed in islice(left, 2 * jobs)}
-        try:
-            while running:
-                done, running = wait(running, return_when=FIRST_COMPLETED)
-                running |= {pool.submit(one, part_name, seed) for seed in islice(left, len(done))}
-                for future in done:
-                    yield future.result()
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
 
 
 def soak(part_name: str, first: int, count: int, jobs: int) -> int:
@@ -65,7 +49,8 @@ def soak(part_name: str, first: int, count: int, jobs: int) -> int:
     with Progress(*columns, console=console) as progress:
         task = progress.add_task(f"{part_name} seeds {first}…{first + count - 1}", total=count, bad="")
         try:
-            for seed, name, message in results(part_name, range(first, first + count), jobs):
+            seeds = range(first, first + count)
+            for seed, name, message in as_done(partial(one, part_name), seeds, jobs):
                 done += 1
                 if message:
                     failures.append((seed, name))

@@ -8,8 +8,13 @@ from collections import Counter, defaultdict
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-LUT_CELLS = {"SB_LUT4": 1, "LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6}
-RAM_CELLS = {"SB_RAM40_4K", "DP16KD", "PDPW16KD"}
+# Of iCE40, ECP5 and Gowin; an adder bit of Gowin (ALU) takes a LUT's place.
+LUT_CELLS = {
+    **{"SB_LUT4": 1, "LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6},
+    **{"LUT1": 1, "LUT2": 1, "LUT3": 1, "ALU": 1, "RAM16SDP4": 4},
+}
+RAM_CELLS = {"SB_RAM40_4K", "DP16KD", "PDPW16KD", "SP", "SDPB", "DPB", "SPX9", "SDPX9B", "DPX9B"}
+FF_CELLS = ("SB_DFF", "TRELLIS_FF", "DFF")  # what their names begin with
 OUTPUT_PORTS = {"O", "CO", "Z", "S0", "S1", "COUT", "Q"}
 
 
@@ -25,7 +30,7 @@ class Count:
     def add(self, kind: str) -> None:
         """Count one cell of type `kind`."""
         self.lut += LUT_CELLS.get(kind, 0)
-        self.ff += kind == "TRELLIS_FF" or kind.startswith("SB_DFF")
+        self.ff += kind.startswith(FF_CELLS)
         self.ram += kind in RAM_CELLS
         self.carry += kind in ("SB_CARRY", "CCU2C")
 
@@ -89,7 +94,7 @@ def flat_counts(path: Path, top: str, instances: set[str]) -> tuple[Count, dict[
     for name, cell in cells.items():
         kind = cell["type"]
         total.add(kind)
-        if kind == "TRELLIS_FF" or kind.startswith("SB_DFF") or kind in RAM_CELLS:
+        if kind.startswith(FF_CELLS) or kind in RAM_CELLS:
             owners[name] = owner(name, instances) or ""
         for port, bits in cell["connections"].items():
             if port not in OUTPUT_PORTS:

@@ -1,4 +1,4 @@
-"""One yosys run in a process of its own: SystemVerilog in, mapped JSON netlist out.
+"""One yosys run in a process of its own: SystemVerilog in, mapped JSON netlist out (and, if asked, Verilog).
 
 Started as ``python -m scripts.flow.yosys_job JOB.json``; the job names sources, top, parameters, family,
 recipe and output. A process of its own keeps yosys' log in one file and lets two families run side by side.
@@ -37,9 +37,17 @@ RECIPES: dict[str, dict[str, tuple[str, str]]] = {
         "flow3": (FLOW3, ""),
         "flow2-dff": (FLOW2, "-dff"),
     },
+    "gowin": {
+        "default": ("", ""),
+        "noalu": ("", "-noalu"),
+        "nowidelut": ("", "-nowidelut"),
+        "flow2": (FLOW2, ""),
+        "flow2-nowidelut": (FLOW2, "-nowidelut"),
+        "flow2-noalu": (FLOW2, "-nowidelut -noalu"),
+    },
 }
 # Chosen with `synth.py --sweep`: smallest without losing clock rate.
-BEST = {"ecp5": "flow2-soft", "ice40": "flow2"}
+BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2"}
 
 
 def commands(job: dict) -> list[str]:
@@ -56,6 +64,8 @@ def commands(job: dict) -> list[str]:
         read += job["sources"]
         # Registers take the name of the signal they drive, before abc9 forgets the signals of the hierarchy.
         passes = [f"{synth} -run begin:map_luts", "rename -wire", f"{synth} -run map_luts:"]
+    if "verilog" in job:
+        passes += [f"write_verilog -noattr {job['verilog']}"]
     return [*filter(None, [" ".join(read), pre]), *passes, f"write_json {job['json']}"]
 
 

@@ -1,0 +1,29 @@
+"""The board top for gate-level tests: its sources, parameters and tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.config import Config
+from scripts import project
+
+TOP = "ppmc104_board"
+MODULE = "cocotb_tests.gates.tb_board"
+# The clock of the iCEBreaker's bitstream.
+B24 = Config("b24m", clk_hz=24_000_000)
+
+
+def sources() -> list[Path]:
+    """The part's sources, then the board top (the tops of single boards hold vendor cells)."""
+    return [*project.sources(project.part("ppmc104")), project.RTL / "boards" / f"{TOP}.sv"]
+
+
+def params(config: Config) -> dict[str, object]:
+    """Parameters of the board top: those of the part, and the UART as host."""
+    return {**config.params, "HOST": "UART"}
+
+
+def items() -> list[Item]:
+    """The tests of the board."""
+    return [param.values[0] for param in cocotb_items("cocotb_tests.gates", "tb_board")]

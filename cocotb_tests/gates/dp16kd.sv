@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// DP16KD: simulation model of the ECP5's block RAM in the modes that synthesis of this project uses; the
+//         model library of yosys has only its ports. Anything else ends the elaboration with an error.
+// Rules:  two ports, 9 or 18 bits each, no output register, contents start as zeros. Word address from AD4
+//         (18 bits) or AD3 (9 bits) up; with 18 bits AD0 and AD1 enable the bytes of a write.
+// Timing: a read stands after the clk edge; a port that writes keeps its output (NORMAL), shows the new word
+//         (WRITETHROUGH) or the old one (READBEFOREWRITE).
+`default_nettype none
+
+// The parameters INITVAL_00 .. INITVAL_3F, and a term that is 1 if one of them is not zero.
+`define INITVAL(name) parameter logic [319:0] INITVAL_``name = '0
+`define INITVALS(digit) `INITVAL(digit``0), `INITVAL(digit``1), `INITVAL(digit``2), `INITVAL(digit``3), \
+    `INITVAL(digit``4), `INITVAL(digit``5), `INITVAL(digit``6), `INITVAL(digit``7), `INITVAL(digit``8), \
+    `INITVAL(digit``9), `INITVAL(digit``A), `INITVAL(digit``B), `INITVAL(digit``C), `INITVAL(digit``D), \
+    `INITVAL(digit``E), `INITVAL(digit``F)
+`define ANY(digit) (|INITVAL_``digit``0 || |INITVAL_``digit``1 || |INITVAL_``digit``2 || |INITVAL_``digit``3 \
+    || |INITVAL_``digit``4 || |INITVAL_``digit``5 || |INITVAL_``digit``6 || |INITVAL_``digit``7 \
+    || |INITVAL_``digit``8 || |INITVAL_``digit``9 || |INITVAL_``digit``A || |INITVAL_``digit``B \
+    || |INITVAL_``digit``C || |INITVAL_``digit``D || |INITVAL_``digit``E || |INITVAL_``digit``F)
+
+module DP16KD #(
+    parameter int DATA_WIDTH_A = 18,
+    parameter int DATA_WIDTH_B = 18,
+    parameter REGMODE_A = "NOREG",
+    parameter REGMODE_B = "NOREG",
+    parameter RESETMODE = "SYNC",
+    parameter ASYNC_RESET_RELEASE = "SYNC",
+    parameter CSDECODE_A = "0b000",
+    parameter CSDECODE_B = "0b000",
+    parameter WRITEMODE_A = "NORMAL",
+    parameter WRITEMODE_B = "NORMAL",
+    parameter CLKAMUX = "CLKA",
+    parameter CLKBMUX = "CLKB",
+    parameter GSR = "ENABLED",
+    `INITVALS(0), `INITVALS(1), `INITVALS(2), `INITVALS(3)
+) (
+    input  wire logic DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9,
+    input  wire logic DIA8, DIA7, DIA6, DIA5, DIA4, DIA3, DIA2, DIA1, DIA0,
+    input  wire logic ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4, ADA3, ADA2, ADA1, ADA0,
+    input  wire logic CEA, OCEA, CLKA, WEA, RSTA, CSA2, CSA1, CSA0,
+    output logic      DOA17, DOA16, DOA15, DOA14, DOA13, DOA12, DOA11, DOA10, DOA9,
+    output logic      DOA8, DOA7, DOA6, DOA5, DOA4, DOA3, DOA2, DOA1, DOA0,
+    input  wire logic DIB17, DIB16, DIB15, DIB14, DIB13, DIB12, DIB11, DIB10, DIB9,
+    input  wire logic DIB8, DIB7, DIB6, DIB5, DIB4, DIB3, DIB2, DIB1, DIB0,
+    input  wire logic ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4, ADB3, ADB2, ADB1, ADB0,
+    input  wire logic CEB, OCEB, CLKB, WEB, RSTB, CSB2, CSB1, CSB0,
+    output logic      DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9,
+    output logic      DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0
+);
+
+  if (!(DATA_WIDTH_A inside {9, 18}) || !(DATA_WIDTH_B inside {9, 18})) begin : g_check_width
+    $fatal(1, "DP16KD model: DATA_WIDTH must be 9 or 18");
+  end
+  if (REGMODE_A != "NOREG" || REGMODE_B != "NOREG") begin : g_check_reg
+    $fatal(1, "DP16KD model: REGMODE must be NOREG");
+  end
+  if (CLKAMUX != "CLKA" || CLKBMUX != "CLKB") begin : g_check_clk
+    $fatal(1, "DP16KD model: the clocks must not be inverted");
+  end
+  if (CSDECODE_A != "0b000" || CSDECODE_B != "0b000") begin : g_check_cs
+    $fatal(1, "DP16KD model: CSDECODE must be 0b000");
+  end
+  if (`ANY(0) || `ANY(1) || `ANY(2) || `ANY(3)) begin : g_check_init
+    $fatal(1, "DP16KD model: INITVAL must be zero");
+  end
+
+  // Both ports can write.
+  // verilator lint_off MULTIDRIVEN
+  logic [17:0] mem[1024];
+  // verilator lint_on MULTIDRIVEN
+  logic [17:0] d[2];
+  wire logic [17:0] q[2];
+  logic [13:0] ad[2];
+  logic [1:0] we, ce, clk, rst;
+
+  initial for (int i = 0; i < 1024; i++) mem[i] = '0;
+
+  assign d[0] = {DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9,
+                 DIA8, DIA7, DIA6, DIA5, DIA4, DIA3, DIA2, DIA1, DIA0};
+  assign d[1] = {DIB17, DIB16, DIB15, DIB14, DIB13, DIB12, DIB11, DIB10, DIB9,
+                 DIB8, DIB7, DIB6, DIB5, DIB4, DIB3, DIB2, DIB1, DIB0};
+  assign ad[0] = {ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4, ADA3, ADA2, ADA1, ADA0};
+  assign ad[1] = {ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4, ADB3, ADB2, ADB1, ADB0};
+  assign {DOA17, DOA16, DOA15, DOA14, DOA13, DOA12, DOA11, DOA10, DOA9,
+          DOA8, DOA7, DOA6, DOA5, DOA4, DOA3, DOA2, DOA1, DOA0} = q[0];
+  assign {DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9,
+          DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0} = q[1];
+  assign clk = {CLKB, CLKA};
+  assign we  = {WEB, WEA};
+  assign rst = {RSTB, RSTA};
+  assign ce  = {CEB && {CSB2, CSB1, CSB0} == '0, CEA && {CSA2, CSA1, CSA0} == '0};
+
+  for (genvar p = 0; p < 2; p++) begin : g_port
+    localparam int Width = p == 0 ? DATA_WIDTH_A : DATA_WIDTH_B;
+    localparam Mode = p == 0 ? WRITEMODE_A : WRITEMODE_B;
+    logic [17:0] old, word, fresh, out;
+
+    initial out = '0;
+    assign q[p] = out;
+
+    always_comb begin
+      old  = mem[ad[p][13:4]];
+      word = old;
+      if (Width == 18) begin
+        if (ad[p][0]) word[8:0] = d[p][8:0];
+        if (ad[p][1]) word[17:9] = d[p][17:9];
+      end else if (ad[p][3]) word[17:9] = d[p][8:0];
+      else word[8:0] = d[p][8:0];
+      fresh = (we[p] && Mode == "WRITETHROUGH") ? word : old;
+      if (Width == 9) fresh = {9'b0, ad[p][3] ? fresh[17:9] : fresh[8:0]};
+    end
+
+    always_ff @(posedge clk[p]) begin
+      if (ce[p] && we[p]) mem[ad[p][13:4]] <= word;
+    end
+
+    if (RESETMODE == "ASYNC") begin : g_async
+      always_ff @(posedge clk[p], posedge rst[p]) begin
+        if (rst[p]) out <= '0;
+        else if (ce[p] && !(we[p] && Mode == "NORMAL")) out <= fresh;
+      end
+    end else begin : g_sync
+      always_ff @(posedge clk[p]) begin
+        if (rst[p]) out <= '0;
+        else if (ce[p] && !(we[p] && Mode == "NORMAL")) out <= fresh;
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

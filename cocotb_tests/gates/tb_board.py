@@ -1,0 +1,161 @@
+"""The board top by its UART: who is there, moves edge by edge as the golden model, bad frames."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import Any
+
+import cocotb
+from cocotb.triggers import Timer
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.config import configs
+from cocotb_tests.gates.board import B24
+from cocotb_tests.gates.uart import Uart
+from openppmc.host.frames import encode
+from openppmc.host.script import RATES, Identity, Result, Script
+from openppmc.model.ppmc104 import Ppmc104
+
+INIT = (0x0A, 9, 4, 4, 0)
+CW, CCW = 0x43, 0x4B
+MOTOR = ("pout_n", "dir", "s", "hold", "int_n")
+EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
+
+
+async def start(dut: Any, code: int = 0) -> tuple[Bench, Uart]:
+    """Reset, then the line rate of that code."""
+    uart = Uart(dut)
+    bench = await Bench.start(dut)
+    uart.listen()
+    await Timer(100, "us")
+    answer = await uart.ask(Script().rate(code))
+    assert answer.result is Result.DONE, answer
+    # The new rate acts after the stop bit, in whose middle the answer was complete.
+    await Timer(10, "us")
+    uart.rate = RATES[code]
+    return bench, uart
+
+
+class Golden:
+    """The golden model after INIT, for one move after the other."""
+
+    def __init__(self) -> None:
+        self.model = Ppmc104(B24.clk_hz, B24.xtal_hz, B24.timing, B24.phase_idle)
+        self.t = 100
+        self.call(*INIT)
+        self.t += 100_000  # the ramp table is built meanwhile
+
+    def call(self, command: int, *data: int) -> None:
+        """A command with its parameters."""
+        for place, byte in enumerate((command, *data)):
+            self.t = self.model.write(self.t, int(place == 0), byte) + 400
+
+    def move(self, op: int, count: int, limit_at: int | None) -> list[tuple[int, str, int]]:
+        """Motor edges of a move, in clk after its first pulse, up to the fall of int_n.
+
+        limit_at: clk after the first pulse on which l2_n falls.
+        """
+        model, before = self.model, len(self.model.pulses)
+        for place, byte in enumerate((op, *(count - 1).to_bytes(3, "little"))):
+            self.t = model.write(self.t, int(place == 0), byte) + 10
+        while len(model.pulses) == before:
+            model.run_until(self.t)
+            self.t += 1
+        first = model.pulses[before]
+        if limit_at is not None:
+            model.pins(first + limit_at, l2_n=0)
+        self.t += 1_000_000
+        model.run_until(self.t - 1)
+        return since(first, [(edge.t, edge.signal, edge.value) for edge in model.edges])
+
+    def finish(self) -> int:
+        """Finish status; it is read, so int_n rises."""
+        self.call(0x80)
+        status = self.model.read(self.t, 0)
+        self.t += 10
+        return status
+
+
+def since(first: int, edges: list[tuple[int, str, int]]) -> list[tuple[int, str, int]]:
+    """Edges of the motor's pins from clk `first` on, up to the first fall of int_n, sorted."""
+    end = min(t for t, name, value in edges if t >= first and name == "int_n" and value == 0)
+    return sorted((t - first, name, value) for t, name, value in edges if first <= t <= end and name in MOTOR)
+
+
+async def move(
+    bench: Bench,
+    uart: Uart,
+    golden: Golden,
+    op: int,
+    count: int,
+    counted: int = 0,
+    limit_at: int | None = None,
+) -> int:
+    """One move by one frame, edges and finish status compared with the golden model; returns its pulses.
+
+    The pulses must be in the pulse counter, CW up from `counted`, and the end must give an event.
+    """
+    begin = bench.now
+    sender = cocotb.start_soon(uart.ask(Script().call(op, *(count - 1).to_bytes(3, "little"))))
+    first = await bench.nth_fall(1, begin)
+    if limit_at is not None:
+        bench.at(first + limit_at, l2_n=0)
+    answer = await sender
+    assert answer.result is Result.DONE, answer
+    if not bench.falls("int_n", begin):
+        await bench.edge("int_n", 0)
+    await bench.clocks(10)
+    got = since(first, [(t, name, value) for name in MOTOR for t, value in bench.edges(name, begin)])
+    want = golden.move(op, count, limit_at)
+    wrong = next((pair for pair in zip_longest(got, want) if pair[0] != pair[1]), None)
+    bench.check("UART move", "first wrong edge (clk after the first pulse, pin, level)", wrong, None)
+    event = await uart.frame()
+    assert event.payload[0] == EVENT, f"expected an event, got {event}"
+    answer = await uart.ask(Script().call(0x80).get(1).count())
+    assert answer.result is Result.DONE, answer
+    bench.check("UART move", "finish status", answer.byte(1), golden.finish())
+    pulses = len(bench.pulses(begin))
+    way = pulses if op == CW else -pulses
+    bench.check("UART move", "pulse counter", answer.number(2, signed=True), counted + way)
+    return pulses
+
+
+@cocotb.test()
+@configs(B24)
+async def board_identifies_itself(dut: Any) -> None:
+    """Given a board after reset, when asked at 115 200 baud, then it gives its part and its clocks."""
+    _, uart = await start(dut)
+    answer = await uart.ask(Script().ident().pins())
+    who = Identity.parse(answer.values[0])
+    assert (who.part, who.clk_hz, who.xtal_hz) == (104, B24.clk_hz, B24.xtal_hz), who
+    assert not who.datasheet and who.counter and who.best_rate == RATES.index(3_000_000), who
+
+
+@cocotb.test()
+@configs(B24)
+async def board_drops_a_bad_frame(dut: Any) -> None:
+    """Given a frame with a wrong CRC, when it ends, then NAK 2 comes and nothing of it is done."""
+    bench, uart = await start(dut, RATES.index(1_000_000))
+    line = bytearray(encode(bytes([5]) + bytes(Script().call(*INIT))))
+    line[3] ^= 0x01
+    await uart.send(bytes(line))
+    nak = await uart.frame()
+    assert nak.payload == bytes([NAK, NAK_CRC]), nak
+    status = await uart.ask(Script().read(1).call(CW, 0, 0, 0))
+    # Not initialised: the part refuses the move, so the init of the bad frame did not reach it.
+    assert status.result is Result.REFUSED, status
+    assert not bench.pulses()
+
+
+@cocotb.test()
+@configs(B24)
+@cocotb.parametrize(rate=(1_000_000, 3_000_000))
+async def board_moves(dut: Any, rate: int) -> None:
+    """Given INIT by UART, when the motor moves CW and then CCW into its limit, then each edge is right."""
+    bench, uart = await start(dut, RATES.index(rate))
+    answer = await uart.ask(Script().events(True).call(*INIT))
+    assert answer.result is Result.DONE, answer
+    golden = Golden()
+    assert await move(bench, uart, golden, CW, 30) == 30
+    made = await move(bench, uart, golden, CCW, 200, counted=30, limit_at=14_001)
+    assert 0 < made < 200, f"{made} pulses: the limit came too late or too early"

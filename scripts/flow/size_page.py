@@ -1,0 +1,121 @@
+"""The resource report: the table for the terminal and the Markdown block of docs/benchmarks.md."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rich import box
+from rich.table import Table
+
+from .netlist import Breakdown, Count
+from .report import markdown_table
+from .sizes import LIMIT
+
+HEADS = ("design", "device", "LUT", "FF", "block RAM", "of the device", "Fmax / MHz", "all seeds", "runs at")
+BRIDGE = "g_uart"
+INSIDE = {"ecp5": "ECP5", "ice40": "iCE40"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One design on one device.
+
+    `fmax`: MHz of all seeds, rising. `used`: LUTs and RAMs as packed, with the device's totals. `clk_mhz`:
+    the clock of a bitstream.
+    """
+
+    design: str
+    device: str
+    count: Count
+    fmax: list[float]
+    used: Mapping[str, float | int] | None = None
+    clk_mhz: float | None = None
+
+    @property
+    def median(self) -> float:
+        """Median Fmax, the lower one of two in the middle."""
+        return self.fmax[(len(self.fmax) - 1) // 2]
+
+    def cells(self) -> list[str]:
+        """The row as text."""
+        share = ""
+        if self.used:
+            share = f"{100 * self.used['lut'] / self.used['lut_total']:.0f} %"
+        return [
+            self.design,
+            self.device,
+            str(self.count.lut),
+            str(self.count.ff),
+            str(self.count.ram),
+            share,
+            f"{self.median:.1f}",
+            f"{self.fmax[0]:.1f} … {self.fmax[-1]:.1f}",
+            f"{self.clk_mhz:g} MHz" if self.clk_mhz else "",
+        ]
+
+
+def terminal(rows: list[Row]) -> Table:
+    """The table for the terminal."""
+    table = Table(title="size and clock rate", title_justify="left", box=box.SIMPLE_HEAD)
+    for place, head in enumerate(HEADS):
+        table.add_column(head, justify="left" if place < 2 else "right")
+    for row in rows:
+        table.add_row(*row.cells())
+    return table
+
+
+def _sum(counts: Mapping[str, Count], below: str) -> Count:
+    """Sum over an instance and everything in it."""
+    total = Count()
+    for path, count in counts.items():
+        if path == below or path.startswith(f"{below}."):
+            total.lut += count.lut
+            total.ff += count.ff
+            total.ram += count.ram
+    return total
+
+
+def bridge_rows(split: Mapping[str, Breakdown]) -> list[list[str]]:
+    """What the board top adds to the part, instance by instance; the part itself in one row."""
+    first = next(iter(split.values()))
+    inside = sorted(path for path in first.kept if path.startswith(f"{BRIDGE}."))
+    rows = [["u_part", "ppmc104, all of it"]]
+    for result in split.values():
+        count = _sum(result.flat, "u_part")
+        rows[0] += [str(count.lut), str(count.ff), str(count.ram or "")]
+    for path in inside:
+        depth = path.count(".") - 1
+        row = ["&nbsp;&nbsp;" * depth + path.rsplit(".", 1)[-1], first.module[path]]
+        for result in split.values():
+            count = result.flat.get(path, Count())
+            row += [str(count.lut), str(count.ff), str(count.ram or "")]
+        rows.append(row)
+    rest, total = ["(top itself)", "ppmc104_board"], ["total", ""]
+    for result in split.values():
+        shown = [_sum(result.flat, "u_part"), _sum(result.flat, BRIDGE)]
+        for key in ("lut", "ff", "ram"):
+            left = getattr(result.total, key) - sum(getattr(count, key) for count in shown)
+            rest.append(str(left) if left or key != "ram" else "")
+        total += [str(result.total.lut), str(result.total.ff), str(result.total.ram or "")]
+    return [*rows, rest, total]
+
+
+def markdown(rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
+    """The whole block between the markers."""
+    parts = [
+        f"Written by `make report`. LUT, FF and block RAM as synthesized (on ECP5 a carry cell counts as two "
+        "LUT, on Gowin an adder bit as one); Fmax of `clk` after place and route, median of "
+        f"{seeds} seeds. ppmc104 and ppmc104_board (part and UART bridge, 24 MHz) with free pins, on UP5K "
+        "through shift registers; the bitstreams with their boards' constraints, *of the device* being the "
+        "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
+        f"fails when one has grown by more than {LIMIT} %.",
+        markdown_table(list(HEADS), [row.cells() for row in rows], left=2),
+        "Where the cells of ppmc104_board are, flattened, a LUT credited to the instance it feeds:",
+        markdown_table(
+            ["instance", "module", *(f"{INSIDE[f]} {what}" for f in split for what in ("LUT", "FF", "RAM"))],
+            bridge_rows(split),
+            left=2,
+        ),
+    ]
+    return "\n\n".join(parts)

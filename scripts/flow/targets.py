@@ -1,0 +1,111 @@
+"""What `make report` measures: the part, the board top that holds part and bridge, the boards' bitstreams."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from scripts import project
+
+from . import board_route, boards, pnr
+from .netlist import Count, flat_counts
+from .synthesis import FAMILIES, run_yosys, wrapped_netlist
+from .yosys_job import BEST
+
+FOLDER = project.BUILD / "report"
+BOARD_TOPS = {"ppmc104": "ppmc104_board"}
+HOST = "uart"
+
+
+@dataclass(frozen=True)
+class Target:
+    """One netlist to measure: of a board's bitstream, or of `base`, a yosys job without its family."""
+
+    design: str
+    family: str
+    base: dict | None = None
+    board: boards.Board | None = None
+
+    @property
+    def folder(self) -> Path:
+        """Where its files go."""
+        return FOLDER / self.design.replace(" ", "-")
+
+    def synthesize(self) -> tuple[Count, Path]:
+        """Size and mapped netlist."""
+        if self.board:
+            netlist = boards.synthesize_board(self.board, HOST)
+            top = self.board.top[HOST]
+        else:
+            job = {**self.base, "family": self.family, "recipe": BEST[self.family], "keep": False}
+            netlist, top = run_yosys(self.folder, job), self.base["top"]
+        return flat_counts(netlist, top, set())[0], netlist
+
+
+def base_job(part: str, board_top: bool) -> dict:
+    """Top, sources and parameters of the part with its defaults, or of its board top with the UART host."""
+    sources = project.sources(project.part(part))
+    top = part
+    if board_top:
+        top = BOARD_TOPS[part]
+        sources = [*sources, project.RTL / "boards" / f"{top}.sv"]
+    return {
+        "top": top,
+        "include": [project.relative(path) for path in project.include_dirs()],
+        "sources": [project.relative(path) for path in sources],
+        "params": {"HOST": "UART"} if board_top else {},
+    }
+
+
+def targets(part: str) -> list[Target]:
+    """Everything to measure for a part."""
+    found = [Target(part, family, base_job(part, False)) for family in FAMILIES]
+    if part in BOARD_TOPS:
+        found += [Target(BOARD_TOPS[part], family, base_job(part, True)) for family in FAMILIES]
+        found += [Target(f"{on.name} bitstream", on.family, board=on) for on in boards.BOARDS.values()]
+    return found
+
+
+def synthesize_all(wanted: list[Target], done: Callable[[Target], None]) -> list[tuple[Count, Path]]:
+    """Size and netlist of each, two at a time; `done` hears of each."""
+
+    def one(target: Target) -> tuple[Count, Path]:
+        result = target.synthesize()
+        done(target)
+        return result
+
+    with ThreadPoolExecutor(2) as pool:
+        return list(pool.map(one, wanted))
+
+
+def devices(target: Target) -> list[pnr.Device]:
+    """Devices on which a part or board top is placed; the board top's UP5K is the iCEBreaker's bitstream."""
+    own = [device for device in pnr.DEVICES if device.family == target.family]
+    return own if target.design in BOARD_TOPS else [device for device in own if not device.wrapped]
+
+
+def device_netlist(target: Target, device: pnr.Device, netlist: Path) -> Path:
+    """The netlist to place: in the pin-saving wrapper where the device has too few pins."""
+    if not device.wrapped:
+        return netlist
+    return wrapped_netlist(target.folder, target.base, netlist, BEST[target.family])
+
+
+def route_board(target: Target, netlist: Path, seed: int) -> dict[str, float | int]:
+    """Place and route a board's netlist with its constraints and one seed: Fmax in MHz, LUTs, RAMs, totals.
+
+    The files are kept away from those of `make bitstream`.
+    """
+    on = target.board
+    folder = target.folder / f"seed-{seed}"
+    folder.mkdir(parents=True, exist_ok=True)
+    used = board_route.route(on, netlist, folder, [boards.CONSTRAINTS / on.constraints[HOST]], seed)
+    return {
+        "fmax": min(used.clocks.values()),
+        "lut": used.lut[0],
+        "lut_total": used.lut[1],
+        "ram": used.ram[0],
+        "ram_total": used.ram[1],
+    }

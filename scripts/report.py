@@ -1,0 +1,148 @@
+"""`make report`: size and clock rate of part, board top and bitstreams; `--check` compares the sizes alone.
+
+The report places and routes everything with five seeds, writes the table into docs/benchmarks.md and the
+sizes as synthesized into docs/sizes.json. The check (`make size`) synthesizes only and fails on growth.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from scripts import project
+from scripts.flow import size_page, sizes, targets
+from scripts.flow.netlist import Count
+from scripts.flow.synthesis import FAMILIES, SEEDS, all_seeds, synthesize
+from scripts.flow.targets import Target
+from scripts.flow.yosys_job import BEST
+from scripts.project import console, fail
+
+Tell = Callable[[str], None]
+
+
+def measured(wanted: list[Target], tell: Tell) -> tuple[sizes.Sizes, list[tuple[Count, Path]]]:
+    """Sizes as docs/sizes.json holds them, and count and netlist of each target."""
+    found = targets.synthesize_all(
+        wanted, lambda target: tell(f"synthesized: {target.design}, {target.family}")
+    )
+    table: sizes.Sizes = {}
+    for target, (count, _) in zip(wanted, found, strict=True):
+        figures = {key: asdict(count)[key] for key in sizes.FIGURES}
+        table.setdefault(target.design, {})[target.family] = figures
+    return table, found
+
+
+def check(wanted: list[Target], tell: Tell) -> int:
+    """Compare with the committed sizes; the exit code."""
+    committed = sizes.read()
+    now, _ = measured(wanted, tell)
+    verdict = sizes.compare(committed, now)
+    for line in verdict.smaller:
+        console.print(f"{line}: `make report` renews docs/sizes.json", markup=False)
+    for line in verdict.wrong:
+        fail(line)
+    if verdict.wrong:
+        fail(f"{len(verdict.wrong)} size(s) beyond docs/sizes.json: make it smaller, or {sizes.ACCEPT}")
+        return 1
+    console.print(f"no size is more than {sizes.LIMIT} % above docs/sizes.json ({len(wanted)} netlists)")
+    return 0
+
+
+def device_rows(target: Target, count: Count, netlist: Path, seeds: int, tell: Tell) -> list[size_page.Row]:
+    """A part or board top on the devices of its family."""
+    rows = []
+    for device in targets.devices(target):
+        placed = targets.device_netlist(target, device, netlist)
+        label = f"{target.design} on {device.name}"
+        runs = all_seeds(
+            device, placed, target.folder, seeds, lambda run, what=label: tell(f"{what}: {run.fmax} MHz")
+        )
+        fmax = sorted(run.fmax for run in runs)
+        rows.append(size_page.Row(target.design, device.name, count, fmax))
+    return rows
+
+
+def board_row(target: Target, count: Count, netlist: Path, seeds: int, tell: Tell) -> size_page.Row:
+    """A board's bitstream with its constraints."""
+
+    def one(seed: int) -> dict:
+        used = targets.route_board(target, netlist, seed)
+        tell(f"{target.design}: {used['fmax']} MHz")
+        return used
+
+    # The first start of a WebAssembly tool compiles it; two at once would do that twice.
+    runs = [one(1)]
+    with ThreadPoolExecutor(2) as pool:
+        runs += pool.map(one, range(2, seeds + 1))
+    fmax = sorted(run["fmax"] for run in runs)
+    return size_page.Row(target.design, target.board.device, count, fmax, runs[0], target.board.clk_hz / 1e6)
+
+
+def report(part: str, wanted: list[Target], seeds: int, tell: Tell) -> None:
+    """Everything, into docs/benchmarks.md and docs/sizes.json."""
+    table, found = measured(wanted, tell)
+    rows: list[size_page.Row] = []
+    for target, (count, netlist) in zip(wanted, found, strict=True):
+        if target.board:
+            rows.append(board_row(target, count, netlist, seeds, tell))
+        else:
+            rows += device_rows(target, count, netlist, seeds, tell)
+    tell("the bridge alone")
+    base = targets.base_job(part, True)
+    folder = targets.FOLDER / "breakdown"
+    split = {family: synthesize(folder, base, family, BEST[family])[0] for family in FAMILIES}
+    text = size_page.markdown(rows, split, seeds)
+    console.print(size_page.terminal(rows))
+    if seeds != SEEDS:
+        console.print(f"docs/ not written: that takes {SEEDS} seeds")
+        return
+    project.update_benchmarks(f"report:{part}", text)
+    sizes.write(table)
+    console.print("written: docs/benchmarks.md, docs/sizes.json")
+
+
+def arguments() -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="python -m scripts.report", description=(__doc__ or "").split("\n")[0]
+    )
+    parser.add_argument("--part", default="ppmc104")
+    parser.add_argument(
+        "--check", action="store_true", help="compare sizes with docs/sizes.json, route nothing"
+    )
+    parser.add_argument("--seeds", type=int, default=SEEDS, help="place-and-route runs (default %(default)s)")
+    return parser.parse_args()
+
+
+def main() -> int:
+    """Entry point."""
+    args = arguments()
+    part = project.part(args.part).name
+    wanted = targets.targets(part)
+    routes = sum(1 if target.board else len(targets.devices(target)) for target in wanted)
+    steps = len(wanted) + (0 if args.check else routes * args.seeds + 1)
+    columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+        task = progress.add_task("synthesis", total=steps)
+
+        def tell(text: str) -> None:
+            progress.update(task, advance=1, description=text)
+            if not console.is_terminal:
+                console.print(text, markup=False)
+
+        if args.check:
+            return check(wanted, tell)
+        report(part, wanted, args.seeds, tell)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,106 @@
+"""Which tests run on netlists, and what a netlist is made into. (Netlists themselves: `make test-gates`.)"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from cocotb_tests.common.runner import repro_line
+from cocotb_tests.gates import suite
+from cocotb_tests.ppmc104 import test_ppmc104, test_random
+from scripts.flow import gates
+from scripts.pool import as_done
+from scripts.project import ProjectError
+
+EVERYTHING = suite.everything()
+
+
+@pytest.mark.parametrize("family", gates.FAMILIES)
+def test_all_directed_tests_run_on_each_family(family: str) -> None:
+    wanted = {param.values[0].id for param in test_ppmc104.ITEMS}
+    here = {t.item.id for t in EVERYTHING if t.family == family}
+    assert {f"{name}-{family}" for name in wanted} <= here
+
+
+def test_the_sample_of_random_hosts_uses_each_of_their_configurations() -> None:
+    used = {t.item.config.name for t in EVERYTHING if t.item.test == "random_host"}
+    assert used == {test_random.random_item(seed).config.name for seed in test_random.SEEDS}
+
+
+def test_names_are_unique_and_hold_the_family() -> None:
+    names = [t.item.id for t in EVERYTHING]
+    assert len(set(names)) == len(names)
+    assert all(t.item.id.endswith(t.family) for t in EVERYTHING)
+
+
+def test_a_failure_is_repeated_by_the_same_target() -> None:
+    test = EVERYTHING[0]
+    assert repro_line(test.item, 7) == f"make test-gates T={test.item.id} SEED=7"
+
+
+def test_the_line_that_repeats_a_random_host_chooses_it() -> None:
+    test = next(t for t in EVERYTHING if t.item.test == "random_host")
+    assert test in suite.chosen(suite.everything(test.item.seed), test.item.id)
+
+
+def test_choosing() -> None:
+    assert suite.chosen(EVERYTHING, None) == EVERYTHING
+    assert suite.chosen(EVERYTHING, "nosuchtest") == []
+    quick = suite.chosen(EVERYTHING, "quick")
+    assert 40 < len(quick) < 100
+    assert {t.family for t in quick} == set(gates.FAMILIES)
+    assert {t.top for t in quick} == {"ppmc104", "ppmc104_board"}
+    some = suite.chosen(EVERYTHING, "D16-ECP5")
+    assert some and all(t.group[0] == "ecp5" for t in some)
+
+
+def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert suite.left_out() == suite.NOT_APPLICABLE
+    monkeypatch.setattr(test_ppmc104, "test_something_new", lambda: None, raising=False)
+    with pytest.raises(ProjectError, match="does not say why test_something_new is left out"):
+        suite.left_out()
+
+
+def test_the_control_file_shows_the_ports_and_nothing_else() -> None:
+    text = gates.control_file("top", ["clk", "d_i"], "ecp5")
+    assert [line for line in text.splitlines() if "public" in line] == [
+        'public_flat_rw -module "top" -var "clk"',
+        'public_flat_rw -module "top" -var "d_i"',
+    ]
+
+
+def test_another_parameter_or_source_is_another_netlist() -> None:
+    job = {
+        **{"top": "t", "include": [], "sources": ["rtl/common/ppmc_sync.sv"], "params": {"N": 1}},
+        **{"family": "ice40", "recipe": "flow2"},
+    }
+    others = [
+        {**job, "params": {"N": 2}},
+        {**job, "sources": ["rtl/common/ppmc_ram.sv"]},
+        {**job, "recipe": "default"},
+        {**job, "family": "ecp5", "recipe": "flow2-soft"},
+    ]
+    assert len({gates._digest(each) for each in (job, *others)}) == 5
+
+
+def double(number: int) -> int:
+    """Work for the pool; refuses 13."""
+    if number == 13:
+        raise ValueError("thirteen")
+    return 2 * number
+
+
+def test_the_pool_returns_all_results_and_raises_errors() -> None:
+    assert sorted(as_done(double, range(10), 2)) == list(range(0, 20, 2))
+    with pytest.raises(ValueError, match="thirteen"):
+        list(as_done(double, [1, 13, 2], 2))
+
+
+def test_tests_of_the_suite_are_those_of_the_part() -> None:
+    """Only tag and target differ from the item of `make test`."""
+    own = {param.values[0].id: param.values[0] for param in test_ppmc104.ITEMS}
+    for test in EVERYTHING:
+        if test.item.module.startswith("cocotb_tests.ppmc104") and not test.item.tag.startswith("r0"):
+            item = own[test.item.id.removesuffix(f"-{test.family}")]
+            assert replace(test.item, tag="", target="test") == item
