@@ -2,6 +2,9 @@
 
 PARTS := ppmc104
 PART  ?= ppmc104
+BOARDS := icebreaker ulx3s-25f ulx3s-85f tangnano9k
+BOARD ?= icebreaker
+HOST  ?= uart
 J     ?= 2
 
 # --- variables that may be set on the command line, per target -----------------------------------------------------
@@ -11,6 +14,13 @@ VARS_soak  := SEED COUNT J
 VARS_synth := PART
 VARS_trace := PART
 VARS_bench := PART
+VARS_report := PART
+VARS_size  := PART
+VARS_test-gates := T SEED J
+VARS_test-board := T J
+VARS_board := SIM
+VARS_bitstream := BOARD HOST SEED
+VARS_flash := BOARD HOST
 SETTABLE := PYTHON $(foreach goal,$(GOALS),$(VARS_$(goal)))
 GIVEN    := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)),$v))
 UNKNOWN  := $(filter-out MAKEFLAGS MAKEOVERRIDES MAKELEVEL $(SETTABLE),$(GIVEN))
@@ -20,66 +30,92 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
+comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
 quote = '$(subst ','\'',$1)'
-NEED_ENV := setup demo test soak lint format synth bench trace docs
-CHECKED  := $(foreach v,T PART SEED COUNT CLK_HZ J,$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
-PROBLEM  := $(shell ./scripts/preflight.sh parts=$(PARTS) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
+NEED_ENV := setup demo test soak lint format synth bench trace docs report size test-gates board test-board bitstream packages
+CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J,$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
+PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))
 endif
 
 VENV   := .venv
 PY     := $(VENV)/bin/python
-SIM    := $(VENV)/.requirements-sim
-DEV    := $(VENV)/.requirements-dev
+ENVSIM := $(VENV)/.requirements-sim
+ENVDEV := $(VENV)/.requirements-dev
 PYTEST := $(PY) -m pytest
 
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 unexport VERILATOR_ROOT
 export PYTHONDONTWRITEBYTECODE := 1
 
-.PHONY: help setup demo test soak lint format synth bench trace waves docs clean distclean
+.PHONY: help setup demo test test-gates test-board soak lint format synth report size bench trace waves docs board \
+        bitstream flash packages clean distclean
 .DEFAULT_GOAL := help
 
 help: ## this list
 	@echo 'OpenPPMC: make TARGET [VARIABLE=VALUE]'
 	@echo
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "  %-10s %s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "  %-11s %s\n", $$1, $$2 }'
 	@echo
-	@echo '  PYTHON=… names the Python (3.10 or newer) to make the environment with. Parts: $(PARTS)'
+	@echo '  PYTHON=… names the Python (3.10 or newer) to make the environment with. Parts: $(PARTS). Boards: $(BOARDS)'
 
-setup: $(DEV) ## make the whole environment in .venv (other targets do it when they need it)
+setup: $(ENVDEV) ## make the whole environment in .venv (other targets do it when they need it)
 
-demo: $(SIM) ## a PPMC-104 through a move: what was sent, what came back, plot and waveforms in build/demo/
+demo: $(ENVSIM) ## a PPMC-104 through a move: what was sent, what came back, plot and waveforms in build/demo/
 	@$(PY) -m scripts.demo
 
-test: $(SIM) ## all tests; T=name picks some, SEED=n another random seed, CLK_HZ=n one clock, J=n workers (2)
+test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK_HZ=n one clock, J=n workers (2)
 	@$(PYTEST) -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED)) $(if $(CLK_HZ),--clk-hz $(CLK_HZ)) \
 	  || { code=$$?; [ $$code != 5 ] || echo 'error: no test matches' $(call quote,$(strip $(if $(T),T=$(T)) $(if $(CLK_HZ),CLK_HZ=$(CLK_HZ)))) >&2; exit $$code; }
 
-soak: $(SIM) ## COUNT=n random hosts from SEED=n on against the golden model
+soak: $(ENVSIM) ## COUNT=n random hosts from SEED=n on against the golden model
 	@$(PY) -m scripts.soak --seed $(or $(SEED),1) --count $(or $(COUNT),1000)
 
-lint: $(DEV) ## verible, Verilator -Wall, read_slang and ruff; no warning passes
+lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang and ruff; no warning passes
 	@$(PY) -m scripts.lint
 
-format: $(DEV) ## lay out RTL and Python as `make lint` wants them
+format: $(ENVDEV) ## lay out RTL and Python as `make lint` wants them
 	@$(PY) -m scripts.lint --fix
 
-synth: $(DEV) ## cells and clock rate of PART=ppmc104 on iCE40 and ECP5, into docs/benchmarks.md
+synth: $(ENVDEV) ## cells and clock rate of PART=ppmc104 on iCE40 and ECP5, into docs/benchmarks.md
 	@$(PY) -m scripts.synth --part $(PART)
 
-bench: $(SIM) ## clk cycles per second of RTL and golden model, into docs/benchmarks.md
+bench: $(ENVSIM) ## clk cycles per second of RTL and golden model, into docs/benchmarks.md
 	@$(PY) -m scripts.bench --part $(PART)
 
-trace: $(SIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
+trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
 	@$(PY) -m scripts.trace $(PART)
+
+test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
+	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
+
+board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top, motor, switches; SIM='cw=20000,…'
+	@$(PY) -m openppmc.sim $(if $(SIM),$(call quote,$(SIM)))
+
+test-board: $(ENVSIM) ## the host package on the virtual board, through pyserial, unplugging included
+	@$(PYTEST) tests/board -n $(J) $(if $(T),-k $(call quote,$(T)))
+
+report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each, into docs/benchmarks.md and docs/sizes.json
+	@$(PY) -m scripts.report --part $(PART)
+
+size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
+	@$(PY) -m scripts.report --part $(PART) --check
+
+bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f or tangnano9k with HOST=uart or bus, in build/boards/
+	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) $(if $(SEED),--seed $(SEED))
+
+flash: ## load that bitstream into the board with openFPGALoader
+	@$(PY) -m scripts.flash $(BOARD) --host $(HOST)
+
+packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from rtl/files.yml
+	@$(PY) -m scripts.packages
 
 waves: ## open the demo's waveforms in GTKWave or Surfer
 	@./scripts/waves.sh
 
-docs: $(DEV) ## redraw the pictures of the manual
+docs: $(ENVDEV) ## redraw the pictures of the manual
 	@$(PY) -m scripts.docs
 
 clean: ## remove what was built, keep the environment
@@ -89,10 +125,10 @@ clean: ## remove what was built, keep the environment
 distclean: clean ## remove the environment as well
 	@rm -rf $(VENV)
 
-$(SIM): requirements-sim.txt scripts/bootstrap.py
+$(ENVSIM): requirements-sim.txt scripts/bootstrap.py
 	@$(call bootstrap,$(notdir $<))
 
-$(DEV): requirements-dev.txt $(SIM)
+$(ENVDEV): requirements-dev.txt $(ENVSIM)
 	@$(call bootstrap,$(notdir $<))
 
 bootstrap = python=$(PY); [ -x $$python ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); $$python scripts/bootstrap.py $1
