@@ -81,8 +81,9 @@ format: $(ENVDEV) ## lay out RTL and Python as `make lint` wants them
 synth: $(ENVDEV) ## cells and clock rate of PART=ppmc104 on iCE40 and ECP5, into docs/benchmarks.md
 	@$(PY) -m scripts.synth --part $(PART)
 
-bench: $(ENVSIM) ## clk cycles per second of RTL and golden model, into docs/benchmarks.md
+bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine, into docs/benchmarks.md
 	@$(PY) -m scripts.bench --part $(PART)
+	@$(PY) -m scripts.bench_board
 
 trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)

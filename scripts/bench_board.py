@@ -1,6 +1,6 @@
 """How fast the virtual board is: register accesses a second over its UART, and board time against wall time.
 
-`python -m scripts.bench_board` prints the figures; `measure` gives them to other scripts.
+Part of `make bench`; the table goes between its markers of docs/benchmarks.md.
 """
 
 from __future__ import annotations
@@ -19,10 +19,13 @@ from openppmc import sim
 from openppmc.host import Ppmc104, PpmcError
 from openppmc.host.script import Script
 from scripts import project
+from scripts.bench import machine
+from scripts.flow.report import markdown_table
 from scripts.project import console
 
 BLOCK = 255
 CLK_HZ = 8_000_000
+BAUD = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -82,24 +85,32 @@ def measure(baud: int, seconds: float = 3.0) -> Figures:
 
 
 def main() -> int:
-    """Print the figures."""
+    """Measure, print, write docs/benchmarks.md."""
     parser = argparse.ArgumentParser(prog="bench_board.py", description=__doc__)
-    parser.add_argument("--baud", type=int, default=1_000_000)
+    parser.add_argument(
+        "--baud", type=int, default=BAUD, help="default %(default)s; docs are written for it only"
+    )
+    baud = parser.parse_args().baud
     try:
-        figures = measure(parser.parse_args().baud)
+        figures = measure(baud)
     except (sim.SimError, PpmcError) as error:
         return project.fail(str(error))
+    rows = [
+        [f"register accesses/s, blocks of {BLOCK}", f"{figures.accesses:,.0f}"],
+        ["commands with their answer/s", f"{figures.commands:,.0f}"],
+        ["board time / wall time, motor turning", f"{figures.factor:.2f}"],
+        ["million clk / s of processor time", f"{figures.mclk:.2f}"],
+    ]
     table = Table(title=f"virtual board, {figures.baud} baud", title_justify="left", show_header=False)
     table.add_column()
     table.add_column(justify="right")
-    for text, value in (
-        (f"register accesses/s, blocks of {BLOCK}", f"{figures.accesses:,.0f}"),
-        ("commands with their answer/s", f"{figures.commands:,.0f}"),
-        ("board time / wall time", f"{figures.factor:.2f}"),
-        ("million clk / s of processor time", f"{figures.mclk:.2f}"),
-    ):
-        table.add_row(text, value)
+    for row in rows:
+        table.add_row(*row)
     console.print(table)
+    if figures.baud == BAUD:
+        text = f"The virtual board at {CLK_HZ / 1e6:g} MHz and {BAUD:,} baud, through pyserial. {machine()}."
+        project.update_benchmarks("bench:board", text + "\n\n" + markdown_table(["figure", ""], rows))
+        console.print("written: docs/benchmarks.md")
     return 0
 
 

@@ -238,6 +238,11 @@ def checks() -> list[Check]:
             "fresh",
             lambda: tool(sys.executable, "-m", "scripts.packages", "--check", ok_output=True),
         ),
+        Check(
+            "packages",
+            "templates and FuseSoC run",
+            lambda: tool(sys.executable, "-m", "scripts.packages", "--try", ok_output=True),
+        ),
         Check("texts", "marks, tabs, line ends", texts),
     ]
 

@@ -34,7 +34,7 @@ def test_board_block(item, sim_options):
 def test_board_top(item, sim_options):
     """Run one simulation of a board top; the test's name says with which host."""
     part = part_design("ppmc104", item.config)
-    files = [RTL / "ppmc104_board.sv", *SHARED, RTL / "board_de10nano.sv"]
+    files = [RTL / "ppmc104_board.sv", *SHARED, RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv"]
     bench = ROOT / "cocotb_tests" / "boards" / "bus_bench.sv"
     params = {"HOST": item.test.split("_")[0].upper()}
     design = Design("bus_bench", [*part.sources, *files, bench], part.includes, params, ARGS)

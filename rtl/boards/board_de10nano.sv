@@ -52,39 +52,28 @@ module board_de10nano #(
 
   localparam int unsigned ClkHz = 50_000_000;
 
-  logic rst_n;
-  logic part_oe, link, lamp_link;
   logic [7:0] part_d;
 
-
-  ppmc_board_reset #(
-      .ClkHz(ClkHz)
-  ) u_reset (
-      .clk_i (clk),
-      .lock_i(1'b1),
-      .req_ni(host_rst_n && key_n),
-      .rst_no(rst_n)
-  );
-
-  ppmc104_board #(
+  ppmc104_station #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
       .BAUD      (BAUD)
-  ) u_board (
+  ) u_station (
       .clk,
-      .rst_n,
+      .lock (1'b1),
+      .req_n(host_rst_n && key_n),
       .uart_rxd,
       .uart_txd,
       .a0,
       .cs_n,
       .rd_n,
       .wr_n,
-      .d_i     (d),
-      .d_o     (part_d),
-      .d_oe    (part_oe),
+      .d_i  (d),
+      .d_o  (part_d),
+      .d_oe,
       .int_n,
       .csel,
       .vsel,
@@ -102,23 +91,10 @@ module board_de10nano #(
       .hold,
       .pout_n,
       .dir,
-      .led_link(link)
+      .lamps(led)
   );
 
-  // With the UART host the part's reads stay inside.
-  assign d_oe = HOST == "BUS" && part_oe;
-  assign d    = d_oe ? part_d : 'z;
-
-  ppmc_board_lamp #(
-      .ClkHz(ClkHz)
-  ) u_lamp (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .on_i  (link),
-      .lamp_o(lamp_link)
-  );
-
-  assign led = {rst_n, !(l1_n && l2_n && l3_n && l4_n && alm_n), !hold, lamp_link};
+  assign d = d_oe ? part_d : 'z;
 
 endmodule
 

@@ -38,8 +38,9 @@ module board_icebreaker #(
 
   localparam int unsigned ClkHz = 24_000_000;
 
-  logic clk, lock, rst_n;
-  logic link, lamp_link;
+  logic clk, lock;
+  logic moving, link;
+  logic [1:0] unused_lamps;
 
   ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
@@ -47,37 +48,29 @@ module board_icebreaker #(
       .lock_o   (lock)
   );
 
-  ppmc_board_reset #(
-      .ClkHz(ClkHz)
-  ) u_reset (
-      .clk_i (clk),
-      .lock_i(lock),
-      .req_ni(btn_n),
-      .rst_no(rst_n)
-  );
-
-  ppmc104_board #(
+  ppmc104_station #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      ("UART"),
       .BAUD      (BAUD)
-  ) u_board (
+  ) u_station (
       .clk,
-      .rst_n,
+      .lock,
+      .req_n(btn_n),
       .uart_rxd,
       .uart_txd,
-      .a0      (1'b1),
-      .cs_n    (1'b1),
-      .rd_n    (1'b1),
-      .wr_n    (1'b1),
-      .d_i     (8'd0),
-      .d_o     (),
-      .d_oe    (),
-      .int_n   (),
-      .csel    (1'b1),
-      .vsel    (1'b1),
+      .a0   (1'b1),
+      .cs_n (1'b1),
+      .rd_n (1'b1),
+      .wr_n (1'b1),
+      .d_i  (8'd0),
+      .d_o  (),
+      .d_oe (),
+      .int_n(),
+      .csel (1'b1),
+      .vsel (1'b1),
       .clock,
       .l1_n,
       .l2_n,
@@ -92,20 +85,11 @@ module board_icebreaker #(
       .hold,
       .pout_n,
       .dir,
-      .led_link(link)
+      .lamps   ({unused_lamps, moving, link})
   );
 
-  ppmc_board_lamp #(
-      .ClkHz(ClkHz)
-  ) u_lamp (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .on_i  (link),
-      .lamp_o(lamp_link)
-  );
-
-  assign ledg_n = !lamp_link;
-  assign ledr_n = hold;
+  assign ledg_n = !link;
+  assign ledr_n = !moving;
 
 endmodule
 

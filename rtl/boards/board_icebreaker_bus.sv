@@ -36,8 +36,10 @@ module board_icebreaker_bus #(
 
   localparam int unsigned ClkHz = 24_000_000;
 
-  logic clk, lock, rst_n;
-  logic link, lamp_link, hold, unused_s5;
+  logic clk, lock;
+  logic moving, link;
+  logic [1:0] unused_lamps;
+  logic unused_s5;
   logic [7:0] part_d;
 
   ppmc_clock_icebreaker u_clock (
@@ -46,24 +48,16 @@ module board_icebreaker_bus #(
       .lock_o   (lock)
   );
 
-  ppmc_board_reset #(
-      .ClkHz(ClkHz)
-  ) u_reset (
-      .clk_i (clk),
-      .lock_i(lock),
-      .req_ni(btn_n && host_rst_n),
-      .rst_no(rst_n)
-  );
-
-  ppmc104_board #(
+  ppmc104_station #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      ("BUS")
-  ) u_board (
+  ) u_station (
       .clk,
-      .rst_n,
+      .lock,
+      .req_n   (btn_n && host_rst_n),
       .uart_rxd(1'b1),
       .uart_txd(),
       .a0,
@@ -87,25 +81,16 @@ module board_icebreaker_bus #(
       .auxo    (),
       .aux_n   (),
       .s       ({unused_s5, s}),
-      .hold,
+      .hold    (),
       .pout_n,
       .dir,
-      .led_link(link)
+      .lamps   ({unused_lamps, moving, link})
   );
 
   assign d = d_oe ? part_d : 'z;
 
-  ppmc_board_lamp #(
-      .ClkHz(ClkHz)
-  ) u_lamp (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .on_i  (link),
-      .lamp_o(lamp_link)
-  );
-
-  assign ledg_n = !lamp_link;
-  assign ledr_n = hold;
+  assign ledg_n = !link;
+  assign ledr_n = !moving;
 
 endmodule
 

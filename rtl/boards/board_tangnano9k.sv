@@ -53,8 +53,7 @@ module board_tangnano9k #(
   localparam int unsigned ClkHz = 54_000_000;
 
   logic clk, lock;
-  logic rst_n;
-  logic part_oe, link, lamp_link;
+  logic [3:0] lamps;
   logic [7:0] part_d;
 
   ppmc_clock_tangnano9k u_clock (
@@ -63,34 +62,26 @@ module board_tangnano9k #(
       .lock_o   (lock)
   );
 
-  ppmc_board_reset #(
-      .ClkHz(ClkHz)
-  ) u_reset (
-      .clk_i (clk),
-      .lock_i(lock),
-      .req_ni(host_rst_n && btn_n),
-      .rst_no(rst_n)
-  );
-
-  ppmc104_board #(
+  ppmc104_station #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
       .BAUD      (BAUD)
-  ) u_board (
+  ) u_station (
       .clk,
-      .rst_n,
+      .lock,
+      .req_n(host_rst_n && btn_n),
       .uart_rxd,
       .uart_txd,
       .a0,
       .cs_n,
       .rd_n,
       .wr_n,
-      .d_i     (d),
-      .d_o     (part_d),
-      .d_oe    (part_oe),
+      .d_i  (d),
+      .d_o  (part_d),
+      .d_oe,
       .int_n,
       .csel,
       .vsel,
@@ -101,30 +92,19 @@ module board_tangnano9k #(
       .l4_n,
       .cnp_n,
       .alm_n,
-      .auxi    ({2'b00, auxi}),
+      .auxi ({2'b00, auxi}),
       .auxo,
       .aux_n,
       .s,
       .hold,
       .pout_n,
       .dir,
-      .led_link(link)
+      .lamps
   );
 
-  // With the UART host the part's reads stay inside.
-  assign d_oe = HOST == "BUS" && part_oe;
-  assign d    = d_oe ? part_d : 'z;
+  assign d = d_oe ? part_d : 'z;
 
-  ppmc_board_lamp #(
-      .ClkHz(ClkHz)
-  ) u_lamp (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .on_i  (link),
-      .lamp_o(lamp_link)
-  );
-
-  assign led_n = ~{rst_n, !(l1_n && l2_n && l3_n && l4_n && alm_n), !hold, lamp_link};
+  assign led_n = ~lamps;
 
 endmodule
 

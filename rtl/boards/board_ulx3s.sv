@@ -53,8 +53,6 @@ module board_ulx3s #(
   localparam int unsigned ClkHz = 100_000_000;
 
   logic clk, lock;
-  logic rst_n;
-  logic part_oe, link, lamp_link;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s u_clock (
@@ -63,34 +61,26 @@ module board_ulx3s #(
       .lock_o   (lock)
   );
 
-  ppmc_board_reset #(
-      .ClkHz(ClkHz)
-  ) u_reset (
-      .clk_i (clk),
-      .lock_i(lock),
-      .req_ni(host_rst_n && !btn_f1),
-      .rst_no(rst_n)
-  );
-
-  ppmc104_board #(
+  ppmc104_station #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
       .BAUD      (BAUD)
-  ) u_board (
+  ) u_station (
       .clk,
-      .rst_n,
+      .lock,
+      .req_n(host_rst_n && !btn_f1),
       .uart_rxd,
       .uart_txd,
       .a0,
       .cs_n,
       .rd_n,
       .wr_n,
-      .d_i     (d),
-      .d_o     (part_d),
-      .d_oe    (part_oe),
+      .d_i  (d),
+      .d_o  (part_d),
+      .d_oe,
       .int_n,
       .csel,
       .vsel,
@@ -108,26 +98,13 @@ module board_ulx3s #(
       .hold,
       .pout_n,
       .dir,
-      .led_link(link)
+      .lamps(led)
   );
 
-  // With the UART host the part's reads stay inside.
-  assign d_oe = HOST == "BUS" && part_oe;
-  assign d    = d_oe ? part_d : 'z;
-
-  ppmc_board_lamp #(
-      .ClkHz(ClkHz)
-  ) u_lamp (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .on_i  (link),
-      .lamp_o(lamp_link)
-  );
+  assign d = d_oe ? part_d : 'z;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;
-
-  assign led = {rst_n, !(l1_n && l2_n && l3_n && l4_n && alm_n), !hold, lamp_link};
 
 endmodule
 
