@@ -1,7 +1,9 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-PARTS := ppmc104
+PARTS := ppmc104 ppmc2104 isa_4axis
 PART  ?= ppmc104
+# What a target that can do all parts works on: PART if it is given.
+GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
 BOARDS := icebreaker ulx3s-25f ulx3s-85f tangnano9k
 BOARD ?= icebreaker
 HOST  ?= uart
@@ -10,7 +12,7 @@ J     ?= 2
 # --- variables that may be set on the command line, per target -----------------------------------------------------
 GOALS := $(or $(MAKECMDGOALS),help)
 VARS_test  := T SEED CLK_HZ J
-VARS_soak  := SEED COUNT J
+VARS_soak  := SEED COUNT J PART
 VARS_synth := PART
 VARS_trace := PART
 VARS_bench := PART
@@ -18,9 +20,10 @@ VARS_report := PART
 VARS_size  := PART
 VARS_test-gates := T SEED J
 VARS_test-board := T J
-VARS_board := SIM
-VARS_bitstream := BOARD HOST SEED
-VARS_flash := BOARD HOST
+VARS_board := SIM PART
+VARS_bitstream := BOARD HOST PART SEED
+VARS_flash := BOARD HOST PART
+VARS_demo  := PART
 SETTABLE := PYTHON $(foreach goal,$(GOALS),$(VARS_$(goal)))
 GIVEN    := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)),$v))
 UNKNOWN  := $(filter-out MAKEFLAGS MAKEOVERRIDES MAKELEVEL $(SETTABLE),$(GIVEN))
@@ -62,15 +65,15 @@ help: ## this list
 
 setup: $(ENVDEV) ## make the whole environment in .venv (other targets do it when they need it)
 
-demo: $(ENVSIM) ## a PPMC-104 through a move: what was sent, what came back, plot and waveforms in build/demo/
-	@$(PY) -m scripts.demo
+demo: $(ENVSIM) ## PART=ppmc104 through a move: what was sent, what came back, plot and waveforms in build/demo/
+	@$(PY) -m scripts.demo --part $(PART)
 
 test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK_HZ=n one clock, J=n workers (2)
 	@$(PYTEST) -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED)) $(if $(CLK_HZ),--clk-hz $(CLK_HZ)) \
 	  || { code=$$?; [ $$code != 5 ] || echo 'error: no test matches' $(call quote,$(strip $(if $(T),T=$(T)) $(if $(CLK_HZ),CLK_HZ=$(CLK_HZ)))) >&2; exit $$code; }
 
 soak: $(ENVSIM) ## COUNT=n random hosts from SEED=n on against the golden model
-	@$(PY) -m scripts.soak --seed $(or $(SEED),1) --count $(or $(COUNT),1000)
+	@$(PY) -m scripts.soak $(PART) --seed $(or $(SEED),1) --count $(or $(COUNT),1000)
 
 lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang and ruff; no warning passes
 	@$(PY) -m scripts.lint
@@ -87,28 +90,28 @@ bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine
 
 trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
-	@$(PY) -m scripts.trace $(PART)
+	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104); do $(PY) -m scripts.trace $$part || exit 1; done
 
 test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
 
 board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top, motor, switches; SIM='cw=20000,…'
-	@$(PY) -m openppmc.sim $(if $(SIM),$(call quote,$(SIM)))
+	@$(PY) -m openppmc.sim $(addprefix part=,$(GIVEN_PART)) $(if $(SIM),$(call quote,$(SIM)))
 
 test-board: $(ENVSIM) ## the host package on the virtual board, through pyserial, unplugging included
 	@$(PYTEST) tests/board -n $(J) $(if $(T),-k $(call quote,$(T)))
 
 report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each, into docs/benchmarks.md and docs/sizes.json
-	@$(PY) -m scripts.report --part $(PART)
+	@$(PY) -m scripts.report $(addprefix --part ,$(GIVEN_PART))
 
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
-	@$(PY) -m scripts.report --part $(PART) --check
+	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
 
 bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f or tangnano9k with HOST=uart or bus, in build/boards/
-	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) $(if $(SEED),--seed $(SEED))
+	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED))
 
 flash: ## load that bitstream into the board with openFPGALoader
-	@$(PY) -m scripts.flash $(BOARD) --host $(HOST)
+	@$(PY) -m scripts.flash $(BOARD) --host $(HOST) --part $(PART)
 
 packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from rtl/files.yml
 	@$(PY) -m scripts.packages

@@ -1,15 +1,17 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/ppmc104.f
+// verilator -F packages/ppmc104.f --top-module ppmc104
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
 ../rtl/common/ppmc_reset.sv
 ../rtl/common/ppmc_sync.sv
 ../rtl/common/ppmc_ram.sv
 ../rtl/common/ppmc_tick_gen.sv
+../rtl/common/ppmc_square.sv
 ../rtl/common/ppmc_xtal_timer.sv
 ../rtl/common/ppmc_uart_rx.sv
 ../rtl/common/ppmc_uart_tx.sv
 ../rtl/motion/ppmc_motion_pkg.sv
+../rtl/motion/ppmc_op_pkg.sv
 ../rtl/motion/ppmc_ramp_pkg.sv
 ../rtl/motion/ppmc_base_clock.sv
 ../rtl/motion/ppmc_ext_clock.sv
@@ -20,6 +22,7 @@
 ../rtl/motion/ppmc_ramp_serial.sv
 ../rtl/motion/ppmc_ramp_builder.sv
 ../rtl/motion/ppmc_ramp_table.sv
+../rtl/motion/ppmc_ramp_tables.sv
 ../rtl/motion/ppmc_ramp_seq.sv
 ../rtl/motion/ppmc_axis.sv
 ../rtl/motion/ppmc_excitation.sv
@@ -39,8 +42,10 @@
 ../rtl/host/ppmc_bridge_answer.sv
 ../rtl/host/ppmc_bridge_exec.sv
 ../rtl/host/ppmc_uart_bridge.sv
+../rtl/host/ppmc_uart_host.sv
 ../rtl/host/ppmc_wishbone.sv
 ../rtl/host/ppmc_axil.sv
+../rtl/host/ppmc_isa.sv
 ../rtl/ppmc104/ppmc104_pkg.sv
 ../rtl/ppmc104/ppmc104_command.sv
 ../rtl/ppmc104/ppmc104_setup.sv

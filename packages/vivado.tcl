@@ -8,10 +8,12 @@ set files [list \
   $root/rtl/common/ppmc_sync.sv \
   $root/rtl/common/ppmc_ram.sv \
   $root/rtl/common/ppmc_tick_gen.sv \
+  $root/rtl/common/ppmc_square.sv \
   $root/rtl/common/ppmc_xtal_timer.sv \
   $root/rtl/common/ppmc_uart_rx.sv \
   $root/rtl/common/ppmc_uart_tx.sv \
   $root/rtl/motion/ppmc_motion_pkg.sv \
+  $root/rtl/motion/ppmc_op_pkg.sv \
   $root/rtl/motion/ppmc_ramp_pkg.sv \
   $root/rtl/motion/ppmc_base_clock.sv \
   $root/rtl/motion/ppmc_ext_clock.sv \
@@ -22,6 +24,7 @@ set files [list \
   $root/rtl/motion/ppmc_ramp_serial.sv \
   $root/rtl/motion/ppmc_ramp_builder.sv \
   $root/rtl/motion/ppmc_ramp_table.sv \
+  $root/rtl/motion/ppmc_ramp_tables.sv \
   $root/rtl/motion/ppmc_ramp_seq.sv \
   $root/rtl/motion/ppmc_axis.sv \
   $root/rtl/motion/ppmc_excitation.sv \
@@ -41,15 +44,27 @@ set files [list \
   $root/rtl/host/ppmc_bridge_answer.sv \
   $root/rtl/host/ppmc_bridge_exec.sv \
   $root/rtl/host/ppmc_uart_bridge.sv \
+  $root/rtl/host/ppmc_uart_host.sv \
   $root/rtl/host/ppmc_wishbone.sv \
   $root/rtl/host/ppmc_axil.sv \
+  $root/rtl/host/ppmc_isa.sv \
   $root/rtl/ppmc104/ppmc104_pkg.sv \
   $root/rtl/ppmc104/ppmc104_command.sv \
   $root/rtl/ppmc104/ppmc104_setup.sv \
   $root/rtl/ppmc104/ppmc104_finish.sv \
   $root/rtl/ppmc104/ppmc104_pace.sv \
   $root/rtl/ppmc104/ppmc104.sv \
+  $root/rtl/ppmc2104/ppmc2104_pkg.sv \
+  $root/rtl/ppmc2104/ppmc2104_command.sv \
+  $root/rtl/ppmc2104/ppmc2104_report.sv \
+  $root/rtl/ppmc2104/ppmc2104_speed.sv \
+  $root/rtl/ppmc2104/ppmc2104_pace.sv \
+  $root/rtl/ppmc2104/ppmc2104_setup.sv \
+  $root/rtl/ppmc2104/ppmc2104_axis.sv \
+  $root/rtl/ppmc2104/ppmc2104.sv \
+  $root/rtl/isa_4axis/isa_4axis.sv \
   $root/rtl/boards/ppmc104_board.sv \
+  $root/rtl/boards/ppmc2104_board.sv \
 ]
 add_files -norecurse $files
 set_property file_type SystemVerilog [get_files $files]

@@ -1,4 +1,4 @@
-"""`make bitstream BOARD=… HOST=… [SEED=…]`: synthesis, place and route, bitstream and report of one board."""
+"""`make bitstream BOARD=… HOST=… [PART=…] [SEED=…]`: from the sources to bitstream and report of a board."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from scripts import project
-from scripts.flow.boards import BOARDS, HOSTS, build_board
+from scripts.flow.boards import BOARDS, BY_PART, HOSTS, build_board
 from scripts.project import ProjectError, console
 
 
@@ -21,13 +21,14 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="bitstream.py", description=__doc__)
     parser.add_argument("board", help=", ".join(BOARDS))
     parser.add_argument("--host", default="uart", help=" or ".join(HOSTS))
+    parser.add_argument("--part", default="ppmc104", help=" or ".join(BY_PART))
     parser.add_argument("--seed", type=int, help="one place-and-route seed instead of trying 1 to 5")
     parser.add_argument(
         "-G",
         metavar="NAME=VALUE",
         action="append",
         default=[],
-        help="parameter of the top: PHASE_IDLE, TIMING, XTAL_HZ, BAUD",
+        help="parameter of the top: PHASE_IDLE or PHASE_ON, TIMING, XTAL_HZ, BAUD",
     )
     return parser.parse_args()
 
@@ -51,7 +52,9 @@ def share(used: int, total: int) -> str:
 def show(figures: dict) -> None:
     """Print the report of a finished build."""
     table = Table(
-        title=f"{figures['title']}, HOST={figures['host']}", title_justify="left", show_header=False
+        title=f"{figures['title']}, {figures['part']}, HOST={figures['host']}",
+        title_justify="left",
+        show_header=False,
     )
     asked = figures["clk_hz"] / 1e6
     rows = [
@@ -85,7 +88,7 @@ def main() -> int:
             if not console.is_terminal:
                 console.print(f"{args.board}: {text}")
 
-        figures = build_board(args.board, args.host, args.seed, params, notify)
+        figures = build_board(args.board, args.host, args.seed, params, notify, args.part)
     show(figures)
     return 0
 

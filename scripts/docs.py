@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -16,7 +17,11 @@ from scripts.pictures import plots, tables, waves  # noqa: E402
 from scripts.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
 
 IMAGES = DOCS / "img"
-MANUAL = DOCS / "ppmc104.md"
+# Tables inside hand-written pages: page -> (marker, text).
+TABLES: dict[str, tuple[str, Callable[[], str]]] = {
+    "ppmc104.md": ("speed-table", tables.speed_table_104),
+    "ppmc2104.md": ("speed-table", tables.speed_table_2104),
+}
 
 
 def wanted() -> dict[Path, bytes]:
@@ -29,8 +34,9 @@ def wanted() -> dict[Path, bytes]:
             raise ProjectError(str(error)) from None
     for name in plots.PLOTS:
         files[IMAGES / f"{name}.svg"] = plots.render(name)
-    manual = MANUAL.read_text(encoding="utf-8")
-    files[MANUAL] = replace_between(manual, "speed-table", tables.speed_table()).encode()
+    for page, (marker, table) in TABLES.items():
+        text = (DOCS / page).read_text(encoding="utf-8")
+        files[DOCS / page] = replace_between(text, marker, table()).encode()
     return files
 
 

@@ -1,4 +1,4 @@
-"""`make flash BOARD=… HOST=…`: write the bitstream that `make bitstream` made into the board's flash."""
+"""`make flash BOARD=… HOST=… [PART=…]`: write what `make bitstream` made into the board's flash."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from scripts import project
-from scripts.flow.boards import BOARDS, HOSTS, Board, board
+from scripts.flow.boards import BOARDS, BY_PART, HOSTS, Board, board, check_host
 from scripts.project import ProjectError, console
 
 LOADER = "openFPGALoader"
@@ -47,7 +47,8 @@ def flash(on: Board, host: str, sram: bool) -> None:
         raise ProjectError(f"{on.name}: its loader writes the flash only, leave out --sram")
     file = project.relative(on.file(host))
     if not on.file(host).is_file():
-        raise ProjectError(f"{file} is not there: run `make bitstream BOARD={on.name} HOST={host}`")
+        part = "" if on.part == "ppmc104" else f" PART={on.part}"
+        raise ProjectError(f"{file} is not there: run `make bitstream BOARD={on.name} HOST={host}{part}`")
     load = command(on, host, sram)
     with console.status(f"{on.title}: {file}"):
         done = subprocess.run(
@@ -71,9 +72,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="flash.py", description=__doc__)
     parser.add_argument("board", help=", ".join(BOARDS))
     parser.add_argument("--host", default="uart", choices=HOSTS)
+    parser.add_argument("--part", default="ppmc104", choices=list(BY_PART))
     parser.add_argument("--sram", action="store_true", help="not into the flash: gone at power-off")
     args = parser.parse_args()
-    flash(board(args.board), args.host, args.sram)
+    on = board(args.board, args.part)
+    flash(on, check_host(on, args.host), args.sram)
     return 0
 
 

@@ -32,14 +32,23 @@ class ProjectError(Exception):
 
 @dataclass(frozen=True)
 class Part:
-    """One part of the family: its top module and the groups of rtl/files.yml that it is built of."""
+    """One part of the family: its top module and the groups of rtl/files.yml that it is built of.
+
+    `phase_idle`: the top has the parameter PHASE_IDLE.
+    """
 
     name: str
     groups: tuple[str, ...]
     clk_hz: int = 16_000_000
+    phase_idle: bool = False
 
 
-PARTS = {"ppmc104": Part("ppmc104", ("common", "motion", "host", "ppmc104"))}
+SHARED = ("common", "motion", "host")
+PARTS = {
+    "ppmc104": Part("ppmc104", (*SHARED, "ppmc104"), phase_idle=True),
+    "ppmc2104": Part("ppmc2104", (*SHARED, "ppmc2104")),
+    "isa_4axis": Part("isa_4axis", (*SHARED, "ppmc2104", "isa_4axis")),
+}
 
 
 def part(name: str) -> Part:

@@ -93,71 +93,40 @@ module ppmc104_board #(
   );
 
   if (HOST == "UART") begin : g_uart
-    logic [ 3:0] a;
-    logic [ 7:0] straps;
-    logic [ 5:0] switches;
-    logic [ 5:0] unused_meta;
-    logic [31:0] count;
-    logic        zero;
-    logic        rst;
+    logic [7:0] straps;
 
-    ppmc_reset u_reset (
-        .clk_i (clk),
-        .rst_ni(rst_n),
-        .rst_no(rst)
-    );
-
-    ppmc_sync #(
-        .Width(6)
-    ) u_sync (
-        .clk_i (clk),
-        .rst_ni(rst),
-        .d_i   ({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
-        .q1_o  (unused_meta),
-        .q2_o  (switches)
-    );
-
-    ppmc_uart_bridge #(
+    ppmc_uart_host #(
         .ClkHz    (CLK_HZ),
         .XtalHz   (XTAL_HZ),
         .Baud     (BAUD),
         .Part     (104),
         .Datasheet(TIMING == "DATASHEET")
-    ) u_bridge (
-        .clk_i       (clk),
-        .rst_ni      (rst),
-        .rxd_i       (uart_rxd),
-        .txd_o       (uart_txd),
-        .cs_no       (part_cs_n),
-        .rd_no       (part_rd_n),
-        .wr_no       (part_wr_n),
-        .a_o         (a),
-        .d_o         (part_d),
-        .d_i         (d_o),
-        .int_ni      (int_n),
-        .part_rst_no (part_rst_n),
-        .straps_o    (straps),
-        .pins_i      ({switches, hold, int_n}),
-        .count_i     (count),
-        .count_zero_o(zero),
-        .active_o    (led_link)
+    ) u_host (
+        .clk_i      (clk),
+        .rst_ni     (rst_n),
+        .rxd_i      (uart_rxd),
+        .txd_o      (uart_txd),
+        .cs_no      (part_cs_n),
+        .rd_no      (part_rd_n),
+        .wr_no      (part_wr_n),
+        .a0_o       (part_a0),
+        .d_o        (part_d),
+        .d_i        (d_o),
+        .int_ni     (int_n),
+        .part_rst_no(part_rst_n),
+        .straps_o   (straps),
+        .switches_ni({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+        .hold_i     (hold),
+        .pout_ni    (pout_n),
+        .dir_i      (dir),
+        .active_o   (led_link)
     );
 
-    ppmc_pulse_counter u_counter (
-        .clk_i  (clk),
-        .rst_ni (rst),
-        .clear_i(zero),
-        .pout_ni(pout_n),
-        .dir_i  (dir),
-        .count_o(count)
-    );
-
-    assign part_a0   = a[0];
     assign part_csel = csel && straps[0];
     assign part_vsel = vsel && straps[1];
 
     logic unused;
-    assign unused = ^{a0, cs_n, rd_n, wr_n, d_i, a[3:1], straps[7:2]};
+    assign unused = ^{a0, cs_n, rd_n, wr_n, d_i, straps[7:2]};
   end else begin : g_bus
     assign part_rst_n = rst_n;
     assign part_a0    = a0;

@@ -51,15 +51,19 @@ module ppmc104_station #(
     output logic      [3:0] lamps
 );
 
-  logic rst_n, part_oe, link, lamp_link;
+  logic rst_n, part_oe, link;
 
-  ppmc_board_reset #(
+  ppmc_board_panel #(
       .ClkHz(CLK_HZ)
-  ) u_reset (
-      .clk_i (clk),
-      .lock_i(lock),
-      .req_ni(req_n),
-      .rst_no(rst_n)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (req_n),
+      .rst_no  (rst_n),
+      .link_i  (link),
+      .moving_i(!hold),
+      .switch_i(!(l1_n && l2_n && l3_n && l4_n && alm_n)),
+      .lamps_o (lamps)
   );
 
   ppmc104_board #(
@@ -102,17 +106,6 @@ module ppmc104_station #(
   );
 
   assign d_oe = HOST == "BUS" && part_oe;
-
-  ppmc_board_lamp #(
-      .ClkHz(CLK_HZ)
-  ) u_lamp (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .on_i  (link),
-      .lamp_o(lamp_link)
-  );
-
-  assign lamps = {rst_n, !(l1_n && l2_n && l3_n && l4_n && alm_n), !hold, lamp_link};
 
 endmodule
 

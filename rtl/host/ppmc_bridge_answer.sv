@@ -3,43 +3,54 @@
 // Rules:  UB ops IDENT and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (room).
 // Timing: put_i stores a byte at once. A block takes one clk a byte; COUNT begins anew when the counter has moved
 //         meanwhile. The room flags are right two clk after the last byte.
-// Needs:  count_i changes by one at a time and not twice within 4 clk.
+// Needs:  each counter changes by one at a time and not twice within 4 clk.
 `default_nettype none
 
 module ppmc_bridge_answer
   import ppmc_bridge_pkg::*;
 #(
+    parameter int unsigned Axes = 1,
     parameter logic [127:0] Ident = '0  // first byte in the low bits
 ) (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        clear_i,
-    input  wire logic        put_i,
-    input  wire logic [ 7:0] data_i,
-    input  wire logic        ident_i,    // begin a block, one clk
-    input  wire logic        count_i,
-    input  wire logic [31:0] counter_i,
-    output logic             busy_o,     // a block is on its way
-    output logic             full_o,     // no room for one more byte
-    output logic             full4_o,
-    output logic             full16_o,
-    output logic      [ 8:0] length_o,
+    input  wire logic               clk_i,
+    input  wire logic               rst_ni,
+    input  wire logic               clear_i,
+    input  wire logic               put_i,
+    input  wire logic [        7:0] data_i,
+    input  wire logic               ident_i,    // begin a block, one clk
+    input  wire logic               count_i,
+    input  wire logic               second_i,   // COUNT of axis 2; stands while busy_o
+    input  wire logic [Axes*32-1:0] counter_i,
+    output logic                    busy_o,     // a block is on its way
+    output logic                    full_o,     // no room for one more byte
+    output logic                    full4_o,
+    output logic                    full16_o,
+    output logic      [        8:0] length_o,
     // buffer
-    output logic             we_o,
-    output logic      [ 7:0] waddr_o,
-    output logic      [ 7:0] wdata_o
+    output logic                    we_o,
+    output logic      [        7:0] waddr_o,
+    output logic      [        7:0] wdata_o
 );
 
   logic counting_q, parity_q, again;
-  logic [3:0] left_q;
+  logic [31:0] counter;
+  logic [ 3:0] left_q;
 
-  assign again   = busy_o && counting_q && left_q == '0 && counter_i[0] != parity_q;
+  if (Axes == 1) begin : g_one
+    logic unused;
+    assign unused  = second_i;
+    assign counter = counter_i;
+  end else begin : g_two
+    assign counter = second_i ? counter_i[63:32] : counter_i[31:0];
+  end
+
+  assign again   = busy_o && counting_q && left_q == '0 && counter[0] != parity_q;
   assign we_o    = put_i || busy_o;
   assign waddr_o = length_o[7:0];
 
   always_comb begin
     if (!busy_o) wdata_o = data_i;
-    else if (counting_q) wdata_o = counter_i[{~left_q[1:0], 3'b000}+:8];
+    else if (counting_q) wdata_o = counter[{~left_q[1:0], 3'b000}+:8];
     else wdata_o = Ident[{~left_q, 3'b000}+:8];
   end
 
@@ -61,7 +72,7 @@ module ppmc_bridge_answer
     end else begin
       left_q <= again ? 4'd3 : left_q - 1'b1;
     end
-    if (left_q[0] && left_q[1]) parity_q <= counter_i[0];
+    if (left_q[0] && left_q[1]) parity_q <= counter[0];
   end
 
 endmodule

@@ -10,46 +10,47 @@ module ppmc_bridge_exec
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned TopCode = 6,  // highest line rate code
+    parameter int unsigned Axes = 1,  // pulse counters
     parameter logic [127:0] Ident = '0
 ) (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        ms_i,             // one clk every millisecond
+    input  wire logic               clk_i,
+    input  wire logic               rst_ni,
+    input  wire logic               ms_i,             // one clk every millisecond
     // request
-    input  wire logic        start_i,
-    input  wire logic        again_i,
-    input  wire logic [ 7:0] length_i,
-    output logic      [ 7:0] raddr_o,
-    input  wire logic [ 7:0] rdata_i,
-    input  wire logic        interrupt_i,      // a byte has come since start_i
+    input  wire logic               start_i,
+    input  wire logic               again_i,
+    input  wire logic [        7:0] length_i,
+    output logic      [        7:0] raddr_o,
+    input  wire logic [        7:0] rdata_i,
+    input  wire logic               interrupt_i,      // a byte has come since start_i
     // answer
-    output logic             script_o,         // running
-    output logic             answer_o,         // done, answer on its way
-    input  wire logic        answered_i,
-    output result_e          result_o,
-    output logic      [ 7:0] pos_o,
-    output logic      [ 7:0] last_o,
-    output logic      [ 8:0] answer_length_o,
-    output logic             we_o,
-    output logic      [ 7:0] waddr_o,
-    output logic      [ 7:0] wdata_o,
+    output logic                    script_o,         // running
+    output logic                    answer_o,         // done, answer on its way
+    input  wire logic               answered_i,
+    output result_e                 result_o,
+    output logic      [        7:0] pos_o,
+    output logic      [        7:0] last_o,
+    output logic      [        8:0] answer_length_o,
+    output logic                    we_o,
+    output logic      [        7:0] waddr_o,
+    output logic      [        7:0] wdata_o,
     // settings
-    output logic             rate_o,           // op RATE with arg_o
-    output logic             events_o,         // op EVENTS with arg_o
-    output logic      [ 2:0] arg_o,
-    output logic      [ 7:0] straps_o,
+    output logic                    rate_o,           // op RATE with arg_o
+    output logic                    events_o,         // op EVENTS with arg_o
+    output logic      [        2:0] arg_o,
+    output logic      [        7:0] straps_o,
     // board
-    input  wire logic [ 7:0] pins_i,
-    input  wire logic [31:0] count_i,
-    output logic             count_zero_o,
-    output logic             part_rst_no,
+    input  wire logic [        7:0] pins_i,
+    input  wire logic [Axes*32-1:0] count_i,
+    output logic      [   Axes-1:0] count_zero_o,
+    output logic                    part_rst_no,
     // the part's bus
-    output logic             cs_no,
-    output logic             rd_no,
-    output logic             wr_no,
-    output logic      [ 3:0] a_o,
-    output logic      [ 7:0] d_o,
-    input  wire logic [ 7:0] d_i
+    output logic                    cs_no,
+    output logic                    rd_no,
+    output logic                    wr_no,
+    output logic      [        3:0] a_o,
+    output logic      [        7:0] d_o,
+    input  wire logic [        7:0] d_i
 );
 
   typedef enum logic [3:0] {
@@ -126,12 +127,15 @@ module ppmc_bridge_exec
   // ---------------------------------------------------------------- answer
 
   logic ident, count, full, full4, full16, block;
+  logic second;  // an op of axis 2
 
   assign ident  = state_q == StDecode && system && low == SysIdent && !full16;
-  assign count  = state_q == StDecode && system && low == SysCount && !full4;
+  assign count  = state_q == StDecode && system && (low == SysCount || (second && !low[0])) && !full4;
+  assign second = Axes > 1 && (low == SysCount2 || low == SysZero2);
   assign last_o = bus_data & {8{seen_q}};
 
   ppmc_bridge_answer #(
+      .Axes (Axes),
       .Ident(Ident)
   ) u_answer (
       .clk_i,
@@ -141,6 +145,7 @@ module ppmc_bridge_exec
       .data_i   (system_q ? pins_i : bus_data),
       .ident_i  (ident),
       .count_i  (count),
+      .second_i (second),
       .counter_i(count_i),
       .busy_o   (block),
       .full_o   (full),
@@ -187,6 +192,11 @@ module ppmc_bridge_exec
           SysPins:
           if (full) fail = ResOverflow;
           else next = StPut;
+          SysCount2, SysZero2:
+          if (!second) fail = ResIllegal;
+          else if (low[0]) next = StOp;
+          else if (full4) fail = ResOverflow;
+          else next = StPause;
           default: fail = ResIllegal;
         endcase
         OpReadN, OpPost, OpWait, OpWriteN: next = StArg;
@@ -253,16 +263,17 @@ module ppmc_bridge_exec
       straps_o     <= '1;
       rate_o       <= 1'b0;
       events_o     <= 1'b0;
-      count_zero_o <= 1'b0;
+      count_zero_o <= '0;
       part_rst_no  <= 1'b0;
     end else begin
       state_q <= next;
       if (start_i) result_o <= ResDone;
       else if (fail != ResDone) result_o <= fail;
-      rate_o       <= state_q == StCheck && fetched && system_q && low == SysRate && !bad_q;
-      events_o     <= state_q == StCheck && fetched && system_q && low == SysEvents && !bad_q;
-      count_zero_o <= state_q == StDecode && system && low == SysZero;
-      part_rst_no  <= !(state_q == StPause && low == SysReset && n_q[4] && !n_q[7]);
+      rate_o          <= state_q == StCheck && fetched && system_q && low == SysRate && !bad_q;
+      events_o        <= state_q == StCheck && fetched && system_q && low == SysEvents && !bad_q;
+      count_zero_o[0] <= state_q == StDecode && system && low == SysZero;
+      if (Axes > 1) count_zero_o[Axes-1] <= state_q == StDecode && system && low == SysZero2;
+      part_rst_no <= !(state_q == StPause && low == SysReset && n_q[4] && !n_q[7]);
       if (state_q == StCheck && system_q && low == SysStraps) straps_o <= n_q;
     end
   end

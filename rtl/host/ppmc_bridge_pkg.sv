@@ -24,7 +24,9 @@ package ppmc_bridge_pkg;
     SysPins,
     SysStraps,
     SysCount,
-    SysZero
+    SysZero,
+    SysCount2,   // of axis 2
+    SysZero2
   } sys_e;
 
   // High four bits of an op.

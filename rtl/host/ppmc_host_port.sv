@@ -28,7 +28,7 @@ module ppmc_host_port #(
     input wire logic [8*QueueBytes-1:0] answer_i
 );
 
-  logic wr, wr_a0, wr_busy, rd_busy, rd_done, ibf, obf;
+  logic wr, wr_a0, wr_busy, rd_busy, rd_done, ibf, obf, fresh;
   logic [7:0] wr_data, out;
 
   ppmc_strobe_bus u_bus (
@@ -49,6 +49,7 @@ module ppmc_host_port #(
       .status_i    ({state_i, ibf || wr_busy, obf && !rd_busy}),
       .data_i      (out),
       .data_valid_i(obf),
+      .data_new_i  (fresh),
       .rd_busy_o   (rd_busy),
       .rd_done_o   (rd_done)
   );
@@ -64,6 +65,7 @@ module ppmc_host_port #(
       .rd_done_i(rd_done),
       .out_o    (out),
       .obf_o    (obf),
+      .new_o    (fresh),
       .ibf_o    (ibf),
       .ready_o,
       .command_o,

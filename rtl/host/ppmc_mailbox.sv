@@ -19,6 +19,7 @@ module ppmc_mailbox #(
     input  wire logic                    rd_done_i,
     output logic      [             7:0] out_o,
     output logic                         obf_o,
+    output logic                         new_o,      // out_o changes at the coming edge
     output logic                         ibf_o,
     // command unit
     output logic                         ready_o,    // byte_o may be taken
@@ -61,7 +62,8 @@ module ppmc_mailbox #(
   logic [QueueBytes-2:0] have_q;  // which of them are there
   logic next;
 
-  assign next = !obf_o && have_q[0];
+  assign next  = !obf_o && have_q[0];
+  assign new_o = load_i || next;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

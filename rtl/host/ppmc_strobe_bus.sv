@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, into the clock of the
 // core.
-// Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02.
+// Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02; P2104-BUS-01..10.
 // Timing: a write whose end is first sampled at edge 0 gives wr_o in the cycle before edge 2. Reads are
 //         answered early: d_oe_o and d_o alone sample raw pins, at edge 0; the data is refreshed once at edge
 //         1 and then stands still until the next read.
@@ -31,6 +31,7 @@ module ppmc_strobe_bus (
     input  wire logic [7:0] status_i,
     input  wire logic [7:0] data_i,
     input  wire logic       data_valid_i,  // data_i has not been read yet
+    input  wire logic       data_new_i,    // data_i changes at the coming edge
     output logic            rd_busy_o,     // it is being read: status must not show it again
     output logic            rd_done_o      // it has been read
 );
@@ -93,20 +94,29 @@ module ppmc_strobe_bus (
   assign wr_o      = wr3_q && !wr2;
   assign wr_busy_o = wr1 || wr2 || wr3_q;
 
-  // Read: the byte counts as taken if it was valid in the last refresh.
+  // Read: the byte counts as taken if it was valid when d_o took it for the last time, unless a new one comes.
+  // A strobe of a single sample has no refresh, so what came on its edge 0 was not shown.
+  logic taking_q, new_q, new2_q;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      d_oe_o    <= 1'b0;
-      d_o       <= '0;
-      rd_busy_o <= 1'b0;
+      d_oe_o   <= 1'b0;
+      d_o      <= '0;
+      taking_q <= 1'b0;
+      new_q    <= 1'b0;
+      new2_q   <= 1'b0;
     end else begin
       d_oe_o <= rd_raw;
-      if (rd_raw && !rd2) d_o <= a0_i ? status_i : data_i;
-      if (rd1 && !rd2) rd_busy_o <= !a01 && data_valid_i && !rd_done_o;
-      else if (!rd2) rd_busy_o <= 1'b0;
+      new_q  <= data_new_i;
+      new2_q <= new_q;
+      if (rd_raw && !(rd1 && rd2)) d_o <= a0_i ? status_i : data_i;
+      if (data_new_i) taking_q <= 1'b0;
+      else if (rd1 && !rd2) taking_q <= !a01 && data_valid_i && !rd_done_o;
+      else taking_q <= rd_busy_o && rd2;
     end
   end
 
+  assign rd_busy_o = taking_q && (rd1 || !new2_q);
   assign rd_done_o = rd_busy_o && !rd2;
 
 `ifndef SYNTHESIS

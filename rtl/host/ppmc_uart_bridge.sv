@@ -8,39 +8,43 @@ module ppmc_uart_bridge
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned ClkHz     = 24_000_000,  // at least 5 * Baud
-    parameter int unsigned XtalHz    = 16_000_000,  // of the part; for IDENT only, as are the next two
+    parameter int unsigned XtalHz    = 16_000_000,  // of the part; for IDENT only, as are Part and Datasheet
     parameter int unsigned Baud      = 115_200,     // after reset
     parameter int unsigned Part      = 104,
+    parameter int unsigned Axes      = 1,           // 1, 2: pulse counters
     parameter bit          Datasheet = 1'b0
 ) (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        rxd_i,
-    output logic             txd_o,
+    input  wire logic               clk_i,
+    input  wire logic               rst_ni,
+    input  wire logic               rxd_i,
+    output logic                    txd_o,
     // the part's bus
-    output logic             cs_no,
-    output logic             rd_no,
-    output logic             wr_no,
-    output logic      [ 3:0] a_o,
-    output logic      [ 7:0] d_o,
-    input  wire logic [ 7:0] d_i,
-    input  wire logic        int_ni,
-    output logic             part_rst_no,
+    output logic                    cs_no,
+    output logic                    rd_no,
+    output logic                    wr_no,
+    output logic      [        3:0] a_o,
+    output logic      [        7:0] d_o,
+    input  wire logic [        7:0] d_i,
+    input  wire logic               int_ni,
+    output logic                    part_rst_no,
     // board
-    output logic      [ 7:0] straps_o,
-    input  wire logic [ 7:0] pins_i,
-    input  wire logic [31:0] count_i,
-    output logic             count_zero_o,
-    output logic             active_o       // a script is running or an answer is on its way
+    output logic      [        7:0] straps_o,
+    input  wire logic [        7:0] pins_i,
+    input  wire logic [Axes*32-1:0] count_i,       // axis 1 in the low bits
+    output logic      [   Axes-1:0] count_zero_o,
+    output logic                    active_o       // a script is running or an answer is on its way
 );
 
   if (!available(0, ClkHz, Baud)) begin : g_check
     $fatal(1, "ppmc_uart_bridge: ClkHz must be at least 5 * Baud");
   end
+  if (Axes < 1 || Axes > 2) begin : g_check_axes
+    $fatal(1, "ppmc_uart_bridge: Axes 1 or 2");
+  end
 
   localparam int unsigned Width = phase_width(ClkHz, Baud);
   localparam int unsigned TopCode = top_code(ClkHz, Baud);
-  localparam logic [7:0] IdentFlags = {4'(TopCode), 2'b00, 1'b1, Datasheet};
+  localparam logic [7:0] IdentFlags = {4'(TopCode), 2'(Axes - 1), 1'b1, Datasheet};
   localparam logic [127:0] Ident = {
     32'(ClkHz), 32'(XtalHz), IdentFlags, 16'(Part), ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
   };
@@ -171,7 +175,8 @@ module ppmc_uart_bridge
 
   ppmc_bridge_exec #(
       .TopCode(TopCode),
-      .Ident  (Ident)
+      .Axes(Axes),
+      .Ident(Ident)
   ) u_exec (
       .clk_i,
       .rst_ni,

@@ -2,11 +2,11 @@
 // ppmc_axis: one motion from its start to its end: when each pulse comes, how long it is low, why the motion
 // stops.
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
-//         P104-LIM-01..10.
-// Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later
-//         (external clock: first edge at or after). A motion leaves busy_o one clk after low_o has gone, or
-//         at once; done_o is high in the clk before. Nothing here is a pin: pins follow low_o and step_o
-//         through one register (ppmc_motor_port).
+//         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21.
+// Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later,
+//         or after the end of the RUN gate where run_i was low (external clock: first edge at or after). A
+//         motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
+//         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
 // Proof:  never a pulse at or after an immediate cause; exactly count_i + 1 pulses unless stopped (assertions
 //         below).
 `include "ppmc_assert.svh"
@@ -23,8 +23,11 @@ module ppmc_axis
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
     parameter int unsigned FastQuanta = 8,  // fast internal base clock
     parameter int unsigned SlowQuanta = 32,  // slow internal base clock
-    parameter int unsigned ExtraQuanta = 30,  // extra time of an interval where extra_i is set
-    parameter int unsigned HalfRates = 3  // fastest rates that get half an interval as pulse width
+    parameter int unsigned ExtraQuanta = 30,  // extra time of an interval with base_i.extra; 0: there is none
+    parameter int unsigned HalfRates = 3,  // fastest rates that get half an interval as pulse width
+    parameter bit StopAtSlow = 1'b0,  // deceleration asked for at the start-up rate ends the motion at once
+    parameter bit SlowAlways = 1'b0,  // slow-down limits count off the plateau in POUT mode, too
+    parameter bit OriginAtPulse = 1'b0  // the origin makes a pulse the last one; else it ends at once
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -46,6 +49,7 @@ module ppmc_axis
     input wire switches_t switches_i,
     input wire logic slow_i,  // act on a slow-down limit; slow_seen_o, or later
     output logic slow_seen_o,
+    input wire logic run_i,  // 0 keeps a motion that has not begun in the RUN gate
     input wire logic go_i,  // 0 keeps pulse 1 back
     input wire logic linger_i,  // 1 keeps the motion from ending
     // clocks
@@ -55,6 +59,7 @@ module ppmc_axis
     // state
     output logic busy_o,
     output logic moving_o,  // before pulse 1 or between pulses (not yet stopping)
+    output logic gated_o,  // in the RUN gate
     output logic decel_o,  // decelerating, forced or natural
     output logic top_o,  // on the plateau of the ramp
     output op_t op_o,  // the running or last operation
@@ -72,7 +77,7 @@ module ppmc_axis
 );
 
   localparam int unsigned BriskXtal = 128;  // P104-TIM-05 (c)
-  localparam int unsigned LongXtal = 136;  // P104-INT-03: 8.5 us at 16 MHz
+  localparam int unsigned LongXtal = (ExtraQuanta != 0) ? 136 : BriskXtal;  // P104-INT-03: 8.5 us at 16 MHz
   localparam int unsigned LagXtal = 4 * ExtraQuanta;
 
   typedef enum logic [1:0] {
@@ -83,8 +88,9 @@ module ppmc_axis
   } state_e;
 
   state_e state_q;
-  logic   brisk_q;
-  logic armed, fire, due, up, seek, rising, forced, flagged, dec;
+  logic brisk_q;
+  switches_t guarded;
+  logic armed, fire, due, up, seek, rising, forced, flagged, dec, crawl, last_pulse;
   logic base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
 
   assign armed = state_q == StStart || state_q == StRun;
@@ -95,6 +101,7 @@ module ppmc_axis
   assign done_o = state_q == StFinish && !low_o && !linger_i;
   assign restart_o = (fire && state_q == StStart) || done_o;
   assign pulse_o = fire;
+  assign last_o = last_pulse || (OriginAtPulse && op_o.origin && switches_i.origin);
 
   // An immediate cause also takes away a pulse that is due at the same edge.
   always_comb begin
@@ -102,6 +109,17 @@ module ppmc_axis
     if (state_q == StStart) fire = up && go_i && (op_o.single || !base_o.external || rise);
     if (state_q == StRun) fire = due && !(base_o.external && low_o);
     if (stop_o) fire = 1'b0;
+  end
+
+  // RUN gate: limits and alarm count, the origin does not; the direction set-up begins with its end.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) gated_o <= 1'b0;
+    else if (start_i || run_i) gated_o <= !run_i;
+  end
+
+  always_comb begin
+    guarded = switches_i;
+    if (OriginAtPulse || gated_o) guarded.origin = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -122,15 +140,19 @@ module ppmc_axis
     end
   end
 
-  ppmc_stop_guard u_guard (
+  ppmc_stop_guard #(
+      .StopAtSlow(StopAtSlow),
+      .SlowAlways(SlowAlways)
+  ) u_guard (
       .clk_i,
       .rst_ni,
       .clear_i   (start_i),
       .complete_i(fire && final_o),
       .armed_i   (armed),
       .op_i      (op_o),
-      .switches_i,
+      .switches_i(guarded),
       .top_i     (top_o),
+      .crawl_i   (crawl && running_o),
       .dec_i     (dec),
       .halt_i,
       .decel_i,
@@ -165,9 +187,10 @@ module ppmc_axis
       .rate_o,
       .seek_o  (seek),
       .rising_o(rising),
-      .last_o,
+      .last_o  (last_pulse),
       .final_o,
       .top_o,
+      .crawl_o (crawl),
       .dec_o   (dec),
       .left_o
   );
@@ -182,7 +205,7 @@ module ppmc_axis
   ) u_shaper (
       .clk_i,
       .rst_ni,
-      .arm_i  (start_i),
+      .arm_i  (start_i || gated_o),
       .pulse_i(fire),
       .full_i (last_o || base_o.extra),
       .halve_i(!base_o.external && !base_o.slow),
@@ -238,22 +261,31 @@ module ppmc_axis
       .half_o   (half)
   );
 
-  ppmc_ext_lag #(
-      .LagClk(ppmc_pkg::cyc_round(LagXtal, ClkHz, XtalHz))
-  ) u_lag (
-      .clk_i,
-      .rst_ni,
-      .en_i     (base_o.external && base_o.extra),
-      .restart_i(fire),
-      .edge_i   (edges),
-      .long_i   (ext_long),
-      .hit_i    (hit),
-      .count_o  (ext_count),
-      .fire_o   (due)
-  );
+  if (ExtraQuanta != 0) begin : g_extra
+    ppmc_ext_lag #(
+        .LagClk(ppmc_pkg::cyc_round(LagXtal, ClkHz, XtalHz))
+    ) u_lag (
+        .clk_i,
+        .rst_ni,
+        .en_i     (base_o.external && base_o.extra),
+        .restart_i(fire),
+        .edge_i   (edges),
+        .long_i   (ext_long),
+        .hit_i    (hit),
+        .count_o  (ext_count),
+        .fire_o   (due)
+    );
+  end else begin : g_plain
+    logic unused_long;
+
+    assign unused_long = ext_long;
+    assign ext_count   = 1'b1;
+    assign due         = hit;
+  end
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop_o))
+  `PPMC_ASSERT(p2104_opr_02, !(fire && gated_o))
   `PPMC_ASSERT(p104_opr_12, !(start_i && busy_o))
   logic final_seen_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,37 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_hold_timer: tells that the motor has been at rest for the hold time.
-// Rules:  P104-END-08, P104-DS-09.
-// Timing: hold_o falls one clk after busy_i rises and rises one clk after quantum tick number Quanta since
-//         busy_i fell.
+// ppmc_hold_timer: tells that the motor has been at rest for the hold time: a fixed one, or set by the host
+// in units.
+// Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05.
+// Timing: hold_o falls one clk after busy_i rises and rises one clk after quantum tick number Quanta (units:
+//         Quanta * (units_i + 1)) since busy_i fell. units_i counts while busy_i is high.
 `default_nettype none
 
 module ppmc_hold_timer #(
-    parameter int unsigned Quanta = 136_000  // hold time in quantum ticks; 34 ms at 16 MHz
+    parameter int unsigned Quanta = 136_000,  // quantum ticks; 34 ms at 16 MHz
+    parameter int unsigned UnitBits = 0,  // 0: fixed; else Quanta is a power of 2
+    localparam int unsigned UnitTop = (UnitBits == 0) ? 0 : UnitBits - 1
 ) (
-    input  wire logic clk_i,
-    input  wire logic rst_ni,
-    input  wire logic busy_i,
-    input  wire logic quantum_i,  // restarted by the fall of busy_i
-    output logic      hold_o      // 1 after reset
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic             busy_i,
+    input  wire logic             quantum_i,  // restarted by the fall of busy_i
+    input  wire logic [UnitTop:0] units_i,    // hold time in units, minus 1
+    output logic                  hold_o      // 1 after reset
 );
 
-  localparam int unsigned Width = ppmc_pkg::cnt_width(Quanta);
-
-  logic [Width-1:0] count_q;
   logic done;
 
-  // Counted from 0 upwards, Quanta is the first value with all of its ones set.
-  assign done = (count_q & Width'(Quanta)) == Width'(Quanta);
+  if (UnitBits == 0) begin : g_fixed
+    localparam int unsigned Width = ppmc_pkg::cnt_width(Quanta);
+
+    logic [Width-1:0] count_q;
+    logic unused_units;
+
+    assign unused_units = &{1'b0, units_i};
+    // Counted from 0 upwards, Quanta is the first value with all of its ones set.
+    assign done = (count_q & Width'(Quanta)) == Width'(Quanta);
+
+    // No reset: every motion clears it, and before the first one it does not count.
+    always_ff @(posedge clk_i) begin
+      if (busy_i) count_q <= '0;
+      else if (quantum_i && !hold_o) count_q <= count_q + 1'b1;
+    end
+  end else begin : g_units
+    localparam int unsigned Scale = $clog2(Quanta);
+
+    if (Quanta != 1 << Scale || Scale == 0) begin : g_check
+      $fatal(1, "ppmc_hold_timer: a unit must be a power of two of quanta");
+    end
+
+    logic [UnitBits-1:0] units_q;  // left after the running one
+    logic [Scale-1:0] scale_q;  // quanta of the running one
+    logic done_q;
+
+    assign done = done_q;
+
+    always_ff @(posedge clk_i) begin
+      if (busy_i) begin
+        scale_q <= '0;
+        units_q <= units_i;
+        done_q  <= 1'b0;
+      end else if (quantum_i && !hold_o) begin
+        scale_q <= scale_q + 1'b1;
+        if (&scale_q) {done_q, units_q} <= {1'b0, units_q} - 1'b1;
+      end
+    end
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) hold_o <= 1'b1;
     else if (busy_i || done) hold_o <= !busy_i;
-  end
-
-  // No reset: every motion clears it, and before the first one it does not count.
-  always_ff @(posedge clk_i) begin
-    if (busy_i) count_q <= '0;
-    else if (quantum_i && !hold_o) count_q <= count_q + 1'b1;
   end
 
 endmodule

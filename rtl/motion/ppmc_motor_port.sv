@@ -9,9 +9,11 @@ module ppmc_motor_port
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned HoldQuanta = 136_000,
+    parameter int unsigned HoldBits = 0,  // of hold_units_i; 0: the hold time is fixed
     parameter int unsigned UnitQuanta = 12,
     parameter int unsigned BaseBits = 9,
-    parameter bit PhaseIdle = 1'b1  // level of s_o in reset; positive_i must be !PhaseIdle until home_i
+    parameter bit PhaseIdle = 1'b1,  // level of s_o in reset; positive_i must be !PhaseIdle until home_i
+    localparam int unsigned HoldTop = (HoldBits == 0) ? 0 : HoldBits - 1
 ) (
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
@@ -34,6 +36,7 @@ module ppmc_motor_port
     input  wire logic   [BaseBits-1:0] off_base_i,
     input  wire logic   [         7:0] on_units_i,
     input  wire logic   [         7:0] off_units_i,
+    input  wire logic   [   HoldTop:0] hold_units_i,
     // what the host reads
     output logic        [         5:1] levels_o,        // phases at pin polarity, not chopped
     // pins
@@ -78,12 +81,14 @@ module ppmc_motor_port
   );
 
   ppmc_hold_timer #(
-      .Quanta(HoldQuanta)
+      .Quanta  (HoldQuanta),
+      .UnitBits(HoldBits)
   ) u_hold (
       .clk_i,
       .rst_ni,
       .busy_i,
       .quantum_i,
+      .units_i(hold_units_i),
       .hold_o
   );
 

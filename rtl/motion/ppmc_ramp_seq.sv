@@ -39,6 +39,7 @@ module ppmc_ramp_seq #(
     output logic                      last_o,      // a pulse now would be the last one
     output logic                      final_o,     // and would complete the count
     output logic                      top_o,       // running interval is on the plateau
+    output logic                      crawl_o,     // before any deceleration: it has the start-up rate
     output logic                      dec_o,       // natural deceleration has begun
     output logic      [CountBits-1:0] left_o       // pulses left minus 1, but at least 0
 );
@@ -56,6 +57,7 @@ module ppmc_ramp_seq #(
   logic [RateBits-1:0] probe_q;  // rate under test
   logic near_q, full_q, zero_q, low_q;  // comparisons, a clk after the counters
   logic load_q, slower_q, down_q;
+  logic probe_slow_q;  // probe_q is the start-up rate; it stands still long before it is used
   logic up, down, odd, high, reached, more;
 
   // Where the walk goes at a pulse event. left_o is the number of pulses that follow this one.
@@ -95,6 +97,13 @@ module ppmc_ramp_seq #(
     if (!rst_ni || (load_i && single_i)) left_o <= '0;
     else if (load_i) left_o <= count_i;
     else if (pulse_i && !zero_q) left_o <= left_o - 1'b1;
+  end
+
+  // No reset: every motion begins with a load.
+  always_ff @(posedge clk_i) begin
+    probe_slow_q <= probe_q == slow_i;
+    if (load_i) crawl_o <= 1'b1;
+    else if (pulse_i && up) crawl_o <= probe_slow_q;
   end
 
   assign high = left_o[CountBits-1:StepBits] != '0;

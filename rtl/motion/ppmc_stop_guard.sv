@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_stop_guard: what may end or slow down a motion, and what it leaves in the finish status.
-// Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05.
+// Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09.
 // Timing: stop_o and forced_o are combinational, so that a cause seen in a cycle also acts on a pulse due at
 //         its end.
 `include "ppmc_assert.svh"
@@ -8,7 +8,10 @@
 
 module ppmc_stop_guard
   import ppmc_motion_pkg::*;
-(
+#(
+    parameter bit StopAtSlow = 1'b0,  // deceleration asked for at the start-up rate ends the motion at once
+    parameter bit SlowAlways = 1'b0   // slow-down limits count off the plateau in POUT mode, too
+) (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
     input  wire logic      clear_i,      // a new operation starts: forget causes
@@ -17,6 +20,7 @@ module ppmc_stop_guard
     input  wire op_t       op_i,         // the running operation
     input  wire switches_t switches_i,   // synchronous levels
     input  wire logic      top_i,        // the running interval is on the plateau
+    input  wire logic      crawl_i,      // the running interval has the start-up rate
     input  wire logic      dec_i,        // natural deceleration has begun
     input  wire logic      halt_i,       // immediate stop command
     input  wire logic      decel_i,      // decelerating stop command
@@ -28,19 +32,20 @@ module ppmc_stop_guard
     output cause_t         cause_o
 );
 
-  logic limit, slow, halt, slow_now, decel_now, free;
-  logic unused_single;
+  logic limit, slow, halt, hard, slow_now, decel_now, free;
+  logic unused_bits;
 
-  assign unused_single = op_i.single;
+  assign unused_bits = &{1'b0, op_i.single, op_i.pout_only, top_i, crawl_i};
 
   assign limit = op_i.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
   assign slow = op_i.ccw ? switches_i.slow_ccw : switches_i.slow_cw;
   assign halt = halt_i || (decel_i && !op_i.ramp);
-  assign stop_o = armed_i && (limit || switches_i.alarm || halt || (switches_i.origin && op_i.origin));
+  assign hard = armed_i && (limit || switches_i.alarm || halt || (switches_i.origin && op_i.origin));
+  assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
 
   // Deceleration can be asked for once; an immediate end at the same edge goes first.
-  assign free = armed_i && op_i.ramp && !stop_o && !flagged_o && !dec_i;
-  assign slow_seen_o = free && slow && (top_i || !op_i.pout_only);
+  assign free = armed_i && op_i.ramp && !hard && !flagged_o && !dec_i;
+  assign slow_seen_o = free && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = free && slow_i;
   assign decel_now = free && decel_i;
   assign forced_o = flagged_o || slow_now || decel_now;

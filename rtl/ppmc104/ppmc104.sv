@@ -7,6 +7,7 @@
 
 module ppmc104
   import ppmc104_pkg::*;
+  import ppmc_op_pkg::*;
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned CLK_HZ     = 16_000_000,  // 8e6 .. 200e6
@@ -206,6 +207,7 @@ module ppmc104
   logic [RATE_BITS-1:0] rate_run;
   cause_t cause;
   logic [23:0] remaining;
+  logic unused_gated;
 
   assign base_now = '{external: setup.external, slow: !csel_s, extra: !vsel_s};
   assign op = op_of(op_code.pout_only, op_code.ccw, op_code.op);
@@ -252,6 +254,7 @@ module ppmc104
       .switches_i (switches),
       .slow_i     (slow_take),
       .slow_seen_o(slow_seen),
+      .run_i      (1'b1),
       .go_i       (go),
       .linger_i   (linger),
       .quantum_i  (quantum),
@@ -259,6 +262,7 @@ module ppmc104
       .restart_o  (restart),
       .busy_o     (busy),
       .moving_o   (moving),
+      .gated_o    (unused_gated),
       .decel_o    (decelerating),
       .top_o      (top),
       .op_o       (op_run),
@@ -363,6 +367,7 @@ module ppmc104
       .off_base_i    (setup.off_base),
       .on_units_i    (setup.on_units),
       .off_units_i   (setup.off_units),
+      .hold_units_i  (1'b0),
       .levels_o      (levels),
       .s_o           (s),
       .hold_o        (hold),

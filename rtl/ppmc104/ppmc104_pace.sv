@@ -10,6 +10,7 @@
 
 module ppmc104_pace
   import ppmc104_pkg::*;
+  import ppmc_op_pkg::*;
   import ppmc_motion_pkg::*;
 #(
     parameter bit          Datasheet = 1'b0,

@@ -6,6 +6,8 @@
 
 package ppmc104_pkg;
 
+  import ppmc_op_pkg::*;
+
   localparam int unsigned RATE_BITS = 8;
   localparam int unsigned STEP_BITS = 14;
   localparam int unsigned COUNT_BITS = 24;
@@ -51,14 +53,6 @@ package ppmc104_pkg;
     KindAuxOff
   } kind_e;
 
-  // Low three bits of an operation code.
-  localparam logic [2:0] OP_SINGLE = 3'b010;
-  localparam logic [2:0] OP_ACC_DEC = 3'b011;
-  localparam logic [2:0] OP_CONSTANT = 3'b100;
-  localparam logic [2:0] OP_CONT_CONSTANT = 3'b101;
-  localparam logic [2:0] OP_CONT_HIGH = 3'b110;
-  localparam logic [2:0] OP_ORIGIN = 3'b111;
-
   // Low three bits of the codes 10 000 xxx.
   localparam logic [2:0] SEL_FINISH = 3'b000;
   localparam logic [2:0] SEL_INPUTS = 3'b001;
@@ -88,32 +82,10 @@ package ppmc104_pkg;
     logic [2:0] op;
   } op_code_t;
 
-  // The same for the axis.
-  function automatic ppmc_motion_pkg::op_t op_of(logic pout_only, logic ccw, logic [2:0] op);
-    return
-    '{
-        ramp: op inside {OP_ACC_DEC, OP_CONT_HIGH},
-        single: op == OP_SINGLE,
-        origin: op == OP_ORIGIN,
-        pout_only: pout_only,
-        ccw: ccw
-    }
-    ;
-  endfunction
-
   typedef struct packed {
     kind_e      kind;
     logic [2:0] params;  // bytes that follow
   } decoded_t;
-
-  function automatic logic [2:0] op_params(logic [2:0] op);
-    unique case (op)
-      OP_ACC_DEC:                  return 3'd3;
-      OP_CONSTANT:                 return 3'd4;
-      OP_CONT_CONSTANT, OP_ORIGIN: return 3'd1;
-      default:                     return 3'd0;
-    endcase
-  endfunction
 
   function automatic decoded_t decode(logic [7:0] code);
     decoded_t d;

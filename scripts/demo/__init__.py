@@ -1,1 +1,1 @@
-"""`make demo`: one PPMC-104 seen from the host bus to the motor pins."""
+"""`make demo`: a part seen from the host bus to the motor pins."""

@@ -1,87 +1,33 @@
-"""`make demo`: build the RTL, drive it as a host would, compare it with the golden model, show all of it."""
+"""`make demo`: build a part's RTL, drive it as a host would, compare it with the golden model, show it."""
 
 from __future__ import annotations
 
+import argparse
 import json
 import shutil
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from rich import box
-from rich.live import Live
 from rich.table import Table
-from rich.text import Text
 
 from cocotb_tests.common.collect import Item
 from cocotb_tests.common.compare import Comparison, compare_recording, write_report
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
-from scripts.demo import waves, words
-from scripts.demo.picture import draw_demo
-from scripts.project import BUILD, console, fail, relative, run
+from openppmc.plot.motion import draw
+from scripts.demo import waves
+from scripts.demo.demos import DEMOS, Demo
+from scripts.demo.scenes import bit
+from scripts.demo.steps import Steps
+from scripts.demo.words import exchanges
+from scripts.project import BUILD, ProjectError, console, fail, relative, run
 
-PART = "ppmc104"
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
-
-T = TypeVar("T")
-
-
-class Steps:
-    """The list of steps with a spinner at the running one; plain lines where there is no terminal."""
-
-    def __init__(self) -> None:
-        self.done: list[str] = []
-
-    def lines(self, running: str, detail: str, seconds: float) -> Text:
-        """What the live display shows."""
-        text = Text("\n".join(self.done) + ("\n" if self.done else ""), style="green")
-        mark = "⠋⠙⠹⠸⠼⠴⠦⠧⠇⠏"[int(seconds * 10) % 10]
-        return text.append(f"{mark} {running} … {seconds:.0f} s  ", style="bold").append(detail, style="dim")
-
-    def run(self, what: str, work: Callable[[], T], detail: Callable[[], str] = lambda: "") -> T:
-        """Do `work` in a thread, show `what` with its detail; returns its result, raises what it raised."""
-        outcome: dict[str, Any] = {}
-
-        def inner() -> None:
-            try:
-                outcome["result"] = work()
-            except BaseException as error:  # handed to the caller, SystemExit of a runner among them
-                outcome["error"] = error
-
-        begin, shown = time.monotonic(), ""
-        thread = threading.Thread(target=inner, daemon=True)
-        thread.start()
-        with self.display() as update:
-            while thread.is_alive():
-                thread.join(0.1)
-                note = detail()
-                update(self.lines(what, note, time.monotonic() - begin))
-                if not console.is_terminal and note != shown:
-                    console.print(f"  {what}: {note}")
-                    shown = note
-        if "error" in outcome:
-            raise outcome["error"]
-        line = f"✓ {what} ({time.monotonic() - begin:.1f} s)"
-        self.done.append(line)
-        if not console.is_terminal:
-            console.print(line)
-        return outcome["result"]
-
-    @contextmanager
-    def display(self) -> Iterator[Callable[[Text], None]]:
-        """A live area on a terminal, nothing elsewhere."""
-        if not console.is_terminal:
-            yield lambda text: None
-            return
-        with Live(console=console, transient=True, refresh_per_second=10) as live:
-            yield live.update
 
 
 def last_line(path: Path) -> str:
@@ -93,21 +39,26 @@ def last_line(path: Path) -> str:
     return lines[-1] if lines else ""
 
 
-def newest_build() -> str:
+def newest_build(part: str) -> str:
     """How far the Verilator build is: the object files made so far."""
-    folders = sorted((BUILD / "sim").glob(f"{PART}-*/"), key=lambda path: path.stat().st_mtime)
+    folders = sorted((BUILD / "sim").glob(f"{part}-*/"), key=lambda path: path.stat().st_mtime)
     count = len(list(folders[-1].glob("*.o"))) if folders else 0
     return f"{count} object files" if count else "reading SystemVerilog"
 
 
-def simulate(steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
+def repro(demo: Demo) -> str:
+    """The line that repeats the demo."""
+    return "make demo" if demo.part == "ppmc104" else f"make demo PART={demo.part}"
+
+
+def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
     """Build and run; the recording and the chapters."""
-    design = part_design(PART, F16)
-    steps.run("build the RTL with Verilator", lambda: build(design), newest_build)
-    item = Item("cocotb_tests.demo.tb_demo", "demo_move", F16, PART, ())
+    design = part_design(demo.part, F16)
+    steps.run("build the RTL with Verilator", lambda: build(design), lambda: newest_build(demo.part))
+    item = Item(demo.module, demo.test, F16, demo.part, ())
     steps.run(
         "drive it over its bus",
-        lambda: run_sim(design, item, seed=1, folder=RUN, repro="make demo"),
+        lambda: run_sim(design, item, seed=1, folder=RUN, repro=repro(demo)),
         lambda: last_line(RUN / "progress"),
     )
     return Recording.from_json((RUN / "recording.json").read_text()), json.loads(
@@ -120,7 +71,7 @@ def hexes(data: list[int]) -> str:
     return " ".join(f"{byte:02X}" for byte in data)
 
 
-def show_talk(recording: Recording, chapters: list[dict[str, Any]]) -> None:
+def show_talk(demo: Demo, recording: Recording, chapters: list[dict[str, Any]]) -> None:
     """The table of what the host sent and what came back."""
     clk_hz = int(str(recording.params["CLK_HZ"]))
     table = Table(title="Host and chip", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
@@ -133,7 +84,7 @@ def show_talk(recording: Recording, chapters: list[dict[str, Any]]) -> None:
     table.add_column("in words", overflow="fold")
     for chapter in chapters:
         inside = [a for a in recording.accesses if chapter["begin"] <= a.t < chapter["end"]]
-        rows = words.exchanges(inside)
+        rows = exchanges(demo.words, inside)
         if rows:
             table.add_row("", "", f"[bold]{chapter['title']}[/]")
         for row in rows:
@@ -178,50 +129,63 @@ def spread(first: float, second: float) -> str:
     return f"{first:g}" if first == second else f"{first:g} … {second:g}"
 
 
-def show_moves(comparison: Comparison, chapters: list[dict[str, Any]]) -> None:
-    """What the motor was made to do, from the pins."""
+def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> None:
+    """What the motors were made to do, from the pins."""
     recording = comparison.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
     for chapter in chapters:
-        falls = [
-            t
-            for t, level in comparison.actual["pout_n"]
-            if level == 0 and chapter["begin"] <= t < chapter["end"]
-        ]
-        if len(falls) < 2:
-            continue
-        gaps = [b - a for a, b in zip(falls, falls[1:], strict=False)]
-        console.print(
-            f"{chapter['title']}: [bold]{len(falls)} pulses[/] "
-            f"in {(falls[-1] - falls[0]) * 1e3 / clk_hz:.3f} ms, "
-            f"intervals {spread(max(gaps), min(gaps))} clk, "
-            f"{spread(clk_hz / max(gaps) / 1e3, clk_hz / min(gaps) / 1e3)} kpps"
-        )
+        for index, motor in enumerate(demo.view.motors):
+            falls = [
+                t
+                for t, level in bit(comparison.actual["pout_n"], index)
+                if level == 0 and chapter["begin"] <= t < chapter["end"]
+            ]
+            if len(falls) < 2:
+                continue
+            gaps = [b - a for a, b in zip(falls, falls[1:], strict=False)]
+            who = f", {demo.motors[motor]}" if motor in demo.motors else ""
+            console.print(
+                f"{chapter['title']}{who}: [bold]{len(falls)} pulses[/] "
+                f"in {(falls[-1] - falls[0]) * 1e3 / clk_hz:.3f} ms, "
+                f"intervals {spread(max(gaps), min(gaps))} clk, "
+                f"{spread(clk_hz / max(gaps) / 1e3, clk_hz / min(gaps) / 1e3)} kpps"
+            )
 
 
-def write_waves(comparison: Comparison, chapters: list[dict[str, Any]]) -> list[Path]:
+def write_waves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> list[Path]:
     """Write the VCD and its saved views; their paths."""
-    vcd, gtkw, sucl = (FOLDER / f"{PART}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
-    waves.write_vcd(comparison, vcd)
+    vcd, gtkw, sucl = (FOLDER / f"{demo.part}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
+    waves.write_vcd(comparison, demo.view, vcd)
     period = 1_000_000_000_000 // int(str(comparison.recording.params["CLK_HZ"]))
-    marks = [chapter["begin"] * period for chapter in chapters if chapter["key"] in ("move", "limit", "rest")]
-    waves.gtkwave(vcd, gtkw, PART, comparison.recording.end * period, marks)
-    waves.surfer(sucl)
+    marks = [chapter["begin"] * period for chapter in chapters if chapter["key"] in demo.marks]
+    waves.gtkwave(vcd, gtkw, demo.part, demo.view, comparison.recording.end * period, marks)
+    waves.surfer(sucl, demo.view)
     return [vcd, gtkw, sucl]
 
 
-def main() -> int:
+def chosen(arguments: list[str] | None) -> Demo:
+    """The demo of the part that the command line names; ProjectError lists those there are."""
+    parser = argparse.ArgumentParser(prog="demo", description="A part through a move, compared and drawn.")
+    parser.add_argument("--part", default="ppmc104")
+    name = parser.parse_args(arguments).part
+    if name not in DEMOS:
+        raise ProjectError(f"PART={name}: there is no demo of it (there is one of {', '.join(DEMOS)})")
+    return DEMOS[name]
+
+
+def main(arguments: list[str] | None = None) -> int:
     """Run the demo; 0 when RTL and golden model agree in every edge."""
+    demo = chosen(arguments)
     steps = Steps()
     begin = time.monotonic()
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
-        recording, chapters = simulate(steps)
+        recording, chapters = simulate(demo, steps)
         comparison = steps.run("ask the golden model", lambda: compare_recording(recording))
-        saved = write_waves(comparison, chapters)
+        saved = write_waves(demo, comparison, chapters)
         picture = FOLDER / "profile.png"
         try:
-            steps.run("draw the picture", lambda: draw_demo(comparison, chapters, picture))
+            steps.run("draw the picture", lambda: draw(demo.picture(comparison, chapters), picture))
         except (IndexError, StopIteration):
             # Wrong RTL may lack the very edges that the close-ups are about.
             if comparison.mismatch is None:
@@ -230,14 +194,14 @@ def main() -> int:
         return fail(str(error))
     if console.is_terminal:
         console.print("\n".join(steps.done), style="green")
-    show_talk(recording, chapters)
-    show_moves(comparison, chapters)
+    show_talk(demo, recording, chapters)
+    show_moves(demo, comparison, chapters)
     show_comparison(comparison)
     console.print(
         "Look at " + ", ".join(relative(path) for path in [picture, *saved]) + " (`make waves` opens them)"
     )
     if comparison.mismatch is not None:
-        write_report(comparison, FOLDER, "make demo")
+        write_report(comparison, FOLDER, repro(demo))
         m = comparison.mismatch
         return fail(
             f"demo: RTL and golden model differ, first at clk edge {m.t} in {m.signal}: "

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scripts import project
@@ -27,7 +27,7 @@ class Board:
 
     `clk_hz` is the frequency of `clk` that the top gives to the part, `goal_mhz` the least that the project
     wants of this board, `oscillator` the clock input with its frequency in MHz, `loader` its name in
-    openFPGALoader.
+    openFPGALoader, `part` what it carries.
     """
 
     name: str
@@ -42,14 +42,16 @@ class Board:
     suffix: str
     loader: str
     route: tuple[str, ...]  # nextpnr's choice of the device
+    part: str = "ppmc104"
 
     def folder(self, host: str) -> Path:
         """build/boards/<board> for the UART host, build/boards/<board>-bus for the other."""
         return project.BUILD / "boards" / self.stem(host)
 
     def stem(self, host: str) -> str:
-        """The board's name with its host, as folder and file are called."""
-        return self.name if host == "uart" else f"{self.name}-{host}"
+        """The board's name with its part and host, as folder and file are called."""
+        part = "" if self.part == "ppmc104" else f"-{self.part}"
+        return self.name + part + ("" if host == "uart" else f"-{host}")
 
     def file(self, host: str) -> Path:
         """The bitstream file, there or not."""
@@ -116,19 +118,59 @@ BOARDS = {
 }
 
 
-def board(name: str) -> Board:
-    """The board called `name`; ProjectError lists the known ones when there is none."""
+def ppmc2104(on: str, hosts: tuple[str, ...] = HOSTS) -> Board:
+    """The board of this name with a PPMC-2104, for these hosts."""
+    ppmc104 = BOARDS[on]
+    family = on.split("-")[0]
+    suffix = Path(ppmc104.constraints["uart"]).suffix
+    return replace(
+        ppmc104,
+        top=dict.fromkeys(hosts, f"board_{family}_ppmc2104"),
+        constraints=dict.fromkeys(hosts, f"{family}-ppmc2104{suffix}"),
+        part="ppmc2104",
+    )
+
+
+BOARDS_2104 = {
+    board.name: board
+    for board in (ppmc2104("icebreaker", ("uart",)), ppmc2104("ulx3s-25f"), ppmc2104("ulx3s-85f"))
+}
+BY_PART = {"ppmc104": BOARDS, "ppmc2104": BOARDS_2104}
+
+
+def board(name: str, part: str = "ppmc104") -> Board:
+    """The board called `name` with a part; ProjectError lists the known ones when there is none."""
+    if part not in BY_PART:
+        raise ProjectError(f"PART={part}: no board carries it (known: {', '.join(BY_PART)})")
     try:
-        return BOARDS[name]
+        return BY_PART[part][name]
     except KeyError:
-        raise ProjectError(f"BOARD={name}: no such board (known: {', '.join(BOARDS)})") from None
+        known = ", ".join(BY_PART[part])
+        where = "" if part == "ppmc104" else f" with {part}"
+        raise ProjectError(f"BOARD={name}: no such board{where} (known: {known})") from None
+
+
+def check_host(on: Board, host: str) -> str:
+    """The host itself; ProjectError if this board does not have it."""
+    if host not in HOSTS:
+        raise ProjectError(f"HOST={host}: expected uart or bus")
+    if host not in on.top:
+        raise ProjectError(f"HOST={host}: {on.name} with {on.part} has only {', '.join(on.top)}")
+    return host
+
+
+def part_of(top: str) -> str:
+    """The part of a top in rtl/boards: the one that its name has, else ppmc104."""
+    return next((part for part in BY_PART if part in top), "ppmc104")
 
 
 def sources(top: str) -> list[Path]:
     """The sources of a board top in compile order, the declarations of the vendors' cells first."""
+    part = part_of(top)
     shared = project.file_groups().get("boards", [])
-    files = [path for path in shared if not path.stem.startswith("board_") or path.stem == top]
-    return [VENDOR_CELLS, *project.sources(project.part("ppmc104")), *files]
+    other = tuple(f"{name}_" for name in BY_PART if name != part)
+    files = [path for path in shared if not path.stem.startswith(("board_", *other)) or path.stem == top]
+    return [VENDOR_CELLS, *project.sources(project.part(part)), *files]
 
 
 def parameters(top: str) -> set[str]:
@@ -144,7 +186,7 @@ def synthesize_board(on: Board, host: str, params: dict[str, int | str] | None =
     known = parameters(top) - {"HOST"}
     for name in given.keys() - known:
         raise ProjectError(f"{on.name} has no parameter {name} (it has: {', '.join(sorted(known))})")
-    if len(set(on.top.values())) == 1:
+    if "HOST" in parameters(top):
         given["HOST"] = host.upper()
     job = {
         "top": top,
@@ -167,6 +209,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
         "board": on.name,
         "title": on.title,
         "host": host,
+        "part": on.part,
         "device": on.device,
         "lut": used.lut[0],
         "lut_total": used.lut[1],
@@ -193,15 +236,15 @@ def build_board(
     seed: int | None = None,
     params: dict[str, int | str] | None = None,
     notify: Callable[[str], None] = lambda text: None,
+    part: str = "ppmc104",
 ) -> dict:
     """Bitstream and report.json of a board in build/boards/; returns the report.
 
     With `seed` None the seeds 1 to SEEDS are tried until timing is met. ProjectError when it is not, or when
     a tool fails. `notify` is told what is being done.
     """
-    on = board(name)
-    if host not in HOSTS:
-        raise ProjectError(f"HOST={host}: expected uart or bus")
+    on = board(name, part)
+    check_host(on, host)
     folder = on.folder(host)
     folder.mkdir(parents=True, exist_ok=True)
     on.file(host).unlink(missing_ok=True)

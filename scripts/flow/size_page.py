@@ -76,11 +76,11 @@ def _sum(counts: Mapping[str, Count], below: str) -> Count:
     return total
 
 
-def bridge_rows(split: Mapping[str, Breakdown]) -> list[list[str]]:
+def bridge_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
     """What the board top adds to the part, instance by instance; the part itself in one row."""
     first = next(iter(split.values()))
     inside = sorted(path for path in first.kept if path.startswith(f"{BRIDGE}."))
-    rows = [["u_part", "ppmc104, all of it"]]
+    rows = [["u_part", f"{part}, all of it"]]
     for result in split.values():
         count = _sum(result.flat, "u_part")
         rows[0] += [str(count.lut), str(count.ff), str(count.ram or "")]
@@ -91,7 +91,7 @@ def bridge_rows(split: Mapping[str, Breakdown]) -> list[list[str]]:
             count = result.flat.get(path, Count())
             row += [str(count.lut), str(count.ff), str(count.ram or "")]
         rows.append(row)
-    rest, total = ["(top itself)", "ppmc104_board"], ["total", ""]
+    rest, total = ["(top itself)", f"{part}_board"], ["total", ""]
     for result in split.values():
         shown = [_sum(result.flat, "u_part"), _sum(result.flat, BRIDGE)]
         for key in ("lut", "ff", "ram"):
@@ -101,21 +101,25 @@ def bridge_rows(split: Mapping[str, Breakdown]) -> list[list[str]]:
     return [*rows, rest, total]
 
 
-def markdown(rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
-    """The whole block between the markers."""
+def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
+    """The whole block between a part's markers; `split` is empty when the part has no board top."""
     parts = [
-        f"Written by `make report`. LUT, FF and block RAM as synthesized (on ECP5 a carry cell counts as two "
-        "LUT, on Gowin an adder bit as one); Fmax of `clk` after place and route, median of "
-        f"{seeds} seeds. ppmc104 and ppmc104_board (part and UART bridge, 24 MHz) with free pins, on UP5K "
+        f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (on ECP5 a carry cell "
+        "counts as two LUT, on Gowin an adder bit as one); Fmax of `clk` after place and route, median of "
+        f"{seeds} seeds. Part and board top (part and UART bridge, 24 MHz) with free pins, on UP5K "
         "through shift registers; the bitstreams with their boards' constraints, *of the device* being the "
         "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
         f"fails when one has grown by more than {LIMIT} %.",
         markdown_table(list(HEADS), [row.cells() for row in rows], left=2),
-        "Where the cells of ppmc104_board are, flattened, a LUT credited to the instance it feeds:",
-        markdown_table(
-            ["instance", "module", *(f"{INSIDE[f]} {what}" for f in split for what in ("LUT", "FF", "RAM"))],
-            bridge_rows(split),
-            left=2,
-        ),
     ]
+    if split:
+        heads = [
+            "instance",
+            "module",
+            *(f"{INSIDE[f]} {what}" for f in split for what in ("LUT", "FF", "RAM")),
+        ]
+        parts += [
+            f"Where the cells of {part}_board are, flattened, a LUT credited to the instance it feeds:",
+            markdown_table(heads, bridge_rows(part, split), left=2),
+        ]
     return "\n\n".join(parts)

@@ -15,7 +15,7 @@ from .synthesis import FAMILIES, run_yosys, wrapped_netlist
 from .yosys_job import BEST
 
 FOLDER = project.BUILD / "report"
-BOARD_TOPS = {"ppmc104": "ppmc104_board"}
+BOARD_TOPS = {part: f"{part}_board" for part in boards.BY_PART}
 HOST = "uart"
 
 
@@ -64,7 +64,9 @@ def targets(part: str) -> list[Target]:
     found = [Target(part, family, base_job(part, False)) for family in FAMILIES]
     if part in BOARD_TOPS:
         found += [Target(BOARD_TOPS[part], family, base_job(part, True)) for family in FAMILIES]
-        found += [Target(f"{on.name} bitstream", on.family, board=on) for on in boards.BOARDS.values()]
+        found += [
+            Target(f"{on.stem(HOST)} bitstream", on.family, board=on) for on in boards.BY_PART[part].values()
+        ]
     return found
 
 
@@ -83,7 +85,7 @@ def synthesize_all(wanted: list[Target], done: Callable[[Target], None]) -> list
 def devices(target: Target) -> list[pnr.Device]:
     """Devices on which a part or board top is placed; the board top's UP5K is the iCEBreaker's bitstream."""
     own = [device for device in pnr.DEVICES if device.family == target.family]
-    return own if target.design in BOARD_TOPS else [device for device in own if not device.wrapped]
+    return [device for device in own if not device.wrapped] if target.design in BOARD_TOPS.values() else own
 
 
 def device_netlist(target: Target, device: pnr.Device, netlist: Path) -> Path:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from openppmc import __version__
-from scripts.project import ROOT, file_groups, relative
+from scripts.project import PARTS, ROOT, file_groups, relative
 
-WAIVERS = ROOT / "rtl" / "ppmc104" / "waivers.vlt"
+WAIVERS = ROOT / "rtl" / "common" / "waivers.vlt"
 HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
@@ -16,8 +16,19 @@ TEXT = {
     "motion": "OpenPPMC, pulse timing, ramps, phases",
     "host": "OpenPPMC, host port of the parts, UART, Wishbone and AXI4-Lite bridges",
     "ppmc104": "OpenPPMC, PPMC-104, a stepper controller for one axis",
+    "ppmc2104": "OpenPPMC, PPMC-2104, a stepper controller for two axes",
+    "isa_4axis": "OpenPPMC, four axes on an ISA bus, two PPMC-2104",
 }
-NEEDS = {"common": [], "motion": ["common"], "host": ["common"], "ppmc104": ["common", "motion", "host"]}
+NEEDS = {"motion": ["common"], "host": ["common"]}
+PARAMETERS = {
+    "CLK_HZ": ("int", "Frequency of clk in Hz, 8e6 .. 200e6", "16000000"),
+    "XTAL_HZ": ("int", "Crystal of the old chip in Hz, 1e6 .. 16e6", "16000000"),
+    "TIMING": ("str", "FAST or DATASHEET", "FAST"),
+    "PHASE_IDLE": ("int", "Level of s until the first initialisation", "1"),
+}
+# Parts that have no parameter of that name.
+LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis")}
+SMOKE_PART = "ppmc104"  # the one with a sim target
 # Boards whose vendor tools FuseSoC runs: target -> (top, constraint files with their types, flow options).
 VENDOR_BOARDS: dict[str, tuple[str, dict[str, str], str]] = {
     "arty-a7": (
@@ -62,28 +73,29 @@ def group_core(group: str, files: list[Path]) -> str:
     """Core of one group; its files are named relative to the group's folder."""
     folder = files[0].parent
     headers = tuple(path.name for path in sorted(folder.glob("*.svh")))
-    depend = [vlnv(need) for need in NEEDS[group]]
+    needs = NEEDS.get(group, [])
+    if group in PARTS:
+        needs = [need for need in PARTS[group].groups if need != group]
     text = f"{HEAD}name: {vlnv(group)}\ndescription: {TEXT[group]}\n\nfilesets:\n"
-    text += fileset("rtl", [path.name for path in files], depend, headers=headers)
-    if group != "ppmc104":
+    text += fileset("rtl", [path.name for path in files], [vlnv(need) for need in needs], headers=headers)
+    if group not in PARTS:
         return text + "\ntargets:\n  default:\n    filesets: [rtl]\n"
-    return text + PART_TARGETS
+    return text + part_targets(group)
 
 
-PART_TARGETS = f"""  smoke:
-    depend:
-      - {vlnv("ppmc104_smoke", "test")}
-  waivers:
-    files:
-      - waivers.vlt
-    file_type: vlt
-
+def part_targets(part: str) -> str:
+    """Targets and parameters of a part's core."""
+    names = [name for name in PARAMETERS if part not in LACKS.get(name, ())]
+    text = fileset("waivers", [], [vlnv("waivers")])
+    if part == SMOKE_PART:
+        text += fileset("smoke", [], [vlnv(f"{part}_smoke", "test")])
+    text += f"""
 targets:
   default: &default
     filesets: [rtl]
-    toplevel: ppmc104
-    parameters: [CLK_HZ, XTAL_HZ, TIMING, PHASE_IDLE]
-  # fusesoc run --target=lint openppmc:ppmc:ppmc104
+    toplevel: {part}
+    parameters: [{", ".join(names)}]
+  # fusesoc run --target=lint openppmc:ppmc:{part}
   lint:
     <<: *default
     filesets: [rtl, waivers]
@@ -91,38 +103,42 @@ targets:
     flow_options:
       tool: verilator
       verilator_options: [-Wall, --timing]
-  # fusesoc run --target=sim openppmc:ppmc:ppmc104; it works if it prints "ppmc104_smoke: PASS"
+"""
+    if part == SMOKE_PART:
+        text += SIM_TARGET
+    text += "\nparameters:\n"
+    for name in names:
+        kind, about, value = PARAMETERS[name]
+        text += f"  {name}:\n    datatype: {kind}\n    description: {about}\n    default: {value}\n"
+        text += "    paramtype: vlogparam\n"
+    return text
+
+
+SIM_TARGET = f"""  # fusesoc run --target=sim openppmc:ppmc:{SMOKE_PART}
+  # It works if it prints "{SMOKE_PART}_smoke: PASS".
   sim:
     filesets: [rtl, smoke]
-    toplevel: ppmc104_smoke
+    toplevel: {SMOKE_PART}_smoke
     flow: sim
     flow_options:
       tool: verilator
       mode: binary
       # Some builds of Verilator do not know their compiler's flag for coroutines, or for split C++ output.
       verilator_options: [--timing, --assert, --output-split, "0", -CFLAGS, -std=c++20]
+"""
 
-parameters:
-  CLK_HZ:
-    datatype: int
-    description: Frequency of clk in Hz, 8e6 .. 200e6
-    default: 16000000
-    paramtype: vlogparam
-  XTAL_HZ:
-    datatype: int
-    description: Crystal of the old chip in Hz, 1e6 .. 16e6
-    default: 16000000
-    paramtype: vlogparam
-  TIMING:
-    datatype: str
-    description: FAST or DATASHEET
-    default: FAST
-    paramtype: vlogparam
-  PHASE_IDLE:
-    datatype: int
-    description: Level of s until the first initialisation
-    default: 1
-    paramtype: vlogparam
+WAIVERS_CORE = f"""{HEAD}name: {vlnv("waivers")}
+description: OpenPPMC, waivers of Verilator's lint
+
+filesets:
+  waivers:
+    files:
+      - waivers.vlt
+    file_type: vlt
+
+targets:
+  default:
+    filesets: [waivers]
 """
 
 SMOKE = f"""{HEAD}name: {vlnv("ppmc104_smoke", "test")}
@@ -143,12 +159,12 @@ targets:
 def boards_core(files: list[Path]) -> str:
     """Core of the boards; it lies at the root, because constraints/ is not below rtl/."""
     special = {path for path in files if path.name.startswith(("board_", "ppmc_clock_"))}
-    text = f"{HEAD}name: {vlnv('ppmc104_board', 'boards')}\n"
-    text += (
-        "description: OpenPPMC, board tops of the PPMC-104; for the open-source flows see make bitstream\n\n"
-    )
+    text = f"{HEAD}name: {vlnv('boards', 'boards')}\n"
+    text += "description: OpenPPMC, board tops of all parts; for the open-source flows see make bitstream\n\n"
     text += "filesets:\n"
-    text += fileset("rtl", [relative(path) for path in files if path not in special], [vlnv("ppmc104")])
+    text += fileset(
+        "rtl", [relative(path) for path in files if path not in special], [vlnv(part) for part in PARTS]
+    )
     targets = "\ntargets:\n  default:\n    filesets: [rtl]\n    toplevel: ppmc104_board\n"
     for target, (top, constraints, flow) in VENDOR_BOARDS.items():
         source = ROOT / "rtl" / "boards" / f"{top}.sv"
@@ -169,6 +185,7 @@ def core_files() -> dict[Path, str]:
     cores = {
         ROOT / "rtl" / group / f"openppmc_{group}.core": group_core(group, groups[group]) for group in TEXT
     }
+    cores[WAIVERS.parent / "openppmc_waivers.core"] = WAIVERS_CORE
     cores[WAIVERS] = (ROOT / "lint" / "verilator.vlt").read_text()
     cores[ROOT / "tb" / "fusesoc" / "ppmc104_smoke.core"] = SMOKE
     cores[ROOT / "openppmc_boards.core"] = boards_core(groups["boards"])

@@ -1,4 +1,4 @@
-"""Bender.yml and the file lists for Verilator, Vivado, Quartus and Gowin EDA."""
+"""Bender.yml and the file lists: one a part for Verilator, one of all for Vivado, Quartus, Gowin EDA."""
 
 from __future__ import annotations
 
@@ -9,16 +9,23 @@ from scripts.project import PARTS, ROOT, file_groups, relative
 FROM = "Written by `make packages` from rtl/files.yml; change that, not this."
 NOT_RUN = "Not run by this project's tests, which have no vendor tools; please report what does not work."
 FOLDER = ROOT / "packages"
-BOARD = "ppmc104_board.sv"
 
 
-def part_files(part: str = "ppmc104") -> list[Path]:
-    """RTL of a part and its board module without the tops of single boards, in compile order."""
+def board_modules() -> list[Path]:
+    """Part with its host, for each part that has one, without what belongs to single boards."""
+    return [path for path in file_groups()["boards"] if path.stem in {f"{part}_board" for part in PARTS}]
+
+
+def part_files(part: str) -> list[Path]:
+    """RTL of a part and its board module, in compile order."""
+    files = [path for group in PARTS[part].groups for path in file_groups()[group]]
+    return files + [path for path in board_modules() if path.stem == f"{part}_board"]
+
+
+def library_files() -> list[Path]:
+    """RTL of all parts with their board modules, in compile order."""
     groups = file_groups()
-    files = [path for group in PARTS[part].groups for path in groups[group]]
-    # The group of the boards may already be among those of the part.
-    board = [path for path in groups["boards"] if path.name == BOARD]
-    return [path for path in files if path.parent.name != "boards"] + board
+    return [path for group in groups if group != "boards" for path in groups[group]] + board_modules()
 
 
 def bender() -> str:
@@ -29,20 +36,20 @@ def bender() -> str:
         text += f"  # {group}\n  - include_dirs: [rtl/common]\n"
         if group == "boards":
             text += "    target: openppmc_boards\n"
-            files = [path for path in files if path.name == BOARD]
+            files = board_modules()
         text += "    files:\n" + "".join(f"      - {relative(path)}\n" for path in files)
     return text
 
 
-def dot_f() -> str:
-    """Command file; `-F` takes its paths relative to the file."""
-    lines = [f"// {FROM}", "// verilator -F packages/ppmc104.f", "+incdir+../rtl/common"]
-    return "\n".join([*lines, *(f"../{relative(path)}" for path in part_files()), ""])
+def dot_f(part: str) -> str:
+    """Command file of a part; `-F` takes its paths relative to the file."""
+    lines = [f"// {FROM}", f"// verilator -F packages/{part}.f --top-module {part}", "+incdir+../rtl/common"]
+    return "\n".join([*lines, *(f"../{relative(path)}" for path in part_files(part)), ""])
 
 
 def vivado() -> str:
     """Tcl for a Vivado project or a non-project script."""
-    files = "".join(f"  $root/{relative(path)} \\\n" for path in part_files())
+    files = "".join(f"  $root/{relative(path)} \\\n" for path in library_files())
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
         "# Vivado, in a project: source .../packages/vivado.tcl\n"
@@ -59,7 +66,7 @@ def vivado() -> str:
 def quartus() -> str:
     """Lines of a Quartus settings file."""
     lines = "".join(
-        f"set_global_assignment -name SYSTEMVERILOG_FILE $root/{relative(path)}\n" for path in part_files()
+        f"set_global_assignment -name SYSTEMVERILOG_FILE $root/{relative(path)}\n" for path in library_files()
     )
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
@@ -70,7 +77,7 @@ def quartus() -> str:
 
 def gowin() -> str:
     """Tcl for gw_sh or the console of Gowin EDA."""
-    lines = "".join(f"add_file -type verilog $root/{relative(path)}\n" for path in part_files())
+    lines = "".join(f"add_file -type verilog $root/{relative(path)}\n" for path in library_files())
     return (
         f"# {FROM}\n# {NOT_RUN}\n# Gowin EDA, with a project open: source .../packages/gowin.tcl\n"
         "set root [file normalize [file join [file dirname [info script]] ..]]\n"
@@ -83,7 +90,7 @@ def list_files() -> dict[Path, str]:
     """All lists: path -> text."""
     return {
         ROOT / "Bender.yml": bender(),
-        FOLDER / "ppmc104.f": dot_f(),
+        **{FOLDER / f"{part}.f": dot_f(part) for part in PARTS},
         FOLDER / "vivado.tcl": vivado(),
         FOLDER / "quartus.qsf": quartus(),
         FOLDER / "gowin.tcl": gowin(),

@@ -98,6 +98,14 @@ def test_unknown_board(module: str, tmp_path: Path) -> None:
     assert "BOARD=nano: no such board (known: icebreaker, ulx3s-25f," in line
 
 
+@pytest.mark.parametrize("module", ["scripts.bitstream", "scripts.flash"])
+def test_unknown_board_of_a_part(module: str, tmp_path: Path) -> None:
+    line = only_line(python(tmp_path, "-m", module, "tangnano9k", "--part", "ppmc2104"))
+    assert "BOARD=tangnano9k: no such board with ppmc2104 (known: icebreaker, ulx3s-25f, ulx3s-85f)" in line
+    line = only_line(python(tmp_path, "-m", module, "icebreaker", "--part", "ppmc2104", "--host", "bus"))
+    assert "HOST=bus: icebreaker with ppmc2104 has only uart" in line
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [("PHASE_IDLE", "expected NAME=VALUE"), ("SPEED=3", "icebreaker has no parameter SPEED (it has: BAUD,")],

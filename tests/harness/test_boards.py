@@ -10,7 +10,7 @@ import pytest
 
 from scripts import project
 from scripts.flow import boards
-from scripts.flow.boards import BOARDS, HOSTS
+from scripts.flow.boards import BY_PART, HOSTS
 
 CONSTRAINTS = project.ROOT / "constraints"
 TOPS = project.RTL / "boards"
@@ -18,8 +18,9 @@ TOPS = project.RTL / "boards"
 # top module, file of pins, file of the clock, clock input and its MHz
 FILES = {
     (on.top[host], on.constraints[host], on.constraints[host], *on.oscillator)
-    for on in BOARDS.values()
-    for host in HOSTS
+    for known in BY_PART.values()
+    for on in known.values()
+    for host in on.top
     if on.family != "gowin"
 } | {
     ("board_tangnano9k", "tangnano9k.cst", "tangnano9k.sdc", "clk_27m", 27),
@@ -27,6 +28,7 @@ FILES = {
     ("board_de10nano", "de10nano.qsf", "de10nano.sdc", "clk", 50),
 }
 ALL = sorted(FILES)
+EVERY = [on for known in BY_PART.values() for on in known.values()]
 IDS = [entry[1] for entry in ALL]
 
 # pin and port of each family's statement
@@ -134,7 +136,7 @@ def test_table_of_the_pins(top: str, file: str) -> None:
     assert sorted(told) == sorted(wanted)
 
 
-@pytest.mark.parametrize("on", BOARDS.values(), ids=list(BOARDS))
+@pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])
 def test_clock_of_the_top(on: boards.Board) -> None:
     for top in on.top.values():
         text = (TOPS / f"{top}.sv").read_text()
@@ -145,8 +147,17 @@ def test_clock_of_the_top(on: boards.Board) -> None:
 
 
 @pytest.mark.parametrize("host", HOSTS)
-@pytest.mark.parametrize("on", BOARDS.values(), ids=list(BOARDS))
+@pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])
 def test_sources_of_a_board(on: boards.Board, host: str) -> None:
+    if host not in on.top:
+        with pytest.raises(
+            project.ProjectError, match=f"HOST={host}: {on.name} with {on.part} has only uart"
+        ):
+            boards.check_host(on, host)
+        return
     files = boards.sources(on.top[host])
+    assert boards.part_of(on.top[host]) == on.part
+    others = {f"{part}_board" for part in BY_PART if part != on.part}
+    assert not others & {path.stem for path in files}
     assert all(path.is_file() for path in files)
     assert [path.stem for path in files if path.stem.startswith("board_")] == [on.top[host]]

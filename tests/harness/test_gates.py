@@ -8,7 +8,7 @@ import pytest
 
 from cocotb_tests.common.runner import repro_line
 from cocotb_tests.gates import suite
-from cocotb_tests.ppmc104 import test_ppmc104, test_random
+from cocotb_tests.ppmc104 import test_ppmc104
 from scripts.flow import gates
 from scripts.pool import as_done
 from scripts.project import ProjectError
@@ -18,14 +18,17 @@ EVERYTHING = suite.everything()
 
 @pytest.mark.parametrize("family", gates.FAMILIES)
 def test_all_directed_tests_run_on_each_family(family: str) -> None:
-    wanted = {param.values[0].id for param in test_ppmc104.ITEMS}
+    items = [param.values[0] for part in suite.PARTS for param in part.directed.ITEMS]
+    wanted = {item.id for item in items if item.test not in suite.TOO_LONG}
     here = {t.item.id for t in EVERYTHING if t.family == family}
     assert {f"{name}-{family}" for name in wanted} <= here
 
 
 def test_the_sample_of_random_hosts_uses_each_of_their_configurations() -> None:
-    used = {t.item.config.name for t in EVERYTHING if t.item.test == "random_host"}
-    assert used == {test_random.random_item(seed).config.name for seed in test_random.SEEDS}
+    for part in suite.PARTS:
+        make, all_seeds = part.random.random_item, part.random.SEEDS
+        used = {make(seed).config.name for seed in part.sample[make]}
+        assert used == {make(seed).config.name for seed in all_seeds}
 
 
 def test_names_are_unique_and_hold_the_family() -> None:
@@ -48,15 +51,17 @@ def test_choosing() -> None:
     assert suite.chosen(EVERYTHING, None) == EVERYTHING
     assert suite.chosen(EVERYTHING, "nosuchtest") == []
     quick = suite.chosen(EVERYTHING, "quick")
-    assert 40 < len(quick) < 100
+    assert 60 < len(quick) < 150
     assert {t.family for t in quick} == set(gates.FAMILIES)
-    assert {t.top for t in quick} == {"ppmc104", "ppmc104_board"}
+    assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "ppmc104_board"}
     some = suite.chosen(EVERYTHING, "D16-ECP5")
     assert some and all(t.group[0] == "ecp5" for t in some)
 
 
 def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert suite.left_out() == suite.NOT_APPLICABLE
+    assert suite.left_out() == {**suite.NOT_APPLICABLE, **suite.TOO_LONG}
+    tests = {param.values[0].test for part in suite.PARTS for param in part.directed.ITEMS}
+    assert set(suite.TOO_LONG) <= tests
     monkeypatch.setattr(test_ppmc104, "test_something_new", lambda: None, raising=False)
     with pytest.raises(ProjectError, match="does not say why test_something_new is left out"):
         suite.left_out()
@@ -99,8 +104,8 @@ def test_the_pool_returns_all_results_and_raises_errors() -> None:
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:
     """Only tag and target differ from the item of `make test`."""
-    own = {param.values[0].id: param.values[0] for param in test_ppmc104.ITEMS}
+    own = {param.values[0].id: param.values[0] for part in suite.PARTS for param in part.directed.ITEMS}
     for test in EVERYTHING:
-        if test.item.module.startswith("cocotb_tests.ppmc104") and not test.item.tag.startswith("r0"):
+        if test.item.module.startswith("cocotb_tests.ppmc") and not test.item.tag.startswith("r0"):
             item = own[test.item.id.removesuffix(f"-{test.family}")]
             assert replace(test.item, tag="", target="test") == item

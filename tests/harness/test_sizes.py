@@ -110,7 +110,7 @@ def test_the_check_ends_with_the_right_code(
     committed = sizes.read(path)
     monkeypatch.setattr(sizes, "read", lambda: committed)
     monkeypatch.setattr(report, "measured", lambda wanted, tell: (changed(lut=lut), []))
-    assert report.check([], lambda text: None) == code
+    assert report.check([], [], lambda text: None) == code
     assert ("`make report` accepts" in capsys.readouterr().err) == bool(code)
 
 
@@ -127,7 +127,7 @@ def test_the_breakdown_adds_up_to_the_total() -> None:
         kept={"": Count(), "u_part": Count(), "g_uart.u_bridge": Count(), "g_uart.u_bridge.u_rx": Count()},
         module={"g_uart.u_bridge": "bridge", "g_uart.u_bridge.u_rx": "rx"},
     )
-    assert size_page.bridge_rows({"ecp5": split}) == [
+    assert size_page.bridge_rows("ppmc104", {"ecp5": split}) == [
         ["u_part", "ppmc104, all of it", "60", "25", "2"],
         ["u_bridge", "bridge", "30", "20", "1"],
         ["&nbsp;&nbsp;u_rx", "rx", "6", "4", ""],

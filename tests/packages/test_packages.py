@@ -11,9 +11,9 @@ from cocotb_tests.common.paths import ROOT
 from scripts.packages.cores import core_files
 from scripts.packages.lists import list_files
 
-GROUPS = ("common", "motion", "host", "ppmc104")
 LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
-RTL = [f"rtl/{name}" for group in GROUPS for name in LISTED[group]]
+RTL = [f"rtl/{name}" for group, names in LISTED.items() if group != "boards" for name in names]
+BOARDS = [f"rtl/boards/{part}_board.sv" for part in ("ppmc104", "ppmc2104")]
 
 
 @pytest.mark.parametrize("path", {**core_files(), **list_files()}, ids=lambda path: path.name)
@@ -24,14 +24,26 @@ def test_fresh(path):
     assert not re.search(r"(?<![\w$.*])/(?:home|work|tmp|usr)/", wanted)
 
 
-@pytest.mark.parametrize("name", ["ppmc104.f", "vivado.tcl", "quartus.qsf", "gowin.tcl"])
-def test_list_is_complete_and_in_order(name):
-    """Given a file list, then it names every RTL file of the part once, in compile order, and the board."""
+def listed(name: str) -> list[str]:
+    """RTL files that a list names, which must name the include folder as well."""
     text = (ROOT / "packages" / name).read_text(encoding="utf-8")
-    named = re.findall(r"(?:\.\.|\$root)/(rtl/\S+\.sv)\b", text)
-    assert named == [*RTL, "rtl/boards/ppmc104_board.sv"]
     assert "rtl/common\n" in text, "no include folder"
-    assert name == "ppmc104.f" or "Not run by this project" in text
+    assert name.endswith(".f") or "Not run by this project" in text
+    return re.findall(r"(?:\.\.|\$root)/(rtl/\S+\.sv)\b", text)
+
+
+@pytest.mark.parametrize("name", ["vivado.tcl", "quartus.qsf", "gowin.tcl"])
+def test_list_is_complete_and_in_order(name):
+    """Given a vendor's list, then it names every RTL file once, in compile order, and the board modules."""
+    assert listed(name) == [*RTL, *BOARDS]
+
+
+@pytest.mark.parametrize("part", ["ppmc104", "ppmc2104", "isa_4axis"])
+def test_list_of_a_part(part):
+    """Given a part's list, then it names the shared blocks, the part and its board module."""
+    folders = ["common", "motion", "host", *{"isa_4axis": ["ppmc2104"]}.get(part, []), part]
+    own = [name for name in RTL if name.split("/")[1] in folders]
+    assert listed(f"{part}.f") == [*own, *(name for name in BOARDS if f"/{part}_" in name)]
 
 
 def test_bender():
@@ -39,7 +51,7 @@ def test_bender():
     sources = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))["sources"]
     plain = [file for group in sources if "target" not in group for file in group["files"]]
     assert plain == RTL
-    assert [group["files"] for group in sources if "target" in group] == [["rtl/boards/ppmc104_board.sv"]]
+    assert [group["files"] for group in sources if "target" in group] == [BOARDS]
 
 
 def test_cores():

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_board_panel: reset and lamps of a board.
+// Rules:  docs/boards.md, lamps.
+// Timing: of ppmc_board_reset and ppmc_board_lamp.
+`default_nettype none
+
+module ppmc_board_panel #(
+    parameter int unsigned ClkHz = 24_000_000
+) (
+    input  wire logic       clk_i,
+    input  wire logic       lock_i,    // 1: clk_i is good; 1 without a PLL
+    input  wire logic       req_ni,    // 0: reset wanted
+    output logic            rst_no,
+    input  wire logic       link_i,
+    input  wire logic       moving_i,
+    input  wire logic       switch_i,  // one is active
+    output logic      [3:0] lamps_o    // 1 = on: out of reset, a switch is active, motor moves, link
+);
+
+  logic lamp_link;
+
+  ppmc_board_reset #(
+      .ClkHz(ClkHz)
+  ) u_reset (
+      .clk_i,
+      .lock_i,
+      .req_ni,
+      .rst_no
+  );
+
+  ppmc_board_lamp #(
+      .ClkHz(ClkHz)
+  ) u_lamp (
+      .clk_i,
+      .rst_ni(rst_no),
+      .on_i  (link_i),
+      .lamp_o(lamp_link)
+  );
+
+  assign lamps_o = {rst_no, switch_i, moving_i, lamp_link};
+
+endmodule
+
+`default_nettype wire

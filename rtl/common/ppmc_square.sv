@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_square: a square wave of a whole number of crystal cycles, made by phase accumulation; no drift.
+// Rules:  P2104-PORT-06.
+// Timing: counted from the first clk edge after reset, toggle t happens after ceil(t * HalfXtal * ClkHz / XtalHz)
+//         clk. Half a period lasts at least one clk.
+`default_nettype none
+
+module ppmc_square #(
+    parameter int unsigned ClkHz    = 16_000_000,
+    parameter int unsigned XtalHz   = 16_000_000,
+    parameter int unsigned HalfXtal = 2            // crystal cycles of half a period
+) (
+    input  wire logic clk_i,
+    input  wire logic rst_ni,
+    output logic      wave_o   // a flip-flop; 0 in reset
+);
+
+  localparam longint unsigned Period = 64'(HalfXtal) * 64'(ClkHz);
+  localparam longint unsigned Common = ppmc_pkg::gcd(Period, 64'(XtalHz));
+  localparam int unsigned Modulus = 32'(Period / Common);
+  localparam int unsigned Step = 32'(64'(XtalHz) / Common);
+  localparam int unsigned Width = ppmc_pkg::cnt_width(Modulus - 1);
+
+  if (Modulus < Step) begin : g_check
+    $fatal(1, "ppmc_square: half a period must last at least a clk");
+  end
+
+  logic [Width-1:0] phase_q;
+  logic [Width:0] sum;
+  logic wrap;
+
+  assign sum  = {1'b0, phase_q} + (Width + 1)'(Step);
+  assign wrap = sum >= (Width + 1)'(Modulus);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      phase_q <= '0;
+      wave_o  <= 1'b0;
+    end else begin
+      phase_q <= Width'(wrap ? sum - (Width + 1)'(Modulus) : sum);
+      wave_o  <= wave_o ^ wrap;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

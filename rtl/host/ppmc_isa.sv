@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_isa: 8-bit ISA or PC/104 slave for parts with two registers each: decodes, drives the bus, merges
+// interrupts.
+// Rules:  ISA-01..07 (docs/isa_4axis.md); J105-01..03 and J105-05 with Parts = 1.
+// Timing: address, strobes and bus release are combinational; the parts sample them (ppmc_strobe_bus). irq_o
+//         follows int_ni by one clk.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_isa #(
+    parameter int unsigned Parts  = 1,     // part p: data at Base + 2p, status and command at Base + 2p + 1
+    parameter bit          Source = 1'b0,  // 1: one more register behind them, bit p = part p interrupts
+    parameter int unsigned Base   = 'h3B0  // a multiple of the window's length
+) (
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    // ISA
+    input  wire logic [      9:0]      sa_i,
+    input  wire logic                  aen_i,    // 1: the address belongs to a DMA transfer
+    input  wire logic                  ior_ni,
+    input  wire logic                  iow_ni,
+    output logic      [      7:0]      sd_o,
+    output logic                       sd_oe_o,
+    output logic                       irq_o,    // 1: some part interrupts
+    // parts; ior_ni and iow_ni go to them as they are
+    output logic      [Parts-1:0]      cs_no,
+    output logic                       a0_o,
+    input  wire logic [Parts-1:0][7:0] d_i,
+    input  wire logic [Parts-1:0]      d_oe_i,
+    input  wire logic [Parts-1:0]      int_ni
+);
+
+  localparam int unsigned Bits = $clog2(2 * Parts + (Source ? 1 : 0));  // address bits of the window
+
+  if (Parts < 1 || Parts > 8) begin : g_check_parts
+    $fatal(1, "ppmc_isa: Parts must be 1 .. 8");
+  end
+  if (Base > 'h3FF || Base % (1 << Bits) != 0) begin : g_check_base
+    $fatal(1, "ppmc_isa: Base must be 0 .. 3FFh and a multiple of the window's length");
+  end
+
+  // ---- whose cycle is it -----------------------------------------------------------------------------
+
+  logic here, hit_source, read;
+  logic [ Bits-1:0] pair;  // which pair of registers
+  logic [Parts-1:0] hit;
+
+  assign here       = !aen_i && (sa_i >> Bits) == 10'(Base >> Bits);
+  assign pair       = Bits'({1'b0, sa_i[Bits-1:0]} >> 1);
+  assign read       = !ior_ni && iow_ni;
+  assign a0_o       = sa_i[0];
+  assign cs_no      = ~hit;
+  assign hit_source = Source && here && sa_i[Bits-1:0] == Bits'(2 * Parts);
+
+  always_comb begin
+    for (int unsigned p = 0; p < Parts; p++) hit[p] = here && pair == Bits'(p);
+  end
+
+  // ---- interrupts ------------------------------------------------------------------------------------
+
+  logic source_oe;
+  logic [Parts-1:0] source;  // stands still while it is read
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) irq_o <= 1'b0;
+    else irq_o <= |(~int_ni);
+  end
+
+  if (Source) begin : g_source
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        source_oe <= 1'b0;
+        source    <= '0;
+      end else begin
+        source_oe <= hit_source && read;
+        if (!source_oe) source <= ~int_ni;
+      end
+    end
+  end else begin : g_no_source
+    assign source_oe = 1'b0;
+    assign source    = '0;
+  end
+
+  // ---- data to the host ------------------------------------------------------------------------------
+
+  assign sd_oe_o = read && (|(hit & d_oe_i) || (hit_source && source_oe));
+
+  always_comb begin
+    sd_o = d_i[0];
+    for (int unsigned p = 1; p < Parts; p++) if (hit[p]) sd_o = d_i[p];
+    if (source_oe) sd_o = 8'(source);
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(isa_one_part, (d_oe_i & (d_oe_i - 1'b1)) == '0 && !(|d_oe_i && source_oe))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_uart_host: the host of a board with a PC: bridge, pulse counters, a view of the switches.
+// Rules:  docs/uart_bridge.md; PINS shows one axis: {alarm, origin, slow CCW, slow CW, CCW, CW limit, hold, int_n}.
+//         With two axes the straps choose it: bit 7 = 1 is axis 1.
+// Timing: switches_ni and rxd_i are synchronised here, the part's outputs are of the clock domain.
+`default_nettype none
+
+module ppmc_uart_host #(
+    parameter int unsigned ClkHz     = 24_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter int unsigned Baud      = 115_200,
+    parameter int unsigned Part      = 104,
+    parameter bit          Datasheet = 1'b0,
+    parameter int unsigned Axes      = 1            // 1, 2; axis 1 in the low bits
+) (
+    input  wire logic              clk_i,
+    input  wire logic              rst_ni,       // asynchronous
+    input  wire logic              rxd_i,
+    output logic                   txd_o,
+    // the part's bus
+    output logic                   cs_no,
+    output logic                   rd_no,
+    output logic                   wr_no,
+    output logic                   a0_o,
+    output logic      [       7:0] d_o,
+    input  wire logic [       7:0] d_i,
+    input  wire logic              int_ni,
+    output logic                   part_rst_no,
+    // board
+    output logic      [       7:0] straps_o,
+    input  wire logic [Axes*6-1:0] switches_ni,
+    input  wire logic [  Axes-1:0] hold_i,
+    input  wire logic [  Axes-1:0] pout_ni,
+    input  wire logic [  Axes-1:0] dir_i,
+    output logic                   active_o
+);
+
+  logic [3:0] a;
+  logic [Axes*6-1:0] switches, unused_meta;
+  logic [Axes*32-1:0] count;
+  logic [Axes-1:0] zero;
+  logic [6:0] pins;
+  logic rst;
+
+  ppmc_reset u_reset (
+      .clk_i,
+      .rst_ni,
+      .rst_no(rst)
+  );
+
+  ppmc_sync #(
+      .Width(Axes * 6)
+  ) u_sync (
+      .clk_i,
+      .rst_ni(rst),
+      .d_i   (switches_ni),
+      .q1_o  (unused_meta),
+      .q2_o  (switches)
+  );
+
+  if (Axes == 1) begin : g_one
+    assign pins = {switches, hold_i};
+  end else begin : g_two
+    assign pins = straps_o[7] ? {switches[5:0], hold_i[0]} : {switches[11:6], hold_i[1]};
+  end
+
+  ppmc_uart_bridge #(
+      .ClkHz    (ClkHz),
+      .XtalHz   (XtalHz),
+      .Baud     (Baud),
+      .Part     (Part),
+      .Axes     (Axes),
+      .Datasheet(Datasheet)
+  ) u_bridge (
+      .clk_i,
+      .rst_ni      (rst),
+      .rxd_i,
+      .txd_o,
+      .cs_no,
+      .rd_no,
+      .wr_no,
+      .a_o         (a),
+      .d_o,
+      .d_i,
+      .int_ni,
+      .part_rst_no,
+      .straps_o,
+      .pins_i      ({pins, int_ni}),
+      .count_i     (count),
+      .count_zero_o(zero),
+      .active_o
+  );
+
+  for (genvar n = 0; n < Axes; n++) begin : g_axis
+    ppmc_pulse_counter u_counter (
+        .clk_i,
+        .rst_ni (rst),
+        .clear_i(zero[n]),
+        .pout_ni(pout_ni[n]),
+        .dir_i  (dir_i[n]),
+        .count_o(count[32*n+:32])
+    );
+  end
+
+  assign a0_o = a[0];
+
+  logic unused;
+  assign unused = ^a[3:1];
+
+endmodule
+
+`default_nettype wire

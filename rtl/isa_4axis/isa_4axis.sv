@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// isa_4axis: four axes on an 8-bit ISA or PC/104 bus: two PPMC-2104 behind one base address, one interrupt.
+// Rules:  ISA-01..10; of each part all P2104 rules. Manual: docs/isa_4axis.md.
+// Timing: that of ppmc2104 at its pins; irq follows int_n by one clk.
+// Axes:   part A has axes 1 and 2, part B has axes 3 and 4, which its host calls 1 and 2.
+`default_nettype none
+
+module isa_4axis #(
+    parameter int unsigned CLK_HZ    = 16_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ   = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter string       TIMING    = "FAST",      // or "DATASHEET": with the old chip's processing times
+    parameter int unsigned BASE_ADDR = 'h300        // 000h .. 3F8h, a multiple of 8
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,      // power-on reset of the board
+    // ISA
+    input  wire logic       reset_drv,  // 1 = reset
+    input  wire logic [9:0] sa,
+    input  wire logic       aen,
+    input  wire logic       ior_n,
+    input  wire logic       iow_n,
+    input  wire logic [7:0] sd_i,
+    output logic      [7:0] sd_o,
+    output logic            sd_oe,
+    output logic            irq,        // 1 = part A or B interrupts
+    // both parts
+    input  wire logic       errint_n,   // L: an instruction error interrupts, too
+    input  wire logic [3:0] auxi,       // 1..0 part A, 3..2 part B
+    output logic      [3:0] auxo,
+    output logic            clk_o,      // 4 MHz, of part A
+    // axes
+    input  wire logic [4:1] run,        // H: pulses may start
+    input  wire logic [4:1] csel,       // internal base clock: H 500 kHz, L 125 kHz
+    input  wire logic [4:1] extck,      // external base clock, rising edges
+    input  wire logic [4:1] fl_n,       // CW limit
+    input  wire logic [4:1] bl_n,       // CCW limit
+    input  wire logic [4:1] fhl_n,      // CW slow-down limit
+    input  wire logic [4:1] bhl_n,      // CCW slow-down limit
+    input  wire logic [4:1] org_n,      // origin
+    input  wire logic [4:1] alm_n,      // alarm
+    output logic      [4:1] pout_n,
+    output logic      [4:1] dir,        // 0 = CW
+    output logic      [4:1] hold,
+    output logic      [5:1] s1_n,       // phases of axis 1, L = energised
+    output logic      [5:1] s2_n,
+    output logic      [5:1] s3_n,
+    output logic      [5:1] s4_n
+);
+
+  localparam int unsigned Parts = 2;
+
+  logic rst_both, rst;
+  logic a0;
+  logic [Parts-1:0] cs, d_oe, int_n;
+  logic [Parts-1:0][7:0] d;
+  logic [3:0][4:0] phases;  // of axes 4 .. 1
+  logic unused_clk;
+
+  assign rst_both = rst_n && !reset_drv;
+  assign {s4_n, s3_n, s2_n, s1_n} = phases;
+
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_both),
+      .rst_no(rst)
+  );
+
+  ppmc_isa #(
+      .Parts (Parts),
+      .Source(1'b1),
+      .Base  (BASE_ADDR)
+  ) u_isa (
+      .clk_i  (clk),
+      .rst_ni (rst),
+      .sa_i   (sa),
+      .aen_i  (aen),
+      .ior_ni (ior_n),
+      .iow_ni (iow_n),
+      .sd_o,
+      .sd_oe_o(sd_oe),
+      .irq_o  (irq),
+      .cs_no  (cs),
+      .a0_o   (a0),
+      .d_i    (d),
+      .d_oe_i (d_oe),
+      .int_ni (int_n)
+  );
+
+  logic [Parts-1:0] clk_4m;
+
+  assign {unused_clk, clk_o} = clk_4m;
+
+  for (genvar p = 0; p < Parts; p++) begin : g_part
+    ppmc2104 #(
+        .CLK_HZ (CLK_HZ),
+        .XTAL_HZ(XTAL_HZ),
+        .TIMING (TIMING)
+    ) u_part (
+        .clk,
+        .rst_n   (rst_both),
+        .cs_n    (cs[p]),
+        .a0,
+        .busc    (1'b0),              // separate strobes
+        .ds_wrs_n(iow_n),
+        .rw_rds_n(ior_n),
+        .d_i     (sd_i),
+        .d_o     (d[p]),
+        .d_oe    (d_oe[p]),
+        .int_n   (int_n[p]),
+        .errint_n,
+        .pout_n  (pout_n[2*p+1+:2]),
+        .dir     (dir[2*p+1+:2]),
+        .hold    (hold[2*p+1+:2]),
+        .s1_n    (phases[2*p]),
+        .s2_n    (phases[2*p+1]),
+        .run     (run[2*p+1+:2]),
+        .extck   (extck[2*p+1+:2]),
+        .csel    (csel[2*p+1+:2]),
+        .fl_n    (fl_n[2*p+1+:2]),
+        .bl_n    (bl_n[2*p+1+:2]),
+        .fhl_n   (fhl_n[2*p+1+:2]),
+        .bhl_n   (bhl_n[2*p+1+:2]),
+        .org_n   (org_n[2*p+1+:2]),
+        .alm_n   (alm_n[2*p+1+:2]),
+        .auxi    (auxi[2*p+:2]),
+        .auxo    (auxo[2*p+:2]),
+        .clk_o   (clk_4m[p])
+    );
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ramp_tables: the ramps of two axes, each in a block RAM of its own, and the one builder that fills them.
+// Rules:  P2104-RMP-01/02, P2104-HSK-05 (a build waits for one other at most).
+// Timing: see ppmc_ramp_builder; a build lasts two clk longer than the builder is busy, counted from the edge of
+//         start_i or from the end of the build that it has to wait for. data_o stands two clk after addr_i.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_ramp_tables #(
+    parameter int unsigned RateBits = 8,
+    parameter int unsigned StepBits = 14
+) (
+    input  wire logic                     clk_i,
+    input  wire logic                     rst_ni,
+    input  wire logic [2:1]               start_i,  // build; not while busy_o of the same axis
+    input  wire logic [2:1][RateBits-1:0] slow_i,   // steady while busy_o
+    input  wire logic [2:1][RateBits-1:0] fast_i,
+    input  wire logic [2:1][StepBits-1:0] steps_i,
+    output logic      [2:1]               busy_o,   // waiting or being built: no use may be made of data_o
+    input  wire logic [2:1][RateBits-1:0] addr_i,   // r
+    output logic      [2:1][StepBits-1:0] data_o    // thr(r)
+);
+
+  logic second_q;  // the axis that the builder works for
+  logic ran_q, we, start, busy, done;
+  logic [2:1] at;
+  logic [RateBits-1:0] slow_q, fast_q, waddr;
+  logic [StepBits-1:0] steps_q, wdata;
+
+  assign at    = {second_q, !second_q};
+  assign done  = ran_q && !busy;
+  assign start = busy_o != '0 && !busy && !ran_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy_o   <= '0;
+      second_q <= 1'b0;
+      ran_q    <= 1'b0;
+    end else begin
+      ran_q  <= busy;
+      busy_o <= (busy_o & ~(at &{2{done}})) | start_i;
+      if (start) second_q <= !busy_o[1];
+    end
+  end
+
+  // No reset: every build begins with a load.
+  always_ff @(posedge clk_i) begin
+    if (start) begin
+      slow_q  <= busy_o[1] ? slow_i[1] : slow_i[2];
+      fast_q  <= busy_o[1] ? fast_i[1] : fast_i[2];
+      steps_q <= busy_o[1] ? steps_i[1] : steps_i[2];
+    end
+  end
+
+  ppmc_ramp_builder #(
+      .RateBits(RateBits),
+      .StepBits(StepBits)
+  ) u_builder (
+      .clk_i,
+      .rst_ni,
+      .start_i(start),
+      .slow_i (slow_q),
+      .fast_i (fast_q),
+      .steps_i(steps_q),
+      .busy_o (busy),
+      .we_o   (we),
+      .addr_o (waddr),
+      .data_o (wdata)
+  );
+
+  for (genvar n = 1; n <= 2; n++) begin : g_axis
+    ppmc_ram #(
+        .Width   (StepBits),
+        .AddrBits(RateBits)
+    ) u_lut (
+        .clk_i,
+        .we_i   (we && at[n]),
+        .waddr_i(waddr),
+        .wdata_i(wdata),
+        .raddr_i(addr_i[n]),
+        .rdata_o(data_o[n])
+    );
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p2104_hsk_05_once, (start_i & busy_o) == '0)
+  `PPMC_ASSERT(p2104_hsk_05_wanted, !busy || (busy_o & at) != '0)
+`endif
+
+endmodule
+
+`default_nettype wire

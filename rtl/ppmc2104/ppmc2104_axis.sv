@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc2104_axis: one of the two axes: settings, motion, motor pins, end status and what it answers.
+// Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05 and, through its blocks, the motion.
+// Timing: an action takes effect at the edge that ends its cycle, motor pins follow one clk later.
+// Note:   nothing of the other axis comes in here.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc2104_axis
+  import ppmc2104_pkg::*;
+  import ppmc_op_pkg::*;
+  import ppmc_motion_pkg::*;
+#(
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0
+) (
+    input  wire logic                         clk_i,
+    input  wire logic                         rst_ni,
+    // instructions
+    input  wire axis_action_t                 act_i,
+    input  wire logic         [          7:0] code_i,         // of init and start
+    input  wire logic         [         31:0] params_i,
+    input  wire logic         [          7:0] code_late_i,    // of the other actions
+    input  wire logic         [         31:0] params_late_i,
+    input  wire logic                         ready_i,        // no setting is being worked on
+    output state_t                            state_o,
+    output logic                              end_o,          // an operation that wants an interrupt ends
+    input  wire error_e                       error_i,        // error register
+    output logic              [         23:0] answer_o,       // to the read instruction code_late_i
+    // ramp table
+    output logic              [RATE_BITS-1:0] lut_addr_o,
+    input  wire logic         [STEP_BITS-1:0] lut_data_i,
+    // processing times
+    input  wire logic                         run_open_i,     // RUN is looked at
+    input  wire logic                         poll_i,         // limits and alarm are looked at
+    input  wire logic                         linger_i,       // a stopped operation does not end yet
+    // pins
+    input  wire levels_t                      levels_i,
+    input  wire logic                         extck_i,
+    output logic              [          5:1] s_no,
+    output logic                              hold_o,
+    output logic                              pout_no,
+    output logic                              dir_o
+);
+
+  op_code_t op_code;
+  op_t op_run;
+  switches_t switches;
+  cause_t cause;
+  setup_t setup;
+  logic home, chop, busy, moving, gated, decelerating, low, pulse, done, quantum, restart, slow_seen;
+  logic [23:0] count, remaining;
+  logic [5:1] levels;
+
+  assign op_code = op_code_t'(code_i);
+  assign state_o = '{
+          busy: busy,
+          moving: moving,
+          decel_ok: moving && !gated && op_run.ramp && !decelerating,
+          setup: setup
+      };
+
+  always_comb begin
+    unique case (op_code.op)
+      OP_ACC_DEC, OP_CONSTANT: count = params_i[31:8];
+      default:                 count = '1;
+    endcase
+  end
+
+  assign switches = '{
+          limit_cw: poll_i && !levels_i.fl,
+          limit_ccw: poll_i && !levels_i.bl,
+          slow_cw: poll_i && !levels_i.fhl,
+          slow_ccw: poll_i && !levels_i.bhl,
+          alarm: poll_i && !levels_i.alm,
+          origin: !levels_i.org
+      };
+
+  ppmc2104_setup u_setup (
+      .clk_i,
+      .rst_ni,
+      .act_i,
+      .code_i (init_code_t'(code_i)),
+      .params_i,
+      .params_late_i,
+      .ready_i,
+      .setup_o(setup),
+      .home_o (home),
+      .chop_o (chop)
+  );
+
+  ppmc_tick_gen #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (XtalHz),
+      .TickXtal(QUANTUM_XTAL)
+  ) u_quantum (
+      .clk_i,
+      .rst_ni,
+      .restart_i(restart),
+      .tick_o   (quantum)
+  );
+
+  // What the core tells and this part does not use.
+  logic unused_top, unused_running, unused_last, unused_final, unused_stop, unused_bits;
+  base_t unused_base;
+  logic [RATE_BITS-1:0] unused_rate;
+
+  assign unused_bits = &{1'b0, op_code, params_i, act_i, op_run, code_late_i};
+
+  ppmc_axis #(
+      .ClkHz        (ClkHz),
+      .XtalHz       (XtalHz),
+      .CountBits    (COUNT_BITS),
+      .RateBits     (RATE_BITS),
+      .StepBits     (STEP_BITS),
+      .WidthXtal    (WIDTH_XTAL),
+      .ExtraQuanta  (0),
+      .StopAtSlow   (1'b1),
+      .SlowAlways   (1'b1),
+      .OriginAtPulse(Datasheet)
+  ) u_axis (
+      .clk_i,
+      .rst_ni,
+      .start_i    (act_i.start),
+      .op_i       (op_of(op_code.pout_only, op_code.ccw, op_code.op)),
+      .count_i    (count),
+      .rate_i     ((op_code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24]),
+      .base_i     ('{external: setup.external, slow: !levels_i.csel, extra: 1'b0}),
+      .rate_slow_i(setup.slow),
+      .rate_fast_i(setup.fast),
+      .steps_i    (setup.steps),
+      .lut_addr_o,
+      .lut_data_i,
+      .halt_i     (act_i.halt),
+      .decel_i    (act_i.decel),
+      .switches_i (switches),
+      .slow_i     (slow_seen),
+      .slow_seen_o(slow_seen),
+      .run_i      (levels_i.run && run_open_i),
+      .go_i       (1'b1),
+      .linger_i,
+      .quantum_i  (quantum),
+      .clock_pin_i(extck_i),
+      .restart_o  (restart),
+      .busy_o     (busy),
+      .moving_o   (moving),
+      .gated_o    (gated),
+      .decel_o    (decelerating),
+      .top_o      (unused_top),
+      .op_o       (op_run),
+      .base_o     (unused_base),
+      .rate_o     (unused_rate),
+      .running_o  (unused_running),
+      .low_o      (low),
+      .pulse_o    (pulse),
+      .last_o     (unused_last),
+      .final_o    (unused_final),
+      .stop_o     (unused_stop),
+      .done_o     (done),
+      .cause_o    (cause),
+      .left_o     (remaining)
+  );
+
+  ppmc_motor_port #(
+      .HoldQuanta(HOLD_QUANTA),
+      .HoldBits  (8),
+      .UnitQuanta(2)
+  ) u_motor (
+      .clk_i,
+      .rst_ni,
+      .busy_i        (busy),
+      .low_i         (low),
+      .step_i        (pulse && !op_run.pout_only),
+      .ccw_i         (op_run.ccw),
+      .quantum_i     (quantum),
+      .motor_i       (motor_e'(setup.motor)),
+      .half_i        (setup.half),
+      .positive_i    (1'b0),
+      .home_i        (home),
+      .off_i         (act_i.exc_off),
+      .chop_i        (chop),
+      .chop_restart_i(1'b0),
+      .on_base_i     ({setup.on, 1'b0}),
+      .off_base_i    ({setup.off, 1'b0}),
+      .on_units_i    ('0),
+      .off_units_i   ('0),
+      .hold_units_i  (setup.hold_delay),
+      .levels_o      (levels),
+      .s_o           (s_no),
+      .hold_o,
+      .pout_no,
+      .dir_o
+  );
+
+  // ---- end status, answers ---------------------------------------------------------------------------------------
+
+  logic fresh_q, silent_q;  // not read yet; no interrupt wanted
+  logic [2:0] op_q;
+
+  assign end_o = done && !silent_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      fresh_q  <= 1'b0;
+      silent_q <= 1'b0;
+      op_q     <= '0;
+    end else begin
+      if (act_i.start) begin
+        silent_q <= op_code.silent;
+        op_q     <= op_code.op;
+      end
+      if (done) fresh_q <= 1'b1;
+      else if (act_i.read && code_late_i[2:0] == SEL_END) fresh_q <= 1'b0;
+    end
+  end
+
+  // The causes stand until the next operation, when nobody may read them.
+  always_comb begin
+    answer_o = remaining;  // the bytes behind the first are shown for this answer only
+    unique case (code_late_i[2:0])
+      SEL_END:   answer_o[7:0] = {fresh_q, cause, op_q};
+      SEL_INPUTS: begin
+        answer_o[7:0] = {
+          levels_i.org, levels_i.alm, 2'b00, levels_i.fl, levels_i.fhl, levels_i.bl, levels_i.bhl
+        };
+      end
+      SEL_OUTPUTS: begin
+        answer_o[7:0] = {levels[1], levels[2], levels[3], levels[4], levels[5], hold_o, dir_o, 1'b0};
+      end
+      SEL_ERROR: answer_o[7:0] = {4'b0000, error_i};
+      default:   ;
+    endcase
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p2104_rd_08, !(act_i.read && busy && code_late_i[2:0] != SEL_ERROR))
+  `PPMC_ASSERT(p2104_aux_01, !(busy && (act_i.init || act_i.exc_off || act_i.switching || act_i.hold_delay)))
+`endif
+
+endmodule
+
+`default_nettype wire

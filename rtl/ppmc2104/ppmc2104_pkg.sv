@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc2104_pkg: codes, error numbers and limits of the PPMC-2104AFP; what makes this part differ from its
+// sisters.
+// Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03, section 3.7 (error numbers).
+`default_nettype none
+
+package ppmc2104_pkg;
+
+  import ppmc_op_pkg::*;
+
+  localparam int unsigned AXES = 2;
+
+  localparam int unsigned RATE_BITS = 8;
+  localparam int unsigned STEP_BITS = 14;
+  localparam int unsigned COUNT_BITS = 24;
+
+  localparam int unsigned STEPS_MIN = 4;  // acceleration pulses PA
+  localparam int unsigned STEPS_MAX = 11_220;
+  localparam int unsigned RATE_GAP = 2;  // RL is at least RH + 2
+
+  localparam int unsigned QUANTUM_XTAL = 4;  // crystal cycles a quantum
+  localparam int unsigned WIDTH_XTAL = 80;  // 5 us: pulse width, direction set-up, release of INT
+  localparam int unsigned CLOCK_OUT_XTAL = 2;  // half a period of CLK
+
+  localparam int unsigned HOLD_QUANTA = 512;  // 128 us, unit of the hold delay
+  localparam logic [7:0] HOLD_DEFAULT = 8'h18;
+  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // units of 0.5 us: two quanta
+  localparam logic [7:0] CHOP_OFF_DEFAULT = 8'hA6;
+
+  // Error codes as the host reads them.
+  typedef enum logic [3:0] {
+    ErrNone      = 4'd0,
+    ErrUndefined = 4'd1,
+    ErrData      = 4'd2,   // data byte nobody asked for
+    ErrAbandoned = 4'd3,   // code while data are outstanding
+    ErrInitial   = 4'd4,   // needs an initialised axis
+    ErrBusy      = 4'd5,
+    ErrStopped   = 4'd6,   // stop of an axis at rest
+    ErrRefused   = 4'd7,   // limit, alarm or origin forbids the start
+    ErrDecel     = 4'd8,   // deceleration stop not possible
+    ErrRates     = 4'd9,   // RL < RH + 2, PA too small, rate 0 with the internal clock
+    ErrSteps     = 4'd10,  // PA too large
+    ErrSwitching = 4'd11,
+    ErrRateOne   = 4'd12,  // too fast for one axis
+    ErrRateTwo   = 4'd13   // too fast beside the other axis
+  } error_e;
+
+  typedef enum logic [3:0] {
+    KindUndefined,
+    KindInit,
+    KindHalt,       // Immediate stop
+    KindDecel,      // Deceleration stop
+    KindOperation,
+    KindRead,
+    KindErrorRead,
+    KindSwitching,
+    KindHoldDelay,
+    KindExcOff,
+    KindAuxOut,
+    KindAuxIn
+  } kind_e;
+
+  // Low three bits of the codes 10A0 0xxx.
+  localparam logic [2:0] SEL_END = 3'b000;
+  localparam logic [2:0] SEL_INPUTS = 3'b001;
+  localparam logic [2:0] SEL_OUTPUTS = 3'b010;
+  localparam logic [2:0] SEL_REMAINING = 3'b011;
+  localparam logic [2:0] SEL_SWITCHING = 3'b100;
+  localparam logic [2:0] SEL_HOLD_DELAY = 3'b101;
+  localparam logic [2:0] SEL_ERROR = 3'b110;
+
+  // Bits of the setting code.
+  typedef struct packed {
+    logic [1:0] prefix;    // 00
+    logic       second;    // A: axis 2
+    logic       chop;      // S: chop at rest
+    logic       external;  // C: base clock from the pin
+    logic       half;      // E: half step
+    logic [1:0] motor;     // MM
+  } init_code_t;
+
+  // Bits of an operation code.
+  typedef struct packed {
+    logic       pout_only;  // P
+    logic       prefix;     // 1
+    logic       second;     // A
+    logic       silent;     // I: no interrupt at the end
+    logic       ccw;        // D
+    logic [2:0] op;
+  } op_code_t;
+
+  typedef struct packed {
+    kind_e      kind;
+    logic [2:0] params;  // bytes that follow
+  } decoded_t;
+
+  function automatic decoded_t decode(logic [7:0] code);
+    decoded_t d;
+    d = '{kind: KindUndefined, params: 3'd0};
+    unique case (code[7:6])
+      2'b00: if (code[1:0] != 2'b00) d = '{kind: KindInit, params: 3'd4};
+      2'b01: begin
+        if (code[2:0] == 3'b000) d.kind = KindHalt;
+        else if (code[2:0] == 3'b001) d.kind = KindDecel;
+        else d = '{kind: KindOperation, params: op_params(code[2:0])};
+      end
+      2'b10:
+      if (code[4:3] == 2'b00) begin
+        unique case (code[2:0])
+          SEL_SWITCHING:  d = '{kind: KindSwitching, params: 3'd2};
+          SEL_HOLD_DELAY: d = '{kind: KindHoldDelay, params: 3'd1};
+          SEL_ERROR:      d.kind = KindErrorRead;
+          3'b111:         ;
+          default:        d.kind = KindRead;
+        endcase
+      end
+      default:
+      unique case (code[2:0])
+        3'b000:                   if (code[4:3] == 2'b00) d.kind = KindExcOff;
+        3'b001:                   if (!code[3]) d.kind = KindAuxOut;
+        3'b010:                   if (code[5:3] == 3'b000) d.kind = KindAuxIn;
+        OP_ACC_DEC, OP_CONT_HIGH: d = '{kind: KindOperation, params: op_params(code[2:0])};
+        default:                  ;
+      endcase
+    endcase
+    return d;
+  endfunction
+
+  // What a taken byte makes an axis do; one bit an action.
+  typedef struct packed {
+    logic init;        // setting accepted
+    logic start;       // operation
+    logic halt;        // Immediate stop
+    logic decel;       // Deceleration stop
+    logic exc_off;
+    logic switching;
+    logic hold_delay;
+    logic read;        // of the axis, error code included
+  } axis_action_t;
+
+  // The same for the part; the auxiliary instructions have no axis.
+  typedef struct packed {
+    axis_action_t [AXES:1] axis;
+    logic                  aux_out;
+    logic                  aux_in;
+  } action_t;
+
+  // An error that is charged to an axis.
+  typedef struct packed {
+    logic [AXES:1] axis;    // none: no error
+    error_e        number;
+  } charge_t;
+
+  // Pin levels of an axis after the synchroniser.
+  typedef struct packed {
+    logic run;
+    logic csel;
+    logic org;
+    logic alm;
+    logic fl;
+    logic fhl;
+    logic bl;
+    logic bhl;
+  } levels_t;
+
+  // What the host has set for an axis (ppmc2104_setup).
+  typedef struct packed {
+    logic                 initialised;  // not INITIAL
+    logic [RATE_BITS-1:0] slow;         // start-up rate RL
+    logic [RATE_BITS-1:0] fast;         // high-speed rate RH
+    logic [STEP_BITS-1:0] steps;        // acceleration pulses PA
+    logic                 chop;         // S: chop at rest
+    logic                 external;     // C: base clock from the pin
+    logic                 half;         // E: half step
+    logic [1:0]           motor;        // MM, as motor_e
+    logic [7:0]           on;           // chopper, units of two quanta
+    logic [7:0]           off;
+    logic [7:0]           hold_delay;   // units of HOLD_QUANTA, minus 1
+  } setup_t;
+
+  // State of an axis as the command unit sees it.
+  typedef struct packed {
+    logic   busy;
+    logic   moving;    // before pulse 1 or between pulses
+    logic   decel_ok;  // a deceleration stop would be taken
+    setup_t setup;
+  } state_t;
+
+endpackage
+
+`default_nettype wire

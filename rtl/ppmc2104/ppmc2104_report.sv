@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc2104_report: what the part reports of its own accord: error registers, interrupt causes, INT.
+// Rules:  P2104-ERR-06, P2104-RD-03/07, P2104-STA-06, P2104-INT-01..05.
+// Timing: registers and causes change at the edge that ends the cycle of their event, int_no one clk later. A
+//         cause that is cleared at edge e gives int_no = 1 from edge e + 1 to e + 1 + WidthClk at least.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc2104_report
+  import ppmc2104_pkg::*;
+#(
+    parameter int unsigned WidthClk = 80  // release window, clk
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire charge_t          charge_i,
+    input  wire logic             errint_ni,     // synchronous level
+    input  wire logic    [AXES:1] end_i,         // an operation that wants an interrupt ends
+    input  wire logic    [AXES:1] read_end_i,    // End status read is executed
+    input  wire logic    [AXES:1] read_error_i,  // Error code read is executed
+    output error_e       [AXES:1] error_o,
+    output logic                  any_error_o,
+    output logic                  int_no
+);
+
+  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
+
+  logic [AXES:1] end_q, error_q;
+  logic [Width-1:0] age_q;  // of the release window
+  logic release_d, window_q;
+
+  assign any_error_o = error_o != '0;
+  assign release_d   = ((read_end_i & end_q) | (read_error_i & error_q)) != '0;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      error_o  <= '0;
+      error_q  <= '0;
+      end_q    <= '0;
+      window_q <= 1'b0;
+      int_no   <= 1'b1;
+    end else begin
+      for (int n = 1; n <= AXES; n++) begin
+        if (charge_i.axis[n]) error_o[n] <= charge_i.number;
+        else if (read_error_i[n]) error_o[n] <= ErrNone;
+      end
+      error_q  <= (error_q & ~read_error_i) | (errint_ni ? '0 : charge_i.axis);
+      end_q    <= (end_q & ~read_end_i) | end_i;
+      window_q <= release_d || (window_q && age_q != Width'(WidthClk - 1));
+      int_no   <= window_q || (end_q == '0 && error_q == '0);
+    end
+  end
+
+  // No reset: a window clears it.
+  always_ff @(posedge clk_i) begin
+    if (release_d) age_q <= '0;
+    else age_q <= age_q + 1'b1;
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p2104_err_once, charge_i.axis != '1)
+  `PPMC_ASSERT(p2104_err_read, (charge_i.axis & read_error_i) == '0)
+  `PPMC_ASSERT(p2104_int_02, (read_end_i & end_i) == '0)
+`endif
+
+endmodule
+
+`default_nettype wire

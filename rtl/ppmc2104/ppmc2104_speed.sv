@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc2104_speed: the old chip's rate limits for one and for two working axes (DATASHEET); FAST has none.
+// Rules:  P2104-DS-30..35.
+// Timing: the comparisons stand a clk after code_i and params_i; csel and the other axis are looked at live.
+`default_nettype none
+
+module ppmc2104_speed
+  import ppmc2104_pkg::*;
+  import ppmc_op_pkg::*;
+#(
+    parameter bit Datasheet = 1'b0
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic    [   7:0] code_i,    // an operation, with
+    input  wire logic    [  31:0] params_i,  // its data bytes
+    input  wire state_t  [AXES:1] state_i,
+    input  wire levels_t [AXES:1] levels_i,
+    output error_e                error_o    // what is wrong with it
+);
+
+  if (!Datasheet) begin : g_fast
+    logic unused_bits;
+
+    assign unused_bits = &{1'b0, clk_i, rst_ni, code_i, params_i, state_i, levels_i};
+    assign error_o = ErrNone;
+  end else begin : g_datasheet
+
+    // Smallest rates: alone and beside the other axis, with fast and slow internal clock.
+    typedef struct packed {
+      logic [RATE_BITS-1:0] alone_fast;
+      logic [RATE_BITS-1:0] beside_fast;
+      logic [RATE_BITS-1:0] alone_slow;
+      logic [RATE_BITS-1:0] beside_slow;
+    } limits_t;
+
+    localparam limits_t POUT = '{8'h0C, 8'h19, 8'h03, 8'h06};
+    localparam limits_t PHASE = '{8'h12, 8'h23, 8'h04, 8'h08};
+    localparam limits_t ORIGIN = '{8'h14, 8'h25, 8'h05, 8'h09};
+
+    op_code_t op_code;
+    state_t mine, other;
+    limits_t limits;
+    logic [RATE_BITS-1:0] rate;
+    logic [3:0] below, below_q;  // the rate is below each limit
+    logic counts, second_q, csel, alone, beside, unused_bits;
+
+    assign op_code = op_code_t'(code_i);
+    assign mine = op_code.second ? state_i[2] : state_i[1];
+    assign unused_bits = &{1'b0, op_code, params_i, state_i, levels_i, mine, other};
+
+    always_comb begin
+      unique case (op_code.op)
+        OP_ACC_DEC, OP_CONT_HIGH: rate = mine.setup.fast;
+        OP_CONSTANT:              rate = params_i[7:0];
+        default:                  rate = params_i[31:24];
+      endcase
+      limits = PHASE;
+      if (op_code.pout_only) limits = POUT;
+      else if (op_code.op == OP_ORIGIN) limits = ORIGIN;
+      counts = op_code.op != OP_SINGLE && !mine.setup.external;
+      below = {
+        rate < limits.alone_fast,
+        rate < limits.beside_fast,
+        rate < limits.alone_slow,
+        rate < limits.beside_slow
+      };
+    end
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        below_q  <= '0;
+        second_q <= 1'b0;
+      end else begin
+        below_q  <= below & {4{counts}};
+        second_q <= op_code.second;
+      end
+    end
+
+    // Chopping counts as operating.
+    always_comb begin
+      other = second_q ? state_i[1] : state_i[2];
+      csel = second_q ? levels_i[2].csel : levels_i[1].csel;
+      alone = csel ? below_q[3] : below_q[1];
+      beside = csel ? below_q[2] : below_q[0];
+      error_o = ErrNone;
+      if (alone) error_o = ErrRateOne;
+      else if (beside && (other.busy || (other.setup.initialised && other.setup.chop))) error_o = ErrRateTwo;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

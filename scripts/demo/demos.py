@@ -1,0 +1,159 @@
+"""The demos: for each part what is played, in which words, and how its waves and picture look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from openppmc.plot.signals import Run
+from scripts.demo import picture104, picture2104
+from scripts.demo.words import Words
+from scripts.demo.words104 import Words104
+from scripts.demo.words2104 import Words2104
+
+
+@dataclass(frozen=True)
+class View:
+    """The VCD: `split` names the single bits of a vector, lowest first; `motors` maps a scope to the pin of
+    its pulses; `groups` are (title, signals) of the saved views.
+    """
+
+    split: Mapping[str, Sequence[str]]
+    motors: Mapping[str, str]
+    groups: Sequence[tuple[str, Sequence[str]]]
+
+
+@dataclass(frozen=True)
+class Demo:
+    """One demo. `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves."""
+
+    part: str
+    module: str
+    test: str
+    words: Words
+    picture: Callable[[Any, Sequence[Mapping[str, Any]]], Run]
+    view: View
+    marks: Sequence[str]
+    motors: Mapping[str, str] = field(default_factory=dict)
+
+
+VIEW_104 = View(
+    split={"s": ("s1", "s2", "s3", "s4", "s5")},
+    motors={"motor": "pout_n"},
+    groups=(
+        (
+            "host",
+            (
+                "host.access",
+                "pins.cs_n",
+                "pins.a0",
+                "pins.wr_n",
+                "pins.rd_n",
+                "pins.d_i",
+                "pins.d_o",
+                "pins.d_oe",
+                "pins.int_n",
+            ),
+        ),
+        (
+            "motor",
+            (
+                "motor.speed_pps",
+                "motor.pulses",
+                "pins.pout_n",
+                "pins.dir",
+                *(f"pins.s{n}" for n in range(1, 6)),
+                "pins.hold",
+            ),
+        ),
+        ("switches", ("pins.l1_n", "pins.l2_n", "pins.l3_n", "pins.l4_n", "pins.cnp_n", "pins.alm_n")),
+    ),
+)
+
+_PER_AXIS = (
+    "pout_n",
+    "dir",
+    "hold",
+    "run",
+    "csel",
+    "extck",
+    "fl_n",
+    "bl_n",
+    "fhl_n",
+    "bhl_n",
+    "org_n",
+    "alm_n",
+)
+
+
+def _name(port: str, axis: int) -> str:
+    """Name of one axis's pin: pout_n becomes pout1_n, run becomes run1."""
+    return f"{port.removesuffix('_n')}{axis}{'_n' if port.endswith('_n') else ''}"
+
+
+def _axis_group(axis: int) -> tuple[str, Sequence[str]]:
+    pins = [_name(port, axis) for port in ("run", "pout_n", "dir")]
+    pins += [f"s{n}{axis}_n" for n in range(1, 6)]
+    pins += [_name(port, axis) for port in ("hold", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")]
+    signals = [f"axis{axis}.speed_pps", f"axis{axis}.pulses", *(f"pins.{pin}" for pin in pins)]
+    return f"axis {axis}", signals
+
+
+VIEW_2104 = View(
+    split={
+        **{port: (_name(port, 1), _name(port, 2)) for port in _PER_AXIS},
+        **{f"s{axis}_n": [f"s{n}{axis}_n" for n in range(1, 6)] for axis in (1, 2)},
+    },
+    motors={"axis1": "pout1_n", "axis2": "pout2_n"},
+    groups=(
+        (
+            "host",
+            (
+                "host.access",
+                *(
+                    f"pins.{pin}"
+                    for pin in (
+                        "cs_n",
+                        "a0",
+                        "busc",
+                        "ds_wrs_n",
+                        "rw_rds_n",
+                        "d_i",
+                        "d_o",
+                        "d_oe",
+                        "int_n",
+                        "errint_n",
+                    )
+                ),
+            ),
+        ),
+        _axis_group(1),
+        _axis_group(2),
+    ),
+)
+
+DEMOS = {
+    demo.part: demo
+    for demo in (
+        Demo(
+            "ppmc104",
+            "cocotb_tests.demo.tb_demo",
+            "demo_move",
+            Words104(),
+            picture104.picture,
+            VIEW_104,
+            ("move", "limit", "rest"),
+        ),
+        Demo(
+            "ppmc2104",
+            "cocotb_tests.demo.tb_demo_2104",
+            "demo_two_axes",
+            Words2104(),
+            picture2104.picture,
+            VIEW_2104,
+            ("wait", "move", "limits", "rest"),
+            {"axis1": "axis 1", "axis2": "axis 2"},
+        ),
+    )
+}

@@ -1,0 +1,43 @@
+"""What the pictures of all parts use: single bits, closures of switches, times in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+Changes = list[tuple[int, int]]
+Levels = Mapping[str, Changes]
+
+
+def bit(changes: Sequence[tuple[int, int]], index: int) -> Changes:
+    """Changes of one bit of a vector."""
+    found: Changes = []
+    for t, value in changes:
+        level = value >> index & 1
+        if not found or found[-1][1] != level:
+            found.append((t, level))
+    return found
+
+
+def pin(stimulus: Sequence[Any], name: str) -> Changes:
+    """Changes of an input pin."""
+    return [(change.t, change.value) for change in stimulus if change.pin == name]
+
+
+def micros(clk: int, clk_hz: int) -> str:
+    """A time in µs without needless digits."""
+    return f"{clk * 1e6 / clk_hz:.6g} µs"
+
+
+def spans(edges: Sequence[int], clk_hz: int) -> list[tuple[int, int, str]]:
+    """Dimension lines from edge to edge."""
+    return [(a, b, micros(b - a, clk_hz)) for a, b in zip(edges, edges[1:], strict=False)]
+
+
+def subtitle(comparison: Any, clk_hz: int) -> str:
+    """What the picture shows, and the verdict of the comparison."""
+    verdict = "no difference" if comparison.mismatch is None else "DIFFERENT, see compare.txt"
+    return (
+        f"RTL in simulation at {clk_hz / 1e6:g} MHz. {comparison.edges_compared} edges of all "
+        f"outputs compared with the golden model: {verdict}. Pins with * are active low."
+    )

@@ -1,0 +1,49 @@
+"""The bytes of a PPMC-104 host in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from scripts.demo.words import Words
+
+ERRORS = (
+    "undefined command, or a stop at rest",
+    "not allowed while BUSY",
+    "not initialised",
+    "data byte nobody asked for",
+    "PA above 11220",
+    "RH above RL, or PA below 4",
+    "data byte nobody asked for while BUSY",
+    "already decelerating",
+)
+
+
+class Words104(Words):
+    """One axis, error numbers in the status register."""
+
+    reads = {
+        0x80: ("read finish status", 1),
+        0x81: ("read input signals", 1),
+        0x82: ("read output signals", 1),
+        0x83: ("read remaining pulses", 3),
+        0x85: ("read auxiliary inputs", 1),
+    }
+    switches = ((0x80, "CNP"), (0x40, "ALM"), (8, "L1"), (4, "L2"), (2, "L3"), (1, "L4"))
+
+    def status(self, byte: int) -> str:
+        """Flags that are set, error or bytes still expected."""
+        flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
+        number = byte >> 4 & 7
+        if byte & 0x80:
+            flags.append(f"error {number}: {ERRORS[number]}")
+        elif number:
+            flags.append(f"{number} more byte{'s' if number > 1 else ''} expected")
+        return ", ".join(flags) or "ready, nothing pending"
+
+    def setting(self, code: int, data: Sequence[int]) -> str:
+        """Motor, step, level, clock, chopping, ramp."""
+        step, level = "half" if code & 4 else "full", "high" if code & 8 else "low"
+        phases = f"{(code & 3) + 2} phases, {step} step, {level} = on"
+        clock = "CLOCK pin" if code & 0x10 else "internal clock"
+        chop = "chopped at rest" if code & 0x20 else "full current at rest"
+        return f"initialise: {phases}, {clock}, {chop}{self.ramp(data)}"
