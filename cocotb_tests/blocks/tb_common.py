@@ -1,4 +1,4 @@
-"""Contracts of rtl/common: ppmc_sync, ppmc_reset, ppmc_ram, ppmc_tick_gen, ppmc_xtal_timer."""
+"""Contracts of rtl/common: ppmc_sync, ppmc_reset, ppmc_ram, ppmc_tick_gen, ppmc_square, ppmc_xtal_timer."""
 
 from __future__ import annotations
 
@@ -21,6 +21,14 @@ TICKS = [
     (200_000_000, 16_000_000, 4),
     (11_059_200, 1_000_000, 1),
 ]
+SQUARES = [
+    (8_000_000, 16_000_000, 2),
+    (11_059_200, 16_000_000, 2),
+    (16_000_000, 16_000_000, 2),
+    (48_000_000, 16_000_000, 2),
+    (200_000_000, 1_000_000, 2),
+    (25_000_000, 12_000_000, 3),
+]
 TIMERS = [
     (8_000_000, 16_000_000, 8),
     (11_059_200, 16_000_000, 8),
@@ -42,6 +50,10 @@ BLOCKS = {
             "ppmc_tick_gen", "restart_i tick_o", {"ClkHz": clk, "XtalHz": xtal, "TickXtal": step}
         )
         for i, (clk, xtal, step) in enumerate(TICKS)
+    },
+    **{
+        f"square{i}": Block("ppmc_square", "wave_o", {"ClkHz": clk, "XtalHz": xtal, "HalfXtal": half})
+        for i, (clk, xtal, half) in enumerate(SQUARES)
     },
     **{
         f"timer{i}": Block(
@@ -123,6 +135,22 @@ async def tick_gen_exact(dut):
                 due = j == ceil(n * period)
                 same(f"{clk} Hz, {xtal} Hz, clk {j} of {run}", await u.clk(restart_i=0), due)
                 n += due
+
+
+@cocotb.test()
+async def square_no_drift(dut):
+    """Given a reset, then toggle t comes ceil(t * HalfXtal * ClkHz / XtalHz) clk after it."""
+    for i, (clk, xtal, half) in enumerate(SQUARES):
+        u = unit(dut, f"square{i}", "wave_o")
+        period = Fraction(half * clk, xtal)
+        await u.reset()
+        level, t = 0, 1
+        for j in range(5000):
+            if j == ceil(t * period):
+                level, t = 1 - level, t + 1
+            same(f"{clk} Hz, {xtal} Hz, {j} clk after the reset", await u.clk(), level)
+        await u.settle(rst_ni=0)
+        same("level in reset", await u.settle(), 0)
 
 
 @cocotb.test()

@@ -22,6 +22,7 @@ SHAPES = [  # ClkHz, XtalHz, WidthXtal, HalfXtal, HalfRates
     (25_000_000, 8_000_000, 40, 4, 5),
 ]
 HOLDS = [1, 5, 8, 13]
+HOLD_UNITS = [(2, 8), (16, 4), (512, 2)]  # quanta a unit, bits of the number of units
 CHOPS = [(12, 9), (3, 6), (1, 9)]
 BLOCKS = {
     **{
@@ -61,8 +62,14 @@ BLOCKS = {
         for i, (clk, xtal, width, half, rates) in enumerate(SHAPES)
     },
     **{
-        f"hold{quanta}": Block("ppmc_hold_timer", "busy_i quantum_i hold_o", {"Quanta": quanta})
+        f"hold{quanta}": Block("ppmc_hold_timer", "busy_i quantum_i units_i hold_o", {"Quanta": quanta})
         for quanta in HOLDS
+    },
+    **{
+        f"units{quanta}": Block(
+            "ppmc_hold_timer", f"busy_i quantum_i units_i:{bits} hold_o", {"Quanta": quanta, "UnitBits": bits}
+        )
+        for quanta, bits in HOLD_UNITS
     },
     **{
         f"chop{unit}": Block(
@@ -80,17 +87,21 @@ BLOCKS = {
         f"port{idle}": Block(
             "ppmc_motor_port",
             "busy_i low_i step_i ccw_i quantum_i motor_i:2:ppmc_motion_pkg::motor_e half_i positive_i home_i"
-            " off_i chop_i chop_restart_i on_base_i:9 off_base_i:9 on_units_i:8 off_units_i:8 levels_o:5"
-            " s_o:5 hold_o pout_no dir_o",
+            " off_i chop_i chop_restart_i on_base_i:9 off_base_i:9 on_units_i:8 off_units_i:8 hold_units_i"
+            " levels_o:5 s_o:5 hold_o pout_no dir_o",
             {"HoldQuanta": 6, "PhaseIdle": idle},
         )
         for idle in (0, 1)
     },
-    "guard": Block(
-        "ppmc_stop_guard",
-        "clear_i complete_i armed_i op_i:5 switches_i:6 top_i dec_i halt_i decel_i slow_i"
-        " slow_seen_o stop_o forced_o flagged_o cause_o:4",
-    ),
+    **{
+        f"guard{variant}": Block(
+            "ppmc_stop_guard",
+            "clear_i complete_i armed_i op_i:5 switches_i:6 top_i crawl_i dec_i halt_i decel_i slow_i"
+            " slow_seen_o stop_o forced_o flagged_o cause_o:4",
+            {"StopAtSlow": variant, "SlowAlways": variant},
+        )
+        for variant in (0, 1)
+    },
 }
 
 
@@ -286,6 +297,32 @@ async def hold_timer_quanta(dut):
 
 
 @cocotb.test()
+async def hold_timer_units(dut):
+    """Given units that change at random, then those at the end of the motion count, each to the quantum."""
+    rand = rng()
+    for quanta, bits in HOLD_UNITS:
+        u = Unit(dut, f"units{quanta}", BLOCKS, "hold_o")
+        await u.reset()
+        for _ in range(5):
+            same("1 after reset", await u.clk(quantum_i=1), 1)
+        top = 2**bits - 1
+        hold = 1
+        for units in [0, 1, top, *(rand.randint(0, top) for _ in range(5))]:
+            busy = rand.randint(1, 5)
+            for t in range(busy):
+                chosen = units if t == busy - 1 else rand.randint(0, top)
+                got = await u.clk(busy_i=1, quantum_i=rand.randrange(2), units_i=chosen)
+                same("busy", got, t == 0 and hold)
+            count, hold, whole = 0, 0, quanta * (units + 1)
+            for t in range(whole * 3 // 2 if rand.random() < 0.3 else 2 * whole + 4):
+                quantum = t > 0 and rand.random() < 0.8
+                got = await u.clk(busy_i=0, quantum_i=quantum, units_i=rand.randint(0, top))
+                same(f"{units} units of {quanta}, {count} passed, clk {t}", got, hold)
+                hold = hold or count >= whole
+                count += quantum
+
+
+@cocotb.test()
 async def chopper_phases(dut):
     """Given random times that change at random, then each phase has the length set at its beginning."""
     rand = rng()
@@ -397,8 +434,13 @@ async def motor_port_pins(dut, idle):
         same("off", (await u.clk())[0], off)
 
 
-def guard(p: dict[str, int], flagged: int) -> tuple[int, int, int, tuple[int, int, int, int]]:
-    """slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle."""
+def guard(
+    p: dict[str, int], flagged: int, variant: int = 0
+) -> tuple[int, int, int, tuple[int, int, int, int]]:
+    """slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle.
+
+    variant 1: slow-down limits always count, and deceleration at the start-up rate ends at once.
+    """
     limit = p["limit_ccw"] if p["ccw"] else p["limit_cw"]
     slow = p["slow_ccw"] if p["ccw"] else p["slow_cw"]
     if not p["armed"]:
@@ -408,13 +450,14 @@ def guard(p: dict[str, int], flagged: int) -> tuple[int, int, int, tuple[int, in
         return 0, 1, flagged, (int(bool(halted)), p["alarm"], limit, 0)
     if flagged or p["dec"] or not p["ramp"]:
         return 0, 0, flagged, (0, 0, 0, 0)
-    seen = int(slow and (p["top"] or not p["pout_only"]))
-    return seen, 0, int(p["slow"] or p["decel"]), (p["decel"], 0, 0, p["slow"])
+    seen = int(slow and (variant or p["top"] or not p["pout_only"]))
+    forced = int(p["slow"] or p["decel"])
+    return seen, int(variant and p["crawl"] and forced), forced, (p["decel"], 0, 0, p["slow"])
 
 
 OP = ("ramp", "single", "origin", "pout_only", "ccw")
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "home", "alarm")
-PLAIN = ("armed", "top", "dec", "halt", "decel", "slow")
+PLAIN = ("armed", "top", "crawl", "dec", "halt", "decel", "slow")
 
 
 def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
@@ -426,20 +469,21 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 
 
 @cocotb.test()
-@cocotb.parametrize(flagged=[0, 1])
-async def stop_guard_truth_table(dut, flagged):
+@cocotb.parametrize(flagged=[0, 1], variant=[0, 1])
+async def stop_guard_truth_table(dut, flagged, variant):
     """Given every combination of levels, then stop, forced and slow_seen are those of a plain function."""
-    u = Unit(dut, "guard", BLOCKS, "slow_seen_o stop_o forced_o")
+    u = Unit(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
     await u.reset()
     if flagged:
         await u.clk(armed_i=1, op_i=0b10000, decel_i=1)
-    names = [name for name in (*OP, *SWITCHES, *PLAIN) if name != "single"]
+    without = ("single",) if variant else ("single", "crawl")
+    names = [name for name in (*OP, *SWITCHES, *PLAIN) if name not in without]
     p = dict.fromkeys((*OP, *SWITCHES, *PLAIN), 0)
     await u.settle(armed_i=0, op_i=0, decel_i=0)
     same("flagged", u.get("flagged_o"), flagged)
     # One level changes at a time (Gray code): one write a combination.
     for n in range(1, 2 ** len(names) + 1):
-        got, want = await u.settle(), guard(p, flagged)[:3]
+        got, want = await u.settle(), guard(p, flagged, variant)[:3]
         if got != want:
             same(f"{[name for name in p if p[name]]}: seen, stop, forced", got, want)
         bit = (n & -n).bit_length() - 1
@@ -449,10 +493,11 @@ async def stop_guard_truth_table(dut, flagged):
 
 
 @cocotb.test()
-async def stop_guard_causes(dut):
+@cocotb.parametrize(variant=[0, 1])
+async def stop_guard_causes(dut, variant):
     """Given random levels clk by clk, then the causes and the request are kept until they are cleared."""
     rand = rng()
-    u = Unit(dut, "guard", BLOCKS, "flagged_o cause_o")
+    u = Unit(dut, f"guard{variant}", BLOCKS, "flagged_o cause_o")
     await u.reset()
     rare = {"armed": 0.8, "ramp": 0.8, "slow_cw": 0.4, "slow_ccw": 0.4, "top": 0.5, "ccw": 0.5, "single": 0.5}
     flagged, causes, stopped = 0, [0] * 4, False
@@ -462,11 +507,11 @@ async def stop_guard_causes(dut):
             p[name] = int(rand.random() < rare.get(name, 0.05))
         p["armed"] &= not stopped
         clear, complete = rand.random() < 0.08, rand.random() < 0.02
-        p["slow"] &= guard(p, flagged)[0]
+        p["slow"] &= guard(p, flagged, variant)[0]
         pins = {key: value for name in p for key, value in guard_pins(p, name).items()}
         got = await u.clk(clear_i=clear, complete_i=complete, **pins)
         same(f"clk {n}: flagged, causes", got, (flagged, int("".join(map(str, causes)), 2)))
-        _, stop, forced, new = guard(p, flagged)
+        _, stop, forced, new = guard(p, flagged, variant)
         flagged, causes = forced, [old | more for old, more in zip(causes, new, strict=True)]
         stopped = (stopped or bool(stop)) and not clear
         if clear or complete:

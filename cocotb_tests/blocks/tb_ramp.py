@@ -1,4 +1,4 @@
-"""Contracts of the ramp: ppmc_ramp_builder (with ppmc_ramp_serial), ppmc_ramp_table, ppmc_ramp_seq."""
+"""Contracts of the ramp: ppmc_ramp_builder (with ppmc_ramp_serial), ppmc_ramp_table(s), ppmc_ramp_seq."""
 
 from __future__ import annotations
 
@@ -28,10 +28,15 @@ BLOCKS = {
         "start_i slow_i:8 fast_i:8 steps_i:14 busy_o addr_i:8 data_o:14",
         {"RateBits": 8, "StepBits": 14},
     ),
+    "tables": Block(
+        "ppmc_ramp_tables",
+        "start_i:2 slow_i:16 fast_i:16 steps_i:28 busy_o:2 addr_i:16 data_o:28",
+        {"RateBits": 8, "StepBits": 14},
+    ),
     "seq": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 steps_i:14 lut_addr_o:8 lut_data_i:14 load_i count_i:24 single_i rate_i:8 ramp_i"
-        " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o dec_o left_o:24",
+        " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
 }
@@ -136,6 +141,54 @@ async def ramp_table_read(dut):
         same("table", got[2:], [threshold(slow, fast, steps, r) for r in order])
 
 
+def build_clk(slow: int, fast: int) -> int:
+    """Clk from start_i to the fall of busy_o of ppmc_ramp_tables with a free builder."""
+    return 1991 + 51 * slow + 67 * (slow - fast)
+
+
+@cocotb.test()
+async def ramp_tables_shared(dut):
+    """Given two axes that ask for ramps at random times, then each gets its own, one after the other."""
+    rand = rng()
+    u = Unit(dut, "tables", BLOCKS, "busy_o data_o")
+    await u.reset()
+    ramps = [(3, 1, 25), (3, 1, 25)]
+    for case in range(9):
+        first, gap = rand.randrange(2), (0, 1, 300, 2)[case % 4]
+        new = list(ramps)
+        for n in (0, 1) if case % 4 < 3 else (first,):
+            slow = rand.randint(2, 30)
+            new[n] = (slow, rand.randint(0, slow - 2), rand.randint(4, 11_220))
+        ramps = new
+        pins = {
+            name: sum(ramps[n][at] << width * n for n in (0, 1))
+            for at, (name, width) in enumerate((("slow_i", 8), ("fast_i", 8), ("steps_i", 14)))
+        }
+        start, due = {0: 1 << first}, [0, 0]
+        due[first] = build_clk(*ramps[first][:2])
+        if case % 4 < 3:
+            other = 1 - first
+            if gap == 0:  # both on one edge: axis 1 goes first
+                first, other, start = 0, 1, {0: 3}
+                due[first] = build_clk(*ramps[first][:2])
+            else:
+                start[gap] = 1 << other
+            due[other] = due[first] + build_clk(*ramps[other][:2])
+        for t in range(max(due) + 3):
+            busy, _ = await u.clk(start_i=start.get(t, 0), **pins)
+            begun = sum(bits for at, bits in start.items() if at < t)
+            want = sum(1 << n for n in (0, 1) if begun >> n & 1 and t <= due[n])
+            same(f"case {case}, {ramps}, {gap} clk apart, clk {t}: busy_o", busy, want)
+        rates = [list(range(fast + 1, slow + 1)) for slow, fast, _ in ramps]
+        for k in range(max(map(len, rates))):
+            r = [rates[n][k % len(rates[n])] for n in (0, 1)]
+            await u.clk(addr_i=r[0] | r[1] << 8)
+            await u.clk()
+            _, data = await u.clk()
+            want = [threshold(*ramps[n], r[n]) for n in (0, 1)]
+            same(f"case {case}: thresholds of {r}", [data & 0x3FFF, data >> 14], want)
+
+
 class Walker:
     """The sequencer with a look-up table that answers two clk after the address."""
 
@@ -172,6 +225,7 @@ class Walker:
                 rest = 0 if seek else rest + 1
             forced = j >= forced_at
             rate, seek, last, final, top, slows, left, _ = await self.u.settle(forced_i=forced)
+            crawl = self.u.get("crawl_o")
             k = next_index(kp, n - j, steps, forced)
             at = f"{where}, pulse {j}"
             same(f"{at}: seek, last, final", (seek, last, final), (0, k is None, j == n))
@@ -179,6 +233,9 @@ class Walker:
             same(f"{at}: top", top, kp == steps)
             if not forced:
                 same(f"{at}: natural deceleration", slows, dec)
+                if not dec:
+                    want = kp < 0 or ramp_rate(slow, fast, steps, kp) == slow
+                    same(f"{at}: still at the start-up rate", crawl, want)
             if kp >= 0:
                 same(f"{at}: rate of index {kp}", rate, ramp_rate(slow, fast, steps, kp))
             await self.clk(pulse_i=1)

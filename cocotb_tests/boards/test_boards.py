@@ -19,7 +19,7 @@ RTL = ROOT / "rtl" / "boards"
 # One C++ file: the wheel's make file cannot use the header that several share. Start values 0, as in an FPGA:
 # the top's power-on reset is made of them, and no pin can give an edge of reset before the first clk.
 ARGS = ("--output-split", "0", "--x-initial", "0")
-SHARED = [RTL / "ppmc_board_reset.sv", RTL / "ppmc_board_lamp.sv"]
+SHARED = [RTL / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
 
 
 @pytest.mark.parametrize("item", BLOCK_ITEMS)

@@ -6,6 +6,8 @@ from cocotb_tests.common.config import Config
 
 # 8 clk a bit: scripts take little simulated time. Most tests run here.
 FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))
+# Two pulse counters, as for a part with two axes.
+TWO = Config("two8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Axes", 2), ("Part", 2104)))
 # Every rate code; the highest rate has exactly 5 clk a bit.
 ALL_RATES = Config("rates15m", clk_hz=15_000_000, extra=(("Baud", 115_200),))
 # Few clk a millisecond, for what takes long.
@@ -22,6 +24,11 @@ def baud_of(config: Config) -> int:
 def rates_of(config: Config) -> dict[int, int]:
     """Available codes and their rates in baud (UB-LIN-02)."""
     return {0: baud_of(config), **{c: r for c, r in RATES.items() if config.clk_hz >= 5 * r}}
+
+
+def axes_of(config: Config) -> int:
+    """Number of pulse counters."""
+    return int(dict(config.extra).get("Axes", 1))
 
 
 def params_of(config: Config) -> dict[str, int]:

@@ -82,13 +82,13 @@ class Toy:
         """Op PINS."""
         return self.pin_levels
 
-    def zero(self) -> None:
+    def zero(self, axis: int = 1) -> None:
         """Op ZERO."""
-        self.zeros += 1
+        self.zeros += axis
 
-    def count(self) -> int:
+    def count(self, axis: int = 1) -> int:
         """Op COUNT."""
-        return -0x1234567
+        return -0x1234567 if axis == 1 else 0x7D7E5A81
 
 
 def without_polls(log: list[tuple[str, int, int]]) -> list[tuple[str, int, int]]:

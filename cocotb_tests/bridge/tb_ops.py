@@ -9,18 +9,19 @@ import cocotb
 from cocotb_tests.common.config import configs
 
 from .bench import Bench, now, same
-from .settings import ALL_RATES, FAST, SLOW, params_of
+from .settings import ALL_RATES, FAST, SLOW, TWO, axes_of, params_of
 
 
 @cocotb.test()
-@configs(FAST, ALL_RATES, SLOW)
+@configs(FAST, ALL_RATES, SLOW, TWO)
 async def ops_ident(dut):
     """UB-OPS-02: IDENT gives the 16 bytes of the table."""
     bench = await Bench.start(dut)
     params = params_of(bench.config)
     top = {8_000_000: 4, 15_000_000: 6, 2_000_000: 1}[bench.config.clk_hz]
-    flags = top << 4 | 2 | params.get("Datasheet", 0)
-    want = b"PPMC\x01" + struct.pack("<HBII", 104, flags, 16_000_000, bench.config.clk_hz)
+    flags = top << 4 | axes_of(bench.config) - 1 << 2 | 2 | params.get("Datasheet", 0)
+    part = params.get("Part", 104)
+    want = b"PPMC\x01" + struct.pack("<HBII", part, flags, 16_000_000, bench.config.clk_hz)
     same("IDENT", await bench.done("01"), want)
     same("among others", await bench.done("06 01 06"), b"\xff" + want + b"\xff")
 
@@ -210,6 +211,55 @@ def watch(bench: Bench, pin) -> list[tuple[int, int]]:
 
     cocotb.start_soon(run())
     return changes
+
+
+@cocotb.test()
+@configs(TWO)
+async def ops_two_counters(dut):
+    """UB-OPS-02, UB-ANS-05: COUNT and ZERO of axis 2 are its counter's; the ops behind stay illegal."""
+    bench = await Bench.start(dut)
+    for first, second in ((0, -1), (0x12345678, -0x80000000), (-2, 0x7D7E5A81)):
+        dut.count_i.value = (second & 0xFFFFFFFF) << 32 | first & 0xFFFFFFFF
+        want = struct.pack("<iiii", second, first, first, second)
+        same("COUNT of both", await bench.done("0A 08 08 0A"), want)
+    changes = watch(bench, dut.count_zero_o)
+    await bench.done("0B")
+    same("ZERO of axis 2", [level for _, level in changes], [2, 0])
+    changes.clear()
+    await bench.done("09 00 0B")
+    same("ZERO of both", [level for _, level in changes], [1, 0, 2, 0])
+    answer = await bench.ask(bytes([0x32, 253]) + b"\x0a")
+    same("no room", (answer[0], len(answer) - 3), (4, 253))
+    for code in range(0x0C, 0x10):
+        same("illegal", await bench.ask(bytes([code])), bytes([3, 0, 0]))
+
+
+@cocotb.test()
+@configs(TWO)
+async def ops_two_snapshots(dut):
+    """UB-OPS-02: COUNT of axis 2 while both counters step gives a value it had, never a mixture."""
+    bench = await Bench.start(dut)
+
+    async def run() -> None:
+        step = 1
+        first, second = 0x7FFFFFF0, 0x00FFFFF0
+        while True:
+            for n in range(32):
+                second += step
+                first += n & 1
+                dut.count_i.value = second << 32 | first & 0xFFFFFFFF
+                await bench.clocks(5)
+            step = -step
+
+    cocotb.start_soon(run())
+    seen = set()
+    for _ in range(6):
+        data = await bench.done("0A 00" * 50)
+        for n in range(0, 200, 4):
+            value = int.from_bytes(data[n : n + 4], "little")
+            assert 0x00FFFFF0 <= value <= 0x01000010, f"COUNT {value:08x}"
+            seen.add(value >> 24)
+    same("both sides of the carry", seen, {0, 1})
 
 
 @cocotb.test()

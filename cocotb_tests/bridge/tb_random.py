@@ -12,7 +12,7 @@ from openppmc.host.frames import encode
 from openppmc.model.bridge import Bridge
 
 from .bench import Bench, same
-from .settings import FAST, params_of
+from .settings import FAST, TWO, axes_of, params_of
 from .slave import Toy, without_polls
 
 LONGEST_SCRIPT = 253
@@ -28,7 +28,7 @@ def random_op(rng: random.Random) -> bytes:
     low = rng.getrandbits(4)
     choice = rng.choices(range(14), weights=(2, 1, 1, 2, 1, 1, 4, 4, 2, 3, 6, 4, 4, 2))[0]
     return (
-        lambda: bytes([rng.choice((0, 0, 6, 9))]),
+        lambda: bytes([rng.choice((0, 0, 6, 9, 0x0A, 0x0B))]),
         lambda: b"\x01",
         lambda: bytes([2, rng.choice((0, 0, 5, 6, 7, 64, 255))]),
         lambda: bytes([3, rng.choice((0, 1, 1, 1, 2, 0x81))]),
@@ -75,9 +75,11 @@ class Pair:
     def __init__(self, bench: Bench, twin: Toy) -> None:
         params = params_of(bench.config)
         self.bench, self.twin = bench, twin
-        self.model = Bridge(twin, clk_hz=params["ClkHz"], xtal_hz=params["XtalHz"])
+        axes = axes_of(bench.config)
+        part = params.get("Part", 104)
+        self.model = Bridge(twin, part, params["ClkHz"], params["XtalHz"], axes=axes)
         self.model.rate = 0
-        bench.dut.count_i.value = twin.count() & 0xFFFFFFFF
+        bench.dut.count_i.value = sum((twin.count(n + 1) & 0xFFFFFFFF) << 32 * n for n in range(axes))
 
     def pins(self, level: int) -> None:
         """Level of all pins, both sides; bit 0 is int_n."""
@@ -107,7 +109,7 @@ class Pair:
 
 
 @cocotb.test()
-@configs(FAST)
+@configs(FAST, TWO)
 async def random_scripts(dut):
     """UB-ANS-01 to UB-ANS-05, UB-OPS-02: 250 random scripts, some repeated, some with SEQ 0 or >= 128."""
     bench = await Bench.start(dut)

@@ -20,6 +20,7 @@ ONE_FILE = ("--output-split", "0")
 PART = Part("bridge", "UB", {})
 ITEMS = cocotb_items("cocotb_tests.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.bridge", "tb_board", part=PART)
+STATION_ITEMS = cocotb_items("cocotb_tests.bridge", "tb_station", part=PART)
 
 
 def bridge_design(item) -> Design:
@@ -47,6 +48,22 @@ def test_bridge(item, sim_options):
 def test_bridge_board(item, sim_options):
     """Run one simulation of the part and its bridge."""
     run_item(item, sim_options, design=board_design(item))
+
+
+def station_design(item) -> Design:
+    """A PPMC-2104 on the pins of the old bus, with the reset and the lamps of a board."""
+    part = part_design("ppmc2104", item.config)
+    names = ("ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "ppmc2104_board", "ppmc2104_station")
+    boards = [ROOT / "rtl" / "boards" / f"{name}.sv" for name in names]
+    params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
+    args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA
+    return Design("ppmc2104_station", [*part.sources, *boards], part.includes, params, args)
+
+
+@pytest.mark.parametrize("item", STATION_ITEMS)
+def test_station(item, sim_options):
+    """Run one simulation of the part on its board without the bridge."""
+    run_item(item, sim_options, design=station_design(item))
 
 
 def test_bridge_rules_have_tests():

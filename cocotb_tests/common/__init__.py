@@ -34,13 +34,18 @@ In short, for someone who writes tests:
 
 Modules
     config.py    Config (CLK_HZ, XTAL_HZ, TIMING, PHASE_IDLE; .cyc(n), .w, .us(x), .quanta(n)) and the shared
-                 set F16 F8 F11 F25 F50 F100 F16X1 D16 D11 D25X8; @configs(...)
-    part.py      Part: pins, idle levels, reset levels
+                 set F16 F8 F11 F25 F48 F50 F100 F16X1 F16X8 D16 D11 D25X8; @configs(...)
+    part.py      Part: pins, widths, idle and reset levels, parameters, bus styles; PPMC104, PPMC2104. One bit
+                 of a port has a name such as "pout_n[2]", which all pin methods of Bench take
     bench.py     Bench: start/reset, now/until/clocks/align, set/at/pulse_pin/external_clock,
                  edge/nth_fall/level_is, edges/falls/rises/pulses/intervals/low_times/level_at/level,
                  check/check_window/context, recording()
     bus.py       HostBus: write/read/raw, poll/status/command/data/read_data/send/fetch/run/init/move,
                  wait_idle
+    drive.py     Drive: an axis as its host sees it: go/move/pulse/idle, result, check_train; Lab and Axis of
+                 the parts are made of it
+    figures.py   rates, trains, step lists of the motion core by formulas of their own
+    elaborate.py check_ranges, ports: parameters and ports of a module
     compare.py   check_against_model(bench): replay into the golden model, compare every output to the clk;
                  on a difference: text report, VCD and PNG in bench.out
     verifies.py  @verifies(rule IDs), works on pytest tests and on cocotb tests

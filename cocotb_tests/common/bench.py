@@ -22,7 +22,7 @@ from cocotb.utils import get_sim_time
 
 from .config import F16, Config
 from .part import PPMC104, Part
-from .stimulus import Access, Change, Edge, Recording
+from .stimulus import Access, Change, Edge, Recording, level_at
 
 TIMEOUT = 1_000_000
 
@@ -51,7 +51,7 @@ class Bench:
         self.accesses: list[Access] = []
         self.initial: dict[str, int] = {}
         self._log: list[Edge] = []
-        self._edges: dict[str, list[tuple[int, int]]] = {name: [] for name in part.outputs}
+        self._edges: dict[str, list[tuple[int, int]]] = {}
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
         self._t0 = 0
 
@@ -87,12 +87,17 @@ class Bench:
         for pin, level in pins.items():
             if level != part.inputs[pin]:
                 bench.stimulus.append(Change(0, pin, level))
-        for name in part.outputs:
-            bench.initial[name] = bench.level(name)
-            cocotb.start_soon(bench._monitor(name))
+        for name in part.watched:
+            bench.watch(name)
         if settle:
             await bench.until(settle)
         return bench
+
+    def watch(self, output: str) -> None:
+        """Record the edges of an output from now on; all but `part.unwatched` are recorded anyway."""
+        self.initial[output] = self.level(output)
+        self._edges[output] = []
+        cocotb.start_soon(self._monitor(output))
 
     def _arm_wall_clock(self) -> None:
         """End this simulator process if it runs away (a test of seconds that takes minutes)."""
@@ -159,26 +164,41 @@ class Bench:
     def set(self, **levels: int) -> int:
         """Drive input pins now (falling-edge half only) and log them; returns the stamp.
 
-        Raises RuntimeError in the high half of clk, KeyError for an unknown pin. Unchanged levels are
-        neither driven nor logged.
+        A name such as "fl_n[2]" drives one bit of a port. Raises RuntimeError in the high half of clk,
+        KeyError for an unknown pin. Unchanged levels are neither driven nor logged.
         """
         stamp = self.now
         if self._t0 + (stamp - 1) * self.period + self.half > int(get_sim_time("ps")):
             raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
         for pin, level in levels.items():
-            if self.pins[pin] != level:
-                self.pins[pin] = level
-                self._handles[pin].value = level
-                self.stimulus.append(Change(stamp, pin, level))
+            if self.pin(pin) != level:
+                self._drive(stamp, pin, level)
         return stamp
+
+    def pin(self, name: str) -> int:
+        """Level of an input as driven last, of a whole port or of one bit."""
+        port, place = self.part.locate(name)
+        return self.pins[port] if place is None else self.pins[port] >> place & 1
+
+    def pin_rises(self, pin: str, since: int = 0) -> list[int]:
+        """Stamps of the rising edges driven on an input of one bit from edge `since` on."""
+        port, place = self.part.locate(pin)
+        changes = [(c.t, c.value) for c in self.stimulus if c.pin == port]
+        return [t for t, v in _bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
+
+    def _drive(self, stamp: int, pin: str, level: int) -> None:
+        port, place = self.part.locate(pin)
+        if place is not None:
+            level = self.pins[port] & ~(1 << place) | level << place
+        self.pins[port] = level
+        self._handles[port].value = level
+        self.stimulus.append(Change(stamp, port, level))
 
     def set_between_edges(self, **levels: int) -> int:
         """As `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
         stamp = self.now
         for pin, level in levels.items():
-            self.pins[pin] = level
-            self._handles[pin].value = level
-            self.stimulus.append(Change(stamp, pin, level))
+            self._drive(stamp, pin, level)
         return stamp
 
     def at(self, edge: int, **levels: int) -> Any:
@@ -193,25 +213,26 @@ class Bench:
     async def pulse_pin(self, pin: str, level: int, clocks: int) -> int:
         """Hold a pin at `level` for some clk, then put the old level back; returns the first stamp."""
         await self.align()
-        before, stamp = self.pins[pin], self.now
+        before, stamp = self.pin(pin), self.now
         self.set(**{pin: level})
         await self.clocks(clocks)
         self.set(**{pin: before})
         return stamp
 
-    def external_clock(self, intervals: Iterable[int], pin: str = "clock", high: int = 2) -> Any:
+    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Any:
         """Run the external clock: each item is the clk count from one rising edge to the next.
 
-        The first rising edge comes at once; it ends with the iterable. Each high time is `high` clk.
-        Returns the task (cancel() stops it).
+        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
+        with the iterable. Each high time is `high` clk. Returns the task (cancel() stops it).
         """
+        name = pin or self.part.clock
 
         async def run() -> None:
             await self.align()
             for interval in intervals:
-                self.set(**{pin: 1})
+                self.set(**{name: 1})
                 await self.clocks(high)
-                self.set(**{pin: 0})
+                self.set(**{name: 0})
                 await self.clocks(interval - high)
 
         return cocotb.start_soon(run())
@@ -235,20 +256,26 @@ class Bench:
             self._log.append(Edge(t, name, value))
 
     def level(self, output: str) -> int:
-        """Present level of an output."""
-        return int(self._handles[output].value)
+        """Present level of an output, or of one bit of it ("pout_n[2]")."""
+        port, place = self.part.locate(output)
+        level = int(self._handles[port].value)
+        return level if place is None else level >> place & 1
 
     def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (edge, level) of an output from edge `since` on."""
-        return [(t, value) for t, value in self._edges[output] if t >= since]
+        """Changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
+        port, place = self.part.locate(output)
+        changes = self._edges[port]
+        if place is not None:
+            changes = _bit_changes(changes, place, self.initial[port])
+        return [(t, value) for t, value in changes if t >= since]
 
     def falls(self, output: str, since: int = 0) -> list[int]:
-        """Edges on which a one-bit output fell."""
-        return [t for t, value in self._edges[output] if t >= since and value == 0]
+        """Edges on which an output of one bit fell."""
+        return [t for t, value in self.edges(output, since) if value == 0]
 
     def rises(self, output: str, since: int = 0) -> list[int]:
-        """Edges on which a one-bit output rose."""
-        return [t for t, value in self._edges[output] if t >= since and value == 1]
+        """Edges on which an output of one bit rose."""
+        return [t for t, value in self.edges(output, since) if value == 1]
 
     def pulses(self, since: int = 0, pin: str = "pout_n") -> list[int]:
         """Pulses (P104-GEN-05): falling edges of pout_n."""
@@ -268,12 +295,9 @@ class Bench:
 
     def level_at(self, output: str, edge: int) -> int:
         """Level of an output just after rising edge `edge`."""
-        level = self.initial[output]
-        for t, value in self._edges[output]:
-            if t > edge:
-                break
-            level = value
-        return level
+        port, place = self.part.locate(output)
+        level = level_at(self._edges[port], edge, self.initial[port])
+        return level if place is None else level >> place & 1
 
     # ---------------------------------------------------------------- waiting for outputs
 
@@ -283,7 +307,8 @@ class Bench:
         Raises TimeoutError after `timeout` clk.
         """
         end = self.now + timeout
-        handle = self._handles[output]
+        handle = self._handles[self.part.locate(output)[0]]
+        before = self.level(output)
         while True:
             left = (end - self.now) * self.period
             if left <= 0:
@@ -292,7 +317,9 @@ class Bench:
             fired = await First(handle.value_change, limit)
             if fired is limit:
                 break
-            if level is None or int(handle.value) == level:
+            # A change of the port may be one of its other bits.
+            was, before = before, self.level(output)
+            if before != was and level in (None, before):
                 t = self._index()
                 await self.align()
                 return t
@@ -317,7 +344,7 @@ class Bench:
 
     def context(self, last: int = 8) -> str:
         """The last output edges, pin changes and host accesses, for messages."""
-        pins = [c for c in self.stimulus if c.pin not in ("a0", "d_i", "cs_n", "rd_n", "wr_n", "clock")]
+        pins = [c for c in self.stimulus if c.pin not in {*self.part.bus_pins, self.part.clock}]
         shown = [edge for edge in self._log if edge.signal not in ("d_o", "d_oe")]
         lines = [f"now: edge {self.now}, config {self.config.name}, seed {self.seed}", "last output edges:"]
         lines += [f"  {e.t:>9} {e.signal} = {e.value:#x}" for e in shown[-last:]]
@@ -339,7 +366,7 @@ class Bench:
         """Everything up to now, for `compare`; the last complete clk edge is `now` - 1."""
         return Recording(
             part=self.part.name,
-            params=self.config.params,
+            params=self.part.params(self.config),
             seed=self.seed,
             end=self.now - 1,
             stimulus=list(self.stimulus),
@@ -349,6 +376,16 @@ class Bench:
             ),
             accesses=list(self.accesses),
         )
+
+
+def _bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:
+    """Changes (edge, level) of one bit of a port."""
+    level, rows = initial >> place & 1, []
+    for t, value in changes:
+        if value >> place & 1 != level:
+            level ^= 1
+            rows.append((t, level))
+    return rows
 
 
 def _show(value: Any) -> str:

@@ -1,15 +1,15 @@
 """`HostBus`: the host side of the strobe bus, one access at a time, driven on falling clk edges.
 
-Registers: DATA = 0, STATUS = COMMAND = 1 (the level of a0). Times are in clk. The pin style is a table
-(`BusStyle`), so the same class serves the RD*/WR* bus and the DS*/R-W* bus of the sister part.
+Registers: DATA = 0, STATUS = COMMAND = 1 (the level of a0). Times are in clk. The pins of an access are a
+table of the part (`BusStyle`); where a part has two styles, its style pin says which one is spoken.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
 
 from .bench import Bench
+from .part import BusStyle
 from .stimulus import Access
 
 DATA = 0
@@ -17,25 +17,6 @@ STATUS = 1
 COMMAND = 1
 
 OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
-
-
-@dataclass(frozen=True)
-class BusStyle:
-    """Pin levels of each half of an access; `address` is the register-select pin."""
-
-    write_on: Mapping[str, int]
-    write_off: Mapping[str, int]
-    read_on: Mapping[str, int]
-    read_off: Mapping[str, int]
-    address: str = "a0"
-
-
-STROBES_RD_WR = BusStyle(
-    write_on={"cs_n": 0, "wr_n": 0},
-    write_off={"cs_n": 1, "wr_n": 1},
-    read_on={"cs_n": 0, "rd_n": 0},
-    read_off={"cs_n": 1, "rd_n": 1},
-)
 
 
 class HostBus:
@@ -48,7 +29,6 @@ class HostBus:
     def __init__(
         self,
         bench: Bench,
-        style: BusStyle = STROBES_RD_WR,
         strobe: int = 2,
         read_strobe: int = 4,
         gap: int = 2,
@@ -56,13 +36,17 @@ class HostBus:
         timeout: int = 1_000_000,
     ) -> None:
         self.bench = bench
-        self.style = style
         self.strobe = strobe
         self.read_strobe = read_strobe
         self.gap = gap
         self.pause = pause
         self.timeout = timeout
         self._owner: str | None = None
+
+    @property
+    def style(self) -> BusStyle:
+        """What the strobe pins mean at present."""
+        return self.bench.part.style(self.bench.pins)
 
     # ---------------------------------------------------------------- single accesses
 
@@ -81,9 +65,10 @@ class HostBus:
         """
         await self._begin(f"write({reg}, {byte:#04x})")
         bench = self.bench
-        bench.set(**{self.style.address: reg, "d_i": byte, **self.style.write_on})
+        style = self.style
+        bench.set(**{style.address: reg, "d_i": byte, **style.write_on})
         await bench.clocks(self.strobe if strobe is None else strobe)
-        edge0 = bench.set(**self.style.write_off)
+        edge0 = bench.set(**style.write_off)
         bench.accesses.append(Access(edge0, "write", reg, byte))
         await bench.clocks(self.gap if gap is None else gap)
         self._owner = None
@@ -97,13 +82,14 @@ class HostBus:
         await self._begin(f"read({reg})")
         bench = self.bench
         length = self.read_strobe if strobe is None else strobe
-        edge0 = bench.set(**{self.style.address: reg, **self.style.read_on})
+        style = self.style
+        edge0 = bench.set(**{style.address: reg, **style.read_on})
         await bench.clocks(length)
         byte = bench.level("d_o")
         assert length < 3 or bench.level("d_oe") == 1, (
-            f"P104-BUS-05: d_oe = 0 at the end of a {length} clk read strobe\n{bench.context()}"
+            f"d_oe = 0 at the end of a {length} clk read strobe\n{bench.context()}"
         )
-        bench.set(**self.style.read_off)
+        bench.set(**style.read_off)
         bench.accesses.append(Access(edge0, "read", reg, byte))
         await bench.clocks(self.gap if gap is None else gap)
         self._owner = None
@@ -121,7 +107,7 @@ class HostBus:
     async def idle(self) -> None:
         """All strobes off."""
         await self.bench.align()
-        self.bench.set(**{**self.style.write_off, **self.style.read_off})
+        self.bench.set(**self.style.off)
 
     # ---------------------------------------------------------------- polled accesses
 
@@ -210,6 +196,6 @@ class HostBus:
         head = [] if rate is None else [rate]
         return await self.send(code, [*head, d & 0xFF, d >> 8 & 0xFF, d >> 16 & 0xFF])
 
-    async def wait_idle(self, timeout: int | None = None) -> int:
-        """Poll until BUSY = 0; returns that status."""
-        return await self.poll(BUSY, 0, timeout)
+    async def wait_idle(self, timeout: int | None = None, busy: int = BUSY) -> int:
+        """Poll until BUSY = 0 (every bit of `busy`); returns that status."""
+        return await self.poll(busy, 0, timeout)

@@ -14,11 +14,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from .part import PARTS
+from .part import PARTS, Part
 from .stimulus import Change, Edge, Recording, by_signal
 
 NEIGHBOURS = 8
-BUS_PINS = frozenset({"a0", "cs_n", "rd_n", "wr_n", "d_i"})
 
 Waves = dict[str, list[tuple[int, int]]]
 
@@ -77,13 +76,15 @@ def compare_edges(
 ) -> tuple[Waves, Waves, Mismatch | None]:
     """Compare two edge lists up to edge `end`.
 
-    `initial` names the outputs to compare with their levels before edge 0; `resets` are the stamps of
-    falling rst_n. Returns both sides as changes per signal, and the first difference or None.
+    `initial` names the outputs to compare (no others are) with their levels before edge 0; `resets` are the
+    stamps of falling rst_n. Returns both sides as changes per signal, and the first difference or None.
     """
     snap = {t - 1: t for t in resets}
     sides = []
     for edges in (expected, actual):
-        kept = [Edge(snap.get(e.t, e.t), e.signal, e.value) for e in edges if e.t <= end]
+        kept = [
+            Edge(snap.get(e.t, e.t), e.signal, e.value) for e in edges if e.t <= end and e.signal in initial
+        ]
         kept.sort(key=lambda edge: edge.t)
         sides.append(by_signal(kept, initial))
     return sides[0], sides[1], _first_difference(*sides)
@@ -113,7 +114,8 @@ def _first_difference(expected: Waves, actual: Waves) -> Mismatch | None:
 def compare_recording(recording: Recording, model: Any | None = None) -> Comparison:
     """Replay a recording and compare every output of the part."""
     part = PARTS[recording.part]
-    initial = part.reset_levels(recording.params)
+    levels = part.reset_levels(recording.params)
+    initial = {name: levels[name] for name in part.watched}
     resets = [c.t for c in recording.stimulus if c.pin == "rst_n" and c.value == 0]
     edges = replay(recording, model if model is not None else new_model(recording))
     expected, actual, mismatch = compare_edges(edges, recording.edges, initial, recording.end, resets)
@@ -139,11 +141,13 @@ def _side(title: str, waves: Waves, t: int, mark: str) -> list[str]:
     return [*rows, *(["    (no further edge)"] if not after else [])]
 
 
-def _pin_rows(changes: list[Change], t: int, count: int = 12) -> list[str]:
-    pins = [c for c in changes if c.t <= t and c.pin not in BUS_PINS and c.pin != "clock"]
+def _pin_rows(part: Part, changes: list[Change], t: int, count: int = 12) -> list[str]:
+    pins = [c for c in changes if c.t <= t and c.pin not in part.bus_pins and c.pin != part.clock]
     rows = [f"    {c.t:>9}  {c.pin} = {c.value:#x}" for c in pins[-count:]]
-    clock = [c.t for c in changes if c.t <= t and c.pin == "clock" and c.value == 1][-6:]
-    return rows + ([f"    external clock rose at {', '.join(map(str, clock))}"] if clock else [])
+    levels = [part.inputs[part.clock], *(c.value for c in changes if c.pin == part.clock)]
+    clock = [c.t for c in changes if c.pin == part.clock]
+    rises = [t0 for t0, a, b in zip(clock, levels, levels[1:], strict=False) if t0 <= t and b & ~a][-6:]
+    return rows + ([f"    external clock rose at {', '.join(map(str, rises))}"] if rises else [])
 
 
 def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
@@ -164,7 +168,7 @@ def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
         *_side("golden model:", comparison.expected, m.t, m.signal),
         *_side("RTL:", comparison.actual, m.t, m.signal),
         f"pin changes before it (of {len(recording.stimulus)} in all, bus pins left out):",
-        *_pin_rows(recording.stimulus, m.t),
+        *_pin_rows(PARTS[recording.part], recording.stimulus, m.t),
         f"host accesses before it (last {min(history, len(late))} of {len(late)}):",
         *_folded_accesses(late, history),
         f"seed {recording.seed}",

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#c65d00", "#6b6b6b", "#d62728"
 SHADE = "#f7c9c9"
-BUS_PINS = frozenset({"a0", "cs_n", "rd_n", "wr_n", "d_i"})
 
 
 def _clk_ps(params: Any) -> int:
@@ -38,8 +37,7 @@ def write_vcd(comparison: Comparison, path: Path) -> None:
             var = writer.register_var("differs", name, "wire", size=1, init=0)
             rows += [(t, var, value) for t, value in differing_spans(comparison, name)]
         for pin, level in {"rst_n": 1, **part.inputs}.items():
-            width = {"d_i": 8, "auxi": 4}.get(pin, 1)
-            var = writer.register_var("pins", pin, "wire", size=width, init=level)
+            var = writer.register_var("pins", pin, "wire", size=part.width(pin), init=level)
             rows += [(c.t, var, c.value) for c in recording.stimulus if c.pin == pin]
         for t, var, value in sorted(rows, key=lambda row: row[0]):
             writer.change(var, max(0, t) * scale, value)
@@ -126,7 +124,7 @@ def _panel(
     for pin in pins:
         initial = {"rst_n": 1, **part.inputs}[pin]
         changes = [(c.t, c.value) for c in recording.stimulus if c.pin == pin]
-        _lane(axes, changes, initial, {"auxi": 4, "d_i": 8}.get(pin, 1), y - 0.8, low, high, GREY)
+        _lane(axes, changes, initial, part.width(pin), y - 0.8, low, high, GREY)
         ticks.append((y - 0.4, f"{pin} (in)", GREY))
         y -= 1.1
     axes.axvline(m.t, color=RED, lw=1.0, ls="--", zorder=4)
@@ -194,8 +192,9 @@ def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
 def _pins_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
     changed = {c.pin for c in comparison.recording.stimulus if low <= c.t <= high}
     bus_differs = comparison.mismatch is not None and comparison.mismatch.signal in ("d_o", "d_oe")
-    order = ["rst_n", *PARTS[comparison.recording.part].inputs]
-    return [pin for pin in order if pin in changed and (bus_differs or pin not in BUS_PINS)]
+    part = PARTS[comparison.recording.part]
+    order = ["rst_n", *part.inputs]
+    return [pin for pin in order if pin in changed and (bus_differs or pin not in part.bus_pins)]
 
 
 def _shaded(comparison: Comparison, name: str, low: int, high: int) -> list[tuple[int, int]]:
@@ -243,7 +242,7 @@ def _lane(
             zorder=2,
         )
         if (after - t) / span > 0.022 * (2 if width > 4 else 1.6):
-            text = f"{value:0{width}b}" if width == 5 else f"{value:02X}" if width == 8 else f"{value:X}"
+            text = f"{value:0{width}b}" if width in (2, 5) else f"{value:02X}" if width == 8 else f"{value:X}"
             if width == 5 and (after - t) / span < 0.05:
                 text = f"{value:02X}"
             axes.text(

@@ -31,7 +31,7 @@ class Config:
 
     @property
     def params(self) -> dict[str, Any]:
-        """Parameters of the top module."""
+        """Parameters of the top module; a part that lacks some of them has its own choice (`Part.params`)."""
         return {
             "CLK_HZ": self.clk_hz,
             "XTAL_HZ": self.xtal_hz,
@@ -79,14 +79,16 @@ F16 = Config("f16")
 F8 = Config("f8m", clk_hz=8_000_000)
 F11 = Config("f11m", clk_hz=11_059_200)
 F25 = Config("f25m", clk_hz=25_000_000)
+F48 = Config("f48m", clk_hz=48_000_000)
 F50 = Config("f50m", clk_hz=50_000_000, phase_idle=0)
 F100 = Config("f100m", clk_hz=100_000_000)
 F16X1 = Config("f16x1", xtal_hz=1_000_000, phase_idle=0)
+F16X8 = Config("f16x8", xtal_hz=8_000_000)
 D16 = Config("d16", timing="DATASHEET")
 D11 = Config("d11m", clk_hz=11_059_200, timing="DATASHEET")
 D25X8 = Config("d25x8", clk_hz=25_000_000, xtal_hz=8_000_000, timing="DATASHEET", phase_idle=0)
 
-ALL_CONFIGS: tuple[Config, ...] = (F16, F8, F11, F25, F50, F100, F16X1, D16, D11, D25X8)
+ALL_CONFIGS: tuple[Config, ...] = (F16, F8, F11, F25, F48, F50, F100, F16X1, F16X8, D16, D11, D25X8)
 CONFIGS: dict[str, Config] = {config.name: config for config in ALL_CONFIGS}
 
 

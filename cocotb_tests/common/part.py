@@ -1,9 +1,58 @@
-"""Pins of the parts as the harness sees them: idle levels of inputs, reset levels of outputs."""
+"""Pins of the parts as the harness sees them: idle levels of inputs, reset levels of outputs, bus styles.
+
+A port of several bits is one number, as in the simulator. One bit of it has a name of its own: "pout_n[2]"
+is bit 2 of a port declared `[2:1]`, whose lowest bit is number 1.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .config import Config
+
+_BIT = re.compile(r"^(\w+)\[(\d+)\]$")
+
+
+@dataclass(frozen=True)
+class BusStyle:
+    """Pin levels of each half of an access; `address` is the register-select pin."""
+
+    write_on: Mapping[str, int]
+    write_off: Mapping[str, int]
+    read_on: Mapping[str, int]
+    read_off: Mapping[str, int]
+    address: str = "a0"
+
+    @property
+    def off(self) -> dict[str, int]:
+        """Levels with both strobes off."""
+        return {**self.write_off, **self.read_off}
+
+
+STROBES_RD_WR = BusStyle(
+    write_on={"cs_n": 0, "wr_n": 0},
+    write_off={"cs_n": 1, "wr_n": 1},
+    read_on={"cs_n": 0, "rd_n": 0},
+    read_off={"cs_n": 1, "rd_n": 1},
+)
+# The same two pins in both styles of the PPMC-2104AFP: WRS*/RDS*, or DS* with R/W*.
+STROBES_WRS_RDS = BusStyle(
+    write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
+    write_off={"cs_n": 1, "ds_wrs_n": 1},
+    read_on={"cs_n": 0, "ds_wrs_n": 1, "rw_rds_n": 0},
+    read_off={"cs_n": 1, "rw_rds_n": 1},
+)
+# R/W* keeps its level after the strobe, as a processor's does until its next access.
+STROBES_DS_RW = BusStyle(
+    write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 0},
+    write_off={"cs_n": 1, "ds_wrs_n": 1},
+    read_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
+    read_off={"cs_n": 1, "ds_wrs_n": 1},
+)
 
 
 @dataclass(frozen=True)
@@ -12,24 +61,69 @@ class Part:
 
     `name` is the top module and the folder name, `prefix` the first word of its rule IDs.
     `inputs` maps every input pin except clk/rst_n to its idle level; `outputs` maps every output to
-    (width, reset level).
+    (width, reset level). `widths` are those of inputs wider than one bit. `lowest` names ports whose lowest
+    bit is not number 0. `parameters` are those of the top module. `styles` are the styles of the host bus by
+    the level of `style_pin`; a part with one style has no such pin. `clock` is the external base clock.
+    `unwatched` outputs run freely all the time: only tests that ask for them record their edges.
     """
 
     name: str
     prefix: str
     inputs: Mapping[str, int]
     outputs: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    widths: Mapping[str, int] = field(default_factory=dict)
+    parameters: tuple[str, ...] = ("CLK_HZ", "XTAL_HZ", "TIMING")
+    styles: tuple[BusStyle, ...] = (STROBES_RD_WR,)
+    clock: str = "clock"
+    style_pin: str = ""
+    lowest: Mapping[str, int] = field(default_factory=dict)
+    unwatched: frozenset[str] = frozenset()
+
+    @property
+    def watched(self) -> tuple[str, ...]:
+        """Outputs whose every edge a bench records, and that are compared with the golden model."""
+        return tuple(name for name in self.outputs if name not in self.unwatched)
+
+    def params(self, config: Config) -> dict[str, Any]:
+        """Parameters of the top module in a build configuration: its own, and whatever that one adds."""
+        added = dict(config.extra)
+        return {name: v for name, v in config.params.items() if name in self.parameters or name in added}
 
     def reset_levels(self, params: Mapping[str, object] | None = None) -> dict[str, int]:
         """Output levels during reset under the given parameters (P104-PORT-01, P104-PHS-02)."""
         levels = {name: level for name, (_, level) in self.outputs.items()}
-        if params and int(params.get("PHASE_IDLE", 1)) == 0 and "s" in levels:  # type: ignore[call-overload]
+        if "PHASE_IDLE" in self.parameters and params and not int(str(params.get("PHASE_IDLE", 1))):
             levels["s"] = 0
         return levels
 
-    def width(self, output: str) -> int:
-        """Width of an output pin in bits."""
-        return self.outputs[output][0]
+    def width(self, pin: str) -> int:
+        """Width of an input or output in bits."""
+        return self.outputs[pin][0] if pin in self.outputs else self.widths.get(pin, 1)
+
+    def locate(self, pin: str) -> tuple[str, int | None]:
+        """Port of a pin name, and the place of the bit in it; None for the port as a whole.
+
+        Raises KeyError for a bit that the port does not have.
+        """
+        if "[" not in pin:
+            return pin, None
+        match = _BIT.match(pin)
+        if not match:
+            raise KeyError(f"{self.name} has no pin {pin}")
+        port, place = match[1], int(match[2]) - self.lowest.get(match[1], 0)
+        if not 0 <= place < self.width(port):
+            raise KeyError(f"{self.name} has no pin {pin}")
+        return port, place
+
+    def style(self, pins: Mapping[str, int]) -> BusStyle:
+        """Style of the host bus at these input levels."""
+        return self.styles[pins[self.style_pin] if self.style_pin else 0]
+
+    @property
+    def bus_pins(self) -> frozenset[str]:
+        """Input pins of the host bus."""
+        used = {pin for style in self.styles for pin in (*style.write_on, *style.read_on, style.address)}
+        return frozenset(used | {"d_i"})
 
 
 PPMC104 = Part(
@@ -63,9 +157,49 @@ PPMC104 = Part(
         "pout_n": (1, 1),
         "dir": (1, 0),
     },
+    widths={"d_i": 8, "auxi": 4},
+    parameters=("CLK_HZ", "XTAL_HZ", "TIMING", "PHASE_IDLE"),
+    lowest={"s": 1},
 )
 
-PARTS: dict[str, Part] = {PPMC104.name: PPMC104}
+# Per axis, bit 1 for axis 1 and bit 2 for axis 2.
+_AXIS_INPUTS = ("run", "extck", "csel", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
+
+PPMC2104 = Part(
+    name="ppmc2104",
+    prefix="P2104",
+    inputs={
+        "a0": 0,
+        "cs_n": 1,
+        "busc": 0,
+        "ds_wrs_n": 1,
+        "rw_rds_n": 1,
+        "d_i": 0,
+        "errint_n": 1,
+        **{pin: 0 if pin == "extck" else 0b11 for pin in _AXIS_INPUTS},
+        "auxi": 0,
+    },
+    outputs={
+        "d_o": (8, 0x00),
+        "d_oe": (1, 0),
+        "int_n": (1, 1),
+        "pout_n": (2, 0b11),
+        "dir": (2, 0b00),
+        "hold": (2, 0b11),
+        "s1_n": (5, 0x1F),
+        "s2_n": (5, 0x1F),
+        "auxo": (2, 0b11),
+        "clk_o": (1, 0),
+    },
+    widths={"d_i": 8, "auxi": 2, **dict.fromkeys(_AXIS_INPUTS, 2)},
+    styles=(STROBES_WRS_RDS, STROBES_DS_RW),
+    style_pin="busc",
+    clock="extck",
+    lowest=dict.fromkeys((*_AXIS_INPUTS, "pout_n", "dir", "hold", "s1_n", "s2_n"), 1),
+    unwatched=frozenset({"clk_o"}),
+)
+
+PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104)}
 
 # Also parts whose RTL does not exist yet, so that their rule IDs already sort to the right table.
 PREFIXES = {"P104": "ppmc104", "P2104": "ppmc2104", "STMC": "stmc", "P312": "ppmc312", "P006": "pmc006"}

@@ -1,20 +1,14 @@
-"""What `make demo` plays: a host that initialises a PPMC-104, makes two moves and lets the motor rest.
-
-It leaves recording.json (all pin changes and output edges) and story.json (the chapters) in the run's folder,
-and tells how far it is in the file `progress`.
-"""
+"""What `make demo` plays: a host that initialises a PPMC-104, makes two moves and lets the motor rest."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import cocotb
 
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.bus import HostBus
+from cocotb_tests.demo.story import Story
 
 # 4-phase motor, full step, high level = coil on, internal clock, phases chopped at rest.
 INIT = 0x2A
@@ -23,28 +17,6 @@ ACC_DEC, CONTINUOUS = 0x43, 0x45
 RATE = 49  # 10 kpps
 PULSES_TO_LIMIT = 60
 INTERRUPT_LATENCY = 800  # clk, 50 us: a host of its time was not faster
-
-
-class Story:
-    """Chapters of the run: what happened between which clk edges."""
-
-    def __init__(self, bench: Bench) -> None:
-        self.bench = bench
-        self.chapters: list[dict[str, Any]] = []
-
-    @contextmanager
-    def chapter(self, key: str, title: str) -> Iterator[None]:
-        """Everything that the block does belongs to this chapter."""
-        with (self.bench.out / "progress").open("a") as file:
-            file.write(title + "\n")
-        begin = self.bench.now
-        yield
-        self.chapters.append({"key": key, "title": title, "begin": begin, "end": self.bench.now})
-
-    def save(self) -> None:
-        """Write story.json and recording.json."""
-        (self.bench.out / "story.json").write_text(json.dumps(self.chapters, indent=1))
-        (self.bench.out / "recording.json").write_text(self.bench.recording().to_json())
 
 
 async def results(host: HostBus) -> None:

@@ -2,32 +2,75 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import ModuleType
 
+from cocotb_tests.common import part as common_part
 from cocotb_tests.common.collect import Item
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import Design
 from cocotb_tests.gates import board
 from cocotb_tests.ppmc104 import test_ppmc104, test_random
+from cocotb_tests.ppmc2104 import test_ppmc2104
+from cocotb_tests.ppmc2104 import test_random as test_random_2104
 from scripts.flow import gates
 from scripts.project import ProjectError
 
 QUICK = "quick"
 # The quick subset: these modules under F16 on all families, and the board on one.
-QUICK_MODULES = ("tb_acceptance_1", "tb_bus")
+QUICK_MODULES = ("cocotb_tests.ppmc104.tb_acceptance_1", "cocotb_tests.ppmc104.tb_bus")
+QUICK_MODULES += ("cocotb_tests.ppmc2104.tb_acceptance_2",)
 QUICK_BOARD = "ice40"
 
-# Random hosts and noise runs of the sample; together the hosts use every configuration they choose from.
-HOST_SEEDS = (1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 18, 37, 62)
-CHAOS_SEEDS = (1, 2, 3, 5)
+
+@dataclass(frozen=True)
+class PartTests:
+    """The tests of one part: its directed and random test modules.
+
+    `sample` is the sample of its random tests: what makes the item of a seed, and the seeds. Together the
+    hosts of a sample use every configuration they choose from.
+    """
+
+    directed: ModuleType
+    random: ModuleType
+    sample: Mapping[Callable[[int], Item], Sequence[int]]
+
+
+PARTS = (
+    PartTests(
+        test_ppmc104,
+        test_random,
+        {
+            test_random.random_item: (1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 18, 37, 62),
+            test_random.chaos_item: (1, 2, 3, 5),
+        },
+    ),
+    PartTests(
+        test_ppmc2104,
+        test_random_2104,
+        {
+            test_random_2104.random_item: (1, 2, 4, 7, 9, 10, 11, 25, 27, 38),
+            test_random_2104.pair_item: (1, 2),
+            test_random_2104.chaos_item: (1, 2, 3, 5),
+        },
+    ),
+)
 
 # Test functions that are no simulation of the part: what a netlist has to do with them.
 NOT_APPLICABLE = {
     "test_p104_par_01_ranges": "elaborates illegal parameters; those of a netlist are fixed",
+    "test_p2104_par_01_ranges": "elaborates illegal parameters; those of a netlist are fixed",
+    "test_p2104_port_05_ports": "reads the ports from the source; no simulation",
     "test_scenarios_are_reproducible_and_varied": "checks the generator of the random hosts; no simulation",
 }
-SIMULATING = {"test_ppmc104", "test_random", "test_chaos"}
+SIMULATING = {"test_ppmc104", "test_ppmc2104", "test_random", "test_chaos", "test_independent_axes"}
+
+# Simulations that are left out, because a netlist would take far too long for so many clk.
+TOO_LONG = {
+    "p2104_ac_12_largest_ramp": "15 million clk; p2104_rmp_02_long_ramp_up has the same ramp",
+    "p2104_ac_68_ramps_and_two_axes": "12 million clk in settings; p2104_ac_67_rate_bytes has the comparison",
+}
 
 
 @dataclass(frozen=True)
@@ -49,29 +92,29 @@ class GateTest:
         if self.top == board.TOP:
             folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
             return gates.design(self.family, board.TOP, folder)
-        return gates.part_design(self.family, self.top, config.params)
+        return gates.part_design(self.family, self.top, common_part.PARTS[self.top].params(config))
 
     @property
     def group(self) -> tuple[str, str]:
-        """Family and configuration; the board's name says that it is not the part alone."""
-        name = self.item.config.name
-        return self.family, f"board {name}" if self.top == board.TOP else name
+        """Family, and the top with its configuration."""
+        return self.family, f"{self.top} {self.item.config.name}"
 
 
 def left_out() -> dict[str, str]:
-    """Test functions of the part's test modules that do not run on netlists, with the reason.
+    """Tests of the parts' test modules that do not run on netlists, with the reason.
 
-    ProjectError for one that has no reason: nothing is left out unseen.
+    ProjectError for a test function that has no reason: nothing is left out unseen.
     """
     found = [
         name
-        for module in (test_ppmc104, test_random)
+        for part in PARTS
+        for module in (part.directed, part.random)
         for name in vars(module)
         if name.startswith("test_") and name not in SIMULATING
     ]
     if unknown := [name for name in found if name not in NOT_APPLICABLE]:
         raise ProjectError(f"cocotb_tests/gates/suite.py does not say why {', '.join(unknown)} is left out")
-    return {name: NOT_APPLICABLE[name] for name in found}
+    return {**{name: NOT_APPLICABLE[name] for name in found}, **TOO_LONG}
 
 
 def _tagged(item: Item, family: str) -> Item:
@@ -79,19 +122,19 @@ def _tagged(item: Item, family: str) -> Item:
     return replace(item, tag=tag, target="test-gates")
 
 
-def _directed(family: str) -> list[GateTest]:
+def _directed(part: PartTests, family: str) -> list[GateTest]:
     tests = []
-    for param in test_ppmc104.ITEMS:
+    for param in part.directed.ITEMS:
         item: Item = param.values[0]
-        chosen = item.module.rsplit(".", 1)[-1] in QUICK_MODULES
-        tests.append(GateTest(family, _tagged(item, family), quick=chosen and item.config == F16))
+        if item.test not in TOO_LONG:
+            quick = item.module in QUICK_MODULES and item.config == F16
+            tests.append(GateTest(family, _tagged(item, family), quick=quick))
     return tests
 
 
-def _random(family: str, seed: int | None) -> list[GateTest]:
-    hosts = [test_random.random_item(n) for n in (HOST_SEEDS if seed is None else (seed,))]
-    noise = [test_random.chaos_item(n) for n in (CHAOS_SEEDS if seed is None else (seed,))]
-    return [GateTest(family, _tagged(item, family)) for item in (*hosts, *noise)]
+def _random(part: PartTests, family: str, seed: int | None) -> list[GateTest]:
+    items = [make(n) for make, seeds in part.sample.items() for n in (seeds if seed is None else (seed,))]
+    return [GateTest(family, _tagged(item, family)) for item in items]
 
 
 def _board(family: str) -> list[GateTest]:
@@ -102,7 +145,9 @@ def everything(seed: int | None = None) -> list[GateTest]:
     """All gate-level tests, those of one netlist side by side; `seed` chooses another random host."""
     tests = []
     for family in gates.FAMILIES:
-        tests += [*_directed(family), *_random(family, seed), *_board(family)]
+        for part in PARTS:
+            tests += [*_directed(part, family), *_random(part, family, seed)]
+        tests += _board(family)
     return sorted(tests, key=lambda test: test.group)
 
 

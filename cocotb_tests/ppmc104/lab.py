@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from typing import Any
 
 from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import BUSY, COMMAND, DATA, HostBus
-from cocotb_tests.common.config import Config
+from cocotb_tests.common.bus import BUSY, HostBus
+from cocotb_tests.common.drive import Drive
 
-from .figures import INIT_A, bytes_of, differences, low_times, offsets
+from .figures import INIT_A
 
 Init = tuple[int, int, int, int]
 
@@ -19,16 +18,11 @@ C_EVENT_LATEST = 10
 PINS_LATEST = 12
 
 
-class Lab:
+class Lab(Drive):
     """Bench plus host. Make one with `await Lab.start(dut, INIT_A)`; `None` leaves the core as reset does."""
 
     def __init__(self, bench: Bench) -> None:
-        self.bench = bench
-        self.host = HostBus(bench)
-        self.cfg: Config = bench.config
-        self.check = bench.check
-        self.window = bench.check_window
-        self.since = 0
+        super().__init__(bench, HostBus(bench))
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = INIT_A, **pins: int) -> Lab:
@@ -50,157 +44,11 @@ class Lab:
             # That command closes the mailbox again, for 14 us.
             await self.bench.clocks(self.cfg.us(14) + 20)
 
-    # ---------------------------------------------------------------- moves
-
-    async def go(self, code: int, n: int | None = None, rate: int | None = None, poll: bool = True) -> int:
-        """Send an operation of n pulses (None: an operation without a count).
-
-        Returns the status after the last byte, or with poll = False edge 0 of its write. `since` becomes
-        the edge from which pulses of this operation count.
-        """
-        self.since = self.bench.now
-        data = ([] if rate is None else [rate]) + ([] if n is None else bytes_of(n - 1))
-        if not data:
-            return await self.host.command(code, poll)
-        await self.host.send(code, data[:-1])
-        return await self.host.data(data[-1], poll)
-
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
         """`go`, then wait for the end; returns the pulses."""
         await self.go(code, n, rate)
         if self.cfg.datasheet:
             # BUSY rises long after IBF has fallen (P104-DS-03).
             await self.host.poll(BUSY, BUSY, timeout=self.cfg.us(150), dense=1000)
-        await self.host.wait_idle()
-        return self.pulses
-
-    @property
-    def pulses(self) -> list[int]:
-        """Pulses since the last `go`."""
-        return self.bench.pulses(self.since)
-
-    @property
-    def intervals(self) -> list[int]:
-        """Intervals since the last `go`."""
-        return differences(self.pulses)
-
-    async def pulse(self, n: int, plus: int = 0) -> int:
-        """Wait for the n-th pulse of the last `go` and `plus` clk more; returns the pulse's edge."""
-        fall = await self.bench.nth_fall(n, self.since)
-        if plus:
-            await self.bench.until(fall + plus)
-        return fall
-
-    async def idle(self) -> None:
-        """Wait until BUSY = 0."""
-        await self.host.wait_idle()
-
-    async def ended(self, timeout: int = 1_000_000) -> int:
-        """Edge on which the last `go` let int_n fall; waits for it (I = 0 and no INT pending)."""
-        if falls := self.bench.falls("int_n", self.since):
-            await self.bench.align()
-            return falls[0]
-        return await self.bench.edge("int_n", 0, timeout)
-
-    # ---------------------------------------------------------------- results
-
-    async def finish(self) -> int:
-        """Finish status (0x80)."""
-        return (await self.host.fetch(0x80))[0]
-
-    async def remaining(self) -> int:
-        """Remaining pulses (0x83)."""
-        low, middle, high = await self.host.fetch(0x83, 3)
-        return low | middle << 8 | high << 16
-
-    async def result(self, rule: str, pulses: int | None, finish: int, remaining: int | None = None) -> None:
-        """Wait for the end of the operation and check its pulse count, finish status, remaining value."""
         await self.idle()
-        if pulses is not None:
-            self.check(rule, "number of pulses", len(self.pulses), pulses)
-        self.check(rule, "finish status", await self.finish(), finish)
-        if remaining is not None:
-            self.check(rule, "remaining value", await self.remaining(), remaining)
-
-    def check_train(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Every pulse of the last `go` lies where the rates put it, to the clk (P104-BCK-03)."""
-        pulses = self.pulses
-        got = [t - pulses[0] for t in pulses]
-        expected = offsets(self.cfg, rates, csel, vsel)
-        if got == expected:
-            return
-        self.check(rule, "number of pulses", len(got), len(expected))
-        j = next(j for j, pair in enumerate(zip(got, expected, strict=True), 1) if pair[0] != pair[1])
-        self.check(rule, f"clk from pulse 1 to pulse {j}", got[j - 1], expected[j - 1])
-
-    def check_lows(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Every low time of a complete move is as P104-TIM-05 has it."""
-        self.check(
-            rule, "low times", self.bench.low_times(self.since), low_times(self.cfg, rates, csel, vsel)
-        )
-
-    def stretches(self, since: int) -> list[tuple[int, int]]:
-        """(pattern, clk) of every complete stretch of `s` that began at edge `since` or later."""
-        edges = self.bench.edges("s", since)
-        return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
-
-    def outputs(self) -> dict[str, int]:
-        """Present levels of all outputs but the host bus."""
-        return {
-            name: self.bench.level(name) for name in self.bench.part.outputs if name not in ("d_o", "d_oe")
-        }
-
-    # ---------------------------------------------------------------- external clock by hand
-
-    async def ticks(self, n: int, period: int = 24) -> None:
-        """n rising edges of the external clock, half of each period high."""
-        for _ in range(n):
-            self.bench.set(clock=1)
-            await self.bench.clocks(period // 2)
-            self.bench.set(clock=0)
-            await self.bench.clocks(period - period // 2)
-
-    async def tick_until(self, pulses: int, limit: int = 2000) -> None:
-        """Clock by hand until the last `go` has output that many pulses, and its low time is over."""
-        for _ in range(limit):
-            if len(self.pulses) >= pulses:
-                break
-            await self.ticks(1)
-        self.check("P104-TIM-03", "pulses made by external clock edges", len(self.pulses), pulses)
-        await self.bench.level_is("pout_n", 1)
-
-    def clock_edges(self, since: int = 0) -> list[int]:
-        """Stamps of the rising edges given on the `clock` pin."""
-        return [c.t for c in self.bench.stimulus if c.pin == "clock" and c.value == 1 and c.t >= since]
-
-    # ---------------------------------------------------------------- byte by byte
-
-    async def reaction(self, output: str, byte: int, register: int = COMMAND) -> int:
-        """Write one byte and wait for an output to change; returns clk from edge 0 to that change."""
-        edge0 = await self.host.write(register, byte)
-        if changes := self.bench.edges(output, edge0):
-            return changes[0][0] - edge0
-        return await self.bench.edge(output) - edge0
-
-    async def status_after(self, byte: int, register: int = COMMAND) -> int:
-        """Polled write; returns the status with IBF = 0 that follows."""
-        return await (self.host.command(byte) if register == COMMAND else self.host.data(byte))
-
-    async def statuses(self, script: str) -> list[int]:
-        """Status after each polled write of a script such as "c 0A d 09"."""
-        words = script.split()
-        pairs = zip(words[::2], words[1::2], strict=True)
-        return [
-            await self.status_after(int(byte, 16), COMMAND if kind == "c" else DATA) for kind, byte in pairs
-        ]
-
-    async def busy_until(self, end: Callable[[], bool], rule: str) -> int:
-        """Read status until `end()`; every read must show BUSY = 1. Returns the number of reads."""
-        count = 0
-        while not end():
-            status = await self.host.status()
-            if end():
-                break
-            self.check(rule, "BUSY while the operation runs", status & BUSY, BUSY)
-            count += 1
-        return count
+        return self.pulses

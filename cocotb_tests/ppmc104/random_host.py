@@ -1,19 +1,7 @@
 """Random hosts for the PPMC-104: a seed becomes a plain list of actions, made before the simulation starts.
 
-`scenario(seed)` is pure: same seed, same configuration and same actions. `random_player.play` carries the
-list out on a bench. Actions are tuples, first the kind:
-
-    ("write", reg, byte, strobe, gap)     one write cycle, not polled
-    ("send", code, [data])                command and data, each polled until IBF = 0
-    ("status", n)                         n status reads
-    ("read",)                             one data read, whatever OBF says
-    ("fetch", code, count)                read command, then count data reads (OBF polled, with a limit)
-    ("finish", clk)                       poll until BUSY = 0; after clk give up and send 0x40
-    ("wait", clk)                         nothing
-    ("pins", {pin: level})                set pins
-    ("blip", pin, level, clk)             set a pin for some clk, then the idle level again
-    ("raw", [({pin: level}, clk), ...])   illegal bus cycles
-    ("reset", clk)                        rst_n low for some clk
+`scenario(seed)` is pure: same seed, same configuration and same actions. `random_player` carries the list
+out on a bench; the actions are those of `common.player` and ("finish", clk).
 """
 
 from __future__ import annotations
@@ -23,8 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from cocotb_tests.common.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
-
-Action = tuple[Any, ...]
+from cocotb_tests.common.player import Action, ExternalClock, random_clock
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
@@ -34,14 +21,8 @@ OPERATIONS = (0x42, 0x43, 0x43, 0x43, 0x44, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC3, 
 INIT_CODES = [c | s << 5 | ck << 4 | lo << 3 | e << 2 for c in (1, 2, 3) for s in (0, 1) for ck in (0, 1)
               for lo in (0, 1) for e in (0, 1)]  # fmt: skip
 LIMIT_PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "alm_n", "cnp_n")
+CLOCK_PERIODS = (16, 20, 33, 64, 100, 119, 120, 121, 128, 135, 136, 137, 144, 160, 320)
 READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x85, 1))
-
-
-@dataclass(frozen=True)
-class ExternalClock:
-    """Programme of the `clock` pin: segments of (periods, period, jitter, high, pause after), in clk."""
-
-    segments: tuple[tuple[int, int, int, int, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -111,21 +92,8 @@ class _Writer:
         return max(1, round((low + (high - low) * spread) * self.scale))
 
     def clock(self) -> ExternalClock:
-        """Steady, jittering, stopping and changing clocks; every period is at least 16 clk."""
-        if not self.external:
-            return ExternalClock()
-        rng, segments, total = self.rng, [], 0
-        while total < 250_000:
-            near = rng.choice((16, 20, 33, 64, 100, 119, 120, 121, 128, 135, 136, 137, 144, 160, 320))
-            period = max(20, round(near * self.scale) + rng.randint(-1, 1))
-            jitter = rng.choice((0, 0, 0, 1, min(3, (period - 16) // 2)))
-            count = rng.choice((5, 40, 200, 2000))
-            high = rng.choice((2, period // 2, period // 2, period - jitter - 2))
-            high = max(2, min(high, period - jitter - 2))
-            pause = rng.choice((0, 0, 0, 300, 5_000))
-            segments.append((count, period, jitter, high, pause))
-            total += count * period + pause
-        return ExternalClock(tuple(segments))
+        """Programme of the clock pin, if this host uses it."""
+        return random_clock(self.rng, self.scale, CLOCK_PERIODS) if self.external else ExternalClock()
 
     # ------------------------------------------------------------ set-up commands
 

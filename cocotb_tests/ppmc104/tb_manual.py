@@ -2,67 +2,15 @@
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
-
 import cocotb
 
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.bus import HostBus
 from cocotb_tests.common.config import F16, configs
-from cocotb_tests.common.paths import ROOT
+from cocotb_tests.common.sessions import Sessions
 
-PAGE = ROOT / "docs" / "ppmc104_examples.md"
-SHORT = (0x42, 0x52, 0x5A)  # single steps last 10 µs
-LINE = re.compile(r"^(?:(c|d) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})| +st ([0-9A-F]{2}))\b")
-
-
-@dataclass(frozen=True)
-class Step:
-    """One printed line: c/d byte with status, r with its byte, or a status alone (kind s)."""
-
-    kind: str
-    byte: int
-    status: int
-
-
-def blocks(chapter: int) -> list[list[Step]]:
-    """The code blocks of one chapter of the page."""
-    text = PAGE.read_text(encoding="utf-8")
-    part = re.split(r"^## ", text, flags=re.M)
-    body = next(p for p in part if p.startswith(f"{chapter} "))
-    found = []
-    for block in re.findall(r"```\n(.*?)```", body, re.S):
-        steps = []
-        for line in block.splitlines():
-            match = LINE.match(line)
-            if not match:
-                raise ValueError(f"{PAGE.name}, chapter {chapter}: cannot read {line!r}")
-            kind, byte, status, read, alone = match.groups()
-            if kind:
-                steps.append(Step(kind, int(byte, 16), int(status, 16)))
-            elif read:
-                steps.append(Step("r", int(read, 16), 0))
-            else:
-                steps.append(Step("s", 0, int(alone, 16)))
-        found.append(steps)
-    return found
-
-
-async def play(bench: Bench, host: HostBus, steps: list[Step], where: str) -> None:
-    for number, step in enumerate(steps, 1):
-        at = f"{where} line {number}: {step.kind} {step.byte:02X}"
-        if step.kind == "r":
-            bench.check(at, "data", f"{await host.read_data():02X}", f"{step.byte:02X}")
-            continue
-        if step.kind == "c":
-            await host.command(step.byte)
-        elif step.kind == "d":
-            await host.data(step.byte)
-        status = await host.status()
-        if step.kind == "c" and step.byte in SHORT and status == 0x00:
-            continue  # the step is over before a slow host looks
-        bench.check(at, "status", f"{status:02X}", f"{step.status:02X}")
+SESSIONS = Sessions("ppmc104", brief=(0x42, 0x52, 0x5A))  # single steps last 10 µs
+blocks, play = SESSIONS.blocks, SESSIONS.play
 
 
 async def begin(dut, first: bool = True) -> tuple[Bench, HostBus]:

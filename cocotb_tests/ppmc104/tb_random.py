@@ -9,10 +9,11 @@ import cocotb
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.bus import BUSY, IBF, HostBus
 from cocotb_tests.common.compare import check_against_model
+from cocotb_tests.common.player import describe
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc104.random_host import scenario
-from cocotb_tests.ppmc104.random_noise import Noise
-from cocotb_tests.ppmc104.random_player import Player, describe
+from cocotb_tests.ppmc104.random_noise import noise as make_noise
+from cocotb_tests.ppmc104.random_player import Player104
 
 
 @cocotb.test()
@@ -37,7 +38,7 @@ async def random_host(dut: Any) -> None:
     plan = scenario(Bench(dut).seed)
     bench = await Bench.start(dut, **plan.pins)
     (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-    await Player(bench, plan).play()
+    await Player104(bench, plan).run()
     result = check_against_model(bench)
     assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
 
@@ -47,7 +48,7 @@ async def random_host(dut: Any) -> None:
 async def random_chaos(dut: Any) -> None:
     """Given noise on all input pins, when it ends, then 0x40, 0xC0 and an initialisation recover the core."""
     bench = await Bench.start(dut)
-    noise = Noise(bench)
+    noise = make_noise(bench)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
     await noise.stop()
     host = HostBus(bench, timeout=bench.config.us(200_000))

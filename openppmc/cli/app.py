@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,17 +10,16 @@ import typer
 from rich.live import Live
 
 from .. import __version__
-from ..host import Ppmc104, PpmcError, serial_ports, units
+from ..host import Ppmc2104, PpmcError, serial_ports, units
 from ..host.link import DEFAULT_BAUD
 from . import show
 from .forecast import key_figures, plot_move
-from .guard import Guard, Interrupted
-from .options import SetupValues, Side, with_setup
-from .player import Player, check_speeds
+from .options import Side, with_setup
+from .player import Player, check_speeds, check_steps, positions, stop_all
 from .program import read_program
-from .state import lasting, recall, remember
+from .session import BOARD, PartName, Session, initialise, opened, ready, setup_values
+from .state import lasting, remember
 
-INTERRUPTED = 130
 XTAL_HZ = 16_000_000
 
 app = typer.Typer(
@@ -37,15 +34,11 @@ _NUMBERS = {"ignore_unknown_options": True}  # so that `move -200` is a number a
 Json = Annotated[bool, typer.Option("--json", help="for programs")]
 
 
-@dataclass
-class Board:
-    """Which board, from the options in front of the command."""
-
-    port: str = ""
-    baud: int = DEFAULT_BAUD
-
-
-_board = Board()
+AxisNumber = Annotated[int, typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2")]
+AnyAxis = Annotated[
+    int | None,
+    typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2 (all)", show_default=False),
+]
 
 
 def _version(wanted: bool) -> None:
@@ -61,40 +54,16 @@ def options(
         typer.Option("--port", "-p", envvar="OPENPPMC_PORT", help="/dev/ttyUSB0, COM3, sim:… or model:…"),
     ] = "",
     baud: Annotated[int, typer.Option(help="line rate to work with")] = DEFAULT_BAUD,
+    part: Annotated[
+        PartName | None,
+        typer.Option(envvar="OPENPPMC_PART", help="the part (what the board has; virtual: ppmc104)"),
+    ] = None,
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="print it")
     ] = False,
 ) -> None:
     """Drive stepper controllers of the PPMC family through their UART bridge."""
-    _board.port, _board.baud = port, baud
-
-
-@contextmanager
-def _opened() -> Iterator[tuple[Ppmc104, Guard]]:
-    """The board, and Ctrl-C under control: it brings the motor to rest and ends with status 130."""
-    with Guard() as guard, Ppmc104.open(_board.port, _board.baud) as axis:
-        try:
-            guard.check()
-            yield axis, guard
-        except Interrupted:
-            show.note(guard.bring_to_rest(axis))
-            raise typer.Exit(INTERRUPTED) from None
-        finally:
-            guard.bar_off()
-
-
-def _values(typed: dict[str, Any]) -> SetupValues:
-    """Defaults, then what `init` remembered for this port, then what was typed."""
-    return SetupValues().merged(recall(_board.port)).merged(typed)
-
-
-@contextmanager
-def _ready(typed: dict[str, Any]) -> Iterator[tuple[Ppmc104, Guard]]:
-    """The board with its part initialised."""
-    values = _values(typed)
-    with _opened() as (axis, guard):
-        axis.apply(values.plan(axis.link.identity.xtal_hz))
-        yield axis, guard
+    BOARD.port, BOARD.baud, BOARD.part = port, baud, part
 
 
 # ---------------------------------------------------------------------- boards
@@ -115,8 +84,8 @@ def ports(as_json: Json = False) -> None:
 @app.command()
 def info(as_json: Json = False) -> None:
     """What board answers at the port."""
-    with _opened() as (axis, _):
-        values = show.identity_values(axis.link)
+    with opened() as session:
+        values = show.identity_values(session.part.link)
     if as_json:
         show.print_json(values)
     else:
@@ -125,17 +94,17 @@ def info(as_json: Json = False) -> None:
 
 @app.command()
 @with_setup
-def init(typed: dict[str, Any], as_json: Json = False) -> None:
-    """Initialise the part, and remember the set-up for this port."""
-    values = _values(typed)
-    with _opened() as (axis, _):
-        setup = axis.apply(values.plan(axis.link.identity.xtal_hz))
-    remember(_board.port, values.table())
+def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> None:
+    """Initialise an axis, and remember the set-up for this port."""
+    values = setup_values(typed, axis)
+    with opened() as session:
+        (setup,) = initialise(session, {axis: values})
+    remember(BOARD.port, values.table(), axis)
     if as_json:
         show.print_json(show.setup_values(setup))
         return
     show.out.print(show.table(show.setup_rows(setup)))
-    if not lasting(_board.port):
+    if not lasting(BOARD.port):
         show.note("(a virtual board is new each time: nothing to remember)")
 
 
@@ -146,22 +115,34 @@ def init(typed: dict[str, Any], as_json: Json = False) -> None:
 @with_setup
 def move(
     typed: dict[str, Any],
-    pulses: Annotated[int, typer.Argument(help="pulses, CW positive; with --to a position")],
+    pulses: Annotated[
+        list[int], typer.Argument(help="pulses, CW positive; with --to a position; two numbers: both axes")
+    ],
+    axis: AnyAxis = None,
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
     pulse_only: Annotated[bool, typer.Option("--pulse-only", help="the phases stand still")] = False,
 ) -> None:
-    """Move so many pulses."""
+    """Move so many pulses. Two numbers move both axes of a part, begun at the same moment."""
     if speed is not None and pulse_only:
         raise typer.BadParameter("only moves with a ramp can be --pulse-only: leave --speed out")
-    with _ready(typed) as (axis, guard):
-        distance = pulses - axis.position if to else pulses
-        if speed is None or distance == 0:
-            end = axis.move(distance, guard.progress, pulse_only)
+    if len(pulses) > 2 or (len(pulses) == 2 and axis is not None):
+        raise typer.BadParameter("move wants one number, with --axis if need be, or one number for each axis")
+    both = len(pulses) == 2
+    with ready(typed, (1, 2) if both else (axis or 1,)) as session:
+        guard, part = session.guard, session.part
+        chosen = part.axes if both else (session.axis(axis or 1),)
+        away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
+        if both and isinstance(part, Ppmc2104):
+            x, y = away
+            ends = list(part.together(x, y, speed, speed, guard.progress, pulse_only))
+        elif speed is None or away[0] == 0:
+            ends = [chosen[0].move(away[0], guard.progress, pulse_only)]
         else:
-            end = axis.move_constant(distance, speed, guard.progress)
+            ends = [chosen[0].move_constant(away[0], speed, guard.progress)]
         guard.bar_off()
-        show.say(show.end_line(end))
+        for end in ends:
+            show.say(show.end_line(end))
 
 
 @app.command()
@@ -169,6 +150,7 @@ def move(
 def jog(
     typed: dict[str, Any],
     direction: Annotated[Side, typer.Argument(help="where to")],
+    axis: AxisNumber = 1,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
     ramped: Annotated[bool, typer.Option("--ramped", help="ramp up to the high speed")] = False,
     seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after so long")] = None,
@@ -178,16 +160,17 @@ def jog(
         raise typer.BadParameter("either --speed or --ramped, not both")
     if seconds is not None and not 0 <= seconds < float("inf"):
         raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
-    with _ready(typed) as (axis, guard):
-        motion = axis.jog(direction.code, speed, ramped)
-        end_at = None if seconds is None else axis.link.clock() + seconds
+    with ready(typed, (axis,)) as session:
+        motor, guard, clock = session.axis(axis), session.guard, session.part.link.clock
+        motion = motor.jog(direction.code, speed, ramped)
+        end_at = None if seconds is None else clock() + seconds
 
         def look(now: Any) -> None:
             nonlocal end_at
             guard.progress(now)
-            if end_at is not None and axis.link.clock() >= end_at:
+            if end_at is not None and clock() >= end_at:
                 end_at = None
-                axis.stop(wait=False)
+                motor.stop(wait=False)
 
         end = motion.wait(progress=look)
         guard.bar_off()
@@ -198,60 +181,86 @@ def jog(
 @with_setup
 def home(
     typed: dict[str, Any],
+    axis: AxisNumber = 1,
     direction: Annotated[Side, typer.Option(help="towards the origin switch")] = Side.CCW,
     search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
     fast: Annotated[bool, typer.Option("--fast", help="at high speed to the slow-down limit first")] = False,
     to_limit: Annotated[bool, typer.Option("--to-limit", help="to the hard limit first")] = False,
 ) -> None:
     """Find the origin switch and call it position 0."""
-    with _ready(typed) as (axis, guard):
-        axis.home(direction.code, search, fast, to_limit, progress=guard.progress)
-        guard.bar_off()
-        show.say(f"position {axis.position}: origin found")
+    with ready(typed, (axis,)) as session:
+        motor = session.axis(axis)
+        motor.home(direction.code, search, fast, to_limit, progress=session.guard.progress)
+        session.guard.bar_off()
+        show.say(f"{motor.who}position {motor.position}: origin found")
 
 
 @app.command()
-def stop(now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False) -> None:
+def stop(
+    axis: AnyAxis = None,
+    now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
+) -> None:
     """Stop a motion that was left running."""
-    with _opened() as (axis, _):
-        end = axis.halt() if now else axis.stop()
-        if end is not None:
+    with opened() as session:
+        for end in stop_all(session.chosen(axis), now):
             show.say(show.end_line(end))
 
 
 # ---------------------------------------------------------------------- looking
 
 
+def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
+    """Values of the axes, by what to write in front of them."""
+    chosen = session.chosen(axis)
+    several = len(chosen) > 1
+    return {
+        f"axis {motor.number} " if several else "": show.status_values(session.part, motor)
+        for motor in chosen
+    }
+
+
+def _rows(looks: dict[str, dict[str, Any]]) -> dict[str, str]:
+    """The same as rows."""
+    rows: dict[str, str] = {}
+    for prefix, values in looks.items():
+        rows |= show.status_rows(values, prefix)
+    return rows
+
+
 @app.command()
-def status(as_json: Json = False) -> None:
+def status(axis: AnyAxis = None, as_json: Json = False) -> None:
     """Position, switches, state. Disturbs nothing."""
-    with _opened() as (axis, _):
-        values = show.status_values(axis)
-    if as_json:
-        show.print_json(values)
+    with opened() as session:
+        looks = _looks(session, axis)
+    if not as_json:
+        show.out.print(show.table(_rows(looks)))
+    elif "" in looks:
+        show.print_json(looks[""])
     else:
-        show.out.print(show.table(show.status_rows(values)))
+        show.print_json({prefix.strip().replace(" ", ""): values for prefix, values in looks.items()})
 
 
 @app.command()
 def monitor(
+    axis: AnyAxis = None,
     count: Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")] = None,
     every: Annotated[
         float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")
     ] = 0.2,
 ) -> None:
     """Watch position and switches until Ctrl-C."""
-    with _opened() as (axis, guard):
-        look: Callable[[], dict[str, str]] = lambda: show.status_rows(show.status_values(axis))  # noqa: E731
+    with opened() as session:
+        guard, link = session.guard, session.part.link
+        look: Callable[[], dict[str, str]] = lambda: _rows(_looks(session, axis))  # noqa: E731
         if not show.out.is_terminal:
             for turn in range(count or 10**9):
                 if turn:
-                    guard.pause(axis, every)
+                    guard.pause(link, every)
                 show.say("  ".join(f"{name} {value}" for name, value in look().items()))
             return
         with Live(show.table(look()), console=show.out, auto_refresh=False) as live:
             for _ in range((count or 10**9) - 1):
-                guard.pause(axis, every)
+                guard.pause(link, every)
                 live.update(show.table(look()), refresh=True)
 
 
@@ -266,17 +275,18 @@ def plan(
     as_json: Json = False,
 ) -> None:
     """Predict a move. Needs no board."""
-    setup = _values(typed).plan(xtal)
+    kind = BOARD.planned
+    setup = setup_values(typed).plan(xtal, kind)
     constant = None
     if speed is not None:
         clock = setup.clock
         if not clock.external:
-            clock = units.any_clock(xtal, speed, clock.vsel, clock.csel)
+            clock = kind.any_clock(xtal, speed, clock.vsel, clock.csel)
         constant = clock.choose(speed)
     figures = key_figures(setup, pulses, constant)
     if plot is not None:
         try:
-            plot_move(setup, pulses, constant, xtal, plot)
+            plot_move(setup, pulses, constant, xtal, plot, kind)
         except OSError as error:
             raise PpmcError(f"{plot}: the plot cannot be written ({error.strerror})") from error
     if as_json:
@@ -312,10 +322,11 @@ def script(
     except UnicodeDecodeError as error:
         raise PpmcError(f"{file}: not a text file in UTF-8") from error
     steps = read_program(text, name)
-    values = _values(typed)
-    with _opened() as (axis, guard):
-        check_speeds(steps, values, axis.link.identity.xtal_hz, name)
-        axis.apply(values.plan(axis.link.identity.xtal_hz))
-        Player(axis, guard, values, name, show.say).run(steps)
-        guard.bar_off()
-        show.say(f"done, position {axis.position}")
+    with opened() as session:
+        used = check_steps(steps, name, session.kind)
+        values = {axis: setup_values(typed, axis) for axis in used}
+        check_speeds(steps, dict(values), session.xtal_hz, name, session.kind)
+        initialise(session, values)
+        Player(session, values, name, show.say).run(steps)
+        session.guard.bar_off()
+        show.say(f"done, {positions(session.axis(number) for number in used)}")

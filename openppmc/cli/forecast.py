@@ -8,7 +8,8 @@ from typing import Any
 
 from ..host import units
 from ..host.errors import OutOfRange, PpmcError
-from ..model.codes104 import ENDLESS
+from ..host.kinds import Kind
+from ..model.codes import ENDLESS
 from ..model.predict import predict_move
 from ..model.ramp import Ramp, profile_index
 from ..model.timebase import Timebase
@@ -50,7 +51,9 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
     }
 
 
-def plot_move(setup: units.Setup, pulses: int, speed: units.Speed | None, xtal_hz: int, path: Path) -> None:
+def plot_move(
+    setup: units.Setup, pulses: int, speed: units.Speed | None, xtal_hz: int, path: Path, kind: Kind
+) -> None:
     """Speed over time as PNG, SVG or PDF. OutOfRange for moves too long to draw, with an external clock, and
     for file names that the plotter does not know."""
     try:
@@ -71,5 +74,6 @@ def plot_move(setup: units.Setup, pulses: int, speed: units.Speed | None, xtal_h
         clock.csel,
         clock.vsel,
         Timebase(16_000_000, xtal_hz),
+        part=f"ppmc{kind.number}",
     )
     draw_profile(move, f"{pulses} pulses", path)

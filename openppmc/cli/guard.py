@@ -11,7 +11,9 @@ from rich.console import Console
 from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bars
 
-from ..host import Ppmc104, PpmcError
+from ..host import PpmcError
+from ..host.device import Device
+from ..host.link import Link
 from ..host.motion import Progress
 
 BAR_AFTER = 0.6
@@ -56,12 +58,12 @@ class Guard:
         self.check()
         self.bar(now)
 
-    def pause(self, axis: Ppmc104, seconds: float) -> None:
+    def pause(self, link: Link, seconds: float) -> None:
         """Let time pass on the board's clock."""
-        end = axis.link.clock() + seconds
-        while (left := end - axis.link.clock()) > 0:
+        end = link.clock() + seconds
+        while (left := end - link.clock()) > 0:
             self.check()
-            axis.link.pause(min(left, 0.1))
+            link.pause(min(left, 0.1))
         self.check()
 
     # ------------------------------------------------------------------ bar
@@ -89,25 +91,33 @@ class Guard:
 
     # ------------------------------------------------------------------ what Ctrl-C does
 
-    def bring_to_rest(self, axis: Ppmc104) -> str:
-        """Decelerate, wait; at once on the next Ctrl-C. Returns where the motor stands, for the user."""
+    def bring_to_rest(self, part: Device) -> str:
+        """Decelerate all axes, wait; at once on the next Ctrl-C. Returns where they stand, for the user."""
         self.bar_off()
         how = "nothing was moving"
         seen = self.count
+        moving = [
+            axis
+            for axis in part.axes
+            if axis.motion is not None and axis.motion.end is None and axis.motion.poll() is not None
+        ]
 
         def look(now: Progress) -> None:
             nonlocal seen, how
             if self.count > seen:
                 seen = self.count
                 how = "stopped at once"
-                axis.halt(wait=False)
+                for axis in moving:
+                    axis.halt(wait=False)
 
-        motion = axis.motion
-        if motion is not None and motion.end is None and motion.poll() is not None:
+        for axis in moving:
             how = "stopped"
             axis.stop(wait=False)
-            motion.wait(progress=look)
+        for axis in moving:
+            assert axis.motion is not None
+            axis.motion.wait(progress=look)
         try:
-            return f"interrupted: {how}, position {axis.position}"
+            at = [str(axis.position) for axis in part.axes]
         except PpmcError:
             return f"interrupted: {how}"
+        return f"interrupted: {how}, position{'s' if len(at) > 1 else ''} {' and '.join(at)}"

@@ -13,6 +13,7 @@ import typer
 
 from ..host import units
 from ..host.errors import PpmcError
+from ..host.kinds import PPMC104, Kind
 
 _PANEL = "Set-up (remembered by init)"
 
@@ -45,7 +46,7 @@ class SetupValues:
     ramp: int = 200
     phases: int = 4
     half_step: bool = False
-    logic: str = Logic.POSITIVE.value
+    logic: str | None = None
     chop: bool = False
     base_clock: float | None = None
     external_clock: float | None = None
@@ -64,16 +65,22 @@ class SetupValues:
         """For the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int) -> units.Setup:
-        """Rates for a part with this crystal. OutOfRange for what it cannot do."""
-        if self.external_clock is not None:
-            clock = units.BaseClock.external_pin(self.external_clock)
-        else:
-            vsel = int(not self.long_intervals)
-            clock = units.choose_clock(xtal_hz, self.start, self.base_clock, vsel)
-        positive = Logic(self.logic) is Logic.POSITIVE
-        code = units.initialisation_code(self.phases, self.half_step, positive, clock.external, self.chop)
-        return units.plan_setup(clock, self.start, self.high, self.ramp, code)
+    def plan(self, xtal_hz: int, kind: Kind = PPMC104, axis: int = 1) -> units.Setup:
+        """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
+        return kind.plan(
+            xtal_hz,
+            self.start,
+            self.high,
+            self.ramp,
+            self.phases,
+            self.half_step,
+            None if self.logic is None else Logic(self.logic) is Logic.POSITIVE,
+            self.chop,
+            self.base_clock,
+            self.external_clock,
+            self.long_intervals,
+            axis,
+        )
 
 
 def _option(*names: str, text: str, metavar: str | None = None) -> Any:
@@ -90,7 +97,9 @@ _OPTIONS: dict[str, Any] = {
         int | None, _option("--phases", text="phases of the motor: 3, 4, 5 (4)", metavar="N")
     ],
     "half_step": Annotated[bool | None, _option("--half-step/--full-step", text="excitation (full step)")],
-    "logic": Annotated[Logic | None, _option("--logic", text="level that switches a coil on (positive)")],
+    "logic": Annotated[
+        Logic | None, _option("--logic", text="level that switches a coil on (PPMC-104: positive)")
+    ],
     "chop": Annotated[bool | None, _option("--chop/--no-chop", text="switch the coils at rest (no)")],
     "base_clock": Annotated[
         float | None,

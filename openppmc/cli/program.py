@@ -19,12 +19,13 @@ class ScriptError(PpmcError):
 
 @dataclass(frozen=True)
 class Step:
-    """One line. `body` belongs to repeat."""
+    """One line. `body` belongs to repeat. axis: as written, None if it names none."""
 
     line: int
     word: str
     values: dict[str, Any]
     body: tuple[Step, ...] = ()
+    axis: int | None = None
 
 
 def read_program(text: str, name: str) -> tuple[Step, ...]:
@@ -49,7 +50,11 @@ def read_program(text: str, name: str) -> tuple[Step, ...]:
                     raise ValueError(f"repeat deeper than {DEEPEST}")
                 stack.append((number, _repeat(rest), []))
             elif word in _WORDS:
-                stack[-1][2].append(Step(number, word, _WORDS[word](rest)))
+                axis = _axis(rest) if word in OF_AXES else None
+                step = Step(number, word, _WORDS[word](rest), axis=axis)
+                if axis is not None and step.values.get("second") is not None:
+                    raise ValueError("two numbers are for both axes: leave axis= out")
+                stack[-1][2].append(step)
             else:
                 known = ", ".join(sorted([*_WORDS, "repeat", "end"]))
                 raise ValueError(f"unknown command {words[0]!r} (there are {known})")
@@ -117,6 +122,13 @@ def _speed(words: list[str]) -> float | None:
     return None
 
 
+def _axis(words: list[str]) -> int | None:
+    """`axis=1` or `axis=2` at the end of the line."""
+    if words and words[-1].startswith("axis="):
+        return _whole(words.pop()[5:], "axis", 1, 2)
+    return None
+
+
 def _repeat(words: list[str]) -> dict[str, Any]:
     turns = _whole(_first(words, "how often"), "count", 1, MOST_TURNS)
     _none_left(words)
@@ -150,13 +162,17 @@ def _init(words: list[str]) -> dict[str, Any]:
 def _move(words: list[str]) -> dict[str, Any]:
     most = 1 << 24
     pulses = _whole(_first(words, "number of pulses"), "pulses", -most, most)
-    values = {"pulses": pulses, "speed": _speed(words)}
+    second = _whole(words.pop(0), "pulses", -most, most) if words and "=" not in words[0] else None
+    values = {"pulses": pulses, "second": second, "speed": _speed(words)}
     _none_left(words)
     return values
 
 
 def _move_to(words: list[str]) -> dict[str, Any]:
-    values = {"position": _whole(_first(words, "position"), "position", -(1 << 31), (1 << 31) - 1)}
+    ends = -(1 << 31), (1 << 31) - 1
+    values = {"position": _whole(_first(words, "position"), "position", *ends), "second": None}
+    if words:
+        values["second"] = _whole(words.pop(0), "position", *ends)
     _none_left(words)
     return values
 
@@ -211,6 +227,10 @@ def _plain(words: list[str]) -> dict[str, Any]:
     return {}
 
 
+OF_AXES = ("init", "move", "goto", "step", "jog", "home", "stop", "zero", "off", "position")
+"""Commands that may end with axis=N; without it they are about axis 1."""
+OF_ALL_AXES = ("stop", "off", "position")
+"""Those that are about all axes without it."""
 _WORDS: dict[str, Callable[[list[str]], dict[str, Any]]] = {
     "init": _init,
     "move": _move,

@@ -10,8 +10,9 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..host import End, Ppmc104, units
+from ..host import Axis, End, Ppmc104, Ppmc2104, units
 from ..host.link import Link
+from ..host.registers2104 import Status as Status2104
 from ..host.script import RATES
 
 out = Console(highlight=False)
@@ -48,6 +49,7 @@ def identity_values(link: Link) -> dict[str, Any]:
     return {
         "port": link.name,
         "part": f"PPMC-{identity.part}",
+        "axes": identity.axes,
         "protocol": identity.version,
         "timing": "DATASHEET" if identity.datasheet else "FAST",
         "pulse_counter": identity.counter,
@@ -58,34 +60,40 @@ def identity_values(link: Link) -> dict[str, Any]:
     }
 
 
-def status_values(axis: Ppmc104) -> dict[str, Any]:
-    """Everything that may be read at any time."""
-    status, inputs = axis.status(), axis.inputs()
+def status_values(part: Ppmc104 | Ppmc2104, axis: Axis) -> dict[str, Any]:
+    """Everything that may be read of an axis at any time."""
+    status = part.status()
+    error: Any = None
+    if isinstance(status, Status2104):
+        moving, error = status.busy[axis.number - 1], "unread" if status.error else None
+    else:
+        moving, error = status.busy, None if status.error is None else int(status.error)
     return {
-        "position": axis.counted(axis.position) if axis.link.identity.counter else None,
-        "moving": status.busy,
-        "error": None if status.error is None else int(status.error),
+        "position": axis.position if part.link.identity.counter else None,
+        "moving": moving,
+        "error": error,
         "status": status.raw,
-        "inputs": {name: bool(on) for name, on in vars(inputs).items()},
+        "inputs": {name: bool(on) for name, on in vars(axis.inputs()).items()},
     }
 
 
-def status_rows(values: dict[str, Any]) -> dict[str, str]:
+def status_rows(values: dict[str, Any], prefix: str = "") -> dict[str, str]:
     """The same for people."""
     active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
     error = values["error"]
-    return {
+    rows = {
         "position": "no counter" if values["position"] is None else str(values["position"]),
         "motor": "moving" if values["moving"] else "at rest",
         "switches": ", ".join(active) or "none active",
         "last byte": "good" if error is None else f"error {error}",
     }
+    return {prefix + name: text for name, text in rows.items()}
 
 
 def end_line(end: End) -> str:
     """Where the motor stands, and why."""
     pulses = "" if end.pulses is None else f", {abs(end.pulses)} pulses {'CCW' if end.pulses < 0 else 'CW'}"
-    return f"position {end.position}{pulses}: {end.cause}"
+    return f"{end.who}position {end.position}{pulses}: {end.cause}"
 
 
 def setup_rows(setup: units.Setup) -> dict[str, str]:

@@ -27,13 +27,14 @@ def lasting(port: str) -> bool:
     return bool(port) and not port.startswith((MODEL, SIM))
 
 
-def _file(port: str) -> Path:
-    return state_folder() / (re.sub(r"[^A-Za-z0-9._-]", "_", port.strip("/")) + ".json")
+def _file(port: str, axis: int) -> Path:
+    name = re.sub(r"[^A-Za-z0-9._-]", "_", port.strip("/"))
+    return state_folder() / (name + ("" if axis == 1 else f".axis{axis}") + ".json")
 
 
-def recall(port: str) -> dict[str, Any]:
-    """Remembered options of a port, empty if there are none. PpmcError if the file is not readable."""
-    path = _file(port)
+def recall(port: str, axis: int = 1) -> dict[str, Any]:
+    """Remembered options of an axis, empty if there are none. PpmcError if the file is not readable."""
+    path = _file(port, axis)
     if not lasting(port) or not path.is_file():
         return {}
     try:
@@ -47,11 +48,11 @@ def recall(port: str) -> dict[str, Any]:
     return values
 
 
-def remember(port: str, values: dict[str, Any]) -> None:
+def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
     """Keep the options for later commands. PpmcError if the file cannot be written."""
     if not lasting(port):
         return
-    path = _file(port)
+    path = _file(port, axis)
     text = json.dumps({"port": port, "setup": values}, indent=1) + "\n"
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -10,12 +10,16 @@
 `frames`, `script`, `session`, `units`, `ending`, `registers104` are pure; `transport` and `loopback` do I/O.
 """
 
+from .axis import CCW, CW, Axis
+from .axis2104 import Axis2104
 from .ending import Cause, End
 from .errors import (
     AlarmStop,
     AlreadyDecelerating,
     BadRamp,
+    BadSwitching,
     CommandRefused,
+    CutCommand,
     Disconnected,
     LimitReached,
     LinkError,
@@ -30,15 +34,20 @@ from .errors import (
     PpmcError,
     ProtocolError,
     RampTooLong,
+    StartRefused,
     StoppedEarly,
     Timeout,
+    TooFast,
     UnexpectedData,
     UnexpectedDataBusy,
+    UnknownCode,
     WrongDevice,
 )
 from .link import Link
 from .motion import Motion, Progress
-from .ppmc104 import CCW, CW, Ppmc104
+from .parts import open_part
+from .ppmc104 import Ppmc104
+from .ppmc2104 import Ppmc2104
 from .transport import open_port, serial_ports
 
 __all__ = [
@@ -46,9 +55,13 @@ __all__ = [
     "CW",
     "AlarmStop",
     "AlreadyDecelerating",
+    "Axis",
+    "Axis2104",
     "BadRamp",
+    "BadSwitching",
     "Cause",
     "CommandRefused",
+    "CutCommand",
     "Disconnected",
     "End",
     "LimitReached",
@@ -64,15 +77,20 @@ __all__ = [
     "OutOfRange",
     "PortError",
     "Ppmc104",
+    "Ppmc2104",
     "PpmcError",
     "Progress",
     "ProtocolError",
     "RampTooLong",
+    "StartRefused",
     "StoppedEarly",
     "Timeout",
+    "TooFast",
     "UnexpectedData",
     "UnexpectedDataBusy",
+    "UnknownCode",
     "WrongDevice",
+    "open_part",
     "open_port",
     "serial_ports",
 ]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Flag
 
-from ..model.codes104 import (
+from ..model.codes import (
     FINISH_ALARM,
     FINISH_LIMIT,
     FINISH_SLOW,
@@ -46,7 +46,7 @@ class End:
 
     pulses: made, CW positive; None for a motion that another program started. left: pulses not made (of
     endless operations: of 2^24). position: pulse counter afterwards, None if the bridge has none. finish: the
-    finish status byte.
+    finish status byte. who: for messages, the axis of a part with several.
     """
 
     cause: Cause
@@ -54,6 +54,7 @@ class End:
     left: int
     position: int | None
     finish: int
+    who: str = field(default="", compare=False)
 
     @property
     def complete(self) -> bool:
@@ -68,7 +69,8 @@ class End:
         of = "" if asked is None else f" of {asked}"
         kind, advice = _trouble(self.cause)
         raise kind(
-            f"{self.cause} ended the motion{where} after {abs(self.pulses)}{of} pulses: {advice}", self
+            f"{self.who}{self.cause} ended the motion{where} after {abs(self.pulses)}{of} pulses: {advice}",
+            self,
         )
 
 
@@ -80,7 +82,9 @@ def _trouble(cause: Cause) -> tuple[type[MotionError], str]:
     return StoppedEarly, "start again with the pulses that are left"
 
 
-def decode_end(finish: int, remaining: int, total: int | None, direction: int, position: int | None) -> End:
+def decode_end(
+    finish: int, remaining: int, total: int | None, direction: int, position: int | None, who: str = ""
+) -> End:
     """From the bytes of 0x80 and 0x83 (P104-END-04..06).
 
     total: pulses asked for, 2^24 for endless operations, None if nobody knows. direction: 0 CW, 1 CCW.
@@ -91,4 +95,4 @@ def decode_end(finish: int, remaining: int, total: int | None, direction: int, p
         # The origin switch sets no bit; only a search through all 2^24 pulses would read the same.
         cause, left = Cause.ORIGIN, remaining + 1
     made = None if total is None else (left - total if direction else total - left)
-    return End(cause, made, left, position, finish)
+    return End(cause, made, left, position, finish, who)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..model.codes104 import Error
+from ..model.codes2104 import Error as Error2104
 
 if TYPE_CHECKING:
     from .ending import End
@@ -56,53 +57,56 @@ class Disconnected(LinkError):
 
 
 class CommandRefused(PpmcError):
-    """The part set ERR. `status` is its status byte; one subclass per error number."""
+    """The part refused a byte. `status` is its status byte; one subclass per reason.
+
+    `number` is the error number of the PPMC-104; the other parts' are in tables of their own.
+    """
 
     number: int
     text = ""
 
-    def __init__(self, status: int) -> None:
-        super().__init__(self.text)
+    def __init__(self, status: int, text: str = "") -> None:
+        super().__init__(text or self.text)
         self.status = status
 
 
 class NothingToStop(CommandRefused):
-    """Error 0. The driver sends only defined codes, so it is a stop command at rest."""
+    """Error 0 (PPMC-2104: 6). The driver sends only defined codes, so it is a stop command at rest."""
 
     number = Error.UNDEFINED
     text = "nothing to stop: the motor is at rest (or the code is unknown)"
 
 
 class NotWhileBusy(CommandRefused):
-    """Error 1."""
+    """Error 1 (PPMC-2104: 5)."""
 
     number = Error.NOT_WHILE_BUSY
     text = "the part is busy with a motion: wait for its end or stop it first"
 
 
 class NotInitialised(CommandRefused):
-    """Error 2."""
+    """Error 2 (PPMC-2104: 4)."""
 
     number = Error.NOT_INITIALISED
     text = "the part is not initialised (power-up, reset or excitation off): initialise it first"
 
 
 class UnexpectedData(CommandRefused):
-    """Error 3."""
+    """Error 3 (PPMC-2104: 2)."""
 
     number = Error.UNASKED_DATA
     text = "the part did not ask for this data byte: another program may be using it; send the command again"
 
 
 class RampTooLong(CommandRefused):
-    """Error 4."""
+    """Error 4 (PPMC-2104: 10)."""
 
     number = Error.PA_TOO_LARGE
     text = "the part refuses a ramp of more than 11220 pulses: choose a shorter one"
 
 
 class BadRamp(CommandRefused):
-    """Error 5."""
+    """Error 5 (PPMC-2104: 9)."""
 
     number = Error.BAD_RAMP
     text = "the part refuses this ramp: it needs 4 pulses or more, and a high speed not below the start speed"
@@ -116,7 +120,7 @@ class UnexpectedDataBusy(CommandRefused):
 
 
 class AlreadyDecelerating(CommandRefused):
-    """Error 7."""
+    """Error 7 (PPMC-2104: 8)."""
 
     number = Error.ALREADY_DECELERATING
     text = "the motor is decelerating already: wait for its end, or halt it at once"
@@ -140,6 +144,88 @@ BY_NUMBER: dict[int, type[CommandRefused]] = {
 def refused(status: int) -> CommandRefused:
     """The exception for a status byte with ERR = 1."""
     return BY_NUMBER[status >> 4 & 7](status)
+
+
+# ---------------------------------------------------------------------- of the PPMC-2104 only
+
+
+class UnknownCode(CommandRefused):
+    """Error 1 of the PPMC-2104."""
+
+    text = "the part does not know this code: check the script"
+
+
+class CutCommand(CommandRefused):
+    """Error 3 of the PPMC-2104."""
+
+    text = (
+        "the part was still waiting for the data of another command, and both are dropped: another program "
+        "may be using it; send the command again"
+    )
+
+
+class StartRefused(CommandRefused):
+    """Error 7 of the PPMC-2104."""
+
+    text = (
+        "it may not start: its limit switch of this direction, its alarm or, for a search, its origin "
+        "switch is active: move the other way, or clear the alarm"
+    )
+
+
+class BadSwitching(CommandRefused):
+    """Error 11 of the PPMC-2104."""
+
+    text = "the part refuses these chopper times: 32 us or more each at a 16 MHz crystal"
+
+
+class TooFast(CommandRefused):
+    """Errors 12 and 13 of the PPMC-2104 with DATASHEET timing."""
+
+    text = (
+        "the part refuses this speed: with DATASHEET timing one axis cannot run so fast, choose a lower one"
+    )
+
+
+BY_NUMBER_2104: dict[int, tuple[type[CommandRefused], str]] = {
+    Error2104.UNDEFINED: (UnknownCode, ""),
+    Error2104.UNASKED_DATA: (UnexpectedData, ""),
+    Error2104.DATA_OUTSTANDING: (CutCommand, ""),
+    Error2104.NOT_INITIALISED: (
+        NotInitialised,
+        "it is not initialised (power-up, reset or excitation off): initialise it first",
+    ),
+    Error2104.NOT_WHILE_BUSY: (
+        NotWhileBusy,
+        "it is busy with a motion: wait for its end or stop it first",
+    ),
+    Error2104.NOTHING_TO_STOP: (NothingToStop, "nothing to stop: it is at rest"),
+    Error2104.START_REFUSED: (StartRefused, ""),
+    Error2104.CANNOT_DECELERATE: (
+        AlreadyDecelerating,
+        "the motor is decelerating already, runs at constant speed or waits for RUN: wait for its end, or "
+        "halt it at once",
+    ),
+    Error2104.BAD_RATE: (
+        BadRamp,
+        "the part refuses this ramp or speed: it needs 4 pulses or more, a start rate at least 2 above the "
+        "high rate, and no rate 0 with an internal base clock",
+    ),
+    Error2104.PA_TOO_LARGE: (RampTooLong, ""),
+    Error2104.BAD_SWITCHING: (BadSwitching, ""),
+    Error2104.RATE_ONE_AXIS: (TooFast, ""),
+    Error2104.RATE_TWO_AXES: (
+        TooFast,
+        "the part refuses this speed while the other axis is in use (DATASHEET timing): choose a lower one, "
+        "or wait until the other axis rests",
+    ),
+}
+
+
+def refused2104(number: int, status: int, axis: int) -> CommandRefused:
+    """The exception for the error register of an axis that reads `number`, 1 to 13."""
+    kind, text = BY_NUMBER_2104[number]
+    return kind(status, f"axis {axis}: {text or kind.text}")
 
 
 # ---------------------------------------------------------------------- motions

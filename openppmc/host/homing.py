@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .ending import Cause, End
@@ -10,18 +11,18 @@ from .errors import OriginNotFound, OutOfRange
 from .motion import Progress
 
 if TYPE_CHECKING:
-    from .ppmc104 import Ppmc104
+    from .axis import Axis
     from .units import Number
 
 LONGEST_BACK_OFF = 200_000
 
 
 class Homing:
-    """One homing run of an axis; see `Ppmc104.home`."""
+    """One homing run of an axis; see `Axis.home`."""
 
     def __init__(
         self,
-        axis: Ppmc104,
+        axis: Axis,
         direction: int,
         search_pps: Number | None,
         back_off: int,
@@ -45,12 +46,13 @@ class Homing:
         if end.cause is not Cause.ORIGIN:
             if end.cause & Cause.LIMIT:
                 raise OriginNotFound(
-                    "a limit switch came before the origin: home in the other direction, or check the switch",
+                    f"{end.who}a limit switch came before the origin: home in the other direction, or check "
+                    "the switch",
                     end,
                 )
             end.check()
         self._axis.zero()
-        return End(end.cause, end.pulses, end.left, self._axis.counted(0), end.finish)
+        return replace(end, position=self._axis.counted(0))
 
     def _approach(self, to_limit: bool) -> None:
         """High speed up to the slow-down limit, or on to the hard limit."""
@@ -70,7 +72,8 @@ class Homing:
             if gone > LONGEST_BACK_OFF:
                 end = End(Cause.COMPLETE, gone, 0, self._axis.position, 0)
                 raise OriginNotFound(
-                    f"the origin switch is still active {gone} pulses away from where it was: check it",
+                    f"{self._axis.who}the origin switch is still active {gone} pulses away from where it "
+                    "was: check it",
                     end,
                 )
             pps = self._pps if self._pps is not None else self._axis.search_speed

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import TracebackType
 
 from .errors import (
@@ -49,6 +50,8 @@ class Link:
             raise PortError(f"{baud} baud is not a rate of the bridge: it has {', '.join(map(str, RATES))}")
         self.port = open_port(spec) if isinstance(spec, str) else spec
         self.baud = BASE_BAUD
+        self.refusal: Callable[[Answer], Exception] = lambda answer: refused(answer.last)
+        """Makes the exception of a refused command; drivers of parts with other errors put theirs here."""
         self._session = Session()
         self._closed = False
         try:
@@ -120,7 +123,8 @@ class Link:
             )
         if part is not None and identity.part != part:
             raise WrongDevice(
-                f"{self.name}: the part is a PPMC-{identity.part}, not a PPMC-{part}: use its own driver"
+                f"{self.name}: the part is a PPMC-{identity.part}, not a PPMC-{part}: "
+                "name the right one with --part, or use its own driver"
             )
 
     def _raise_rate(self, baud: int) -> None:
@@ -174,7 +178,7 @@ class Link:
         if answer.result is Result.DONE:
             return answer
         if answer.result is Result.REFUSED:
-            raise refused(answer.last)
+            raise self.refusal(answer)
         where = f"{self.name}: {answer.failed.name if answer.failed else 'script'}"
         if answer.result is Result.TIMED_OUT:
             raise Timeout(

@@ -8,24 +8,26 @@ from __future__ import annotations
 
 import time
 
+from ..model.board import Board
 from ..model.board104 import Board104
+from ..model.board2104 import Board2104
 from ..model.bridge import Bridge
 from ..model.bridge_ops import RATES
-from ..model.plant import PLANT_WORDS, parse_plant
+from ..model.plant import PLANT_WORDS, parse_machine
 from .errors import Disconnected, PortError
 
 BITS_PER_BYTE = 10
 _SLICE = 0.01
 _LAG = 0.25
-OPTIONS = ("speed", "clk", "xtal", "timing", "unplug")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "unplug")
 
 
 class ModelPort:
     """A board that needs no hardware.
 
-    text: plant words (`openppmc.model.plant`) and `speed` (1: real time, 10: ten times as fast, max: as
-    fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `unplug` (the port goes away after
-    so many seconds of its time). Raises PortError for anything else.
+    text: words of the machine (`openppmc.model.plant`) and `speed` (1: real time, 10: ten times as fast,
+    max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `unplug` (the port goes
+    away after so many seconds of its time). Raises PortError for anything else.
     """
 
     def __init__(self, text: str = "", baud: int = 115_200) -> None:
@@ -34,7 +36,8 @@ class ModelPort:
         self._waiting = bytearray()
         self._closed = False
         try:
-            plant, options = parse_plant(text)
+            machine = parse_machine(text)
+            options = dict(machine.others)
             self._speed = _speed(options.pop("speed", "1"))
             clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
             timing = options.pop("timing", "FAST").upper()
@@ -42,10 +45,16 @@ class ModelPort:
             if options:
                 known = ", ".join((*PLANT_WORDS, *OPTIONS))
                 raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
-            self.board = Board104(plant, clk_hz, xtal_hz, timing, on_interrupt=self._interrupt)
+            board: Board104 | Board2104
+            if machine.part == "ppmc104":
+                board = Board104(machine.plants[0], clk_hz, xtal_hz, timing, self._interrupt)
+            else:
+                board = Board2104(machine.plants, clk_hz, xtal_hz, timing, self._interrupt)
         except ValueError as error:
             raise PortError(f"{self.name}: {error}") from error
-        self.bridge = Bridge(self.board, 104, clk_hz, xtal_hz, timing == "DATASHEET")
+        self.board: Board = board
+        axes = len(machine.plants)
+        self.bridge = Bridge(board, board.NUMBER, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes)
         self._origin = time.monotonic()
 
     # ------------------------------------------------------------------ port

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..model.codes104 import BUSY, ENDLESS
+from ..model.codes import ENDLESS
 from .ending import End, decode_end
 from .errors import NotWhileBusy, Timeout
 from .script import Script
 
 if TYPE_CHECKING:
-    from .ppmc104 import Ppmc104
+    from .axis import Axis, Order
 
 READ_FINISH, READ_REMAINING = 0x80, 0x83
 SAFETY_POLL = 0.5
@@ -33,31 +33,36 @@ class Progress:
 class Motion:
     """Handle of an operation that was started; `end` is its End once it is known.
 
-    asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. `begin`: pulse counter before.
+    asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. ramped: it has ramps. `begin`: pulse
+    counter before. ours: False for one that another program started.
     """
 
-    def __init__(
-        self, axis: Ppmc104, asked: int | None, direction: int, begin: int, ours: bool = True
-    ) -> None:
+    def __init__(self, axis: Axis, order: Order, begin: int, ours: bool = True) -> None:
         self._axis = axis
         self._link = axis.link
         self._ours = ours
-        self.asked = asked
-        self.direction = direction
+        self.asked = order.asked
+        self.direction = order.direction
+        self.ramped = order.ramped
         self.begin = begin
         self.end: End | None = None
         self._started = self._link.clock()
 
     def poll(self) -> Progress | None:
         """Where the motor is now; None when it has come to rest (then `end` is set)."""
-        answer = self._link.execute(Script().read(1).count())
-        if self.end is None and not answer.byte(0) & BUSY:
-            self._finish()
+        answer = self._link.execute(Script().read(1).count(self._axis.number))
+        self.look(answer.byte(0))
+        self._axis.look(answer.byte(0))
         if self.end is not None:
             return None
         position = answer.number(1, signed=True)
         made = abs(position - self.begin)
         return Progress(position, made, self.asked, self._link.clock() - self._started)
+
+    def look(self, status: int) -> None:
+        """The status register was read: fetch the end if there is one."""
+        if self.end is None and not status & self._axis.busy:
+            self._finish()
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
         """Wait for the end, without judging it.
@@ -86,9 +91,10 @@ class Motion:
         With DATASHEET timing BUSY rises up to 112 us after the command, and bytes wait for that (P104-DS-03):
         then it was no end.
         """
-        script = Script().call(READ_FINISH).get(1).call(READ_REMAINING).get(3).count()
+        bit = self._axis.bit
+        script = Script().call(READ_FINISH | bit).get(1).call(READ_REMAINING | bit).get(3)
         try:
-            answer = self._link.execute(script)
+            answer = self._link.execute(script.count(self._axis.number))
         except NotWhileBusy:
             return  # a part with DATASHEET timing was about to begin
         total = self.asked or ENDLESS
@@ -98,4 +104,5 @@ class Motion:
             total if self._ours else None,
             self.direction,
             self._axis.counted(answer.number(4, signed=True)),
+            self._axis.who,
         )

@@ -122,13 +122,13 @@ class Script:
         """Set the strap pins, 8 bits."""
         return self._add("STRAPS", bytes([0x07, _within("straps", levels, 0, 255)]))
 
-    def count(self) -> Script:
-        """4 bytes: signed pulse counter."""
-        return self._add("COUNT", b"\x08", 4)
+    def count(self, axis: int = 1) -> Script:
+        """4 bytes: signed pulse counter of axis 1 or 2."""
+        return self._add("COUNT", bytes([0x06 + 2 * _within("axis", axis, 1, 2)]), 4)
 
-    def zero(self) -> Script:
-        """Pulse counter to 0."""
-        return self._add("ZERO", b"\x09")
+    def zero(self, axis: int = 1) -> Script:
+        """Pulse counter of axis 1 or 2 to 0."""
+        return self._add("ZERO", bytes([0x07 + 2 * _within("axis", axis, 1, 2)]))
 
     # ------------------------------------------------------------------ registers of the part
 
@@ -259,6 +259,7 @@ class Identity:
     best_rate: int
     xtal_hz: int
     clk_hz: int
+    axes: int = 1
 
     @classmethod
     def parse(cls, data: bytes) -> Identity:
@@ -273,4 +274,5 @@ class Identity:
             best_rate=data[7] >> 4,
             xtal_hz=int.from_bytes(data[8:12], "little"),
             clk_hz=int.from_bytes(data[12:16], "little"),
+            axes=(data[7] >> 2 & 3) + 1,
         )

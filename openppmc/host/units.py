@@ -11,11 +11,12 @@ from fractions import Fraction
 from math import isfinite
 from typing import TypeAlias
 
-from ..model.codes104 import PA_MAX, PA_MIN
+from ..model.codes import ENDLESS, PA_MAX, PA_MIN
 from .errors import OutOfRange
 
 Number: TypeAlias = int | float | Fraction
 SLOWEST_RATE = 255
+LONGEST_MOVE = ENDLESS
 QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
 
 
@@ -36,7 +37,8 @@ class BaseClock:
     """What the intervals are counted in.
 
     period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
-    the strap pins that choose it. external: it comes in at the `clock` pin.
+    the strap pins that choose it. external: it comes in at the `clock` pin. least_rate: lowest rate byte
+    that the part takes with it.
     """
 
     period: Fraction
@@ -44,13 +46,15 @@ class BaseClock:
     csel: int = 1
     vsel: int = 1
     external: bool = False
+    least_rate: int = 0
 
     @classmethod
-    def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1) -> BaseClock:
+    def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1, least_rate: int = 0) -> BaseClock:
         """500 kHz (csel 1) or 125 kHz (csel 0) at a 16 MHz crystal; vsel 0 adds 7.5 us to each interval."""
         quantum = Fraction(4, xtal_hz)
         quanta = QUANTA_FAST if csel else QUANTA_SLOW
-        return cls(quanta * quantum, (0 if vsel else QUANTA_EXTRA) * quantum, csel, vsel)
+        extra = (0 if vsel else QUANTA_EXTRA) * quantum
+        return cls(quanta * quantum, extra, csel, vsel, least_rate=least_rate)
 
     @classmethod
     def external_pin(cls, hertz: Number) -> BaseClock:
@@ -76,7 +80,7 @@ class BaseClock:
     @property
     def fastest(self) -> Fraction:
         """Highest speed in pps."""
-        return self.speed(0)
+        return self.speed(self.least_rate)
 
     def reaches(self, pps: Number) -> bool:
         """The speed lies between the slowest and the fastest."""
@@ -91,7 +95,7 @@ class BaseClock:
                 f"(base clock {nearby(self.hertz)} Hz)"
             )
         periods = (1 / asked - self.extra) / self.period
-        rate = min(SLOWEST_RATE, max(0, int(periods + Fraction(1, 2)) - 1))
+        rate = min(SLOWEST_RATE, max(self.least_rate, int(periods + Fraction(1, 2)) - 1))
         return Speed(asked, rate, self.speed(rate), self)
 
 
@@ -144,22 +148,22 @@ class Setup:
         return float(2 * self.ramp_pulses / (self.start.reached + self.high.reached))
 
 
-def initialisation_code(
-    phases: int, half_step: bool, positive_logic: bool, external: bool, chop: bool
-) -> int:
-    """Command byte of P104-INI-01. phases 3, 4 or 5; OutOfRange otherwise."""
+def motor_bits(phases: int, half_step: bool) -> int:
+    """Low bits of an initialisation code. phases 3, 4 or 5; OutOfRange otherwise."""
     if phases not in (3, 4, 5):
         raise OutOfRange(f"{phases} phases: the part drives motors with 3, 4 or 5")
-    return phases - 2 | half_step << 2 | positive_logic << 3 | external << 4 | chop << 5
+    return phases - 2 | half_step << 2
 
 
-def choose_clock(xtal_hz: int, start_pps: Number, base_clock: Number | None, vsel: int = 1) -> BaseClock:
+def choose_clock(
+    xtal_hz: int, start_pps: Number, base_clock: Number | None, vsel: int = 1, least_rate: int = 0
+) -> BaseClock:
     """Internal base clock: the one asked for, or the one that reaches start_pps.
 
     base_clock in Hz: 500 000 or 125 000 at a 16 MHz crystal, None to choose. The fast one is preferred
     because its speeds lie closer together. Raises OutOfRange.
     """
-    fast, slow = (BaseClock.internal(xtal_hz, csel, vsel) for csel in (1, 0))
+    fast, slow = (BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (1, 0))
     if base_clock is None:
         return fast if fast.slowest <= exact(start_pps, "start speed") else slow
     for clock in (fast, slow):
@@ -170,8 +174,11 @@ def choose_clock(xtal_hz: int, start_pps: Number, base_clock: Number | None, vse
     )
 
 
-def plan_setup(clock: BaseClock, start_pps: Number, high_pps: Number, ramp_pulses: int, code: int) -> Setup:
-    """Rates of a ramp. Raises OutOfRange for speeds or a length that the part cannot do."""
+def plan_setup(
+    clock: BaseClock, start_pps: Number, high_pps: Number, ramp_pulses: int, code: int, rate_gap: int = 0
+) -> Setup:
+    """Rates of a ramp, the start rate at least `rate_gap` above the high rate. Raises OutOfRange for
+    speeds or a length that the part cannot do."""
     if not PA_MIN <= ramp_pulses <= PA_MAX:
         raise OutOfRange(f"ramp of {ramp_pulses} pulses is outside {PA_MIN} to {PA_MAX} pulses")
     start = clock.choose(start_pps, "start speed")
@@ -179,6 +186,11 @@ def plan_setup(clock: BaseClock, start_pps: Number, high_pps: Number, ramp_pulse
     if start.asked > high.asked:
         raise OutOfRange(
             f"start speed {nearby(start.asked)} pps is above high speed {nearby(high.asked)} pps: swap them"
+        )
+    if start.rate < high.rate + rate_gap:
+        raise OutOfRange(
+            f"start speed {start} and high speed {high} are too close together: this part needs {rate_gap} "
+            f"steps of its rate between them (rates {start.rate} and {high.rate} here)"
         )
     return Setup(start, high, ramp_pulses, code)
 
@@ -201,9 +213,36 @@ def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tupl
     return byte, offset + byte * unit
 
 
-def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1) -> BaseClock:
+def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, Fraction]:
+    """Parameter byte of the PPMC-2104's chopper nearest to a time, and the time it makes in us
+    (P2104-AUX-04): 0.5 us a unit at 16 MHz, 64 to 255 units. Raises OutOfRange with the possible range."""
+    unit = Fraction(8_000_000, xtal_hz)
+    asked = exact(microseconds, f"{phase} time", "us")
+    low, high = 64 * unit, 255 * unit
+    if not low <= asked <= high:
+        raise OutOfRange(
+            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
+        )
+    byte = int(asked / unit + Fraction(1, 2))
+    return byte, byte * unit
+
+
+def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
+    """Parameter byte of the PPMC-2104's hold delay nearest to a time, and the time it makes in us
+    (P2104-AUX-05): 128 to 32 768 us at 16 MHz. Raises OutOfRange with the possible range."""
+    unit = Fraction(2048_000_000, xtal_hz)
+    asked = exact(microseconds, "hold delay", "us")
+    if not unit <= asked <= 256 * unit:
+        raise OutOfRange(
+            f"hold delay {nearby(microseconds)} us is outside {nearby(unit)} to {nearby(256 * unit)} us"
+        )
+    byte = int(asked / unit + Fraction(1, 2)) - 1
+    return byte, (byte + 1) * unit
+
+
+def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
     """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
-    clocks = [BaseClock.internal(xtal_hz, csel, vsel) for csel in (first, 1 - first)]
+    clocks = [BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (first, 1 - first)]
     for clock in clocks:
         if clock.reaches(pps):
             return clock

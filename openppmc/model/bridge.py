@@ -21,8 +21,8 @@ class Bridge:
     """One bridge with its part.
 
     bus: see `bridge_ops.Bus`. part: number for IDENT. clk_hz: 1..2^32-1, decides which line rates there
-    are. xtal_hz, datasheet, counter: only for IDENT. Readable: `rate` (code of the present line rate) and
-    `scripts` (number of executed requests).
+    are. xtal_hz, datasheet, counter: only for IDENT. axes: 1 or 2 pulse counters. Readable: `rate` (code of
+    the present line rate) and `scripts` (number of executed requests).
     """
 
     def __init__(
@@ -33,8 +33,9 @@ class Bridge:
         xtal_hz: int = 16_000_000,
         datasheet: bool = False,
         counter: bool = True,
+        axes: int = 1,
     ) -> None:
-        self._engine = Engine(bus, part, clk_hz, xtal_hz, datasheet, counter)
+        self._engine = Engine(bus, part, clk_hz, xtal_hz, datasheet, counter, axes)
         self._engine.set_events = self._set_events  # type: ignore[method-assign]
         self._receiver = Receiver()
         self._stored: tuple[int, bytes] | None = None

@@ -15,16 +15,17 @@ MOST_DATA = 256
 DEFAULT_LIMIT_MS = 250
 ALL_HIGH = 0xFF
 READ_CYCLE_CLK = 11
-FIXED_OPERANDS = {0: 0, 1: 0, 2: 1, 3: 1, 4: 2, 5: 0, 6: 0, 7: 1, 8: 0, 9: 0, 0xA: 0}
+FIXED_OPERANDS = {0: 0, 1: 0, 2: 1, 3: 1, 4: 2, 5: 0, 6: 0, 7: 1, 8: 0, 9: 0, 0xA: 0, 0xB: 0}
 
 
 class Bus(Protocol):
     """The part behind the bridge. `read` and `write` are one bus cycle each.
 
     A bus may also have (missing ones do what is said here): `reset()` nothing; `straps(byte)` nothing;
-    `pins() -> int` FF; `count() -> int` 0, signed; `zero()` nothing; `now_ms() -> float` the time that the
-    read cycles of this script took; `skip(limit_ms)`, called while a wait goes on: let time pass until a
-    register may read otherwise, at most so long.
+    `pins() -> int` FF; `count() -> int` 0, signed; `zero()` nothing; with two axes `count(2)` and `zero(2)`
+    are asked for as well; `now_ms() -> float` the time that the read cycles of this script took;
+    `skip(limit_ms)`, called while a wait goes on: let time pass until a register may read otherwise, at most
+    so long.
     """
 
     def read(self, a: int) -> int:
@@ -46,12 +47,13 @@ class Engine:
     """Runs scripts. `events` is the EVENTS switch, `rate` the rate code that op RATE asked for, or None."""
 
     def __init__(
-        self, bus: Bus, part: int, clk_hz: int, xtal_hz: int, datasheet: bool, counter: bool
+        self, bus: Bus, part: int, clk_hz: int, xtal_hz: int, datasheet: bool, counter: bool, axes: int
     ) -> None:
         self._bus = bus
+        self._top_system_op = 9 + 2 * (axes - 1)
         self._clk_hz = clk_hz
         self.best_rate = max((c for c, rate in enumerate(RATES) if c and clk_hz >= 5 * rate), default=0)
-        flags = int(datasheet) | counter << 1 | self.best_rate << 4
+        flags = int(datasheet) | counter << 1 | axes - 1 << 2 | self.best_rate << 4
         self._identity = (
             b"PPMC"
             + bytes([PROTOCOL_VERSION])
@@ -122,7 +124,7 @@ class Engine:
         """Length of the op with operands; None if there is no such op or a count is 0."""
         group, low = rest[0] >> 4, rest[0] & 15
         if group == 0:
-            return 1 + FIXED_OPERANDS[low] if low <= 9 else None
+            return 1 + FIXED_OPERANDS[low] if low <= self._top_system_op else None
         if group in (1, 3):
             if group == 3 and rest[1:2] == b"\0":
                 return None
@@ -160,6 +162,10 @@ class Engine:
             self._give_all((self.hook("count", 0) & 0xFFFF_FFFF).to_bytes(4, "little"))
         elif code == 0x09:
             self.hook("zero", None)
+        elif code == 0x0A:
+            self._give_all((self.hook("count", 0, 2) & 0xFFFF_FFFF).to_bytes(4, "little"))
+        elif code == 0x0B:
+            self.hook("zero", None, 2)
 
     def set_events(self, on: bool) -> None:
         """Op EVENTS; the bridge replaces this to look after what is pending."""

@@ -9,13 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .chopper104 import Chopper
-from .codes104 import BUSY, ERR, FINISH_NEW, PA_MAX, PA_MIN, Command, Error, Kind, decode
+from .chopper import Chopper
+from .chopper104 import Switching104
+from .codes import FINISH_NEW, PA_MAX, PA_MIN
+from .codes104 import BUSY, ERR, Command, Error, Kind, decode
 from .excitation import Excitation
-from .guard104 import input_register
-from .hostport104 import HostPort
-from .motion104 import Motion, Setup
-from .parts104 import Context, Phase
+from .guard import input_register
+from .hostport import HostPort
+from .motion import Setup
+from .motion104 import Motion104
+from .parts import Context, Phase
+from .parts104 import INPUT_REGISTER
 from .ramp import Ramp
 
 _DS_PATTERN = 704
@@ -34,22 +38,24 @@ class CommandUnit:
     """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
 
     def __init__(
-        self, context: Context, port: HostPort, motion: Motion, excitation: Excitation, chopper: Chopper
+        self,
+        context: Context,
+        port: HostPort,
+        motion: Motion104,
+        excitation: Excitation,
+        chopper: Chopper,
+        switching: Switching104,
     ) -> None:
         self._context = context
         self._port = port
         self._motion = motion
         self._excitation = excitation
         self._chopper = chopper
-        self.reset()
-
-    def reset(self) -> None:
-        """UNINIT, no error, nothing expected."""
+        self._switching = switching
         self.error: Error | None = None
         self.setup: Setup | None = None
         self._pending: Command | None = None
         self._data: list[int] = []
-        self._auxo = 0b1111
 
     @property
     def expected(self) -> int:
@@ -122,7 +128,7 @@ class CommandUnit:
         elif kind is Kind.READ:
             self._port.answer(self._register(t, command.code))
         elif kind is Kind.SWITCHING:
-            self._chopper.set_parameters(*data)
+            self._switching.set(*data)
         elif kind is Kind.AUX_OUTPUT:
             level = ~data[0] & 0xF
             self._later(t, reference, _DS_AUX, lambda at: self._context.drive(at, "auxo", level))
@@ -158,7 +164,7 @@ class CommandUnit:
             self._context.drive(t, "int_n", 1)
             return [value]
         if code == 0x81:
-            return [input_register(levels)]
+            return [input_register(levels, INPUT_REGISTER)]
         if code == 0x82:
             pins, pattern = self._context.log.levels, self._excitation.pattern
             phases = sum((pattern >> i & 1) << (7 - i) for i in range(5))

@@ -1,161 +1,41 @@
-"""Host side of the PPMC-104 model: strobes, write path, early read path, mailbox, output queue.
-
-Strobes and registers: P104-BUS-01..07. Mailbox: P104-HSK-01..04. Output queue: P104-HSK-05, -06, -08.
-Status register: P104-STA-01..03. Closed mailbox in DATASHEET mode: P104-DS-02..12.
-"""
+"""What is special in the host port of the PPMC-104: its strobes, and the over-speed rule."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 
-from .codes104 import IBF, OBF, Kind, decode
-from .parts104 import Context, Phase
-from .scheduler import Event
-
-Take = Callable[[int, int, bool, int], None]
-
-WRITE_SYNC = 2
-READ_SYNC = 2
+from .codes104 import Kind, decode
 
 
-class HostPort:
-    """Bus strobes to bytes and back.
+def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
+    """Write strobe and read strobe; both low at once is neither (P104-BUS-02)."""
+    selected = not pins["cs_n"]
+    writing = selected and not pins["wr_n"] and bool(pins["rd_n"])
+    reading = selected and not pins["rd_n"] and bool(pins["wr_n"])
+    return writing, reading
 
-    take(t, byte, is_command, reference): the command processor; `reference` is the edge from which the
-    times of section 8 count. state(): ERR, NUM and BUSY as status bits.
+
+class SpeedGate:
+    """DATASHEET: above a speed only stop commands are taken (P104-DS-12).
+
+    retry(t): lets the host port look again at a waiting byte.
     """
 
-    def __init__(self, context: Context, take: Take, state: Callable[[], int]) -> None:
-        self._context = context
-        self._take_byte = take
-        self._state = state
-        self.reset()
-
-    def reset(self) -> None:
-        """Reset values; no strobe seen, nothing stored, nothing to read."""
-        self._pins: dict[str, int] = {}
-        self._writing = self._reading = False
-        self._in_pipe = 0
-        self._buffer = (0, False)
-        self._stored_at = 0
-        self.ibf = self.obf = False
-        self._shown = 0
-        self._queue: list[int] = []
-        self._taken = False
-        self._clearing: Event | None = None
-        self._presenting: Event | None = None
-        self._closed_until = 0
+    def __init__(self, retry: Callable[[int], None]) -> None:
+        self._retry = retry
         self._fast = (False, False, 0)
 
-    # ------------------------------------------------------------------ strobes
-
-    def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins (P104-BUS-02, -05, -06)."""
-        selected = not pins["cs_n"]
-        writing = bool(selected and not pins["wr_n"] and pins["rd_n"])
-        reading = bool(selected and not pins["rd_n"] and pins["wr_n"])
-        if self._writing and not writing:
-            self._in_pipe += 1
-            byte, command = self._pins["d_i"], bool(self._pins["a0"])
-            self._context.queue.at(t + WRITE_SYNC, Phase.STORE, lambda at: self._store(at, byte, command))
-        self._writing = writing
-        self._pins = dict(pins)
-        if reading != self._reading:
-            self._reading = reading
-            self._context.log.set(t, "d_oe", int(reading))
-            if reading:
-                self._load(t)
-                self._context.queue.at(t + 1, Phase.BUS, self._second_load)
-            elif self._taken:
-                self._taken = False
-                self._clearing = self._context.queue.at(t + READ_SYNC, Phase.QUEUE, self._clear)
-
-    def _second_load(self, t: int) -> None:
-        if self._reading:
-            self._load(t)
-
-    def _load(self, t: int) -> None:
-        """d_o takes the chosen register as it stands just before edge t."""
-        self._taken = False
-        if self._pins["a0"]:
-            value = self.status
-        else:
-            value = self._shown
-            self._taken = self._readable
-        self._context.log.set(t, "d_o", value)
-
-    @property
-    def _readable(self) -> bool:
-        return self.obf and self._clearing is None
-
-    @property
-    def status(self) -> int:
-        """Status register as a read sees it, a byte on its way in or out included."""
-        waiting = self.ibf or self._in_pipe > 0
-        return self._state() | (IBF if waiting else 0) | (OBF if self._readable else 0)
-
-    # ------------------------------------------------------------------ output queue
-
-    def answer(self, values: Iterable[int]) -> None:
-        """A read command loads its bytes; whatever was there is dropped (P104-HSK-08)."""
-        self._queue = list(values)
-        self._shown = self._queue.pop(0)
-        self.obf = True
-        self._taken = False
-        for event in (self._clearing, self._presenting):
-            if event:
-                event.cancel()
-        self._clearing = self._presenting = None
-
-    def _clear(self, t: int) -> None:
-        self._clearing = None
-        self.obf = False
-        if self._queue:
-            at = t + self._context.latency.queue_next
-            self._presenting = self._context.queue.at(at, Phase.QUEUE, self._present)
-
-    def _present(self, t: int) -> None:
-        self._presenting = None
-        self._shown = self._queue.pop(0)
-        self.obf = True
-
-    # ------------------------------------------------------------------ mailbox
-
-    def _store(self, t: int, byte: int, command: bool) -> None:
-        """Write event: the byte replaces one that still waits (P104-HSK-02)."""
-        self._in_pipe -= 1
-        self._buffer = (byte, command)
-        self._stored_at = t
-        self.ibf = True
-        self._context.queue.at(t + self._context.latency.c_event, Phase.COMMAND, self._try)
-
-    def close_until(self, t: int) -> None:
-        """Processing window: no byte is taken before edge t."""
-        self._closed_until = max(self._closed_until, t)
-
-    def set_fast(self, t: int, fast: bool) -> None:
-        """From edge t on only stop commands are taken, or everything again (P104-DS-12)."""
+    def set(self, t: int, fast: bool) -> None:
+        """From edge t on only stop commands are taken, or everything again."""
         self._fast = (self._is_fast(t), fast, t)
         if not fast:
-            self._context.queue.at(t, Phase.COMMAND, self._try)
+            self._retry(t)
 
     def _is_fast(self, t: int) -> bool:
         before, after, since = self._fast
         return after if t >= since else before
 
-    def _try(self, t: int) -> None:
-        latency = self._context.latency
-        if not self.ibf or t < self._stored_at + latency.c_event:
-            return
-        byte, command = self._buffer
-        opens = self._closed_until + (latency.window_open if self._closed_until > self._stored_at else 0)
-        if t < opens:
-            self._context.queue.at(opens, Phase.COMMAND, self._try)
-            return
+    def waits(self, t: int, byte: int, command: bool) -> bool:
+        """Whether this byte must stay in the buffer at edge t."""
         stop = command and decode(byte).kind in (Kind.STOP, Kind.SLOW_STOP)
-        if self._is_fast(t) and not stop:
-            return
-        self.ibf = False
-        waited = t > self._stored_at + latency.c_event
-        reference = t + latency.ds_waited if waited else self._stored_at + latency.ds_host
-        self._take_byte(t, byte, command, reference)
+        return self._is_fast(t) and not stop

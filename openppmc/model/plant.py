@@ -1,6 +1,7 @@
-"""A machine around a motor controller: one axis with limit, slow-down, origin and alarm switches.
+"""A machine around a motor controller: axes with limit, slow-down, origin and alarm switches.
 
-The same text describes it for the virtual board and for the model: `start=4000,cw=40000,alarm=100..200`.
+The same text describes it for the virtual board and for the model: `start=4000,cw=40000,alarm=100..200`;
+words of axis 2 end in 2: `cw2=30000`.
 """
 
 from __future__ import annotations
@@ -8,15 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 
 FARTHEST = 1 << 31
+SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
+"""In the order of the bridge's PINS byte."""
+PARTS = {"ppmc104": 1, "ppmc2104": 2}
+"""Word `part`: its values, and how many axes they have."""
 
 
 @dataclass(frozen=True)
 class Plant:
-    """Where the switches are, in pulses, CW positive; positions are -2^31 .. 2^31-1.
+    """Where the switches of an axis are, in pulses, CW positive; positions are -2^31 .. 2^31-1.
 
-    cw, ccw: hard limits L1 (active at positions >= cw) and L2 (<= ccw). slow_cw, slow_ccw: slow-down limits
-    L3 (>=) and L4 (<=). origin: CNP is active at positions <= origin. alarm: ALM is active from the first to
-    the last of the two positions.
+    cw, ccw: hard limits (active at positions >= cw and <= ccw). slow_cw, slow_ccw: slow-down limits (>= and
+    <=). origin: active at positions <= origin. alarm: active from the first to the last of the two positions.
     """
 
     start: int = 4000
@@ -28,38 +32,53 @@ class Plant:
     alarm: tuple[int, int] | None = None
 
     def levels(self, position: int) -> dict[str, int]:
-        """Levels of the input pins at a position, 0 = active."""
+        """Levels of the switches at a position, 0 = active."""
         alarm = self.alarm is not None and self.alarm[0] <= position <= self.alarm[1]
         return {
-            "l1_n": int(position < self.cw),
-            "l2_n": int(position > self.ccw),
-            "l3_n": int(position < self.slow_cw),
-            "l4_n": int(position > self.slow_ccw),
-            "cnp_n": int(position > self.origin),
-            "alm_n": int(not alarm),
+            "limit_cw": int(position < self.cw),
+            "limit_ccw": int(position > self.ccw),
+            "slow_cw": int(position < self.slow_cw),
+            "slow_ccw": int(position > self.slow_ccw),
+            "origin": int(position > self.origin),
+            "alarm": int(not alarm),
         }
 
 
 PLANT_WORDS = tuple(field.name for field in fields(Plant))
 
 
-def parse_plant(text: str) -> tuple[Plant, dict[str, str]]:
-    """Plant and the words that are not about it, from `word=value,word=value`; empty text: the defaults.
+@dataclass(frozen=True)
+class Machine:
+    """A board's surroundings: part (a key of PARTS), one plant an axis, the words that are about neither."""
 
-    Raises ValueError with the offending word.
-    """
-    plant, others = Plant(), {}
-    for item in filter(None, (part.strip() for part in text.split(","))):
-        word, equals, value = (part.strip() for part in item.partition("="))
+    part: str
+    plants: tuple[Plant, ...]
+    others: dict[str, str]
+
+
+def parse_machine(text: str) -> Machine:
+    """From `word=value,word=value`; empty text: the defaults. Raises ValueError with the offending word."""
+    plants, others, part = [Plant(), Plant()], {}, "ppmc104"
+    second = ""
+    for item in filter(None, (piece.strip() for piece in text.split(","))):
+        word, equals, value = (piece.strip() for piece in item.partition("="))
         if not equals or not value:
             raise ValueError(f"{item!r} is not of the form word=value")
-        if word == "alarm":
-            plant = replace(plant, alarm=_span(value))
-        elif word in PLANT_WORDS:
-            plant = replace(plant, **{word: _position(word, value)})
+        axis = int(word.endswith("2") and word[:-1] in PLANT_WORDS)
+        name = word[:-1] if axis else word
+        if word == "part":
+            part = value.lower()
+            if part not in PARTS:
+                raise ValueError(f"part={value}: there are {', '.join(PARTS)}")
+        elif name in PLANT_WORDS:
+            where = _span(word, value) if name == "alarm" else _position(word, value)
+            plants[axis] = replace(plants[axis], **{name: where})
+            second = item if axis else second
         else:
             others[word] = value
-    return plant, others
+    if second and PARTS[part] == 1:
+        raise ValueError(f"{second}: a {part} has one axis: add part=ppmc2104")
+    return Machine(part, tuple(plants[: PARTS[part]]), others)
 
 
 def _position(word: str, value: str) -> int:
@@ -72,11 +91,11 @@ def _position(word: str, value: str) -> int:
     return position
 
 
-def _span(value: str) -> tuple[int, int]:
+def _span(word: str, value: str) -> tuple[int, int]:
     first, dots, last = value.partition("..")
     if not dots:
-        raise ValueError(f"alarm={value} is not of the form alarm=100..200")
-    span = _position("alarm", first), _position("alarm", last)
+        raise ValueError(f"{word}={value} is not of the form {word}=100..200")
+    span = _position(word, first), _position(word, last)
     if span[0] > span[1]:
-        raise ValueError(f"alarm={value}: the first position is behind the last one")
+        raise ValueError(f"{word}={value}: the first position is behind the last one")
     return span

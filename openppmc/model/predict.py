@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .codes104 import PA_MAX, PA_MIN
+from .codes import PA_MAX, PA_MIN
 from .ramp import BaseClock, Ramp, profile_index
 from .timebase import Timebase
+
+# By part: least RL - RH, smallest rate with the internal clock (P104-INI-05, P2104-INI-02, -OPR-07).
+_LIMITS = {"ppmc104": (0, 0), "ppmc2104": (2, 1)}
 
 
 @dataclass(frozen=True)
@@ -43,21 +46,23 @@ def predict_move(
     csel: int = 1,
     vsel: int = 1,
     timebase: Timebase | None = None,
+    part: str = "ppmc104",
 ) -> Move:
     """Undisturbed move of n pulses with the internal clock.
 
     init: the four initialisation bytes RL, RH, PA low, PA high. rate: None for an acceleration /
-    deceleration move, else the rate of a constant-speed move. Raises ValueError for bytes that the part
-    refuses and for n outside 1..2^24.
+    deceleration move, else the rate of a constant-speed move. part: "ppmc104" or "ppmc2104" (which has no
+    vsel: leave it 1). Raises ValueError for bytes that the part refuses and for n outside 1..2^24.
     """
     if len(init) != 4:
         raise ValueError(f"an initialisation has 4 data bytes, not {len(init)}")
     rl, rh, pa = init[0], init[1], init[2] | init[3] << 8
-    if rh > rl or not PA_MIN <= pa <= PA_MAX:
+    slowest, least = _LIMITS[part]
+    if rh < least or rl < rh + slowest or not PA_MIN <= pa <= PA_MAX:
         raise ValueError(f"refused initialisation: RL {rl}, RH {rh}, PA {pa}")
     if not 1 <= n <= 1 << 24:
         raise ValueError(f"{n} pulses")
-    if rate is not None and not 0 <= rate <= 255:
+    if rate is not None and not least <= rate <= 255:
         raise ValueError(f"rate {rate}")
     timebase = timebase or Timebase()
     clock, ramp = BaseClock.of_pins(csel, vsel), Ramp(rl, rh, pa)

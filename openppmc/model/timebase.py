@@ -17,7 +17,8 @@ class Latency:
 
     c_event: write event to C-event when the mailbox is open (P104-HSK-03, 0..8).
     window_open: end of a closed window to the C-event of a byte that waited.
-    host_pins: internal change to int_n, aux_n, auxo. motor_pins: to s, pout_n, hold, dir (both 0..2).
+    host_pins: internal change to int_n, aux_n, auxo. int_pin: interrupt latch to int_n on parts with
+    several latches (P2104-INT-03, -05, 0..2). motor_pins: to s, pout_n, hold, dir (both 0..2).
     start_extra: internal pulse 1 beyond W (P104-TIM-02, 0..2).
     end_extra: pout_n rise to BUSY fall (P104-END-01, 0..4).
     imm_end: deciding edge to BUSY fall when pout_n is high (P104-END-02, 0..4).
@@ -28,9 +29,11 @@ class Latency:
     reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
     build_base, build_per_slow, build_per_rate: ramp-table build, base + per_slow * RL +
     per_rate * (RL - RH) (P104-HSK-04, <= 40000), 2 for RL = RH, which needs no table;
-    `build_clk`, a function of (RL, RH, PA), replaces them.
+    `build_clk`, a function of (RL, RH, PA), replaces them. build_queue: added where two axes share the
+    builder.
     ds_host: added to the times measured from a write event, ds_waited: from the end of a wait, ds_motor:
     from a pulse, a deciding edge or an input level (section 8, -0/+16).
+    ds_window: added to the windows of P2104-DS-01..14, which count from the C-event.
     ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12. Where an interval is
     slower than the one before, the core looks its rate up while it runs, seek_per_rate clk a rate, and the
     mailbox opens when the look-up has passed the limit; seek_start is added, after an acceleration step
@@ -40,6 +43,7 @@ class Latency:
     c_event: int = 2
     window_open: int = 1
     host_pins: int = 0
+    int_pin: int = 1
     motor_pins: int = 1
     start_extra: int = 0
     end_extra: int = 0
@@ -52,9 +56,11 @@ class Latency:
     build_per_slow: int = 51
     build_per_rate: int = 67
     build_clk: BuildClk | None = None
+    build_queue: int = 1
     ds_host: int = 3
     ds_waited: int = 1
     ds_motor: int = 1
+    ds_window: int = 1
     ds12_lag: int = 1
     seek_start: int = -2
     seek_turn: int = 1

@@ -7,7 +7,6 @@ computed from the host's commands, so the picture shows what the pins did.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import matplotlib
@@ -18,9 +17,9 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-SLOWEST = 2.1e-3  # s; pulses farther apart belong to different motions (rate 255 at 125 kHz is 2.048 ms)
+from .signals import Run, Section, Trace, speeds
 
-Changes = Sequence[tuple[int, int]]
+SLOWEST = 2.1e-3  # s; pulses farther apart belong to different motions (rate 255 at 125 kHz is 2.048 ms)
 
 INK, GREY, PALE = "#1b2733", "#6b7785", "#dfe4ea"
 SPEED = "#0b6fb8"
@@ -38,77 +37,6 @@ COLOURS = {
 }
 
 
-@dataclass(frozen=True)
-class Trace:
-    """One pin: name as drawn (* = active low), level before the first change, changes (clk edge, level)."""
-
-    name: str
-    initial: int
-    changes: Changes
-
-    def within(self, begin: int, end: int) -> tuple[list[int], list[int]]:
-        """Edges and levels for a step plot from `begin` to `end`."""
-        level, times, levels = self.initial, [begin], []
-        inside = []
-        for t, value in self.changes:
-            if t <= begin:
-                level = value
-            elif t < end:
-                inside.append((t, value))
-        levels.append(level)
-        for t, value in inside:
-            times.append(t)
-            levels.append(value)
-        return [*times, end], [*levels, levels[-1]]
-
-
-@dataclass(frozen=True)
-class Section:
-    """A named stretch of time in clk edges.
-
-    `note` is its subtitle, `marks` are (edge, text) and `spans` (edge, edge, text), drawn in close-ups only.
-    """
-
-    title: str
-    begin: int
-    end: int
-    note: str = ""
-    marks: Sequence[tuple[int, str]] = field(default=())
-    spans: Sequence[tuple[int, int, str]] = field(default=())
-
-
-@dataclass(frozen=True)
-class Run:
-    """All that the picture shows. `pulses` are the edges of the pulses, in clk."""
-
-    title: str
-    subtitle: str
-    clk_hz: int
-    end: int
-    traces: Sequence[Trace]
-    pulses: Sequence[int]
-    chapters: Sequence[Section]
-    zooms: Sequence[Section]
-
-
-def speeds(pulses: Sequence[int], clk_hz: int, gap: int) -> list[tuple[list[int], list[float]]]:
-    """Speed in pulses per second as step curves, one for each stretch of pulses closer than `gap` clk."""
-    curves: list[tuple[list[int], list[float]]] = []
-    times: list[int] = []
-    values: list[float] = []
-    for first, second in zip(pulses, pulses[1:], strict=False):
-        if second - first > gap:
-            if times:
-                curves.append(([*times, first], [*values, values[-1]]))
-            times, values = [], []
-            continue
-        times.append(first)
-        values.append(clk_hz / (second - first))
-    if times:
-        curves.append(([*times, pulses[-1]], [*values, values[-1]]))
-    return curves
-
-
 def bare(axes: Axes) -> None:
     """No frame, no ticks but those of x."""
     for side in ("top", "right", "left"):
@@ -124,7 +52,7 @@ def draw_traces(
     count = len(traces)
     for row, trace in enumerate(traces):
         base = (count - 1 - row) * 1.5
-        colour = COLOURS.get(trace.name.rstrip("*"), INK)
+        colour = trace.colour or COLOURS.get(trace.name.rstrip("*"), INK)
         times, levels = trace.within(begin, end)
         xs = [(t - begin) / scale for t in times]
         ys = [base + level for level in levels]
@@ -152,14 +80,19 @@ def draw_traces(
 
 
 def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None:
-    """Speed over time, filled."""
-    for times, values in speeds(run.pulses, run.clk_hz, gap=round(SLOWEST * run.clk_hz)):
-        xs = [(t - begin) / scale for t in times]
-        ys = [value / 1000 for value in values]
-        axes.fill_between(xs, 0, ys, step="post", color=SPEED, alpha=0.18, linewidth=0)
-        axes.step(xs, ys, where="post", color=SPEED, linewidth=1.6)
-        axes.plot([xs[0], xs[0]], [0, ys[0]], color=SPEED, linewidth=1.6)
-        axes.plot([xs[-1], xs[-1]], [0, ys[-1]], color=SPEED, linewidth=1.6)
+    """Speed over time, filled; a legend if the curves have names."""
+    for curve in run.speeds:
+        label = curve.name
+        for times, values in speeds(curve.pulses, run.clk_hz, gap=round(SLOWEST * run.clk_hz)):
+            xs = [(t - begin) / scale for t in times]
+            ys = [value / 1000 for value in values]
+            axes.fill_between(xs, 0, ys, step="post", color=curve.colour, alpha=0.18, linewidth=0)
+            axes.step(xs, ys, where="post", color=curve.colour, linewidth=1.6, label=label or None)
+            axes.plot([xs[0], xs[0]], [0, ys[0]], color=curve.colour, linewidth=1.6)
+            axes.plot([xs[-1], xs[-1]], [0, ys[-1]], color=curve.colour, linewidth=1.6)
+            label = ""
+    if any(curve.name for curve in run.speeds):
+        axes.legend(loc="center right", frameon=False, fontsize=9, labelcolor=INK)
     axes.set_xlim(0, (end - begin) / scale)
     axes.set_ylim(0, None)
     axes.margins(y=0.25)
@@ -216,11 +149,13 @@ def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
 def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
     """One zoom: all pins, times in µs from its beginning, marked edges with what happens there."""
     scale = run.clk_hz / 1e6
+    lift = 9 / (len(run.traces) * run.row_scale)  # titles stand as far above the axes, however high these are
+    title, note, marks = 1 + 0.115 * lift, 1 + 0.05 * lift, 1.5 / run.row_scale
     draw_traces(axes, run.traces, zoom.begin, zoom.end, scale, label_size=8)
     axes.set_xlabel("µs", fontsize=9, color=GREY, labelpad=1)
     axes.text(
         0,
-        1.115,
+        title,
         letter,
         transform=axes.transAxes,
         fontsize=9,
@@ -232,7 +167,7 @@ def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
     )
     axes.text(
         0.035,
-        1.115,
+        title,
         zoom.title,
         transform=axes.transAxes,
         fontsize=10.5,
@@ -240,9 +175,9 @@ def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
         fontweight="bold",
         va="center",
     )
-    axes.text(0.035, 1.05, zoom.note, transform=axes.transAxes, fontsize=8.5, color=GREY, va="center")
+    axes.text(0.035, note, zoom.note, transform=axes.transAxes, fontsize=8.5, color=GREY, va="center")
     low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 1.5)
+    axes.set_ylim(low, high + marks)
     for t, text in zoom.marks:
         x = (t - zoom.begin) / scale
         axes.plot([x, x], [low, high], color=GREY, linewidth=0.8, linestyle=(0, (3, 2)), zorder=0)
@@ -259,18 +194,29 @@ def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
 def draw(run: Run, path: Path) -> None:
     """Draw the run into a PNG."""
     plt.rcParams["font.family"] = "DejaVu Sans"
-    figure = plt.figure(figsize=(16, 11.6), dpi=110, facecolor="white")
+    # Heights in inches: the rows of pins, above and in the close-ups, decide; nine rows give 11.6.
+    rows = len(run.traces) / 9 * run.row_scale
+    speed, pins, lower, gap, margins = 2.10531, 2.63163 * rows, 3.78955 * rows, 1.4495, (1.102, 0.522)
+    height = round(speed + pins + lower + gap + sum(margins), 4)
+    figure = plt.figure(figsize=(16, height), dpi=110, facecolor="white")
     count = max(len(run.zooms), 1)
     grid = figure.add_gridspec(
-        2, 1, height_ratios=(1.25, 1), hspace=0.34, left=0.055, right=0.985, top=0.905, bottom=0.045
+        2,
+        1,
+        height_ratios=(speed + pins, lower),
+        hspace=gap * 2 / (speed + pins + lower),
+        left=0.055,
+        right=0.985,
+        top=1 - margins[0] / height,
+        bottom=margins[1] / height,
     )
-    upper = grid[0].subgridspec(2, 1, height_ratios=(1, 1.25), hspace=0.06)
+    upper = grid[0].subgridspec(2, 1, height_ratios=(speed, pins), hspace=0.06)
     overview(figure, (figure.add_subplot(upper[0]), figure.add_subplot(upper[1])), run)
-    lower = grid[1].subgridspec(1, count, wspace=0.17)
+    below = grid[1].subgridspec(1, count, wspace=0.17)
     for index, zoom in enumerate(run.zooms):
-        close_up(figure.add_subplot(lower[index]), run, zoom, "ABCDEF"[index])
-    figure.text(0.055, 0.972, run.title, fontsize=16, fontweight="bold", color=INK, va="center")
-    figure.text(0.055, 0.944, run.subtitle, fontsize=10, color=GREY, va="center")
+        close_up(figure.add_subplot(below[index]), run, zoom, "ABCDEF"[index])
+    figure.text(0.055, 1 - 0.3248 / height, run.title, fontsize=16, fontweight="bold", color=INK, va="center")
+    figure.text(0.055, 1 - 0.6496 / height, run.subtitle, fontsize=10, color=GREY, va="center")
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, metadata={"Software": None})
     plt.close(figure)

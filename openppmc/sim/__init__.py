@@ -1,4 +1,4 @@
-"""The virtual board: the RTL of ppmc104_board, Verilated, with its UART on a pseudo-terminal.
+"""The virtual board: the RTL of a part with its bridge, Verilated, with its UART on a pseudo-terminal.
 
     with openppmc.sim.start("start=2000") as board:
         print(board.port)
@@ -6,8 +6,18 @@
 It is built from a checkout of the project; docs/virtual_board.md has the words of the text.
 """
 
-from .board import SimBoard, Status, start
+from .board import AxisStatus, SimBoard, Status, start
 from .build import SimError
 from .spec import KNOWN, Spec, SpecError, parse_spec
 
-__all__ = ["KNOWN", "SimBoard", "SimError", "Spec", "SpecError", "Status", "parse_spec", "start"]
+__all__ = [
+    "KNOWN",
+    "AxisStatus",
+    "SimBoard",
+    "SimError",
+    "Spec",
+    "SpecError",
+    "Status",
+    "parse_spec",
+    "start",
+]

@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from .board import SimBoard, Status, start
+from .board import AxisStatus, SimBoard, Status, start
 from .build import SimError
 from .spec import KNOWN, SpecError
 
@@ -29,14 +29,16 @@ def split_link(text: str) -> tuple[str, Path | None]:
 
 def line(now: Status) -> str:
     """One line for the user."""
-    switches = " ".join(name for name, field in SWITCHES if getattr(now, field)) or "none"
-    state = "at rest" if now.hold else "moving"
     host = f"{now.rate} baud" if now.open else "no host"
     pace = "asleep" if now.asleep else f"{now.factor:.2f} x real time"
-    return (
-        f"{now.seconds:9.1f} s  {pace:16}  position {now.position:8}  {state:7}  "
-        f"active: {switches}{'  INT' if now.interrupt else ''}  [{host}]"
-    )
+    axes = "  ".join(motor(axis) for axis in (now, now.second) if axis is not None)
+    return f"{now.seconds:9.1f} s  {pace:16}  {axes}{'  INT' if now.interrupt else ''}  [{host}]"
+
+
+def motor(axis: AxisStatus) -> str:
+    """Position, state and switches of an axis."""
+    switches = " ".join(name for name, field in SWITCHES if getattr(axis, field)) or "none"
+    return f"position {axis.position:8}  {'at rest' if axis.hold else 'moving':7}  active: {switches}"
 
 
 def show(board: SimBoard) -> None:

@@ -6,29 +6,21 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from types import TracebackType
+from typing import Any
 
 from .build import SimError, build
 from .spec import Spec, parse_spec
 
+_KINDS = {"int": int, "float": float, "bool": lambda text: text == "1", "str": str}
+
 
 @dataclass(frozen=True)
-class Status:
-    """What the board shows. Switches: True = active; hold: True = at rest for 34 ms; interrupt: int_n low.
+class AxisStatus:
+    """An axis. Switches: True = active; hold: True = at rest for the hold time. pulses: made since the start.
+    phases: levels of S5 to S1."""
 
-    seconds, clk: board time. factor: board time / wall time over the last half second. asleep: nothing can
-    change before the host speaks, so nothing is computed. open: a host has the port open, at `rate` bit/s.
-    lost: bytes for the host that found no room. pulses: made since the start.
-    """
-
-    clk: int
-    seconds: float
-    factor: float
-    asleep: bool
-    open: bool
-    rate: int
-    lost: int
     position: int
     pulses: int
     l1: bool
@@ -38,18 +30,49 @@ class Status:
     cnp: bool
     alm: bool
     hold: bool
+    phases: str
+
+
+@dataclass(frozen=True)
+class Status(AxisStatus):
+    """What the board shows; the fields of an axis are those of axis 1, `second` has those of axis 2.
+
+    seconds, clk: board time. factor: board time / wall time over the last half second. asleep: nothing can
+    change before the host speaks, so nothing is computed. open: a host has the port open, at `rate` bit/s.
+    lost: bytes for the host that found no room. interrupt: int_n low.
+    """
+
+    clk: int
+    seconds: float
+    factor: float
+    asleep: bool
+    open: bool
+    rate: int
+    lost: int
     interrupt: bool
     link: bool
-    phases: str
+    second: AxisStatus | None
 
     @classmethod
     def parse(cls, line: str) -> Status:
-        """From the program's own words."""
+        """From the program's own words; those of axis 2 end in 2."""
         values = dict(word.partition("=")[::2] for word in line.split())
         values["interrupt"] = values.pop("int")
-        kinds = {"int": int, "float": float, "bool": lambda text: text == "1", "str": str}
-        fields = cls.__dataclass_fields__.items()
-        return cls(**{name: kinds[str(field.type)](values[name]) for name, field in fields})
+        second = None
+        if "position2" in values:
+            second = AxisStatus(**_typed(AxisStatus, {n: values[n + "2"] for n in _names(AxisStatus)}))
+        names = [name for name in _names(cls) if name != "second"]
+        return cls(**_typed(cls, {name: values[name] for name in names}), second=second)
+
+
+def _names(kind: type[AxisStatus]) -> list[str]:
+    return [field.name for field in fields(kind)]
+
+
+def _typed(kind: type[AxisStatus], values: dict[str, str]) -> dict[str, Any]:
+    """Texts as what the fields are declared as."""
+    kinds = {field.name: str(field.type) for field in fields(kind)}
+    return {name: _KINDS[kinds[name]](text) for name, text in values.items()}
 
 
 class SimBoard:
@@ -60,7 +83,7 @@ class SimBoard:
 
     def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
         self.spec = spec
-        program = build(spec.clk_hz, spec.xtal_hz, spec.timing, spec.vcd is not None, say)
+        program = build(spec.part, spec.clk_hz, spec.xtal_hz, spec.timing, spec.vcd is not None, say)
         try:
             # The program ends with its standard input, so with this process, however that ends.
             self.process = subprocess.Popen(

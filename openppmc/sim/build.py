@@ -16,8 +16,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-TOP = "rtl/boards/ppmc104_board.sv"
-GROUPS = ("common", "motion", "host", "ppmc104")
+BOARDS = "rtl/boards"
+GROUPS = ("common", "motion", "host")  # and that of the part
 KEEP_DAYS = 7
 # Assertions would cost a third of the speed, and `make test` has them all.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1".split()
@@ -33,7 +33,7 @@ def find_root() -> Path:
     here = Path.cwd()
     places = [Path(named)] if named else [Path(__file__).resolve().parents[2], here, *here.parents]
     for place in places:
-        if (place / TOP).is_file() and (place / "tb/board/main.cpp").is_file():
+        if (place / BOARDS).is_dir() and (place / "tb/board/main.cpp").is_file():
             return place.resolve()
     if named:
         raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC there")
@@ -43,22 +43,23 @@ def find_root() -> Path:
     )
 
 
-def build(clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: Callable[[str], None]) -> Path:
-    """The program, built if need be; `say` gets a line when that takes time. Raises SimError.
+def build(part: str, clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: Callable[[str], None]) -> Path:
+    """The program for a part such as ppmc104, built if need be; `say` gets a line when that takes time.
+    Raises SimError.
 
     trace: with waveforms, which makes a slower program. Safe against other processes doing the same.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
     root = find_root()
-    rtl, cpp = _rtl(root), sorted((root / "tb/board").glob("*.cpp"))
+    rtl, cpp = _rtl(root, part), sorted((root / "tb/board").glob("*.cpp"))
     verilator, version = _verilator()
     flags = [
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
-        *("--top-module", "ppmc104_board", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
+        *("--top-module", f"{part}_board", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
         *(f"-GCLK_HZ={clk_hz}", f"-GXTAL_HZ={xtal_hz}", f'-GTIMING="{timing}"'),
-        *("-CFLAGS", f"-std=c++17 -DBOARD_CLK_HZ={clk_hz}", "-o", "board"),
+        *("-CFLAGS", f"-std=c++17 -DBOARD_CLK_HZ={clk_hz} -DBOARD_PART={part[4:]}", "-o", "board"),
         # The makefile would append its own -Os for these files.
         *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
     ]
@@ -87,8 +88,8 @@ def build(clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: Callable[[st
         return program
 
 
-def _rtl(root: Path) -> list[Path]:
-    """Sources of ppmc104_board in compile order, from rtl/files.yml (read without a YAML package)."""
+def _rtl(root: Path, part: str) -> list[Path]:
+    """Sources of the part's board in compile order, from rtl/files.yml (read without a YAML package)."""
     groups: dict[str, list[str]] = {}
     group = ""
     for line in (root / "rtl/files.yml").read_text(encoding="utf-8").splitlines():
@@ -96,7 +97,8 @@ def _rtl(root: Path) -> list[Path]:
             group = match[1]
         elif match := re.match(r"\s*-\s*(\S+)", line):
             groups.setdefault(group, []).append(match[1])
-    files = [root / "rtl" / name for key in GROUPS for name in groups.get(key, [])] + [root / TOP]
+    files = [root / "rtl" / name for key in (*GROUPS, part) for name in groups.get(key, [])]
+    files.append(root / BOARDS / f"{part}_board.sv")
     missing = [file.name for file in files if not file.is_file()]
     if missing:
         raise SimError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")

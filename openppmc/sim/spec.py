@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
-from ..model.plant import PLANT_WORDS, Plant, parse_plant
+from ..model.plant import PLANT_WORDS, Plant, parse_machine
 
-OPTIONS = ("speed", "clk", "xtal", "timing", "vcd", "vcd_from", "vcd_for", "log")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "vcd", "vcd_from", "vcd_for", "log")
 KNOWN = ", ".join((*PLANT_WORDS, *OPTIONS))
 
 
@@ -19,13 +19,14 @@ class SpecError(ValueError):
 class Spec:
     """A virtual board as it was asked for.
 
-    speed: times real time, None: as fast as the machine can. clk_hz: clock of the board, 8e6 … 200e6 (real
-    time is out of reach far above 8e6). xtal_hz: crystal of the emulated chip, 1e6 … 16e6. timing: FAST or
-    DATASHEET. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log: file that
-    gets a line a pulse, or None.
+    part: ppmc104 or ppmc2104. plants: one an axis. speed: times real time, None: as fast as the machine can.
+    clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz: crystal of
+    the emulated chip, 1e6 … 16e6. timing: FAST or DATASHEET. vcd: waveform file or None, with vcd_from and
+    vcd_for in ms of board time. log: file that gets a line a pulse, or None.
     """
 
-    plant: Plant = field(default_factory=Plant)
+    part: str = "ppmc104"
+    plants: tuple[Plant, ...] = (Plant(),)
     speed: float | None = 1.0
     clk_hz: int = 8_000_000
     xtal_hz: int = 16_000_000
@@ -37,10 +38,11 @@ class Spec:
 
     def arguments(self) -> list[str]:
         """Arguments of the program in tb/board."""
-        plant = self.plant
-        words = [f"{word}={getattr(plant, word)}" for word in PLANT_WORDS if word != "alarm"]
-        if plant.alarm is not None:
-            words.append(f"alarm={plant.alarm[0]}..{plant.alarm[1]}")
+        words = []
+        for plant, suffix in zip(self.plants, ("", "2"), strict=False):
+            words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLANT_WORDS if word != "alarm"]
+            if plant.alarm is not None:
+                words.append(f"alarm{suffix}={plant.alarm[0]}..{plant.alarm[1]}")
         words.append(f"speed={'max' if self.speed is None else self.speed}")
         if self.vcd is not None:
             words += [f"vcd={self.vcd}", f"vcd_from={self.vcd_from}", f"vcd_for={self.vcd_for}"]
@@ -53,14 +55,17 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     """Spec from `word=value,word=value`; options have the same names and win. Raises SpecError."""
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
-        plant, rest = parse_plant(",".join(words))
+        machine = parse_machine(",".join(words))
     except ValueError as error:
         raise SpecError(f"{error} (there are {KNOWN})") from None
+    rest = machine.others
     for word in rest:
         if word not in OPTIONS:
             raise SpecError(f"unknown word {word!r} (there are {KNOWN})")
-    if plant.ccw >= plant.cw:
-        raise SpecError(f"cw={plant.cw},ccw={plant.ccw}: the CW limit must lie above the CCW limit")
+    for plant, suffix in zip(machine.plants, ("", "2"), strict=False):
+        if plant.ccw >= plant.cw:
+            words = f"cw{suffix}={plant.cw},ccw{suffix}={plant.ccw}"
+            raise SpecError(f"{words}: the CW limit must lie above the CCW limit")
     timing = rest.get("timing", "FAST").upper()
     if timing not in ("FAST", "DATASHEET"):
         raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
@@ -68,7 +73,8 @@ def parse_spec(text: str = "", **options: object) -> Spec:
         raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
     speed = rest.get("speed", "1")
     return Spec(
-        plant,
+        machine.part,
+        machine.plants,
         None if speed == "max" else _number("speed", speed, 0.001, 1000, "or max"),
         _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000),
         _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, 16_000_000),

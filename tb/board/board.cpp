@@ -13,7 +13,8 @@ constexpr uint64_t kRestSeconds = 2;  // longer than any timer of part and bridg
 }  // namespace
 
 Board::Board(const Options& options, uint64_t clk_hz)
-    : clk_hz_(clk_hz), options_(options), plant_(options.plant), uart_(clk_hz), pace_(clk_hz, options.speed) {
+    : clk_hz_(clk_hz), options_(options), uart_(clk_hz), pace_(clk_hz, options.speed) {
+    for (unsigned n = 0; n < kAxes; ++n) plants_[n] = Plant(options.plants[n]);
     if (!options_.vcd.empty()) {
         const double clk_per_ms = static_cast<double>(clk_hz) / 1000;
         trace_from_ = static_cast<uint64_t>(options_.vcd_from * clk_per_ms);
@@ -22,9 +23,9 @@ Board::Board(const Options& options, uint64_t clk_hz)
     if (!options_.log.empty()) {
         log_ = std::fopen(options_.log.c_str(), "w");
         if (!log_) throw std::runtime_error("cannot write " + options_.log);
-        std::fputs("# clk dir position\n", log_);
+        std::fputs(kAxes == 1 ? "# clk dir position\n" : "# clk dir position axis\n", log_);
     }
-    apply_switches();
+    set_switches(dut_.top, plants_);
     busy_until_ = kRestSeconds * clk_hz_;
 }
 
@@ -79,22 +80,19 @@ void Board::change() {
     uart_.step(now_, txd_);
     top.uart_rxd = uart_.level();
     wake_ = uart_.next();
-    if (top.pout_n == pout_) return;
+    const unsigned fallen = pout_ & ~top.pout_n;
     pout_ = top.pout_n;
-    if (pout_) return;
-    plant_.pulse(top.dir);
-    apply_switches();
-    if (log_) std::fprintf(log_, "%" PRIu64 " %d %" PRId64 "\n", now_ - 1, top.dir, plant_.position());
-}
-
-void Board::apply_switches() {
-    Vboard& top = dut_.top;
-    top.l1_n = !plant_.l1;
-    top.l2_n = !plant_.l2;
-    top.l3_n = !plant_.l3;
-    top.l4_n = !plant_.l4;
-    top.cnp_n = !plant_.cnp;
-    top.alm_n = !plant_.alm;
+    if (!fallen) return;
+    for (unsigned n = 0; n < kAxes; ++n) {
+        if (!(fallen >> n & 1)) continue;
+        const bool dir = top.dir >> n & 1;
+        plants_[n].pulse(dir);
+        if (!log_) continue;
+        std::fprintf(log_, "%" PRIu64 " %d %" PRId64, now_ - 1, dir, plants_[n].position());
+        if (kAxes > 1) std::fprintf(log_, " %u", n + 1);
+        std::fputc('\n', log_);
+    }
+    set_switches(top, plants_);
 }
 
 // Between two slices: bytes from and to the host, and whether anything is going on at all.
@@ -112,7 +110,8 @@ void Board::serve() {
         pty_.write(uart_.received());
         uart_.received().clear();
     }
-    if (spoken || !uart_.idle() || !top.hold || top.led_link || !top.uart_txd || !top.pout_n) {
+    if (spoken || !uart_.idle() || top.hold != kAllAxes || top.led_link || !top.uart_txd ||
+        top.pout_n != kAllAxes) {
         if (dozing_) pace_.rebase(now_);
         dozing_ = false;
         busy_until_ = now_ + kRestSeconds * clk_hz_;
@@ -143,14 +142,24 @@ void Board::trace_window() {
 
 std::string Board::status() const {
     const Vboard& top = dut_.top;
-    char line[400];
+    char line[300];
     std::snprintf(line, sizeof line,
                   "clk=%" PRIu64 " seconds=%.3f factor=%.3f asleep=%d open=%d rate=%u lost=%" PRIu64
-                  " position=%" PRId64 " pulses=%" PRIu64
-                  " l1=%d l2=%d l3=%d l4=%d cnp=%d alm=%d hold=%d int=%d link=%d phases=%d%d%d%d%d",
+                  " int=%d link=%d",
                   now_, static_cast<double>(now_) / static_cast<double>(clk_hz_), pace_.factor(), dozing_, pty_.open(),
-                  pty_.rate(), pty_.lost(), plant_.position(), plant_.pulses(), plant_.l1, plant_.l2, plant_.l3,
-                  plant_.l4, plant_.cnp, plant_.alm, top.hold, !top.int_n, top.led_link, top.s >> 4 & 1, top.s >> 3 & 1,
-                  top.s >> 2 & 1, top.s >> 1 & 1, top.s & 1);
-    return line;
+                  pty_.rate(), pty_.lost(), !top.int_n, top.led_link);
+    std::string all = line;
+    for (unsigned n = 0; n < kAxes; ++n) {
+        const Plant& plant = plants_[n];
+        const unsigned s = phases(top, n);
+        const char* of = n ? "2" : "";  // words of axis 2 end in 2, as those of the options
+        std::snprintf(line, sizeof line,
+                      " position%s=%" PRId64 " pulses%s=%" PRIu64
+                      " l1%s=%d l2%s=%d l3%s=%d l4%s=%d cnp%s=%d alm%s=%d hold%s=%d phases%s=%d%d%d%d%d",
+                      of, plant.position(), of, plant.pulses(), of, plant.l1, of, plant.l2, of, plant.l3, of, plant.l4,
+                      of, plant.cnp, of, plant.alm, of, top.hold >> n & 1, of, s >> 4 & 1, s >> 3 & 1, s >> 2 & 1,
+                      s >> 1 & 1, s & 1);
+        all += line;
+    }
+    return all;
 }

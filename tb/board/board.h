@@ -33,21 +33,21 @@ class Board {
     void change();
     void serve();
     void doze(int wake_fd);
-    void apply_switches();
     void trace_window();
 
     const uint64_t clk_hz_;
     Options options_;
     Pty pty_;
     Dut dut_;
-    Plant plant_;
+    Plant plants_[kAxes];
     Uart uart_;
     Pace pace_;
 
     uint64_t now_ = 0;       // number of the next clk edge
     uint64_t wake_ = 0;      // next() of the UART
     uint64_t busy_until_ = 0;  // no doze before this clk
-    bool txd_ = true, pout_ = true;
+    bool txd_ = true;
+    unsigned pout_ = kAllAxes;
     bool dozing_ = false;
     uint64_t trace_from_ = 0, trace_end_ = 0;
     bool tracing_ = false;

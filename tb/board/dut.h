@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Verilated ppmc104_board, one clk at a time, and its waveforms in the build that can record them.
+// The Verilated board, one clk at a time, and its waveforms in the build that can record them.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "Vboard.h"
 #include "Vboard___024root.h"
+#include "pins.h"
 #include "verilated.h"
 #if VM_TRACE
 #include "verilated_vcd_c.h"
@@ -22,8 +23,7 @@ class Dut {
 #endif
         top.clk = 0;
         top.uart_rxd = 1;
-        top.cs_n = top.rd_n = top.wr_n = 1;
-        top.csel = top.vsel = 1;
+        idle_inputs(top);
         // Reset asserts with an edge: flip-flops that miss it would keep their first values.
         top.rst_n = 1;
         top.eval();

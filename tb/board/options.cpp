@@ -33,26 +33,29 @@ Options parse_options(int argc, char** argv) {
     Options o;
     using Setter = std::function<void(const std::string&)>;
     const auto position = [](int64_t& to) { return Setter([&to](const std::string& text) { to = integer(text); }); };
-    const std::map<std::string, Setter> setters = {
-        {"start", position(o.plant.start)},
-        {"cw", position(o.plant.cw)},
-        {"ccw", position(o.plant.ccw)},
-        {"slow_cw", position(o.plant.slow_cw)},
-        {"slow_ccw", position(o.plant.slow_ccw)},
-        {"origin", position(o.plant.origin)},
-        {"alarm",
-         [&o](const std::string& text) {
-             const size_t dots = text.find("..");
-             if (dots == std::string::npos) throw std::runtime_error("alarm=" + text + ": not a range");
-             o.plant.alarm_from = integer(text.substr(0, dots));
-             o.plant.alarm_to = integer(text.substr(dots + 2));
-         }},
+    std::map<std::string, Setter> setters = {
         {"speed", [&o](const std::string& text) { o.speed = text == "max" ? 0 : real(text); }},
         {"vcd", [&o](const std::string& text) { o.vcd = text; }},
         {"vcd_from", [&o](const std::string& text) { o.vcd_from = real(text); }},
         {"vcd_for", [&o](const std::string& text) { o.vcd_for = real(text); }},
         {"log", [&o](const std::string& text) { o.log = text; }},
     };
+    for (unsigned n = 0; n < kAxes; ++n) {
+        PlantText& plant = o.plants[n];
+        const std::string of = n ? "2" : "";
+        setters["start" + of] = position(plant.start);
+        setters["cw" + of] = position(plant.cw);
+        setters["ccw" + of] = position(plant.ccw);
+        setters["slow_cw" + of] = position(plant.slow_cw);
+        setters["slow_ccw" + of] = position(plant.slow_ccw);
+        setters["origin" + of] = position(plant.origin);
+        setters["alarm" + of] = [&plant](const std::string& text) {
+            const size_t dots = text.find("..");
+            if (dots == std::string::npos) throw std::runtime_error("alarm=" + text + ": not a range");
+            plant.alarm_from = integer(text.substr(0, dots));
+            plant.alarm_to = integer(text.substr(dots + 2));
+        };
+    }
     for (int i = 1; i < argc; ++i) {
         const char* equals = std::strchr(argv[i], '=');
         const auto setter = setters.find(std::string(argv[i], equals ? equals - argv[i] : std::strlen(argv[i])));

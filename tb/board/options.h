@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
-#include "plant.h"
+#include "pins.h"
 
 struct Options {
-    PlantText plant;
+    PlantText plants[kAxes];
     double speed = 1.0;     // times real time; 0: as fast as the machine can
     std::string vcd;        // file name; empty: none
     double vcd_from = 0;    // ms of board time

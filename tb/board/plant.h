@@ -18,7 +18,7 @@ struct PlantText {
 
 class Plant {
    public:
-    explicit Plant(const PlantText& text) : text_(text), position_(text.start) { look(); }
+    explicit Plant(const PlantText& text = {}) : text_(text), position_(text.start) { look(); }
 
     // A falling edge of POUT; `dir` = 0 turns CW.
     void pulse(bool dir) {

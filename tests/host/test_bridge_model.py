@@ -41,11 +41,11 @@ class Bus:
     def pins(self) -> int:
         return self.levels
 
-    def count(self) -> int:
-        return self.value
+    def count(self, axis: int = 1) -> int:
+        return self.value * axis + axis - 1
 
-    def zero(self) -> None:
-        self.log.append(("zero",))
+    def zero(self, *axis: int) -> None:
+        self.log.append(("zero", *axis))
 
     def now_ms(self) -> float:
         self.ms += 0.001
@@ -300,6 +300,18 @@ def test_ident() -> None:
     bridge = Bridge(Bus(), part=2104, clk_hz=24_000_000, xtal_hz=9_830_400, datasheet=True, counter=False)
     expected = b"PPMC\x01" + (2104).to_bytes(2, "little") + b"\x61" + (9_830_400).to_bytes(4, "little")
     assert talk(bridge, 0, "01") == frame(b"\x00\x00" + expected + (24_000_000).to_bytes(4, "little"))
+
+
+def test_two_axes() -> None:
+    """UB-OPS-02: ops of axis 2 exist where IDENT says two axes, and nowhere else."""
+    bus = Bus()
+    assert talk(Bridge(bus), 1, "0A") == talk(Bridge(bus), 1, "0B") == reply(1, "03 00 00")
+    bridge = Bridge(bus, part=2104, axes=2)
+    assert talk(bridge, 1, "0A 0B 08 09") == reply(1, "00 FD FF FF FF FE FF FF FF")
+    assert bus.log == [("zero", 2), ("zero",)]
+    assert talk(bridge, 2, "0C") == reply(2, "03 00 00")
+    identity = b"PPMC\x01" + (2104).to_bytes(2, "little") + b"\x66"
+    assert identity in talk(bridge, 3, "01")
 
 
 def test_ops_of_the_bridge() -> None:

@@ -267,7 +267,7 @@ def test_a_script(run: Run, tmp_path: Path) -> None:
         ("move", 1, "number of pulses is missing"),
         ("move x", 1, "pulses 'x' is not a whole number"),
         ("move 99999999", 1, "outside -16777216 to 16777216"),
-        ("move 1 2", 1, "'2' does not belong here"),
+        ("move 1 2 3", 1, "'3' does not belong here"),
         ("move 1 speed=x", 1, "speed 'x' is not a number"),
         ("move 1 speed=nan", 1, "speed nan is outside"),
         ("\n\nmove 1 speed=5", 3, "speed 5 pps is outside 488.281 to 500000 pps"),

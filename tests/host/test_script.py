@@ -49,6 +49,7 @@ def ask(bridge: Bridge, script: Script, seq: int = 0) -> bytes:
         (Script().write(3, 0x7E).read(15).read_many(2, 255), "13 7E 2F 32 FF"),
         (Script().post(1, b"ab").write_many(0, b"c"), "41 02 61 62 80 01 63"),
         (Script().wait(1, 4, 0), "71 04 00"),
+        (Script().count(2).zero(2).count(1).zero(1), "0A 0B 08 09"),
     ],
 )
 def test_op_codes(script: Script, code: str) -> None:
@@ -63,6 +64,9 @@ def test_op_codes(script: Script, code: str) -> None:
         lambda s: s.rate(-1),
         lambda s: s.timeout(65536),
         lambda s: s.straps(256),
+        lambda s: s.count(0),
+        lambda s: s.count(3),
+        lambda s: s.zero(3),
         lambda s: s.write(16, 0),
         lambda s: s.write(0, 256),
         lambda s: s.read(-1),
@@ -153,6 +157,9 @@ def test_identity() -> None:
     body = ask(Bridge(Memory(), 104, 12_000_000, 16_000_000, datasheet=True), script)
     identity = Identity.parse(parse_answer(script, body).values[0])
     assert identity == Identity(1, 104, True, True, 5, 16_000_000, 12_000_000)
+    body = ask(Bridge(Memory(), 2104, 12_000_000, 16_000_000, axes=2), script)
+    identity = Identity.parse(parse_answer(script, body).values[0])
+    assert identity == Identity(1, 2104, False, True, 5, 16_000_000, 12_000_000, axes=2)
     with pytest.raises(BadAnswer):
         Identity.parse(b"PPMX" + bytes(12))
     with pytest.raises(BadAnswer):

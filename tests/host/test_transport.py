@@ -11,7 +11,7 @@ import pytest
 from openppmc.host import Disconnected, Link, NoAnswer, PortError, WrongDevice, open_port
 from openppmc.host.frames import Deframer, Frame, encode
 from openppmc.host.script import Script
-from openppmc.model.plant import Plant, parse_plant
+from openppmc.model.plant import Plant, parse_machine
 
 
 def test_no_port_named() -> None:
@@ -240,14 +240,24 @@ def test_unplugging_the_model() -> None:
         link.execute(Script().pins())
 
 
-def test_plant_text() -> None:
-    plant, rest = parse_plant("start=-5, cw=9,alarm=-3..4,vcd=x.vcd")
-    assert plant == Plant(start=-5, cw=9, alarm=(-3, 4))
-    assert rest == {"vcd": "x.vcd"}
-    assert parse_plant("") == (Plant(), {})
+def test_machine_text() -> None:
+    machine = parse_machine("start=-5, cw=9,alarm=-3..4,vcd=x.vcd")
+    assert (machine.part, machine.plants) == ("ppmc104", (Plant(start=-5, cw=9, alarm=(-3, 4)),))
+    assert machine.others == {"vcd": "x.vcd"}
+    assert parse_machine("").plants == (Plant(),)
+    machine = parse_machine("cw2=77,part=PPMC2104,start=1,alarm2=1..2")
+    assert (machine.part, machine.others) == ("ppmc2104", {})
+    assert machine.plants == (Plant(start=1), Plant(cw=77, alarm=(1, 2)))
     for text in ("start", "start=", "cw=1.5", "alarm=5", "alarm=9..1", "alarm=a..b", f"cw={1 << 31}"):
         with pytest.raises(ValueError, match=r"form|number|outside|behind"):
-            parse_plant(text)
+            parse_machine(text)
+    for text, complaint in (
+        ("part=ppmc312", "part=ppmc312: there are ppmc104, ppmc2104"),
+        ("cw2=5,start=3", "cw2=5: a ppmc104 has one axis"),
+        ("part=ppmc2104,alarm2=5", "alarm2=5 is not of the form alarm2=100..200"),
+    ):
+        with pytest.raises(ValueError, match=complaint):
+            parse_machine(text)
 
 
 def test_plant_levels() -> None:
@@ -257,17 +267,18 @@ def test_plant_levels() -> None:
         return {name for name, level in plant.levels(position).items() if not level}
 
     assert active(40) == set()
-    assert active(50) == active(60) == {"alm_n"}
+    assert active(50) == active(60) == {"alarm"}
     assert active(61) == set()
-    assert active(90) == {"l3_n"}
-    assert active(100) == {"l1_n", "l3_n"}
-    assert active(5) == {"l4_n"}
-    assert active(0) == {"l4_n", "cnp_n"}
-    assert active(-10) == {"l2_n", "l4_n", "cnp_n"}
+    assert active(90) == {"slow_cw"}
+    assert active(100) == {"limit_cw", "slow_cw"}
+    assert active(5) == {"slow_ccw"}
+    assert active(0) == {"slow_ccw", "origin"}
+    assert active(-10) == {"limit_ccw", "slow_ccw", "origin"}
 
 
 @pytest.mark.parametrize(
-    "text", ["foo=1", "speed=0", "speed=fast", "clk=1", "timing=SLOW", "clk=x", "unplug=x", "cw"]
+    "text",
+    ["foo=1", "speed=0", "speed=fast", "clk=1", "timing=SLOW", "clk=x", "unplug=x", "cw", "cw2=4", "part=x"],
 )
 def test_bad_model_texts(text: str) -> None:
     with pytest.raises(PortError, match="^model:"):

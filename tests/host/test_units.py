@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from openppmc.cli.forecast import key_figures
 from openppmc.host import units
 from openppmc.host.errors import OutOfRange, PpmcError
+from openppmc.host.kinds import PPMC104, PPMC2104
 from openppmc.model.predict import predict_move
 
 XTAL = 16_000_000
@@ -90,10 +91,60 @@ def test_external_clock() -> None:
 def test_setup_bytes() -> None:
     """Example A of the manual."""
     clock = units.BaseClock.internal(XTAL)
-    code = units.initialisation_code(4, False, True, False, False)
-    setup = units.plan_setup(clock, 50_000, 100_000, 4, code)
+    setup = units.plan_setup(clock, 50_000, 100_000, 4, 0x0A)
     assert bytes([setup.code]) + setup.data == bytes.fromhex("0A 09 04 04 00")
-    assert units.initialisation_code(5, True, False, True, True) == 0b110111
+    assert PPMC104.plan(XTAL, 50_000, 100_000, 4) == setup
+    external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 5000}
+    assert (
+        PPMC104.plan(XTAL, phases=5, half_step=True, positive_logic=False, chop=True, **external).code == 0x37
+    )
+
+
+def test_setup_bytes_of_the_ppmc2104() -> None:
+    """P2104-INI-01, -INI-02: code 00ASCEMM; RL at least two above RH; rate 0 only with an external clock."""
+    setup = PPMC2104.plan(XTAL, 5000, 25_000, 10)
+    assert bytes([setup.code]) + setup.data == bytes.fromhex("02 63 13 0A 00")
+    external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 100_000}
+    setup = PPMC2104.plan(XTAL, phases=5, half_step=True, chop=True, axis=2, **external)
+    assert (setup.code, setup.data) == (0x3F, bytes([99, 0, 200, 0]))
+    assert PPMC2104.plan(XTAL, 50_000, 250_000, 4, phases=3).data[1] == 1
+    for arguments, text in (
+        (
+            {"start_pps": 50_000, "high_pps": 500_000},
+            "high speed 500000 pps is outside 1953.12 to 250000 pps",
+        ),
+        ({"start_pps": 50_000, "high_pps": 50_000}, "needs 2 steps of its rate between them .rates 9 and 9"),
+        ({"start_pps": 50_000, "high_pps": 55_000}, r"50000 pps and high speed 55555.6 pps .*rates 9 and 8"),
+        ({"positive_logic": True}, "positive logic: a PPMC-2104"),
+        ({"long_intervals": True}, "long intervals: a PPMC-2104"),
+        ({"axis": 3}, "axis 3: a PPMC-2104 has axes 1 to 2"),
+    ):
+        with pytest.raises(OutOfRange, match=text):
+            PPMC2104.plan(XTAL, **arguments)  # type: ignore[arg-type]
+    with pytest.raises(OutOfRange, match="axis 2: a PPMC-104 has one axis"):
+        PPMC104.check_axis(2)
+
+
+@given(st.floats(0, 200))
+def test_half_us_bytes(asked: float) -> None:
+    """P2104-AUX-04: 0.5 us a unit, 40h to FFh."""
+    if not 32 <= asked <= 127.5:
+        with pytest.raises(OutOfRange, match="32 to 127.5 us"):
+            units.half_us_byte(XTAL, asked, "on")
+        return
+    byte, reached = units.half_us_byte(XTAL, asked, "on")
+    assert 0x40 <= byte <= 0xFF and reached == Fraction(byte, 2) and abs(reached - Fraction(asked)) <= 0.25
+
+
+@given(st.floats(0, 40_000))
+def test_hold_bytes(asked: float) -> None:
+    """P2104-AUX-05: 128 us a unit, 1 to 256 units."""
+    if not 128 <= asked <= 32_768:
+        with pytest.raises(OutOfRange, match="128 to 32768 us"):
+            units.hold_byte(XTAL, asked)
+        return
+    byte, reached = units.hold_byte(XTAL, asked)
+    assert 0 <= byte <= 0xFF and reached == 128 * (byte + 1) and abs(reached - Fraction(asked)) <= 64
 
 
 @pytest.mark.parametrize(
@@ -114,7 +165,7 @@ def test_impossible_setups(arguments: tuple[int, int, int], text: str) -> None:
 def test_phases() -> None:
     for phases in (2, 6):
         with pytest.raises(OutOfRange, match="3, 4 or 5"):
-            units.initialisation_code(phases, False, True, False, False)
+            units.motor_bits(phases, False)
 
 
 @given(st.integers(0, 1), st.sampled_from(["on", "off"]), st.floats(0, 1000))

@@ -33,8 +33,10 @@ INIT_B = "c 0A d 13 d 09 d 0A d 00"
 class ModelHost:
     """`t` is the next free edge; every method moves it on. Keyword arguments go to the model."""
 
+    MODEL: type = Ppmc104
+
     def __init__(self, **parameters: object) -> None:
-        self.model = Ppmc104(**parameters)  # type: ignore[arg-type]
+        self.model = self.MODEL(**parameters)
         self.t = 8
         self.mark = 0
         self.written = 0

@@ -1,4 +1,7 @@
-"""Intervals counted in edges of the external base clock (P104-INT-01, -03, P104-TIM-05, P104-BCK-04)."""
+"""Intervals counted in edges of the external base clock.
+
+P104-INT-01, -03, P104-TIM-05, P104-BCK-04; P2104-BCK-04, P2104-TIM-05.
+"""
 
 from __future__ import annotations
 

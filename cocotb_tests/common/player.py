@@ -1,0 +1,159 @@
+"""Carries out a random host's action list on a bench: what the parts have in common.
+
+Actions are tuples, first the kind:
+
+    ("write", reg, byte, strobe, gap)     one write cycle, not polled
+    ("send", code, [data])                code and data, each polled until IBF = 0
+    ("status", n)                         n status reads
+    ("read",)                             one data read, whatever OBF says
+    ("fetch", code, count)                read code, then count data reads (OBF polled, with a limit)
+    ("wait", clk)                         nothing
+    ("pins", {pin: level})                set pins
+    ("blip", pin, level, clk)             set a pin for some clk, then the idle level again
+    ("raw", [({pin: level}, clk), ...])   illegal bus cycles
+    ("reset", clk)                        rst_n low for some clk
+
+The player of a part adds ("finish", ...): wait for the end of motion, and stop it if that takes too long.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from .bench import Bench
+from .bus import DATA, IBF, OBF, HostBus
+
+Action = tuple[Any, ...]
+
+SETTING_CLK = 50_000
+SETTING_CLK_DATASHEET = 1_300_000
+
+
+@dataclass(frozen=True)
+class ExternalClock:
+    """Programme of a clock pin: segments of (periods, period, jitter, high, pause after), in clk."""
+
+    segments: tuple[tuple[int, int, int, int, int], ...] = ()
+
+    def levels(self, rng: random.Random) -> Iterator[tuple[int, int]]:
+        """(clk to wait, level; -1 leaves it) of the pin; its jitter is drawn from `rng`."""
+        for count, period, jitter, high, pause in self.segments:
+            for _ in range(count):
+                length = period + rng.randint(-jitter, jitter)
+                yield 0, 1
+                yield high, 0
+                yield length - high, -1
+            yield pause, -1
+
+
+def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
+    """Steady, jittering, stopping and changing clocks; every period is at least 16 clk.
+
+    near: favourite periods in XTAL cycles; scale: clk per XTAL cycle.
+    """
+    segments, total = [], 0
+    while total < 250_000:
+        period = max(20, round(rng.choice(near) * scale) + rng.randint(-1, 1))
+        jitter = rng.choice((0, 0, 0, 1, min(3, (period - 16) // 2)))
+        count = rng.choice((5, 40, 200, 2000))
+        high = rng.choice((2, period // 2, period // 2, period - jitter - 2))
+        high = max(2, min(high, period - jitter - 2))
+        pause = rng.choice((0, 0, 0, 300, 5_000))
+        segments.append((count, period, jitter, high, pause))
+        total += count * period + pause
+    return ExternalClock(tuple(segments))
+
+
+def pauses(rng: random.Random) -> Callable[[], int]:
+    """Idle clk before an access: mostly none, sometimes up to 60."""
+
+    def pause() -> int:
+        return 0 if rng.random() < 0.7 else rng.randint(1, rng.choice((3, 12, 60)))
+
+    return pause
+
+
+class Player:
+    """Plays actions on a bench. Polls have a limit and go on: a host that gave up is a legal host, too."""
+
+    def __init__(self, bench: Bench, seed: int, pausing: bool) -> None:
+        self.bench = bench
+        self.rng = random.Random(f"player {seed}")
+        self.host = HostBus(bench, pause=pauses(self.rng) if pausing else None, timeout=400_000)
+
+    async def play(self, actions: list[Action]) -> None:
+        """All actions in order."""
+        for action in actions:
+            await getattr(self, f"_{action[0]}")(*action[1:])
+        await self.host.idle()
+        await self.bench.clocks(20)
+
+    async def run_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
+        """Drive a clock pin by its programme, beside everything else."""
+        await self.bench.align()
+        for wait, level in clock.levels(random.Random(f"clock {seed}")):
+            if wait:
+                await self.bench.clocks(wait)
+            if level >= 0:
+                self.bench.set(**{pin: level})
+
+    async def polled(self, mask: int, value: int, limit: int) -> bool:
+        """Whether the status showed it within so many clk."""
+        try:
+            await self.host.poll(mask, value, limit)
+        except TimeoutError:
+            return False
+        return True
+
+    async def _send(self, code: int, data: list[int]) -> None:
+        limit = SETTING_CLK_DATASHEET if self.bench.config.datasheet else SETTING_CLK
+        for reg, byte in [(1, code), *((0, byte) for byte in data)]:
+            await self.host.write(reg, byte)
+            if not await self.polled(IBF, 0, limit):
+                return
+
+    async def _write(self, reg: int, byte: int, strobe: int, gap: int) -> None:
+        await self.host.write(reg, byte, strobe, gap)
+
+    async def _status(self, count: int) -> None:
+        for _ in range(count):
+            await self.host.status()
+
+    async def _read(self) -> None:
+        await self.host.read(DATA)
+
+    async def _fetch(self, code: int, count: int) -> None:
+        await self._send(code, [])
+        for _ in range(count):
+            await self.polled(OBF, OBF, 40)
+            await self.host.read(DATA)
+
+    async def _wait(self, clk: int) -> None:
+        await self.bench.clocks(clk)
+
+    async def _pins(self, levels: dict[str, int]) -> None:
+        await self.bench.align()
+        self.bench.set(**levels)
+
+    async def _blip(self, pin: str, level: int, clk: int) -> None:
+        await self._pins({pin: level})
+        await self.bench.clocks(clk)
+        port, place = self.bench.part.locate(pin)
+        idle = self.bench.part.inputs[port]
+        await self._pins({pin: idle if place is None else idle >> place & 1})
+
+    async def _raw(self, steps: list[tuple[dict[str, int], int]]) -> None:
+        await self.bench.align()
+        for levels, clk in steps:
+            await self.host.raw(clk, **levels)
+
+    async def _reset(self, clk: int) -> None:
+        await self.bench.reset(clk)
+
+
+def describe(actions: list[Action]) -> str:
+    """The action list as text, one action a line."""
+    return "\n".join(" ".join(str(part) for part in action) for action in actions)

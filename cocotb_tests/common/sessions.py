@@ -1,0 +1,79 @@
+"""Plays the host sessions printed in docs/<part>_examples.md: every byte must be the printed one.
+
+A chapter is "## <number> title"; its code blocks hold one access a line:
+
+    c 43    st 10    code byte, then the status register
+    d E7    st 10    data byte, then the status register
+    r 83             data read after OBF = 1
+            st 00    status register
+    p       st 00    poll until the status register is this
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from .bench import Bench
+from .bus import HostBus
+from .paths import ROOT
+
+LINE = re.compile(r"^(?:(c|d) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|(p?) +st ([0-9A-F]{2}))\b")
+
+
+@dataclass(frozen=True)
+class Step:
+    """One line: c/d byte with status, r with its byte, s a status alone, p one that is waited for."""
+
+    kind: str
+    byte: int
+    status: int
+
+
+class Sessions:
+    """The sessions of one part. `brief`: codes of operations that may be over before a slow host looks."""
+
+    def __init__(self, part: str, brief: Collection[int]) -> None:
+        self.page = ROOT / "docs" / f"{part}_examples.md"
+        self.brief = brief
+
+    def blocks(self, chapter: int) -> list[list[Step]]:
+        """The code blocks of one chapter; ValueError names a line that is no access."""
+        parts = re.split(r"^## ", self.page.read_text(encoding="utf-8"), flags=re.M)
+        body = next(part for part in parts if part.startswith(f"{chapter} "))
+        found = []
+        for block in re.findall(r"```\n(.*?)```", body, re.S):
+            steps = []
+            for line in block.splitlines():
+                match = LINE.match(line)
+                if not match:
+                    raise ValueError(f"{self.page.name}, chapter {chapter}: cannot read {line!r}")
+                kind, byte, status, read, polled, alone = match.groups()
+                if kind:
+                    steps.append(Step(kind, int(byte, 16), int(status, 16)))
+                elif read:
+                    steps.append(Step("r", int(read, 16), 0))
+                else:
+                    steps.append(Step(polled or "s", 0, int(alone, 16)))
+            found.append(steps)
+        return found
+
+    async def play(self, bench: Bench, host: HostBus, steps: list[Step], where: str) -> None:
+        """One block on the bench."""
+        for number, step in enumerate(steps, 1):
+            at = f"{where} line {number}: {step.kind} {step.byte:02X}"
+            if step.kind == "r":
+                bench.check(at, "data", f"{await host.read_data():02X}", f"{step.byte:02X}")
+                continue
+            if step.kind == "p":
+                await host.poll(0xFF, step.status, timeout=3_000_000)
+                continue
+            if step.kind == "c":
+                await host.command(step.byte)
+            elif step.kind == "d":
+                await host.data(step.byte)
+            status = await host.status()
+            if step.kind == "c" and step.byte in self.brief and status == 0x00:
+                continue
+            bench.check(at, "status", f"{status:02X}", f"{step.status:02X}")

@@ -1,0 +1,156 @@
+"""Interrupts and motion of isa_4axis: a handler, four axes at once, both parts at random."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.common.config import F16, F25, configs
+from cocotb_tests.common.figures import rates
+
+from .master import IsaHost
+from .models import check_both
+from .setting import BUSY1, BUSY2, CMND1, CMND2, ERROR, SOURCE, Setting
+
+RAMP_B = (0x63, 0x13, 0x0A)
+
+
+async def serve(setting: Setting, found: list[tuple[int, int]]) -> None:
+    """The handler of docs/isa_4axis.md: until nobody calls any more; appends (axis, end status)."""
+    while True:
+        _, source, _ = await setting.master.read(SOURCE)
+        if not source:
+            return
+        for number, host in enumerate(setting.hosts):
+            if not source >> number & 1:
+                continue
+            status = await host.status()
+            if status & ERROR:
+                found += [(0, (await host.fetch(code))[0]) for code in (0x86, 0xA6)]
+            for second, busy in enumerate((BUSY1, BUSY2)):
+                if not status & busy:
+                    end = (await host.fetch(0x80 | second << 5))[0]
+                    if end & 0x80:
+                        found.append((2 * number + second + 1, end))
+
+
+@cocotb.test()
+@configs(F16, F25)
+async def isa_interrupt_handler(dut: Any) -> None:
+    """Given an edge-triggered handler and four axes that end at various times, then no end is lost."""
+    setting = await Setting.start(dut)
+    bench = setting.bench
+    for axis in setting.axes:
+        await setting.set_up(axis, 0x02, *RAMP_B)
+    found: list[tuple[int, int]] = []
+    wanted = []
+    for turn in range(6):
+        for axis, drive in setting.axes.items():
+            # The same length, a little different, very different: ends together, in the handler, between.
+            await drive.go(
+                0x44, n=4 + (0, axis, 5 * axis, 0, -axis, 1)[turn] % 9, rate=(29, 10, 49)[turn % 3]
+            )
+            wanted.append((axis, 0x84))
+        while len(found) < len(wanted):
+            if not bench.level("irq"):
+                await bench.edge("irq", 1)
+            before = len(bench.rises("irq"))
+            await serve(setting, found)
+            await bench.align()
+            # Edge-triggered: a handler that returns with irq still high would never be called again.
+            if bench.level("irq"):
+                assert len(bench.rises("irq")) > before, "ISA-08: irq stayed high behind the handler"
+        await bench.clocks(100)
+    bench.check("ISA-08", "ends", sorted(found), sorted(wanted))
+    bench.check("ISA-08", "irq at the end", bench.level("irq"), 0)
+    check_both(bench, at_least=200)
+
+
+@cocotb.test()
+@configs(F16, F25)
+async def isa_four_axes_together(dut: Any) -> None:
+    """Given four waiting moves in two parts, when RUN rises on one edge, then all start on one clk edge."""
+    setting = await Setting.start(dut, run=0)
+    bench, axes = setting.bench, setting.axes
+    ramps = {1: RAMP_B, 2: (0x3B, 0x09, 20), 3: (0x27, 0x01, 60), 4: (0x0E, 0x0C, 16)}
+    for axis, ramp in ramps.items():
+        await setting.set_up(axis, (0x02, 0x06, 0x03, 0x05)[axis - 1], *ramp)
+    pulses = {1: 120, 2: 250, 3: 400, 4: 100}
+    for axis, drive in axes.items():
+        await drive.go(0x43 if axis % 2 else 0x4B, n=pulses[axis])
+    for host in setting.hosts:
+        bench.check("ISA-10", "BUSY of both", await host.status() & 0x3C, BUSY1 | BUSY2)
+    bench.check("ISA-10", "pulses before RUN", [drive.pulses for drive in axes.values()], [[]] * 4)
+    await bench.align()
+    start = bench.set(run=0b1111)
+    busy = list(setting.hosts)
+    while busy:  # polling goes on while they run
+        busy = [host for host in busy if await host.status() & (BUSY1 | BUSY2)]
+    falls = {drive.pulses[0] for drive in axes.values()}
+    bench.check("ISA-10", "first falls on one edge", len(falls), 1)
+    w = bench.config.w
+    bench.check_window("ISA-10", "first fall after RUN", falls.pop() - start, w, w + 6)
+    for axis, drive in axes.items():
+        indices = [min(j, pulses[axis] - 2 - j, ramps[axis][2]) for j in range(pulses[axis] - 1)]
+        drive.check_train("ISA-10", rates(ramps[axis], indices))
+    bench.check("ISA-10", "dir", bench.level("dir"), 0b1010)
+    check_both(bench, at_least=1000)
+
+
+async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
+    """Random instructions of all kinds to one part, some of them wrong."""
+    bench, rng = setting.bench, setting.bench.rng
+    for axis_bit in (0x00, 0x20):
+        await host.init(
+            rng.choice((0x02, 0x06, 0x13)) | axis_bit, rng.randrange(12, 40), rng.randrange(3, 9), 7
+        )
+    await host.poll(CMND1 | CMND2, 0)
+    for _ in range(actions):
+        axis_bit, action = rng.choice((0x00, 0x20)), rng.randrange(10)
+        direction = rng.choice((0x00, 0x08))
+        if action < 4:
+            await host.move(rng.choice((0x43, 0x53, 0xC3)) | axis_bit | direction, rng.randrange(1, 60))
+        elif action == 4:
+            await host.move(0x44 | axis_bit | direction, rng.randrange(1, 30), rate=rng.randrange(0, 20))
+        elif action == 5:
+            await host.send(0x45 | axis_bit | direction, [rng.randrange(2, 30)])
+        elif action == 6:
+            await host.command(rng.choice((0x40, 0x41)) | axis_bit)
+        elif action == 7:
+            await host.command(rng.choice((0x86, 0xC2, 0x80, 0x83, 0xD1, 0xC1, 0x87)) | axis_bit)
+            if await host.status() & 0x01:
+                await host.read(0)
+        elif action == 8:
+            await host.data(rng.randrange(256))
+        else:
+            await bench.clocks(rng.randrange(20, 3000))
+    for axis_bit in (0x00, 0x20):
+        await host.command(0x40 | axis_bit)
+    await host.wait_idle(busy=BUSY1 | BUSY2)
+
+
+async def random_switches(setting: Setting) -> None:
+    """Limits, alarms and RUN of all axes move at random for ever."""
+    bench, rng = setting.bench, setting.bench.rng
+    while True:
+        pin = f"{rng.choice(('fl_n', 'bl_n', 'fhl_n', 'bhl_n', 'alm_n', 'run'))}[{rng.randrange(1, 5)}]"
+        await bench.clocks(rng.randrange(200, 6000))
+        bench.set(**{pin: 0})
+        await bench.clocks(rng.randrange(1, 400))
+        bench.set(**{pin: 1})
+
+
+@cocotb.test()
+@configs(F16, F25)
+async def isa_random_both_parts(dut: Any) -> None:
+    """Given two host programs on one bus and random switches, then each part equals its own golden model."""
+    setting = await Setting.start(dut)
+    setting.bench.set(errint_n=setting.bench.rng.randrange(2))
+    switches = cocotb.start_soon(random_switches(setting))
+    hosts = [cocotb.start_soon(random_host(setting, host, actions=60)) for host in setting.hosts]
+    for host in hosts:
+        await host
+    switches.cancel()
+    await setting.bench.clocks(2000)
+    check_both(setting.bench, at_least=500)

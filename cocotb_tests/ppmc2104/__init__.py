@@ -1,0 +1,1 @@
+"""Simulations of the PPMC-2104AFP."""

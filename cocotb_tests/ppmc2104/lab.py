@@ -1,0 +1,220 @@
+"""`Lab`: a PPMC-2104AFP on the bench with its host and its two axes; `part_test`: a test made of one.
+
+    @part_test("AC-09", "P2104-EX-01", on=(F16, F11))
+    async def p2104_ac_09_trapezoid(lab):
+        "Given ..., when ..., then ..."
+        axis = await lab.ready(1, INIT_B)
+        await axis.move(0x43, 25)
+        axis.check_train("AC-09", rates(INIT_B[1:], indices(25, 10)))
+
+At its end every such test is replayed into the golden model and compared edge by edge.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.bus import IBF, HostBus
+from cocotb_tests.common.compare import check_against_model
+from cocotb_tests.common.config import F16, Config, configs
+from cocotb_tests.common.drive import Drive
+from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.verifies import verifies
+
+from .figures import ALL, BUSY1, CMND1, INIT_A, Init
+
+# Windows of the rules, in clk, counted from edge 0 of a host write (P2104-BUS-05, P2104-HSK-03).
+WRITE_EVENT = 2
+C_EVENT_LATEST = 10
+PINS_LATEST = 12
+# BUSY may fall so late after a decision or the last rise of pout_n (P2104-END-01/02).
+END_LATEST = 4
+
+
+class Axis(Drive):
+    """One of the two axes: codes, pins and status bits are its own."""
+
+    def __init__(self, bench: Bench, host: HostBus, n: int) -> None:
+        super().__init__(bench, host, f"pout_n[{n}]", f"s{n}_n", f"extck[{n}]", BUSY1 << n - 1, (n - 1) << 5)
+        self.n = n
+        self.cmnd = CMND1 << n - 1
+
+    def pin(self, name: str) -> str:
+        """Name of this axis's bit of a port."""
+        return f"{name}[{self.n}]"
+
+    def set(self, **levels: int) -> int:
+        """Drive input pins of this axis; returns the stamp."""
+        return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
+
+    def at(self, edge: int, **levels: int) -> Any:
+        """Schedule input pins of this axis for an edge."""
+        return self.bench.at(edge, **{self.pin(name): level for name, level in levels.items()})
+
+    async def blip(self, name: str, clocks: int, level: int = 0) -> int:
+        """An input of this axis at `level` for some clk; returns the first stamp."""
+        return await self.bench.pulse_pin(self.pin(name), level, clocks)
+
+    def level(self, name: str) -> int:
+        """Present level of pout_n, dir or hold."""
+        return self.bench.level(self.pin(name))
+
+    @property
+    def phases_now(self) -> int:
+        """Present levels of the five phase pins."""
+        return self.bench.level(self.phases)
+
+    def edges(self, name: str, since: int | None = None) -> list[tuple[int, int]]:
+        """Edges of pout_n, dir or hold since the last `go`, or since an edge."""
+        return self.bench.edges(self.pin(name), self.since if since is None else since)
+
+    # ---------------------------------------------------------------- instructions
+
+    async def init(self, code: int, rl: int, rh: int, pa: int) -> None:
+        """Initial setting; waits until the ramp table is ready."""
+        await self.host.init(code | self.axis_bit, rl, rh, pa)
+        if self.cfg.datasheet:
+            # 71 ms (P2104-DS-01): no use in polling all the time.
+            await self.bench.clocks(self.cfg.us(70_990))
+        await self.ready()
+
+    async def ready(self) -> int:
+        """Wait for CMND = 0 and an open input buffer."""
+        return await self.host.poll(self.cmnd | IBF, 0)
+
+    async def send(self, code: int, data: Sequence[int] = (), poll: bool = True) -> int:
+        """A code to this axis with its data bytes."""
+        return await self.host.send(code | self.axis_bit, data, poll)
+
+    async def error(self) -> int:
+        """Error code read of this axis."""
+        return (await self.fetch(0x86))[0]
+
+    async def refused(self, rule: str, what: str, error: int, code: int, *data: int) -> None:
+        """Send an instruction that must raise `error` on this axis (0: none)."""
+        await self.send(code, data)
+        self.check(rule, f"error of {what}", await self.error(), error)
+
+    async def halt(self) -> None:
+        """Immediate stop, then wait for the end and take its interrupt away."""
+        await self.command(0x40)
+        await self.idle()
+        await self.finish()
+
+    async def running(self, rate: int = 49, code: int = 0x45) -> None:
+        """A continuous constant-speed operation with its first pulse out."""
+        await self.go(code, rate=rate)
+        await self.pulse(1, 4)
+
+    async def outcome(
+        self, rule: str, pulses: int, finish: int, total: int = ALL, rates: Sequence[int] | None = None
+    ) -> None:
+        """`result` of an operation of `total` pulses, and its pulse train."""
+        await self.result(rule, pulses, finish, max(total - pulses - 1, 0))
+        if rates is not None:
+            self.check_train(rule, rates)
+
+
+class Lab:
+    """Bench, host and axes `x1`, `x2`. Made by `part_test`, or with `await Lab.start(dut)`."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        self.host = HostBus(bench)
+        self.x1, self.x2 = (Axis(bench, self.host, n) for n in (1, 2))
+        self.axes = (self.x1, self.x2)
+        self.cfg: Config = bench.config
+        self.check = bench.check
+        self.window = bench.check_window
+        self.outputs = self.x1.outputs
+        self.reaction = self.x1.reaction
+        self.statuses = self.x1.statuses
+
+    @classmethod
+    async def start(cls, dut: Any, **pins: int) -> Lab:
+        """Reset with these input levels; nothing is set up."""
+        return cls(await Bench.start(dut, PPMC2104, **pins))
+
+    async def ready(self, n: int, init: Init = INIT_A) -> Axis:
+        """Axis n with a setting in force."""
+        axis = self.axes[n - 1]
+        await axis.init(*init)
+        return axis
+
+    async def both(self, first: Init = INIT_A, second: Init | None = None) -> tuple[Axis, Axis]:
+        """Both axes with settings in force."""
+        await self.ready(1, first)
+        await self.ready(2, second or first)
+        return self.axes
+
+    async def style(self, busc: int) -> None:
+        """Choose the bus style, strobes off, and wait until it acts (P2104-BUS-04)."""
+        await self.host.idle()
+        self.bench.set(busc=busc)
+        await self.host.idle()
+        await self.bench.clocks(4)
+
+    async def run(self, script: str) -> list[int]:
+        """A script of the acceptance table: `HostBus.run`, and e1, e2 for the Error code reads."""
+        words = {"e1": "c 86 r", "e2": "c A6 r"}
+        return await self.host.run(" ".join(words.get(w, w) for w in script.replace(";", " ").split()))
+
+    async def errors(self) -> tuple[int, int]:
+        """Both error registers; reading clears them."""
+        return await self.x1.error(), await self.x2.error()
+
+    async def reset(self) -> None:
+        """Reset, until bytes are taken again."""
+        await self.bench.reset()
+        await self.bench.clocks(6)
+
+    def quiet(self, rule: str, since: int, *others: str) -> None:
+        """No motor pin and no int_n moved since that edge; `others` are further outputs."""
+        names = ("pout_n", "dir", "hold", "s1_n", "s2_n", "int_n", *others)
+        moved = {name: edges for name in names if (edges := self.bench.edges(name, since))}
+        self.check(rule, f"edges of outputs since {since}", moved, {})
+
+
+Test = Callable[[Lab], Awaitable[None]]
+
+
+async def _judged(lab: Lab, test: Test) -> None:
+    """Run the test, then compare; a failed check says whether the golden model shows the same edges."""
+    try:
+        await test(lab)
+    except (AssertionError, TimeoutError) as error:
+        await lab.bench.align()
+        try:
+            check_against_model(lab.bench)
+            verdict = "up to here the golden model shows the same edges"
+        except Exception as other:  # whatever the model does, the failed check is what counts
+            verdict = f"the golden model differs: {other}"
+        raise AssertionError(f"{error}\n{verdict}") from None
+    await lab.bench.align()
+    check_against_model(lab.bench)
+
+
+def part_test(
+    *rules: str, on: Sequence[Config] = (F16,), compared: bool = True, **pins: int
+) -> Callable[[Test], Any]:
+    """A cocotb test that gets a `Lab` just out of reset, with input levels `pins`, and verifies `rules`.
+
+    `on` are its build configurations. Only tests of what no rule fixes are not `compared` with the model.
+    """
+
+    def mark(test: Test) -> Any:
+        @functools.wraps(test)
+        async def run(dut: Any) -> None:
+            lab = await Lab.start(dut, **pins)
+            await (_judged(lab, test) if compared else test(lab))
+
+        # The simulator side must see the argument of `run`, not that of the test.
+        del run.__wrapped__  # type: ignore[attr-defined]
+        return cocotb.test()(verifies(*rules)(configs(*on)(run)))
+
+    return mark

@@ -1,0 +1,102 @@
+"""A host that knows nothing of clk: accesses by the nanoseconds of the old chip's bus timing."""
+
+from __future__ import annotations
+
+from cocotb.triggers import Timer
+
+from cocotb_tests.common.part import BusStyle
+
+from .lab import Lab
+
+# Limits of the old chip in ns (P2104-BUS-20).
+WIDTH, DATA_SETUP, DATA_HOLD, ADDRESS_SETUP, ADDRESS_HOLD = 120, 80, 10, 20, 5
+ACCESS, RELEASE = 100, 90
+# Starts of an access, in sixteenths of a clk.
+PHASES = range(16)
+
+
+def ps(ns: float) -> int:
+    """Even number of ps, as the simulator's time steps want it."""
+    return int(ns * 500) * 2
+
+
+class SlowBus:
+    """Accesses with the times given; other than in `HostBus` every pin moves when it moves."""
+
+    def __init__(self, lab: Lab) -> None:
+        self.lab = lab
+        self.bench = lab.bench
+
+    @property
+    def style(self) -> BusStyle:
+        """Meaning of the strobe pins at present."""
+        return self.lab.host.style
+
+    async def wait(self, ns: float) -> None:
+        """Let so many ns pass."""
+        if ps(ns) > 0:
+            await Timer(ps(ns), "ps")
+
+    async def phase(self, sixteenth: int) -> None:
+        """Go to that sixteenth of a clk; no edge of clk lies exactly there."""
+        await self.bench.align()
+        await Timer(self.bench.period * sixteenth // 32 * 2 + 2 * (self.bench.period // 128), "ps")
+
+    async def _open(self, register: int, on: dict[str, int]) -> dict[str, int]:
+        """Chip select, address and R/W* first; returns what is left of the strobe: the strobe itself."""
+        strobe = {pin: 0 for pin in ("ds_wrs_n", "rw_rds_n") if on[pin] == 0}
+        if self.bench.pins["busc"]:
+            strobe = {"ds_wrs_n": 0}
+        first = {pin: level for pin, level in on.items() if pin not in strobe}
+        self.bench.set_between_edges(a0=register, **first)
+        await self.wait(ADDRESS_SETUP)
+        return strobe
+
+    async def write(
+        self, register: int, byte: int, width: float = WIDTH, setup: float = DATA_SETUP, rest: float = 0
+    ) -> int:
+        """One write: `width` of the strobe, d_i right from `setup` before its end; `rest` afterwards.
+
+        Returns the edge that samples the end of the strobe first.
+        """
+        bench = self.bench
+        bench.set_between_edges(d_i=byte ^ 0xFF)
+        strobe = await self._open(register, dict(self.style.write_on))
+        bench.set_between_edges(**strobe)
+        await self.wait(width - setup)
+        bench.set_between_edges(d_i=byte)
+        await self.wait(setup)
+        end = bench.set_between_edges(**dict.fromkeys(strobe, 1))
+        await self.wait(ADDRESS_HOLD)
+        bench.set_between_edges(cs_n=1, a0=1 - register)
+        await self.wait(DATA_HOLD - ADDRESS_HOLD)
+        bench.set_between_edges(d_i=byte ^ 0xFF)
+        await self.wait(rest)
+        return end
+
+    async def read(
+        self,
+        register: int,
+        width: float = WIDTH,
+        rest: float = 0,
+        access: float = ACCESS,
+        release: float = RELEASE,
+    ) -> list[tuple[int, int]]:
+        """One read; returns (d_oe, d_o) after the access time and at the end of the strobe.
+
+        Checks that the bus is free `release` after the strobe, then lets `rest` pass.
+        """
+        bench = self.bench
+        strobe = await self._open(register, dict(self.style.read_on))
+        bench.set_between_edges(**strobe)
+        samples = []
+        for until in (access, width - access):
+            await self.wait(until)
+            samples.append((bench.level("d_oe"), bench.level("d_o")))
+        bench.set_between_edges(**dict.fromkeys(strobe, 1))
+        await self.wait(ADDRESS_HOLD)
+        bench.set_between_edges(cs_n=1, a0=1 - register)
+        await self.wait(release - ADDRESS_HOLD)
+        bench.check("P2104-BUS-20", f"d_oe {release} ns after the strobe", bench.level("d_oe"), 0)
+        await self.wait(rest)
+        return samples

@@ -1,0 +1,33 @@
+"""Noise on every input pin of the PPMC-2104AFP; the style of the bus stays."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.noise import Noise
+
+STROBES = ("ds_wrs_n", "ds_wrs_n", "rw_rds_n", "rw_rds_n", "cs_n")
+_ONE_AXIS = (
+    0x02,
+    0x12,
+    0x0A,
+    0x40,
+    0x41,
+    0x42,
+    0x43,
+    0x44,
+    0x4D,
+    0x46,
+    0x47,
+    0xC0,
+    0xC3,
+    0xC6,
+    0x84,
+    0x85,
+    0x80,
+)
+CODES = (*_ONE_AXIS, *(code | 0x20 for code in _ONE_AXIS), 0xC1, 0xC2)
+
+
+def noise(bench: Bench) -> Noise:
+    """The noise of this bench's seed."""
+    return Noise(bench, STROBES, CODES, still=("busc",))

@@ -1,0 +1,40 @@
+"""Carries out the action list of `random_host` on a bench."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.player import Player
+from cocotb_tests.ppmc2104.random_host import Scenario
+
+BUSY = {1: 0x04, 2: 0x08}
+
+
+class Player2104(Player):
+    """Plays one scenario: `await Player2104(bench, scenario).run()`.
+
+    Adds ("finish", axes, clk): poll until BUSY of these axes is 0; after clk give up and stop them.
+    """
+
+    def __init__(self, bench: Bench, scenario: Scenario) -> None:
+        super().__init__(bench, scenario.seed, scenario.pauses)
+        self.scenario = scenario
+
+    async def run(self) -> None:
+        """All actions in order, the external clocks beside them."""
+        for axis, clock in enumerate(self.scenario.clocks, 1):
+            if clock.segments:
+                cocotb.start_soon(self.run_clock(f"extck[{axis}]", clock, (axis, self.scenario.seed)))
+        await self.play(self.scenario.actions)
+
+    async def _finish(self, axes: list[int], clk: int) -> None:
+        mask = sum(BUSY[axis] for axis in axes)
+        if await self.polled(mask, 0, clk):
+            return
+        for _ in range(3):
+            for axis in axes:
+                await self._send(0x40 | (axis - 1) << 5, [])
+            if await self.polled(mask, 0, self.bench.config.us(1_000)):
+                return
+        raise AssertionError(f"P2104-BAD-26: BUSY stays 1 after three stops\n{self.bench.context()}")

@@ -1,0 +1,55 @@
+"""Measurements of the DATASHEET timing model (P2104-DS)."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bus import IBF
+
+from .lab import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
+
+# Clk by which a documented time may be exceeded, and a pin may follow the inside.
+TOLERANCE = 16
+PIN = 2
+# Clk that pass between the fall of a status bit and the end of the read that shows it, at most.
+READ = 12
+# Default ON phase in units of 2 quanta.
+ON = 0x53
+
+
+def after(lab: Lab, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:
+    """Edge `got` is so many us, and `extra` clk, after the C-event of the byte with that edge 0."""
+    nominal = lab.cfg.us(micros) + extra
+    lab.window(rule, what, got - edge0, WRITE_EVENT + nominal, C_EVENT_LATEST + nominal + TOLERANCE + PIN)
+
+
+async def opens(lab: Lab, rule: str, edge0: int, micros: int) -> None:
+    """A byte written now waits until the window of so many us since the C-event is over."""
+    nominal = edge0 + WRITE_EVENT + lab.cfg.us(micros)
+    # An undefined code: it is refused and has no window of its own.
+    await lab.host.command(0x87, poll=False)
+    await lab.bench.until(max(lab.bench.now, nominal - 60))
+    while lab.bench.now < nominal - 2:
+        lab.check(rule, "IBF in the window", await lab.host.status() & IBF, IBF)
+    await lab.host.poll(IBF, 0, dense=100)
+    latest = C_EVENT_LATEST - WRITE_EVENT + TOLERANCE + READ
+    lab.window(
+        rule, f"clk beyond {micros} us until the next byte is taken", lab.bench.now - nominal, 0, latest
+    )
+
+
+async def last_byte(axis: Axis, code: int, *data: int) -> int:
+    """Send an instruction; returns edge 0 of its last byte, without waiting for it to be taken."""
+    axis.since = axis.bench.now
+    if not data:
+        return await axis.command(code, poll=False)
+    await axis.send(code, data[:-1])
+    return await axis.host.data(data[-1], poll=False)
+
+
+async def rest(lab: Lab) -> None:
+    """Wait until no window is open and both axes are at rest; then take errors and interrupts away."""
+    await lab.host.poll(IBF | 0x3C, 0)
+    for axis in lab.axes:
+        await axis.finish()
+        await axis.error()
+    # The windows of those reads.
+    await lab.bench.clocks(lab.cfg.us(60))

@@ -1,0 +1,154 @@
+"""Input no host should give (P2104-BAD), and the way back from it."""
+
+from __future__ import annotations
+
+from cocotb.triggers import Timer
+
+from cocotb_tests.common.bus import IBF, OBF
+from cocotb_tests.common.config import D16, F11, F16
+from cocotb_tests.common.figures import indices, rates
+
+from .figures import CMND1, ERROR, INIT_A, kind_of
+from .lab import Lab, part_test
+
+SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
+
+
+@part_test("P2104-BAD-01", "P2104-BAD-02", "P2104-BAD-03", "P2104-BAD-05", "P2104-ERR-03")
+async def p2104_bad_03_bytes_at_random(lab: Lab) -> None:
+    """Given 600 random bytes without operations, when they go in, then registers as reckoned, pins still."""
+    rng = lab.bench.rng
+    await lab.both(INIT_A)
+    errors, waiting, left = [0, 0], 0, 0
+    since = lab.bench.now
+    for _ in range(600):
+        if rng.random() < 0.4:
+            byte = rng.randrange(0x40, 0x100)
+            status = await lab.host.data(byte)
+            if left:
+                left -= 1
+                waiting = waiting if left else 0
+            else:
+                errors[0] = 2
+        else:
+            code = rng.choice((0x00, 0x24, 0x87, 0xA8, 0xBF, 0xF2, 0xCF, 0x40, 0x61, 0x84, 0xA4, 0x85, 0xA5))
+            kind, axis = kind_of(code), code >> 5 & 1
+            status = await lab.host.command(code)
+            if left:
+                errors[axis], left, waiting = 3, 0, 0
+            elif kind == "undefined":
+                errors[axis] = 1
+            elif kind == "stop":
+                errors[axis] = 6
+            else:
+                left, waiting = (2, axis + 1) if kind == "switching" else (1, axis + 1)
+        expected = (ERROR if any(errors) else 0) | (CMND1 << waiting - 1 if waiting else 0)
+        lab.check("P2104-BAD-02", "status", status & ~OBF, expected)
+        if rng.random() < 0.1 and not left:
+            lab.check("P2104-BAD-01", "registers", list(await lab.errors()), errors)
+            errors = [0, 0]
+    lab.quiet("P2104-ERR-03", since, "auxo")
+
+
+@part_test("P2104-BAD-16", "P2104-BAD-20", "P2104-BAD-21", "P2104-BAD-22", "P2104-FDC-01")
+async def p2104_bad_22_chattering_inputs(lab: Lab) -> None:
+    """Given inputs that do not matter toggling, when a ramp runs, then no effect; limits act once."""
+    for axis in await lab.both(INIT_A):
+        rng = lab.bench.rng
+        await axis.go(0x43, 40)
+        await axis.pulse(1)
+        for _ in range(60):
+            axis.set(
+                run=rng.randrange(2), csel=rng.randrange(2), bl_n=rng.randrange(2), bhl_n=rng.randrange(2)
+            )
+            axis.set(org_n=rng.randrange(2))
+            lab.bench.set(errint_n=rng.randrange(2))
+            await lab.bench.clocks(rng.randrange(1, 90))
+        await axis.idle()
+        axis.check_train("P2104-BAD-21", rates(INIT_A[1:], indices(40, 4)))
+        axis.set(run=1, csel=1, bl_n=1, bhl_n=1, org_n=1)
+        lab.bench.set(errint_n=1)
+        await axis.result("P2104-BAD-20", 40, 0x83, 0)
+        # Chattering slow-down limit: the first level flags.
+        await axis.go(0x43, 40)
+        await axis.pulse(8, 20)
+        for _ in range(30):
+            await axis.blip("fhl_n", 2)
+            await lab.bench.clocks(rng.randrange(2, 30))
+        await axis.result("P2104-BAD-22", 13, 0x8B, 26)
+        await axis.go(0x45, rate=30)
+        await axis.pulse(4, 20)
+        for _ in range(10):
+            await axis.blip("fl_n", 2)
+            await lab.bench.clocks(rng.randrange(2, 9))
+        await axis.result("P2104-BAD-22", 4, 0x95)
+
+
+@part_test("P2104-BAD-23", "P2104-PORT-03", "P2104-END-06", on=(F16, F11))
+async def p2104_bad_23_reset_anywhere(lab: Lab) -> None:
+    """Given motions, chopping, a data wait, an answer, when rst_n falls between edges, then as new."""
+    bench = lab.bench
+    for round_number in range(8):
+        first, second = await lab.both((0x16, *INIT_A[1:]))
+        await lab.run("c F1 c 87 c 83 c C2")
+        await first.go(0x4B, 200)
+        await second.go(0x45, rate=12)
+        await first.pulse(2 + round_number, 7 * round_number)
+        if round_number & 1:
+            await lab.host.command(0x44, poll=False)
+        await Timer(bench.rng.randrange(1, bench.half // 2) * 2, "ps")
+        bench.set_between_edges(rst_n=0)
+        await Timer(2, "ps")
+        levels = {name: bench.level(name) for name in bench.part.outputs}
+        lab.check("P2104-BAD-23", "outputs at once", levels, bench.part.reset_levels())
+        await bench.clocks(3)
+        bench.set(rst_n=1)
+        since = bench.now
+        await bench.clocks(8)
+        lab.check("P2104-BAD-23", "status", await lab.host.status(), 0x00)
+        lab.check("P2104-BAD-23", "data", await lab.host.read(0), 0x00)
+        lab.check("P2104-BAD-23", "e1, e2, 83", await lab.run("e1 e2 c 83 rrr"), [0] * 5)
+        await bench.clocks(500)
+        lab.quiet("P2104-BAD-23", since, "auxo")
+        for axis in lab.axes:
+            await axis.refused("P2104-BAD-23", "42", 4, 0x42)
+
+
+@part_test("P2104-BAD-26", "P2104-BAD-14", "P2104-BAD-25", on=(F16, D16), compared=False)
+async def p2104_bad_26_recovery(lab: Lab) -> None:
+    """Given noise on all pins, when it ends, then a code, 40, C0, a setting bring both axes back.
+
+    Not compared: the noise switches the bus style inside strobes.
+    """
+    bench, rng = lab.bench, lab.bench.rng
+    widths = {pin: bench.part.width(pin) for pin in bench.part.inputs}
+    for _ in range(2 if lab.cfg.datasheet else 12):
+        for _ in range(1_500):
+            for pin in rng.sample(sorted(widths), 4):
+                bench.set(**{pin: rng.getrandbits(widths[pin])})
+            await bench.clocks(rng.randrange(1, 6))
+        bench.set(**bench.part.inputs)
+        await bench.clocks(8)
+        await lab.host.poll(IBF, 0, timeout=lab.cfg.us(200_000))
+        # Any code ends a data wait; the next one is executed and replaces what is left in the output queue.
+        for _ in range(2):
+            await lab.host.command(0x86)
+            await lab.host.poll(CMND1, 0)
+        await lab.host.read_data()
+        for axis in lab.axes:
+            await axis.command(0x40)
+            await axis.idle()
+            await axis.ready()
+            await axis.command(0xC0)
+            await axis.init(*INIT_A)
+            await axis.finish()
+            await axis.error()
+        await bench.clocks(lab.cfg.us(50))
+        lab.check("P2104-BAD-26", "status", await lab.host.status(), 0x00)
+        op = 0xD3 if lab.cfg.datasheet else 0x43
+        for axis in lab.axes:
+            axis.set(csel=0)
+            await axis.move(op, 12)
+            axis.check_train("P2104-BAD-26", rates(INIT_A[1:], indices(12, 4)), 0)
+            lab.check("P2104-BAD-26", "end status", await axis.finish(), 0x83)
+            axis.set(csel=1)

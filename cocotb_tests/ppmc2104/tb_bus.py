@@ -1,0 +1,298 @@
+"""Bus cycles in both styles (P2104-BUS), bad cycles (P2104-BAD-08…15)."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from cocotb.triggers import Timer
+
+from cocotb_tests.common.bus import COMMAND, DATA, IBF, OBF, STATUS
+from cocotb_tests.common.config import F8, F11, F16, F48, F100
+
+from .figures import INIT_A
+from .lab import PINS_LATEST, Lab, part_test
+from .nanoseconds import SlowBus
+
+STYLES = (0, 1)
+IDLE = {"cs_n": 1, "ds_wrs_n": 1, "rw_rds_n": 1}
+
+
+def strobes(busc: int, cs_n: int, ds_wrs_n: int, rw_rds_n: int) -> tuple[bool, bool]:
+    """Write and read strobe of P2104-BUS-01/02."""
+    chosen, first, second = not cs_n, not ds_wrs_n, bool(rw_rds_n)
+    if busc:
+        return chosen and first and not second, chosen and first and second
+    return chosen and first and second, chosen and not first and not second
+
+
+@part_test("P2104-BUS-01", "P2104-BUS-02", "P2104-BUS-03", "P2104-BUS-04")
+async def p2104_bus_01_all_combinations(lab: Lab) -> None:
+    """Given both styles, when every combination of pins stands for 8 clk, then it is what its style says."""
+    bench = lab.bench
+    for busc, a0, cs_n, ds, rw in product(STYLES, (0, 1), (0, 1), (0, 1), (0, 1)):
+        await lab.reset()
+        await lab.style(busc)
+        await lab.host.command(0x81)
+        what = f"busc {busc}, a0 {a0}, cs_n {cs_n}, ds_wrs_n {ds}, rw_rds_n {rw}"
+        write, read = strobes(busc, cs_n, ds, rw)
+        since = bench.set(a0=a0, d_i=0xD1, cs_n=cs_n, ds_wrs_n=ds, rw_rds_n=rw)
+        await bench.clocks(8)
+        got = (bench.level("d_oe"), bench.level("d_o"))
+        bench.set(**IDLE)
+        await bench.clocks(12)
+        lab.check("P2104-BUS-01", f"d_oe, {what}", [v for _, v in bench.edges("d_oe", since)], [1, 0] * read)
+        if read:
+            lab.check("P2104-BUS-03", f"register, {what}", got, (1, 0x01 if a0 else 0xCF))
+        # A data byte that nobody wants is error 2, the code D1 lowers AUXO0.
+        status = OBF if not (read and not a0) else 0
+        status |= 0x80 if write and not a0 else 0
+        lab.check("P2104-BUS-03", f"status after {what}", await lab.host.status(), status)
+        lab.check("P2104-BUS-03", f"auxo after {what}", bench.level("auxo"), 0b10 if write and a0 else 0b11)
+
+
+@part_test("P2104-BUS-04")
+async def p2104_bus_04_style_changes(lab: Lab) -> None:
+    """Given busc changing with the strobes off, when 3 clk have passed, then the new style is spoken."""
+    for i in range(8):
+        lab.bench.set(busc=(i + 1) & 1, rw_rds_n=1)
+        await lab.bench.clocks(3)
+        code, auxo = ((0xD1, 0b10), (0xC1, 0b11))[i >> 1 & 1]
+        await lab.host.write(COMMAND, code, strobe=2)
+        await lab.bench.clocks(10)
+        lab.check("P2104-BUS-04", "auxo after a write", lab.bench.level("auxo"), auxo)
+        lab.bench.set(busc=i & 1, rw_rds_n=1)
+        await lab.bench.clocks(3)
+        lab.check("P2104-BUS-04", "status", await lab.host.read(STATUS, strobe=3), 0x00)
+
+
+@part_test("P2104-BUS-05", "P2104-GEN-06", "P2104-HSK-03", "P2104-BAD-12", "P2104-BAD-13", on=(F16, F100))
+async def p2104_bus_05_last_sample_counts(lab: Lab) -> None:
+    """Given d_i and a0 that change each clk, when WS ends in any way, then the last sample is the byte."""
+    bench = lab.bench
+    latencies = set()
+    for busc in STYLES:
+        await lab.style(busc)
+        write = lab.host.style.write_on
+        # The other strobe, or the other direction, ends a write, too.
+        turn = {"rw_rds_n": 1 if busc else 0}
+        ends = ({"ds_wrs_n": 1}, {"cs_n": 1}, {"cs_n": 1, "ds_wrs_n": 1}, turn)
+        for length, end in product(range(1, 7), ends):
+            low = bench.level("auxo") & 1
+            for i in range(length):
+                last = i == length - 1
+                bench.set(**write, a0=int(last), d_i=(0xD1 if low else 0xC1) if last else 0x40 + i)
+                await bench.clocks(1)
+            edge0 = bench.set(a0=0, d_i=0x87, **end)
+            await bench.clocks(14)
+            t, level = bench.edges("auxo[0]", edge0)[0]
+            lab.check("P2104-BUS-05", f"AUXO0, busc {busc}, {length} clk, {end}", level, 1 - low)
+            latencies.add(t - edge0)
+            bench.set(**IDLE)
+            await bench.clocks(12)
+            lab.check("P2104-BUS-05", f"status, busc {busc}, {length}, {end}", await lab.host.status(), 0x00)
+    lab.check("P2104-BUS-05", "number of different latencies", len(latencies), 1)
+    lab.window("P2104-HSK-03", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
+
+
+@part_test("P2104-BUS-06", "P2104-BUS-22", "P2104-GEN-07", on=(F16, F100))
+async def p2104_bus_06_read_edges(lab: Lab) -> None:
+    """Given reads of 1 to 60 clk, when the state changes meanwhile, then d_oe and d_o keep to their edges."""
+    axis = await lab.ready(1, INIT_A)
+    bench = lab.bench
+    for busc, length, early in product(STYLES, (1, 2, 3, 4, 9, 60), range(5)):
+        await lab.style(busc)
+        style = lab.host.style
+        await axis.finish()
+        await axis.go(0x42)
+        low = await axis.pulse(1)
+        # BUSY falls about here: before, on, and after the first edges of the read.
+        await bench.until(low + lab.cfg.w - 3 + early)
+        bench.set(a0=STATUS, d_i=0xFF, **style.read_on)
+        first = bench.now
+        await bench.clocks(length)
+        after = bench.set(a0=DATA, **style.read_off)
+        await bench.clocks(8)
+        what = f"busc {busc}, {length} clk, {early}"
+        lab.check("P2104-BUS-06", f"d_oe, {what}", bench.edges("d_oe", first), [(first, 1), (after, 0)])
+        values = [bench.level_at("d_o", t) for t in range(first, after + 3)]
+        lab.check("P2104-BUS-06", f"d_o is a status, {what}", {*values[: length + 2]} <= {0x04, 0x00}, True)
+        lab.check("P2104-BUS-06", f"d_o from edge 2 to edge 2', {what}", len({*values[2 : length + 2]}), 1)
+        await axis.idle()
+
+
+@part_test("P2104-BUS-07", "P2104-HSK-03", "P2104-HSK-01")
+async def p2104_bus_07_no_invisible_byte(lab: Lab) -> None:
+    """Given a write, when status is read 1 to 14 clk later, then it shows IBF or the whole effect."""
+    await lab.both(INIT_A)
+    cases = ((0x87, 0x80), (0xA7, 0x80), (0x81, 0x01), (0x42, 0x04), (0x62, 0x08), (0x44, 0x10), (0x65, 0x20))
+    for busc, (code, final) in product(STYLES, cases):
+        seen = []
+        await lab.style(busc)
+        for gap in range(1, 15):
+            await lab.host.write(COMMAND, code, gap=gap)
+            status = await lab.host.status()
+            seen.append(status & IBF)
+            if gap > 8:
+                lab.check("P2104-HSK-03", f"IBF {gap} clk after {code:#x}", status & IBF, 0)
+            if not status & IBF:
+                lab.check("P2104-BUS-07", f"status {gap} clk after {code:#x}", status, final)
+            await lab.bench.clocks(20)
+            # Back to rest: end a data wait or a motion, take errors, interrupt and answer away.
+            for axis in lab.axes:
+                await axis.command(0x40)
+                await axis.idle()
+                await axis.finish()
+                await axis.error()
+        lab.check("P2104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, reverse=True))
+
+
+@part_test("P2104-BUS-08", "P2104-HSK-06")
+async def p2104_bus_08_obf_of_a_read_byte(lab: Lab) -> None:
+    """Given an answer, when it is read, then no later status shows its OBF, from 1 clk on."""
+    for busc, length, gap in product(STYLES, (1, 2, 3, 5), range(1, 6)):
+        await lab.style(busc)
+        await lab.host.command(0x81)
+        lab.check("P2104-HSK-06", "OBF with IBF = 0", await lab.host.status() & (OBF | IBF), OBF)
+        byte = await lab.host.read(DATA, strobe=length, gap=gap)
+        lab.check("P2104-BUS-08", f"byte, {length} clk", byte, 0xCF)
+        lab.check("P2104-BUS-08", f"OBF {gap} clk later", await lab.host.read(STATUS, strobe=3) & OBF, 0)
+
+
+@part_test("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
+async def p2104_bus_08_answer_during_a_read(lab: Lab) -> None:
+    """Given a read instruction taken around a data read, when both meet, then its answer is never lost."""
+    seen = set()
+    for busc, length, gap in product(STYLES, (1, 2, 4, 7), range(1, 14)):
+        await lab.style(busc)
+        await lab.host.command(0x80)
+        await lab.host.write(COMMAND, 0x81, gap=gap)
+        first = await lab.host.read(DATA, strobe=length)
+        await lab.bench.clocks(16)
+        obf = await lab.host.status() & OBF
+        seen.add((first, obf))
+        lab.check("P2104-BUS-08", f"({first:#x}, OBF)", (first, obf) in {(0, 1), (0xCF, 0), (0xCF, 1)}, True)
+        if obf:
+            lab.check("P2104-BUS-08", "the answer kept", await lab.host.read(DATA), 0xCF)
+    lab.check("P2104-BUS-08", "both orders were met", seen >= {(0, 1), (0xCF, 0)}, True)
+
+
+@part_test("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", on=(F8, F11, F16, F48, F100))
+async def p2104_bus_20_shortest_cycles(lab: Lab) -> None:
+    """Given strobes, data and gaps of T + 10 ns, reads of T + 20 ns, when used, then none is lost."""
+    bus = SlowBus(lab)
+    period = lab.bench.period / 1000
+    short = period + 10
+    for busc, phase in product(STYLES, range(0, 16, 2)):
+        await lab.style(busc)
+        what = f"busc {busc}, phase {phase}/16"
+        await bus.phase(phase)
+        # The newer of two writes may replace the older one, but is there.
+        await bus.write(COMMAND, 0xC1, width=short, setup=short, rest=max(0, short - 35))
+        await bus.write(COMMAND, 0xF1, width=short, setup=short, rest=14 * period)
+        lab.check("P2104-BUS-20", f"auxo, {what}", lab.bench.level("auxo"), 0b00)
+        await bus.write(COMMAND, 0xD1, width=3 * short, setup=short, rest=14 * period)
+        lab.check("P2104-BUS-20", f"auxo, garbage first, {what}", lab.bench.level("auxo"), 0b10)
+        await bus.write(COMMAND, 0x81, width=short, setup=short, rest=14 * period)
+        for register, byte in ((STATUS, 0x01), (DATA, 0xCF), (STATUS, 0x00)):
+            samples = await bus.read(register, width=period + 20, access=period + 1, release=period + 1)
+            lab.check("P2104-BUS-20", f"(d_oe, d_o) of {register}, {what}", samples, [(1, byte)] * 2)
+            await bus.wait(max(0, short - period - 21))
+
+
+@part_test("P2104-BUS-23", "P2104-BUS-03", "P2104-BUS-09", "P2104-BAD-09")
+async def p2104_bus_23_two_clk_cycles(lab: Lab) -> None:
+    """Given strobes and gaps of 2 clk, when a host works by them, then every byte goes in and out."""
+    lab.host.read_strobe = 2
+    for busc in STYLES:
+        await lab.style(busc)
+        axis = await lab.ready(1 + busc, INIT_A)
+        await axis.move(0x43, 9)
+        await axis.result("P2104-BUS-23", 9, 0x83, 0)
+        lab.check("P2104-BUS-23", "errors", await lab.errors(), (0, 0))
+        await axis.fetch(0x81)
+        lab.check("P2104-BUS-09", "stale byte", await lab.host.read(DATA), 0xCF)
+        lab.check("P2104-BUS-09", "status", await lab.host.status(), 0x00)
+
+
+@part_test("P2104-BUS-10", "P2104-BAD-14", on=(F16, F48))
+async def p2104_bus_10_too_short_strobes(lab: Lab) -> None:
+    """Given strobes shorter than a clk at any phase, when bytes are written, then each is whole or absent."""
+    bench, bus = lab.bench, SlowBus(lab)
+    clk = bench.period / 1000
+    for busc, part, phase in product(STYLES, (1 / 8, 1 / 2, 7 / 8), range(0, 16, 2)):
+        await lab.style(busc)
+        await bus.phase(phase)
+        since = bench.now
+        await bus.write(COMMAND, 0xF1, width=part * clk, setup=part * clk, rest=14 * clk)
+        await bench.align()
+        moved = bench.edges("auxo", since)
+        lab.check("P2104-BUS-10", "auxo whole or nothing", [v for _, v in moved] in ([], [0b00]), True)
+        lab.check("P2104-BUS-10", "status", await lab.host.status(), 0x00)
+        await lab.host.command(0xC1)
+        await lab.host.command(0x83)
+        await bus.phase(phase)
+        strobe = {"ds_wrs_n": 0} if busc else {"rw_rds_n": 0}
+        bench.set_between_edges(a0=DATA, cs_n=0, rw_rds_n=1)
+        await bus.wait(2)
+        bench.set_between_edges(**strobe)
+        await bus.wait(part * clk)
+        bench.set_between_edges(**dict.fromkeys(strobe, 1), cs_n=1)
+        await bench.clocks(10)
+        await bench.align()
+        lab.check("P2104-BUS-10", "OBF: a byte is left", await lab.host.status(), 0x01)
+        await lab.host.command(0x80)
+        await lab.host.read(DATA)
+
+
+@part_test("P2104-BAD-12", "P2104-BUS-05", "P2104-BUS-06", busc=1)
+async def p2104_bad_12_turn_inside_a_strobe(lab: Lab) -> None:
+    """Given DS* low, when R/W* or a0 change, then a write before is stored, a read shows its first a0."""
+    bench = lab.bench
+    await lab.host.command(0x81)
+    for length in (1, 2, 5):
+        bench.set(cs_n=0, ds_wrs_n=0, rw_rds_n=0, a0=COMMAND, d_i=0xD1)
+        await bench.clocks(length)
+        turn = bench.set(rw_rds_n=1, a0=STATUS, d_i=0x00)
+        await bench.clocks(6)
+        lab.check("P2104-BAD-12", "d_oe from the turn on", bench.edges("d_oe", turn), [(turn, 1)])
+        bench.set(**IDLE)
+        await bench.clocks(10)
+        lab.check("P2104-BAD-12", "auxo", bench.level("auxo"), 0b10)
+        await lab.host.command(0xC1)
+        # The other way round: a read of the data register, then a write of data.
+        first = bench.set(cs_n=0, ds_wrs_n=0, rw_rds_n=1, a0=DATA)
+        await bench.clocks(3)
+        bench.set(a0=STATUS)
+        await bench.clocks(5)
+        lab.check("P2104-BAD-12", "d_o after a0 turned", bench.level("d_o"), 0xCF)
+        turn = bench.set(rw_rds_n=0, a0=COMMAND, d_i=0xE1)
+        await bench.clocks(length)
+        bench.set(**IDLE)
+        await bench.clocks(12)
+        lab.check("P2104-BAD-12", "d_oe", bench.edges("d_oe", first), [(first, 1), (turn, 0)])
+        lab.check("P2104-BAD-12", "auxo after the write", bench.level("auxo"), 0b01)
+        await lab.host.command(0xC1)
+        lab.check("P2104-BAD-12", "the data byte was read", await lab.host.status(), 0x00)
+        await lab.host.command(0x81)
+
+
+@part_test("P2104-BAD-15", "P2104-BUS-04", compared=False)
+async def p2104_bad_15_style_changes_in_a_strobe(lab: Lab) -> None:
+    """Given busc changing in a strobe, when it is over, then whatever it was, later ones are normal."""
+    bench = lab.bench
+    for busc, at, write in product(STYLES, range(0, 5), (True, False)):
+        await lab.style(busc)
+        style = lab.host.style
+        since = bench.set(a0=COMMAND, d_i=0xF1, **(style.write_on if write else style.read_on))
+        await bench.clocks(at)
+        bench.set(busc=1 - busc)
+        await bench.clocks(6)
+        bench.set(**IDLE)
+        await bench.clocks(14)
+        levels = [v for _, v in bench.edges("auxo", since)]
+        lab.check("P2104-BAD-15", "auxo: the byte or nothing", levels in ([], [0b00]), True)
+        lab.check("P2104-BAD-15", "status", await lab.host.status(), 0x00)
+        await lab.host.command(0xC1)
+        lab.check("P2104-BAD-15", "81", await lab.host.fetch(0x81), [0xCF])
+        await Timer(bench.period, "ps")
+        await bench.align()

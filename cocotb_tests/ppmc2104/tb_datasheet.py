@@ -1,0 +1,264 @@
+"""Processing windows of the old chip, TIMING = "DATASHEET" (P2104-DS-01…15), AC-71 to AC-74."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bus import IBF, OBF
+from cocotb_tests.common.config import D11, D16
+from cocotb_tests.common.figures import bytes_of, rates
+
+from .figures import ERROR, INIT_A, INIT_B, slowed
+from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab, part_test
+from .sheet import ON, PIN, READ, TOLERANCE, after, last_byte, opens, rest
+
+BOTH = (D16, D11)
+
+
+@part_test("AC-73", "P2104-DS-01", "P2104-INI-07", "P2104-STA-05", "P2104-SW-02", on=BOTH)
+async def p2104_ac_73_setting(lab: Lab) -> None:
+    """Given a setting with S = 1, when taken, then phases at once, CMND for 71 ms, then chopping."""
+    axis = lab.x1
+    edge0 = await last_byte(axis, 0x12, *INIT_B[1:], 0)
+    shown = await lab.bench.edge(axis.phases)
+    lab.window("AC-73", "last byte to the pattern", shown - edge0, 2, 12)
+    lab.check("AC-73", "s1_n", axis.phases_now, 0b11100)
+    await lab.bench.clocks(200)
+    lab.check("AC-73", "status", await lab.host.status(), axis.cmnd)
+    await lab.host.command(0xF1, poll=False)
+    nominal = lab.cfg.us(71_000)
+    await lab.bench.until(edge0 + 2 + nominal - 20)
+    lab.check("AC-73", "status just before", await lab.host.status(), axis.cmnd | IBF)
+    lab.check("AC-73", "s1_n edges", [v for _, v in lab.bench.edges(axis.phases)], [0b11100])
+    off = await lab.bench.edge(axis.phases, 0x1F)
+    q = lab.cfg.quanta
+    low, high = nominal + 2 + q(2 * ON) - q(1) - 1, nominal + 10 + q(2 * ON) + q(1) + 1 + TOLERANCE + PIN
+    lab.window("P2104-DS-01", "last byte to the first OFF", off - edge0, low, high)
+    lab.check("AC-73", "CMND afterwards", await lab.host.status() & axis.cmnd, 0)
+    # F1 was taken at the end of the window and acts at the end of its own.
+    auxo = lab.bench.edges("auxo", edge0)
+    if not auxo:
+        await lab.bench.edge("auxo")
+        auxo = lab.bench.edges("auxo", edge0)
+    lab.window(
+        "P2104-DS-12", "auxo", auxo[0][0] - edge0 - nominal - lab.cfg.us(40), 2, 2 * TOLERANCE + 12 + PIN
+    )
+
+
+@part_test("AC-71", "P2104-DS-04", "P2104-DS-05", "P2104-DS-06", "P2104-DS-07", "P2104-DS-08", "P2104-DS-09",
+           "P2104-DS-14", "P2104-TIM-01", on=BOTH)  # fmt: skip
+async def p2104_ac_71_starts(lab: Lab) -> None:
+    """Given each operation, when accepted, then BUSY at once and pulse 1 W after its window."""
+    axis = await lab.ready(1, INIT_B)
+    for code, data, micros in (
+        (0x42, [], 103),
+        (0x44, [0x63, 9, 0, 0], 29),
+        (0x45, [0x63], 32),
+        (0x47, [0x63], 32),
+        (0x46, [], 118),
+        (0x4E, [], 118),
+        (0x43, bytes_of(9), 340),
+        (0xCB, bytes_of(19), 340),
+        (0x43, bytes_of(20), 110),
+        (0xC3, bytes_of(99), 110),
+    ):
+        edge0 = await last_byte(axis, code, *data)
+        await lab.bench.until(edge0 + 12)
+        levels = (axis.level("hold"), axis.level("dir"))
+        lab.check("P2104-DS-14", f"hold, dir of {code:#x}", levels, (0, code >> 3 & 1))
+        lab.check(
+            "P2104-DS-14", "BUSY", await lab.host.status() & (axis.busy | axis.cmnd), axis.busy | axis.cmnd
+        )
+        if code in (0x44, 0xCB):
+            await opens(lab, "P2104-DS-07", edge0, micros)
+        first = await axis.pulse(1)
+        after(lab, "AC-71", f"pulse 1 of {code:#x}", first, edge0, micros, lab.cfg.w)
+        lab.check("P2104-DS-14", "CMND after the window", await lab.host.status() & axis.cmnd, 0)
+        await axis.command(0x40)
+        await rest(lab)
+
+
+@part_test("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", on=(D16,))
+async def p2104_ds_14_run_in_the_window(lab: Lab) -> None:
+    """Given run H and L in the window, when it ends, then only the level then counts."""
+    axis = await lab.ready(1, INIT_B)
+    w = lab.cfg.w
+    axis.set(run=0)
+    edge0 = await last_byte(axis, 0x42)
+    await lab.bench.clocks(500)
+    axis.set(run=1)
+    await lab.bench.clocks(300)
+    axis.set(run=0)
+    await lab.bench.until(edge0 + lab.cfg.us(103) + 500)
+    lab.check("P2104-DS-14", "pulses after the window", axis.pulses, [])
+    rise = axis.set(run=1)
+    lab.window("P2104-TIM-02", "run to pulse 1", await axis.pulse(1) - rise, w, w + 6)
+    await axis.idle()
+    edge0 = await last_byte(axis, 0x42)
+    await lab.bench.clocks(100)
+    axis.set(run=0)
+    await lab.bench.clocks(100)
+    axis.set(run=1)
+    after(lab, "P2104-DS-14", "pulse 1", await axis.pulse(1), edge0, 103, w)
+    await rest(lab)
+    # Start refusal looks at the live level, without a window.
+    axis.set(alm_n=0)
+    await lab.bench.clocks(4)
+    edge0 = await last_byte(axis, 0x42)
+    await lab.bench.until(edge0 + 10)
+    lab.check("P2104-DS-22", "refused at once", await lab.host.status() & (ERROR | IBF | axis.busy), ERROR)
+    axis.set(alm_n=1)
+    await lab.bench.clocks(4)
+    lab.check("P2104-DS-22", "error", await axis.error(), 7)
+
+
+@part_test("AC-72", "P2104-DS-02", "P2104-DS-12", "P2104-HSK-01", on=BOTH)
+async def p2104_ac_72_immediate_stop(lab: Lab) -> None:
+    """Given a motion, when 40 is taken, then pulses are cut, the end comes 400 us later, bytes wait."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.go(0x44, 1000, 0x63)
+    await axis.pulse(10, 400)
+    edge0 = await axis.command(0x40, poll=False)
+    await lab.bench.clocks(40)
+    await lab.host.command(0xD1, poll=False)
+    nominal = lab.cfg.us(400)
+    await lab.bench.until(edge0 + 2 + nominal - 20)
+    lab.check("AC-72", "status just before", await lab.host.status() & (IBF | axis.busy), IBF | axis.busy)
+    end = await axis.ended()
+    after(lab, "AC-72", "end", end, edge0, 400)
+    # BUSY fell on the edge before int_n at the latest; D1 is taken then.
+    lab.check("AC-72", "BUSY", await lab.host.status() & axis.busy, 0)
+    aux = await lab.bench.edge("auxo")
+    lab.window("AC-72", "auxo after the end", aux - end, lab.cfg.us(40) - 4, lab.cfg.us(40) + TOLERANCE + 8)
+    hold = await lab.bench.edge(axis.pin("hold"), 1)
+    delay = lab.cfg.us(3_200)
+    lab.window("P2104-DS-02", "hold after the end", hold - end, delay - 4, delay + 16 + 4)
+    await axis.result("AC-72", 10, 0xC4, 989)
+    await rest(lab)
+    # In FIN: closed for 400 us, but the normal end is not delayed and has no bit.
+    await axis.go(0x42)
+    fall = await axis.pulse(1, 4)
+    edge0 = await axis.command(0x40, poll=False)
+    end = await axis.ended()
+    lab.window("P2104-DS-15", "normal end after the fall", end - fall, lab.cfg.w, lab.cfg.w + 4)
+    await opens(lab, "P2104-DS-02", edge0, 400)
+    lab.check("P2104-STP-05", "end status", await axis.finish(), 0x82)
+
+
+@part_test("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", on=(D16,))
+async def p2104_ds_03_deceleration_stop(lab: Lab) -> None:
+    """Given 41, when its 32 us are over, then the flag acts, at RL at once, and too late not at all."""
+    axis = await lab.ready(1, INIT_B)
+    edge0 = 0
+
+    async def ask(j: int, plus: int, n: int = 100) -> None:
+        nonlocal edge0
+        await axis.go(0x43, n)
+        await axis.pulse(j, plus)
+        edge0 = await axis.command(0x41, poll=False)
+
+    # I(6) has index 5 and lasts 896 clk: the flag is set in I(6), or 512 clk later in I(7).
+    for plus, flagged in ((100, 6), (600, 7)):
+        await ask(6, plus)
+        await opens(lab, "P2104-DS-03", edge0, 32)
+        wanted = slowed(INIT_B[1:], 100, flagged)
+        await axis.result("P2104-DS-03", len(wanted) + 1, 0xC3, 98 - len(wanted))
+        axis.check_train("P2104-DS-03", wanted)
+        await rest(lab)
+    # In I(1), at the rate RL: it ends with the window.
+    await ask(1, 100)
+    end = await axis.ended()
+    after(lab, "P2104-DS-03", "end at RL", end, edge0, 32)
+    await axis.result("P2104-DS-03", 1, 0xC3, 98)
+    await rest(lab)
+    # Asked for in acceleration, due in natural deceleration (from pulse 6 of 10 on): nothing, no bit.
+    await ask(5, 992 - 300, n=10)
+    await axis.result("P2104-DS-03", 10, 0x83, 0)
+    axis.check_train("P2104-DS-03", rates(INIT_B[1:], [0, 1, 2, 3, 4, 3, 2, 1, 0]))
+    # Refused: no window.
+    await rest(lab)
+    await axis.go(0x45, rate=0x63)
+    await axis.pulse(1, 200)
+    edge0 = await axis.command(0x41, poll=False)
+    await lab.bench.until(edge0 + 10)
+    lab.check("P2104-DS-03", "IBF, ERROR", await lab.host.status() & (IBF | ERROR), ERROR)
+
+
+@part_test("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", on=BOTH)
+async def p2104_ac_74_reads(lab: Lab) -> None:
+    """Given each read instruction, when taken, then OBF at the end of its window, with the values of then."""
+    lab.bench.set(errint_n=0)
+    await lab.run("c 87")
+    for code, micros in ((0x81, 36), (0x82, 32), (0x83, 37), (0x80, 40), (0xC2, 40), (0xA1, 36), (0x86, 43)):
+        edge0 = await lab.host.command(code, poll=False)
+        await lab.host.poll(IBF, 0)
+        cmnd = 0 if code == 0xC2 else 0x20 if code & 0x20 else 0x10
+        lab.check("AC-74", f"status in the window of {code:#x}", await lab.host.status() & 0x31, cmnd)
+        nominal = lab.cfg.us(micros)
+        if code == 0x81:
+            # Sampled at the end, not at the C-event.
+            lab.x1.set(org_n=0)
+        await lab.host.poll(OBF, OBF, dense=1000)
+        late = lab.bench.now - edge0
+        lab.window("AC-74", f"OBF of {code:#x}", late, 2 + nominal, 10 + nominal + TOLERANCE + READ)
+        got = [await lab.host.read_data() for _ in range(3 if code == 0x83 else 1)]
+        wanted = {0x81: [0x4F], 0x82: [0xFC], 0x83: [0] * 3, 0xA1: [0xCF], 0x86: [1]}.get(code, [0])
+        lab.check("AC-74", f"answer of {code:#x}", got, wanted)
+        if code == 0x86:
+            up = [t for t, v in lab.bench.edges("int_n", edge0) if v][0]
+            after(lab, "P2104-DS-10", "int_n", up, edge0, micros)
+        lab.x1.set(org_n=1)
+        await lab.host.poll(0x30, 0)
+    edge0 = await lab.host.command(0xA0, poll=False)
+    await opens(lab, "P2104-DS-10", edge0, 40)
+
+
+@part_test("P2104-DS-11", "P2104-DS-12", "P2104-DS-13", "P2104-AUX-05", "P2104-AUX-04", on=(D16,))
+async def p2104_ds_11_auxiliary(lab: Lab) -> None:
+    """Given C0, D1, 84, 85, when taken, then they act at the end of their windows."""
+    axis = await lab.ready(1, (0x12, *INIT_A[1:]))
+    edge0 = await last_byte(axis, 0x84, 0x40, 0x40)
+    await opens(lab, "P2104-DS-13", edge0, 36)
+    await lab.bench.clocks(3_000)
+    spans = {span for _, span in axis.stretches(lab.bench.now - 2_500)}
+    lab.check("P2104-DS-13", "switching times", spans, {512})
+    # The value is in force at the end of the window: a timer started in it has the old one.
+    edge0 = await last_byte(axis, 0x85, 0x00)
+    await opens(lab, "P2104-DS-13", edge0, 32)
+    await lab.host.command(0xE1)
+    edge0 = await lab.host.command(0xD1, poll=False)
+    aux = [await lab.bench.edge("auxo"), await lab.bench.edge("auxo")]
+    lab.window("P2104-DS-12", "D1 after E1", aux[1] - aux[0], lab.cfg.us(40), lab.cfg.us(40) + TOLERANCE + 4)
+    await lab.bench.edge(axis.phases, 0b11100)
+    edge0 = await last_byte(axis, 0xC0)
+    await lab.bench.until(edge0 + lab.cfg.us(32) - 2)
+    await opens(lab, "P2104-DS-11", edge0, 32)
+    (off, level) = lab.bench.edges(axis.phases, edge0)[-1]
+    lab.check("P2104-DS-11", "phases", level, 0x1F)
+    lab.window("P2104-DS-11", "C0 to the last edge of the phases", off - edge0, 2, lab.cfg.us(32) + 28)
+    await lab.bench.clocks(2_000)
+    lab.check("P2104-DS-11", "phases stay off", lab.bench.edges(axis.phases, off + 1), [])
+    # Errors and data bytes have no window.
+    for register, byte in ((1, 0x87), (0, 0x55), (1, 0x42), (1, 0x43), (1, 0x84), (0, 0x40), (1, 0x40)):
+        edge0 = await lab.host.write(register, byte)
+        await lab.bench.until(edge0 + C_EVENT_LATEST - WRITE_EVENT + 2)
+        lab.check("P2104-DS-13", f"IBF after {byte:#x}", await lab.host.status() & IBF, 0)
+
+
+@part_test("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", on=BOTH)
+async def p2104_ds_15_as_fast(lab: Lab) -> None:
+    """Given complete moves, when they run and end, then pulses, ends, hold and release as in FAST."""
+    axis = await lab.ready(2, INIT_B)
+    await axis.go(0x43, 30)
+    await axis.idle()
+    which = [*range(10), *[10] * 9, *range(9, -1, -1)]
+    axis.check_train("P2104-DS-15", rates(INIT_B[1:], which))
+    lab.check("P2104-DS-15", "low times", set(axis.low_times), {lab.cfg.w})
+    rise = lab.bench.rises(axis.pout, axis.since)[-1]
+    lab.window("P2104-DS-15", "int_n after pout_n", await axis.ended() - rise, 0, 4)
+    since = lab.bench.now
+    await lab.x1.go(0x42)
+    lab.check("P2104-DS-15", "end status", await axis.finish(), 0x83)
+    await lab.bench.clocks(400)
+    lab.check("P2104-DS-15", "int_n", [v for _, v in lab.bench.edges("int_n", since)], [1])
+    hold = await lab.bench.edge(axis.pin("hold"), 1)
+    delay = lab.cfg.us(3_200)
+    lab.window("P2104-DS-15", "pout_n to hold", hold - rise, delay, delay + 24)

@@ -1,0 +1,97 @@
+"""Ends of operations and the hold delay (P2104-END, P2104-HLD)."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.config import F11, F16, F48
+from cocotb_tests.common.figures import NO_PULSES_DONE
+
+from .figures import INIT_A, INIT_B
+from .lab import Lab, part_test
+
+
+@part_test("P2104-END-01", "P2104-END-07", "P2104-END-08", "P2104-SW-02", "P2104-INT-05", on=(F16, F11, F48))
+async def p2104_end_01_normal_end(lab: Lab) -> None:
+    """Given complete moves of a chopping axis, when the last pulse rises, then all ends on one edge."""
+    q = lab.cfg.quanta
+    for axis in lab.axes:
+        await axis.init(0x12, *INIT_A[1:])
+        await axis.send(0x85, [1])
+        for code, n, rate in ((0x42, None, None), (0x43, 9, None), (0xC3, 2, None), (0x4C, 5, 20)):
+            await axis.go(code, n, rate)
+            await axis.busy_until(lambda: lab.bench.level("int_n") == 0, "P2104-END-01")
+            status = await lab.host.status()
+            lab.check("P2104-END-01", "BUSY after int_n", status & axis.busy, 0)
+            rise = lab.bench.rises(axis.pout, axis.since)[-1]
+            end = await axis.ended()
+            lab.window("P2104-END-01", "pout_n to int_n", end - rise, 0, 4)
+            pattern = axis.phases_now
+            off = await lab.bench.edge(axis.phases, 0x1F)
+            lab.window(
+                "P2104-SW-02", "pout_n to OFF", off - rise, q(2 * 0x53) - q(1) - 1, q(2 * 0x53) + q(1) + 6
+            )
+            hold = await lab.bench.edge(axis.pin("hold"), 1)
+            clocks = lab.cfg.cyc(4_096)
+            lab.window("P2104-END-07", "pout_n to hold", hold - rise, clocks, clocks + 24)
+            await lab.bench.level_is(axis.phases, pattern)
+            await axis.result("P2104-END-01", n or 1, 0x80 | code & 7, 0)
+        await axis.command(0xC0)
+
+
+@part_test("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", on=(F16, F48))
+async def p2104_end_02_pulse_finishes(lab: Lab) -> None:
+    """Given an immediate end anywhere in the low time, when it comes, then the pulse has its whole width."""
+    axis = await lab.ready(1, INIT_B)
+    w = lab.cfg.w
+    for after in (1, 2, w // 2, w - 5, w - 4, w - 3, w - 2, w - 1, w, w + 1, w + 5):
+        await axis.go(0x45, rate=60)
+        fall = await axis.pulse(3)
+        await lab.bench.until(fall + after)
+        pin = axis.set(alm_n=0)
+        end = await axis.ended()
+        lab.check("P2104-END-02", f"low times, {after} clk", axis.low_times, [w] * 3)
+        last = max(pin, fall + w)
+        lab.window("P2104-END-02", f"end, {after} clk", end - last, 0, 8)
+        pattern = axis.phases_now
+        axis.set(alm_n=1)
+        await axis.result("P2104-END-02", 3, 0xA5, NO_PULSES_DONE - 4)
+        lab.check("P2104-END-08", "phases", axis.phases_now, pattern)
+
+
+@part_test("P2104-END-07", "P2104-HLD-01", "P2104-HLD-02", "P2104-OPR-01")
+async def p2104_end_07_hold(lab: Lab) -> None:
+    """Given a hold timer of 256 us, when all kinds of codes come, then only moves restart it."""
+    for axis in await lab.both(INIT_A):
+        await axis.send(0x85, [1])
+        await axis.move(0x42)
+        rise = lab.bench.rises(axis.pout, axis.since)[-1]
+        await axis.fetch(0x80)
+        axis.set(alm_n=0)
+        await axis.refused("P2104-HLD-02", "42 on ALM", 7, 0x42)
+        axis.set(alm_n=1)
+        await axis.send(0x02, [9, 4, 4, 0])
+        hold = await lab.bench.edge(axis.pin("hold"), 1)
+        lab.window("P2104-END-07", "pout_n to hold", hold - rise, 4_096, 4_120)
+        since = lab.bench.now
+        await axis.ready()
+        for code in (0x81, 0x82, 0x83, 0x86):
+            await axis.fetch(code)
+        await lab.bench.clocks(100)
+        lab.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
+        # An operation of no pulses moves hold as any other.
+        axis.set(run=0)
+        await axis.go(0x42)
+        await axis.command(0x40)
+        await axis.idle()
+        end = lab.bench.now
+        hold = await lab.bench.edge(axis.pin("hold"), 1)
+        lab.window("P2104-END-07", "zero pulses: hold", hold - end, 4_096 - 60, 4_120)
+        axis.set(run=1)
+        # Accepted just before the timer ends: hold stays L.
+        await axis.move(0x42)
+        rise = lab.bench.rises(axis.pout, axis.since)[-1]
+        await lab.bench.until(rise + 4_096 - 10)
+        await axis.move(0x42)
+        await lab.bench.clocks(1_000)
+        lab.check("P2104-END-07", "hold", [v for _, v in axis.edges("hold", rise)], [])
+        await lab.bench.edge(axis.pin("hold"), 1)
+        await axis.finish()

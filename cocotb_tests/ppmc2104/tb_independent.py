@@ -1,0 +1,92 @@
+"""The same host work for axis 2 with and without traffic to axis 1: the same waveform of axis 2."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import repeat
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.bus import HostBus
+from cocotb_tests.common.compare import check_against_model
+from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.verifies import verifies
+from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
+
+WAVES = ("pout_n[2]", "dir[2]", "hold[2]", "s2_n")
+# Table build of axis 2, longest legal one; an instruction of axis 1 with all its bytes.
+READY, INSTRUCTION = 40_000, 80
+
+
+class Run:
+    """One of the two runs, from a reset on."""
+
+    def __init__(self, bench: Bench, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
+        self.bench = bench
+        self.plan = plan
+        self.host = HostBus(bench)
+        self.beside = beside
+
+    async def play(self) -> dict[str, list[tuple[int, int]]]:
+        """Edges of axis 2, counted from the reset."""
+        bench, plan = self.bench, self.plan
+        await bench.align()
+        bench.set(**{**PPMC2104.inputs, "busc": plan.busc})
+        origin = await bench.reset(settle=8)
+        await self.send(plan.setting)
+        clock = bench.external_clock(repeat(plan.period), "extck[2]") if plan.period else None
+        begin = origin + READY
+        await bench.until(begin)
+        for place, slot in enumerate(plan.slots):
+            begin = origin + READY + SLOT * place
+            await self.fill(begin)
+            await self.send(slot.writes)
+            for at, name, value in slot.events:
+                await self.fill(begin + at)
+                if name == "code":
+                    await self.send(((1, value),))
+                else:
+                    bench.set(**{name: value})
+        await self.fill(begin + SLOT)
+        if clock:
+            clock.cancel()
+        return {name: [(t - origin, v) for t, v in bench.edges(name, origin)] for name in WAVES}
+
+    async def send(self, writes: Any) -> None:
+        for reg, byte in writes:
+            await self.host.write(reg, byte, gap=8)
+
+    async def fill(self, until: int) -> None:
+        """Traffic to axis 1 as long as it fits, then wait for the edge."""
+        bench = self.bench
+        while bench.now + INSTRUCTION + 70 < until:
+            thing = next(self.beside, None)
+            if thing is None:
+                break
+            if isinstance(thing, list):
+                await self.send(thing)
+                await self.host.read(len(thing) % 2)
+                await bench.clocks(bench.rng.randint(0, 40))
+            else:
+                bench.set(**{thing[0]: thing[1]})
+                await bench.clocks(bench.rng.randint(1, 60))
+        await bench.until(until)
+
+
+@cocotb.test()
+@verifies("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05")
+async def p2104_axis_2_alone_and_beside_axis_1(dut: Any) -> None:
+    """Given a host for axis 2, when axis 1 gets traffic between, then axis 2 shows the same edges."""
+    plan = pair(Bench(dut, PPMC2104).seed)
+    bench = await Bench.start(dut, PPMC2104, busc=plan.busc)
+    alone = await Run(bench, plan, iter(())).play()
+    before = len(bench.accesses)
+    things = traffic(bench.seed, 40 * len(plan.slots) * 5)
+    beside = await Run(bench, plan, iter(things)).play()
+    assert len(bench.accesses) > 4 * before, "hardly any traffic"
+    for name in WAVES:
+        bench.check("P2104-OPR-10", f"edges of {name} beside a working axis 1", beside[name], alone[name])
+    assert len(alone["pout_n[2]"]) > 3, "axis 2 did next to nothing"
+    check_against_model(bench)

@@ -1,0 +1,294 @@
+"""Settings, stops and the auxiliary instructions (P2104-INI, P2104-STP, P2104-AUX)."""
+
+from __future__ import annotations
+
+from itertools import product, repeat
+
+from cocotb_tests.common.figures import indices, rates, steps
+
+from .figures import INIT_A, INIT_B, STEP_CODES
+from .lab import Lab, part_test
+from .states import MOVING, enter, leave
+
+FULL, OFF = 0b11100, 0b11111
+
+
+@part_test("P2104-INI-01", "P2104-INI-04", "P2104-PHS-01", "P2104-PHS-03")
+async def p2104_ini_01_all_codes(lab: Lab) -> None:
+    """Given all 24 bit combinations, when set in INITIAL, then motor type, E, C, S are those of the code."""
+    types = {1: "3", 2: "4", 3: "5"}
+    for axis, chop, external, half, mm in product(lab.axes, (0, 1), (0, 1), (0, 1), (1, 2, 3)):
+        if axis is lab.x2 and half == chop:
+            continue
+        code = chop << 4 | external << 3 | half << 2 | mm
+        await axis.init(code, 9, 4, 4)
+        # Long phases, so that the pattern is seen between their edges.
+        patterns = steps(f"{types[mm]} {'half' if half else 'full'}", positive=False)
+        what = f"{code:#x}, axis {axis.n}"
+        since = lab.bench.now
+        await lab.bench.clocks(2_100)
+        chopped = {v for _, v in lab.bench.edges(axis.phases, since)}
+        lab.check("P2104-INI-01", f"switching by {what}", chopped, {OFF, patterns[0]} if chop else set())
+        await axis.go(0x44, 3, 1)
+        await lab.bench.clocks(400)
+        lab.check("P2104-INI-01", f"pulses by the crystal, {what}", len(axis.pulses), 0 if external else 3)
+        if external:
+            clock = lab.bench.external_clock(repeat(8), axis.clock, high=4)
+            await axis.idle()
+            clock.cancel()
+            lab.bench.set(**{axis.clock: 0})
+        await axis.idle()
+        read = (await axis.fetch(0x82))[0] >> 3
+        shown = sum((read >> 4 - i & 1) << i for i in range(5))
+        lab.check("P2104-INI-01", f"pattern after 3 steps, {what}", shown, patterns[3 % len(patterns)])
+        await axis.finish()
+        await axis.command(0xC0)
+
+
+@part_test("P2104-INI-02", "P2104-INI-03", "P2104-BAD-16", "P2104-INI-05")
+async def p2104_ini_03_refused_settings(lab: Lab) -> None:
+    """Given values out of range, when set in INITIAL or NORMAL, then the error of their order, no change."""
+    cases = (
+        ((0x02, 9, 0, 4), 9),
+        ((0x0A, 2, 0, 4), 0),
+        ((0x0A, 1, 0, 4), 9),
+        ((0x02, 3, 1, 4), 0),
+        ((0x02, 2, 1, 4), 9),
+        ((0x02, 1, 2, 4), 9),
+        ((0x02, 255, 254, 4), 9),
+        ((0x02, 255, 253, 4), 0),
+        ((0x02, 9, 4, 0), 9),
+        ((0x02, 9, 4, 3), 9),
+        ((0x02, 9, 4, 4), 0),
+        ((0x02, 9, 4, 11_220), 0),
+        ((0x02, 9, 4, 11_221), 10),
+        ((0x02, 9, 4, 0xFFFF), 10),
+        ((0x02, 9, 0, 0xFFFF), 9),
+    )
+    for axis in lab.axes:
+        for init, error in cases:
+            since = lab.bench.now
+            await axis.init(*init)
+            lab.check("P2104-INI-03", f"error of {init} in INITIAL", await axis.error(), error)
+            if error:
+                lab.check("P2104-INI-03", "phases", lab.bench.edges(axis.phases, since), [])
+                await axis.refused("P2104-INI-03", "42: still INITIAL", 4, 0x42)
+            await axis.command(0xC0)
+        # In NORMAL the stored clock source decides, not the C of the code.
+        await axis.init(*INIT_A)
+        await axis.init(0x0A, 9, 0, 4)
+        lab.check("P2104-INI-03", "RH = 0, C = 1, internal in force", await axis.error(), 9)
+        await axis.move(0x43, 14)
+        axis.check_train("P2104-INI-05", rates(INIT_A[1:], indices(14, 4)))
+        await axis.command(0xC0)
+        await axis.init(0x0A, 9, 4, 4)
+        await axis.init(0x02, 9, 0, 4)
+        lab.check("P2104-INI-03", "RH = 0, C = 0, external in force", await axis.error(), 0)
+        await axis.command(0xC0)
+        await axis.finish()
+
+
+@part_test("P2104-INI-05", "P2104-PHS-03", "P2104-INI-06", "P2104-SW-01", "P2104-HLD-02")
+async def p2104_ini_05_again_without_off(lab: Lab) -> None:
+    """Given a chopping axis, when it is set again, then index, pattern and chopping go on undisturbed."""
+    for axis in lab.axes:
+        await axis.init(0x16, *INIT_A[1:])
+        await axis.move(0x4A)
+        await axis.move(0x4A)
+        pattern = steps("4 half", positive=False)[-2]
+        await lab.bench.level_is(axis.pin("hold"), 1)
+        await lab.bench.edge(axis.phases, OFF)
+        since = lab.bench.now
+        for code in (0x02, 0x0B, 0x1D, 0x01):
+            await axis.init(code, 30, 6, 9)
+            await lab.bench.clocks(1_500)
+        spans = set(axis.stretches(since))
+        lab.check("P2104-INI-05", "chopping", spans, {(OFF, 1_328), (pattern, 664)})
+        for name in ("pout_n", "dir", "hold"):
+            lab.check("P2104-INI-06", f"edges of {name}", axis.edges(name, since), [])
+        await axis.refused("P2104-INI-05", "MM = 00", 1, 0x04)
+        await axis.move(0x43, 30)
+        axis.check_train("P2104-INI-05", rates((30, 6, 9), indices(30, 9)))
+        lab.check(
+            "P2104-INI-05", "CCW steps -2, +30", axis.phases_now, steps("4 half", positive=False)[28 % 8]
+        )
+        await axis.command(0xC0)
+
+
+@part_test("P2104-INI-06", "P2104-AUX-01", "P2104-HLD-02", "P2104-INT-02", errint_n=0)
+async def p2104_ini_06_what_stays(lab: Lab) -> None:
+    """Given results, delays, an error and an interrupt, when C0 and a setting come, then all of them stay."""
+    axis, other = await lab.both(INIT_A)
+    await lab.host.command(0xF1)
+    await axis.send(0x85, [0x02])
+    await axis.send(0x84, [0x41, 0x42])
+    await axis.go(0x4B, 100)
+    await axis.pulse(5, 30)
+    await axis.command(0x40)
+    await axis.idle()
+    end = lab.bench.falls("int_n")[-1]
+    await lab.run("c 87 c 83")
+    before = lab.outputs()
+    since = lab.bench.now
+    await axis.command(0xC0)
+    await axis.send(0x12, INIT_A[1:3] + (4, 0))
+    await axis.ready()
+    lab.check("P2104-INI-06", "unread answer", await lab.run("r"), [94])
+    hold = await lab.bench.edge("hold[1]", 1)
+    lab.window("P2104-AUX-01", "hold timer ran on", hold - end, 6_144 - 4, 6_144 + 20)
+    expected = {**before, "hold": 3, "s1_n": lab.bench.level("s1_n")}
+    lab.check("P2104-INI-06", "outputs", lab.outputs(), expected)
+    lab.check("P2104-INI-06", "edges of int_n", lab.bench.edges("int_n", since), [])
+    await lab.bench.clocks(1_500)
+    spans = set(axis.stretches(lab.bench.now - 1_200))
+    lab.check("P2104-AUX-01", "switching times", spans <= {(FULL, 520), (OFF, 528)} and bool(spans), True)
+    lab.check("P2104-INI-06", "80, 83, 86", await lab.run("c 80 r c 83 rrr c 86 r"), [0xC3, 94, 0, 0, 1])
+    lab.check("P2104-INI-06", "axis 2", await other.finish(), 0x00)
+
+
+@part_test("P2104-AUX-01", "P2104-PHS-02", "P2104-SW-03")
+async def p2104_aux_01_excitation_off(lab: Lab) -> None:
+    """Given either phase of chopping, when C0 comes, then all pins H for good, and the axis is INITIAL."""
+    for axis, pattern in product(lab.axes, (FULL, OFF)):
+        await axis.init(0x12, *INIT_A[1:])
+        await lab.bench.edge(axis.phases, pattern)
+        await lab.bench.clocks(50)
+        edge0 = await axis.command(0xC0, poll=False)
+        await lab.bench.clocks(4_000)
+        moved = [(t - edge0, v) for t, v in lab.bench.edges(axis.phases, edge0)]
+        lab.check("P2104-AUX-01", "phases", [v for _, v in moved], [OFF] if pattern == FULL else [])
+        if moved:
+            lab.window("P2104-HSK-03", "edge 0 to pins", moved[0][0], 2, 12)
+        await axis.refused("P2104-AUX-01", "40", 4, 0x40)
+        await axis.refused("P2104-AUX-01", "C0 in INITIAL", 0, 0xC0)
+        lab.check("P2104-RD-05", "82", await axis.fetch(0x82), [0xFC])
+
+
+@part_test("P2104-STP-01", "P2104-END-02", "P2104-END-04", "P2104-STP-06", "P2104-STP-05")
+async def p2104_stp_01_every_state(lab: Lab) -> None:
+    """Given every state of either axis, when 40 comes, then it ends there; its I bit decides about int_n."""
+    done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2, "FIN": 1, "FIN ramp": 1}
+    totals = {"DEC natural": 8, "FIN": 1, "FIN ramp": 1}
+    for axis, state in product(lab.axes, MOVING):
+        other = lab.axes[2 - axis.n]
+        await other.init(*INIT_A)
+        await other.running(200)
+        await enter(axis, state)
+        code = 4 if "CONST" in state.upper() else 2 if state == "FIN" else 3
+        await axis.command(0x40)
+        axis.set(run=1)
+        await axis.idle()
+        pulses, total = done.get(state, 0), totals.get(state, 1000)
+        finish = 0x80 | code | (0 if state.startswith("FIN") else 0x40)
+        await axis.result(f"P2104-STP-01 {state}", pulses, finish, max(total - pulses - 1, 0))
+        lab.check("P2104-STP-06", "the other axis", await lab.host.status() & other.busy, other.busy)
+        await other.halt()
+        await leave(axis)
+        await other.command(0xC0)
+    axis = await lab.ready(1, INIT_A)
+    for code in (0x45, 0x55):
+        await axis.running(40, code)
+        await axis.command(0x40)
+        await axis.idle()
+        ints = len(lab.bench.edges("int_n", axis.since))
+        lab.check("P2104-STP-06", f"int_n after {code:#x}", ints, 1 if code == 0x45 else 0)
+        await axis.finish()
+
+
+@part_test("P2104-STP-01", "P2104-STP-02", "P2104-CMD-03", "P2104-STP-03")
+async def p2104_stp_02_ignored_bits(lab: Lab) -> None:
+    """Given bits 3 and 4 of the stop codes, when they are 1, then the stops are the same."""
+    for axis, extra in product(await lab.both(INIT_A), (0x00, 0x08, 0x10, 0x18)):
+        await axis.go(0x43, 1000)
+        await axis.pulse(3, 30)
+        await axis.command(0x40 | extra)
+        await axis.result("P2104-STP-01", 3, 0xC3, 996)
+        await axis.go(0x43, 1000)
+        await axis.pulse(8, 30)
+        await axis.command(0x41 | extra)
+        await axis.refused("P2104-STP-03", "a second 41", 8, 0x41 | extra)
+        await axis.result("P2104-STP-02", 13, 0xC3, 986)
+
+
+@part_test("P2104-STP-01", "P2104-LIM-09", "P2104-GEN-07", "P2104-TIM-04")
+async def p2104_stp_01_around_a_pulse(lab: Lab) -> None:
+    """Given a pulse event that is due, when 40 comes at each clk around it, then it is or is not output."""
+    axis = await lab.ready(1, INIT_A)
+    seen = []
+    for before in range(14, -4, -1):
+        await axis.go(0x44, 1000, 9)
+        third = await axis.pulse(3)
+        await lab.bench.until(third + 320 - before)
+        await lab.host.write(1, 0x40)
+        await axis.idle()
+        count = len(axis.pulses)
+        seen.append(count)
+        lab.check("P2104-STP-01", "remaining", await axis.remaining(), 999 - count)
+        low = axis.low_times[-1]
+        lab.check("P2104-TIM-05", "the last low time", low, 80)
+        await axis.finish()
+    lab.check("P2104-LIM-09", "one switch-over", seen, sorted(seen))
+    lab.check("P2104-LIM-09", "both sides were met", set(seen), {3, 4})
+
+
+@part_test("P2104-AUX-02", "P2104-AUX-03", "P2104-FSM-01")
+async def p2104_aux_02_pins(lab: Lab) -> None:
+    """Given AUXI levels and codes, when executed in any order, then inverted pins and read bits."""
+    rng = lab.bench.rng
+    for _ in range(40):
+        code = rng.choice((0xC1, 0xD1, 0xE1, 0xF1))
+        level = rng.randrange(4)
+        lab.bench.set(auxi=level)
+        edge0 = await lab.host.command(code, poll=False)
+        await lab.bench.clocks(12)
+        lab.check("P2104-AUX-02", f"auxo after {code:#x}", lab.bench.level("auxo"), ~(code >> 4) & 3)
+        for t, _ in lab.bench.edges("auxo", edge0):
+            lab.window("P2104-HSK-03", "edge 0 to auxo", t - edge0, 2, 12)
+        lab.check("P2104-AUX-03", "C2", await lab.host.fetch(0xC2), [level])
+
+
+@part_test("P2104-AUX-04", "P2104-AUX-06", "P2104-SW-04", "P2104-SW-05", "P2104-BAD-16")
+async def p2104_aux_04_switching_times(lab: Lab) -> None:
+    """Given times set before and after the setting, when the axes chop, then each by its own."""
+    await lab.x2.send(0x84, [0x40, 0xFF])
+    for axis, on, off in ((lab.x1, 0x53, 0xA6), (lab.x2, 0x40, 0xFF)):
+        await axis.init(0x12, *INIT_A[1:])
+        since = lab.bench.now
+        await lab.bench.clocks(8_000)
+        spans = set(axis.stretches(since))
+        lab.check("P2104-AUX-04", f"axis {axis.n}", spans, {(FULL, 8 * on), (OFF, 8 * off)})
+    axis = lab.x1
+    for data, error in (([0x3F, 0x80], 11), ([0x80, 0x3F], 11), ([0, 0], 11)):
+        await axis.refused("P2104-AUX-04", f"{data}", error, 0x84, *data)
+    since = lab.bench.now
+    await lab.bench.clocks(5_000)
+    lab.check("P2104-AUX-04", "old times stay", set(axis.stretches(since)), {(FULL, 664), (OFF, 1_328)})
+    # The new times act from the next phase on.
+    on = await lab.bench.edge(axis.phases, FULL)
+    await axis.send(0x84, [0x90, 0x48])
+    await lab.bench.clocks(4_000)
+    spans = [span for _, span in axis.stretches(on)]
+    lab.check("P2104-SW-05", "running phase, then new ones", spans[:4], [664, 576, 1_152, 576])
+
+
+@part_test("P2104-AUX-05", "P2104-AUX-06", "P2104-END-07", "P2104-HLD-01")
+async def p2104_aux_05_running_timer(lab: Lab) -> None:
+    """Given a running hold timer, when 85 changes the delay, then only the next one is changed."""
+    first, second = await lab.both(INIT_B)
+    await second.send(0x85, [0x07])
+    for axis, old, new in ((first, 0x18, 0x03), (second, 0x07, 0x10)):
+        await axis.move(0x42)
+        rise = lab.bench.rises(axis.pout, axis.since)[-1]
+        await axis.send(0x85, [new])
+        hold = await lab.bench.edge(axis.pin("hold"), 1)
+        lab.window("P2104-AUX-05", "old delay", hold - rise, 2_048 * (old + 1), 2_048 * (old + 1) + 24)
+        await axis.move(0x42)
+        rise = lab.bench.rises(axis.pout, axis.since)[-1]
+        hold = await lab.bench.edge(axis.pin("hold"), 1)
+        lab.window("P2104-AUX-05", "new delay", hold - rise, 2_048 * (new + 1), 2_048 * (new + 1) + 24)
+        await axis.command(0xC0)
+        await axis.init(STEP_CODES["3 full"], *INIT_A[1:])
+        await axis.move(0x42)
+        rise = lab.bench.rises(axis.pout, axis.since)[-1]
+        hold = await lab.bench.edge(axis.pin("hold"), 1)
+        lab.window("P2104-AUX-06", "after C0", hold - rise, 2_048 * (new + 1), 2_048 * (new + 1) + 24)

@@ -1,0 +1,270 @@
+"""Limit, slow-down, alarm and origin inputs (P2104-LIM), what ends or slows each operation."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from cocotb_tests.common.config import F16, F48, F100
+from cocotb_tests.common.figures import NO_PULSES_DONE, forced, rates
+
+from .figures import INIT_A
+from .lab import Lab, part_test
+from .states import MOVING, enter, leave
+
+PINS = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
+# Operation, pulse count, rate.
+OPERATIONS = (
+    (0x42, None, None),
+    (0x43, 24, None),
+    (0xC3, 24, None),
+    (0x44, 24, 9),
+    (0x45, None, 9),
+    (0x46, None, None),
+    (0xC6, None, None),
+    (0x47, None, 9),
+)
+
+
+def effect(code: int, pin: str, waiting: bool = False) -> str:
+    """What an active pin does to an operation under way: end, slow or nothing (table of chapter 7)."""
+    ccw = code >> 3 & 1
+    if pin in ("alm_n", ("fl_n", "bl_n")[ccw]):
+        return "end"
+    if pin == "org_n":
+        return "end" if code & 7 == 7 and not waiting else ""
+    return "slow" if pin == ("fhl_n", "bhl_n")[ccw] and code & 7 in (3, 6) else ""
+
+
+def bit(pin: str) -> int:
+    """End-status bit of a pin."""
+    return {"alm_n": 0x20, "org_n": 0}.get(pin, 0x10 if pin in ("fl_n", "bl_n") else 0x08)
+
+
+async def matrix_in_motion(lab: Lab, axis_number: int) -> None:
+    """Every operation both ways, every input falling on the plateau, those of the other axis active."""
+    axis, other = lab.axes[axis_number - 1], lab.axes[2 - axis_number]
+    await axis.init(*INIT_A)
+    other.set(**dict.fromkeys(PINS, 0))
+    for base, n, rate in OPERATIONS[1:]:
+        for code, pin in product((base, base | 8), PINS):
+            await axis.go(code, n, rate)
+            await axis.pulse(6, 100)
+            axis.set(**{pin: 0})
+            kind = effect(code, pin)
+            if not kind and n is None:
+                await axis.pulse(12, 100)
+                await axis.command(0x40)
+            await axis.idle()
+            axis.set(**{pin: 1})
+            what, low = f"P2104-LIM-02 {code:#x} {pin} axis {axis.n}", code & 7
+            if kind == "end":
+                await axis.result(what, 6, 0x80 | bit(pin) | low, (n or NO_PULSES_DONE) - 7)
+            elif kind == "slow":
+                # Flag in I(6), on the plateau: pulse 7 ends it, 4 more follow.
+                await axis.result(what, 11, 0x88 | low, (n or NO_PULSES_DONE) - 12)
+                axis.check_train("P2104-FDC-03", rates(INIT_A[1:], forced(1000, 4, 6)))
+            elif n:
+                await axis.result(what, n, 0x80 | low, 0)
+            else:
+                await axis.result(what, 12, 0xC0 | low, NO_PULSES_DONE - 13)
+
+
+@part_test("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07", on=(F16, F48))
+async def p2104_lim_02_matrix_axis_1(lab: Lab) -> None:
+    """Given every operation of axis 1, when each input falls on the plateau, then end, slow or nothing."""
+    await matrix_in_motion(lab, 1)
+
+
+@part_test("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07")
+async def p2104_lim_02_matrix_axis_2(lab: Lab) -> None:
+    """Given every operation of axis 2, when each input falls on the plateau, then end, slow or nothing."""
+    await matrix_in_motion(lab, 2)
+
+
+@part_test("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17", errint_n=0)
+async def p2104_lim_06_matrix_at_start(lab: Lab) -> None:
+    """Given each input low at the start, when every operation starts, then error 7, one pulse, or all."""
+    for axis in await lab.both(INIT_A):
+        # A finished move first: its results must survive every refusal.
+        await axis.go(0x44, 10, 9)
+        await axis.pulse(3, 100)
+        await axis.halt()
+        for (base, n, rate), ccw, pin in product(OPERATIONS, (0, 8), PINS):
+            code = base | ccw
+            before = (await axis.finish(), await axis.remaining())
+            axis.set(**{pin: 0})
+            await lab.bench.clocks(4)
+            kind, low = effect(code, pin), code & 7
+            what = f"P2104-LIM-06 {code:#x} {pin} axis {axis.n}"
+            since = lab.bench.now
+            await axis.go(code, n, rate)
+            if kind == "end":
+                await lab.bench.clocks(200)
+                lab.check(what, "error", await axis.error(), 7)
+                falls = lab.bench.falls(axis.pin("hold"), since)
+                moved = (axis.edges("pout_n", since), axis.edges("dir", since), falls)
+                lab.check(what, "edges", moved, ([], [], []))
+                lab.check(what, "phases", lab.bench.edges(axis.phases, since), [])
+                lab.check(what, "results", (await axis.finish(), await axis.remaining()), before)
+            else:
+                total = n or (1 if base == 0x42 else NO_PULSES_DONE)
+                pulses = 1 if kind == "slow" else total
+                if pulses == NO_PULSES_DONE:
+                    pulses = 8
+                    await axis.pulse(8, 100)
+                    await axis.command(0x40)
+                bits = 0x08 if kind == "slow" else 0x40 if pulses < total else 0
+                await axis.result(what, pulses, 0x80 | bits | low, max(total - pulses - 1, 0))
+            axis.set(**{pin: 1})
+            await lab.bench.clocks(4)
+        axis.set(**dict.fromkeys(PINS, 0))
+        await lab.bench.clocks(4)
+        await axis.refused("P2104-BAD-17", "42 with all inputs active", 7, 0x42)
+        axis.set(**dict.fromkeys(PINS, 1))
+        await axis.running(99)
+        axis.set(**dict.fromkeys(PINS, 0))
+        await axis.result("P2104-BAD-17", 1, 0xB5, NO_PULSES_DONE - 2)
+        axis.set(**dict.fromkeys(PINS, 1))
+
+
+@part_test("P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-07", "P2104-LIM-05", "P2104-OPR-02")
+async def p2104_lim_03_matrix_in_run_wait(lab: Lab) -> None:
+    """Given RUN wait, when each input is low for 3 clk, then end with no pulse, remembered, or nothing."""
+    for axis in await lab.both(INIT_A):
+        for (base, n, rate), ccw, pin in product(OPERATIONS, (0, 8), PINS):
+            code, low = base | ccw, base & 7
+            axis.set(run=0)
+            await axis.go(code, n, rate)
+            await axis.blip(pin, 3)
+            await lab.bench.clocks(8)
+            kind = effect(code, pin, waiting=True)
+            what = f"P2104-LIM-03 {code:#x} {pin} axis {axis.n}"
+            total = n or (1 if base == 0x42 else NO_PULSES_DONE)
+            lab.check(what, "BUSY", await lab.host.status() & axis.busy, 0 if kind == "end" else axis.busy)
+            axis.set(run=1)
+            if kind == "end":
+                await axis.result(what, 0, 0x80 | bit(pin) | low, total - 1)
+                continue
+            pulses = 1 if kind == "slow" else min(total, 8)
+            if pulses < total and kind != "slow":
+                await axis.pulse(8, 100)
+                await axis.command(0x40)
+            bits = 0x08 if kind == "slow" else 0x40 if pulses < total else 0
+            await axis.result(what, pulses, 0x80 | bits | low, max(total - pulses - 1, 0))
+
+
+@part_test("P2104-LIM-03", "P2104-LIM-04", "P2104-END-02", "P2104-LIM-09", "P2104-END-04")
+async def p2104_lim_03_every_state(lab: Lab) -> None:
+    """Given every state of a moving axis, when limit or alarm falls, then it ends there within 8 clk."""
+    done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2}
+    for state, ccw, pin in product(MOVING, (0, 1), ("limit", "alm_n")):
+        axis = lab.axes[ccw]
+        if state.startswith("FIN"):
+            continue
+        name = pin if pin == "alm_n" else ("fl_n", "bl_n")[ccw]
+        await enter(axis, state, ccw)
+        stamp = axis.set(**{name: 0})
+        end = await axis.ended()
+        lab.window("P2104-END-02", f"{name} to the end in {state}", end - stamp, 0, 8)
+        axis.set(**{name: 1}, run=1)
+        low = 4 if "CONST" in state.upper() else 3
+        total = 8 if state == "DEC natural" else 1000
+        flag = 0x40 if state in ("DEC", "START flagged") else 0
+        pulses = done.get(state, 0)
+        await axis.result(f"P2104-LIM-03 {state}", pulses, 0x80 | flag | bit(name) | low, total - pulses - 1)
+        await leave(axis)
+
+
+@part_test("P2104-LIM-05", "P2104-FDC-01", "P2104-PRO-05", "P2104-FSM-03")
+async def p2104_lim_05_every_state(lab: Lab) -> None:
+    """Given every state, when the slow-down limit is low for 3 clk, then it flags in four of them only."""
+    for state, ccw in product(MOVING, (0, 1)):
+        axis = lab.axes[1 - ccw]
+        if state.startswith("FIN"):
+            continue
+        await enter(axis, state, ccw)
+        await axis.blip(("fhl_n", "bhl_n")[ccw], 3)
+        await lab.bench.clocks(4)
+        axis.set(alm_n=0)
+        await axis.idle()
+        axis.set(alm_n=1)
+        flags = state in ("RUNWAIT", "START", "ACC", "HIGH")
+        cause = 0x08 if flags else 0x40 if state in ("DEC", "START flagged") else 0
+        lab.check("P2104-LIM-05", f"end status, {state}", await axis.finish() & 0xF8, 0xA0 | cause)
+        await leave(axis)
+
+
+@part_test("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", on=(F16, F100))
+async def p2104_lim_01_two_clk_levels(lab: Lab) -> None:
+    """Given levels of 2 clk at every phase of an interval, when they end, then they were seen, each once."""
+    for axis, (pin, bits, code) in product(
+        await lab.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
+    ):
+        for delay in (1, 2, 17, lab.cfg.w - 1, lab.cfg.w, lab.cfg.w + 9):
+            await axis.go(code, 30, 9)
+            await axis.pulse(3, delay)
+            await axis.blip(pin, 2)
+            await axis.result("P2104-LIM-01", 3, bits, 26)
+        # Nothing of a level that went away before the start; in START it ends the operation.
+        await axis.blip(pin, 8)
+        await lab.bench.clocks(4)
+        await axis.go(code, 3, 9)
+        await axis.result("P2104-LIM-10", 3, 0x84, 0)
+        await axis.go(code, 3, 9, poll=False)
+        await lab.bench.clocks(12)
+        await axis.blip(pin, 2)
+        await axis.result("P2104-LIM-01", 0, bits, 2)
+
+
+@part_test("P2104-LIM-09", "P2104-END-04", "P2104-END-05", "P2104-LIM-01")
+async def p2104_lim_09_priority_at_a_pulse(lab: Lab) -> None:
+    """Given the last pulse event due, when each cause falls at each clk around it, then before or after."""
+    axis = await lab.ready(1, INIT_A)
+    for pin, code in (("alm_n", 0x44), ("fl_n", 0x44), ("bl_n", 0x4C)):
+        outcomes = []
+        for before in range(8, -6, -1):
+            await axis.go(code, 4, 9)
+            third = await axis.pulse(3)
+            await lab.bench.until(third + 320 - before)
+            axis.set(**{pin: 0})
+            await axis.idle()
+            axis.set(**{pin: 1})
+            count = len(axis.pulses)
+            outcomes.append(count)
+            # Pulse 4 is the last: once it is out the move is complete.
+            await axis.result("P2104-LIM-09", count, 0x84 if count == 4 else 0x84 | bit(pin), 0)
+            if before >= 4:
+                lab.check("P2104-LIM-09", f"pulses, {pin} {before} clk before", count, 3)
+        lab.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
+        lab.check("P2104-LIM-09", "both sides were met", set(outcomes), {3, 4})
+    # At the end of START: the START transition is suppressed, too.
+    counts = []
+    for after in range(lab.cfg.w - 6, lab.cfg.w + 10):
+        edge0 = await axis.go(0x42, poll=False)
+        await lab.bench.until(edge0 + after)
+        axis.set(alm_n=0)
+        await axis.idle()
+        axis.set(alm_n=1)
+        counts.append(len(axis.pulses))
+        await axis.result("P2104-LIM-09", counts[-1], 0x82 if counts[-1] else 0xA2, 0)
+    lab.check("P2104-LIM-09", "START or pulse 1", (counts[0], counts[-1], counts), (0, 1, sorted(counts)))
+
+
+@part_test("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
+async def p2104_lim_10_nothing_at_rest(lab: Lab) -> None:
+    """Given both axes at rest, when all inputs toggle, then no output moves and later moves know nothing."""
+    axes = await lab.both(INIT_A)
+    since = lab.bench.now
+    names = (*PINS, "run", "csel", "extck")
+    for _ in range(60):
+        lab.bench.set(
+            **{pin: lab.bench.rng.randrange(4) for pin in names}, errint_n=lab.bench.rng.randrange(2)
+        )
+        await lab.bench.clocks(lab.bench.rng.randrange(1, 12))
+    lab.bench.set(**dict.fromkeys(names, 3), errint_n=1)
+    await lab.bench.clocks(4)
+    lab.quiet("P2104-LIM-10", since, "auxo")
+    for axis in axes:
+        lab.check("P2104-LIM-10", "end status", await axis.finish(), 0x00)
+        await axis.move(0x43, 12)
+        await axis.result("P2104-LIM-10", 12, 0x83, 0)

@@ -1,0 +1,212 @@
+"""Plays the sessions of docs/ppmc2104_examples.md on the core: every byte must be the printed one.
+
+The figures in the page's text (pulses, clk, levels) are checked beside them.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.bus import HostBus
+from cocotb_tests.common.compare import check_against_model
+from cocotb_tests.common.config import F16, configs
+from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.sessions import Sessions
+
+SESSIONS = Sessions("ppmc2104", brief=(0x42, 0x62))  # single steps last 10 µs
+blocks, play = SESSIONS.blocks, SESSIONS.play
+BUSY = 0x0C
+
+
+async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Bench, HostBus]:
+    """A bench after reset, with example 1 played if `ready`."""
+    bench = await Bench.start(dut, PPMC2104, **pins)
+    host = HostBus(bench)
+    if ready:
+        await play(bench, host, blocks(1)[0], "example 1")
+    return bench, host
+
+
+def axis(bench: Bench, name: str, n: int, since: int) -> list[int]:
+    """Pulses of an axis; `name` of the example for the message."""
+    pulses = bench.pulses(since, f"pout_n[{n}]")
+    assert pulses, f"{name}: axis {n} made no pulse"
+    return pulses
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_2(dut: Any) -> None:
+    bench, host = await begin(dut)
+    start = bench.now
+    a, b = blocks(2)
+    await play(bench, host, a, "example 2")
+    await host.wait_idle(3_000_000, BUSY)
+    pulses = axis(bench, "example 2", 1, start)
+    gaps = bench.intervals(start, "pout_n[1]")
+    bench.check("example 2", "pulses", len(pulses), 1000)
+    bench.check("example 2", "intervals", gaps[:4], [4096, 4000, 3904, 3840])
+    bench.check("example 2", "plateau", gaps.count(1280), 609)
+    bench.check("example 2", "clk", sum(gaps), 1_549_696)
+    bench.check("example 2", "int_n", bench.level("int_n"), 0)
+    await play(bench, host, b, "example 2b")
+    bench.check("example 2", "int_n", bench.level("int_n"), 1)
+    check_against_model(bench)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_3(dut: Any) -> None:
+    bench, host = await begin(dut, run=0b00)
+    start = bench.now
+    a, b = blocks(3)
+    await play(bench, host, a, "example 3")
+    bench.check("example 3", "pulses before RUN", bench.pulses(start, "pout_n[1]"), [])
+    await bench.align()
+    bench.set(run=0b11)
+    await play(bench, host, b, "example 3b")
+    first, second = axis(bench, "example 3", 1, start), axis(bench, "example 3", 2, start)
+    bench.check("example 3", "first falls", first[0], second[0])
+    bench.check("example 3", "clk", (first[-1] - first[0], second[-1] - second[0]), (1_549_696, 1_551_360))
+    bench.check("example 3", "pulses", (len(first), len(second)), (1000, 500))
+    bench.check("example 3", "dir", bench.level("dir"), 0b10)
+    check_against_model(bench)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_4(dut: Any) -> None:
+    bench, host = await begin(dut)
+    start = bench.now
+    a, b = blocks(4)
+    await play(bench, host, a, "example 4")
+    await bench.until(await bench.nth_fall(10, start, "pout_n[1]") + 400)
+    await play(bench, host, b, "example 4b")
+    await host.wait_idle(4_000_000, BUSY)
+    bench.check("example 4", "pulses", len(axis(bench, "example 4", 1, start)), 1000)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_5(dut: Any) -> None:
+    bench, host = await begin(dut)
+    start = bench.now
+    a, b = blocks(5)
+    await play(bench, host, a, "example 5")
+    await bench.until(await bench.nth_fall(5, start, "pout_n[1]") + 100)
+    await play(bench, host, b, "example 5b")
+    table = [3200, 1728, 1344, 1120, 992, 1120, 1344, 1728, 3200]
+    bench.check("example 5", "intervals", bench.intervals(start, "pout_n[1]"), table)
+    start = bench.now
+    await play(bench, host, a[6:], "example 5, at start-up speed")
+    await bench.until(await bench.nth_fall(1, start, "pout_n[1]") + 400)
+    await host.command(0x41)
+    await host.wait_idle(busy=BUSY)
+    bench.check("example 5", "pulses", len(axis(bench, "example 5", 1, start)), 1)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_6(dut: Any) -> None:
+    bench, host = await begin(dut, csel=0b01)
+    a, b = blocks(6)
+    start = bench.now
+    await play(bench, host, a, "example 6")
+    await bench.until(await bench.nth_fall(7, start, "pout_n[2]") + 400)
+    bench.check("example 6", "intervals", set(bench.intervals(start, "pout_n[2]")), {12_800})
+    bench.set(**{"org_n[2]": 0})
+    await bench.clocks(20)
+    await play(bench, host, b, "example 6b")
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_7(dut: Any) -> None:
+    bench, host = await begin(dut)
+    a, b = blocks(7)
+    start = bench.now
+    await play(bench, host, a, "example 7")
+    await bench.until(await bench.nth_fall(5, start, "pout_n[1]") + 400)
+    bench.set(**{"fl_n[1]": 0})
+    await bench.clocks(20)
+    await play(bench, host, b, "example 7b")
+    await bench.nth_fall(6, start, "pout_n[1]")
+    bench.check("example 7", "dir", bench.level("dir[1]"), 1)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_8(dut: Any) -> None:
+    bench, host = await begin(dut, errint_n=0)
+    a, b = blocks(8)
+    await play(bench, host, a, "example 8")
+    await host.wait_idle(busy=BUSY)
+    await bench.clocks(4)
+    bench.check("example 8", "int_n", bench.level("int_n"), 0)
+    start = bench.now
+    await play(bench, host, b[:2], "example 8b")
+    bench.check("example 8", "int_n", bench.level("int_n"), 1)
+    await play(bench, host, b[2:], "example 8b")
+    bench.check("example 8", "last int_n", bench.edges("int_n", start)[-1][1], 1)
+    await bench.clocks(200)
+    bench.check("example 8", "int_n for good", bench.edges("int_n", start)[-1][1], 1)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_9(dut: Any) -> None:
+    bench, host = await begin(dut, ready=False)
+    await play(bench, host, blocks(9)[0], "example 9")
+    start = bench.now
+    await bench.clocks(12_000)
+    times = [t for t, _ in bench.edges("s1_n", start)][2:]
+    gaps = sorted({b - a for a, b in zip(times, times[1:], strict=False)})
+    bench.check("example 9", "phases", gaps, [768, 2040])
+    await host.command(0x42)
+    await host.wait_idle(busy=BUSY)
+    end = bench.rises("pout_n[1]")[-1]
+    delay = await bench.edge("hold", 0b11) - end
+    bench.check_window("example 9", "HOLD delay", delay, 159_744, 159_744 + 16)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_10_11(dut: Any) -> None:
+    bench, host = await begin(dut)
+    await play(bench, host, blocks(10)[0], "example 10")
+    await host.wait_idle(busy=BUSY)
+    bench.check("example 10", "s1_n", bench.level("s1_n"), 0b11101)
+    bench, host = await begin(dut)
+    start = bench.now
+    await play(bench, host, blocks(11)[0], "example 11")
+    bench.check("example 11", "dir", bench.level("dir[2]"), 1)
+    await bench.nth_fall(4, start, "pout_n[2]")
+    bench.check("example 11", "s2_n", bench.edges("s2_n", start), [])
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_12(dut: Any) -> None:
+    bench, host = await begin(dut, ready=False, auxi=0b10)
+    block = blocks(12)[0]
+    for step, level in zip(block[:4], (0b10, 0b01, 0b11, 0b00), strict=True):
+        await play(bench, host, [step], "example 12")
+        bench.check("example 12", "auxo", bench.level("auxo"), level)
+    await play(bench, host, block[4:], "example 12")
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_13(dut: Any) -> None:
+    bench, host = await begin(dut, ready=False)
+    a, b = blocks(13)
+    await play(bench, host, a, "example 13")
+    bench, host = await begin(dut)
+    start = bench.now
+    await play(bench, host, blocks(2)[0], "example 2")
+    await bench.until(await bench.nth_fall(20, start, "pout_n[1]") + 400)
+    await play(bench, host, b, "example 13b")
+    check_against_model(bench)

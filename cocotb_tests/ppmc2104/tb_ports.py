@@ -1,0 +1,123 @@
+"""Ports, synchronisers, reset, parameters (P2104-PORT-02…04, P2104-PAR-01)."""
+
+from __future__ import annotations
+
+import cocotb
+from cocotb.triggers import Timer, ValueChange
+from cocotb.utils import get_sim_time
+
+from cocotb_tests.common.bus import COMMAND, DATA, STATUS
+from cocotb_tests.common.config import D16, F16, F16X8, F48, F100
+
+from .figures import INIT_A
+from .lab import Lab, part_test
+
+AXIS_SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
+
+
+@part_test("P2104-PORT-02", "P2104-GEN-08", on=(F16, F48))
+async def p2104_port_02_registers_only(lab: Lab) -> None:
+    """Given glitches between clk edges, when all outputs are watched, then only rising edges move them."""
+    first, _ = await lab.both(INIT_A)
+    bench = lab.bench
+    rising = (int(get_sim_time("ps")) + bench.half) % bench.period
+    wrong = []
+
+    async def watch(name: str) -> None:
+        while True:
+            await ValueChange(getattr(bench.dut, name))
+            if int(get_sim_time("ps")) % bench.period != rising:
+                wrong.append((name, bench.now))
+
+    for name in bench.part.outputs:
+        cocotb.start_soon(watch(name))
+    bench.set(run=0)
+    await first.go(0x43, 9)
+    bench.set(run=3)
+    await first.pulse(3)
+    before = [t for name in ("int_n", "d_oe", "auxo") for t in bench.edges(name)]
+    away = {"alm_n": 0, "fl_n": 0, "fhl_n": 0, "org_n": 0, "cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 0}
+    away |= {"auxi": 3, "a0": 1, "errint_n": 0, "extck": 3, "csel": 0, "run": 0, "d_i": 0xFF}
+    for pin, level in away.items():
+        back = bench.pins[pin]
+        await bench.align()
+        await Timer(bench.half // 4, "ps")
+        bench.set_between_edges(**{pin: level})
+        await Timer(bench.half // 4, "ps")
+        bench.set_between_edges(**{pin: back})
+        await bench.clocks(6)
+    after = [t for name in ("int_n", "d_oe", "auxo") for t in bench.edges(name)]
+    lab.check("P2104-PORT-02", "edges of int_n, d_oe, auxo from glitches", after, before)
+    await first.result("P2104-PORT-02", 9, 0x83, 0)
+    await lab.run("c D1 c C1 c 81 r c A0 r")
+    lab.check("P2104-PORT-02", "output changes off the rising edge", wrong, [])
+
+
+@part_test("P2104-PORT-02", "P2104-LIM-01", on=(F16, F100))
+async def p2104_port_02_all_inputs_alike_late(lab: Lab) -> None:
+    """Given limit, alarm and run pins, when they act, then all after the same two stages, on both axes."""
+    times: dict[str, set[int]] = {}
+    for axis in await lab.both(INIT_A):
+        for pin, code in (("fl_n", 0x45), ("bl_n", 0x4D), ("alm_n", 0x45), ("org_n", 0x47)):
+            await axis.go(code, rate=99)
+            await axis.pulse(1, lab.cfg.w + 20)
+            stamp = axis.set(**{pin: 0})
+            times.setdefault("end", set()).add(await axis.ended() - stamp)
+            axis.set(**{pin: 1})
+            await axis.finish()
+        axis.set(run=0)
+        await axis.go(0x42)
+        stamp = axis.set(run=1)
+        times.setdefault("run", set()).add(await axis.pulse(1) - stamp - lab.cfg.w)
+        await axis.idle()
+        await axis.finish()
+    lab.check(
+        "P2104-PORT-02", "different delays", {k: len(v) for k, v in times.items()}, {"end": 1, "run": 1}
+    )
+    lab.window("P2104-END-02", "pin to int_n", times["end"].pop(), 2, 8)
+    lab.window("P2104-TIM-02", "run to pulse 1, less W", times["run"].pop(), 0, 6)
+
+
+@part_test("P2104-PORT-03", "P2104-PORT-01", "P2104-PHS-02", "P2104-PAR-01", on=(F16, F16X8, F48, D16))
+async def p2104_port_03_reset(lab: Lab) -> None:
+    """Given bus traffic in reset, when it is released, then nothing was stored and edge 4 takes a byte."""
+    bench = lab.bench
+    if not lab.cfg.datasheet:
+        for axis in await lab.both(INIT_A):
+            await axis.move(0x4A)
+    await lab.run("c F1 c 87 c 81")
+    await lab.host.poll(0x01, 0x01)
+    bench.set(rst_n=0)
+    await bench.clocks(3)
+    levels = {name: bench.level(name) for name in bench.part.outputs}
+    lab.check("P2104-PORT-03", "outputs in reset", levels, bench.part.reset_levels())
+    await lab.host.write(COMMAND, 0xD1)
+    bench.set(a0=STATUS, **lab.host.style.read_on)
+    await bench.clocks(4)
+    levels = {name: bench.level(name) for name in bench.part.outputs}
+    lab.check("P2104-PORT-03", "outputs in reset", levels, bench.part.reset_levels())
+    bench.set(**lab.host.style.read_off)
+    await bench.clocks(3)
+    release = bench.set(rst_n=1)
+    await bench.until(release + 4)
+    await lab.host.write(COMMAND, 0x84, strobe=2)
+    await bench.clocks(10)
+    lab.check("P2104-PORT-03", "status after a write at edge 4", await lab.host.status(), 0x10)
+    lab.check("P2104-PORT-03", "the write in reset is lost", bench.level("auxo"), 0b11)
+    lab.check("P2104-PORT-03", "the output byte is gone", await lab.host.read(DATA), 0x00)
+    await bench.reset(2)
+    lab.check("P2104-PORT-03", "status after reset", await lab.host.status(), 0x00)
+
+
+@part_test("P2104-PORT-04", "P2104-BAD-20", "P2104-LIM-08")
+async def p2104_port_04_tied_inputs(lab: Lab) -> None:
+    """Given extck and auxi tied to 0 or 1, when both axes move by the crystal, then nothing disturbs them."""
+    axes = await lab.both(INIT_A)
+    for level in (0, 3):
+        lab.bench.set(extck=level, auxi=level)
+        for code in (0x43, 0x4B, 0xC3):
+            for axis in axes:
+                await axis.go(code, 12)
+            for axis in axes:
+                await axis.result("P2104-PORT-04", 12, 0x83, 0)
+        lab.check("P2104-PORT-04", "81, A1", await lab.run("c 81 r c A1 r"), [0xCF, 0xCF])

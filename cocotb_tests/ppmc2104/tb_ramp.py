@@ -1,0 +1,256 @@
+"""Ramps and forced deceleration (P2104-RMP, P2104-PRO, P2104-FDC)."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from cocotb_tests.common.config import F11, F16, F48
+from cocotb_tests.common.figures import indices, rate, rates
+
+from .figures import INIT_A, INIT_B, slowed
+from .lab import Axis, Lab, part_test
+
+RAMPS = (
+    (9, 4, 4),
+    (3, 1, 25),
+    (14, 12, 16),
+    (40, 1, 7),
+    (2, 0, 5),
+    (60, 58, 30),
+    (21, 2, 40),
+    (5, 3, 100),
+)
+
+
+def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
+    """thr(r) of P2104-RMP-02."""
+    a, b = (rl + 1) ** 2, (rh + 1) ** 2
+    return {
+        r: pa * b * (4 * a - (2 * r + 1) ** 2) // ((a - b) * (2 * r + 1) ** 2) + 1
+        for r in range(rh + 1, rl + 1)
+    }
+
+
+@part_test("P2104-RMP-01", "P2104-RMP-02", "P2104-RMP-03", "P2104-RMP-05", "P2104-EX-01", "P2104-EX-06")
+async def p2104_rmp_01_every_index(lab: Lab) -> None:
+    """Given ramps of many shapes, when a move climbs them, then each rate is the exact one, by both forms."""
+    for number, ramp in enumerate(RAMPS):
+        axis = lab.axes[number & 1]
+        rl, rh, pa = ramp
+        which = indices(2 * pa + 5, pa)
+        wanted = rates(ramp, which)
+        thr = thresholds(*ramp)
+        table = [rh + sum(k < t for t in thr.values()) for k in which]
+        lab.check("P2104-RMP-02", f"both forms of {ramp}", wanted, table)
+        lab.check(
+            "P2104-RMP-02", "thresholds do not rise", [*thr.values()], sorted(thr.values(), reverse=True)
+        )
+        code = 0x0A if rh == 0 else 0x02
+        await axis.command(0xC0)
+        await axis.init(code, *ramp)
+        await axis.go(0x43, 2 * pa + 5)
+        if rh == 0:
+            await axis.tick_until(2 * pa + 5)
+            edges = axis.clock_edges(axis.since)
+            got = [
+                sum(a < e <= b for e in edges) - 1 for a, b in zip(axis.pulses, axis.pulses[1:], strict=False)
+            ]
+            lab.check("P2104-RMP-01", f"rates of {ramp}", got, wanted)
+        else:
+            await axis.idle()
+            axis.check_train("P2104-RMP-01", wanted)
+        await axis.finish()
+
+
+@part_test("P2104-RMP-01", "P2104-RMP-02", "P2104-EX-15", "P2104-RMP-04")
+async def p2104_rmp_02_long_ramp_up(lab: Lab) -> None:
+    """Given the largest ramp, when 120 pulses climb it, then each rate is the exact one."""
+    axis = lab.x2
+    ramp = (255, 18, 11_220)
+    await axis.init(0x02, *ramp)
+    known = {0: 255, 1: 253, 2: 251, 10: 237, 100: 157, 1000: 61, 5000: 27, 11_219: 18}
+    lab.check("P2104-EX-15", "rates", {k: rate(*ramp, k) for k in known}, known)
+    await axis.go(0x43, 30_000)
+    await axis.pulse(121, 10)
+    await axis.command(0x40)
+    await axis.idle()
+    axis.check_train("P2104-RMP-01", rates(ramp, range(120)))
+
+
+@part_test("P2104-PRO-01", "P2104-PRO-02", "P2104-PRO-03", "P2104-PRO-06", "P2104-OPR-05", on=(F16, F11, F48))
+async def p2104_pro_01_every_length(lab: Lab) -> None:
+    """Given PA = 4, when N is 1 to 14, then triangles odd and even, and trapezoids from 2 PA + 2 on."""
+    for axis in await lab.both(INIT_A):
+        for n in range(1, 15):
+            await axis.move(0x43 if n & 1 else 0xC3, n)
+            wanted = rates(INIT_A[1:], indices(n, 4))
+            axis.check_train("P2104-PRO-01", wanted)
+            lab.check("P2104-PRO-06", f"intervals at RH, N = {n}", wanted.count(4), max(0, n - 9))
+            await axis.result("P2104-PRO-01", n, 0x83, 0)
+
+
+async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> None:
+    """A move of n pulses in which deceleration is asked for so many clk after pulse j."""
+    await axis.go(code, n)
+    await axis.pulse(j, plus)
+    if how == "stop":
+        await axis.command(0x41)
+    else:
+        await axis.blip(how, 3)
+
+
+@part_test(
+    "P2104-FDC-01",
+    "P2104-FDC-02",
+    "P2104-FDC-03",
+    "P2104-FDC-05",
+    "P2104-PRO-04",
+    "P2104-PRO-05",
+    "P2104-OPR-09",
+)
+async def p2104_fdc_02_every_interval(lab: Lab) -> None:
+    """Given N = 14 and 9, when deceleration is asked for in each interval, then as ruled."""
+    for axis, (code, pin, n) in product(
+        await lab.both(INIT_A),
+        ((0x43, "stop", 14), (0xCB, "bhl_n", 14), (0xC3, "fhl_n", 9), (0x4B, "stop", 9)),
+    ):
+        for j in range(1, n):
+            await asked(axis, pin, n, j, 40, code)
+            # Natural deceleration: from the first interval that is below what acceleration would give.
+            natural = indices(n, 4)[j - 1] < min(j - 1, 4)
+            wanted = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
+            if pin == "stop":
+                await axis.idle()
+                lab.check("P2104-STP-03", f"error in I({j}) of {n}", await axis.error(), 8 if natural else 0)
+            pulses = len(wanted) + 1
+            bits = 0 if pulses == n else 0x40 if pin == "stop" else 0x08
+            await axis.result(f"P2104-FDC-03 I({j})", pulses, 0x83 | bits, max(n - pulses - 1, 0))
+            axis.check_train("P2104-FDC-03", wanted)
+
+
+@part_test("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
+async def p2104_fdc_02_flat_start(lab: Lab) -> None:
+    """Given a ramp with four flat indices, when asked in each interval, then at once while the rate is RL."""
+    ramp = (14, 12, 16)
+    for axis, how in ((lab.x1, "stop"), (lab.x2, "fhl_n")):
+        await axis.init(0x02, *ramp)
+        bit = 0x40 if how == "stop" else 0x08
+        for j in (1, 2, 3, 4, 5, 6, 17):
+            await asked(axis, how, 60, j, 200, 0x43)
+            wanted = slowed(ramp, 60, j)
+            lab.check("P2104-FDC-02", "figures", len(wanted) + 1, j if j <= 4 else 2 * j)
+            await axis.result(f"P2104-FDC-02 I({j})", len(wanted) + 1, 0x83 | bit, 60 - len(wanted) - 2)
+            axis.check_train("P2104-FDC-02", wanted)
+        # In the flat piece on the way down the flag is set already: it runs to its end.
+        await asked(axis, how, 60, 6, 200, 0x43)
+        await axis.pulse(10, 100)
+        await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
+        await axis.result("P2104-FDC-03", 12, 0x83 | bit, 47)
+
+
+@part_test("P2104-FDC-01", "P2104-FDC-04", "P2104-LIM-05", "P2104-FSM-03", "P2104-STP-02", "P2104-BAD-22")
+async def p2104_fdc_04_before_pulse_1(lab: Lab) -> None:
+    """Given START or RUN wait, when deceleration is asked for, then exactly one pulse comes."""
+    for axis, code in product(await lab.both(INIT_A), (0x43, 0x4B, 0xC3, 0x46, 0xCE)):
+        pin = "bhl_n" if code & 8 else "fhl_n"
+        n = 1000 if code & 7 == 3 else None
+        left = (n or 1 << 24) - 2
+        # START by the stop: within the 5 us.
+        await axis.go(code, n)
+        await axis.command(0x41)
+        await axis.command(0x41)
+        lab.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
+        await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
+        # START by the pin, also in RUN wait, gone and back again.
+        for waiting in (False, True):
+            axis.set(run=0 if waiting else 1)
+            await axis.go(code, n, poll=False)
+            await lab.bench.clocks(10)
+            for _ in range(3):
+                await axis.blip(pin, 2)
+                await lab.bench.clocks(5)
+            if waiting:
+                lab.check("P2104-FSM-03", "41 in RUN wait", await axis.command(0x41) & 0x80, 0x80)
+                await axis.error()
+                axis.set(run=1)
+            await axis.result("P2104-FDC-04", 1, 0x88 | code & 7, left)
+
+
+@part_test("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", on=(F16, F11))
+async def p2104_fdc_06_around_a_pulse(lab: Lab) -> None:
+    """Given a pulse event that is due, when FHL falls at each clk around it, then 4 clk before it counts."""
+    axis = await lab.ready(1, INIT_B)
+    counts = []
+    due = lab.cfg.quanta(8 * 42)
+    for before in range(9, -7, -1):
+        await axis.go(0x43, 1000)
+        # I(3) has index 2, rate 41; the plateau is far.
+        third = await axis.pulse(3)
+        offset = lab.cfg.quanta(8 * (100 + 54 + 42)) - lab.cfg.quanta(8 * (100 + 54))
+        await lab.bench.until(third + offset - before)
+        await axis.blip("fhl_n", 3)
+        await axis.idle()
+        count = len(axis.pulses)
+        counts.append(count)
+        lab.check("P2104-FDC-06", f"{before} clk before", count in (6, 8), True)
+        if before >= 4:
+            lab.check("P2104-FDC-06", f"pulses, {before} clk before", count, 6)
+        await axis.result("P2104-FDC-06", count, 0x8B, 999 - count)
+    lab.check("P2104-LIM-09", "one switch-over", counts, sorted(counts))
+    lab.check("P2104-LIM-09", "both sides were met", set(counts), {6, 8})
+    lab.window("P2104-FDC-06", "interval of rate 41 in clk", due, 900, 1_400)
+
+
+@part_test("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
+async def p2104_lim_09_two_requests_on_one_edge(lab: Lab) -> None:
+    """Given 41 and FHL some clk apart, when both ask, then the first sets its bit, on one edge both."""
+    axis = await lab.ready(2, INIT_B)
+    kinds = []
+    for shift in range(-4, 14):
+        await axis.go(0x43, 200)
+        base = await axis.pulse(4) + 60
+        task = axis.at(base + shift, fhl_n=0)
+        await lab.bench.until(base - 2)
+        await lab.host.write(1, 0x61)
+        await lab.bench.clocks(14)
+        await task
+        error = await axis.error()
+        await axis.idle()
+        axis.set(fhl_n=1)
+        finish = await axis.finish()
+        lab.check("P2104-LIM-09", "pulses", len(axis.pulses), 8)
+        kinds.append(finish)
+        lab.check("P2104-STP-03", f"error at {finish:#x}", error, 8 if finish == 0x8B else 0)
+    order = [0x8B, 0xCB, 0xC3]
+    lab.check("P2104-LIM-09", "FHL first, both, 41 first", kinds, sorted(kinds, key=order.index))
+    lab.check(
+        "P2104-LIM-09", "each was met, both on one edge", (set(kinds), kinds.count(0xCB)), (set(order), 1)
+    )
+
+
+@part_test("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", on=(F16, F11))
+async def p2104_intv_01_both_at_full_speed(lab: Lab) -> None:
+    """Given both axes at 250 kpps by the internal clock, then at 500 kpps by EXTCK, then all is exact."""
+    fast = (0x02, 40, 1, 25)
+    first, second = await lab.both(fast)
+    lab.bench.set(run=0)
+    await first.go(0x43, 300)
+    await second.go(0x44, 250, 1)
+    lab.bench.set(run=3)
+    await first.idle()
+    await second.idle()
+    first.check_train("P2104-INTV-01", rates(fast[1:], indices(300, 25)))
+    second.check_train("P2104-INTV-01", [1] * 249)
+    for axis in lab.axes:
+        await axis.command(0xC0)
+        await axis.init(0x0A, 3, 0, 4)
+        await axis.go(0x44, 200, 0)
+    for _ in range(220):
+        lab.bench.set(extck=3)
+        await lab.bench.clocks(16)
+        lab.bench.set(extck=0)
+        await lab.bench.clocks(16)
+    for axis in lab.axes:
+        await axis.idle()
+        # Pulse 1 has its full width: the clock stood before it, no period is known yet (P2104-TIM-05).
+        lab.check("P2104-INTV-01", "intervals at 32 clk an edge", axis.intervals[1:], [32] * 198)

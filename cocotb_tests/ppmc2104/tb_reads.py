@@ -1,0 +1,244 @@
+"""Read instructions and interrupts (P2104-RD, P2104-INT)."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from cocotb_tests.common.bus import IBF
+from cocotb_tests.common.config import F11, F16, F48, F100
+
+from .figures import INIT_A, INIT_B, STEP_CODES
+from .lab import Lab, part_test
+
+CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3, 3), (0xC6, 6))
+
+
+@part_test("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
+async def p2104_rd_01_end_status(lab: Lab) -> None:
+    """Given each operation ended by each cause, when 80 is read twice, then its bits, then bit 7 gone."""
+    for axis, (code, low) in product(await lab.both(INIT_A), CODES):
+        for cause, bits in (("", 0x00), ("40", 0x40), ("fl_n", 0x10), ("alm_n", 0x20), ("fhl_n", 0x08)):
+            if (
+                (cause == "fhl_n" and low not in (3, 6))
+                or (not cause and low in (5, 6, 7))
+                or (cause and low == 2)
+            ):
+                continue
+            n = (12 if not cause else 1000) if low in (3, 4) else None
+            await axis.go(code, n, 20 if low in (4, 5, 7) else None)
+            if cause:
+                await axis.pulse(3, 20)
+                if cause == "40":
+                    await axis.command(0x40)
+                else:
+                    axis.set(**{cause: 0})
+            await axis.idle()
+            if cause.endswith("_n"):
+                axis.set(**{cause: 1})
+            got = [await axis.finish() for _ in range(3)]
+            lab.check("P2104-RD-01", f"{code:#x}, {cause}", got, [0x80 | bits | low, bits | low, bits | low])
+
+
+@part_test("P2104-RD-04", "P2104-RD-08", "P2104-LIM-10")
+async def p2104_rd_04_all_levels(lab: Lab) -> None:
+    """Given all levels of the twelve switches, when both axes are read, then each shows its own."""
+    order = ("org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
+    places = (7, 6, 3, 2, 1, 0)
+    for value in range(64):
+        levels = [value >> i & 1 for i in range(6)]
+        for axis, own in ((lab.x1, levels), (lab.x2, [1 - v for v in levels])):
+            axis.set(**dict(zip(order, own, strict=True)))
+        await lab.bench.clocks(4)
+        for axis, own in ((lab.x1, levels), (lab.x2, [1 - v for v in levels])):
+            wanted = sum(level << place for level, place in zip(own, places, strict=True))
+            lab.check("P2104-RD-04", f"{value:06b}, axis {axis.n}", await axis.fetch(0x81), [wanted])
+
+
+@part_test("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
+async def p2104_rd_05_output_signal(lab: Lab) -> None:
+    """Given patterns, directions, hold levels, when 82 reads, then the levels, S1 in bit 7."""
+    for axis in lab.axes:
+        for code in STEP_CODES.values():
+            await axis.init(code, *INIT_A[1:])
+            await axis.send(0x85, [0])
+            for op in (0x42, 0x4A, 0x42, 0x42, 0x42, 0x4A, 0xCB, 0xC3):
+                await axis.move(op, 2 if op & 1 else None)
+                for settled in (False, True):
+                    if settled:
+                        await lab.bench.level_is(axis.pin("hold"), 1)
+                    pins = axis.phases_now
+                    wanted = sum((pins >> i & 1) << 7 - i for i in range(5))
+                    wanted |= settled << 2 | (op >> 3 & 1) << 1
+                    lab.check(
+                        "P2104-RD-05", f"82 after {op:#x}, hold {settled}", await axis.fetch(0x82), [wanted]
+                    )
+            await axis.command(0xC0)
+            await axis.finish()
+    lab.check("P2104-RD-05", "axis 1 at the end", await lab.x1.fetch(0x82), [0xFC])
+
+
+@part_test("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
+async def p2104_rd_06_remaining_pulses(lab: Lab) -> None:
+    """Given stopped moves, when 83 is read while the other axis moves, then max(m - 1, 0), to be resumed."""
+    axis, other = await lab.both(INIT_A)
+    await other.running(200)
+    for n, stop_at, left in (
+        (10, 3, 6),
+        (10, 9, 0),
+        (10, 10, 0),
+        (0x010000, 4, 0xFFFB),
+        (0x1000000, 2, 0xFFFFFD),
+    ):
+        await axis.go(0x44, n, 9)
+        await axis.pulse(stop_at, 100)
+        await axis.command(0x40)
+        await axis.idle()
+        finish = 0x84 if stop_at == n else 0xC4
+        lab.check("P2104-RD-06", f"83, {stop_at} of {n}", await axis.remaining(), left)
+        lab.check("P2104-RD-06", "once more", await axis.remaining(), left)
+        lab.check("P2104-END-06", "0 left, or 1", await axis.finish(), finish)
+        if left < 100 and stop_at != n:
+            await axis.move(0x44, left + 1, 9)
+            lab.check("P2104-END-06", "the rest", len(axis.pulses), n - stop_at)
+            await axis.finish()
+    await lab.errors()
+
+
+@part_test("P2104-RD-07", "P2104-INT-02", "P2104-INT-04", "P2104-ERR-06", errint_n=0)
+async def p2104_rd_07_error_code_read(lab: Lab) -> None:
+    """Given errors in every state, when 86 and A6 are read, then own register and interrupt are cleared."""
+    first, second = await lab.both(INIT_A)
+    await first.go(0x45, rate=255)
+    await lab.run("c 42 c A7")
+    since = lab.bench.now
+    lab.check("P2104-RD-07", "e2, status", await lab.run("e2 s"), [1, 0x84])
+    await lab.bench.clocks(200)
+    lab.check("P2104-RD-07", "e1, status, e1", await lab.run("e1 s e1"), [5, 0x04, 0])
+    await lab.bench.clocks(200)
+    levels = [v for _, v in lab.bench.edges("int_n", since)]
+    lab.check("P2104-INT-04", "one release each", levels, [1, 0, 1])
+    await first.halt()
+
+
+@part_test("P2104-INT-03", "P2104-INT-05", "P2104-INT-01", on=(F16, F11, F48, F100))
+async def p2104_int_03_release_window(lab: Lab) -> None:
+    """Given causes around a release, when they come in it, then int_n is H for W, and L again at its end."""
+    w = lab.cfg.w
+    axis = await lab.ready(1, INIT_A)
+    for delay in (3, w // 4, w // 2, *range(w - 9, w + 2), w + 9):
+        lab.bench.set(errint_n=0)
+        await axis.move(0x42)
+        await lab.host.write(1, 0xA7)
+        await lab.bench.clocks(20)
+        since = lab.bench.now
+        await lab.x2.command(0x86)
+        # END1 is left: L again after the window.
+        await lab.bench.clocks(2 * w)
+        (up, one), (down, zero) = lab.bench.edges("int_n", since)
+        lab.check("P2104-INT-03", "levels", (one, zero), (1, 0))
+        lab.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
+        # Released for good, then a new cause so many clk after the release.
+        edge0 = await lab.host.command(0x80, poll=False)
+        await lab.bench.until(edge0 + delay)
+        cause = await lab.host.write(1, 0x87)
+        await lab.bench.clocks(3 * w + 40)
+        (up, one), (down, zero) = lab.bench.edges("int_n", edge0)
+        lab.window("P2104-INT-03", "C-event to H", up - edge0, 2, 12)
+        inside = down - up <= w + 2
+        lab.window("P2104-INT-03", "H, new cause inside" if inside else "H", down - up, w, 2 * w + 40)
+        if not inside:
+            lab.window("P2104-INT-05", "cause to L", down - cause, 2, 14)
+        lab.check("P2104-INT-03", f"cause {delay} clk later", inside, delay < w - 4 or inside)
+        await lab.run("e1 e2")
+        await lab.bench.clocks(2 * w)
+
+
+@part_test("P2104-INT-03", errint_n=0)
+async def p2104_int_03_windows_restart(lab: Lab) -> None:
+    """Given four causes, when two are read within 5 us, then the second release restarts the window."""
+    await lab.both(INIT_A)
+    await lab.run("c 87 c A7")
+    for gap in (4, 12, 30, 50):
+        since = lab.bench.now
+        await lab.host.write(1, 0x86)
+        await lab.bench.clocks(gap)
+        edge0 = await lab.host.write(1, 0xA6)
+        await lab.bench.clocks(60)
+        await lab.host.write(1, 0x87)
+        await lab.bench.clocks(300)
+        edges = lab.bench.edges("int_n", since)
+        lab.check("P2104-INT-03", f"levels, gap {gap}", [v for _, v in edges], [1, 0])
+        lab.window("P2104-INT-03", "second C-event to L", edges[1][0] - edge0, 80 + 2, 80 + 14)
+        await lab.host.command(0x86)
+        await lab.bench.clocks(200)
+        await lab.run("c 87 c A7")
+
+
+@part_test("P2104-INT-01", "P2104-INT-02", "P2104-BAD-24", "P2104-AUX-01", "P2104-BAD-20")
+async def p2104_int_02_what_does_not_clear(lab: Lab) -> None:
+    """Given a pending END1, when all but 80 happens, then int_n stays L and operations go on."""
+    first, second = await lab.both(INIT_B)
+    await first.move(0x42)
+    since = lab.bench.now
+    lab.check("P2104-INT-01", "int_n", lab.bench.level("int_n"), 0)
+    await first.move(0x43, 4)
+    await second.move(0x52)
+    await first.command(0xC0)
+    await first.init(*INIT_A)
+    await lab.run("c 81 r c 82 r c 83 rrr c A0 r c A6 r c 86 r c C2 r c C1")
+    for level in (0, 1, 0, 1):
+        lab.bench.set(errint_n=level)
+        await lab.bench.clocks(30)
+    await first.move(0x52)
+    lab.check("P2104-INT-02", "edges of int_n", lab.bench.edges("int_n", since), [])
+    lab.check("P2104-BAD-24", "end status: the newest end", await first.finish(), 0x82)
+    await lab.bench.clocks(200)
+    lab.check("P2104-INT-02", "levels", [v for _, v in lab.bench.edges("int_n", since)], [1])
+
+
+@part_test("P2104-INT-01", "P2104-LIM-08", "P2104-BAD-20")
+async def p2104_int_01_errint_when_it_happens(lab: Lab) -> None:
+    """Given errint_n falling and rising around an error, when it is charged, then the level then counts."""
+    for axis in lab.axes:
+        outcomes = []
+        for lead in range(-4, 12):
+            lab.bench.set(errint_n=1)
+            await lab.bench.clocks(8)
+            since = lab.bench.now
+            lab.bench.at(since + lead + 6, errint_n=0)
+            await lab.host.write(1, 0x87 | axis.axis_bit, gap=8)
+            await lab.bench.clocks(20)
+            outcomes.append(lab.bench.level("int_n") == 0)
+            lab.check("P2104-INT-01", "ERROR", await lab.host.status() & (0x80 | IBF), 0x80)
+            await axis.error()
+            await lab.bench.clocks(100)
+        lab.check("P2104-INT-01", "L early enough or not", outcomes, sorted(outcomes, reverse=True))
+        lab.check("P2104-INT-01", "both were met", set(outcomes), {True, False})
+
+
+@part_test("P2104-INT-01", "P2104-CMD-02", "P2104-STP-06", "P2104-LIM-03")
+async def p2104_int_01_every_end(lab: Lab) -> None:
+    """Given I = 0 or 1, when operations end in every way, then int_n falls for I = 0 only."""
+    for axis, masked in product(await lab.both(INIT_A), (0, 0x10)):
+        for how in ("itself", "40", "41", "alm_n", "fl_n", "fhl_n", "run wait"):
+            axis.set(run=0 if how == "run wait" else 1)
+            await axis.go(0x43 | masked, 5 if how == "itself" else 100)
+            if how == "run wait":
+                await axis.command(0x40)
+            elif how != "itself":
+                await axis.pulse(3, 20)
+                if how.endswith("_n"):
+                    axis.set(**{how: 0})
+                else:
+                    await axis.command(int(how, 16))
+            await axis.idle()
+            await lab.bench.clocks(4)
+            axis.set(run=1, alm_n=1, fl_n=1, fhl_n=1)
+            lab.check(
+                "P2104-INT-01",
+                f"int_n, ended by {how}, I {masked >> 4}",
+                lab.bench.level("int_n"),
+                masked >> 4,
+            )
+            await axis.finish()
+            await lab.bench.clocks(100)

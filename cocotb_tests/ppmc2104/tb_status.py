@@ -1,0 +1,291 @@
+"""Status register and handshake (P2104-STA, P2104-HSK)."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from cocotb_tests.common.bus import COMMAND, DATA, IBF, OBF
+from cocotb_tests.common.config import F11, F16
+from cocotb_tests.common.figures import indices, rates
+
+from .figures import BUILD_LATEST, ERROR, INIT_A, INIT_B
+from .lab import Lab, part_test
+from .states import MOVING, RESTING, enter, leave
+
+# The largest table: all rates, all steps.
+LARGEST = (0x02, 255, 1, 0x2BD4)
+
+
+@part_test("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
+async def p2104_sta_01_every_bit(lab: Lab) -> None:
+    """Given each state of each axis, when status is read, then BUSY and CMND of that axis alone show it."""
+    for axis, state in product(lab.axes, (*RESTING, *MOVING)):
+        await enter(axis, state)
+        wanted = axis.busy if state in MOVING else axis.cmnd if state == "INITP" else 0
+        lab.check("P2104-STA-04", f"status in {state} of axis {axis.n}", await lab.host.status(), wanted)
+        await lab.host.fetch(0xC2)
+        await lab.host.command(0xD1)
+        await lab.host.command(0x86)
+        await leave(axis)
+    statuses = [a.byte for a in lab.bench.accesses if a.kind == "read" and a.reg]
+    lab.check("P2104-STA-07", "bit 6 of all statuses", [s for s in statuses if s & 0x40], [])
+
+
+@part_test("P2104-STA-01", "P2104-STA-06", "P2104-STA-02")
+async def p2104_sta_01_all_at_once(lab: Lab) -> None:
+    """Given both axes busy, a data wait, an error and an answer, when status is read, then all bits show."""
+    for axis in await lab.both(INIT_A):
+        await axis.go(0x45, rate=255)
+    lab.check("P2104-STA-01", "both busy", await lab.host.status(), 0x0C)
+    await lab.run("c C2 c 87")
+    lab.check("P2104-STA-01", "and OBF, ERROR", await lab.host.status(), 0x8D)
+    await lab.host.read(DATA)
+    for axis in lab.axes:
+        await axis.halt()
+    await lab.x2.go(0x45, rate=255)
+    lab.check("P2104-STA-01", "CMND1, BUSY2, ERROR", await lab.x1.command(0x44), 0x98)
+    await lab.x1.command(0x86)
+    lab.check("P2104-STA-06", "ERROR after error 3", await lab.host.status() & ERROR, ERROR)
+
+
+@part_test("P2104-STA-05")
+async def p2104_sta_05_cmnd(lab: Lab) -> None:
+    """Given data waits, tables and everything else, when status is read, then CMND is 1 for those only."""
+    for axis in lab.axes:
+        for code, data in ((0x84, [0x40, 0x50]), (0x85, [0]), (0x02, [9, 4, 4, 0])):
+            await axis.command(code)
+            for place, byte in enumerate(data):
+                status = await lab.host.status()
+                lab.check("P2104-STA-05", f"{code:#x} before byte {place}", status, axis.cmnd)
+                await lab.host.data(byte)
+        lab.check("P2104-STA-05", "table being built", await lab.host.status(), axis.cmnd)
+        await axis.ready()
+        for code in (0xC1, 0xC2, 0x80, 0x86):
+            status = await lab.host.command(code)
+            lab.check("P2104-STA-05", f"after {code:#x}", status & 0x30, 0)
+            if status & OBF:
+                await lab.host.read(DATA)
+        await axis.go(0x42)
+        lab.check("P2104-STA-05", "CMND in a motion", await lab.host.status() & 0x30, 0)
+        await axis.idle()
+        # A refused setting and a refused operation leave nothing outstanding.
+        lab.check("P2104-STA-05", "refused", await axis.send(0x02, [4, 4, 4, 0]) & 0xB0, ERROR)
+        await axis.error()
+
+
+@part_test("P2104-STA-07", "P2104-STA-02", "P2104-STA-03")
+async def p2104_sta_07_reading_changes_nothing(lab: Lab) -> None:
+    """Given an answer, an error and an interrupt, when status is read 100 times, then all stay."""
+    lab.bench.set(errint_n=0)
+    await lab.run("c 81 c 87")
+    since = lab.bench.now
+    got = {await lab.host.status() for _ in range(100)}
+    lab.check("P2104-STA-07", "statuses", got, {0x81})
+    lab.quiet("P2104-STA-07", since)
+    lab.check("P2104-STA-02", "the answer", await lab.run("r s"), [0xCF, 0x80])
+
+
+@part_test("P2104-HSK-02", "P2104-BAD-08", "P2104-HSK-01")
+async def p2104_hsk_02_writes_one_after_the_other(lab: Lab) -> None:
+    """Given two codes so many clk apart, when both are written, then the newer always acts, no half byte."""
+    outcomes = []
+    for gap in range(1, 12):
+        await lab.host.write(COMMAND, 0x87, strobe=1, gap=gap)
+        await lab.host.write(COMMAND, 0xA7, strobe=1, gap=16)
+        one, two = await lab.errors()
+        lab.check("P2104-HSK-02", f"newer code, gap {gap}", two, 1)
+        outcomes.append(one)
+        # Data over a code: the flag goes with the byte.
+        await lab.host.write(COMMAND, 0x40, strobe=1, gap=gap)
+        await lab.host.write(DATA, 0x40, strobe=1, gap=16)
+        one, two = await lab.errors()
+        lab.check("P2104-HSK-02", f"data byte, gap {gap}", (one, two), (2, 0))
+    lab.check("P2104-HSK-02", "older code: lost, then never", outcomes, sorted(outcomes))
+    lab.check("P2104-HSK-01", "older code with time enough", outcomes[7:], [1] * 4)
+
+
+@part_test("P2104-HSK-02", "P2104-HSK-04", "P2104-STP-07")
+async def p2104_hsk_02_over_a_waiting_code(lab: Lab) -> None:
+    """Given a step waiting for its table, when another byte is written over it, then that is taken."""
+    first, second = lab.axes
+    await second.init(*INIT_A)
+    for code, register in ((0x60, 1), (0x40, 1), (0x87, 1), (0x55, 0), (0xC1, 1)):
+        await second.running(99)
+        await lab.host.init(0x02, 255, 1, 4)
+        await first.go(0x42, poll=False)
+        await lab.bench.clocks(200)
+        lab.check("P2104-HSK-04", "IBF while it waits", await lab.host.status() & IBF, IBF)
+        edge0 = await lab.host.write(register, code)
+        await lab.bench.until(edge0 + 10)
+        status = await lab.host.status()
+        lab.check("P2104-HSK-02", f"IBF 10 clk after {code:#x}", status & (IBF | first.cmnd), first.cmnd)
+        wanted = {0x40: (6, 0), 0x87: (1, 0), 0x55: (2, 0)}.get(code, (0, 0))
+        lab.check("P2104-HSK-02", f"errors after {code:#x}", await lab.errors(), wanted)
+        await first.ready()
+        lab.check("P2104-HSK-02", "the step is lost", first.pulses, [])
+        if code == 0x60:
+            await second.idle()
+            lab.check("P2104-STP-07", "end status", await second.finish(), 0xC5)
+        else:
+            await second.halt()
+
+
+@part_test("P2104-HSK-03", "P2104-OPR-01", "P2104-GEN-06", on=(F16, F11))
+async def p2104_hsk_03_one_edge(lab: Lab) -> None:
+    """Given a chopping axis, when a CCW move starts, then hold, dir and phases change on one edge."""
+    for axis in lab.axes:
+        await axis.init(0x12, *INIT_A[1:])
+        for code in (0x4A, 0x42, 0x4B, 0xC3):
+            await lab.bench.edge(axis.phases, 0x1F)
+            await lab.bench.clocks(20)
+            n = 3 if code & 1 else None
+            edge0 = await axis.go(code, n, poll=False)
+            status = await lab.host.poll(IBF, 0)
+            lab.check("P2104-HSK-03", "BUSY with IBF = 0", status & axis.busy, axis.busy)
+            first = await axis.pulse(1)
+            places = {
+                name: axis.edges(name, edge0)[0][0] for name in ("hold", "dir") if axis.edges(name, edge0)
+            }
+            places["phases"] = [t for t, v in lab.bench.edges(axis.phases, edge0) if t < first][-1]
+            lab.check("P2104-HSK-03", f"edges of {code:#x}: {places}", len(set(places.values())), 1)
+            lab.window("P2104-HSK-03", "edge 0 to pins", places["phases"] - edge0, 2, 12)
+            await axis.idle()
+            # hold rises again, so that the next move shows its fall.
+            await lab.bench.level_is(axis.pin("hold"), 1)
+            await axis.finish()
+
+
+@part_test("P2104-HSK-04", "P2104-HSK-03")
+async def p2104_hsk_04_what_waits(lab: Lab) -> None:
+    """Given the table of one axis being built, when any code comes, then only three kinds for it wait."""
+    waits = (0x02, 0x42, 0x43, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC6, 0xC0)
+    taken = (0x40, 0x41, 0x80, 0x81, 0x82, 0x83, 0x84, 0x85, 0x86, 0x87, 0xC1, 0xC2)
+    for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
+        await other.init(*INIT_A)
+        for mine, code in (*((True, c) for c in (*waits, *taken)), *((False, c) for c in (*waits, *taken))):
+            await axis.host.init(0x02 | axis.axis_bit, 40, 1, 4)
+            addressed = axis if mine else other
+            full = code if code in (0xC1, 0xC2) else code | addressed.axis_bit
+            edge0 = await lab.host.command(full, poll=False)
+            await lab.bench.until(edge0 + 10)
+            status = await lab.host.status()
+            waiting = mine and code in waits
+            what = f"IBF, {full:#x}, table of axis {axis.n}"
+            lab.check("P2104-HSK-04", what, status & (IBF | axis.cmnd), axis.cmnd | (IBF if waiting else 0))
+            if waiting and code in (0x46, 0xC6):
+                await lab.host.poll(IBF, 0)
+                lab.check("P2104-HSK-04", "taken afterwards", await lab.host.status() & axis.busy, axis.busy)
+            # A stop ends a data wait and a motion alike.
+            for each in lab.axes:
+                await each.command(0x40)
+                await each.idle()
+                await each.ready()
+            await lab.errors()
+            await lab.host.fetch(0x80)
+            await lab.host.fetch(0xA0)
+            if not mine and code == 0xC0:
+                await other.init(*INIT_A)
+
+
+@part_test("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
+async def p2104_hsk_04_data_wait_beside_a_table(lab: Lab) -> None:
+    """Given a table being built and a data wait, when a code comes that would wait for it, then error 3."""
+    for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
+        for code in (0x42, 0x45, 0x02, 0xC0):
+            await axis.host.init(0x02 | axis.axis_bit, 200, 1, 4)
+            await other.send(0x84, [0x50])
+            edge0 = await axis.command(code, poll=False)
+            await lab.bench.until(edge0 + 10)
+            status = await lab.host.status()
+            lab.check("P2104-HSK-04", f"status after {code:#x}", status, axis.cmnd | ERROR)
+            lab.check("P2104-ERR-02", "errors", await lab.errors(), (3, 0) if axis.n == 1 else (0, 3))
+            await axis.ready()
+
+
+@part_test("P2104-HSK-05", "P2104-RMP-04")
+async def p2104_hsk_05_longest_tables(lab: Lab) -> None:
+    """Given the largest tables for both axes at once, when built, then within 40 000 and 80 000 clk."""
+    first, second = lab.axes
+    starts, ends = [], []
+    for axis in (first, second):
+        await axis.send(LARGEST[0], [LARGEST[1], LARGEST[2], LARGEST[3] & 0xFF])
+        starts.append(await lab.host.data(LARGEST[3] >> 8, poll=False))
+    for axis in (first, second):
+        await axis.host.poll(axis.cmnd, 0, dense=10_000)
+        ends.append(lab.bench.now)
+    lab.window("P2104-HSK-05", "first table", ends[0] - starts[0], 1_000, BUILD_LATEST + 20)
+    lab.window("P2104-HSK-05", "second table", ends[1] - starts[1], 1_000, 2 * BUILD_LATEST + 20)
+    lab.check("P2104-HSK-05", "order", ends[0] < ends[1], True)
+    for axis in lab.axes:
+        await axis.move(0x43, 6)
+        axis.check_train("P2104-RMP-04", rates(LARGEST[1:], indices(6, LARGEST[3])))
+
+
+@part_test("P2104-HSK-05", "P2104-OPR-10", "P2104-INI-06")
+async def p2104_hsk_05_beside_a_motion(lab: Lab) -> None:
+    """Given an axis on its ramp, when the table of the other is built, then its train is undisturbed."""
+    for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
+        await axis.init(0x02, 60, 1, 40)
+        await axis.go(0x43, 300)
+        await axis.pulse(1, 10)
+        while not (await lab.host.status()) & axis.busy == 0:
+            await other.init(0x02, 30, 1, 12)
+        axis.check_train("P2104-HSK-05", rates((60, 1, 40), indices(300, 40)))
+        await other.move(0x43, 30)
+        other.check_train("P2104-HSK-05", rates((30, 1, 12), indices(30, 12)))
+
+
+@part_test("P2104-HSK-06", "P2104-HSK-07", "P2104-BAD-25", "P2104-BAD-10", "P2104-RD-06")
+async def p2104_hsk_07_answers_stay(lab: Lab) -> None:
+    """Given an unread answer, when all but reads are executed, then it stays; a read replaces it."""
+    first, second = await lab.both(INIT_B)
+    for axis, other in ((first, second), (second, first)):
+        await axis.go(0x43, 0x30201)
+        await axis.pulse(2, 50)
+        await axis.halt()
+        # 0x30201 - 2 - 1 = 0x301FE left.
+        await axis.command(0x83)
+        lab.check("P2104-HSK-07", "first byte", await lab.host.read(DATA), 0xFE)
+        await lab.run("c 87 d 00 c C1 c 40 c 84 d 00 d 00 c 43 c 42")
+        for each in (other, axis):
+            await each.move(0x43, 3)
+            await each.init(*INIT_A)
+            await each.send(0x85, [1])
+            await each.send(0x45, [0])
+            await each.command(0x61)
+        lab.check("P2104-HSK-07", "OBF", await lab.host.status() & OBF, OBF)
+        lab.check("P2104-HSK-07", "the rest", await lab.run("rr"), [0x01, 0x03])
+        lab.check("P2104-HSK-07", "OBF after it", await lab.host.status() & OBF, 0)
+        # A refused read does not replace an answer, an executed one of either axis does.
+        bit = axis.axis_bit
+        for code, answer in ((0xC2, 0x00), (0xA1, 0xCF), (0x81, 0xCF), (0x80 | bit, 0xC5), (0x86 | bit, 5)):
+            await axis.command(0x83)
+            await axis.running(200)
+            await axis.command(0x81)
+            lab.check("P2104-HSK-07", "OBF after a refused read", await lab.host.status() & OBF, OBF)
+            await axis.command(0x40)
+            await axis.idle()
+            await lab.host.command(code)
+            lab.check("P2104-HSK-07", f"answer of {code:#x}", await lab.host.read(DATA), answer)
+            await lab.bench.clocks(8)
+            lab.check("P2104-HSK-07", f"OBF after {code:#x}", await lab.host.status() & OBF, 0)
+        await axis.init(*INIT_B)
+        await other.init(*INIT_B)
+        await axis.finish()
+        await other.finish()
+
+
+@part_test("P2104-HSK-08", "P2104-BAD-03")
+async def p2104_hsk_08_no_time_out(lab: Lab) -> None:
+    """Given two of three data bytes, when 10 ms pass, then the third starts the move."""
+    first, second = await lab.both(INIT_A)
+    await first.send(0x43, [8, 0])
+    await lab.bench.clocks(160_000)
+    lab.check("P2104-HSK-08", "status", await lab.host.status(), first.cmnd)
+    first.since = lab.bench.now
+    await lab.host.data(0)
+    await first.result("P2104-HSK-08", 9, 0x83, 0)
+    # One wait for both axes together: a code of the other ends it.
+    await first.send(0x43, [8, 0])
+    await second.command(0x44)
+    lab.check("P2104-HSK-08", "status", await lab.host.status(), ERROR)

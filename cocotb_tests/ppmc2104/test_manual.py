@@ -1,0 +1,17 @@
+"""The manual's sessions on the PPMC-2104: one pytest item a chapter."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.collect import cocotb_items
+from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.runner import run_item
+
+ITEMS = cocotb_items("cocotb_tests.ppmc2104", "tb_manual", part=PPMC2104)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_manual(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options)

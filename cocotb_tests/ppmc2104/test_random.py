@@ -1,0 +1,88 @@
+"""Random hosts against the golden model, axis 2 with and without axis 1, noise: fixed lists of seeds.
+
+`--seed N` plays seed N only. `make soak PART=ppmc2104` plays as many others as you like.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.config import D16, F11, F16, F100, Config
+from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.runner import SimOptions, run_item
+from cocotb_tests.ppmc2104.random_host import scenario
+from cocotb_tests.ppmc2104.random_pairs import pair
+
+SEEDS = range(1, 161)
+PAIR_SEEDS = range(1, 13)
+CHAOS_SEEDS = range(1, 25)
+
+
+def _item(module: str, test: str, seed: int, config: Config) -> Item:
+    base = next(
+        param.values[0]
+        for param in cocotb_items("cocotb_tests.ppmc2104", module, part=PPMC2104)
+        if param.values[0].test == test
+    )
+    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
+
+
+def random_item(seed: int) -> Item:
+    """The random host of one seed; the seed decides the build configuration, too."""
+    return _item("tb_random", "p2104_random_host", seed, scenario(seed).config)
+
+
+def pair_item(seed: int) -> Item:
+    """Axis 2 alone and beside a working axis 1."""
+    return _item("tb_independent", "p2104_axis_2_alone_and_beside_axis_1", seed, pair(seed).config)
+
+
+def chaos_item(seed: int) -> Item:
+    """The noise run of one seed."""
+    return _item("tb_chaos", "p2104_random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
+
+
+_KINDS = {
+    "test_random": (random_item, SEEDS),
+    "test_independent_axes": (pair_item, PAIR_SEEDS),
+    "test_chaos": (chaos_item, CHAOS_SEEDS),
+}
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """One pytest item a seed."""
+    if "item" in metafunc.fixturenames:
+        chosen = metafunc.config.getoption("--seed")
+        make, fixed = _KINDS[metafunc.function.__name__]
+        items = [make(seed) for seed in (fixed if chosen is None else [chosen])]
+        metafunc.parametrize("item", items, ids=[item.id for item in items])
+
+
+def test_random(item: Item, sim_options: SimOptions) -> None:
+    """The scenario of a seed: every output edge equals the golden model's."""
+    run_item(item, sim_options)
+
+
+def test_independent_axes(item: Item, sim_options: SimOptions) -> None:
+    """Axis 2 shows the same edges whatever axis 1 is told."""
+    run_item(item, sim_options)
+
+
+def test_chaos(item: Item, sim_options: SimOptions) -> None:
+    """Noise on all pins, then recovery by the documented sequence."""
+    run_item(item, sim_options)
+
+
+def test_scenarios_are_reproducible_and_varied() -> None:
+    """Same seed, same list; the fixed seeds together use every action kind and every build."""
+    assert scenario(5) == scenario(5) != scenario(6)
+    assert pair(5) == pair(5) != pair(6)
+    plans = [scenario(seed) for seed in SEEDS]
+    kinds = {action[0] for plan in plans for action in plan.actions}
+    assert kinds == set("write send status read fetch finish wait pins blip raw reset".split())
+    assert {plan.config.name for plan in plans} == set("f16 f8m f11m f25m f50m f100m d16 d11m d25x8".split())
+    assert sum(any(clock.segments for clock in plan.clocks) for plan in plans) > 40
+    assert {plan.pins["busc"] for plan in plans} == {0, 1}

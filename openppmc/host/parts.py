@@ -1,0 +1,26 @@
+"""Opens a board with whatever part it carries."""
+
+from __future__ import annotations
+
+from .kinds import KINDS, kind_of
+from .link import DEFAULT_BAUD, Link
+from .ppmc104 import Ppmc104
+from .ppmc2104 import Ppmc2104
+from .transport import Port
+
+DRIVERS: dict[int, type[Ppmc104] | type[Ppmc2104]] = {kind.kind.number: kind for kind in (Ppmc104, Ppmc2104)}
+assert set(DRIVERS) == set(KINDS)
+
+
+def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> Ppmc104 | Ppmc2104:
+    """Open a port and take the driver of the part that is there (IDENT). number: the part that it must be.
+
+    Raises WrongDevice for another part, or one without a driver.
+    """
+    link = Link(spec, baud, number)
+    try:
+        kind_of(link.identity.part, link.name)
+    except BaseException:
+        link.close()
+        raise
+    return DRIVERS[link.identity.part].on(link)

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ports of the Verilated top by axis. BOARD_PART is the number of the part on the board; ports of two axes are
+// one number, bit 0 = axis 1.
+#pragma once
+
+#include "Vboard.h"
+#include "plant.h"
+
+#ifndef BOARD_PART
+#error "BOARD_PART must be the number of the part"
+#endif
+
+constexpr unsigned kAxes = BOARD_PART == 2104 ? 2 : 1;
+constexpr unsigned kAllAxes = (1u << kAxes) - 1;
+
+#if BOARD_PART == 2104
+
+inline void idle_inputs(Vboard& top) {
+    top.cs_n = top.ds_wrs_n = top.rw_rds_n = 1;
+    top.errint_n = 1;
+    top.run = top.csel = kAllAxes;
+}
+
+inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
+    const auto bits = [&](bool Plant::*active) {
+        return static_cast<CData>(!(plants[0].*active) | !(plants[1].*active) << 1);
+    };
+    top.fl_n = bits(&Plant::l1);
+    top.bl_n = bits(&Plant::l2);
+    top.fhl_n = bits(&Plant::l3);
+    top.bhl_n = bits(&Plant::l4);
+    top.org_n = bits(&Plant::cnp);
+    top.alm_n = bits(&Plant::alm);
+}
+
+inline unsigned phases(const Vboard& top, unsigned axis) { return axis ? top.s2_n : top.s1_n; }
+
+#else
+
+inline void idle_inputs(Vboard& top) {
+    top.cs_n = top.rd_n = top.wr_n = 1;
+    top.csel = top.vsel = 1;
+}
+
+inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
+    const Plant& plant = plants[0];
+    top.l1_n = !plant.l1;
+    top.l2_n = !plant.l2;
+    top.l3_n = !plant.l3;
+    top.l4_n = !plant.l4;
+    top.cnp_n = !plant.cnp;
+    top.alm_n = !plant.alm;
+}
+
+inline unsigned phases(const Vboard& top, unsigned) { return top.s; }
+
+#endif
