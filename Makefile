@@ -50,7 +50,9 @@ PYTEST := $(PY) -m pytest
 
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 unexport VERILATOR_ROOT
-export PYTHONDONTWRITEBYTECODE := 1
+# Compiled Python out of the tree: each simulation is a process that imports the tests anew.
+export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help setup demo test test-gates test-board soak lint format synth report size bench trace waves docs board \
         bitstream flash packages clean distclean

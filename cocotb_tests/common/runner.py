@@ -119,7 +119,7 @@ def _visible_ports(design: Design, folder: Path) -> Path:
     """Control file that makes the ports of a design visible, and nothing else."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
     path = folder / "ports.vlt"
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     path.write_text("\n".join(["`verilator_config", *rows, ""]), encoding="ascii")
     return path
 
@@ -133,6 +133,23 @@ def _digest(design: Design, waves: bool) -> str:
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
     sha.update(repr((*what, waves, versions)).encode())
     return sha.hexdigest()[:16]
+
+
+def _runtime(args: Sequence[str], waves: bool) -> Path:
+    """Folder with the compiled run-time library of Verilator that all builds with these arguments share."""
+    versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
+    return SIM_BUILDS / f"runtime-{hashlib.sha256(repr((args, waves, versions)).encode()).hexdigest()[:16]}"
+
+
+def _copy_runtime(source: Path, target: Path) -> None:
+    """The objects of that library, unless they are there; compiling them takes longer than a part does."""
+    with locked(SIM_BUILDS / "runtime.lock"):
+        target.mkdir(parents=True, exist_ok=True)
+        if not any(target.glob("verilat*.o")):
+            for path in [*source.glob("verilat*.o"), *source.glob("verilat*.d")]:
+                shutil.copy(path, target)
+                # Newer than the makefile that is yet to be written, or make would compile them again.
+                os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 
 def build(design: Design, waves: bool = False) -> Path:
@@ -151,14 +168,17 @@ def build(design: Design, waves: bool = False) -> Path:
         shutil.rmtree(folder, ignore_errors=True)
         _forget_old_builds()
         runner = _runner()
+        args = _build_args(design, waves)
+        runtime = _runtime(args, waves)
         control = [_visible_ports(design, folder)] if design.ports and not waves else []
+        _copy_runtime(runtime, folder)
         try:
             runner.build(
                 sources=[*design.sources, *control],
                 includes=list(design.includes),
                 hdl_toplevel=design.top,
                 parameters={name: as_sv_literal(value) for name, value in design.params.items()},
-                build_args=_build_args(design, waves),
+                build_args=args,
                 build_dir=folder,
                 timescale=("1ps", "1ps"),
                 waves=waves,
@@ -166,6 +186,7 @@ def build(design: Design, waves: bool = False) -> Path:
             )
         except (RuntimeError, SystemExit) as error:
             raise SimError(f"build of {design.top} failed ({error}):\n{_tail(log, 25)}") from None
+        _copy_runtime(folder, runtime)
         done.touch()
     return folder
 
