@@ -142,11 +142,12 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 
 
 def _copy_runtime(source: Path, target: Path) -> None:
-    """The objects of that library, unless they are there; compiling them takes longer than a part does."""
+    """Its objects, unless they are there: compiling them takes longer than a part does. Not verilator.o,
+    which knows the ports of the design."""
     with locked(SIM_BUILDS / "runtime.lock"):
         target.mkdir(parents=True, exist_ok=True)
-        if not any(target.glob("verilat*.o")):
-            for path in [*source.glob("verilat*.o"), *source.glob("verilat*.d")]:
+        if not any(target.glob("verilated*.o")):
+            for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
                 shutil.copy(path, target)
                 # Newer than the makefile that is yet to be written, or make would compile them again.
                 os.utime(target / path.name, (time.time(), time.time() + 3_600))
