@@ -260,3 +260,22 @@ def test_stops_in_the_last_low_time(move, status):
     assert host.command(0x41) == status
     assert host.command(0x40) == 0x04
     assert host.finish()[0] & 0xF8 == 0x80
+
+
+def test_limit_on_the_edge_of_the_start_acts_as_one_that_was_there_before():
+    """The guard looks from the clk after the start on, also when the limit comes with the start itself."""
+    ends = []
+    for early in (True, False):
+        host = moving(INIT_A)
+        if early:
+            host.pins(l1_n=0)
+        host.pause(400)  # the ramp table
+        event = host.write(1, 0x46)
+        if not early:
+            host.go(event)  # seen 2 clk later, on the C-event
+            host.pins(l1_n=0)
+        host.pause(20)
+        host.sync()
+        ends.append([edge - event for edge, _ in host.model.log.of("int_n", event)])
+        assert host.finish()[0] == 0x96
+    assert ends[0] == ends[1] != []
