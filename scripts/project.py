@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -44,10 +45,13 @@ class Part:
 
 
 SHARED = ("common", "motion", "host")
+SINGLE = (*SHARED, "single")  # what the parts with one axis share
 PARTS = {
-    "ppmc104": Part("ppmc104", (*SHARED, "ppmc104"), phase_idle=True),
+    "ppmc104": Part("ppmc104", (*SINGLE, "ppmc104"), phase_idle=True),
     "ppmc2104": Part("ppmc2104", (*SHARED, "ppmc2104")),
     "isa_4axis": Part("isa_4axis", (*SHARED, "ppmc2104", "isa_4axis")),
+    "stmc": Part("stmc", (*SINGLE, "stmc"), phase_idle=True),
+    "j105_stmc": Part("j105_stmc", (*SINGLE, "stmc", "j105_stmc")),
 }
 
 
@@ -76,6 +80,19 @@ def sources(of: Part) -> list[Path]:
     if missing:
         raise ProjectError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")
     return files
+
+
+def board_files(part_name: str) -> list[Path]:
+    """The board module of a part and the files beside it that it instantiates; none if it has no board.
+
+    In compile order.
+    """
+    files = file_groups().get("boards", [])
+    top = next((path for path in files if path.stem == f"{part_name}_board"), None)
+    if top is None:
+        return []
+    text = top.read_text(encoding="utf-8")
+    return [path for path in files if path == top or re.search(rf"^\s*{path.stem}\s", text, re.M)]
 
 
 def include_dirs() -> list[Path]:

@@ -28,6 +28,8 @@ SQUARES = [
     (48_000_000, 16_000_000, 2),
     (200_000_000, 1_000_000, 2),
     (25_000_000, 12_000_000, 3),
+    (16_000_000, 2 * 48_675, 1),  # of the J105 board
+    (8_000_000, 4_000_000, 1),
 ]
 TIMERS = [
     (8_000_000, 16_000_000, 8),
@@ -35,6 +37,8 @@ TIMERS = [
     (16_000_000, 16_000_000, 8),
     (25_000_000, 16_000_000, 6),
     (200_000_000, 1_000_000, 3),
+    (8_000_000, 20_000_000, 8),
+    (9_999_999, 20_000_000, 6),
 ]
 BLOCKS = {
     "sync": Block("ppmc_sync", "d_i:5 q1_o:5 q2_o:5", {"Width": 5, "ResetVal": "5'b10110"}),
@@ -160,7 +164,7 @@ async def xtal_timer_exact(dut):
     for i, (clk, xtal, width) in enumerate(TIMERS):
         u = unit(dut, f"timer{i}", "past_o")
         await u.reset()
-        top = 2**width - 2
+        top = 2**width - (4 if xtal > 2 * clk else 2)
         for limit in [top, 0, 1, 2] + [rand.randint(0, top) for _ in range(6)]:
             due = ceil(Fraction(limit * clk, xtal))
             run = due + 2**width * 3 if limit == top else rand.randint(0, due + 5)

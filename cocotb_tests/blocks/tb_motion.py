@@ -21,7 +21,7 @@ SHAPES = [  # ClkHz, XtalHz, WidthXtal, HalfXtal, HalfRates
     (8_000_000, 16_000_000, 80, 16, 3),
     (25_000_000, 8_000_000, 40, 4, 5),
 ]
-HOLDS = [1, 5, 8, 13]
+HOLDS = [(1, 0), (5, 0), (8, 0), (13, 0), (0, 3), (6, 1), (7, 9)]  # quanta, clk behind them
 HOLD_UNITS = [(2, 8), (16, 4), (512, 2)]  # quanta a unit, bits of the number of units
 CHOPS = [(12, 9), (3, 6), (1, 9)]
 BLOCKS = {
@@ -62,8 +62,10 @@ BLOCKS = {
         for i, (clk, xtal, width, half, rates) in enumerate(SHAPES)
     },
     **{
-        f"hold{quanta}": Block("ppmc_hold_timer", "busy_i quantum_i units_i hold_o", {"Quanta": quanta})
-        for quanta in HOLDS
+        f"hold{quanta}": Block(
+            "ppmc_hold_timer", "busy_i quantum_i units_i hold_o", {"Quanta": quanta, "RestClk": rest}
+        )
+        for quanta, rest in HOLDS
     },
     **{
         f"units{quanta}": Block(
@@ -98,9 +100,9 @@ BLOCKS = {
             "ppmc_stop_guard",
             "clear_i complete_i armed_i op_i:5 switches_i:6 top_i crawl_i dec_i halt_i decel_i slow_i"
             " slow_seen_o stop_o forced_o flagged_o cause_o:4",
-            {"StopAtSlow": variant, "SlowAlways": variant},
+            {"StopAtSlow": min(variant, 1), "SlowAlways": min(variant, 1), "SlowOrigin": variant // 2},
         )
-        for variant in (0, 1)
+        for variant in (0, 1, 2)
     },
 }
 
@@ -273,9 +275,9 @@ async def pulse_shaper_width(dut):
 
 @cocotb.test()
 async def hold_timer_quanta(dut):
-    """Given motions, then hold_o falls one clk after busy_i rises and rises one after the last quantum."""
+    """Given motions, then hold_o falls one clk after busy_i rises, rises one after the last clk of rest."""
     rand = rng()
-    for quanta in HOLDS:
+    for quanta, rest in HOLDS:
         u = Unit(dut, f"hold{quanta}", BLOCKS, "hold_o")
         await u.reset()
         for _ in range(5):
@@ -284,15 +286,18 @@ async def hold_timer_quanta(dut):
         for _ in range(30):
             for t in range(rand.randint(1, 5)):
                 same("busy", await u.clk(busy_i=1, quantum_i=rand.randrange(2)), t == 0 and hold)
-            count, hold = 0, 0
-            for t in range(rand.randint(0, 8 * quanta + 4)):
-                quantum = t > 0 and rand.random() < 0.5
+            count, hold, rested = 0, 0, 0
+            for t in range(rand.randint(0, 8 * quanta + rest + 4)):
+                # The rest is shorter than a quantum.
+                quantum = t > 0 and rand.random() < 0.5 and (not rest or count < quanta or hold)
                 same(
                     f"{quanta} quanta, {count} passed, clk {t}",
                     await u.clk(busy_i=0, quantum_i=quantum),
                     hold,
                 )
-                hold = hold or count >= quanta
+                if count >= quanta:
+                    hold = hold or rested >= rest
+                    rested += 1
                 count += quantum
 
 
@@ -440,19 +445,21 @@ def guard(
     """slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle.
 
     variant 1: slow-down limits always count, and deceleration at the start-up rate ends at once.
+    variant 2: and a slow-down limit ends a search for the origin.
     """
     limit = p["limit_ccw"] if p["ccw"] else p["limit_cw"]
     slow = p["slow_ccw"] if p["ccw"] else p["slow_cw"]
     if not p["armed"]:
         return 0, 0, flagged, (0, 0, 0, 0)
     halted = p["halt"] or (p["decel"] and not p["ramp"])
-    if limit or p["alarm"] or halted or (p["home"] and p["origin"]):
-        return 0, 1, flagged, (int(bool(halted)), p["alarm"], limit, 0)
+    blocked = int(variant == 2 and bool(p["origin"]) and bool(slow))
+    if limit or p["alarm"] or halted or blocked or (p["home"] and p["origin"]):
+        return 0, 1, flagged, (int(bool(halted)), p["alarm"], limit, blocked)
     if flagged or p["dec"] or not p["ramp"]:
         return 0, 0, flagged, (0, 0, 0, 0)
-    seen = int(slow and (variant or p["top"] or not p["pout_only"]))
+    seen = int(bool(slow and (variant or p["top"] or not p["pout_only"])))
     forced = int(p["slow"] or p["decel"])
-    return seen, int(variant and p["crawl"] and forced), forced, (p["decel"], 0, 0, p["slow"])
+    return seen, int(bool(variant and p["crawl"] and forced)), forced, (p["decel"], 0, 0, p["slow"])
 
 
 OP = ("ramp", "single", "origin", "pout_only", "ccw")
@@ -469,7 +476,7 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 
 
 @cocotb.test()
-@cocotb.parametrize(flagged=[0, 1], variant=[0, 1])
+@cocotb.parametrize(flagged=[0, 1], variant=[0, 1, 2])
 async def stop_guard_truth_table(dut, flagged, variant):
     """Given every combination of levels, then stop, forced and slow_seen are those of a plain function."""
     u = Unit(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
@@ -493,7 +500,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
 
 
 @cocotb.test()
-@cocotb.parametrize(variant=[0, 1])
+@cocotb.parametrize(variant=[0, 1, 2])
 async def stop_guard_causes(dut, variant):
     """Given random levels clk by clk, then the causes and the request are kept until they are cleared."""
     rand = rng()

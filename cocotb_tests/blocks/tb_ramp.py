@@ -39,6 +39,13 @@ BLOCKS = {
         " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
+    # One bit more than the table's words, for the longest ramp that these can hold.
+    "wide": Block(
+        "ppmc_ramp_seq",
+        "slow_i:8 fast_i:8 steps_i:5 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
+        " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
+        {"CountBits": 24, "RateBits": 8, "StepBits": 5, "LutBits": 4},
+    ),
 }
 LONGEST_BUILD = 40_000
 # (slow, fast, steps); 4, 0, 8 is the tie of P104-RMP-03.
@@ -192,14 +199,15 @@ async def ramp_tables_shared(dut):
 class Walker:
     """The sequencer with a look-up table that answers two clk after the address."""
 
-    def __init__(self, u: Unit, slow: int, fast: int, steps: int) -> None:
-        self.u, self.ramp = u, (slow, fast, steps)
+    def __init__(self, u: Unit, slow: int, fast: int, steps: int, blank: int = 0x2AAA) -> None:
+        """blank: what the table says of rates that it does not have."""
+        self.u, self.ramp, self.blank = u, (slow, fast, steps), blank
         self.lut = table(slow, fast, steps)
         self.asked = deque([0, 0])
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
         """One clk; returns the watched outputs before it."""
-        answer = self.lut.get(self.asked.popleft(), 0x2AAA)
+        answer = self.lut.get(self.asked.popleft(), self.blank)
         out = await self.u.settle(lut_data_i=answer, **inputs)
         self.asked.append(self.u.get("lut_addr_o"))
         await self.u.clk()
@@ -263,6 +271,17 @@ async def ramp_seq_walks(dut):
         walker = Walker(u, slow, rand.randint(0, slow) if case else 0, steps)
         n = rand.choice((1, 2, 3, steps, 2 * steps, 2 * steps + 1, 2 * steps + 2, 2 * steps + 3, 3 * steps))
         await walker.move(rand, n, rand.choice((n + 1, n + 1, 0, rand.randint(1, n))))
+
+
+@cocotb.test()
+async def ramp_seq_longest(dut):
+    """Given the longest ramp that the table's words can hold, then it is walked up, held and walked down."""
+    rand = rng()
+    u = Unit(dut, "wide", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
+    await u.reset()
+    for n, forced_at in ((33, 34), (40, 41), (60, 25), (31, 32), (60, 17)):
+        slow = rand.choice((20, 90, 254))
+        await Walker(u, slow, rand.randint(0, slow - 1), 15, 0xA).move(rand, n, forced_at)
 
 
 @cocotb.test()

@@ -13,7 +13,13 @@ from cocotb_tests.common.runner import run_item
 from .wrapper import area_design
 
 ITEMS = cocotb_items(
-    "cocotb_tests.blocks", "tb_common", "tb_motion", "tb_ramp", "tb_host", part=Part("blocks", "BLK", {})
+    "cocotb_tests.blocks",
+    "tb_common",
+    "tb_motion",
+    "tb_ramp",
+    "tb_host",
+    "tb_single",
+    part=Part("blocks", "BLK", {}),
 )
 
 

@@ -57,7 +57,7 @@ def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
 def area_design(area: str, blocks: Mapping[str, Block]) -> Design:
     """Design of all instances of one area; writes the top module below build/."""
     lists = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
-    files = [ROOT / "rtl" / name for key in ("common", "motion", "host") for name in lists[key]]
+    files = [ROOT / "rtl" / name for key in ("common", "motion", "host", "single") for name in lists[key]]
     top = f"blocks_{area}"
     path = BUILD / "blocks" / f"{top}.sv"
     text = wrapper_text(top, blocks)

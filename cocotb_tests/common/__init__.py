@@ -48,6 +48,9 @@ Modules
     elaborate.py check_ranges, ports: parameters and ports of a module
     compare.py   check_against_model(bench): replay into the golden model, compare every output to the clk;
                  on a difference: text report, VCD and PNG in bench.out
+    judged.py    judged_test(start, rules, on): a test of a lab, compared with the golden model at its end
+    ranges.py    check_ranges(design, ranges, rule): which parameter values elaborate
+    host_writer.py, player.py, single_player.py: random hosts, from a seed to actions, and their player
     verifies.py  @verifies(rule IDs), works on pytest tests and on cocotb tests
     collect.py   cocotb_items(package, *modules) -> pytest params
     runner.py    build(part, config), run_item(item, options): cached Verilator build, one process a test

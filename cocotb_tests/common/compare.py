@@ -52,7 +52,7 @@ class Comparison:
 def new_model(recording: Recording) -> Any:
     """Golden model of the recorded part under the recorded parameters."""
     module = importlib.import_module(f"openppmc.model.{recording.part}")
-    model = getattr(module, recording.part.capitalize())
+    model = getattr(module, "".join(word.capitalize() for word in recording.part.split("_")))
     return model(**{name.lower(): value for name, value in recording.params.items()})
 
 
@@ -144,7 +144,7 @@ def _side(title: str, waves: Waves, t: int, mark: str) -> list[str]:
 def _pin_rows(part: Part, changes: list[Change], t: int, count: int = 12) -> list[str]:
     pins = [c for c in changes if c.t <= t and c.pin not in part.bus_pins and c.pin != part.clock]
     rows = [f"    {c.t:>9}  {c.pin} = {c.value:#x}" for c in pins[-count:]]
-    levels = [part.inputs[part.clock], *(c.value for c in changes if c.pin == part.clock)]
+    levels = [part.inputs.get(part.clock, 0), *(c.value for c in changes if c.pin == part.clock)]
     clock = [c.t for c in changes if c.pin == part.clock]
     rises = [t0 for t0, a, b in zip(clock, levels, levels[1:], strict=False) if t0 <= t and b & ~a][-6:]
     return rows + ([f"    external clock rose at {', '.join(map(str, rises))}"] if rises else [])

@@ -53,6 +53,14 @@ STROBES_DS_RW = BusStyle(
     read_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
     read_off={"cs_n": 1, "ds_wrs_n": 1},
 )
+# 8-bit ISA cycles: the address says which register, no chip select of its own.
+STROBES_ISA = BusStyle(
+    write_on={"iow_n": 0},
+    write_off={"iow_n": 1},
+    read_on={"ior_n": 0},
+    read_off={"ior_n": 1},
+    address="sa",
+)
 
 
 @dataclass(frozen=True)
@@ -92,8 +100,8 @@ class Part:
     def reset_levels(self, params: Mapping[str, object] | None = None) -> dict[str, int]:
         """Output levels during reset under the given parameters (P104-PORT-01, P104-PHS-02)."""
         levels = {name: level for name, (_, level) in self.outputs.items()}
-        if "PHASE_IDLE" in self.parameters and params and not int(str(params.get("PHASE_IDLE", 1))):
-            levels["s"] = 0
+        if params and "PHASE_IDLE" in params:
+            levels["s"] = 0x1F if int(str(params["PHASE_IDLE"])) else 0
         return levels
 
     def width(self, pin: str) -> int:
@@ -123,7 +131,7 @@ class Part:
     def bus_pins(self) -> frozenset[str]:
         """Input pins of the host bus."""
         used = {pin for style in self.styles for pin in (*style.write_on, *style.read_on, style.address)}
-        return frozenset(used | {"d_i"})
+        return frozenset(used | {pin for pin in ("d_i", "sd_i") if pin in self.inputs})
 
 
 PPMC104 = Part(
@@ -199,7 +207,43 @@ PPMC2104 = Part(
     unwatched=frozenset({"clk_o"}),
 )
 
-PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104)}
+_SWITCHES = {"l1_n": 1, "l2_n": 1, "l3_n": 1, "l4_n": 1, "cnp_n": 1, "mon": 1}
+
+STMC = Part(
+    name="stmc",
+    prefix="STMC",
+    inputs={"ext_clk": 0, "cs_n": 1, "a0": 0, "rd_n": 1, "wr_n": 1, "d_i": 0, **_SWITCHES},
+    outputs={"d_o": (8, 0x00), "d_oe": (1, 0), "int_n": (1, 1), "s": (5, 0x00), "hold": (1, 1)},
+    widths={"d_i": 8},
+    clock="ext_clk",
+    lowest={"s": 1},
+)
+
+J105_STMC = Part(
+    name="j105_stmc",
+    prefix="J105",
+    inputs={"sa": 0, "aen": 0, "ior_n": 1, "iow_n": 1, "sd_i": 0, **_SWITCHES},
+    outputs={
+        "sd_o": (8, 0x00),
+        "sd_oe": (1, 0),
+        "irq": (1, 0),
+        "s": (5, 0x00),
+        "drv": (4, 0x0),
+        "hold": (1, 1),
+    },
+    widths={"sa": 10, "sd_i": 8},
+    styles=(STROBES_ISA,),
+    lowest={"s": 1, "drv": 1},
+)
+
+PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104, STMC, J105_STMC)}
 
 # Also parts whose RTL does not exist yet, so that their rule IDs already sort to the right table.
-PREFIXES = {"P104": "ppmc104", "P2104": "ppmc2104", "STMC": "stmc", "P312": "ppmc312", "P006": "pmc006"}
+PREFIXES = {
+    "P104": "ppmc104",
+    "P2104": "ppmc2104",
+    "STMC": "stmc",
+    "J105": "stmc",
+    "P312": "ppmc312",
+    "P006": "pmc006",
+}

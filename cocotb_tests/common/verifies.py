@@ -17,7 +17,9 @@ from .paths import ROOT
 
 F = TypeVar("F")
 
-RULE_ID = re.compile(r"^(?:(?P<prefix>P104|P2104|STMC|P312|P006)-[A-Z]+-\d\d|AC-\d\d)$")
+RULE_ID = re.compile(
+    r"^(?:(?P<prefix>(?:P104|P2104|STMC|P312|P006)(?=-[A-Z])|J105(?=-\d))(?:-[A-Z]+)?-\d\d|AC-\d\d)$"
+)
 _ROW = re.compile(
     r"^\|\s*(?:\*\*|`)?(?P<id>[A-Z0-9]+(?:-[A-Z]+)?-\d\d)(?:\*\*|`)?\s*\|\s*(?P<text>.*?)\s*\|\s*$"
 )
@@ -27,7 +29,7 @@ def verifies(*ids: str) -> Callable[[F], F]:
     """Mark a test as checking these rules.
 
     Raises ValueError at import time for an ID that is not of the form P104-XXX-NN (or a sister part's
-    prefix) or AC-NN.
+    prefix), J105-NN or AC-NN.
     """
     if not ids:
         raise ValueError("verifies() needs at least one rule ID")

@@ -15,8 +15,8 @@ B24 = Config("b24m", clk_hz=24_000_000)
 
 
 def sources() -> list[Path]:
-    """The part's sources, then the board top (the tops of single boards hold vendor cells)."""
-    return [*project.sources(project.part("ppmc104")), project.RTL / "boards" / f"{TOP}.sv"]
+    """The part's sources, then the board module and its blocks (the tops of boards hold vendor cells)."""
+    return [*project.sources(project.part("ppmc104")), *project.board_files("ppmc104")]
 
 
 def params(config: Config) -> dict[str, object]:

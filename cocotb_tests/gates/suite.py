@@ -1,9 +1,9 @@
-"""Which tests run on netlists: the part tests as they are, under every configuration, on every family."""
+"""Which tests run on netlists: the part tests as they are, on every family, mostly in every configuration."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from types import ModuleType
 
 from cocotb_tests.common import part as common_part
@@ -14,13 +14,16 @@ from cocotb_tests.gates import board
 from cocotb_tests.ppmc104 import test_ppmc104, test_random
 from cocotb_tests.ppmc2104 import test_ppmc2104
 from cocotb_tests.ppmc2104 import test_random as test_random_2104
+from cocotb_tests.stmc import test_board as test_j105_stmc
+from cocotb_tests.stmc import test_random as test_random_stmc
+from cocotb_tests.stmc import test_stmc
 from scripts.flow import gates
 from scripts.project import ProjectError
 
 QUICK = "quick"
 # The quick subset: these modules under F16 on all families, and the board on one.
 QUICK_MODULES = ("cocotb_tests.ppmc104.tb_acceptance_1", "cocotb_tests.ppmc104.tb_bus")
-QUICK_MODULES += ("cocotb_tests.ppmc2104.tb_acceptance_2",)
+QUICK_MODULES += ("cocotb_tests.ppmc2104.tb_acceptance_2", "cocotb_tests.stmc.tb_init")
 QUICK_BOARD = "ice40"
 
 
@@ -29,12 +32,30 @@ class PartTests:
     """The tests of one part: its directed and random test modules.
 
     `sample` is the sample of its random tests: what makes the item of a seed, and the seeds. Together the
-    hosts of a sample use every configuration they choose from.
+    hosts of a sample use every configuration they choose from. `builds`: names of the configurations that
+    netlists are made of; none: all.
     """
 
     directed: ModuleType
-    random: ModuleType
-    sample: Mapping[Callable[[int], Item], Sequence[int]]
+    random: ModuleType | None = None
+    sample: Mapping[Callable[[int], Item], Sequence[int]] = field(default_factory=dict)
+    builds: frozenset[str] = frozenset()
+
+    @property
+    def items(self) -> list[Item]:
+        """The directed tests that run on netlists."""
+        items = [param.values[0] for param in self.directed.ITEMS]
+        return [item for item in items if item.test not in TOO_LONG and self.built(item)]
+
+    def built(self, item: Item) -> bool:
+        """Whether there are netlists of its configuration."""
+        return not self.builds or item.config.name in self.builds
+
+    @property
+    def unbuilt(self) -> list[str]:
+        """Names of the configurations without netlists."""
+        items = [param.values[0] for param in self.directed.ITEMS]
+        return sorted({item.config.name for item in items if not self.built(item)})
 
 
 PARTS = (
@@ -55,6 +76,14 @@ PARTS = (
             test_random_2104.chaos_item: (1, 2, 3, 5),
         },
     ),
+    # Clocks and DATASHEET times are those of the PPMC-104BFP, in the same blocks.
+    PartTests(
+        test_stmc,
+        test_random_stmc,
+        {test_random_stmc.random_item: (1, 3, 4, 5, 7, 8, 10, 13, 65), test_random_stmc.chaos_item: (1, 4)},
+        frozenset({"f16", "family", "d25x8"}),
+    ),
+    PartTests(test_j105_stmc, builds=frozenset({"f16"})),
 )
 
 # Test functions that are no simulation of the part: what a netlist has to do with them.
@@ -62,15 +91,19 @@ NOT_APPLICABLE = {
     "test_p104_par_01_ranges": "elaborates illegal parameters; those of a netlist are fixed",
     "test_p2104_par_01_ranges": "elaborates illegal parameters; those of a netlist are fixed",
     "test_p2104_port_05_ports": "reads the ports from the source; no simulation",
+    "test_stmc_parameter_ranges": "elaborates illegal parameters; those of a netlist are fixed",
+    "test_j105_parameter_ranges": "elaborates illegal parameters; those of a netlist are fixed",
     "test_scenarios_are_reproducible_and_varied": "checks the generator of the random hosts; no simulation",
 }
-SIMULATING = {"test_ppmc104", "test_ppmc2104", "test_random", "test_chaos", "test_independent_axes"}
+SIMULATING = {"test_ppmc104", "test_ppmc2104", "test_stmc", "test_board"}
+SIMULATING |= {"test_random", "test_chaos", "test_independent_axes"}
 
 # Simulations that are left out, because a netlist would take far too long for so many clk.
 TOO_LONG = {
     "p2104_ac_12_largest_ramp": "15 million clk; p2104_rmp_02_long_ramp_up has the same ramp",
     "p2104_ac_68_ramps_and_two_axes": "12 million clk in settings; p2104_ac_67_rate_bytes has the comparison",
 }
+OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
 
 
 @dataclass(frozen=True)
@@ -109,12 +142,18 @@ def left_out() -> dict[str, str]:
         name
         for part in PARTS
         for module in (part.directed, part.random)
+        if module
         for name in vars(module)
         if name.startswith("test_") and name not in SIMULATING
     ]
     if unknown := [name for name in found if name not in NOT_APPLICABLE]:
         raise ProjectError(f"cocotb_tests/gates/suite.py does not say why {', '.join(unknown)} is left out")
-    return {**{name: NOT_APPLICABLE[name] for name in found}, **TOO_LONG}
+    builds = {
+        f"{part.directed.ITEMS[0].values[0].part} in {', '.join(part.unbuilt)}": OTHER_BUILDS
+        for part in PARTS
+        if part.unbuilt
+    }
+    return {**{name: NOT_APPLICABLE[name] for name in found}, **TOO_LONG, **builds}
 
 
 def _tagged(item: Item, family: str) -> Item:
@@ -123,18 +162,15 @@ def _tagged(item: Item, family: str) -> Item:
 
 
 def _directed(part: PartTests, family: str) -> list[GateTest]:
-    tests = []
-    for param in part.directed.ITEMS:
-        item: Item = param.values[0]
-        if item.test not in TOO_LONG:
-            quick = item.module in QUICK_MODULES and item.config == F16
-            tests.append(GateTest(family, _tagged(item, family), quick=quick))
-    return tests
+    return [
+        GateTest(family, _tagged(item, family), quick=item.module in QUICK_MODULES and item.config == F16)
+        for item in part.items
+    ]
 
 
 def _random(part: PartTests, family: str, seed: int | None) -> list[GateTest]:
     items = [make(n) for make, seeds in part.sample.items() for n in (seeds if seed is None else (seed,))]
-    return [GateTest(family, _tagged(item, family)) for item in items]
+    return [GateTest(family, _tagged(item, family)) for item in items if part.built(item)]
 
 
 def _board(family: str) -> list[GateTest]:

@@ -6,11 +6,10 @@ out on a bench; the actions are those of `common.player` and ("finish", clk).
 
 from __future__ import annotations
 
-import random
 from dataclasses import dataclass, field
-from typing import Any
 
 from cocotb_tests.common.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
+from cocotb_tests.common.host_writer import HostWriter
 from cocotb_tests.common.player import Action, ExternalClock, random_clock
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
@@ -43,18 +42,11 @@ def scenario(seed: int) -> Scenario:
     return _Writer(seed).make()
 
 
-class _Writer:
+class _Writer(HostWriter):
     """Builds one scenario; every random decision comes from one generator in one order."""
 
     def __init__(self, seed: int) -> None:
-        self.seed = seed
-        self.rng = rng = random.Random(f"ppmc104 host {seed}")
-        table = DATASHEET_WEIGHTS if rng.random() < 0.1 else WEIGHTS
-        self.config: Config = rng.choices([c for c, _ in table], [w for _, w in table])[0]
-        self.scale = self.config.clk_hz / self.config.xtal_hz
-        self.external = rng.random() < 0.3
-        self.limit_clk = round(rng.choice((20_000, 30_000, 50_000)) * max(1.0, self.scale / 2))
-        self.actions: list[Action] = []
+        super().__init__("ppmc104", seed, WEIGHTS, DATASHEET_WEIGHTS)
 
     # ------------------------------------------------------------ top level
 
@@ -67,7 +59,7 @@ class _Writer:
         for _ in range(rng.randint(5, 14) if not self.config.datasheet else rng.randint(2, 6)):
             rng.choices(
                 (self.operation, self.read, self.switching, self.any_bytes, self.aux, self.init_again,
-                 self.select_pins, self.reset, self.overrun, self.bad_bus, self.excitation_off),
+                 self.select_pins, self.reset, self.overrun, self.bad_strobes, self.excitation_off),
                 (60, 10, 6, 8, 5, 5, 5, 2, 5, 3, 2),
             )[0]()  # fmt: skip
         self.add("finish", self.limit_clk)
@@ -82,14 +74,6 @@ class _Writer:
         return Scenario(
             self.seed, self.config, pins, self.actions, self.clock(), rng.random() < 0.5, self.limit_clk
         )
-
-    def add(self, *action: Any) -> None:
-        self.actions.append(action)
-
-    def clk(self, low: int, high: int) -> int:
-        """A time given in XTAL cycles, as a random count of clk (log-like: short ones are frequent)."""
-        spread = self.rng.random() ** 2
-        return max(1, round((low + (high - low) * spread) * self.scale))
 
     def clock(self) -> ExternalClock:
         """Programme of the clock pin, if this host uses it."""
@@ -258,40 +242,8 @@ class _Writer:
         )
         return (1, rng.choice(known)) if rng.random() < 0.5 else (rng.getrandbits(1), rng.getrandbits(8))
 
-    def any_bytes(self) -> None:
-        rng = self.rng
-        for _ in range(rng.randint(1, 4)):
-            reg, byte = self.random_write()
-            self.add("write", reg, byte, rng.randint(2, 4), rng.randint(8, 30))
-            if rng.random() < 0.6:
-                self.add("status", 1)
-
-    def blind(self, writes: list[tuple[int, int]]) -> None:
-        """Writes without polling, sometimes too fast for the mailbox."""
-        gap = self.rng.choice((2, 3, 4, 8, 12))
-        for reg, byte in writes:
-            self.add("write", reg, byte, self.rng.randint(2, 3), gap)
-
-    def overrun(self) -> None:
-        self.blind([self.random_write() for _ in range(self.rng.randint(2, 5))])
-
-    def bad_bus(self) -> None:
-        """Both strobes together, a strobe cut by cs_n or by the other strobe (P104-BAD-08, P104-BAD-18)."""
-        rng = self.rng
-        byte, reg = rng.choice((0xC1, 0xC2, 0x87, 0x80, 0x11)), rng.getrandbits(1)
-        on = {"cs_n": 0, "a0": reg, "d_i": byte}
-        off = {"cs_n": 1, "rd_n": 1, "wr_n": 1}
-        steps = rng.choice(
-            (
-                [({**on, "rd_n": 0, "wr_n": 0}, rng.randint(2, 10)), (off, 3)],
-                [({**on, "wr_n": 0}, 3), ({"rd_n": 0}, 3), (off, 4)],
-                [({**on, "wr_n": 0}, 3), ({"cs_n": 1}, 3), (off, 3)],
-                [({**on, "rd_n": 0}, 4), ({"wr_n": 0}, 3), (off, 4)],
-                [({**on, "rd_n": 0}, 5), ({"cs_n": 1}, 3), (off, 3)],
-                [({"wr_n": 0, "d_i": byte}, 4), (off, 3)],
-            )
-        )
-        self.add("raw", steps)
+    def bad_strobes(self) -> None:
+        self.bad_bus((0xC1, 0xC2, 0x87, 0x80, 0x11))
 
     def reset(self) -> None:
         rng = self.rng

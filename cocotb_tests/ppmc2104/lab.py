@@ -12,19 +12,15 @@ At its end every such test is replayed into the golden model and compared edge b
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any
 
-import cocotb
-
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.bus import IBF, HostBus
-from cocotb_tests.common.compare import check_against_model
-from cocotb_tests.common.config import F16, Config, configs
+from cocotb_tests.common.config import F16, Config
 from cocotb_tests.common.drive import Drive
+from cocotb_tests.common.judged import judged_test
 from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.verifies import verifies
 
 from .figures import ALL, BUSY1, CMND1, INIT_A, Init
 
@@ -183,22 +179,6 @@ class Lab:
 Test = Callable[[Lab], Awaitable[None]]
 
 
-async def _judged(lab: Lab, test: Test) -> None:
-    """Run the test, then compare; a failed check says whether the golden model shows the same edges."""
-    try:
-        await test(lab)
-    except (AssertionError, TimeoutError) as error:
-        await lab.bench.align()
-        try:
-            check_against_model(lab.bench)
-            verdict = "up to here the golden model shows the same edges"
-        except Exception as other:  # whatever the model does, the failed check is what counts
-            verdict = f"the golden model differs: {other}"
-        raise AssertionError(f"{error}\n{verdict}") from None
-    await lab.bench.align()
-    check_against_model(lab.bench)
-
-
 def part_test(
     *rules: str, on: Sequence[Config] = (F16,), compared: bool = True, **pins: int
 ) -> Callable[[Test], Any]:
@@ -207,14 +187,7 @@ def part_test(
     `on` are its build configurations. Only tests of what no rule fixes are not `compared` with the model.
     """
 
-    def mark(test: Test) -> Any:
-        @functools.wraps(test)
-        async def run(dut: Any) -> None:
-            lab = await Lab.start(dut, **pins)
-            await (_judged(lab, test) if compared else test(lab))
+    async def start(dut: Any) -> Lab:
+        return await Lab.start(dut, **pins)
 
-        # The simulator side must see the argument of `run`, not that of the test.
-        del run.__wrapped__  # type: ignore[attr-defined]
-        return cocotb.test()(verifies(*rules)(configs(*on)(run)))
-
-    return mark
+    return judged_test(start, rules, on, compared)

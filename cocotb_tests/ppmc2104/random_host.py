@@ -7,11 +7,10 @@ and their data look like: `random_codes`.
 
 from __future__ import annotations
 
-import random
 from dataclasses import dataclass, field
-from typing import Any
 
 from cocotb_tests.common.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
+from cocotb_tests.common.host_writer import HostWriter
 from cocotb_tests.common.player import Action, ExternalClock, random_clock
 from cocotb_tests.ppmc2104.random_codes import KNOWN_CODES, Codes
 
@@ -42,19 +41,13 @@ def scenario(seed: int) -> Scenario:
     return _Writer(seed).make()
 
 
-class _Writer:
+class _Writer(HostWriter):
     """Builds one scenario; every random decision comes from one generator in one order."""
 
     def __init__(self, seed: int) -> None:
-        self.seed = seed
-        self.rng = rng = random.Random(f"ppmc2104 host {seed}")
-        table = DATASHEET_WEIGHTS if rng.random() < 0.1 else WEIGHTS
-        self.config: Config = rng.choices([c for c, _ in table], [w for _, w in table])[0]
-        self.scale = self.config.clk_hz / self.config.xtal_hz
-        self.external = (rng.random() < 0.25, rng.random() < 0.25)
-        self.codes = Codes(rng, self.config.datasheet, self.external)
-        self.limit_clk = round(rng.choice((20_000, 30_000, 50_000)) * max(1.0, self.scale / 2))
-        self.actions: list[Action] = []
+        super().__init__("ppmc2104", seed, WEIGHTS, DATASHEET_WEIGHTS, external=(0.25, 0.25))
+        one, two = self.externals
+        self.codes = Codes(self.rng, self.config.datasheet, (one, two))
         self.set_up: set[int] = set()
         self.moving = 1
 
@@ -70,7 +63,7 @@ class _Writer:
         for _ in range(rng.randint(5, 13) if not self.config.datasheet else rng.randint(2, 5)):
             rng.choices(
                 (self.operation, self.pair, self.read, self.switching, self.hold_delay, self.any_bytes,
-                 self.aux, self.set_again, self.select_pins, self.reset, self.overrun, self.bad_bus,
+                 self.aux, self.set_again, self.select_pins, self.reset, self.overrun, self.bad_strobes,
                  self.excitation_off, self.half_instruction),
                 (45, 18, 10, 5, 4, 7, 4, 5, 5, 2, 5, 3, 2, 4),
             )[0]()  # fmt: skip
@@ -98,17 +91,9 @@ class _Writer:
         """Clock programmes; steady, jittering, stopping ones."""
         one, two = (
             random_clock(self.rng, self.scale, CLOCK_PERIODS) if external else ExternalClock()
-            for external in self.external
+            for external in self.externals
         )
         return one, two
-
-    def add(self, *action: Any) -> None:
-        self.actions.append(action)
-
-    def clk(self, low: int, high: int) -> int:
-        """A time given in XTAL cycles, as a random count of clk (log-like: short ones are frequent)."""
-        spread = self.rng.random() ** 2
-        return max(1, round((low + (high - low) * spread) * self.scale))
 
     def axis(self) -> int:
         return self.rng.choice((1, 2))
@@ -126,10 +111,7 @@ class _Writer:
         rng = self.rng
         self.set_up.add(axis)
         code, data = self.codes.setting(axis, wrong=0.08 if first else 0.3)
-        if rng.random() < 0.8:
-            self.add("send", code, data)
-        else:
-            self.blind([(1, code), *((0, byte) for byte in data)])
+        self.told(code, data, 0.8)
         if rng.random() < 0.3:  # bytes that meet the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
@@ -205,10 +187,7 @@ class _Writer:
         if axis not in self.set_up and self.rng.random() < 0.7:
             self.setting(axis)
         code, data = self.codes.operation(axis)
-        if self.rng.random() < 0.85:
-            self.add("send", code, data)
-        else:
-            self.blind([(1, code), *((0, byte) for byte in data)])
+        self.told(code, data, 0.85)
 
     def ended(self, axes: list[int]) -> None:
         rng = self.rng
@@ -272,24 +251,7 @@ class _Writer:
             return 1, rng.choice(KNOWN_CODES) | rng.choice((0, 0x20))
         return rng.getrandbits(1), rng.getrandbits(8)
 
-    def any_bytes(self) -> None:
-        rng = self.rng
-        for _ in range(rng.randint(1, 4)):
-            reg, byte = self.random_write()
-            self.add("write", reg, byte, rng.randint(2, 4), rng.randint(8, 30))
-            if rng.random() < 0.6:
-                self.add("status", 1)
-
-    def blind(self, writes: list[tuple[int, int]]) -> None:
-        """Writes without polling, sometimes too fast for the mailbox."""
-        gap = self.rng.choice((2, 3, 4, 8, 12))
-        for reg, byte in writes:
-            self.add("write", reg, byte, self.rng.randint(2, 3), gap)
-
-    def overrun(self) -> None:
-        self.blind([self.random_write() for _ in range(self.rng.randint(2, 5))])
-
-    def bad_bus(self) -> None:
+    def bad_strobes(self) -> None:
         """Both strobes together, a strobe cut by cs_n, a strobe that turns round (P2104-BAD-11..13)."""
         rng = self.rng
         byte, reg = rng.choice((0xC1, 0xD1, 0x87, 0xA7, 0x80, 0x11)), rng.getrandbits(1)

@@ -16,8 +16,8 @@ RESET_CLK = 16
 class Board(ABC):
     """A part whose motors follow `pout_n` and `dir`, one plant an axis.
 
-    part: `Ppmc104` or `Ppmc2104`. `t` is the next free clk edge. `positions` are the motors', `counts` the
-    pulse counters'. on_interrupt: called when `int_n` falls.
+    part: `Ppmc104`, `Ppmc2104` or `Stmc`. `t` is the next free clk edge. `positions` are the motors',
+    `counts` the pulse counters'. on_interrupt: called when `int_n` falls.
     """
 
     def __init__(self, part: Any, plants: Sequence[Plant], on_interrupt: Callable[[], None]) -> None:
@@ -63,13 +63,18 @@ class Board(ABC):
     def run_until(self, t: int, stop: Callable[[], bool] = lambda: False) -> None:
         """Let time pass up to edge t, or less far if `stop()` becomes true at an event."""
         part = self.part
-        while (edge := part.next_event) is not None and edge < t:
+        while (edge := self._next_event()) is not None and edge < t:
             part.run_until(edge)
             self._watch()
             self.t = max(self.t, edge + 1)
             if stop():
                 return
         self.t = max(self.t, t)
+
+    def _next_event(self) -> int | None:
+        """Edge of the next event of part or board."""
+        event: int | None = self.part.next_event
+        return event
 
     def _watch(self) -> None:
         """Follow the outputs: motors, counters, switches, interrupt."""
@@ -99,9 +104,12 @@ class Board(ABC):
             for n, was in enumerate(self._pulse_pins):
                 self._pulse_pins[n] = now = edge.value >> n & 1
                 if was and not now:
-                    step = -1 if self._directions[n] else 1
-                    self.positions[n] += step
-                    self.counts[n] += step
+                    self._step(n, -1 if self._directions[n] else 1)
+
+    def _step(self, n: int, step: int) -> None:
+        """Motor n goes one step, 1 CW or -1 CCW."""
+        self.positions[n] += step
+        self.counts[n] += step
 
     def _settle(self) -> None:
         """Everything before the next access has happened."""

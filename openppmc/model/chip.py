@@ -23,10 +23,12 @@ DATA, STATUS, COMMAND = 0, 1, 1
 class Chip(ABC):
     """One part.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET"; ValueError for anything else. The
+    clk_hz 8e6..200e6, xtal_hz 1e6..XTAL_MAX, timing "FAST" or "DATASHEET"; ValueError for anything else. The
     model starts just released from reset, before edge 0. Subclasses name their pins in INPUTS (idle
     levels), WIDTHS (bits, where not 1) and HOST_PINS (the bus).
     """
+
+    XTAL_MAX: ClassVar[int] = 16_000_000
 
     INPUTS: ClassVar[Mapping[str, int]]
     WIDTHS: ClassVar[Mapping[str, int]]
@@ -38,7 +40,7 @@ class Chip(ABC):
         if timing not in ("FAST", "DATASHEET"):
             raise ValueError(f"timing {timing!r} is neither FAST nor DATASHEET")
         self.datasheet = timing == "DATASHEET"
-        self.timebase = Timebase(clk_hz, xtal_hz)
+        self.timebase = Timebase(clk_hz, xtal_hz, self.XTAL_MAX)
         self.latency = latency or Latency()
         self._reset_levels = dict(outputs)
         self._queue = Scheduler()

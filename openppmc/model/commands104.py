@@ -1,6 +1,5 @@
-"""Command processor of the PPMC-104 model: what each byte does, and which error it makes.
+"""Command processor of the PPMC-104 model: what each command does. The bytes before that: `commands`.
 
-Errors and their order: P104-ERR-00..03, P104-STA-05/06, P104-FSM-01..03. Parameters: P104-HSK-07.
 Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary: P104-AUX-01..06,
 P104-DS-11.
 """
@@ -12,7 +11,8 @@ from collections.abc import Callable
 from .chopper import Chopper
 from .chopper104 import Switching104
 from .codes import FINISH_NEW, PA_MAX, PA_MIN
-from .codes104 import BUSY, ERR, Command, Error, Kind, decode
+from .codes104 import Command, Error, Kind, decode
+from .commands import ByteUnit
 from .excitation import Excitation
 from .guard import input_register
 from .hostport import HostPort
@@ -24,18 +24,10 @@ from .ramp import Ramp
 
 _DS_PATTERN = 704
 _DS_AUX, _DS_EXCITATION_OFF = 224, 288
-_WHILE_BUSY = (
-    Kind.STOP,
-    Kind.SLOW_STOP,
-    Kind.AUX_ON,
-    Kind.AUX_OFF,
-    Kind.AUX_OUTPUT,
-    Kind.EXCITATION_OFF,
-)
 
 
-class CommandUnit:
-    """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
+class CommandUnit(ByteUnit):
+    """Commands of the PPMC-104."""
 
     def __init__(
         self,
@@ -46,85 +38,23 @@ class CommandUnit:
         chopper: Chopper,
         switching: Switching104,
     ) -> None:
-        self._context = context
-        self._port = port
-        self._motion = motion
+        super().__init__(context, port, motion)
         self._excitation = excitation
         self._chopper = chopper
         self._switching = switching
-        self.error: Error | None = None
-        self.setup: Setup | None = None
-        self._pending: Command | None = None
-        self._data: list[int] = []
 
-    @property
-    def expected(self) -> int:
-        """Parameter bytes still to come for the current command."""
-        return self._pending.parameters - len(self._data) if self._pending else 0
+    def _decode(self, byte: int) -> Command:
+        return decode(byte)
 
-    def state(self) -> int:
-        """ERR, NUM and BUSY as they stand in the status register (P104-STA-04..06)."""
-        field = self.expected << 4 if self.error is None else ERR | self.error << 4
-        return field | (BUSY if self._motion.busy else 0)
-
-    def take(self, t: int, byte: int, command: bool, reference: int) -> None:
-        """C-event at edge t."""
-        self.error = self._command(t, byte, reference) if command else self._parameter(t, byte, reference)
-
-    # ------------------------------------------------------------------ command bytes
-
-    def _command(self, t: int, byte: int, reference: int) -> Error | None:
-        """A command byte; drops what an earlier one still asked for (P104-HSK-07). Returns its error."""
-        self._pending, self._data = None, []
-        command = decode(byte)
-        error = self._refusal(command)
-        if error is not None:
-            return error
-        if command.parameters:
-            self._pending = command
-        else:
-            self._execute(t, command, reference)
-        return None
-
-    def _refusal(self, command: Command) -> Error | None:
-        """Checks in the order of P104-ERR-01."""
-        motion, kind = self._motion, command.kind
-        if kind is Kind.UNDEFINED:
-            return Error.UNDEFINED
-        if kind in (Kind.STOP, Kind.SLOW_STOP) and not motion.busy:
-            return Error.UNDEFINED
-        if motion.busy and kind not in _WHILE_BUSY:
-            return Error.NOT_WHILE_BUSY
-        if kind is Kind.OPERATION and self.setup is None:
-            return Error.NOT_INITIALISED
-        if kind is Kind.SLOW_STOP and motion.is_ramp and (motion.decelerating or motion.finishing):
-            return Error.ALREADY_DECELERATING
-        return None
-
-    def _parameter(self, t: int, byte: int, reference: int) -> Error | None:
-        """A data byte; the last one a command asks for executes it (P104-FSM-03). Returns its error."""
-        if self._pending is None:
-            return Error.UNASKED_DATA_BUSY if self._motion.busy else Error.UNASKED_DATA
-        self._data.append(byte)
-        if self.expected:
-            return None
-        command, data = self._pending, self._data
-        self._pending, self._data = None, []
-        if command.kind is Kind.INITIALISE:
-            return self._initialise(t, command.code, data, reference)
-        self._execute(t, command, reference, data)
-        return None
-
-    def _execute(self, t: int, command: Command, reference: int, data: list[int] | None = None) -> None:
-        data = data or []
+    def _execute(self, t: int, command: Command, reference: int, data: list[int]) -> Error | None:
         kind = command.kind
+        if kind is Kind.INITIALISE:
+            return self._initialise(t, command.code, data, reference)
         if kind is Kind.OPERATION:
             assert self.setup is not None
             self._motion.start(t, command, data, self.setup, reference)
-        elif kind is Kind.STOP or (kind is Kind.SLOW_STOP and not self._motion.is_ramp):
-            self._motion.stop(t)
-        elif kind is Kind.SLOW_STOP:
-            self._motion.slow_stop(t, reference)
+        elif kind in (Kind.STOP, Kind.SLOW_STOP):
+            self._stop(t, kind, reference)
         elif kind is Kind.READ:
             self._port.answer(self._register(t, command.code))
         elif kind is Kind.SWITCHING:
@@ -137,6 +67,7 @@ class CommandUnit:
         else:
             level = int(kind is Kind.AUX_OFF)
             self._later(t, reference, _DS_AUX, lambda at: self._context.drive(at, "aux_n", level))
+        return None
 
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
         """Now in FAST; in DATASHEET after so many XTAL cycles with the mailbox closed (P104-DS-11)."""

@@ -7,6 +7,8 @@ bit 0 = S1.
 
 from __future__ import annotations
 
+from itertools import product
+
 ALL_PHASES = 0b11111
 
 
@@ -25,6 +27,20 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
             # Between two full steps: the phase they share (1-2 phase), or all three (2-3 phase).
             steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
     return tuple(steps)
+
+
+def step_directions() -> dict[tuple[int, int], int]:
+    """(pin levels before, after) of one step of any motor, in either logic: 1 CW, -1 CCW.
+
+    Two levels that follow each other in several motors do so in the same direction.
+    """
+    found: dict[tuple[int, int], int] = {}
+    for phases, half, off in product((3, 4, 5), (False, True), (0, ALL_PHASES)):
+        ring = [pattern ^ off for pattern in step_list(phases, half)]
+        for was, now in zip(ring, ring[1:] + ring[:1], strict=True):
+            assert found.setdefault((was, now), 1) == 1
+            assert found.setdefault((now, was), -1) == -1
+    return found
 
 
 class Excitation:

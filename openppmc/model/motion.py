@@ -9,7 +9,7 @@ does what: `guard`). When an operation may start, what a stop does and the DATAS
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from .chopper import Chopper
 from .codes import ENDLESS, FINISH_NEW, FINISH_SLOW, FINISH_STOP, RAMP_OPERATIONS, SINGLE_STEP, Command
@@ -49,6 +49,8 @@ class Motion:
     """
 
     hold_cycles: int
+    # A deceleration request at the start-up rate ends the operation at once (P2104-FDC-02, STMC-DEC-03).
+    stops_at_start_speed: ClassVar[bool] = False
 
     def __init__(
         self, context: Context, excitation: Excitation, chopper: Chopper, guard: GuardPins, on_end: OnEnd
@@ -128,6 +130,11 @@ class Motion:
         return self.operation in RAMP_OPERATIONS
 
     @property
+    def external(self) -> bool:
+        """An operation runs that counts the external clock."""
+        return self.busy and self._external is not None
+
+    @property
     def decelerating(self) -> bool:
         """State DEC: flagged, or slowing down by count."""
         return self.busy and not self.finishing and (self._flag_edge is not None or self._natural)
@@ -173,11 +180,21 @@ class Motion:
 
     def _flag(self, t: int, bit: int) -> None:
         """Set the forced-deceleration flag; two requests on one edge both count (P104-LIM-09)."""
-        if self.finishing or not self.busy or self._natural:
-            return
-        if self._flag_edge is None or self._flag_edge == t:
-            self._flag_edge = t
+        if self._flag_edge == t:  # The other request of this edge came first and may have ended the motion.
             self._flag_bits |= bit
+            return
+        if self.finishing or not self.busy or self._natural or self._flag_edge is not None:
+            return
+        self._flag_edge = t
+        self._flag_bits |= bit
+        if self.stops_at_start_speed and self._at_start_speed:
+            self._end_now(t, 0)
+
+    @property
+    def _at_start_speed(self) -> bool:
+        """The running interval has the start-up rate, wherever on the ramp it lies."""
+        ramp = self._setup.ramp
+        return self.index is not None and ramp.rate(self.index) == ramp.rl
 
     def _end_now(self, t: int, bits: int) -> None:
         """Immediate end decided at edge t (P104-END-02, -04)."""

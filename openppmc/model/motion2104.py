@@ -21,6 +21,8 @@ HOLD_UNIT, HOLD_DEFAULT = 2048, 0x18
 class Motion2104(Motion):
     """One axis of a PPMC-2104. `waiting`: state RUNWAIT."""
 
+    stops_at_start_speed = True
+
     def __init__(
         self,
         context: Context,
@@ -79,21 +81,6 @@ class Motion2104(Motion):
         if not self.finishing:
             self._held_until = end
         self.stop(t)
-
-    @property
-    def _at_start_speed(self) -> bool:
-        """The running interval has the start-up rate, wherever on the ramp it lies."""
-        ramp = self._setup.ramp
-        return self.index is not None and ramp.rate(self.index) == ramp.rl
-
-    def _flag(self, t: int, bit: int) -> None:
-        if self._flag_edge == t:  # The other request of this edge came first and may have ended the motion.
-            self._flag_bits |= bit
-            return
-        before = self._flag_edge
-        super()._flag(t, bit)
-        if before is None and self._flag_edge == t and self._at_start_speed:
-            self._end_now(t, 0)
 
     # ------------------------------------------------------------------ inputs
 

@@ -8,11 +8,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 
+from .codes_stmc import READ_MAPS
+
 FARTHEST = 1 << 31
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
 """In the order of the bridge's PINS byte."""
-PARTS = {"ppmc104": 1, "ppmc2104": 2}
+PARTS = {"ppmc104": 1, "ppmc2104": 2, "stmc": 1}
 """Word `part`: its values, and how many axes they have."""
+OWN_DEFAULTS = {"stmc": {"ccw": -1000, "slow_ccw": -200}}
+"""Where switches are by default on other parts than the PPMC-104. With a J105 STMC the reference point lies
+between the deceleration limits, and a search for it ends at either of them."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +63,8 @@ class Machine:
 
 def parse_machine(text: str) -> Machine:
     """From `word=value,word=value`; empty text: the defaults. Raises ValueError with the offending word."""
-    plants, others, part = [Plant(), Plant()], {}, "ppmc104"
-    second = ""
+    words: list[dict[str, object]] = [{}, {}]
+    others, part, second = {}, "ppmc104", ""
     for item in filter(None, (piece.strip() for piece in text.split(","))):
         word, equals, value = (piece.strip() for piece in item.partition("="))
         if not equals or not value:
@@ -72,13 +77,26 @@ def parse_machine(text: str) -> Machine:
                 raise ValueError(f"part={value}: there are {', '.join(PARTS)}")
         elif name in PLANT_WORDS:
             where = _span(word, value) if name == "alarm" else _position(word, value)
-            plants[axis] = replace(plants[axis], **{name: where})
+            words[axis][name] = where
             second = item if axis else second
         else:
             others[word] = value
     if second and PARTS[part] == 1:
-        raise ValueError(f"{second}: a {part} has one axis: add part=ppmc2104")
-    return Machine(part, tuple(plants[: PARTS[part]]), others)
+        article = "an" if part == "stmc" else "a"
+        raise ValueError(f"{second}: {article} {part} has one axis: add part=ppmc2104")
+    plant = Plant(**OWN_DEFAULTS.get(part, {}))
+    return Machine(part, tuple(replace(plant, **own) for own in words[: PARTS[part]]), others)
+
+
+def stmc_read_map(part: str, value: str | None) -> str:
+    """Word `read_map`: SHEET or FAMILY, only for an stmc; SHEET if it is not given. ValueError."""
+    if value is None:
+        return "SHEET"
+    if part != "stmc":
+        raise ValueError(f"read_map={value}: only an stmc has it")
+    if value.upper() not in READ_MAPS:
+        raise ValueError(f"read_map={value}: neither {' nor '.join(READ_MAPS)}")
+    return value.upper()
 
 
 def _position(word: str, value: str) -> int:

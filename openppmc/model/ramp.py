@@ -19,10 +19,13 @@ from math import isqrt
 def ramp_period(start: int, high: int, pa: int, k: int) -> int:
     """Base clocks of the interval with index k, 0 <= k <= pa.
 
-    start, high: periods of index 0 and pa, 1 <= high <= start. Raises ValueError for anything else.
+    start, high: periods of index 0 and pa, 1 <= high <= start; pa = 0 is a flat ramp, start = high. Raises
+    ValueError for anything else.
     """
-    if not 1 <= high <= start or pa < 1 or not 0 <= k <= pa:
+    if not 1 <= high <= start or not 0 <= k <= pa or (pa == 0 and high < start):
         raise ValueError(f"no ramp value for start {start}, high {high}, pa {pa}, k {k}")
+    if pa == 0:
+        return start
     a, b = start * start, high * high
     numerator, denominator = a * b * pa, b * pa + (a - b) * k
     # p is the greatest integer with p - 1/2 <= sqrt(n/d), i.e. (2p - 1)^2 <= 4 n/d.
@@ -90,7 +93,8 @@ def walk(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list
 class Ramp:
     """One initialised ramp: start rate rl, high-speed rate rh, pa ramp pulses.
 
-    `limit` on each is the part's business; here only 0 <= rh <= rl and pa >= 1. Raises ValueError.
+    `limit` on each is the part's business; here only 0 <= rh <= rl, and pa = 0 for rl = rh only. Raises
+    ValueError.
     """
 
     rl: int
@@ -98,7 +102,7 @@ class Ramp:
     pa: int
 
     def __post_init__(self) -> None:
-        if not 0 <= self.rh <= self.rl or self.pa < 1:
+        if not 0 <= self.rh <= self.rl or self.pa < int(self.rh < self.rl):
             raise ValueError(f"no ramp: rl {self.rl}, rh {self.rh}, pa {self.pa}")
 
     @cached_property

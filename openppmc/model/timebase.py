@@ -79,17 +79,18 @@ class Latency:
 class Timebase:
     """Conversion between XTAL cycles, quanta (4 XTAL cycles) and clk.
 
-    clk_hz: frequency of clk, 8e6..200e6. xtal_hz: emulated crystal, 1e6..16e6. Raises ValueError outside.
+    clk_hz: frequency of clk, 8e6..200e6. xtal_hz: emulated crystal, 1e6..xtal_max. Raises ValueError outside.
     """
 
     clk_hz: int = 16_000_000
     xtal_hz: int = 16_000_000
+    xtal_max: int = 16_000_000
 
     def __post_init__(self) -> None:
         if not 8_000_000 <= self.clk_hz <= 200_000_000:
             raise ValueError(f"clk_hz {self.clk_hz} is outside 8e6..200e6")
-        if not 1_000_000 <= self.xtal_hz <= 16_000_000:
-            raise ValueError(f"xtal_hz {self.xtal_hz} is outside 1e6..16e6")
+        if not 1_000_000 <= self.xtal_hz <= self.xtal_max:
+            raise ValueError(f"xtal_hz {self.xtal_hz} is outside 1e6..{self.xtal_max // 1_000_000}e6")
 
     def cyc(self, cycles: int) -> int:
         """CYC(n): clk that cover n XTAL cycles, rounded up (P104-GEN-03)."""
@@ -104,13 +105,18 @@ class Timebase:
         """W = CYC(80): pulse width and direction set-up, 5 us at a 16 MHz crystal."""
         return self.cyc(80)
 
+    @property
+    def quantum(self) -> int:
+        """XTAL cycles of a quantum: 4, or 5 where 4 would last less than 2 clk (8 MHz and a fast crystal)."""
+        return 4 if 2 * self.clk_hz >= self.xtal_hz else 5
+
     def tick(self, n: int) -> int:
         """clk from the restart of the quantum counter to its tick n (P104-BCK-03)."""
-        return self.cyc(4 * n)
+        return self.cyc(self.quantum * n)
 
     def ticks_in(self, clk: int) -> int:
         """Number of the last tick at or before `clk` clk after the restart; 0 for clk < 0."""
-        return max(0, clk * self.xtal_hz // (4 * self.clk_hz))
+        return max(0, clk * self.xtal_hz // (self.quantum * self.clk_hz))
 
     def seconds(self, clk: int) -> float:
         """Seconds of so many clk."""

@@ -17,7 +17,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 BOARDS = "rtl/boards"
-GROUPS = ("common", "motion", "host")  # and that of the part
+PARTS = {"ppmc104": 104, "ppmc2104": 2104, "stmc": 105}
+"""Numbers of the parts, for the C++ (tb/board/pins.h)."""
+GROUPS = ("common", "motion", "host", "single")  # and that of the part
 KEEP_DAYS = 7
 # Assertions would cost a third of the speed, and `make test` has them all.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1".split()
@@ -43,11 +45,12 @@ def find_root() -> Path:
     )
 
 
-def build(part: str, clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: Callable[[str], None]) -> Path:
-    """The program for a part such as ppmc104, built if need be; `say` gets a line when that takes time.
+def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[str], None]) -> Path:
+    """The program for a part, a key of PARTS, built if need be; `say` gets a line when that takes time.
     Raises SimError.
 
-    trace: with waveforms, which makes a slower program. Safe against other processes doing the same.
+    params: of the board's top, CLK_HZ among them. trace: with waveforms, which makes a slower program. Safe
+    against other processes doing the same.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
@@ -58,8 +61,16 @@ def build(part: str, clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: C
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
         *("--top-module", f"{part}_board", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
-        *(f"-GCLK_HZ={clk_hz}", f"-GXTAL_HZ={xtal_hz}", f'-GTIMING="{timing}"'),
-        *("-CFLAGS", f"-std=c++17 -DBOARD_CLK_HZ={clk_hz} -DBOARD_PART={part[4:]}", "-o", "board"),
+        *(
+            f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}"
+            for name, value in params.items()
+        ),
+        *(
+            "-CFLAGS",
+            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -DBOARD_PART={PARTS[part]}",
+            "-o",
+            "board",
+        ),
         # The makefile would append its own -Os for these files.
         *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
     ]
@@ -79,13 +90,30 @@ def build(part: str, clk_hz: int, xtal_hz: int, timing: str, trace: bool, say: C
         work = folder.with_suffix(".part")
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
+        runtime = folder.parent / f"runtime-{_digest([], [version, str(trace)], root)}"
+        copy_runtime(runtime, work)
         command = [verilator, *flags, "-j", str(min(4, os.cpu_count() or 1)), "--Mdir", str(work)]
         _run([*command, *map(str, rtl), *map(str, cpp)], folder.with_suffix(".log"))
+        copy_runtime(work, runtime)
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         (work / "board").rename(program)
         shutil.rmtree(work)
         return program
+
+
+def copy_runtime(source: Path, target: Path) -> None:
+    """Objects of Verilator's run-time library into `target`, unless they are there; compiling them takes
+    longer than a design does. They are the same for all builds with the same arguments of compiler and
+    Verilator. Both folders lie in the same one."""
+    with _locked(target.parent / "runtime.lock"):
+        target.mkdir(parents=True, exist_ok=True)
+        if not any(target.glob("verilated*.o")):
+            # Not verilator.o: that is cocotb's main program, compiled for the ports of one design.
+            for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
+                shutil.copy(path, target)
+                # Newer than the makefile that is yet to be written, or make would compile them again.
+                os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 
 def _rtl(root: Path, part: str) -> list[Path]:
@@ -98,7 +126,10 @@ def _rtl(root: Path, part: str) -> list[Path]:
         elif match := re.match(r"\s*-\s*(\S+)", line):
             groups.setdefault(group, []).append(match[1])
     files = [root / "rtl" / name for key in (*GROUPS, part) for name in groups.get(key, [])]
-    files.append(root / BOARDS / f"{part}_board.sv")
+    shared = ("ppmc_board_host", "ppmc_board_steps")
+    files += [
+        root / "rtl" / name for name in groups["boards"] if Path(name).stem in (*shared, f"{part}_board")
+    ]
     missing = [file.name for file in files if not file.is_file()]
     if missing:
         raise SimError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")

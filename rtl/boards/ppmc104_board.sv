@@ -51,12 +51,9 @@ module ppmc104_board #(
     output logic            led_link   // 1: a script is running or an answer is on its way
 );
 
-  if (HOST != "UART" && HOST != "BUS") begin : g_check_host
-    $fatal(1, "ppmc104_board: HOST must be UART or BUS");
-  end
-
   logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, part_a0, part_csel, part_vsel;
-  logic [7:0] part_d;
+  logic [7:0] part_d, straps;
+  logic unused_straps;
 
   ppmc104 #(
       .CLK_HZ    (CLK_HZ),
@@ -92,56 +89,42 @@ module ppmc104_board #(
       .dir
   );
 
-  if (HOST == "UART") begin : g_uart
-    logic [7:0] straps;
+  ppmc_board_host #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .Host     (HOST),
+      .Baud     (BAUD),
+      .Part     (104)
+  ) u_host (
+      .clk_i      (clk),
+      .rst_ni     (rst_n),
+      .rxd_i      (uart_rxd),
+      .txd_o      (uart_txd),
+      .cs_ni      (cs_n),
+      .rd_ni      (rd_n),
+      .wr_ni      (wr_n),
+      .a0_i       (a0),
+      .d_i,
+      .part_rst_no(part_rst_n),
+      .part_cs_no (part_cs_n),
+      .part_rd_no (part_rd_n),
+      .part_wr_no (part_wr_n),
+      .part_a0_o  (part_a0),
+      .part_d_o   (part_d),
+      .part_d_i   (d_o),
+      .int_ni     (int_n),
+      .straps_o   (straps),
+      .switches_ni({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+      .hold_i     (hold),
+      .pout_ni    (pout_n),
+      .dir_i      (dir),
+      .link_o     (led_link)
+  );
 
-    ppmc_uart_host #(
-        .ClkHz    (CLK_HZ),
-        .XtalHz   (XTAL_HZ),
-        .Baud     (BAUD),
-        .Part     (104),
-        .Datasheet(TIMING == "DATASHEET")
-    ) u_host (
-        .clk_i      (clk),
-        .rst_ni     (rst_n),
-        .rxd_i      (uart_rxd),
-        .txd_o      (uart_txd),
-        .cs_no      (part_cs_n),
-        .rd_no      (part_rd_n),
-        .wr_no      (part_wr_n),
-        .a0_o       (part_a0),
-        .d_o        (part_d),
-        .d_i        (d_o),
-        .int_ni     (int_n),
-        .part_rst_no(part_rst_n),
-        .straps_o   (straps),
-        .switches_ni({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
-        .hold_i     (hold),
-        .pout_ni    (pout_n),
-        .dir_i      (dir),
-        .active_o   (led_link)
-    );
-
-    assign part_csel = csel && straps[0];
-    assign part_vsel = vsel && straps[1];
-
-    logic unused;
-    assign unused = ^{a0, cs_n, rd_n, wr_n, d_i, straps[7:2]};
-  end else begin : g_bus
-    assign part_rst_n = rst_n;
-    assign part_a0    = a0;
-    assign part_cs_n  = cs_n;
-    assign part_rd_n  = rd_n;
-    assign part_wr_n  = wr_n;
-    assign part_d     = d_i;
-    assign part_csel  = csel;
-    assign part_vsel  = vsel;
-    assign uart_txd   = 1'b1;
-    assign led_link   = !cs_n;
-
-    logic unused;
-    assign unused = uart_rxd;
-  end
+  assign part_csel     = csel && straps[0];
+  assign part_vsel     = vsel && straps[1];
+  assign unused_straps = ^straps[7:2];
 
 endmodule
 

@@ -54,13 +54,10 @@ module ppmc2104_board #(
     output logic            led_link   // 1: a script is running or an answer is on its way
 );
 
-  if (HOST != "UART" && HOST != "BUS") begin : g_check_host
-    $fatal(1, "ppmc2104_board: HOST must be UART or BUS");
-  end
-
   logic part_rst_n, part_cs_n, part_a0, part_busc, part_ds_wrs_n, part_rw_rds_n, part_errint_n;
   logic [2:1] part_run, part_csel;
-  logic [7:0] part_d;
+  logic [7:0] part_d, straps;
+  logic unused_straps;
 
   ppmc2104 #(
       .CLK_HZ (CLK_HZ),
@@ -98,64 +95,48 @@ module ppmc2104_board #(
       .clk_o
   );
 
-  if (HOST == "UART") begin : g_uart
-    logic [7:0] straps;
+  ppmc_board_host #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .Host     (HOST),
+      .Baud     (BAUD),
+      .Part     (2104),
+      .Axes     (2)
+  ) u_host (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .rxd_i(uart_rxd),
+      .txd_o(uart_txd),
+      .cs_ni(cs_n),
+      .rd_ni(rw_rds_n),
+      .wr_ni(ds_wrs_n),
+      .a0_i(a0),
+      .d_i,
+      .part_rst_no(part_rst_n),
+      .part_cs_no(part_cs_n),
+      .part_rd_no(part_rw_rds_n),
+      .part_wr_no(part_ds_wrs_n),
+      .part_a0_o(part_a0),
+      .part_d_o(part_d),
+      .part_d_i(d_o),
+      .int_ni(int_n),
+      .straps_o(straps),
+      .switches_ni({
+        {alm_n[2], org_n[2], bhl_n[2], fhl_n[2], bl_n[2], fl_n[2]},
+        {alm_n[1], org_n[1], bhl_n[1], fhl_n[1], bl_n[1], fl_n[1]}
+      }),
+      .hold_i(hold),
+      .pout_ni(pout_n),
+      .dir_i(dir),
+      .link_o(led_link)
+  );
 
-    ppmc_uart_host #(
-        .ClkHz    (CLK_HZ),
-        .XtalHz   (XTAL_HZ),
-        .Baud     (BAUD),
-        .Part     (2104),
-        .Datasheet(TIMING == "DATASHEET"),
-        .Axes     (2)
-    ) u_host (
-        .clk_i(clk),
-        .rst_ni(rst_n),
-        .rxd_i(uart_rxd),
-        .txd_o(uart_txd),
-        .cs_no(part_cs_n),
-        .rd_no(part_rw_rds_n),
-        .wr_no(part_ds_wrs_n),
-        .a0_o(part_a0),
-        .d_o(part_d),
-        .d_i(d_o),
-        .int_ni(int_n),
-        .part_rst_no(part_rst_n),
-        .straps_o(straps),
-        .switches_ni({
-          {alm_n[2], org_n[2], bhl_n[2], fhl_n[2], bl_n[2], fl_n[2]},
-          {alm_n[1], org_n[1], bhl_n[1], fhl_n[1], bl_n[1], fl_n[1]}
-        }),
-        .hold_i(hold),
-        .pout_ni(pout_n),
-        .dir_i(dir),
-        .active_o(led_link)
-    );
-
-    assign part_busc     = 1'b0;
-    assign part_csel     = csel & straps[1:0];
-    assign part_run      = run & straps[3:2];
-    assign part_errint_n = errint_n && straps[4];
-
-    logic unused;
-    assign unused = ^{cs_n, a0, busc, ds_wrs_n, rw_rds_n, d_i, straps[7:5]};
-  end else begin : g_bus
-    assign part_rst_n    = rst_n;
-    assign part_cs_n     = cs_n;
-    assign part_a0       = a0;
-    assign part_busc     = busc;
-    assign part_ds_wrs_n = ds_wrs_n;
-    assign part_rw_rds_n = rw_rds_n;
-    assign part_d        = d_i;
-    assign part_errint_n = errint_n;
-    assign part_run      = run;
-    assign part_csel     = csel;
-    assign uart_txd      = 1'b1;
-    assign led_link      = !cs_n;
-
-    logic unused;
-    assign unused = uart_rxd;
-  end
+  assign part_busc     = HOST == "BUS" && busc;  // the bridge drives read and write strobes
+  assign part_csel     = csel & straps[1:0];
+  assign part_run      = run & straps[3:2];
+  assign part_errint_n = errint_n && straps[4];
+  assign unused_straps = ^straps[7:5];
 
 endmodule
 

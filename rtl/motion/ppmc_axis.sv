@@ -2,7 +2,7 @@
 // ppmc_axis: one motion from its start to its end: when each pulse comes, how long it is low, why the motion
 // stops.
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
-//         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21.
+//         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08, STMC-CLK-01..05.
 // Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later,
 //         or after the end of the RUN gate where run_i was low (external clock: first edge at or after). A
 //         motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
@@ -20,6 +20,7 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
+    parameter int unsigned ClimbBits = StepBits,  // must hold steps_i + 1
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
     parameter int unsigned FastQuanta = 8,  // fast internal base clock
     parameter int unsigned SlowQuanta = 32,  // slow internal base clock
@@ -27,7 +28,9 @@ module ppmc_axis
     parameter int unsigned HalfRates = 3,  // fastest rates that get half an interval as pulse width
     parameter bit StopAtSlow = 1'b0,  // deceleration asked for at the start-up rate ends the motion at once
     parameter bit SlowAlways = 1'b0,  // slow-down limits count off the plateau in POUT mode, too
-    parameter bit OriginAtPulse = 1'b0  // the origin makes a pulse the last one; else it ends at once
+    parameter bit SlowOrigin = 1'b0,  // a slow-down limit ends a search for the origin at once
+    parameter bit OriginAtPulse = 1'b0,  // the origin makes a pulse the last one; else it ends at once
+    parameter bit PulsePin = 1'b1  // 0: no pulse output, low_o stays 0 and the last pulse ends the motion
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -91,7 +94,7 @@ module ppmc_axis
   logic brisk_q;
   switches_t guarded;
   logic armed, fire, due, up, seek, rising, forced, flagged, dec, crawl, last_pulse;
-  logic base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
+  logic low, base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
 
   assign armed = state_q == StStart || state_q == StRun;
   assign busy_o = state_q != StIdle;
@@ -101,6 +104,7 @@ module ppmc_axis
   assign done_o = state_q == StFinish && !low_o && !linger_i;
   assign restart_o = (fire && state_q == StStart) || done_o;
   assign pulse_o = fire;
+  assign low_o = PulsePin && low;
   assign last_o = last_pulse || (OriginAtPulse && op_o.origin && switches_i.origin);
 
   // An immediate cause also takes away a pulse that is due at the same edge.
@@ -142,7 +146,8 @@ module ppmc_axis
 
   ppmc_stop_guard #(
       .StopAtSlow(StopAtSlow),
-      .SlowAlways(SlowAlways)
+      .SlowAlways(SlowAlways),
+      .SlowOrigin(SlowOrigin)
   ) u_guard (
       .clk_i,
       .rst_ni,
@@ -167,14 +172,14 @@ module ppmc_axis
   ppmc_ramp_seq #(
       .CountBits(CountBits),
       .RateBits (RateBits),
-      .StepBits (StepBits),
+      .StepBits (ClimbBits),
       .LutBits  (StepBits)
   ) u_seq (
       .clk_i,
       .rst_ni,
       .slow_i  (rate_slow_i),
       .fast_i  (rate_fast_i),
-      .steps_i,
+      .steps_i (ClimbBits'(steps_i)),
       .lut_addr_o,
       .lut_data_i,
       .load_i  (start_i),
@@ -211,7 +216,7 @@ module ppmc_axis
       .halve_i(!base_o.external && !base_o.slow),
       .rate_i (rate_o),
       .cut_i  (cut),
-      .low_o,
+      .low_o  (low),
       .up_o   (up)
   );
 

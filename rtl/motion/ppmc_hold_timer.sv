@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_hold_timer: tells that the motor has been at rest for the hold time: a fixed one, or set by the host
 // in units.
-// Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05.
+// Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05; STMC-HLD-01.
 // Timing: hold_o falls one clk after busy_i rises and rises one clk after quantum tick number Quanta (units:
-//         Quanta * (units_i + 1)) since busy_i fell. units_i counts while busy_i is high.
+//         Quanta * (units_i + 1)) since busy_i fell, and RestClk clk later. units_i counts while busy_i is high.
 `default_nettype none
 
 module ppmc_hold_timer #(
     parameter int unsigned Quanta = 136_000,  // quantum ticks; 34 ms at 16 MHz
+    parameter int unsigned RestClk = 0,  // clk behind the last quantum, fewer than a quantum has
     parameter int unsigned UnitBits = 0,  // 0: fixed; else Quanta is a power of 2
     localparam int unsigned UnitTop = (UnitBits == 0) ? 0 : UnitBits - 1
 ) (
@@ -25,16 +26,31 @@ module ppmc_hold_timer #(
     localparam int unsigned Width = ppmc_pkg::cnt_width(Quanta);
 
     logic [Width-1:0] count_q;
-    logic unused_units;
+    logic counted, unused_units;
 
     assign unused_units = &{1'b0, units_i};
     // Counted from 0 upwards, Quanta is the first value with all of its ones set.
-    assign done = (count_q & Width'(Quanta)) == Width'(Quanta);
+    assign counted = (count_q & Width'(Quanta)) == Width'(Quanta);
 
     // No reset: every motion clears it, and before the first one it does not count.
     always_ff @(posedge clk_i) begin
       if (busy_i) count_q <= '0;
       else if (quantum_i && !hold_o) count_q <= count_q + 1'b1;
+    end
+
+    if (RestClk == 0) begin : g_whole
+      assign done = counted;
+    end else begin : g_rest
+      localparam int unsigned RestBits = ppmc_pkg::cnt_width(RestClk);
+
+      logic [RestBits-1:0] rest_q;
+
+      assign done = counted && rest_q == '0;
+
+      always_ff @(posedge clk_i) begin
+        if (busy_i) rest_q <= RestBits'(RestClk);
+        else if (counted && rest_q != '0) rest_q <= rest_q - 1'b1;
+      end
     end
   end else begin : g_units
     localparam int unsigned Scale = $clog2(Quanta);

@@ -9,6 +9,7 @@ module ppmc_motor_port
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned HoldQuanta = 136_000,
+    parameter int unsigned HoldRest = 0,  // clk more
     parameter int unsigned HoldBits = 0,  // of hold_units_i; 0: the hold time is fixed
     parameter int unsigned UnitQuanta = 12,
     parameter int unsigned BaseBits = 9,
@@ -82,6 +83,7 @@ module ppmc_motor_port
 
   ppmc_hold_timer #(
       .Quanta  (HoldQuanta),
+      .RestClk (HoldRest),
       .UnitBits(HoldBits)
   ) u_hold (
       .clk_i,

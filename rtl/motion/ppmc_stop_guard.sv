@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_stop_guard: what may end or slow down a motion, and what it leaves in the finish status.
-// Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09.
+// Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09;
+//         STMC-IN-03/04, STMC-DEC-03..06, STMC-FIN-02/03.
 // Timing: stop_o and forced_o are combinational, so that a cause seen in a cycle also acts on a pulse due at
 //         its end.
 `include "ppmc_assert.svh"
@@ -10,7 +11,8 @@ module ppmc_stop_guard
   import ppmc_motion_pkg::*;
 #(
     parameter bit StopAtSlow = 1'b0,  // deceleration asked for at the start-up rate ends the motion at once
-    parameter bit SlowAlways = 1'b0   // slow-down limits count off the plateau in POUT mode, too
+    parameter bit SlowAlways = 1'b0,  // slow-down limits count off the plateau in POUT mode, too
+    parameter bit SlowOrigin = 1'b0   // a slow-down limit ends a search for the origin at once
 ) (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
@@ -32,7 +34,7 @@ module ppmc_stop_guard
     output cause_t         cause_o
 );
 
-  logic limit, slow, halt, hard, slow_now, decel_now, free;
+  logic limit, slow, halt, block, hard, slow_now, decel_now, free;
   logic unused_bits;
 
   assign unused_bits = &{1'b0, op_i.single, op_i.pout_only, top_i, crawl_i};
@@ -40,7 +42,8 @@ module ppmc_stop_guard
   assign limit = op_i.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
   assign slow = op_i.ccw ? switches_i.slow_ccw : switches_i.slow_cw;
   assign halt = halt_i || (decel_i && !op_i.ramp);
-  assign hard = armed_i && (limit || switches_i.alarm || halt || (switches_i.origin && op_i.origin));
+  assign block = SlowOrigin && op_i.origin && slow;
+  assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
   assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
 
   // Deceleration can be asked for once; an immediate end at the same edge goes first.
@@ -64,7 +67,7 @@ module ppmc_stop_guard
         cause_o.limit <= limit;
       end
       cause_o.stop <= cause_o.stop || decel_now || (armed_i && halt);
-      cause_o.slow <= cause_o.slow || slow_now;
+      cause_o.slow <= cause_o.slow || slow_now || (armed_i && block);
     end
   end
 

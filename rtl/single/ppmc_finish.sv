@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_finish: what remains of a motion: finish status and interrupt; and the answers to the read
-// commands.
-// Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07.
+// ppmc_finish: what remains of a motion in a part with one axis: finish status and interrupt; and the answers to
+// the read commands.
+// Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
+//         STMC-OUT-01, STMC-REM-01.
 // Timing: finish status and int_no change at the edge that ends the cycle of done_i; answer_o is
 //         combinational.
 `default_nettype none
 
-module ppmc104_finish
-  import ppmc104_pkg::*;
-(
+module ppmc_finish
+  import ppmc_code_pkg::*;
+#(
+    parameter bit Fresh = 1'b1  // finish status bit 7: 1 = not read yet, 0 = always 1
+) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
     input  wire logic            start_i,      // an operation starts
     input  wire op_code_t        op_code_i,    // with start_i
     input  wire logic            done_i,       // it ends
-    input  wire logic     [ 3:0] cause_i,      // with done_i: stop, alarm, limit, slow-down limit
+    input  wire logic     [ 3:0] cause_i,      // steady at rest: stop, alarm, limit, slow-down limit
     input  wire logic            read_i,       // a read command is executed
     input  wire logic     [ 2:0] select_i,     // which
     input  wire logic     [23:0] remaining_i,
-    input  wire logic     [ 7:0] inputs_i,     // pin levels as 0x81 shows them
-    input  wire logic     [ 7:0] outputs_i,    // as 0x82 shows them
-    input  wire logic     [ 3:0] auxi_i,
+    input  wire logic     [ 7:0] inputs_i,     // pin levels as SEL_INPUTS shows them
+    input  wire logic     [ 7:0] outputs_i,    // as SEL_OUTPUTS shows them
+    input  wire logic     [ 3:0] auxi_i,       // as SEL_AUX_IN shows them
     output logic          [23:0] answer_o,
     output logic                 int_no
 );
 
   logic fresh_q, silent_q;  // not read yet; no interrupt wanted
   logic [2:0] op_q;
-  logic [3:0] cause_q;
   logic unused_bits;
 
   assign unused_bits = &{1'b0, op_code_i};
@@ -38,7 +40,6 @@ module ppmc104_finish
       fresh_q  <= 1'b0;
       silent_q <= 1'b0;
       op_q     <= '0;
-      cause_q  <= '0;
     end else begin
       if (start_i) begin
         silent_q <= op_code_i.silent;
@@ -46,7 +47,6 @@ module ppmc104_finish
       end
       if (done_i) begin
         fresh_q <= 1'b1;
-        cause_q <= cause_i;
         if (!silent_q) int_no <= 1'b0;
       end
       if (read_i && select_i == SEL_FINISH) begin
@@ -56,10 +56,11 @@ module ppmc104_finish
     end
   end
 
+  // The causes stand until the next operation, when nobody may read them.
   always_comb begin
     answer_o = remaining_i;  // the bytes behind the first are shown for this answer only
     unique case (select_i)
-      SEL_FINISH:  answer_o[7:0] = {fresh_q, cause_q, op_q};
+      SEL_FINISH:  answer_o[7:0] = {fresh_q || !Fresh, cause_i, op_q};
       SEL_INPUTS:  answer_o[7:0] = inputs_i;
       SEL_OUTPUTS: answer_o[7:0] = outputs_i;
       SEL_AUX_IN:  answer_o[7:0] = {4'b0000, auxi_i};

@@ -1,39 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_command: takes the bytes of the host, judges them, collects parameters and says what to do.
+// ppmc_command: takes the bytes of the host, judges them, collects parameters and says what to do; for the parts
+// with one axis.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
-//         P104-STP-02..08, P104-FSM-01..03.
+//         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
 // Timing: take_o is the C-event: everything this block changes, and act_o, belongs to the edge that ends that
-//         cycle.
+//         cycle. decoded_i, data_i and value_i are combinational; they are used a clk later.
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc104_command
-  import ppmc104_pkg::*;
+module ppmc_command
+  import ppmc_code_pkg::*;
 (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
+    input wire logic clk_i,
+    input wire logic rst_ni,
     // mailbox
-    input  wire logic        ready_i,
-    input  wire logic        command_i,
-    input  wire logic [ 7:0] byte_i,
-    input  wire logic        open_i,          // bytes may be taken
-    input  wire logic        stops_only_i,    // of those, stop commands only
-    output logic             take_o,
+    input wire logic ready_i,
+    input wire logic command_i,
+    input wire logic [7:0] byte_i,
+    input wire logic open_i,  // bytes may be taken
+    input wire logic stops_only_i,  // of those, stop commands only
+    output logic take_o,
+    // what the bytes mean in this part
+    input wire decoded_t decoded_i,  // byte_i as a code
+    input wire logic [7:0] data_i,  // byte_i as a parameter is kept
+    input wire error_e value_i,  // what is wrong with params_o; ErrUndefined: nothing
+    input wire logic judged_i,  // value_i counts for the code at hand; used at once
     // state of the part
-    input  wire logic        busy_i,
-    input  wire logic        ramp_i,          // running operation has a ramp
-    input  wire logic        decelerating_i,  // DEC, or pulses over
-    input  wire logic        initialised_i,
+    input wire logic busy_i,
+    input wire logic ramp_i,  // running operation has a ramp
+    input wire logic decelerating_i,  // DEC, or pulses over
+    input wire logic initialised_i,
     // result
-    output logic      [ 3:0] status_o,        // ERR, NUM
-    output action_t          act_o,
-    output logic      [ 7:0] code_o,          // code the action belongs to
-    output logic      [31:0] params_o,        // its parameter bytes, the last one in the high bits
-    output logic      [ 7:0] code_held_o,     // the same after the C-event, while no further byte is taken
-    output logic      [31:0] params_held_o
+    output logic [3:0] status_o,  // ERR, NUM
+    output action_t act_o,
+    output logic [7:0] code_o,  // code the action belongs to
+    output logic [31:0] params_o,  // its parameter bytes, the last one in the high bits
+    output logic [7:0] code_held_o,  // the same after the C-event, while no byte is taken
+    output logic [31:0] params_held_o
 );
 
   decoded_t dec_q;  // of byte_i, a clk behind it
+  error_e value_q;  // as dec_q: the byte stands still for a clk before it is taken
   logic error_q;
   logic [2:0] number_q;  // error number, or parameters still to come
   logic [7:0] code_q;
@@ -42,17 +49,12 @@ module ppmc104_command
   error_e number;
 
   assign status_o = {error_q, number_q};
-  assign params_o = {byte_i, params_q[31:8]};
+  assign params_o = {data_i, params_q[31:8]};
   assign params_held_o = params_q;
   assign code_held_o = code_q;
   assign code_o = command_i ? byte_i : code_q;
 
   // Judgement. Order of the checks: P104-ERR-01, P104-ERR-02.
-  logic [15:0] steps;
-  logic steps_high_q, rates_bad_q;  // as dec_q: the byte stands still for a clk before it is taken
-
-  assign steps = params_o[31:16];
-
   always_comb begin
     stop     = dec_q.kind inside {KindHalt, KindDecel};
     harmless = dec_q.kind inside {KindAuxOut, KindExcOff, KindAuxOn, KindAuxOff};
@@ -67,8 +69,7 @@ module ppmc104_command
       else error = 1'b0;
     end else begin
       if (error_q || number_q == '0) number = busy_i ? ErrDataBusy : ErrData;
-      else if (last && code_q[7:6] == 2'b00 && steps_high_q) number = ErrStepsHigh;
-      else if (last && code_q[7:6] == 2'b00 && rates_bad_q) number = ErrRates;
+      else if (last && judged_i && value_q != ErrUndefined) number = value_q;
       else error = 1'b0;
     end
   end
@@ -78,16 +79,14 @@ module ppmc104_command
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       dec_q    <= '0;
-      steps_high_q <= 1'b0;
-      rates_bad_q <= 1'b0;
+      value_q  <= ErrUndefined;
       error_q  <= 1'b0;
       number_q <= '0;
       code_q   <= '0;
       params_q <= '0;
     end else begin
-      dec_q        <= decode(byte_i);
-      steps_high_q <= steps > 16'(STEPS_MAX);
-      rates_bad_q  <= params_o[15:8] > params_o[7:0] || steps < 16'(STEPS_MIN);
+      dec_q   <= decoded_i;
+      value_q <= value_i;
       if (take_o) begin
         error_q <= error;
         if (error) number_q <= number;

@@ -1,0 +1,48 @@
+"""Carries out the action list of a random host on a part with one axis."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import cocotb
+
+from .bench import Bench
+from .bus import BUSY
+from .player import Action, ExternalClock, Player
+
+
+class Plan(Protocol):
+    """The scenario of a seed as the player needs it."""
+
+    seed: int
+    actions: list[Action]
+    clock: ExternalClock
+    pauses: bool
+
+
+class SinglePlayer(Player):
+    """Plays one scenario: `await SinglePlayer(bench, scenario, rule).run()`.
+
+    Adds ("finish", clk): poll until BUSY = 0; after clk give up and send 0x40, which the rule says must help.
+    """
+
+    def __init__(self, bench: Bench, scenario: Plan, rule: str) -> None:
+        super().__init__(bench, scenario.seed, scenario.pauses)
+        self.scenario = scenario
+        self.rule = rule
+
+    async def run(self) -> None:
+        """All actions in order, the external clock beside them."""
+        clock = self.scenario.clock
+        if clock.segments:
+            cocotb.start_soon(self.run_clock(self.bench.part.clock, clock, self.scenario.seed))
+        await self.play(self.scenario.actions)
+
+    async def _finish(self, clk: int) -> None:
+        if await self.polled(BUSY, 0, clk):
+            return
+        for _ in range(3):
+            await self._send(0x40, [])
+            if await self.polled(BUSY, 0, self.bench.config.us(1_000)):
+                return
+        raise AssertionError(f"{self.rule}: BUSY stays 1 after three stop commands\n{self.bench.context()}")

@@ -1,0 +1,67 @@
+"""The board `j105_stmc` as the tests see it: its design, a lab on an ISA bus, and `board_test`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.config import F16, Config
+from cocotb_tests.common.judged import judged_test
+from cocotb_tests.common.part import J105_STMC
+from cocotb_tests.common.runner import Design
+from cocotb_tests.isa_4axis.master import IsaHost, IsaMaster
+from scripts.project import include_dirs, part, sources
+
+from .lab import Lab
+
+BASE = 0x3B0
+
+# Every parameter has another value.
+OTHER = Config(
+    "other",
+    clk_hz=25_000_000,
+    xtal_hz=20_000_000,
+    timing="DATASHEET",
+    extra=(
+        ("BASE_ADDR", 0x2A2),
+        ("EXT_HZ", 1_000_000),
+        ("READ_MAP", "FAMILY"),
+        ("HOLD_XT", 2_500),
+        ("CHOP_ON_XT", 401),
+        ("CHOP_OFF_XT", 611),
+    ),
+)
+
+
+def design(config: Config) -> Design:
+    """The board with its core."""
+    ports = ("clk", "rst_n", *J105_STMC.inputs, *J105_STMC.outputs)
+    return Design(
+        "j105_stmc", sources(part("j105_stmc")), include_dirs(), J105_STMC.params(config), ports=ports
+    )
+
+
+class BoardLab(Lab):
+    """A `Lab` whose host speaks ISA; `master` is the bus."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.master = IsaMaster(bench)
+        self.base = int(dict(bench.config.extra).get("BASE_ADDR", BASE))
+        super().__init__(bench, IsaHost(self.master, self.base))
+
+    async def ended(self, timeout: int = 1_000_000) -> int:
+        """Edge on which the last `go` let irq rise; waits for it."""
+        if rises := self.bench.rises("irq", self.since):
+            await self.bench.align()
+            return rises[0]
+        return await self.bench.edge("irq", 1, timeout)
+
+
+def board_test(*rules: str, on: Sequence[Config] = (F16,), compared: bool = True) -> Any:
+    """A cocotb test of a `BoardLab` just out of reset, compared with the golden model."""
+
+    async def start(dut: Any) -> BoardLab:
+        return BoardLab(await Bench.start(dut, J105_STMC))
+
+    return judged_test(start, rules, on, compared)

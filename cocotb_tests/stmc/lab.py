@@ -1,0 +1,225 @@
+"""`Lab`: an STMC core on the bench with its host; `part_test`: a test made of one.
+
+    @part_test("AC-05", "STMC-MOV-02", clock=16)
+    async def stmc_ac_05_trapezoid(lab):
+        "Given ..., when ..., then ..."
+        await lab.init(*STANDARD)
+        await lab.move(0x43, 20)
+        lab.train("AC-05", gaps(20))
+
+At its end every such test is replayed into the golden model and compared edge by edge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Sequence
+from itertools import repeat
+from typing import Any
+
+from cocotb_tests.common.bench import TIMEOUT, Bench
+from cocotb_tests.common.bus import BUSY, IBF, HostBus
+from cocotb_tests.common.config import F16, Config
+from cocotb_tests.common.drive import Drive
+from cocotb_tests.common.figures import differences
+from cocotb_tests.common.judged import judged_test
+from cocotb_tests.common.part import STMC
+
+from .figures import STANDARD, TICK, Init, internal_offsets
+
+# Windows of the rules, in clk, counted from edge 0 of a host write (STMC-BUS-12, -13).
+WRITE_EVENT = 2
+C_EVENT_LATEST = 12
+PINS_LATEST = 14
+# BUSY may fall so late after the last step or the deciding cause (STMC-MOT-08).
+END_LATEST = 8
+# No test waits for a motion of more crystal periods.
+LONGEST = 200 * TICK
+# A table is built in at most so many clk (STMC-INI-07).
+BUILD_LATEST = 40_000
+
+
+class Lab(Drive):
+    """Bench plus host. `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = still."""
+
+    def __init__(self, bench: Bench, host: HostBus | None = None, clock: str = "ext_clk") -> None:
+        limit = max(TIMEOUT, bench.config.cyc(LONGEST))
+        super().__init__(bench, host or HostBus(bench, timeout=limit), pout="s", clock=clock)
+        self.period = 0
+        self.family = dict(self.cfg.extra).get("READ_MAP") == "FAMILY"
+
+    @classmethod
+    async def start(cls, dut: Any, period: int = 0, **pins: int) -> Lab:
+        """Reset with these input levels, `ext_clk` of that period from then on; nothing is set up."""
+        lab = cls(await Bench.start(dut, STMC, **pins))
+        if period:
+            lab.run_clock(period)
+        return lab
+
+    def run_clock(self, period: int) -> Any:
+        """Let `ext_clk` run evenly; returns the task."""
+        self.period = period
+        return self.bench.external_clock(repeat(period), high=period // 2)
+
+    # ---------------------------------------------------------------- codes
+
+    @property
+    def inputs_code(self) -> int:
+        """Read inputs."""
+        return 0x81 if self.family else 0x82
+
+    @property
+    def outputs_code(self) -> int:
+        """Read outputs."""
+        return 0x82 if self.family else 0x83
+
+    @property
+    def remaining_code(self) -> int:
+        """Read remaining steps."""
+        return 0x83 if self.family else 0x84
+
+    async def init(self, code: int, d1: int, d2: int, pa: int) -> None:
+        """Initialise and wait until the ramp table is ready."""
+        await self.host.init(code, d1, d2, pa)
+        await self.ready()
+
+    async def ready(self) -> int:
+        """Wait until bytes are taken again; the finish status that is read for it."""
+        limit = 1_300_000 if self.cfg.datasheet else BUILD_LATEST + 200
+        if self.cfg.datasheet:
+            limit = self.cfg.cyc(264_000 + 209 * 65_535) + 1_000
+        await self.host.write(1, 0x80)
+        await self.host.poll(IBF, 0, limit)
+        return await self.host.read_data()
+
+    async def halt(self) -> None:
+        """Command 0, the end of motion, its interrupt taken away."""
+        await self.command(0x40)
+        await self.idle()
+        await self.finish()
+
+    async def inputs(self) -> int:
+        """Read inputs."""
+        return (await self.fetch(self.inputs_code))[0]
+
+    async def out(self) -> int:
+        """Read outputs."""
+        return (await self.fetch(self.outputs_code))[0]
+
+    async def remaining(self) -> int:
+        """Remaining steps."""
+        low, middle, high = await self.fetch(self.remaining_code, 3)
+        return low | middle << 8 | high << 16
+
+    async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
+        """`go`, then wait for the end; returns the steps. `rate` is the divisor."""
+        await self.go(code, n, rate)
+        if self.cfg.datasheet:
+            # BUSY rises long after IBF has fallen (STMC-DS-01), but no byte is taken in between.
+            await self.host.poll(BUSY, BUSY, self.cfg.us(150), dense=1000)
+        await self.idle()
+        return self.pulses
+
+    # ---------------------------------------------------------------- steps
+
+    @property
+    def pulses(self) -> list[int]:
+        """Edges of the steps since the last `go` (chopper off, or on in tests that do not look at this)."""
+        return [t for t, _ in self.bench.edges("s", self.since)]
+
+    @property
+    def patterns(self) -> list[int]:
+        """Levels that `s` took since the last `go`."""
+        return [level for _, level in self.bench.edges("s", self.since)]
+
+    async def pulse(self, n: int, plus: int = 0) -> int:
+        """Wait for the n-th step of the last `go` and `plus` clk more; returns the edge of the step."""
+        while len(self.pulses) < n:
+            await self.bench.edge("s", timeout=TIMEOUT)
+        await self.bench.align()
+        step = self.pulses[n - 1]
+        if plus:
+            await self.bench.until(step + plus)
+        return step
+
+    async def in_gap(self, i: int, plus: int = 30) -> int:
+        """Wait until gap i runs since `plus` clk; returns the edge of step i."""
+        return await self.pulse(i + 1, plus)
+
+    def train(self, rule: str, ticks: Sequence[int]) -> None:
+        """The steps of the last `go` lie exactly where gaps of so many ticks put them."""
+        steps = self.pulses
+        self.check(rule, "number of steps", len(steps), len(ticks) + 1)
+        if self.period:
+            wanted = [gap * self.period for gap in ticks]
+            self.check(rule, "gaps in clk", differences(steps), wanted)
+        else:
+            got = [t - steps[0] for t in steps]
+            self.check(rule, "clk from step 0", got, internal_offsets(self.cfg, list(ticks)))
+
+    async def outcome(
+        self, rule: str, steps: int, finish: int, remaining: int, ticks: Sequence[int] | None = None
+    ) -> None:
+        """Wait for the end; the steps made, FIN, REM, and the gaps."""
+        await self.result(rule, steps, finish, remaining)
+        if ticks is not None:
+            self.train(rule, ticks)
+
+    async def tick_until(self, pulses: int, limit: int = 2000) -> None:
+        """Clock by hand until the last `go` has made so many steps."""
+        for _ in range(limit):
+            if len(self.pulses) >= pulses:
+                break
+            await self.ticks(1)
+        self.check("STMC-CLK-02", "steps made by external clock edges", len(self.pulses), pulses)
+
+    # ---------------------------------------------------------------- pins
+
+    def set(self, **levels: int) -> int:
+        """Drive input pins; returns the stamp."""
+        return self.bench.set(**levels)
+
+    async def pins(self, **levels: int) -> None:
+        """Drive input pins and wait until they act."""
+        await self.bench.align()
+        self.bench.set(**levels)
+        await self.bench.clocks(4)
+
+    async def blip(self, pin: str, clocks: int = 4) -> int:
+        """A switch at its other level for some clk; returns the first stamp."""
+        return await self.bench.pulse_pin(pin, 1 - self.bench.pin(pin), clocks)
+
+    def quiet(self, rule: str, since: int) -> None:
+        """No step, no hold, no interrupt since that edge."""
+        moved = {name: edges for name in ("s", "hold", "int_n") if (edges := self.bench.edges(name, since))}
+        self.check(rule, f"edges of outputs since {since}", moved, {})
+
+    async def reset(self) -> None:
+        """Reset, until bytes are taken again."""
+        await self.bench.reset()
+        await self.bench.clocks(6)
+
+
+Test = Callable[[Lab], Awaitable[None]]
+
+
+def part_test(
+    *rules: str,
+    on: Sequence[Config] = (F16,),
+    init: Init | None = STANDARD,
+    clock: int = 16,
+    compared: bool = True,
+    **pins: int,
+) -> Callable[[Test], Any]:
+    """A cocotb test of a `Lab` with input levels `pins` and an initialisation `init` in force.
+
+    clock: period of `ext_clk` in clk, 0 = it stands still. `on` are its build configurations. Only tests of
+    what no rule fixes are not `compared` with the model.
+    """
+
+    async def start(dut: Any) -> Lab:
+        lab = await Lab.start(dut, clock, **pins)
+        if init:
+            await lab.init(*init)
+        return lab
+
+    return judged_test(start, rules, on, compared)

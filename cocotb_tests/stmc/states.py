@@ -1,0 +1,56 @@
+"""Puts the core into each state of the accept/reject table (chapter 4) and keeps it there.
+
+A moving core stays in its state because `ext_clk` stands still and is clocked by hand.
+"""
+
+from __future__ import annotations
+
+from .lab import Lab
+
+# D1 = 3, D2 = 1: gaps of few ticks; the level is 1 from gap 3 on.
+SMALL = (0x1A, 3, 1, 4)
+RESTING = ("U", "W from U", "I", "W from I")
+RAMP = ("S", "S flagged", "A", "A top", "D", "D natural")
+STEADY = ("S steady", "C", "S to limit", "S single")
+MOVING = (*RAMP, *STEADY)
+
+
+async def enter(lab: Lab, state: str) -> None:
+    """From reset into `state`. Raises KeyError for an unknown one."""
+    await lab.reset()
+    if state.endswith("U"):
+        if state != "U":
+            await lab.host.command(0x1A)
+        return
+    await lab.init(*SMALL)
+    if state == "I":
+        return
+    if state == "W from I":
+        await lab.host.command(0x43)
+        return
+    code, n, divisor, steps = {
+        "S": (0x43, 100, None, 0),
+        "S flagged": (0x43, 100, None, 0),
+        "A": (0x43, 100, None, 3),
+        "A top": (0x43, 100, None, 8),
+        "D": (0x43, 100, None, 6),
+        "D natural": (0x43, 8, None, 6),
+        "S steady": (0x44, 100, 1, 0),
+        "C": (0x44, 100, 1, 3),
+        "S to limit": (0x47, None, 1, 0),
+        "S single": (0x42, None, None, 0),
+    }[state]
+    await lab.go(code, n, divisor)
+    if state == "S single":
+        return
+    await lab.bench.clocks(lab.cfg.cyc(80) + 8)
+    await lab.tick_until(steps)
+    if state in ("D", "S flagged"):
+        await lab.host.command(0x41)
+
+
+async def leave(lab: Lab) -> None:
+    """Stop whatever moves."""
+    if lab.bench.level("hold") == 0:
+        await lab.host.command(0x40)
+        await lab.idle()

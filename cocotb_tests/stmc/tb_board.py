@@ -1,0 +1,221 @@
+"""The board j105_stmc: J105-01..08, AC-46, AC-47."""
+
+from __future__ import annotations
+
+from cocotb.triggers import Timer
+
+from cocotb_tests.common.bus import IBF, OBF
+from cocotb_tests.common.config import F8, F16
+from cocotb_tests.isa_4axis.master import Times
+
+from .board import OTHER, BoardLab, board_test
+from .figures import A, gaps
+from .tb_acceptance_1 import W1
+
+
+@board_test("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
+async def j105_ac_46_a_move(lab: BoardLab) -> None:
+    """Given the board, when check 5 is played on the bus, then the same steps, drv with s, and irq."""
+    bench = lab.bench
+    await lab.init(0x1A, *A)
+    lab.check("AC-46", "irq", bench.level("irq"), 0)
+    lab.since = bench.now
+    await lab.host.run("c 43 d 13 d 00 d 00")
+    end = await lab.ended(600_000)
+    lab.window("J105-05", "last step to irq", end - lab.pulses[-1], 0, 10)
+    ticks = [round(gap * 48_675 / 16_000_000) for gap in lab.intervals]
+    lab.check("AC-46", "gaps in ticks", ticks, W1)
+    wanted = [(t, level & 15) for t, level in bench.edges("s", lab.since)]
+    lab.check("J105-07", "drv", bench.edges("drv", lab.since), wanted)
+    lab.check("AC-46", "irq", bench.level("irq"), 1)
+    lab.check("AC-46", "FIN", await lab.finish(), 0x83)
+    lab.check("AC-46", "irq after 80", bench.level("irq"), 0)
+
+
+@board_test("AC-46", "J105-01", "J105-03", on=(F16, OTHER))
+async def j105_01_addresses(lab: BoardLab) -> None:
+    """Given all addresses next to the board's, with and without aen, when used, then only two answer."""
+    master, base = lab.master, lab.base
+    around = {base ^ bit for bit in (1 << n for n in range(1, 10))} | {base - 1, base + 2, base + 3}
+    for address in sorted(around):
+        await master.write(address & 0x3FF, 0x43)
+        driven, _, _ = await master.read(address & 0x3FF)
+        lab.check("J105-01", f"sd_oe at {address:#x}", driven, 0)
+    for address in (base, base + 1):
+        await master.write(address, 0x43, aen=1)
+        driven, _, _ = await master.read(address, aen=1)
+        lab.check("J105-01", f"sd_oe with aen at {address:#x}", driven, 0)
+    lab.check("J105-01", "status", await lab.host.status(), 0)
+    lab.check("J105-01", "data register", await lab.host.read(0), 0)
+    lab.check("J105-01", "a command", await lab.host.command(0x42), 0xA0)
+    lab.check("J105-01", "a data byte", await lab.host.data(0x42), 0xB0)
+
+
+@board_test("J105-03", "J105-04", on=(F16, F8))
+async def j105_03_bus_is_released_at_once(lab: BoardLab) -> None:
+    """Given reads at any phase to clk, when ior_n, sa or aen ends them, then sd_oe falls with it."""
+    bench = lab.bench
+    await lab.host.command(0xC0)
+    for part in range(8):
+        for end in ({"ior_n": 1}, {"aen": 1}, {"sa": 0x000}):
+            await bench.align()
+            await Timer(bench.period * part // 16 * 2 + 2, "ps")
+            bench.set_between_edges(sa=lab.base + 1, aen=0)
+            await Timer(100_000, "ps")
+            bench.set_between_edges(ior_n=0)
+            await Timer(600_000 + 2, "ps")
+            await bench.align()
+            await Timer(bench.period // 8 * 2 + 2, "ps")
+            got = bench.level("sd_oe"), bench.level("sd_o")
+            bench.set_between_edges(**end)
+            await Timer(4, "ps")
+            lab.check("J105-03", f"sd_oe after {end}", bench.level("sd_oe"), 0)
+            lab.check("J105-04", "sd_oe and status", got, (1, 0x80))
+            bench.set_between_edges(ior_n=1)
+            await bench.align()
+            await bench.clocks(6)
+            bench.set_between_edges(aen=0)
+            await bench.clocks(2)
+
+
+@board_test("AC-47", "J105-06", on=(F16,))
+async def j105_ac_47_step_clock(lab: BoardLab) -> None:
+    """Given divisor 141 on 48.675 kHz, when 21 steps run, then their distance is exact, without drift."""
+    await lab.init(0x1A, 141, 141, 0)
+    lab.since = lab.bench.now
+    await lab.host.run("c 43 d 14 d 00 d 00")
+    await lab.ended(1_500_000)
+    steps = lab.pulses
+    lab.check("AC-47", "steps", len(steps), 21)
+    lab.window("AC-47", "sum of the gaps", steps[-1] - steps[0], 926_963, 926_966)
+    for gap in lab.intervals:
+        lab.window("AC-47", "gap", gap, 46_346, 46_350)
+
+
+@board_test("J105-06", "J105-08", on=(F8, OTHER))
+async def j105_06_other_clocks(lab: BoardLab) -> None:
+    """Given other core clocks and step clocks, when a ramp runs, then every step is where F puts it."""
+    ext_hz = int(dict(lab.cfg.extra).get("EXT_HZ", 48_675))
+    await lab.init(0x1A, 20, 5, 8)
+    lab.since = lab.bench.now
+    await lab.host.run("c 43 d 0B d 00 d 00")
+    await lab.ended(2_000_000)
+    ticks = 0
+    for step, gap in zip(lab.pulses[1:], gaps(12), strict=True):
+        ticks += gap
+        exact = ticks * lab.cfg.clk_hz / ext_hz
+        lab.window(
+            "J105-06", f"step after {ticks} ticks", step - lab.pulses[0], int(exact) - 2, int(exact) + 3
+        )
+
+
+@board_test("J105-07", "J105-02", "J105-06")
+async def j105_07_drivers(lab: BoardLab) -> None:
+    """Given 5 phases, negative logic and the chopper, when it steps and rests, then drv is s[4:1]."""
+    bench = lab.bench
+    for code in (0x2F, 0x22, 0x2E):
+        await bench.align()
+        bench.set(rst_n=0)
+        await bench.clocks(3)
+        bench.set(rst_n=1)
+        await bench.clocks(6)
+        await lab.init(code, 9, 3, 3)
+        await lab.move(0x44, 4, 2)
+        await bench.clocks(6_000)
+        await lab.finish()
+    wanted: list[tuple[int, int]] = []
+    last = 0
+    for t, level in bench.edges("s"):
+        if level & 15 != last:
+            last = level & 15
+            wanted.append((t, last))
+    lab.check("J105-07", "edges of drv", bench.edges("drv"), wanted)
+    lab.check("J105-07", "edges seen", len(wanted) > 20, True)
+
+
+@board_test("J105-05", "STMC-MOT-09")
+async def j105_05_interrupt(lab: BoardLab) -> None:
+    """Given bit 4, when motions end, then irq rises only without it and falls with 80, not by its byte."""
+    await lab.init(0x0A, 9, 3, 3)
+    await lab.move(0x52)
+    lab.check("J105-05", "irq", lab.bench.edges("irq"), [])
+    await lab.move(0x42)
+    await lab.bench.clocks(4)
+    lab.check("J105-05", "irq", lab.bench.level("irq"), 1)
+    await lab.host.command(0x80)
+    lab.check("J105-05", "irq after 80", lab.bench.level("irq"), 0)
+    lab.check("J105-05", "FIN", await lab.host.read_data(), 0x82)
+
+
+@board_test("J105-02", "STMC-BAD-13", compared=False)
+async def j105_02_short_cycles(lab: BoardLab) -> None:
+    """Given cycles of 2 ns to 5 clk at any phase, then each write is done wholly or not at all."""
+    bench, master, rng = lab.bench, lab.master, lab.bench.rng
+    master.times = Times(late=0)  # data as early as the command: its length alone decides
+    clk_ns = bench.period / 1000
+    done = missed = 0
+    for _ in range(150):
+        await lab.host.command(0xC0)
+        length = rng.choice((rng.uniform(0.02, 1.5), rng.uniform(0.02, 5.0))) * clk_ns
+        await Timer(rng.randrange(0, bench.period, 2), "ps")
+        await master.write(lab.base + 1, 0x0A, command=length)
+        await bench.clocks(12)
+        status = await lab.host.status()
+        lab.check("STMC-BAD-13", f"status {status:#x} is 80 or 40", status in (0x80, 0x40), True)
+        if length >= 3 * clk_ns:
+            lab.check("J105-02", f"status after a write of {length:.0f} ns", status, 0x40)
+        done, missed = done + (status == 0x40), missed + (status == 0x80)
+        await lab.host.command(0x82)
+        await Timer(rng.randrange(0, bench.period, 2), "ps")
+        await master.read(lab.base, command=length)
+        await bench.clocks(12)
+        gone = not await lab.host.status() & OBF
+        short = length < 5 * clk_ns
+        lab.check("STMC-BAD-13", f"byte gone after {length:.0f} ns", gone or short, True)
+        lab.check("STMC-BAD-13", "byte", await lab.host.read(0), 0xCF)
+    lab.check("STMC-BAD-13", f"{done} done, {missed} missed", done > 20 and missed > 20, True)
+
+
+@board_test("J105-01", "STMC-INI-07", "STMC-BAD-12")
+async def j105_01_cycles_in_the_table_build(lab: BoardLab) -> None:
+    """Given a table build, when cycles are for others, masked or illegal, then it is not disturbed."""
+    bench, master = lab.bench, lab.master
+    await lab.host.init(0x1A, 255, 1, 60)
+    for n in range(12):
+        await master.write((lab.base ^ 1 << n % 9 + 1) + 1, 0x42)
+        await master.write(lab.base + 1, 0x40, aen=1)
+        await master.read(lab.base + 1, aen=1)
+        await bench.align()
+        bench.set(sa=lab.base + 1, sd_i=0x42)
+        await bench.clocks(2)
+        bench.set(ior_n=0, iow_n=0)
+        await bench.clocks(6)
+        bench.set(ior_n=1, iow_n=1)
+        await bench.clocks(6)
+        lab.check("J105-01", "status in the build", await lab.host.status(), 0)
+    lab.check("STMC-INI-07", "a byte waits for the build", await lab.host.write(1, 0x80) > 0, True)
+    lab.check("STMC-INI-07", "IBF", await lab.host.status(), IBF)
+    await lab.host.poll(IBF, 0, 40_000)
+    lab.check("STMC-INI-07", "FIN", await lab.host.read(0), 0x80)
+    lab.since = bench.now
+    await lab.host.run("c 43 d 03 d 00 d 00")
+    await lab.ended(600_000)
+    ticks = [round(gap * 48_675 / 16_000_000) for gap in lab.intervals]
+    lab.check("J105-01", "gaps in ticks", ticks, gaps(4, (255, 1, 60)))
+
+
+@board_test("STMC-INP-01", "STMC-HLD-01", "STMC-CHP-01", "STMC-DS-03", "J105-07", on=(OTHER,))
+async def j105_all_parameters(lab: BoardLab) -> None:
+    """Given other values of all parameters, when it steps and rests, then codes and times are theirs."""
+    bench = lab.bench
+    await lab.init(0x2A, 9, 3, 3)
+    lab.check("STMC-INP-01", "inputs by the sister parts' code", await lab.inputs(), 0xCF)
+    await lab.move(0x42)
+    end = await lab.ended()
+    delay = lab.cfg.cyc(2_500)
+    lab.window("STMC-HLD-01", "hold", await bench.edge("hold", 1) - end, delay - 2, delay + 16)
+    await bench.clocks(lab.cfg.cyc(3 * 1_012))
+    slack = lab.cfg.cyc(4) + 1
+    for level, clk in lab.stretches(end)[1:]:
+        nominal = lab.cfg.cyc(401 if level else 611)
+        lab.window("STMC-CHP-01", f"clk of s = {level}", clk, nominal - slack, nominal + slack)

@@ -1,0 +1,219 @@
+"""Bus cycles and the mailbox: STMC-BUS, STMC-BAD-09..13."""
+
+from __future__ import annotations
+
+from cocotb.triggers import Timer
+
+from cocotb_tests.common.bus import BUSY, COMMAND, DATA, IBF, OBF, STATUS
+from cocotb_tests.common.config import D16, F16
+
+from .figures import F8X20, F200, INTERNAL, STANDARD
+from .lab import C_EVENT_LATEST, PINS_LATEST, Lab, part_test
+
+OFF = {"cs_n": 1, "rd_n": 1, "wr_n": 1}
+
+
+async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
+    """One host cycle that ignores clk: levels on, hold `ps`, strobes off, `gap_ps` of rest."""
+    lab.bench.set_between_edges(**levels)
+    await Timer(ps, "ps")
+    lab.bench.set_between_edges(**OFF)
+    await Timer(gap_ps, "ps")
+
+
+@part_test("STMC-BUS-01", "STMC-BUS-02", "STMC-BUS-03", "STMC-BUS-04", "STMC-BUS-05", init=None)
+async def stmc_bus_01_access_table(lab: Lab) -> None:
+    """Given all levels of cs_n, a0 and the strobes, when used, then only the selected register is touched."""
+    bench, host = lab.bench, lab.host
+    lab.check("STMC-BUS-04", "a0 = 0 writes data: error 3", await host.data(0x43), 0xB0)
+    lab.check("STMC-BUS-05", "a0 = 1 writes a command", await host.command(0x0A), 0x40)
+    lab.check("STMC-BUS-04", "a0 = 0 is its data", await host.data(0x14), 0x30)
+    await host.command(0x82)
+    lab.check("STMC-BUS-03", "a0 = 1 reads status", await host.read(STATUS), OBF)
+    lab.check("STMC-BUS-02", "a0 = 0 reads data", await host.read(DATA), 0xCF)
+    before = bench.edges("d_oe")
+    for a0 in (0, 1):
+        for levels in ({"rd_n": 0}, {"wr_n": 0}, {"rd_n": 0, "wr_n": 0}, {}):
+            bench.set(a0=a0, d_i=0xC1, cs_n=1, **levels)
+            await bench.clocks(6)
+            bench.set(**OFF)
+            await bench.clocks(6)
+    bench.set(cs_n=0)
+    await bench.clocks(6)
+    bench.set(cs_n=1)
+    await bench.clocks(12)
+    lab.check("STMC-BUS-01", "edges of d_oe with cs_n = 1", bench.edges("d_oe"), before)
+    lab.check("STMC-BUS-01", "status after accesses with cs_n = 1", await host.status(), 0x00)
+
+
+@part_test("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12", init=None)
+async def stmc_bus_06_overlapping_strobes(lab: Lab) -> None:
+    """Given a write that a read strobe interrupts, when both are low, then the byte so far counts, once."""
+    bench = lab.bench
+    since = bench.set(a0=COMMAND, d_i=0x0A, cs_n=0, wr_n=0)
+    await bench.clocks(4)
+    bench.set(rd_n=0, d_i=0xC1)
+    await bench.clocks(14)
+    lab.check("STMC-BUS-06", "d_oe while both are low", bench.edges("d_oe", since), [])
+    bench.set(**OFF)
+    await bench.clocks(14)
+    lab.check("STMC-BUS-10", "status: only 0A was written", await lab.host.status(), 0x40)
+    first = bench.set(a0=STATUS, cs_n=0, rd_n=0)
+    await bench.clocks(8)
+    both = bench.set(wr_n=0, d_i=0xC1)
+    await bench.clocks(8)
+    bench.set(**OFF)
+    await bench.clocks(14)
+    (on, _), (off, _) = bench.edges("d_oe", first)
+    lab.window("STMC-BUS-20", "d_oe rise", on - first, 0, 4)
+    lab.window("STMC-BUS-06", "d_oe fall after wr_n joined", off - both, 0, 4)
+    lab.check("STMC-BUS-06", "status after the read", await lab.host.status(), 0x40)
+
+
+@part_test("STMC-BUS-10", init=None)
+async def stmc_bus_10_what_ends_a_write(lab: Lab) -> None:
+    """Given writes that end by wr_n, cs_n or rd_n, when data change then, then the old byte counts."""
+    bench = lab.bench
+    for n, levels in enumerate(({"wr_n": 1}, {"cs_n": 1}, {"rd_n": 0}, {"wr_n": 1, "cs_n": 1})):
+        bench.set(a0=DATA, d_i=0xFF, cs_n=0, wr_n=0)
+        await bench.clocks(2)
+        bench.set(a0=COMMAND, d_i=0x0A)
+        await bench.clocks(2)
+        bench.set(**levels, a0=DATA, d_i=0xC1)
+        await bench.clocks(4)
+        bench.set(**OFF)
+        await bench.clocks(14)
+        lab.check("STMC-BUS-10", f"status of end {n}", await lab.host.status(), 0x40)
+        await lab.host.command(0xC0)
+
+
+@part_test("STMC-BUS-11", on=(F16, F8X20, F200), init=None, compared=False)
+async def stmc_bus_11_shortest_cycles(lab: Lab) -> None:
+    """Given the shortest legal cycles at any phase to clk, when bytes go in, then none is lost."""
+    bench = lab.bench
+    clk = bench.period
+    for part in range(8):
+        await bench.align()
+        await Timer(clk * part // 16 * 2 + 2 * (clk // 64), "ps")
+        # Garbage until 2 clk before the rise.
+        bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
+        await Timer(clk + 2, "ps")
+        await strobe(lab, 2 * clk, 12 * clk, a0=1, d_i=0x0A, cs_n=0, wr_n=0)
+        await strobe(lab, 3 * clk, 12 * clk, a0=0, d_i=20 + part, cs_n=0, wr_n=0)
+        await strobe(lab, 3 * clk, 12 * clk, a0=0, d_i=5, cs_n=0, wr_n=0)
+        bench.set_between_edges(a0=1, cs_n=0, rd_n=0)
+        await Timer(5 * clk, "ps")
+        got = bench.level("d_oe"), bench.level("d_o")
+        bench.set_between_edges(**OFF)
+        await Timer(3 * clk, "ps")
+        lab.check("STMC-BUS-11", f"(d_oe, status), phase {part}/8", got, (1, 0x20))
+
+
+@part_test("STMC-BUS-12", "STMC-BUS-13")
+async def stmc_bus_12_ibf_and_effects(lab: Lab) -> None:
+    """Given writes, when IBF falls, then the status shows every effect of the byte; pins follow soon."""
+    bench, host = lab.bench, lab.host
+    script = ((1, 0x43, 0x30), (0, 9, 0x20), (0, 0, 0x10), (0, 0, BUSY), (1, 0x40, 0x00), (1, 0x82, OBF))
+    for delay in range(1, 16):
+        for reg, byte, after in script:
+            since = bench.now
+            edge0 = await host.write(reg, byte, gap=delay)
+            status = await host.status()
+            taken = not status & IBF
+            lab.check("STMC-BUS-12", f"IBF {delay} clk after the rise", taken or delay < C_EVENT_LATEST, True)
+            if not taken:
+                status = await host.poll(IBF, 0)
+            if byte != 0x40:
+                lab.check("STMC-BUS-13", f"status of {byte:#x} after {delay} clk", status, after)
+            if after == BUSY:
+                await bench.until(max(bench.now, edge0 + PINS_LATEST))
+                lab.check("STMC-BUS-13", "hold", bench.level("hold"), 0)
+            if byte == 0x82:
+                lab.check("STMC-INP-01", "inputs", await host.read(DATA), 0xCF)
+            if byte == 0x40:
+                await lab.idle()
+                lab.check("STMC-MOT-10", "int_n", bench.level("int_n"), 0)
+                lab.check("STMC-STP-01", "steps", bench.edges("s", since), [])
+
+
+@part_test("STMC-BUS-14", "STMC-BAD-09", init=None)
+async def stmc_bus_14_newest_byte_wins(lab: Lab) -> None:
+    """Given two writes 5 clk and more apart, when nothing is polled, then the newer one is always taken."""
+    for apart in range(5, 16):
+        await lab.reset()
+        edge0 = await lab.host.write(COMMAND, 0x0A, gap=2)
+        await lab.bench.until(max(lab.bench.now, edge0 + apart - 3))
+        await lab.host.write(DATA, 0x14, strobe=3)
+        status = await lab.host.poll(IBF, 0)
+        lab.check("STMC-BUS-14", f"status of {apart} clk", status in (0x30, 0xB0), True)
+        if apart >= C_EVENT_LATEST:
+            lab.check("STMC-BUS-12", f"status of {apart} clk", status, 0x30)
+
+
+@part_test("STMC-BUS-20")
+async def stmc_bus_20_read_cycle(lab: Lab) -> None:
+    """Given status reads of many lengths, when they run, then d_o is there in time and does not change."""
+    bench = lab.bench
+    for length in (5, 6, 9, 40):
+        await lab.go(0x42)
+        first = bench.set(a0=STATUS, cs_n=0, rd_n=0)
+        await bench.clocks(4)
+        byte = bench.level("d_o")
+        lab.check("STMC-BUS-20", "d_oe", bench.level("d_oe"), 1)
+        await bench.clocks(length - 4)
+        last = bench.set(rd_n=1) if length & 1 else bench.set(cs_n=1)
+        await bench.clocks(8)
+        bench.set(**OFF)
+        (_, _), (off, _) = bench.edges("d_oe", first)
+        lab.window("STMC-BUS-20", "d_oe fall", off - last, 0, 4)
+        lab.check("STMC-BUS-20", "changes of d_o", bench.edges("d_o", first + 5), [])
+        lab.check("STMC-BUS-20", "status", byte & ~BUSY, 0)
+        await lab.idle()
+        await bench.clocks(4)
+
+
+@part_test("STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-REM-02", "STMC-ST-04")
+async def stmc_bus_21_answers(lab: Lab) -> None:
+    """Given answers of one and three bytes, when read, then OBF falls and rises as many times as needed."""
+    bench, host = lab.bench, lab.host
+    await lab.go(0x44, 0x030201, 3)
+    await lab.in_gap(2)
+    await lab.halt()
+    left = 0x030201 - 3 - 1
+    await host.command(0x84)
+    for n in range(3):
+        for _ in range(3):
+            lab.check("STMC-BUS-21", "OBF after status reads", await host.status() & OBF, OBF)
+        lab.check("STMC-REM-02", f"byte {n}", await host.read(DATA), left >> 8 * n & 0xFF)
+        await bench.clocks(8)
+    lab.check("STMC-BUS-21", "OBF", await host.status() & OBF, 0)
+    for _ in range(2):
+        lab.check("STMC-BUS-22", "last byte again", await host.read(DATA), left >> 16)
+    lab.check("STMC-BUS-22", "status", await host.status(), 0)
+
+
+@part_test("STMC-BAD-13", compared=False)
+async def stmc_bad_13_short_strobes(lab: Lab) -> None:
+    """Given strobes that are too short, when they come at any phase, then nothing or one whole write."""
+    bench = lab.bench
+    clk = bench.period
+    for part in range(16):
+        for length in (clk // 4, clk // 2, clk, 3 * clk // 2):
+            await lab.host.command(0xC0)
+            await bench.align()
+            await Timer(clk * part // 32 * 2 + 2 * (clk // 64), "ps")
+            await strobe(lab, length // 2 * 2, 12 * clk, a0=1, d_i=0x1A, cs_n=0, wr_n=0)
+            await bench.align()
+            status = await lab.host.status()
+            lab.check("STMC-BAD-13", f"status {status:#x} is 80 or 40", status in (0x80, 0x40), True)
+    await lab.host.init(*STANDARD)
+    await lab.move(0x42)
+    lab.check("STMC-BAD-13", "a step still runs", len(lab.pulses), 1)
+
+
+@part_test("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", on=(D16,), init=INTERNAL, clock=0)
+async def stmc_bus_13_datasheet(lab: Lab) -> None:
+    """Given DATASHEET timing, when reads and errors come at rest, then they are as fast as in FAST."""
+    for byte, after in ((0x82, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x84, OBF), (0x40, 0x80 | OBF)):
+        await lab.host.write(COMMAND, byte, gap=C_EVENT_LATEST)
+        lab.check("STMC-BUS-13", f"status of {byte:#x}", await lab.host.status(), after)

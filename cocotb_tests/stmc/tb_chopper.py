@@ -1,0 +1,157 @@
+"""Stop-time chopper, HOLD and the outputs register: STMC-CHP, STMC-HLD, STMC-OUT-02."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.config import F16
+
+from .figures import F12, FAMILY, INTERNAL, ODD, T0
+from .lab import Lab, part_test
+
+CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
+
+
+def xt(lab: Lab, name: str, default: int) -> int:
+    """A time parameter of the build in crystal periods."""
+    return int(dict(lab.cfg.extra).get(name, default))
+
+
+def check_chopping(lab: Lab, rule: str, since: int, pattern: int, off: int) -> None:
+    """Every whole phase since an edge is CHOP_ON or CHOP_OFF to 4 crystal periods + 1 clk, without drift."""
+    slack = lab.cfg.cyc(4) + 1
+    on_xt, off_xt = xt(lab, "CHOP_ON_XT", 1_040), xt(lab, "CHOP_OFF_XT", 1_740)
+    rows = lab.stretches(since)
+    lab.check(rule, "several phases seen", len(rows) >= 4, True)
+    lab.check(rule, "levels", {level for level, _ in rows}, {pattern, off})
+    for level, clk in rows:
+        nominal = lab.cfg.cyc(on_xt if level == pattern else off_xt)
+        lab.window(rule, f"clk of s = {level:05b}", clk, nominal - slack, nominal + slack)
+    begins = [t for t, level in lab.bench.edges("s", since) if level == off]
+    period = lab.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
+    total = begins[-1] - begins[0]
+    count = len(begins) - 1
+    # Rounding up to whole quanta makes a period up to 8 crystal periods longer.
+    lab.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
+
+
+@part_test("STMC-CHP-01", on=(F16, F12, ODD), init=None, clock=0)
+async def stmc_chp_01_phases(lab: Lab) -> None:
+    """Given bit 5 and each logic, when the part rests, then on and off times repeat without drift."""
+    for code, pattern, off in ((0x2A, 0b00011, 0b00000), (0x22, 0b11100, 0b11111), (0x2F, 0b00011, 0)):
+        await lab.reset()
+        await lab.host.init(code, 20, 5, 8)
+        await lab.bench.edge("s", off, 60_000)
+        since = lab.bench.now
+        await lab.bench.clocks(lab.cfg.cyc(20_000))
+        check_chopping(lab, "STMC-CHP-01", since, pattern, off)
+        lab.check("STMC-CHP-01", "hold", lab.bench.edges("hold"), [])
+
+
+@part_test("STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-02", on=(F16, F12), init=CHOP, clock=0)
+async def stmc_chp_02_motion(lab: Lab) -> None:
+    """Given chopping, when motions start in any phase, then full pattern, then a whole on-time at the end."""
+    on, slack = lab.cfg.cyc(1_040), lab.cfg.cyc(4) + 1
+    table = [0b00011, 0b00110, 0b01100, 0b01001]
+    at = 0
+    for wait in (100, 700, 1_300, 2_000, 2_700):
+        await lab.bench.clocks(wait)
+        begin = lab.bench.now
+        edge0 = await lab.go(0x42, poll=False)
+        end = await lab.ended()
+        low = [t for t, _ in lab.bench.edges("s", begin) if t <= edge0 + 14]
+        for t in range(edge0 + 14, end, 7):
+            lab.check("STMC-CHP-02", "s while BUSY", lab.bench.level_at("s", t) > 0, True)
+        at += 1
+        step = next(t for t, level in lab.bench.edges("s", edge0) if level == table[at % 4])
+        lab.window("STMC-MOT-06", "step", step - edge0, lab.cfg.cyc(T0), lab.cfg.cyc(T0) + 14)
+        lab.check("STMC-CHP-02", "edges before BUSY", len(low) <= 2, True)
+        off = await lab.bench.edge("s", 0)
+        lab.window("STMC-CHP-01", "first on-time", off - end, on - slack, on + slack + 2)
+        await lab.finish()
+
+
+@part_test("STMC-CHP-02", "STMC-INI-04", "STMC-INI-07", clock=0, init=CHOP)
+async def stmc_chp_02_initialisations(lab: Lab) -> None:
+    """Given chopping, when bit 5 is taken away and set again, then it changes when the build is complete."""
+    await lab.bench.edge("s", 0)
+    await lab.host.init(0x0A, 20, 5, 8)
+    since = lab.bench.now
+    await lab.ready()
+    complete = lab.bench.now
+    lab.check("STMC-CHP-02", "chopped during the build", len(lab.bench.edges("s", since)) >= 2, True)
+    await lab.bench.clocks(6_000)
+    lab.check("STMC-CHP-02", "full pattern", lab.bench.edges("s", complete), [])
+    lab.check("STMC-CHP-02", "s", lab.bench.level("s"), 0b00011)
+    await lab.host.init(*CHOP)
+    since = lab.bench.now
+    await lab.bench.clocks(300)
+    lab.check("STMC-CHP-02", "s during the build", lab.bench.edges("s", since), [])
+    await lab.ready()
+    off = await lab.bench.edge("s", 0)
+    lab.window("STMC-CHP-01", "a full on-time after the build", off - since, 1_040, 1_040 + 6_000)
+    # A refused one leaves the old bit 5 in force.
+    await lab.host.init(0x0A, 5, 20, 8)
+    since = lab.bench.now
+    await lab.bench.clocks(9_000)
+    check_chopping(lab, "STMC-CHP-01", since, 0b00011, 0)
+
+
+@part_test("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01", init=CHOP, clock=0)
+async def stmc_chp_01_motion_without_a_step(lab: Lab) -> None:
+    """Given chopping and l1_n low, when 42 comes, then a full on-time begins at its end all the same."""
+    await lab.pins(l1_n=0)
+    for wait in (0, 900, 1_700):
+        await lab.bench.clocks(wait)
+        await lab.go(0x42)
+        end = await lab.ended()
+        off = await lab.bench.edge("s", 0)
+        lab.window("STMC-CHP-01", "first on-time", off - end, 1_035, 1_047)
+        await lab.finish()
+    lab.check("STMC-HLD-01", "hold", lab.bench.level("hold"), 0)
+
+
+@part_test("STMC-OUT-02", "STMC-OUT-01", init=CHOP, clock=0, on=(FAMILY,))
+async def stmc_out_02_outputs_while_chopped(lab: Lab) -> None:
+    """Given chopping, when 83 is read at many moments, then the pattern is there, and HOLD by its pin."""
+    for wait in (1, 300, 500, 700, 900, 1_100):
+        await lab.bench.clocks(wait)
+        lab.check("STMC-OUT-02", "outputs", await lab.out(), 0xC4)
+    await lab.move(0x4A)
+    lab.check("STMC-OUT-01", "outputs before hold", await lab.out(), 0x92)
+    await lab.bench.level_is("hold", 1)
+    await lab.bench.clocks(4)
+    lab.check("STMC-OUT-01", "outputs after hold", await lab.out(), 0x96)
+
+
+@part_test("STMC-HLD-01", "STMC-HLD-02", on=(FAMILY, ODD), init=INTERNAL, clock=0)
+async def stmc_hld_01_hold(lab: Lab) -> None:
+    """Given HOLD_XT, when motions end, restart, do nothing, then hold rises so long after the last end."""
+    delay = lab.cfg.cyc(xt(lab, "HOLD_XT", 544_000))
+    for code, n, rate in ((0x42, None, None), (0x44, 3, 1), (0x43, 1, None)):
+        await lab.go(code, n, rate)
+        end = await lab.ended()
+        rise = await lab.bench.edge("hold", 1)
+        lab.window("STMC-HLD-01", "hold", rise - end, delay, delay + 16)
+        await lab.finish()
+    begin = lab.bench.now
+    for _ in range(4):
+        await lab.move(0x42)
+        await lab.finish()
+        await lab.bench.clocks(delay - 400)
+        await lab.init(0x0A, 9, 9, 0)
+    lab.check("STMC-HLD-02", "edges of hold", len(lab.bench.edges("hold", begin)) % 2, 1)
+    await lab.pins(mon=0)
+    await lab.bench.level_is("hold", 1)
+    await lab.go(0x42)
+    end = await lab.ended()
+    lab.check("STMC-HLD-01", "falls without a step", lab.bench.level("hold"), 0)
+    rise = await lab.bench.edge("hold", 1)
+    lab.window("STMC-HLD-01", "hold without a step", rise - end, delay, delay + 16)
+
+
+@part_test("STMC-HLD-01", init=INTERNAL, clock=0)
+async def stmc_hld_01_default(lab: Lab) -> None:
+    """Given the default, when a step has ended, then hold rises 34 ms later."""
+    await lab.go(0x42)
+    end = await lab.ended()
+    rise = await lab.bench.edge("hold", 1)
+    lab.window("STMC-HLD-01", "hold", rise - end, 544_000, 544_016)

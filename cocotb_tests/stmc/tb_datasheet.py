@@ -1,0 +1,216 @@
+"""DATASHEET timing: STMC-DS-01..14. Times are -0/+16 clk, plus up to 2 clk to a pin."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bus import BUSY, IBF, OBF
+from cocotb_tests.common.config import D16, D25X8
+
+from .figures import INTERNAL, gaps, slowed
+from .lab import WRITE_EVENT, Lab, part_test
+
+TOLERANCE = 16
+PIN = 2
+ALL_CLOCKS = (D16, D25X8)
+
+
+def after(lab: Lab, rule: str, what: str, got: int, xt: int, pin: int = PIN) -> None:
+    """`got` clk is CYC(xt), -0/+16, plus the way to the pin."""
+    nominal = lab.cfg.cyc(xt)
+    lab.window(rule, what, got, nominal, nominal + TOLERANCE + pin)
+
+
+async def event(lab: Lab, code: int, n: int | None = None, rate: int | None = None) -> int:
+    """Start a motion; returns the write event of its last byte."""
+    return await lab.go(code, n, rate, poll=False) + WRITE_EVENT
+
+
+async def taken(lab: Lab, rule: str, since: int, xt: int, code: int = 0x80) -> None:
+    """A command written now is taken so long after an edge, not before."""
+    nominal = since + lab.cfg.cyc(xt)
+    await lab.host.write(1, code)
+    await lab.bench.until(max(lab.bench.now, nominal - 20))
+    while lab.bench.now < nominal - 5:
+        lab.check(rule, "IBF while closed", await lab.host.status() & IBF, IBF)
+    await lab.host.poll(IBF, 0, dense=1_000)
+    lab.window(rule, "taken", lab.bench.now - since, nominal - since, nominal - since + TOLERANCE + 16)
+
+
+async def rest(lab: Lab) -> None:
+    """End of motion, its interrupt read, all windows open."""
+    await lab.host.poll(BUSY | IBF, 0)
+    await lab.finish()
+
+
+@part_test("STMC-DS-01", "STMC-DS-04", "STMC-DS-05", "STMC-DS-06", on=ALL_CLOCKS, init=INTERNAL, clock=0)
+async def stmc_ds_01_starts(lab: Lab) -> None:
+    """Given each motion command, when its last byte is in, then start and step 0 come at their times."""
+    for code, n, rate, start, step in (
+        (0x42, None, None, 432, 1_376),
+        (0x43, 2, None, 1_792, 3_200),
+        (0x44, 2, 10, 432, 3_104),
+        (0x45, None, 10, 432, 3_104),
+        (0x46, None, None, 1_792, 3_200),
+        (0x4F, None, 10, 432, 3_104),
+    ):
+        await lab.bench.level_is("hold", 1, lab.cfg.cyc(560_000))
+        t = await event(lab, code, n, rate)
+        while lab.bench.now < t + lab.cfg.cyc(start) - 8:
+            lab.check("STMC-DS-01", "BUSY", await lab.host.status() & BUSY, 0)
+        hold = await lab.bench.edge("hold", 0)
+        after(lab, "STMC-DS-01", f"hold of {code:#x}", hold - t, start)
+        lab.check("STMC-DS-01", "BUSY", await lab.host.status() & BUSY, BUSY)
+        after(lab, "STMC-DS-04", f"step 0 of {code:#x}", await lab.pulse(1) - t, step)
+        if n is None and code != 0x42:
+            await lab.command(0x40)
+        await rest(lab)
+
+
+@part_test(
+    "STMC-DS-02", "STMC-DS-03", "STMC-DS-14", "STMC-INI-04", "STMC-INI-08", on=(D16,), init=None, clock=0
+)
+async def stmc_ds_02_initialisations(lab: Lab) -> None:
+    """Given initialisations, when the 4th byte is in, then pattern and completion come at their times."""
+    for first, (d1, d2, pa) in enumerate(((20, 5, 8), (20, 20, 0), (255, 1, 400))):
+        for byte in (d1, d2, pa & 255):
+            if byte == d1:
+                await lab.host.command(0x25 if first else 0x2A)
+            await lab.host.data(byte)
+            if byte == d1 and d1 == d2:
+                await lab.host.data(d2)
+                await lab.host.data(0)
+                break
+        edge0 = await lab.host.write(0, pa >> 8)
+        t = edge0 + WRITE_EVENT
+        if not first:
+            after(lab, "STMC-DS-02", "s", await lab.bench.edge("s") - t, 704)
+        total = 264_000 + 209 * pa
+        await lab.host.write(1, 0x80)
+        nominal = t + lab.cfg.cyc(total)
+        await lab.bench.until(nominal - 20)
+        lab.check("STMC-DS-14", "IBF", await lab.host.status(), IBF)
+        await lab.bench.until(nominal - 4)
+        await lab.host.poll(IBF, 0, dense=100)
+        lab.window("STMC-DS-03", "complete", lab.bench.now - t, lab.cfg.cyc(total), lab.cfg.cyc(total) + 32)
+        lab.check("STMC-DS-03", "FIN", await lab.host.read_data(), 0x82 if first else 0x80)
+        if not first:
+            await lab.move(0x42)
+        lab.check("STMC-INI-04", "pattern, as read", await lab.out() & 0xF8, 0x60)
+
+
+@part_test("STMC-DS-06", "STMC-DS-13", on=ALL_CLOCKS, init=INTERNAL, clock=0)
+async def stmc_ds_06_single_step(lab: Lab) -> None:
+    """Given a single step, when it ends, then int_n and the taking of bytes are 112 us after its byte."""
+    t = await event(lab, 0x42)
+    await lab.pulse(1)
+    end = await lab.ended()
+    after(lab, "STMC-DS-06", "int_n", end - t, 1_792, PIN + 4)
+    await rest(lab)
+    t = await event(lab, 0x4A)
+    await lab.pulse(1)
+    await taken(lab, "STMC-DS-06", t + PIN + 3, 1_792)
+    lab.check("STMC-DS-13", "answer", await lab.host.read_data(), 0x82)
+
+
+@part_test("STMC-DS-07", "STMC-DS-08", "STMC-DS-13", on=(D16,), init=INTERNAL, clock=0)
+async def stmc_ds_07_normal_ends(lab: Lab) -> None:
+    """Given motions of commands 3, 4 and 7, when they end normally or at CNP, then 26 us, bytes at 156 us."""
+    for code, n, rate in ((0x43, 3, None), (0x44, 2, 4), (0x47, None, 4)):
+        await event(lab, code, n, rate)
+        last = await lab.pulse(n or 2)
+        if n is None:
+            await lab.bench.clocks(200)
+            last = lab.bench.now
+            lab.set(cnp_n=0)
+        end = await lab.ended()
+        after(lab, "STMC-DS-07", f"int_n of {code:#x}", end - last, 416, PIN + 3)
+        lab.check("STMC-DS-07", "BUSY", await lab.host.status() & BUSY, 0)
+        await taken(lab, "STMC-DS-08", last, 2_496)
+        lab.check("STMC-DS-13", "answer", await lab.host.read_data(), 0x80 | code & 7)
+
+
+@part_test("STMC-DS-09", "STMC-DS-10", "STMC-DS-11", on=ALL_CLOCKS, init=INTERNAL, clock=0)
+async def stmc_ds_09_stops(lab: Lab) -> None:
+    """Given motions, when a limit, mon or 40 stops them, then no step more, the end at its time."""
+    for code, n, rate, stop, end_xt, open_xt in (
+        (0x43, 100, None, "l1_n", 3_200, 3_200),
+        (0x46, None, None, "mon", 3_200, 3_200),
+        (0x44, 100, 5, "l1_n", 416, 2_496),
+        (0x47, None, 5, "l3_n", 416, 2_496),
+        (0x45, None, 5, "c 40", 416, 2_496),
+        (0x46, None, None, "c 40", 3_200, 3_200),
+    ):
+        await event(lab, code, n, rate)
+        await lab.in_gap(2, 500)
+        t = lab.bench.now
+        if stop == "c 40":
+            t = await lab.host.write(1, 0x40) + WRITE_EVENT
+        else:
+            await lab.blip(stop, 3)
+        end = await lab.ended()
+        after(lab, "STMC-DS-09", f"int_n of {code:#x} by {stop}", end - t, end_xt, PIN + 4)
+        lab.check("STMC-DS-11", "steps", len(lab.pulses), 3)
+        await taken(lab, "STMC-DS-10", t, open_xt)
+        lab.check("STMC-DS-13", "answer", await lab.host.read_data() & 0x87, 0x80 | code & 7)
+
+
+@part_test("STMC-DS-09", "STMC-DS-11", on=(D16,), init=INTERNAL, clock=0)
+async def stmc_ds_09_ramp_down(lab: Lab) -> None:
+    """Given a request, when the ramp down has ended, then the end follows 0.2 ms after its last step."""
+    for i, how in ((3, "c 41"), (2, "l3_n"), (5, "c 41")):
+        n = 12 if i == 5 else 100
+        await event(lab, 0x43, n)
+        await lab.in_gap(i)
+        if how == "c 41":
+            await lab.command(0x41)
+        else:
+            await lab.blip(how)
+        ticks = slowed(n, i)
+        last = await lab.pulse(len(ticks) + 1)
+        end = await lab.ended()
+        lab.train("STMC-DS-11", ticks)
+        after(lab, "STMC-DS-09", "int_n", end - last, 3_200 if len(ticks) + 1 < n else 416)
+        await rest(lab)
+
+
+@part_test("STMC-DS-12", "STMC-DS-14", "STMC-MOT-05", on=(D16,), init=INTERNAL, clock=0)
+async def stmc_ds_12_causes_at_the_start(lab: Lab) -> None:
+    """Given a cause at the start, or a stop that waits for it, when it starts, then no step."""
+    await lab.pins(l1_n=0)
+    for code, n, rate, start, end_xt in (
+        (0x43, 9, None, 1_792, 3_200),
+        (0x44, 9, 5, 432, 416),
+        (0x42, None, None, 432, 416),
+    ):
+        t = await event(lab, code, n, rate)
+        end = await lab.ended()
+        after(lab, "STMC-DS-12", f"int_n of {code:#x}", end - t, start + end_xt, PIN + 8)
+        lab.check("STMC-DS-12", "steps", lab.pulses, [])
+        await rest(lab)
+    await lab.pins(l1_n=1)
+    t = await event(lab, 0x43, 9)
+    await taken(lab, "STMC-DS-14", t, 1_792, 0x40)
+    await lab.ended()
+    await lab.result("STMC-DS-14", 0, 0xC3, 8)
+
+
+@part_test("STMC-DS-13", "STMC-BUS-14", on=(D16,), init=INTERNAL, clock=0)
+async def stmc_ds_13_a_newer_byte(lab: Lab) -> None:
+    """Given a byte that waits for the end, when a newer one is written, then that one is judged."""
+    await event(lab, 0x44, 2, 3)
+    last = await lab.pulse(2)
+    await lab.host.write(1, 0x42)
+    await lab.bench.clocks(300)
+    await lab.host.write(1, 0x80)
+    await lab.bench.until(last + 2_600)
+    lab.check("STMC-DS-13", "status", await lab.host.status(), OBF)
+    lab.check("STMC-DS-13", "FIN", await lab.host.read_data(), 0x84)
+
+
+@part_test("STMC-DS-04", "STMC-DS-11", "STMC-DS-12", on=(D16,))
+async def stmc_ds_04_external_clock(lab: Lab) -> None:
+    """Given the external clock, when moves run, then step 0 is the first tick from its time on."""
+    for code, n, rate, xt in ((0x43, 12, None, 3_200), (0x44, 5, 3, 3_104)):
+        t = await event(lab, code, n, rate)
+        first = await lab.pulse(1)
+        lab.window("STMC-DS-04", "step 0", first - t, xt, xt + TOLERANCE + PIN + 16)
+        await lab.outcome("STMC-DS-12", n, 0x80 | code & 7, 0, gaps(n) if rate is None else [3] * 4)

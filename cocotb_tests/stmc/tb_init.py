@@ -1,0 +1,179 @@
+"""Initialisation and excitation: STMC-INI, STMC-EXC, STMC-RMP as the part shows it, PHASE_IDLE."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bus import BUSY, DATA, IBF, OBF
+from cocotb_tests.common.config import D16, F16
+
+from .figures import FAMILY, STANDARD, STEPS, gaps, steps
+from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab, part_test
+
+WRONG = ((0, 0, 8), (0, 5, 8), (20, 0, 8), (5, 20, 8), (19, 20, 0), (254, 255, 65535))
+
+
+@part_test("STMC-INI-02", "STMC-BAD-05", "STMC-ST-03", init=None)
+async def stmc_ini_02_illegal_divisors(lab: Lab) -> None:
+    """Given illegal divisors, when the 4th byte is in, then error 5 and no effect."""
+    for good in (False, True):
+        if good:
+            await lab.init(*STANDARD)
+        for d1, d2, pa in WRONG:
+            got = [await lab.status_after(0x0F)]
+            got += [await lab.status_after(byte, DATA) for byte in (d1, d2, pa & 255, pa >> 8)]
+            lab.check("STMC-INI-02", f"statuses of {(d1, d2, pa)}", got, [0x40, 0x30, 0x20, 0x10, 0xD0])
+        if not good:
+            lab.check("STMC-INI-02", "42", await lab.statuses("c 42"), [0xA0])
+            lab.check("STMC-INI-02", "s", lab.bench.edges("s"), [])
+    await lab.go(0x43, 4)
+    await lab.outcome("STMC-INI-02", 4, 0x83, 0, [20, 12, 20])
+    lab.check("STMC-INI-02", "type is not that of a refused one", lab.patterns[0], 0b00110)
+
+
+@part_test("STMC-INI-02", "STMC-MOV-04", "STMC-INI-01")
+async def stmc_ini_02_small_and_flat(lab: Lab) -> None:
+    """Given divisors 1..4, PA 0 and 65535, D1 = D2, when moves run, then all are accepted and right."""
+    for d1, d2, pa, n in (
+        (4, 3, 2, 8),
+        (255, 254, 65535, 3),
+        (12, 6, 0, 6),
+        (10, 10, 50, 6),
+        (255, 4, 1, 5),
+        (5, 4, 1, 4),
+    ):
+        await lab.init(0x1A, d1, d2, pa)
+        await lab.go(0x43, n)
+        await lab.outcome("STMC-INI-02", n, 0x83, 0, gaps(n, (d1, d2, pa)))
+    await lab.init(0x0A, 1, 1, 0)
+    await lab.move(0x43, 3)
+    lab.check("STMC-INI-01", "gaps of divisor 1 in clk", lab.intervals, [1280, 1280])
+    await lab.move(0x44, 3, 2)
+    lab.check("STMC-INI-01", "gaps of divisor 2 in clk", lab.intervals, [2560, 2560])
+
+
+@part_test("STMC-INI-04", "STMC-INI-05", "STMC-INI-06", "STMC-EXC-03")
+async def stmc_ini_04_frozen_bits(lab: Lab) -> None:
+    """Given a part set up, when others are sent, then bits 3..0 stay; a reset frees them."""
+    await lab.move(0x42)
+    fin = await lab.finish()
+    since = lab.bench.now
+    for code in (0x01, 0x07, 0x1F, 0x0D):
+        await lab.host.init(code | 0x10, 30, 10, 4)
+        await lab.ready()
+    lab.check("STMC-INI-06", "s", lab.bench.edges("s", since), [])
+    lab.check(
+        "STMC-INI-06", "hold, int_n", lab.bench.edges("hold", since) + lab.bench.edges("int_n", since), []
+    )
+    lab.check("STMC-INI-06", "FIN", await lab.finish(), fin)
+    await lab.move(0x44, 4, 1)
+    lab.check("STMC-EXC-03", "patterns", lab.patterns, [0b01100, 0b01001, 0b00011, 0b00110])
+    await lab.reset()
+    await lab.init(0x15, 30, 10, 4)
+    lab.check("STMC-INI-04", "s after a reset", lab.bench.level("s"), 0b11100)
+
+
+@part_test("STMC-INI-04", "STMC-INI-07")
+async def stmc_ini_04_data_taken_anew(lab: Lab) -> None:
+    """Given other divisors and the other clock, when sent again, then the next move has them."""
+    await lab.init(0x1A, 30, 10, 4)
+    await lab.move(0x43, 10)
+    lab.train("STMC-INI-04", gaps(10, (30, 10, 4)))
+    await lab.init(0x0A, 3, 2, 1)
+    await lab.move(0x43, 4)
+    lab.check("STMC-INI-04", "gaps on the internal clock", lab.intervals, [3840, 2560, 3840])
+
+
+@part_test("STMC-INI-07", "STMC-FSM-03", "STMC-BUS-14")
+async def stmc_ini_07_build(lab: Lab) -> None:
+    """Given builds of all lengths, when a motion waits, then it is judged afterwards and runs right."""
+    for d1, d2, pa in ((255, 1, 65535), (255, 254, 65535), (2, 1, 1), (200, 3, 255), (20, 20, 9), (9, 3, 0)):
+        edge0 = (await lab.host.init(0x1A, d1, d2, pa), lab.bench.now)[1]
+        lab.since = lab.bench.now
+        await lab.host.write(1, 0x4B)
+        await lab.host.poll(IBF, 0, BUILD_LATEST + 500)
+        lab.window("STMC-INI-07", "build", lab.bench.now - edge0, 0, BUILD_LATEST + 400)
+        for byte in (2, 0, 0):
+            await lab.host.data(byte)
+        await lab.outcome("STMC-INI-07", 3, 0x83, 0, gaps(3, (d1, d2, pa)))
+
+
+@part_test("STMC-INI-07", "STMC-FSM-03", "STMC-BAD-16")
+async def stmc_ini_07_reset_in_the_build(lab: Lab) -> None:
+    """Given a build, when a reset comes at any moment of it, then the next initialisation is good."""
+    for wait in (2, 40, 500, 3_000):
+        await lab.host.init(0x1A, 255, 5, 400)
+        await lab.bench.clocks(wait)
+        await lab.reset()
+        lab.check("STMC-BAD-16", "42", await lab.statuses("c 42"), [0xA0])
+        await lab.init(*STANDARD)
+        await lab.go(0x43, 12)
+        await lab.outcome("STMC-INI-07", 12, 0x83, 0, gaps(12))
+
+
+@part_test("STMC-INI-06", "STMC-INI-08", on=(F16, FAMILY, D16), init=None, clock=0)
+async def stmc_ini_06_first_pattern(lab: Lab) -> None:
+    """Given the idle level, when the first initialisation goes in, then position 0 appears, BUSY stays 0."""
+    idle = 0x1F if lab.family else 0
+    lab.check("STMC-INI-06", "s before", lab.bench.level("s"), idle)
+    lab.check("STMC-OUT-02", "outputs before", await lab.out(), 0xFC if idle else 0x04)
+    for code in range(0x01, 0x10):
+        if not code & 3:
+            continue
+        if code > 1 and lab.cfg.datasheet:
+            break
+        await lab.reset()
+        for byte in (20, 5, 0):
+            await (lab.host.command(code) if byte == 20 else lab.host.status())
+            await lab.host.data(byte)
+        edge0 = await lab.host.data(0, poll=False)
+        await lab.bench.until(edge0 + C_EVENT_LATEST + 2)
+        if not lab.cfg.datasheet:
+            lab.check("STMC-INI-06", f"s of code {code:#x}", lab.bench.level("s"), steps(code)[0])
+        else:
+            t = await lab.bench.edge("s")
+            lab.window("STMC-DS-02", "s", t - edge0, 704, 704 + 24)
+        lab.check("STMC-INI-08", "BUSY", await lab.host.status() & BUSY, 0)
+        lab.check("STMC-INI-08", "int_n and hold", lab.bench.level("int_n") & lab.bench.level("hold"), 1)
+
+
+@part_test(
+    "STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04", "STMC-EXC-05", "STMC-OUT-01", "STMC-OUT-02", init=None
+)
+async def stmc_exc_01_all_tables(lab: Lab) -> None:
+    """Given each type, mode, logic, when it runs round twice and back, then every pattern of the table."""
+    for low in STEPS:
+        for logic in (8, 0):
+            code = 0x10 | low | logic
+            table = steps(code)
+            size = len(table)
+            await lab.reset()
+            await lab.init(code, 20, 5, 8)
+            lab.check("STMC-EXC-01", f"s of {code:#x}", lab.bench.level("s"), table[0])
+            await lab.move(0x44, 2 * size, 1)
+            wanted = [table[i % size] for i in range(1, 2 * size + 1)]
+            lab.check("STMC-EXC-02", f"cw patterns of {code:#x}", lab.patterns, wanted)
+            await lab.move(0x4C, size + 1, 1)
+            wanted = [table[-i % size] for i in range(1, size + 2)]
+            lab.check("STMC-EXC-02", f"ccw patterns of {code:#x}", lab.patterns, wanted)
+            level = table[-1]
+            register = sum((level >> i & 1) << (7 - i) for i in range(5)) | 2
+            lab.check("STMC-OUT-01", f"outputs of {code:#x}", await lab.out() & ~4, register)
+
+
+@part_test("STMC-MOT-04", "STMC-OUT-01", "STMC-INI-06")
+async def stmc_out_01_direction_bit(lab: Lab) -> None:
+    """Given motions both ways and refused ones, when 83 is read, then the last executed one counts."""
+    for script, bit in (
+        ("c 4A", 1),
+        ("c 42", 0),
+        ("c 4C d 00 d 01 d 00 d 00", 0),
+        ("c 4B d 00 d 00 d 00", 1),
+        ("c 43 d 01 d 00", 1),
+        ("c 41", 1),
+        ("c 1A d 14 d 05 d 08 d 00", 1),
+        ("c 42", 0),
+    ):
+        await lab.host.run(script)
+        await lab.idle()
+        status = await lab.host.command(0x83)
+        lab.check("STMC-RD-01", "status", status, OBF)
+        lab.check("STMC-OUT-01", f"direction after {script}", await lab.host.read_data() & 2, bit << 1)

@@ -1,0 +1,200 @@
+"""Status register, byte rules and the accept/reject table: STMC-ST, STMC-CMD, STMC-FSM, STMC-BAD-01..08."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.bus import BUSY, COMMAND, DATA, ERR, IBF, OBF
+from cocotb_tests.common.config import F16
+
+from .figures import FAMILY, STANDARD
+from .lab import Lab, part_test
+from .states import MOVING, RESTING, enter, leave
+
+READS = {"SHEET": (0x80, 0x82, 0x83, 0x84), "FAMILY": (0x80, 0x81, 0x82, 0x83)}
+RAMP_COMMANDS = (3, 6)
+
+
+def kind_of(code: int, reads: tuple[int, ...]) -> str:
+    """What a command byte is, from the table of all codes alone."""
+    if code < 0x40:
+        return "init" if code & 3 else "undefined"
+    if code < 0x80:
+        return ("stop", "slow", "single", "ramp", "steady", "limit", "ramp0", "search")[code & 7]
+    return "read" if code in reads else "undefined"
+
+
+def expected(kind: str) -> int:
+    """CODE field of an accepted code as data bytes to come."""
+    return {"init": 0x40, "ramp": 0x30, "steady": 0x40, "limit": 0x10, "search": 0x10}.get(kind, 0x00)
+
+
+def verdict(kind: str, state: str) -> int:
+    """Status of a code in a state, BUSY left out: the accept/reject table."""
+    moving = state in MOVING
+    if kind == "undefined":
+        return 0x80
+    if kind == "stop":
+        return 0x00 if moving else 0x80
+    if kind == "slow":
+        if not moving:
+            return 0x80
+        return 0xF0 if state in ("S flagged", "D", "D natural") else 0x00
+    if moving:
+        return 0x90
+    if kind == "read":
+        return OBF
+    if kind != "init" and state.endswith("U"):
+        return 0xA0
+    return expected(kind)
+
+
+# One of each kind, with don't-care bits set in some.
+SAMPLE = (0x0A, 0x08, 0x40, 0x78, 0x41, 0x59, 0x42, 0x43, 0x64, 0x45, 0x46, 0x47, 0x80, 0x84, 0x81, 0xC3)
+
+
+@part_test("STMC-MOT-01", "STMC-STP-05", "STMC-BAD-01", init=None, clock=0, on=(F16, FAMILY))
+async def stmc_all_codes_before_the_initialisation(lab: Lab) -> None:
+    """Given no initialisation, when each of the 256 codes is sent, then the status is as its kind says."""
+    reads = READS["FAMILY" if lab.family else "SHEET"]
+    count = 0
+    for code in range(256):
+        kind = kind_of(code, reads)
+        count += kind == "undefined"
+        got = await lab.host.command(code)
+        lab.check("STMC-BAD-01", f"status after {code:#04x}", got & ~OBF, verdict(kind, "U") & ~OBF)
+        if kind == "read":
+            while await lab.host.status() & OBF:
+                await lab.host.read(DATA)
+                await lab.bench.clocks(8)
+    lab.check("STMC-BAD-01", "number of undefined codes", count, 16 + 124)
+
+
+@part_test("STMC-FSM-01", "STMC-FSM-02", "STMC-CMD-01", "STMC-STP-04", "STMC-ST-03", clock=0, init=None)
+async def stmc_fsm_01_accept_table(lab: Lab) -> None:
+    """Given each state, when each kind of byte comes, then the status is as the table says."""
+    for state in (*RESTING, *MOVING):
+        for code in SAMPLE:
+            kind = kind_of(code, READS["SHEET"])
+            ends = state in MOVING and kind in ("stop", "slow")
+            await enter(lab, state)
+            got = await lab.host.command(code)
+            moving = BUSY if state in MOVING else 0
+            wanted = verdict(kind, state)
+            if ends or (not moving and kind in ("single", "ramp0")):
+                lab.check("STMC-FSM-01", f"{code:#04x} in {state}", got & ~BUSY, wanted)
+            else:
+                lab.check("STMC-FSM-01", f"{code:#04x} in {state}", got, wanted | moving)
+
+
+@part_test("STMC-CMD-03", "STMC-BAD-02", "STMC-BAD-03", "STMC-ST-03", clock=0, init=None)
+async def stmc_cmd_03_data_bytes(lab: Lab) -> None:
+    """Given each state, when a data byte comes, then it is taken, error 3, or error 6, and nothing else."""
+    for state in (*RESTING, *MOVING):
+        await enter(lab, state)
+        since = lab.bench.now
+        got = await lab.host.data(0x03)
+        if state == "S single":
+            lab.check("STMC-CMD-03", f"data byte in {state}", got & ~BUSY, 0xE0)
+            continue
+        wanted = 0xE0 | BUSY if state in MOVING else {"W from U": 0x30, "W from I": 0x20}.get(state, 0xB0)
+        lab.check("STMC-CMD-03", f"data byte in {state}", got, wanted)
+        lab.quiet("STMC-CMD-03", since)
+        await leave(lab)
+
+
+@part_test("STMC-ST-02", "STMC-ST-03", "STMC-ST-04", "STMC-CMD-01", "STMC-CMD-02")
+async def stmc_st_03_error_field(lab: Lab) -> None:
+    """Given errors, when refused and accepted bytes follow, then only an accepted command clears ERR."""
+    got = await lab.statuses("c C0 d 00")
+    lab.check("STMC-ST-03", "statuses", got, [0x80, 0xB0])
+    lab.since = lab.bench.now
+    await lab.go(0x44, 2, 20)
+    got = await lab.statuses("d 01 c C0 c 80")
+    lab.check("STMC-ST-03", "statuses while busy", got, [0xE4, 0x84, 0x94])
+    await lab.idle()
+    lab.check("STMC-ST-04", "status after the end", await lab.host.status(), 0x90)
+    await lab.bench.clocks(300)
+    got = await lab.statuses("c 43 d 05 c C1 d 00 c 44 d 00 d 00 d 00 d 00 d 01 c 40")
+    wanted = [0x30, 0x20, 0x80, 0xB0, 0x40, 0x30, 0x20, 0x10, 0xD0, 0xB0, 0x80]
+    lab.check("STMC-ST-03", "statuses at rest", got, wanted)
+    lab.check("STMC-ST-02", "80 clears ERR", await lab.host.command(0x80), OBF)
+
+
+@part_test("STMC-CMD-02", "STMC-BAD-04", "STMC-FSM-03")
+async def stmc_cmd_02_unfinished_commands(lab: Lab) -> None:
+    """Given unfinished commands, when time passes and another code comes, then they had no effect at all."""
+    since = lab.bench.now
+    for script in ("c 43 d 05 d 00", "c 44 d 07 d 01 d 00", "c 0A d 05 d 05 d 00", "c 45", "c 08", "c 47"):
+        await lab.statuses(script)
+        await lab.bench.clocks(300)
+        lab.quiet("STMC-CMD-02", since)
+    await lab.host.command(0x80)
+    lab.check("STMC-CMD-02", "FIN", await lab.host.read_data(), 0x80)
+    await lab.go(0x43, 3)
+    await lab.outcome("STMC-CMD-02", 3, 0x83, 0, [20, 20])
+
+
+@part_test("STMC-ST-01", "STMC-BAD-08", init=None)
+async def stmc_bad_08_motion_before_the_initialisation(lab: Lab) -> None:
+    """Given no initialisation, when motions with all their data come, then error 2, then 3 for each byte."""
+    lab.check("STMC-ST-01", "status", await lab.host.status(), 0x00)
+    for code, count in ((0x42, 0), (0x43, 3), (0x44, 4), (0x45, 1), (0x46, 0), (0x4F, 1)):
+        got = [await lab.status_after(code)] + [await lab.status_after(5, DATA) for _ in range(count)]
+        lab.check("STMC-BAD-08", f"statuses of {code:#x}", got, [0xA0, *[0xB0] * count])
+    lab.quiet("STMC-BAD-08", 0)
+    await lab.init(*STANDARD)
+    lab.check("STMC-BAD-08", "registers", await lab.host.run("c 80 r c 84 rrr"), [0x80, 0, 0, 0])
+
+
+@part_test("STMC-BAD-17", "STMC-BAD-03", "STMC-MOT-02")
+async def stmc_bad_17_two_motions_back_to_back(lab: Lab) -> None:
+    """Given a motion just started, when a second one follows without a poll, then errors 1 and 6."""
+    await lab.go(0x43, 3)
+    got = await lab.statuses("c 44 d 01 d 00 d 00 d 00")
+    lab.check("STMC-BAD-17", "statuses", got, [0x94, *[0xE4] * 4])
+    await lab.outcome("STMC-BAD-17", 3, 0x83, 0, [20, 20])
+
+
+@part_test("STMC-RD-01", "STMC-CMD-01", "STMC-BAD-11", "STMC-FIN-04", "STMC-REM-02")
+async def stmc_rd_01_reads(lab: Lab) -> None:
+    """Given reads of all kinds, when repeated or left unread, then each accepted one replaces the last."""
+    await lab.go(0x44, 1000, 5)
+    await lab.in_gap(4)
+    await lab.halt()
+    for _ in range(3):
+        lab.check("STMC-FIN-04", "FIN", await lab.finish(), 0xC4)
+        lab.check("STMC-REM-02", "REM", await lab.remaining(), 994)
+    await lab.host.command(0x84)
+    lab.check("STMC-RD-01", "status", await lab.host.command(0xC0), ERR | OBF)
+    lab.check("STMC-CMD-01", "answer stays", await lab.host.read(DATA), 994 & 0xFF)
+    await lab.bench.clocks(8)
+    lab.check("STMC-CMD-01", "answer stays", await lab.host.command(0x43), 0x30 | OBF)
+    lab.check("STMC-CMD-01", "second byte", await lab.host.read(DATA), 994 >> 8)
+    await lab.bench.clocks(8)
+    await lab.host.write(COMMAND, 0x80)
+    status = await lab.host.poll(IBF, 0)
+    lab.check("STMC-RD-01", "status with IBF = 0", status, OBF)
+    lab.check("STMC-BAD-11", "replaced", await lab.host.read(DATA), 0xC4)
+    await lab.bench.clocks(10)
+    lab.check("STMC-BAD-11", "nothing more", await lab.host.status(), 0)
+
+
+@part_test("STMC-FSM-01", "STMC-FSM-04", "STMC-STP-03", clock=0)
+async def stmc_fsm_04_stops_before_step_0(lab: Lab) -> None:
+    """Given commands 2..7 in state S, when 40 or 41 comes, then no step, but one in commands 3 and 6."""
+    for code, n, divisor, number in (
+        (0x42, None, None, 2),
+        (0x43, 50, None, 3),
+        (0x44, 50, 5, 4),
+        (0x45, None, 5, 5),
+        (0x46, None, None, 6),
+        (0x47, None, 5, 7),
+    ):
+        total = {2: 1, 3: 50, 4: 50}.get(number, 1 << 24)
+        for stop in (0x40, 0x41):
+            await lab.go(code, n, divisor)
+            await lab.host.command(stop)
+            steps = int(stop == 0x41 and number in RAMP_COMMANDS)
+            if steps:
+                await lab.bench.clocks(100)
+                await lab.ticks(2)
+            await lab.result("STMC-FSM-04", steps, 0xC0 | number, total - 1 - steps)

@@ -1,0 +1,71 @@
+"""Random hosts against the golden model, and noise: fixed lists of seeds; `--seed N` plays seed N only.
+
+`make soak PART=stmc` plays as many others as you like.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.config import D16, F16, Config
+from cocotb_tests.common.part import STMC
+from cocotb_tests.common.runner import SimOptions, run_item
+
+from .figures import F12, ODD
+from .random_host import DATASHEET_WEIGHTS, WEIGHTS, scenario
+
+SEEDS = range(1, 151)
+CHAOS_SEEDS = range(1, 17)
+
+
+def _item(test: str, seed: int, config: Config) -> Item:
+    base = next(
+        param.values[0]
+        for param in cocotb_items("cocotb_tests.stmc", "tb_random", part=STMC)
+        if param.values[0].test == test
+    )
+    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
+
+
+def random_item(seed: int) -> Item:
+    """The random host of one seed; the seed decides the build configuration, too."""
+    return _item("stmc_random_host", seed, scenario(seed).config)
+
+
+def chaos_item(seed: int) -> Item:
+    """The noise run of one seed."""
+    return _item("stmc_random_chaos", seed, (F16, F16, F12, ODD, F16, D16)[seed % 6])
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """One pytest item a seed."""
+    if "item" in metafunc.fixturenames:
+        chosen = metafunc.config.getoption("--seed")
+        chaos = "chaos" in metafunc.function.__name__
+        make, fixed = (chaos_item, CHAOS_SEEDS) if chaos else (random_item, SEEDS)
+        items = [make(seed) for seed in (fixed if chosen is None else [chosen])]
+        metafunc.parametrize("item", items, ids=[item.id for item in items])
+
+
+def test_random(item: Item, sim_options: SimOptions) -> None:
+    """The scenario of a seed: every output edge equals the golden model's."""
+    run_item(item, sim_options)
+
+
+def test_chaos(item: Item, sim_options: SimOptions) -> None:
+    """Noise on all pins, then recovery."""
+    run_item(item, sim_options)
+
+
+def test_scenarios_are_reproducible_and_varied() -> None:
+    """Same seed, same list; the fixed seeds together use every action kind and every build."""
+    assert scenario(5) == scenario(5) != scenario(6)
+    plans = [scenario(seed) for seed in SEEDS]
+    kinds = {action[0] for plan in plans for action in plan.actions}
+    assert kinds == set("write send status read fetch finish wait pins blip raw reset".split())
+    builds = {config.name for config, _ in (*WEIGHTS, *DATASHEET_WEIGHTS)}
+    assert {plan.config.name for plan in plans} == builds
+    assert 50 < sum(bool(plan.clock.segments) for plan in plans) < 120  # the external clock

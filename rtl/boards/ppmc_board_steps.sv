@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_board_steps: pulse and direction from the phase pins of a part that has no such outputs, for its pulse counter.
+// Rules:  section 6 of the STMC rules: 3, 4 or 5 phases, full or half steps, both polarities, without being told
+//         which. Patterns with all phases at one level (chopper, before the first initialisation) are passed over.
+// Timing: pout_no is low in the second clk after a step, dir_o changes with it. All bits of s_i change on one edge.
+`default_nettype none
+
+module ppmc_board_steps (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,   // of the part: the next pattern is the first one
+    input  wire logic [5:1] s_i,
+    output logic            pout_no,
+    output logic            dir_o     // 0 = CW
+);
+
+  logic [5:1] now_q, last_q;
+
+  function automatic logic few(logic [5:1] pins);
+    logic [2:0] count;
+    count = '0;
+    for (int n = 1; n <= 5; n++) count += 3'(pins[n]);
+    return count <= 3'd2;
+  endfunction
+
+  // Two neighbours of a ring of 3, 4 or 5 phases share exactly one energised phase; what is energised is the smaller
+  // half of the pins. Only rings of 5 have half steps between 2 and 3 phases, and there either half will do.
+  function automatic logic clockwise(logic [5:1] was, logic [5:1] is);
+    logic [5:1] a, b, from, to, changed;
+    changed = was ^ is;
+    if (few(was) != few(is)) begin
+      if ((changed & is) != '0) return (changed & {was[4:1], was[5]}) != '0;
+      return (changed & {is[1], is[5:2]}) != '0;
+    end
+    a    = few(was) ? was : ~was;
+    b    = few(is) ? is : ~is;
+    to   = b & ~a;
+    from = a & b;
+    if (to == '0) begin
+      to   = a & b;
+      from = a & ~b;
+    end
+    // One place up, or from the last phase to the first, whichever that is.
+    return to == {from[4:1], 1'b0} || (to < from && to != {1'b0, from[5:2]});
+  endfunction
+
+  logic energised, step;
+
+  assign energised = now_q != '0 && now_q != '1;
+  assign step      = energised && last_q != '0 && last_q != now_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      now_q   <= '0;
+      last_q  <= '0;
+      pout_no <= 1'b1;
+      dir_o   <= 1'b0;
+    end else begin
+      now_q   <= s_i;
+      pout_no <= !step;
+      if (energised) last_q <= now_q;
+      if (step) dir_o <= !clockwise(last_q, now_q);
+    end
+  end
+
+endmodule
+
+`default_nettype wire

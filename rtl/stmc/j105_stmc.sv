@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// j105_stmc: the PC/104 board J105 STMC: a stmc on an 8-bit ISA bus, with its second step clock and the outputs to
+// the driver on the board.
+// Rules:  J105-01..08; of the controller all STMC rules. Manual: docs/stmc.md.
+// Timing: that of stmc at its pins; irq follows int_n by one clk, drv is s.
+`default_nettype none
+
+module j105_stmc #(
+    parameter int unsigned CLK_HZ      = 16_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part, 1e6 .. 20e6
+    parameter string       TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
+    parameter string       READ_MAP    = "SHEET",     // or "FAMILY": read codes of the sister parts
+    parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
+    parameter int unsigned CHOP_ON_XT  = 1_040,       // chopper, crystal periods
+    parameter int unsigned CHOP_OFF_XT = 1_740,
+    parameter int unsigned BASE_ADDR   = 'h3B0,       // even
+    parameter int unsigned EXT_HZ      = 48_675       // "external" step clock, 1 .. CLK_HZ / 4
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // ISA
+    input  wire logic [9:0] sa,
+    input  wire logic       aen,
+    input  wire logic       ior_n,
+    input  wire logic       iow_n,
+    input  wire logic [7:0] sd_i,
+    output logic      [7:0] sd_o,
+    output logic            sd_oe,
+    output logic            irq,    // 1 = a motion has ended
+    // switches, L = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       mon,
+    // motor
+    output logic      [5:1] s,
+    output logic      [4:1] drv,    // 1 = winding on
+    output logic            hold
+);
+
+  if (EXT_HZ < 1 || EXT_HZ > CLK_HZ / 4) begin : g_check_ext
+    $fatal(1, "j105_stmc: EXT_HZ must be 1 .. CLK_HZ / 4");
+  end
+
+  logic rst, ext_clk, cs_n, a0, d_oe, int_n;
+  logic [7:0] d;
+
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .rst_no(rst)
+  );
+
+  // Half a period of the wave counts as one "crystal" cycle.
+  ppmc_square #(
+      .ClkHz   (CLK_HZ),
+      .XtalHz  (2 * EXT_HZ),
+      .HalfXtal(1)
+  ) u_ext (
+      .clk_i (clk),
+      .rst_ni(rst),
+      .wave_o(ext_clk)
+  );
+
+  ppmc_isa #(
+      .Parts(1),
+      .Base (BASE_ADDR)
+  ) u_isa (
+      .clk_i  (clk),
+      .rst_ni (rst),
+      .sa_i   (sa),
+      .aen_i  (aen),
+      .ior_ni (ior_n),
+      .iow_ni (iow_n),
+      .sd_o,
+      .sd_oe_o(sd_oe),
+      .irq_o  (irq),
+      .cs_no  (cs_n),
+      .a0_o   (a0),
+      .d_i    (d),
+      .d_oe_i (d_oe),
+      .int_ni (int_n)
+  );
+
+  stmc #(
+      .CLK_HZ     (CLK_HZ),
+      .XTAL_HZ    (XTAL_HZ),
+      .TIMING     (TIMING),
+      .READ_MAP   (READ_MAP),
+      .PHASE_IDLE (1'b0),
+      .HOLD_XT    (HOLD_XT),
+      .CHOP_ON_XT (CHOP_ON_XT),
+      .CHOP_OFF_XT(CHOP_OFF_XT)
+  ) u_part (
+      .clk,
+      .rst_n,
+      .ext_clk,
+      .cs_n,
+      .a0,
+      .rd_n(ior_n),
+      .wr_n(iow_n),
+      .d_i (sd_i),
+      .d_o (d),
+      .d_oe,
+      .int_n,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .mon,
+      .s,
+      .hold
+  );
+
+  assign drv = s[4:1];
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// stmc_pkg: codes and limits of the J105 STMC; what makes this part differ from its sisters.
+// Rules:  STMC section 3.0, STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
+// Rates:  the core counts rate + 1 base clocks where this part's hosts send a divisor, so a divisor is kept less
+//         one: 0 .. 254, and a divisor of 0 as 255.
+`default_nettype none
+
+package stmc_pkg;
+
+  import ppmc_code_pkg::*;
+  import ppmc_op_pkg::*;
+
+  localparam int unsigned RATE_BITS = 8;
+  localparam int unsigned STEP_BITS = 16;
+
+  localparam int unsigned STEPS_MAX = 65_535;  // acceleration steps PA
+  localparam logic [RATE_BITS-1:0] RATE_NONE = '1;  // divisor 0
+
+  localparam int unsigned STEP_XTAL = 1_280;  // crystal cycles a period of the internal step clock
+
+  // What a read command shows. The sheet's headings count 0, 2, 3, 4; the sister parts 0, 1, 2, 3.
+  function automatic logic [2:0] selected(logic sheet, logic [2:0] number);
+    return (sheet && number != 3'd0) ? number - 3'd1 : number;
+  endfunction
+
+  function automatic decoded_t decode(logic sheet, logic [7:0] code);
+    decoded_t d;
+    d = '{kind: KindUndefined, params: 3'd0};
+    if (code[7:6] == 2'b00) begin
+      if (code[1:0] != 2'b00) d = '{kind: KindInit, params: 3'd4};
+    end else if (code[7:6] == 2'b01) begin
+      unique case (code[2:0])
+        3'b000:  d.kind = KindHalt;
+        3'b001:  d.kind = KindDecel;
+        default: d = '{kind: KindOperation, params: op_params(code[2:0])};
+      endcase
+    end else if (code[6:3] == '0 && selected(sheet, code[2:0]) <= SEL_REMAINING) begin
+      if (!sheet || code[2:0] != 3'd1) d.kind = KindRead;
+    end
+    return d;
+  endfunction
+
+  // Whether a data byte is a divisor. operation: data of operation number op, else of an initialisation; left: data
+  // bytes to come, this one included.
+  function automatic logic is_divisor(logic operation, logic [2:0] op, logic [2:0] left);
+    if (operation) return op inside {OP_CONT_CONSTANT, OP_ORIGIN} || (op == OP_CONSTANT && left == 3'd4);
+    return left inside {3'd3, 3'd4};
+  endfunction
+
+  // What is wrong with complete data, of which the first, second and last byte may be divisors.
+  function automatic error_e judge(logic operation, logic [2:0] op, logic [7:0] first, logic [7:0] second,
+                                   logic [7:0] final_one);
+    logic bad;
+    unique case (op)
+      OP_CONSTANT:                 bad = first == RATE_NONE;
+      OP_CONT_CONSTANT, OP_ORIGIN: bad = final_one == RATE_NONE;
+      default:                     bad = 1'b0;
+    endcase
+    if (!operation) bad = first == RATE_NONE || second > first;
+    return bad ? ErrRates : ErrUndefined;
+  endfunction
+
+  // Data of an initialisation for the core: without a ramp there is one rate and no acceleration step.
+  function automatic logic [31:0] levelled(logic [31:0] data);
+    logic [31:0] out;
+    out = data;
+    if (data[31:16] == '0) out[7:0] = data[15:8];
+    if (data[15:8] == data[7:0]) out[31:16] = '0;
+    return out;
+  endfunction
+
+endpackage
+
+`default_nettype wire
