@@ -28,7 +28,7 @@ def arguments() -> argparse.Namespace:
         metavar="NAME=VALUE",
         action="append",
         default=[],
-        help="parameter of the top: PHASE_IDLE or PHASE_ON, TIMING, XTAL_HZ, BAUD",
+        help="parameter of the top: PHASE_IDLE or PHASE_ON, TIMING, READ_MAP, XTAL_HZ, BAUD",
     )
     return parser.parse_args()
 

@@ -217,16 +217,16 @@ ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value)
     return PPMC104_OK;
 }
 
-static ppmc104_result_t ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value)
+ppmc104_result_t ppmc104_ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value)
 {
     ppmc104_result_t result = ppmc104_command(dev, code, NULL, 0u);
     return result == PPMC104_OK ? ppmc104_fetch(dev, count, value) : result;
 }
 
-static ppmc104_result_t ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte)
+ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte)
 {
     uint32_t value = 0;
-    ppmc104_result_t result = ask(dev, code, 1u, &value);
+    ppmc104_result_t result = ppmc104_ask(dev, code, 1u, &value);
     if (result == PPMC104_OK) {
         *byte = (uint8_t)value;
     }
@@ -238,7 +238,7 @@ static ppmc104_result_t ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte)
 ppmc104_result_t ppmc104_probe(ppmc104_t *dev)
 {
     uint8_t levels = 0;
-    ppmc104_result_t result = ask_byte(dev, CODE_INPUTS, &levels);
+    ppmc104_result_t result = ppmc104_ask_byte(dev, CODE_INPUTS, &levels);
     /* Bits 5 and 4 read 0 on every part. */
     return result == PPMC104_OK && (levels & 0x30u) != 0u ? PPMC104_NO_PART : result;
 }
@@ -335,7 +335,7 @@ ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish)
 ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish)
 {
     uint8_t raw = 0;
-    ppmc104_result_t result = ask_byte(dev, CODE_FINISH, &raw);
+    ppmc104_result_t result = ppmc104_ask_byte(dev, CODE_FINISH, &raw);
     if (result == PPMC104_OK) {
         finish->ended = (raw & 0x80u) != 0u;
         finish->stopped = (raw & 0x40u) != 0u;
@@ -350,28 +350,32 @@ ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish)
 
 ppmc104_result_t ppmc104_inputs(ppmc104_t *dev, uint8_t *levels)
 {
-    return ask_byte(dev, CODE_INPUTS, levels);
+    return ppmc104_ask_byte(dev, CODE_INPUTS, levels);
 }
 
 ppmc104_result_t ppmc104_outputs(ppmc104_t *dev, uint8_t *levels)
 {
-    return ask_byte(dev, CODE_OUTPUTS, levels);
+    return ppmc104_ask_byte(dev, CODE_OUTPUTS, levels);
 }
 
 ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels)
 {
-    return ask_byte(dev, CODE_AUX_INPUTS, levels);
+    return ppmc104_ask_byte(dev, CODE_AUX_INPUTS, levels);
 }
 
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses)
 {
     uint32_t value = 0;
-    ppmc104_result_t result = ask(dev, CODE_REMAINING, 3u, &value);
+    ppmc104_result_t result = ppmc104_ask(dev, CODE_REMAINING, 3u, &value);
     if (result == PPMC104_OK) {
-        bool early = (finish->raw & FINISH_CAUSES) != 0u;
-        *pulses = value != 0u || early ? value + 1u : 0u;
+        *pulses = ppmc104_left(finish, value);
     }
     return result;
+}
+
+uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number)
+{
+    return number != 0u || (finish->raw & FINISH_CAUSES) != 0u ? number + 1u : 0u;
 }
 
 /* ---- the rest ---- */

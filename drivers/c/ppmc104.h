@@ -183,6 +183,8 @@ ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< 
  * caller gives the one of this operation: the part's number alone cannot tell 0 pulses from 1.
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
+/** What the part's number of remaining pulses means after a motion with this finish status. */
+uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number);
 /** @} */
 
 /** Chopper times at rest, 0 .. 255: about 3 us each plus 27 us (on) and 33 us (off). Not during an operation. */
@@ -202,6 +204,10 @@ ppmc104_result_t ppmc104_command(ppmc104_t *dev, uint8_t code, const uint8_t *da
 ppmc104_result_t ppmc104_data(ppmc104_t *dev, uint8_t value);
 /** `count` bytes of an answer, low byte first. count 1 .. 4. */
 ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value);
+/** A read command and its answer of `count` bytes. */
+ppmc104_result_t ppmc104_ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value);
+/** A read command and its answer of one byte. */
+ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
 /** @} */
 
 #ifdef __cplusplus

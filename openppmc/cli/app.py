@@ -279,14 +279,11 @@ def plan(
     setup = setup_values(typed).plan(xtal, kind)
     constant = None
     if speed is not None:
-        clock = setup.clock
-        if not clock.external:
-            clock = kind.any_clock(xtal, speed, clock.vsel, clock.csel)
-        constant = clock.choose(speed)
+        constant = kind.constant_clock(xtal, setup.clock, speed).choose(speed)
     figures = key_figures(setup, pulses, constant)
     if plot is not None:
         try:
-            plot_move(setup, pulses, constant, xtal, plot, kind)
+            plot_move(setup, pulses, constant, plot)
         except OSError as error:
             raise PpmcError(f"{plot}: the plot cannot be written ({error.strerror})") from error
     if as_json:

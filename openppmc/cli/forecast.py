@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
 from ..host import units
 from ..host.errors import OutOfRange, PpmcError
-from ..host.kinds import Kind
 from ..model.codes import ENDLESS
-from ..model.predict import predict_move
-from ..model.ramp import Ramp, profile_index
-from ..model.timebase import Timebase
+from ..model.ramp import profile_index
 
 LONGEST_PLOT = 1_000_000
 
@@ -33,13 +32,13 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
             "top_pps": float(speed.reached),
             "seconds": float((n - 1) / speed.reached),
         }
-    ramp = Ramp(setup.start.rate, setup.high.rate, setup.ramp_pulses)
-    pa, clock = setup.ramp_pulses, setup.clock
+    ramp, clock = setup.ramp(), setup.clock
+    pa = ramp.pa
     plateau = max(0, n - 1 - 2 * pa)
     sloped = range(1, n) if not plateau else (*range(1, pa + 1), *range(n - pa, n))
-    periods = [1 / clock.speed(ramp.rate(profile_index(n, pa, j))) for j in sloped]
+    periods = [1 / clock.speed_of(ramp.rate(profile_index(n, pa, j)) + 1) for j in sloped]
     slopes = sum(periods, Fraction(0))
-    top = setup.high.reached if plateau else 1 / min(periods, default=1 / setup.start.reached)
+    top = setup.high.reached if plateau else 1 / min(periods, default=1 / clock.speed_of(ramp.rl + 1))
     return {
         "pulses": pulses,
         "profile": "trapezoid" if plateau else "triangle",
@@ -51,29 +50,37 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
     }
 
 
-def plot_move(
-    setup: units.Setup, pulses: int, speed: units.Speed | None, xtal_hz: int, path: Path, kind: Kind
-) -> None:
-    """Speed over time as PNG, SVG or PDF. OutOfRange for moves too long to draw, with an external clock, and
-    for file names that the plotter does not know."""
+@dataclass(frozen=True)
+class Course:
+    """A move to draw: times of its pulses in s, speed of each interval in pps."""
+
+    seconds: list[float]
+    speeds: list[float]
+
+    @classmethod
+    def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
+        """With the ramp of the set-up or at a constant speed, pulses from 1 on."""
+        if speed is None:
+            ramp, clock = setup.ramp(), setup.clock
+            counts = [ramp.rate(profile_index(pulses, ramp.pa, j)) + 1 for j in range(1, pulses)]
+        else:
+            clock = speed.clock
+            counts = [speed.rate + clock.beyond] * (pulses - 1)
+        period, extra = float(clock.period), float(clock.extra)
+        seconds = [n * extra + total * period for n, total in enumerate(accumulate(counts, initial=0))]
+        speeds = {count: float(clock.speed_of(count)) for count in set(counts)}
+        return cls(seconds, [speeds[count] for count in counts])
+
+
+def plot_move(setup: units.Setup, pulses: int, speed: units.Speed | None, path: Path) -> None:
+    """Speed over time as PNG, SVG or PDF. OutOfRange for moves too long to draw and for file names that the
+    plotter does not know."""
     try:
         from ..plot.profile import FORMATS, draw_profile
     except ImportError as error:
         raise PpmcError(f"a plot needs matplotlib ({error}): pip install matplotlib") from error
-    if setup.clock.external:
-        raise OutOfRange("a plot needs an internal base clock: leave --external-clock out")
     if abs(pulses) > LONGEST_PLOT:
         raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses: choose a shorter move")
     if path.suffix.lower() not in FORMATS:
         raise OutOfRange(f"{path}: the name of a plot ends in {', '.join(FORMATS)}")
-    clock = setup.clock if speed is None else speed.clock
-    move = predict_move(
-        setup.data,
-        abs(pulses),
-        None if speed is None else speed.rate,
-        clock.csel,
-        clock.vsel,
-        Timebase(16_000_000, xtal_hz),
-        part=f"ppmc{kind.number}",
-    )
-    draw_profile(move, f"{pulses} pulses", path)
+    draw_profile(Course.of(setup, abs(pulses), speed), f"{pulses} pulses", path)

@@ -98,12 +98,17 @@ _OPTIONS: dict[str, Any] = {
     ],
     "half_step": Annotated[bool | None, _option("--half-step/--full-step", text="excitation (full step)")],
     "logic": Annotated[
-        Logic | None, _option("--logic", text="level that switches a coil on (PPMC-104: positive)")
+        Logic | None,
+        _option("--logic", text="level that switches a coil on (positive; a PPMC-2104 has no choice)"),
     ],
     "chop": Annotated[bool | None, _option("--chop/--no-chop", text="switch the coils at rest (no)")],
     "base_clock": Annotated[
         float | None,
-        _option("--base-clock", text="500000 or 125000 (the one that reaches the start speed)", metavar="HZ"),
+        _option(
+            "--base-clock",
+            text="500000 or 125000, stmc: 48675 or 12500 (the one that reaches the start speed)",
+            metavar="HZ",
+        ),
     ],
     "external_clock": Annotated[
         float | None, _option("--external-clock", text="frequency at the clock pin (not used)", metavar="HZ")

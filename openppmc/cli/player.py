@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from ..host import Axis, End, NothingToStop, Ppmc104, Ppmc2104, PpmcError
-from ..host.kinds import Kind
+from ..host.kinds import AUX, COILS_OFF, Kind
 from .options import SetupValues
 from .program import OF_ALL_AXES, OF_AXES, ScriptError, Step
 from .session import Session
@@ -89,7 +89,7 @@ class Player:
             axis.zero()
         elif step.word == "aux" and isinstance(self._part, Ppmc104):
             self._part.aux(values["on"])
-        elif step.word == "auxo":
+        elif step.word == "auxo" and isinstance(self._part, (Ppmc104, Ppmc2104)):
             self._part.auxo(values["value"])
         elif step.word == "off":
             for motor in self._chosen(step):
@@ -134,13 +134,23 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
                 used.add(kind.check_axis(2))
         except PpmcError as error:
             raise ScriptError(f"{name}:{step.line}: {error}") from error
-        if step.word == "aux" and kind.axes > 1:
-            raise ScriptError(f"{name}:{step.line}: a {kind} has no output AUX: use auxo")
-        most = 15 if kind.axes == 1 else 3
-        if step.word == "auxo" and step.values["value"] > most:
-            raise ScriptError(f"{name}:{step.line}: outputs {step.values['value']} is outside 0 to {most}")
+        if lacks := _lacks(step, kind):
+            raise ScriptError(f"{name}:{step.line}: {lacks}")
         used |= _axes_of(step.body, name, kind)
     return used
+
+
+def _lacks(step: Step, kind: Kind) -> str:
+    """What a part does not have for this step, empty if it has all."""
+    if step.word == "off" and COILS_OFF not in kind.has:
+        return f"a {kind} cannot switch its coils off"
+    if step.word == "aux" and AUX not in kind.has:
+        return f"a {kind} has no output AUX" + (": use auxo" if kind.outputs else "")
+    if step.word == "auxo" and not kind.outputs:
+        return f"a {kind} has no auxiliary outputs"
+    if step.word == "auxo" and step.values["value"] > kind.outputs:
+        return f"outputs {step.values['value']} is outside 0 to {kind.outputs}"
+    return ""
 
 
 def check_speeds(
@@ -153,8 +163,9 @@ def check_speeds(
             if step.word == "init":
                 values[axis] = values[axis].merged(step.values)
                 values[axis].plan(xtal_hz, kind, axis)
-            elif step.values.get("speed") is not None and values[axis].external_clock is None:
-                kind.any_clock(xtal_hz, step.values["speed"])
+            elif step.values.get("speed") is not None:
+                clock = values[axis].plan(xtal_hz, kind, axis).clock
+                kind.constant_clock(xtal_hz, clock, step.values["speed"])
         except PpmcError as error:
             raise ScriptError(f"{name}:{step.line}: {error}") from error
         check_speeds(step.body, values, xtal_hz, name, kind)

@@ -10,8 +10,8 @@ from typing import Any
 
 import typer
 
-from ..host import Axis, Ppmc104, Ppmc2104, open_part
-from ..host.kinds import KINDS, PPMC104, Kind
+from ..host import AnyPart, Axis, open_part
+from ..host.kinds import BY_WORD, PPMC104, Kind
 from ..host.link import DEFAULT_BAUD
 from ..host.transport import MODEL, SIM
 from . import show
@@ -27,11 +27,12 @@ class PartName(str, Enum):
 
     PPMC104 = "ppmc104"
     PPMC2104 = "ppmc2104"
+    STMC = "stmc"
 
     @property
-    def number(self) -> int:
-        """As IDENT tells it."""
-        return int(self.value.removeprefix("ppmc"))
+    def kind(self) -> Kind:
+        """What it can do."""
+        return BY_WORD[self.value]
 
 
 @dataclass
@@ -54,9 +55,12 @@ class Board:
     def planned(self) -> Kind:
         """The part for plans, which open no board: the one that was named, in the port's text if need be."""
         if self.part is not None:
-            return KINDS[self.part.number]
-        virtual = self.port.startswith((MODEL, SIM)) and "part=ppmc2104" in self.port.replace(" ", "").lower()
-        return KINDS[PartName.PPMC2104.number] if virtual else PPMC104
+            return self.part.kind
+        if not self.port.startswith((MODEL, SIM)):
+            return PPMC104
+        words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
+        named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
+        return BY_WORD.get(named[-1], PPMC104) if named else PPMC104
 
 
 BOARD = Board()
@@ -66,7 +70,7 @@ BOARD = Board()
 class Session:
     """An open board."""
 
-    part: Ppmc104 | Ppmc2104
+    part: AnyPart
     guard: Guard
 
     @property
@@ -96,7 +100,7 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 @contextmanager
 def opened() -> Iterator[Session]:
     """The board, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
-    number = None if BOARD.part is None else BOARD.part.number
+    number = None if BOARD.part is None else BOARD.part.kind.number
     with Guard() as guard, open_part(BOARD.spec, BOARD.baud, number) as part:
         try:
             guard.check()

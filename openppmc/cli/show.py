@@ -10,7 +10,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..host import Axis, End, Ppmc104, Ppmc2104, units
+from ..host import AnyPart, Axis, End, units
+from ..host.kinds import name_of
 from ..host.link import Link
 from ..host.registers2104 import Status as Status2104
 from ..host.script import RATES
@@ -48,7 +49,7 @@ def identity_values(link: Link) -> dict[str, Any]:
     identity = link.identity
     return {
         "port": link.name,
-        "part": f"PPMC-{identity.part}",
+        "part": name_of(identity.part),
         "axes": identity.axes,
         "protocol": identity.version,
         "timing": "DATASHEET" if identity.datasheet else "FAST",
@@ -60,7 +61,7 @@ def identity_values(link: Link) -> dict[str, Any]:
     }
 
 
-def status_values(part: Ppmc104 | Ppmc2104, axis: Axis) -> dict[str, Any]:
+def status_values(part: AnyPart, axis: Axis) -> dict[str, Any]:
     """Everything that may be read of an axis at any time."""
     status = part.status()
     error: Any = None
@@ -93,22 +94,25 @@ def status_rows(values: dict[str, Any], prefix: str = "") -> dict[str, str]:
 def end_line(end: End) -> str:
     """Where the motor stands, and why."""
     pulses = "" if end.pulses is None else f", {abs(end.pulses)} pulses {'CCW' if end.pulses < 0 else 'CW'}"
-    return f"{end.who}position {end.position}{pulses}: {end.cause}"
+    return f"{end.who}position {end.position}{pulses}: {end.why}"
 
 
 def setup_rows(setup: units.Setup) -> dict[str, str]:
     """Asked and reached speeds, ramp, bytes."""
+    byte_name = "rate" if setup.clock.beyond else "divisor"
 
     def speed(value: units.Speed) -> str:
-        text = f"{units.nearby(value.reached)} pps (rate {value.rate})"
+        text = f"{units.nearby(value.reached)} pps ({byte_name} {value.rate})"
         return text if value.reached == value.asked else f"{text}, asked {units.nearby(value.asked)} pps"
 
     rows = {"start speed": speed(setup.start), "high speed": speed(setup.high)}
-    if setup.start.rate != setup.high.rate:
+    if not setup.ramp_pulses:
+        rows["ramp"] = "none: high speed at once"
+    elif not setup.flat:
         steep = units.nearby(setup.acceleration)
         rows["ramp"] = f"{setup.ramp_pulses} pulses, {setup.ramp_seconds:.4g} s, {steep} pps/s"
     clock = setup.clock
-    kind = "clock pin" if clock.external else "internal"
+    kind = ("clock pin" if clock.beyond else "external") if clock.external else "internal"
     rows["base clock"] = f"{units.nearby(clock.hertz)} Hz ({kind})" + (", 7.5 us more" if clock.extra else "")
     rows["bytes"] = " ".join(f"{byte:02X}" for byte in (setup.code, *setup.data))
     return rows

@@ -43,18 +43,22 @@ from .errors import (
     UnknownCode,
     WrongDevice,
 )
+from .kinds import BOARD_CLOCK
 from .link import Link
 from .motion import Motion, Progress
-from .parts import open_part
+from .parts import AnyPart, open_part
 from .ppmc104 import Ppmc104
 from .ppmc2104 import Ppmc2104
+from .stmc import Stmc
 from .transport import open_port, serial_ports
 
 __all__ = [
+    "BOARD_CLOCK",
     "CCW",
     "CW",
     "AlarmStop",
     "AlreadyDecelerating",
+    "AnyPart",
     "Axis",
     "Axis2104",
     "BadRamp",
@@ -83,6 +87,7 @@ __all__ = [
     "ProtocolError",
     "RampTooLong",
     "StartRefused",
+    "Stmc",
     "StoppedEarly",
     "Timeout",
     "TooFast",

@@ -20,12 +20,13 @@ from .axis_core import AxisCore
 from .ending import Cause, End
 from .errors import AlreadyDecelerating, NothingToStop, OutOfRange
 from .homing import Homing
+from .kinds import PULSE_ONLY
 from .motion import READ_FINISH, Motion, Progress
 from .script import Script
 
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
-OPERATION, PULSE_ONLY, DIRECTION_BIT = 0x40, 0xC0, 3
+OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
 OnProgress = Callable[[Progress], None]
 
 
@@ -47,7 +48,9 @@ class Order:
         if self.direction not in (CW, CCW):
             raise OutOfRange(f"direction {self.direction!r} is neither 0 (CW) nor 1 (CCW)")
         return (
-            (PULSE_ONLY if self.pulse_only else OPERATION) | self.direction << DIRECTION_BIT | self.operation
+            (OPERATION_PULSES if self.pulse_only else OPERATION)
+            | self.direction << DIRECTION_BIT
+            | self.operation
         )
 
     @property
@@ -183,6 +186,8 @@ class Axis(AxisCore):
 
     def start(self, order: Order) -> Motion:
         """One frame: a pending interrupt away, straps, counter, the command."""
+        if order.pulse_only:
+            self.kind.need(PULSE_ONLY)
         code = order.code | self.bit
         script = Script().call(READ_FINISH | self.bit).get(1)
         script.extend(self.straps(self.clock_of(order))).count(self.number).call(code, *order.data)
@@ -203,4 +208,4 @@ class Axis(AxisCore):
 
     def nothing_to_move(self) -> End:
         """The End of a move of 0 pulses."""
-        return End(Cause.COMPLETE, 0, 0, self.counted(self._count()), 0, self.who)
+        return self.told(End(Cause.COMPLETE, 0, 0, self.counted(self._count()), 0))

@@ -26,7 +26,13 @@ virtual board may be slow."""
 
 
 class Axis2104(Axis):
-    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions. `part` has what belongs to both."""
+    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions. `part` has what belongs to both.
+
+    `initialise`, figures for a 16 MHz crystal: start_pps from 488.3, high_pps up to 250 000, its rate at
+    least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz; no choice of
+    logic, no long_intervals. phases, half_step, chop and the choice of an external clock stay as they are
+    until `excitation_off` or `reset` (P2104-INI-05).
+    """
 
     kind = PPMC2104
 
@@ -36,35 +42,6 @@ class Axis2104(Axis):
         self.number = self.kind.check_axis(number)
         self.bit = (number - 1) * AXIS_BIT
         self.busy = BUSY[number - 1]
-
-    # ------------------------------------------------------------------ initialisation
-
-    def initialise(
-        self,
-        start_pps: units.Number = 1000,
-        high_pps: units.Number = 5000,
-        ramp_pulses: int = 200,
-        phases: int = 4,
-        half_step: bool = False,
-        chop: bool = False,
-        base_clock: units.Number | None = None,
-        external_clock: units.Number | None = None,
-    ) -> units.Setup:
-        """Speeds, ramp and motor of this axis; returns what is really reached.
-
-        start_pps: from 488.3. high_pps: up to 250 000, its rate at least 2 below that of start_pps.
-        ramp_pulses: 4 to 11 220, from start to high speed. phases: 3, 4, 5. chop: the coils are switched at
-        rest. base_clock: 500 000 or 125 000 Hz, None to choose by start_pps. external_clock: frequency at the
-        axis's `extck` pin in Hz. (Figures for a 16 MHz crystal.) phases, half_step, chop and the choice of an
-        external clock stay as they are until `excitation_off` or `reset` (P2104-INI-05). Raises OutOfRange,
-        NotWhileBusy.
-        """
-        speeds = (start_pps, high_pps, ramp_pulses)
-        clocks = (base_clock, external_clock)
-        xtal_hz = self.link.identity.xtal_hz
-        return self.apply(
-            self.kind.plan(xtal_hz, *speeds, phases, half_step, None, chop, *clocks, axis=self.number)
-        )
 
     def apply(self, setup: units.Setup) -> units.Setup:
         """Initialise with a setup that was planned before for this axis; waits until its ramp is ready."""
@@ -120,7 +97,7 @@ class Axis2104(Axis):
         position = self._count()
         motion = self.started(order, position)
         left = order.asked or units.LONGEST_MOVE
-        motion.end = End(cause, 0, left, self.counted(position), 0, self.who)
+        motion.end = self.told(End(cause, 0, left, self.counted(position), 0))
         return motion
 
     def order_stop(self, now: bool) -> None:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from . import units
+from .ending import End
 from .errors import NotWhileBusy, OutOfRange, ProtocolError
-from .kinds import Kind
+from .kinds import COILS_OFF, Kind
 from .link import Link
-from .motion import READ_REMAINING, Motion
-from .registers104 import Inputs, Outputs
+from .motion import Motion
+from .registers104 import Outputs, ReadCodes, Switches
 from .script import Script
 
-READ_OUTPUTS, EXCITATION_OFF = 0x82, 0xC0
+EXCITATION_OFF = 0xC0
 
 
 class AxisCore:
@@ -22,6 +25,7 @@ class AxisCore:
     number = 1
     bit = 0
     busy = 0x04
+    codes = ReadCodes()
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -38,13 +42,48 @@ class AxisCore:
         """Begins a message about this axis, if the part has several."""
         return f"axis {self.number}: " if self.kind.axes > 1 else ""
 
+    def told(self, end: End) -> End:
+        """The end with the words of this axis and its part."""
+        return replace(end, who=self.who, alarm=self.kind.alarm)
+
+    # ------------------------------------------------------------------ initialisation
+
+    def initialise(
+        self,
+        start_pps: units.Number = 1000,
+        high_pps: units.Number = 5000,
+        ramp_pulses: int = 200,
+        phases: int = 4,
+        half_step: bool = False,
+        positive_logic: bool | None = None,
+        chop: bool = False,
+        base_clock: units.Number | None = None,
+        external_clock: units.Number | None = None,
+        long_intervals: bool = False,
+    ) -> units.Setup:
+        """Speeds, ramp and motor of this axis; returns what is really reached.
+
+        start_pps, high_pps: what the part can do, high_pps not below start_pps. ramp_pulses: from start to
+        high speed. phases: 3, 4, 5. positive_logic: a high level switches a coil on (the default, where the
+        part has both). chop: the coils are switched at rest. base_clock: one of those that the part has, in
+        Hz, None to choose by start_pps. external_clock: frequency at the part's clock pin in Hz.
+        long_intervals: vsel low, 7.5 us more an interval. The driver of each part has its figures, and says
+        what stays as it is until `reset`. Raises OutOfRange, also for what the part does not have, and
+        NotWhileBusy.
+        """
+        motor = (phases, half_step, positive_logic, chop)
+        clocks = (base_clock, external_clock, long_intervals)
+        speeds = (start_pps, high_pps, ramp_pulses)
+        xtal_hz = self.link.identity.xtal_hz
+        return self.apply(self.kind.plan(xtal_hz, *speeds, *motor, *clocks, self.number))
+
     # ------------------------------------------------------------------ for the parts
 
     def straps(self, clock: units.BaseClock | None) -> Script:
         """Levels of the strap pins for a motion with this base clock; None: it does not matter."""
         raise NotImplementedError
 
-    def inputs(self) -> Inputs:
+    def inputs(self) -> Switches:
         """Switches; allowed at any time."""
         raise NotImplementedError
 
@@ -61,23 +100,21 @@ class AxisCore:
 
     def _rate(self, pps: units.Number | None) -> tuple[units.BaseClock, int]:
         """Base clock and rate byte of a constant speed; the other internal base clock if it must be."""
-        xtal_hz = self.link.identity.xtal_hz
-        clock = self.setup.clock if self.setup else self.kind.internal(xtal_hz)
         if pps is None:
             pps = self.search_speed
-        if not clock.external:
-            clock = self.kind.any_clock(xtal_hz, pps, clock.vsel, clock.csel)
+        ramp = self.setup.clock if self.setup else None
+        clock = self.kind.constant_clock(self.link.identity.xtal_hz, ramp, pps)
         return clock, clock.choose(pps).rate
 
     # ------------------------------------------------------------------ registers
 
     def outputs(self) -> Outputs:
         """Motor outputs; only at rest (NotWhileBusy)."""
-        return Outputs.parse(self.link.execute(Script().call(READ_OUTPUTS | self.bit).get(1)).byte(1))
+        return Outputs.parse(self.link.execute(Script().call(self.codes.outputs | self.bit).get(1)).byte(1))
 
     def remaining(self) -> int:
         """Remaining-pulse register of the last motion (pulses left - 1, at least 0); only at rest."""
-        return self.link.execute(Script().call(READ_REMAINING | self.bit).get(3)).number(1)
+        return self.link.execute(Script().call(self.codes.remaining | self.bit).get(3)).number(1)
 
     @property
     def position(self) -> int:
@@ -100,7 +137,8 @@ class AxisCore:
 
     def excitation_off(self) -> None:
         """All coils off; the axis must be initialised anew. During a motion nothing is sent: on a PPMC-104
-        the code would mean something else then (P104-AUX-05): NotWhileBusy."""
+        the code would mean something else then (P104-AUX-05): NotWhileBusy. OutOfRange on an STMC."""
+        self.kind.need(COILS_OFF)
         self._at_rest(Script().call(EXCITATION_OFF | self.bit))
 
     def forget(self) -> None:

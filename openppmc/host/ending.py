@@ -14,6 +14,9 @@ from ..model.codes import (
 )
 from .errors import AlarmStop, LimitReached, MotionError, StoppedEarly
 
+ALARM_INPUT = ("alarm input", "clear the drive's alarm")
+"""What that input is called where it is one, and what to do about it."""
+
 
 class Cause(Flag):
     """Why a motion ended; several may meet. COMPLETE: all pulses were made."""
@@ -26,13 +29,17 @@ class Cause(Flag):
     ORIGIN = 0x01
 
     def __str__(self) -> str:
-        words = [text for cause, text in _WORDS.items() if cause in self]
+        return self.words(ALARM_INPUT[0])
+
+    def words(self, alarm: str) -> str:
+        """What ended it; alarm: what the part calls that input."""
+        words = [alarm if cause is Cause.ALARM else text for cause, text in _WORDS.items() if cause in self]
         return " and ".join(words) or "complete"
 
 
 _WORDS = {
     Cause.STOP: "stop command",
-    Cause.ALARM: "alarm input",
+    Cause.ALARM: ALARM_INPUT[0],
     Cause.LIMIT: "limit switch",
     Cause.SLOW_LIMIT: "slow-down limit",
     Cause.ORIGIN: "origin switch",
@@ -46,7 +53,8 @@ class End:
 
     pulses: made, CW positive; None for a motion that another program started. left: pulses not made (of
     endless operations: of 2^24). position: pulse counter afterwards, None if the bridge has none. finish: the
-    finish status byte. who: for messages, the axis of a part with several.
+    finish status byte. who, alarm: for messages, the axis of a part with several, and what the part calls its
+    alarm input with what to do about it.
     """
 
     cause: Cause
@@ -55,6 +63,12 @@ class End:
     position: int | None
     finish: int
     who: str = field(default="", compare=False)
+    alarm: tuple[str, str] = field(default=ALARM_INPUT, compare=False, repr=False)
+
+    @property
+    def why(self) -> str:
+        """The cause in words."""
+        return self.cause.words(self.alarm[0])
 
     @property
     def complete(self) -> bool:
@@ -67,25 +81,23 @@ class End:
             return self
         where = "" if self.position is None else f" at position {self.position}"
         of = "" if asked is None else f" of {asked}"
-        kind, advice = _trouble(self.cause)
+        kind, advice = _trouble(self.cause, self.alarm[1])
         raise kind(
-            f"{self.who}{self.cause} ended the motion{where} after {abs(self.pulses)}{of} pulses: {advice}",
+            f"{self.who}{self.why} ended the motion{where} after {abs(self.pulses)}{of} pulses: {advice}",
             self,
         )
 
 
-def _trouble(cause: Cause) -> tuple[type[MotionError], str]:
+def _trouble(cause: Cause, cure: str) -> tuple[type[MotionError], str]:
     if Cause.ALARM in cause:
-        return AlarmStop, "clear the drive's alarm, then home again if steps may be lost"
+        return AlarmStop, f"{cure}, then home again if steps may be lost"
     if cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
         return LimitReached, "move away from the switch in the other direction"
     return StoppedEarly, "start again with the pulses that are left"
 
 
-def decode_end(
-    finish: int, remaining: int, total: int | None, direction: int, position: int | None, who: str = ""
-) -> End:
-    """From the bytes of 0x80 and 0x83 (P104-END-04..06).
+def decode_end(finish: int, remaining: int, total: int | None, direction: int, position: int | None) -> End:
+    """From finish status and remaining pulses (P104-END-04..06, STMC-FIN-01, -REM-01).
 
     total: pulses asked for, 2^24 for endless operations, None if nobody knows. direction: 0 CW, 1 CCW.
     """
@@ -95,4 +107,4 @@ def decode_end(
         # The origin switch sets no bit; only a search through all 2^24 pulses would read the same.
         cause, left = Cause.ORIGIN, remaining + 1
     made = None if total is None else (left - total if direction else total - left)
-    return End(cause, made, left, position, finish, who)
+    return End(cause, made, left, position, finish)

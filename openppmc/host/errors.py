@@ -59,7 +59,7 @@ class Disconnected(LinkError):
 class CommandRefused(PpmcError):
     """The part refused a byte. `status` is its status byte; one subclass per reason.
 
-    `number` is the error number of the PPMC-104; the other parts' are in tables of their own.
+    `number` is the error number of PPMC-104 and STMC; those of the PPMC-2104 are in a table of their own.
     """
 
     number: int
@@ -144,6 +144,20 @@ BY_NUMBER: dict[int, type[CommandRefused]] = {
 def refused(status: int) -> CommandRefused:
     """The exception for a status byte with ERR = 1."""
     return BY_NUMBER[status >> 4 & 7](status)
+
+
+# ---------------------------------------------------------------------- of the STMC: the same numbers
+
+_TEXTS_STMC = {
+    Error.NOT_INITIALISED: "the part is not initialised (power-up or reset): initialise it first",
+    Error.BAD_RAMP: "the part refuses a divisor: 1 or more, and that of the high speed not above the other",
+}
+
+
+def refused_stmc(status: int) -> CommandRefused:
+    """The exception for a status byte of an STMC with ERR = 1."""
+    number = status >> 4 & 7
+    return BY_NUMBER[number](status, _TEXTS_STMC.get(Error(number), ""))
 
 
 # ---------------------------------------------------------------------- of the PPMC-2104 only

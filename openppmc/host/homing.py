@@ -40,19 +40,24 @@ class Homing:
         """Approach, leave the switch if it is active, search, zero."""
         if (fast or to_limit) and not self._axis.inputs().origin:
             self._approach(to_limit)
+            if self._axis.kind.origin_between and not self._axis.inputs().origin:
+                self._search(1 - self._towards)
         if self._axis.inputs().origin:
             self._leave()
-        end = self._axis.search(self._towards, self._pps).wait(progress=self._progress)
-        if end.cause is not Cause.ORIGIN:
-            if end.cause & Cause.LIMIT:
-                raise OriginNotFound(
-                    f"{end.who}a limit switch came before the origin: home in the other direction, or check "
-                    "the switch",
-                    end,
-                )
-            end.check()
+        end = self._search(self._towards)
         self._axis.zero()
         return replace(end, position=self._axis.counted(0))
+
+    def _search(self, direction: int) -> End:
+        """Search at constant speed."""
+        end = self._axis.search(direction, self._pps).wait(progress=self._progress)
+        if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
+            raise OriginNotFound(
+                f"{end.who}a limit switch came before the origin: home in the other direction, or check the "
+                "switch",
+                end,
+            )
+        return end if end.cause is Cause.ORIGIN else end.check()
 
     def _approach(self, to_limit: bool) -> None:
         """High speed up to the slow-down limit, or on to the hard limit."""

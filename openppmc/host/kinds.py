@@ -3,28 +3,48 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
+from ..model.codes import PA_MAX, PA_MIN
+from ..model.codes_stmc import BOARD_CLOCK_HZ, TICK_XT
 from . import units
+from .ending import ALARM_INPUT
 from .errors import OutOfRange, WrongDevice
 
 AXIS_BIT = 0x20
 """Bit of a command code that names axis 2."""
+BOARD_CLOCK = BOARD_CLOCK_HZ
+"""Second step clock of the J105 board: 48 675 Hz."""
+POSITIVE = "positive logic"
+LONG = "long intervals"
+PULSE_ONLY = "pulse only"
+COILS_OFF = "excitation off"
+AUX = "output AUX"
+"""What not all parts have."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """One part. number: as IDENT tells it. axes: how many. least_rate: with an internal base clock.
-    rate_gap: by how much the start rate is above the high rate at least. logic_bit: the host chooses the
-    level that switches coils on, and may have long intervals (vsel); otherwise coils are on with low."""
+    """One part. number: as IDENT tells it. word: as users type it; name: as it is printed. axes: how many.
+    has: of the words above. outputs: highest value of the auxiliary outputs. lengths: shortest and longest
+    ramp in pulses. least_rate: with an internal base clock. rate_gap: by how much the start rate is above the
+    high rate at least. alarm: what its alarm input is called, and what to do about it. origin_between: the
+    origin lies between the slow-down limits, and a search ends at them."""
 
     number: int
-    axes: int
-    least_rate: int
-    rate_gap: int
-    logic_bit: bool
+    word: str
+    name: str
+    axes: int = 1
+    has: frozenset[str] = frozenset()
+    outputs: int = 15
+    lengths: tuple[int, int] = (PA_MIN, PA_MAX)
+    least_rate: int = 0
+    rate_gap: int = 0
+    alarm: tuple[str, str] = ALARM_INPUT
+    origin_between: bool = False
 
     def __str__(self) -> str:
-        return f"PPMC-{self.number}"
+        return self.name
 
     def check_axis(self, axis: int) -> int:
         """The number itself if there is such an axis; OutOfRange otherwise."""
@@ -33,13 +53,38 @@ class Kind:
             raise OutOfRange(f"axis {axis}: a {self} has {there}")
         return axis
 
-    def internal(self, xtal_hz: int, csel: int = 1, vsel: int = 1) -> units.BaseClock:
-        """An internal base clock."""
-        return units.BaseClock.internal(xtal_hz, csel, vsel, self.least_rate)
+    def need(self, what: str) -> None:
+        """OutOfRange if the part lacks one of the things in `has`."""
+        if what not in self.has:
+            raise OutOfRange(f"{what}: a {self} does not have that")
+
+    # ------------------------------------------------------------------ speeds
 
     def any_clock(self, xtal_hz: int, pps: units.Number, vsel: int = 1, first: int = 1) -> units.BaseClock:
         """The internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
         return units.any_clock(xtal_hz, pps, vsel, first, self.least_rate)
+
+    def constant_clock(
+        self, xtal_hz: int, ramp: units.BaseClock | None, pps: units.Number
+    ) -> units.BaseClock:
+        """The base clock of a constant speed, after that of the ramp (None: nobody knows it). Raises
+        OutOfRange for a speed that no clock reaches."""
+        if ramp is None:
+            return self.any_clock(xtal_hz, pps)
+        return ramp if ramp.external else self.any_clock(xtal_hz, pps, ramp.vsel, ramp.csel)
+
+    def ramp_clock(
+        self,
+        xtal_hz: int,
+        start_pps: units.Number,
+        base_clock: units.Number | None,
+        external_clock: units.Number | None,
+        vsel: int = 1,
+    ) -> units.BaseClock:
+        """The base clock of an initialisation; arguments as those of the drivers' `initialise`."""
+        if external_clock is not None:
+            return units.BaseClock.external_pin(external_clock)
+        return units.choose_clock(xtal_hz, start_pps, base_clock, vsel, self.least_rate)
 
     def plan(
         self,
@@ -60,25 +105,80 @@ class Kind:
 
         positive_logic None: what the part has, or positive where it has both. Raises OutOfRange.
         """
-        if external_clock is not None:
-            clock = units.BaseClock.external_pin(external_clock)
-        else:
-            vsel = int(not long_intervals)
-            clock = units.choose_clock(xtal_hz, start_pps, base_clock, vsel, self.least_rate)
+        for wanted, what in ((positive_logic, POSITIVE), (long_intervals, LONG)):
+            if wanted:
+                self.need(what)
+        clock = self.ramp_clock(xtal_hz, start_pps, base_clock, external_clock, int(not long_intervals))
         bits = units.motor_bits(phases, half_step)
-        if self.logic_bit:
+        if POSITIVE in self.has:
             code = bits | (positive_logic is not False) << 3 | clock.external << 4 | chop << 5
-        elif positive_logic or long_intervals:
-            what = "positive logic" if positive_logic else "long intervals"
-            raise OutOfRange(f"{what}: a {self} does not have that (coils are on with a low level, no VSEL)")
         else:
             code = bits | clock.external << 3 | chop << 4 | (self.check_axis(axis) - 1) * AXIS_BIT
-        return units.plan_setup(clock, start_pps, high_pps, ramp_pulses, code, self.rate_gap)
+        return units.plan_setup(clock, start_pps, high_pps, ramp_pulses, code, self.rate_gap, self.lengths)
 
 
-PPMC104 = Kind(104, axes=1, least_rate=0, rate_gap=0, logic_bit=True)
-PPMC2104 = Kind(2104, axes=2, least_rate=1, rate_gap=2, logic_bit=False)
-KINDS = {kind.number: kind for kind in (PPMC104, PPMC2104)}
+class KindStmc(Kind):
+    """The STMC: speeds are a step clock over a divisor, and the clock is chosen by the initialisation."""
+
+    def constant_clock(
+        self, xtal_hz: int, ramp: units.BaseClock | None, pps: units.Number
+    ) -> units.BaseClock:
+        if ramp is None:
+            raise OutOfRange("a speed needs a step clock, which an initialisation chooses: initialise first")
+        ramp.choose(pps)
+        return ramp
+
+    def ramp_clock(
+        self,
+        xtal_hz: int,
+        start_pps: units.Number,
+        base_clock: units.Number | None,
+        external_clock: units.Number | None,
+        vsel: int = 1,
+    ) -> units.BaseClock:
+        if external_clock is not None:
+            return units.BaseClock.divided(external_clock)
+        internal = units.BaseClock.divided(Fraction(xtal_hz, TICK_XT), external=False)
+        board = units.BaseClock.divided(BOARD_CLOCK)
+        if base_clock is None:
+            return board if board.slowest <= units.exact(start_pps, "start speed") else internal
+        for clock in (internal, board):
+            if clock.hertz == units.exact(base_clock, "base clock", "Hz"):
+                return clock
+        raise OutOfRange(
+            f"base clock {units.nearby(base_clock)} Hz: this board has {units.nearby(internal.hertz)} and "
+            f"{BOARD_CLOCK} Hz"
+        )
+
+
+PPMC104 = Kind(104, "ppmc104", "PPMC-104", has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, AUX)))
+PPMC2104 = Kind(
+    2104,
+    "ppmc2104",
+    "PPMC-2104",
+    axes=2,
+    has=frozenset((PULSE_ONLY, COILS_OFF)),
+    outputs=3,
+    least_rate=1,
+    rate_gap=2,
+)
+STMC = KindStmc(
+    105,
+    "stmc",
+    "J105 STMC",
+    has=frozenset((POSITIVE,)),
+    outputs=0,
+    lengths=(0, 65_535),
+    alarm=("MON input", "switch the motor on (MON high)"),
+    origin_between=True,
+)
+KINDS = {kind.number: kind for kind in (PPMC104, PPMC2104, STMC)}
+BY_WORD = {kind.word: kind for kind in KINDS.values()}
+
+
+def name_of(number: int) -> str:
+    """Name of the part with this number, known or not."""
+    return str(KINDS[number]) if number in KINDS else f"PPMC-{number}"
 
 
 def kind_of(number: int, where: str = "") -> Kind:
@@ -86,7 +186,8 @@ def kind_of(number: int, where: str = "") -> Kind:
     try:
         return KINDS[number]
     except KeyError:
-        known = " and ".join(map(str, KINDS.values()))
+        *most, last = map(str, KINDS.values())
         raise WrongDevice(
-            f"{where}: the part is a PPMC-{number}; there are drivers for {known}: renew the package"
+            f"{where}: the part is a {name_of(number)}; there are drivers for {', '.join(most)} and {last}: "
+            "renew the package"
         ) from None

@@ -15,6 +15,7 @@ from .errors import (
     WrongDevice,
     refused,
 )
+from .kinds import name_of
 from .script import (
     PROTOCOL_VERSION,
     RATES,
@@ -123,7 +124,7 @@ class Link:
             )
         if part is not None and identity.part != part:
             raise WrongDevice(
-                f"{self.name}: the part is a PPMC-{identity.part}, not a PPMC-{part}: "
+                f"{self.name}: the part is a {name_of(identity.part)}, not a {name_of(part)}: "
                 "name the right one with --part, or use its own driver"
             )
 

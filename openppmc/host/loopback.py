@@ -11,23 +11,25 @@ import time
 from ..model.board import Board
 from ..model.board104 import Board104
 from ..model.board2104 import Board2104
+from ..model.board_stmc import BoardStmc
 from ..model.bridge import Bridge
 from ..model.bridge_ops import RATES
-from ..model.plant import PLANT_WORDS, parse_machine
+from ..model.plant import PLANT_WORDS, parse_machine, stmc_read_map
 from .errors import Disconnected, PortError
 
 BITS_PER_BYTE = 10
 _SLICE = 0.01
 _LAG = 0.25
-OPTIONS = ("part", "speed", "clk", "xtal", "timing", "unplug")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "unplug")
 
 
 class ModelPort:
     """A board that needs no hardware.
 
     text: words of the machine (`openppmc.model.plant`) and `speed` (1: real time, 10: ten times as fast,
-    max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `unplug` (the port goes
-    away after so many seconds of its time). Raises PortError for anything else.
+    max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (of an stmc)
+    SHEET or FAMILY, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
+    anything else.
     """
 
     def __init__(self, text: str = "", baud: int = 115_200) -> None:
@@ -42,14 +44,18 @@ class ModelPort:
             clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
             timing = options.pop("timing", "FAST").upper()
             self._unplug = float(options.pop("unplug", "inf"))
+            read_map = stmc_read_map(machine.part, options.pop("read_map", None))
             if options:
                 known = ", ".join((*PLANT_WORDS, *OPTIONS))
                 raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
-            board: Board104 | Board2104
+            board: Board104 | Board2104 | BoardStmc
+            settings = (clk_hz, xtal_hz, timing, self._interrupt)
             if machine.part == "ppmc104":
-                board = Board104(machine.plants[0], clk_hz, xtal_hz, timing, self._interrupt)
+                board = Board104(machine.plants[0], *settings)
+            elif machine.part == "stmc":
+                board = BoardStmc(machine.plants[0], *settings, read_map)
             else:
-                board = Board2104(machine.plants, clk_hz, xtal_hz, timing, self._interrupt)
+                board = Board2104(machine.plants, *settings)
         except ValueError as error:
             raise PortError(f"{self.name}: {error}") from error
         self.board: Board = board

@@ -14,7 +14,7 @@ from .script import Script
 if TYPE_CHECKING:
     from .axis import Axis, Order
 
-READ_FINISH, READ_REMAINING = 0x80, 0x83
+READ_FINISH = 0x80
 SAFETY_POLL = 0.5
 """Seconds between looks at BUSY while waiting for the interrupt message, which noise may eat."""
 PROGRESS_POLL = 0.1
@@ -91,18 +91,18 @@ class Motion:
         With DATASHEET timing BUSY rises up to 112 us after the command, and bytes wait for that (P104-DS-03):
         then it was no end.
         """
-        bit = self._axis.bit
-        script = Script().call(READ_FINISH | bit).get(1).call(READ_REMAINING | bit).get(3)
+        bit, remaining = self._axis.bit, self._axis.codes.remaining
+        script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
         try:
             answer = self._link.execute(script.count(self._axis.number))
         except NotWhileBusy:
             return  # a part with DATASHEET timing was about to begin
         total = self.asked or ENDLESS
-        self.end = decode_end(
+        end = decode_end(
             answer.byte(1),
             answer.number(3),
             total if self._ours else None,
             self.direction,
             self._axis.counted(answer.number(4, signed=True)),
-            self._axis.who,
         )
+        self.end = self._axis.told(end)

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from .kinds import KINDS, kind_of
 from .link import DEFAULT_BAUD, Link
 from .ppmc104 import Ppmc104
 from .ppmc2104 import Ppmc2104
+from .stmc import Stmc
 from .transport import Port
 
-DRIVERS: dict[int, type[Ppmc104] | type[Ppmc2104]] = {kind.kind.number: kind for kind in (Ppmc104, Ppmc2104)}
+AnyPart: TypeAlias = Ppmc104 | Ppmc2104 | Stmc
+DRIVERS: dict[int, type[AnyPart]] = {kind.kind.number: kind for kind in (Ppmc104, Ppmc2104, Stmc)}
 assert set(DRIVERS) == set(KINDS)
 
 
-def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> Ppmc104 | Ppmc2104:
+def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> AnyPart:
     """Open a port and take the driver of the part that is there (IDENT). number: the part that it must be.
 
     Raises WrongDevice for another part, or one without a driver.

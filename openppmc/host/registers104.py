@@ -1,8 +1,9 @@
-"""The PPMC-104's readable registers as dataclasses (P104-STA-01..06, P104-RD-06). Pure."""
+"""The readable registers of PPMC-104 and STMC as dataclasses (P104-STA-01..06, P104-RD-06). Pure."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 from ..model.codes104 import BUSY, ERR, IBF, OBF, Error
 
@@ -33,19 +34,29 @@ class Status:
         )
 
 
+Pins = TypeVar("Pins", bound="Switches")
+
+
 @dataclass(frozen=True)
-class Inputs:
-    """Switches; True: active (pin low)."""
+class ReadCodes:
+    """Codes of the read commands that differ from part to part."""
+
+    outputs: int = 0x82
+    remaining: int = 0x83
+
+
+@dataclass(frozen=True)
+class Switches:
+    """Switches of an axis; True: active (pin low). The sixth one is the part's."""
 
     limit_cw: bool
     limit_ccw: bool
     slow_cw: bool
     slow_ccw: bool
     origin: bool
-    alarm: bool
 
     @classmethod
-    def of_pins(cls, raw: int) -> Inputs:
+    def of_pins(cls: type[Pins], raw: int) -> Pins:
         """From the bridge's PINS byte; unlike command 0x81 it may be asked for during a motion."""
         return cls(*(not raw >> bit & 1 for bit in (2, 3, 4, 5, 6, 7)))
 
@@ -53,6 +64,20 @@ class Inputs:
     def active(self) -> list[str]:
         """Names of the active ones."""
         return [name.replace("_", " ") for name, on in vars(self).items() if on]
+
+
+@dataclass(frozen=True)
+class Inputs(Switches):
+    """Switches of a PPMC part."""
+
+    alarm: bool
+
+
+@dataclass(frozen=True)
+class InputsStmc(Switches):
+    """Switches of an STMC; motor_off: MON is low."""
+
+    motor_off: bool
 
 
 @dataclass(frozen=True)
@@ -65,5 +90,5 @@ class Outputs:
 
     @classmethod
     def parse(cls, raw: int) -> Outputs:
-        """From the byte of command 0x82."""
+        """From the byte of the read command."""
         return cls(tuple(raw >> bit & 1 for bit in (7, 6, 5, 4, 3)), bool(raw & 4), bool(raw & 2))

@@ -1,7 +1,8 @@
-"""Pulses per second to the rate bytes of the part and back, exactly (P104-INT-01, -02). Pure.
+"""Pulses per second to the rate bytes of the part and back, exactly (P104-INT-01, -02, STMC-INI-01). Pure.
 
-All speeds are in pulses per second (pps), as exact fractions. The part cannot make every speed: it makes
-base clock / (rate + 1) with rate 0 to 255, so a speed that was asked for is rounded to the nearest interval.
+All speeds are in pulses per second (pps), as exact fractions; on the STMC a pulse is a step. The part cannot
+make every speed: it makes base clock / (rate + 1) with rate 0 to 255, the STMC base clock / divisor with
+divisors up to 255, so a speed that was asked for is rounded to the nearest interval.
 """
 
 from __future__ import annotations
@@ -12,12 +13,15 @@ from math import isfinite
 from typing import TypeAlias
 
 from ..model.codes import ENDLESS, PA_MAX, PA_MIN
+from ..model.ramp import Ramp
 from .errors import OutOfRange
 
 Number: TypeAlias = int | float | Fraction
 SLOWEST_RATE = 255
 LONGEST_MOVE = ENDLESS
 QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
+LEAST_DIVISOR = 5
+"""The sheet of the STMC advises against lower ones; the part would take them."""
 
 
 def nearby(speed: Fraction | float | int) -> str:
@@ -38,7 +42,7 @@ class BaseClock:
 
     period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
     the strap pins that choose it. external: it comes in at the `clock` pin. least_rate: lowest rate byte
-    that the part takes with it.
+    that the driver uses with it. beyond: base clocks of an interval beyond its rate byte.
     """
 
     period: Fraction
@@ -47,6 +51,7 @@ class BaseClock:
     vsel: int = 1
     external: bool = False
     least_rate: int = 0
+    beyond: int = 1
 
     @classmethod
     def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1, least_rate: int = 0) -> BaseClock:
@@ -59,9 +64,29 @@ class BaseClock:
     @classmethod
     def external_pin(cls, hertz: Number) -> BaseClock:
         """A steady clock on the `clock` pin, 0 < hertz <= 1e6; vsel is kept high. OutOfRange otherwise."""
-        if not 0 < exact(hertz, "external clock", "Hz") <= 1_000_000:
-            raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")
-        return cls(1 / Fraction(hertz), external=True)
+        return cls(_pin_period(hertz), external=True)
+
+    @classmethod
+    def divided(cls, hertz: Number, external: bool = True) -> BaseClock:
+        """Step clock of an STMC, 0 < hertz <= 1e6 (else OutOfRange); rate bytes are divisors. external: it is
+        the one that the board makes, or the `ext_clk` pin.
+
+        The worked examples of the sheet, with the external clock of its board:
+
+        >>> clock = BaseClock.divided(48_675)
+        >>> clock.choose(345).rate, clock.choose(825).rate
+        (141, 59)
+        >>> clock.speed(59)
+        Fraction(825, 1)
+
+        Divisors below 5 are left out, as the sheet advises:
+
+        >>> float(clock.slowest), float(clock.fastest)
+        (190.88235294117646, 9735.0)
+        >>> float(BaseClock.divided(12_500, external=False).fastest)
+        2500.0
+        """
+        return cls(_pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
 
     @property
     def hertz(self) -> Fraction:
@@ -70,7 +95,11 @@ class BaseClock:
 
     def speed(self, rate: int) -> Fraction:
         """Speed of a rate byte in pps."""
-        return 1 / ((rate + 1) * self.period + self.extra)
+        return self.speed_of(rate + self.beyond)
+
+    def speed_of(self, periods: int) -> Fraction:
+        """Speed of an interval of so many base clocks in pps."""
+        return 1 / (periods * self.period + self.extra)
 
     @property
     def slowest(self) -> Fraction:
@@ -95,8 +124,15 @@ class BaseClock:
                 f"(base clock {nearby(self.hertz)} Hz)"
             )
         periods = (1 / asked - self.extra) / self.period
-        rate = min(SLOWEST_RATE, max(self.least_rate, int(periods + Fraction(1, 2)) - 1))
+        rate = min(SLOWEST_RATE, max(self.least_rate, int(periods + Fraction(1, 2)) - self.beyond))
         return Speed(asked, rate, self.speed(rate), self)
+
+
+def _pin_period(hertz: Number) -> Fraction:
+    """Period of a clock that comes from outside in s. OutOfRange."""
+    if not 0 < exact(hertz, "external clock", "Hz") <= 1_000_000:
+        raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")
+    return 1 / Fraction(hertz)
 
 
 @dataclass(frozen=True)
@@ -137,10 +173,21 @@ class Setup:
         return bytes([self.start.rate, self.high.rate]) + self.ramp_pulses.to_bytes(2, "little")
 
     @property
+    def flat(self) -> bool:
+        """There is one speed only, the high one (on an STMC with 0 ramp pulses, too: STMC-MOV-04)."""
+        return not self.ramp_pulses or self.start.rate == self.high.rate
+
+    def ramp(self) -> Ramp:
+        """The ramp, to predict moves with; its rates are base clocks of an interval less one."""
+        beyond = self.clock.beyond - 1
+        slow, fast = self.start.rate + beyond, self.high.rate + beyond
+        return Ramp(slow, fast, self.ramp_pulses) if self.ramp_pulses else Ramp(fast, fast, 0)
+
+    @property
     def acceleration(self) -> float:
         """Mean acceleration of the ramp in pps per second; 0 without a ramp."""
         v0, v1 = self.start.reached, self.high.reached
-        return float((v1 * v1 - v0 * v0) / (2 * self.ramp_pulses))
+        return 0.0 if self.flat else float((v1 * v1 - v0 * v0) / (2 * self.ramp_pulses))
 
     @property
     def ramp_seconds(self) -> float:
@@ -175,12 +222,19 @@ def choose_clock(
 
 
 def plan_setup(
-    clock: BaseClock, start_pps: Number, high_pps: Number, ramp_pulses: int, code: int, rate_gap: int = 0
+    clock: BaseClock,
+    start_pps: Number,
+    high_pps: Number,
+    ramp_pulses: int,
+    code: int,
+    rate_gap: int = 0,
+    lengths: tuple[int, int] = (PA_MIN, PA_MAX),
 ) -> Setup:
-    """Rates of a ramp, the start rate at least `rate_gap` above the high rate. Raises OutOfRange for
-    speeds or a length that the part cannot do."""
-    if not PA_MIN <= ramp_pulses <= PA_MAX:
-        raise OutOfRange(f"ramp of {ramp_pulses} pulses is outside {PA_MIN} to {PA_MAX} pulses")
+    """Rates of a ramp, the start rate at least `rate_gap` above the high rate; lengths: shortest and longest
+    ramp. Raises OutOfRange for speeds or a length that the part cannot do."""
+    shortest, longest = lengths
+    if not shortest <= ramp_pulses <= longest:
+        raise OutOfRange(f"ramp of {ramp_pulses} pulses is outside {shortest} to {longest} pulses")
     start = clock.choose(start_pps, "start speed")
     high = clock.choose(high_pps, "high speed")
     if start.asked > high.asked:

@@ -34,6 +34,9 @@ COLOURS = {
     "HOLD": "#c26a1b",
     "INT": "#c0392b",
     "L1": "#8c2d62",
+    "L3": "#8c2d62",
+    "CNP": "#7a4fa3",
+    "IRQ": "#c0392b",
 }
 
 
@@ -108,7 +111,7 @@ def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
     draw_speed(speed, run, 0, run.end, scale)
     top = speed.get_ylim()[1] * 1.28
     speed.set_ylim(0, top)
-    speed.set_ylabel("speed / kpps", fontsize=9, color=GREY)
+    speed.set_ylabel(f"speed / {run.unit}", fontsize=9, color=GREY)
     draw_traces(pins, run.traces, 0, run.end, scale)
     pins.set_xlabel("time after reset / ms", fontsize=9, color=GREY, loc="right", labelpad=2)
     speed.tick_params(labelbottom=False)

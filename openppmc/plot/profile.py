@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Protocol
 
 import matplotlib
 
@@ -10,9 +12,18 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 
-from openppmc.model.predict import Move
-
 from .motion import GREY, INK, PALE, SPEED, bare
+
+
+class Move(Protocol):
+    """What is drawn: times of the pulses in s, speed of each interval in pulses per second."""
+
+    @property
+    def seconds(self) -> Sequence[float]: ...
+
+    @property
+    def speeds(self) -> Sequence[float]: ...
+
 
 FORMATS = (".png", ".svg", ".pdf")
 

@@ -62,7 +62,10 @@ class Speed:
 
 @dataclass(frozen=True)
 class Run:
-    """All that the picture shows. `row_scale` makes the rows of pins lower than usual."""
+    """All that the picture shows. `row_scale` makes the rows of pins lower than usual.
+
+    `unit` is that of the speed, thousands a second.
+    """
 
     title: str
     subtitle: str
@@ -73,6 +76,7 @@ class Run:
     chapters: Sequence[Section]
     zooms: Sequence[Section]
     row_scale: float = 1.0
+    unit: str = "kpps"
 
 
 def speeds(pulses: Sequence[int], clk_hz: int, gap: int) -> list[tuple[list[int], list[float]]]:

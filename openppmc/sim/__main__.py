@@ -14,7 +14,9 @@ from .spec import KNOWN, SpecError
 
 USAGE = f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md"
 LIVE, PLAIN = 0.2, 30.0
-SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp"), ("ALM", "alm"))
+SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp"))
+ALARM = {"stmc": "MON low"}
+"""What is shown for the alarm of other parts than those of the PPMC family."""
 
 
 def split_link(text: str) -> tuple[str, Path | None]:
@@ -27,17 +29,17 @@ def split_link(text: str) -> tuple[str, Path | None]:
     return rest, Path(links[-1]) if links else None
 
 
-def line(now: Status) -> str:
-    """One line for the user."""
+def line(now: Status, alarm: str) -> str:
+    """One line for the user; alarm: what the part calls that switch."""
     host = f"{now.rate} baud" if now.open else "no host"
     pace = "asleep" if now.asleep else f"{now.factor:.2f} x real time"
-    axes = "  ".join(motor(axis) for axis in (now, now.second) if axis is not None)
+    axes = "  ".join(motor(axis, alarm) for axis in (now, now.second) if axis is not None)
     return f"{now.seconds:9.1f} s  {pace:16}  {axes}{'  INT' if now.interrupt else ''}  [{host}]"
 
 
-def motor(axis: AxisStatus) -> str:
+def motor(axis: AxisStatus, alarm: str) -> str:
     """Position, state and switches of an axis."""
-    switches = " ".join(name for name, field in SWITCHES if getattr(axis, field)) or "none"
+    switches = " ".join(name for name, field in (*SWITCHES, (alarm, "alm")) if getattr(axis, field)) or "none"
     return f"position {axis.position:8}  {'at rest' if axis.hold else 'moving':7}  active: {switches}"
 
 
@@ -45,7 +47,7 @@ def show(board: SimBoard) -> None:
     """Status until the board ends: a live line on a terminal, else a line now and then."""
     live = sys.stdout.isatty()
     while True:
-        text = line(board.status())
+        text = line(board.status(), ALARM.get(board.spec.part, "ALM"))
         if live:
             columns = shutil.get_terminal_size().columns
             print(f"\r{text[: columns - 1]:{columns - 1}}", end="", flush=True)

@@ -18,8 +18,8 @@ _KINDS = {"int": int, "float": float, "bool": lambda text: text == "1", "str": s
 
 @dataclass(frozen=True)
 class AxisStatus:
-    """An axis. Switches: True = active; hold: True = at rest for the hold time. pulses: made since the start.
-    phases: levels of S5 to S1."""
+    """An axis. Switches: True = active; hold: True = at rest for the hold time. pulses: made since the start
+    (steps of an stmc, whose alm is MON low). phases: levels of S5 to S1."""
 
     position: int
     pulses: int
@@ -83,7 +83,7 @@ class SimBoard:
 
     def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
         self.spec = spec
-        program = build(spec.part, spec.clk_hz, spec.xtal_hz, spec.timing, spec.vcd is not None, say)
+        program = build(spec.part, spec.parameters, spec.vcd is not None, say)
         try:
             # The program ends with its standard input, so with this process, however that ends.
             self.process = subprocess.Popen(

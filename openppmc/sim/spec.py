@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..model.plant import PLANT_WORDS, Plant, parse_machine
+from ..model.plant import PLANT_WORDS, Plant, parse_machine, stmc_read_map
 
-OPTIONS = ("part", "speed", "clk", "xtal", "timing", "vcd", "vcd_from", "vcd_for", "log")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "vcd", "vcd_from", "vcd_for", "log")
 KNOWN = ", ".join((*PLANT_WORDS, *OPTIONS))
 
 
@@ -19,10 +19,11 @@ class SpecError(ValueError):
 class Spec:
     """A virtual board as it was asked for.
 
-    part: ppmc104 or ppmc2104. plants: one an axis. speed: times real time, None: as fast as the machine can.
-    clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz: crystal of
-    the emulated chip, 1e6 … 16e6. timing: FAST or DATASHEET. vcd: waveform file or None, with vcd_from and
-    vcd_for in ms of board time. log: file that gets a line a pulse, or None.
+    part: ppmc104, ppmc2104 or stmc. plants: one an axis. speed: times real time, None: as fast as the
+    machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz:
+    crystal of the emulated chip, 1e6 … 16e6 (stmc: 20e6). timing: FAST or DATASHEET. read_map: of an stmc,
+    SHEET or FAMILY. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log: file that
+    gets a line a pulse, or None.
     """
 
     part: str = "ppmc104"
@@ -31,10 +32,17 @@ class Spec:
     clk_hz: int = 8_000_000
     xtal_hz: int = 16_000_000
     timing: str = "FAST"
+    read_map: str = "SHEET"
     vcd: Path | None = None
     vcd_from: float = 0.0
     vcd_for: float = 20.0
     log: Path | None = None
+
+    @property
+    def parameters(self) -> dict[str, int | str]:
+        """Parameters of the board's top module."""
+        own: dict[str, int | str] = {"READ_MAP": self.read_map} if self.part == "stmc" else {}
+        return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, "TIMING": self.timing, **own}
 
     def arguments(self) -> list[str]:
         """Arguments of the program in tb/board."""
@@ -56,6 +64,7 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
         machine = parse_machine(",".join(words))
+        read_map = stmc_read_map(machine.part, machine.others.get("read_map"))
     except ValueError as error:
         raise SpecError(f"{error} (there are {KNOWN})") from None
     rest = machine.others
@@ -71,14 +80,15 @@ def parse_spec(text: str = "", **options: object) -> Spec:
         raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
     if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
         raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
-    speed = rest.get("speed", "1")
+    speed, stmc = rest.get("speed", "1"), machine.part == "stmc"
     return Spec(
         machine.part,
         machine.plants,
         None if speed == "max" else _number("speed", speed, 0.001, 1000, "or max"),
         _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000),
-        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, 16_000_000),
+        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, 20_000_000 if stmc else 16_000_000),
         timing,
+        read_map,
         _file("vcd", rest),
         _number("vcd_from", rest.get("vcd_from", "0"), 0, 1e9, "ms"),
         _number("vcd_for", rest.get("vcd_for", "20"), 0.001, 1e6, "ms"),

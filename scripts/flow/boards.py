@@ -118,24 +118,30 @@ BOARDS = {
 }
 
 
-def ppmc2104(on: str, hosts: tuple[str, ...] = HOSTS) -> Board:
-    """The board of this name with a PPMC-2104, for these hosts."""
+def carrying(part: str, on: str, hosts: tuple[str, ...] = HOSTS) -> Board:
+    """The board of this name with another part than a PPMC-104, for these hosts."""
     ppmc104 = BOARDS[on]
     family = on.split("-")[0]
     suffix = Path(ppmc104.constraints["uart"]).suffix
     return replace(
         ppmc104,
-        top=dict.fromkeys(hosts, f"board_{family}_ppmc2104"),
-        constraints=dict.fromkeys(hosts, f"{family}-ppmc2104{suffix}"),
-        part="ppmc2104",
+        top=dict.fromkeys(hosts, f"board_{family}_{part}"),
+        constraints=dict.fromkeys(hosts, f"{family}-{part}{suffix}"),
+        part=part,
     )
 
 
-BOARDS_2104 = {
-    board.name: board
-    for board in (ppmc2104("icebreaker", ("uart",)), ppmc2104("ulx3s-25f"), ppmc2104("ulx3s-85f"))
-}
-BY_PART = {"ppmc104": BOARDS, "ppmc2104": BOARDS_2104}
+def with_part(part: str) -> dict[str, Board]:
+    """The boards that carry this part besides the PPMC-104."""
+    boards = (
+        carrying(part, "icebreaker", ("uart",)),
+        carrying(part, "ulx3s-25f"),
+        carrying(part, "ulx3s-85f"),
+    )
+    return {board.name: board for board in boards}
+
+
+BY_PART = {"ppmc104": BOARDS, "ppmc2104": with_part("ppmc2104"), "stmc": with_part("stmc")}
 
 
 def board(name: str, part: str = "ppmc104") -> Board:

@@ -72,7 +72,7 @@ def owner(name: str, instances: set[str]) -> str | None:
     """The deepest instance whose path starts a cell's or net's name; None for names yosys made up."""
     if name.startswith("$") or re.search(r"_(LUT4|SB_LUT4|CCU2C|SB_CARRY|PFUMX|L6MUX21)_", name):
         return None
-    path = name.split("\\")[0].split("[")[0]
+    path = re.sub(r"(\[\d+\])+$", "", name.split("\\")[0])
     while "." in path:
         path = path.rsplit(".", 1)[0]
         if path in instances:

@@ -13,7 +13,7 @@ from .report import markdown_table
 from .sizes import LIMIT
 
 HEADS = ("design", "device", "LUT", "FF", "block RAM", "of the device", "Fmax / MHz", "all seeds", "runs at")
-BRIDGE = "g_uart"
+BRIDGE = "u_host.g_uart"
 INSIDE = {"ecp5": "ECP5", "ice40": "iCE40"}
 
 
@@ -85,7 +85,7 @@ def bridge_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
         count = _sum(result.flat, "u_part")
         rows[0] += [str(count.lut), str(count.ff), str(count.ram or "")]
     for path in inside:
-        depth = path.count(".") - 1
+        depth = path.count(".") - BRIDGE.count(".") - 1
         row = ["&nbsp;&nbsp;" * depth + path.rsplit(".", 1)[-1], first.module[path]]
         for result in split.values():
             count = result.flat.get(path, Count())

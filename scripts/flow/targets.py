@@ -50,7 +50,7 @@ def base_job(part: str, board_top: bool) -> dict:
     top = part
     if board_top:
         top = BOARD_TOPS[part]
-        sources = [*sources, project.RTL / "boards" / f"{top}.sv"]
+        sources = [*sources, *project.board_files(part)]
     return {
         "top": top,
         "include": [project.relative(path) for path in project.include_dirs()],

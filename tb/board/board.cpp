@@ -26,6 +26,7 @@ Board::Board(const Options& options, uint64_t clk_hz)
         std::fputs(kAxes == 1 ? "# clk dir position\n" : "# clk dir position axis\n", log_);
     }
     set_switches(dut_.top, plants_);
+    motion_ = motion_pins(dut_.top);
     busy_until_ = kRestSeconds * clk_hz_;
 }
 
@@ -55,7 +56,7 @@ void Board::simulate(uint64_t end) {
 #if VM_TRACE
         const double ps = 1e12 / static_cast<double>(clk_hz_);
         for (; now_ < end; ++now_) {
-            if (now_ >= wake_ || top.uart_txd != txd_ || top.pout_n != pout_) change();
+            if (now_ >= wake_ || top.uart_txd != txd_ || motion_pins(top) != motion_) change();
             const double at = static_cast<double>(now_) * ps;
             dut_.tick_traced(static_cast<uint64_t>(at), static_cast<uint64_t>(at + ps / 2));
         }
@@ -64,7 +65,7 @@ void Board::simulate(uint64_t end) {
     }
     uint64_t now = now_;
     for (; now < end; ++now) {
-        if (now >= wake_ || top.uart_txd != txd_ || top.pout_n != pout_) {
+        if (now >= wake_ || top.uart_txd != txd_ || motion_pins(top) != motion_) {
             now_ = now;
             change();
         }
@@ -73,19 +74,22 @@ void Board::simulate(uint64_t end) {
     now_ = now;
 }
 
-// The only work between two clk edges that is not the DUT's: something at the UART or the pulse output has changed.
+// The only work between two clk edges that is not the DUT's: something has changed at the UART or at the pins that the
+// motors follow.
 void Board::change() {
     Vboard& top = dut_.top;
     txd_ = top.uart_txd;
     uart_.step(now_, txd_);
     top.uart_rxd = uart_.level();
     wake_ = uart_.next();
-    const unsigned fallen = pout_ & ~top.pout_n;
-    pout_ = top.pout_n;
-    if (!fallen) return;
+    const unsigned pins = motion_pins(top);
+    if (pins == motion_) return;
+    const unsigned stepped = motors_.steps(motion_, pins);
+    motion_ = pins;
+    if (!stepped) return;
     for (unsigned n = 0; n < kAxes; ++n) {
-        if (!(fallen >> n & 1)) continue;
-        const bool dir = top.dir >> n & 1;
+        if (!(stepped >> n & 1)) continue;
+        const bool dir = motors_.ccw(top, n);
         plants_[n].pulse(dir);
         if (!log_) continue;
         std::fprintf(log_, "%" PRIu64 " %d %" PRId64, now_ - 1, dir, plants_[n].position());
@@ -110,8 +114,7 @@ void Board::serve() {
         pty_.write(uart_.received());
         uart_.received().clear();
     }
-    if (spoken || !uart_.idle() || top.hold != kAllAxes || top.led_link || !top.uart_txd ||
-        top.pout_n != kAllAxes) {
+    if (spoken || !uart_.idle() || top.hold != kAllAxes || top.led_link || !top.uart_txd) {
         if (dozing_) pace_.rebase(now_);
         dozing_ = false;
         busy_until_ = now_ + kRestSeconds * clk_hz_;

@@ -47,7 +47,8 @@ class Board {
     uint64_t wake_ = 0;      // next() of the UART
     uint64_t busy_until_ = 0;  // no doze before this clk
     bool txd_ = true;
-    unsigned pout_ = kAllAxes;
+    unsigned motion_ = 0;  // motion_pins() as of the last change
+    Motors motors_;
     bool dozing_ = false;
     uint64_t trace_from_ = 0, trace_end_ = 0;
     bool tracing_ = false;

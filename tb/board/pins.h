@@ -5,6 +5,7 @@
 
 #include "Vboard.h"
 #include "plant.h"
+#include "steps.h"
 
 #ifndef BOARD_PART
 #error "BOARD_PART must be the number of the part"
@@ -12,6 +13,39 @@
 
 constexpr unsigned kAxes = BOARD_PART == 2104 ? 2 : 1;
 constexpr unsigned kAllAxes = (1u << kAxes) - 1;
+
+#if BOARD_PART == 105
+
+// No pulse output: the motor follows the phases.
+inline unsigned motion_pins(const Vboard& top) { return top.s; }
+
+class Motors {
+   public:
+    // Between two motion_pins(): the axes whose motors step; ccw() tells which way.
+    unsigned steps(unsigned, unsigned now) {
+        step_ = phases_.step(now);
+        return step_ != 0;
+    }
+    bool ccw(const Vboard&, unsigned) const { return step_ < 0; }
+
+   private:
+    PhaseSteps phases_;
+    int step_ = 0;
+};
+
+inline void idle_inputs(Vboard& top) { top.cs_n = top.rd_n = top.wr_n = 1; }
+
+#else
+
+inline unsigned motion_pins(const Vboard& top) { return top.pout_n; }
+
+class Motors {
+   public:
+    unsigned steps(unsigned before, unsigned now) { return before & ~now; }
+    bool ccw(const Vboard& top, unsigned axis) const { return top.dir >> axis & 1; }
+};
+
+#endif
 
 #if BOARD_PART == 2104
 
@@ -37,11 +71,6 @@ inline unsigned phases(const Vboard& top, unsigned axis) { return axis ? top.s2_
 
 #else
 
-inline void idle_inputs(Vboard& top) {
-    top.cs_n = top.rd_n = top.wr_n = 1;
-    top.csel = top.vsel = 1;
-}
-
 inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
     const Plant& plant = plants[0];
     top.l1_n = !plant.l1;
@@ -49,9 +78,22 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
     top.l3_n = !plant.l3;
     top.l4_n = !plant.l4;
     top.cnp_n = !plant.cnp;
+#if BOARD_PART == 105
+    top.mon = !plant.alm;
+#else
     top.alm_n = !plant.alm;
+#endif
 }
 
 inline unsigned phases(const Vboard& top, unsigned) { return top.s; }
+
+#endif
+
+#if BOARD_PART == 104
+
+inline void idle_inputs(Vboard& top) {
+    top.cs_n = top.rd_n = top.wr_n = 1;
+    top.csel = top.vsel = 1;
+}
 
 #endif

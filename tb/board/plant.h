@@ -20,7 +20,7 @@ class Plant {
    public:
     explicit Plant(const PlantText& text = {}) : text_(text), position_(text.start) { look(); }
 
-    // A falling edge of POUT; `dir` = 0 turns CW.
+    // A falling edge of POUT, or a step of the phases; `dir` = 0 turns CW.
     void pulse(bool dir) {
         position_ += dir ? -1 : 1;
         ++pulses_;

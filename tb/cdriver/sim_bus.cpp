@@ -2,23 +2,16 @@
 // Bus cycles for the C driver's test: drives ppmc104_example_wishbone clk by clk, records the pulses.
 #include "sim_bus.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "Vppmc104_example_wishbone.h"
+#include "pulses.h"
 #include "verilated.h"
 
 namespace {
 
 constexpr unsigned kPatience = 64;        // clk without an answer
-constexpr uint64_t kLimit = 16'000'000;   // clk in one sim_run_pulses
-
-struct Pulse {
-    uint64_t clk;
-    bool ccw;
-};
 
 class Bus {
   public:
@@ -124,21 +117,5 @@ void sim_run(unsigned clk) {
     while (clk-- != 0) bus().clk();
 }
 
-void sim_run_pulses(unsigned count) {
-    for (uint64_t n = 0; bus().pulses.size() < count; ++n) {
-        if (n == kLimit) {
-            std::printf("FAIL only %zu pulses of %u\n", bus().pulses.size(), count);
-            std::exit(1);
-        }
-        bus().clk();
-    }
-}
-
-void sim_print_pulses(const char* name) {
-    unsigned ccw = 0;
-    for (const Pulse& pulse : bus().pulses) ccw += pulse.ccw;
-    std::printf("%s cw=%zu ccw=%u at", name, bus().pulses.size() - ccw, ccw);
-    for (const Pulse& pulse : bus().pulses) std::printf(" %llu", static_cast<unsigned long long>(pulse.clk));
-    std::printf("\n");
-    bus().pulses.clear();
-}
+void sim_run_pulses(unsigned count) { run_pulses(bus(), count); }
+void sim_print_pulses(const char* name) { print_pulses(name, bus().pulses); }

@@ -8,11 +8,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
+from command_line import Run
 
 from openppmc.cli import main
 from openppmc.cli.guard import Guard
@@ -21,32 +20,7 @@ from openppmc.cli.program import ScriptError, read_program
 from openppmc.cli.state import recall, remember, state_folder
 from openppmc.host import Ppmc104, PpmcError
 
-FAST = "model:speed=max"
-
-
-class Outcome(NamedTuple):
-    code: int
-    out: str
-    err: str
-
-
-Run = Callable[..., Outcome]
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
-    """Call the command line in this process; the port is the modelled board unless --port says otherwise."""
-    monkeypatch.setenv("OPENPPMC_STATE", str(tmp_path / "state"))
-    monkeypatch.setenv("OPENPPMC_PORT", FAST)
-    monkeypatch.setenv("COLUMNS", "120")
-
-    def call(*words: str) -> Outcome:
-        code = main(list(words))
-        captured = capsys.readouterr()
-        assert "Traceback" not in captured.out + captured.err
-        return Outcome(code, captured.out, captured.err)
-
-    return call
+FAST = PORT = "model:speed=max"
 
 
 # ---------------------------------------------------------------------- commands
@@ -156,11 +130,6 @@ def test_ports(run: Run) -> None:
         (["plan", "2000000", "--plot", "x.png"], 1, "up to 1000000 pulses"),
         (["plan", "20", "--plot", "x.bmp"], 1, "ends in .png"),
         (["plan", "20", "--plot", "/nowhere/x.png"], 1, "cannot be written"),
-        (
-            ["plan", "20", "--external-clock", "1000", "--start", "10", "--high", "20", "--plot", "x.png"],
-            1,
-            "internal",
-        ),
         (["stop"], 1, "nothing to stop"),
         (["--port", "", "info"], 1, "--port or OPENPPMC_PORT"),
         (["--port", "/dev/ttyNOPE", "info"], 1, "no such port"),

@@ -8,44 +8,16 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
+from command_line import Run
 
-from openppmc.cli import main
 from openppmc.cli.guard import Guard
 from openppmc.cli.state import recall, remember
 from openppmc.host import CW, Ppmc2104
 
-TWO = "model:speed=max,part=ppmc2104"
-
-
-class Outcome(NamedTuple):
-    code: int
-    out: str
-    err: str
-
-
-Run = Callable[..., Outcome]
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
-    """Call the command line in this process; the port is the modelled board with two axes."""
-    monkeypatch.setenv("OPENPPMC_STATE", str(tmp_path / "state"))
-    monkeypatch.setenv("OPENPPMC_PORT", TWO)
-    monkeypatch.delenv("OPENPPMC_PART", raising=False)
-    monkeypatch.setenv("COLUMNS", "120")
-
-    def call(*words: str) -> Outcome:
-        code = main(list(words))
-        captured = capsys.readouterr()
-        assert "Traceback" not in captured.out + captured.err
-        return Outcome(code, captured.out, captured.err)
-
-    return call
+TWO = PORT = "model:speed=max,part=ppmc2104"
 
 
 def test_the_part_is_named_in_four_ways(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -109,11 +81,11 @@ def test_plan(run: Run) -> None:
         (("move", "1", "2", "3"), "one number for each axis", 2),
         (("move", "1", "2", "--axis", "1"), "one number for each axis", 2),
         (("move", "1", "--axis", "3"), "Invalid value for '--axis'", 2),
-        (("--part", "ppmc312", "info"), "'ppmc312' is not one of 'ppmc104', 'ppmc2104'", 2),
+        (("--part", "ppmc312", "info"), "'ppmc312' is not one of 'ppmc104', 'ppmc2104', 'stmc'", 2),
         (("--port", "model:speed=max", "move", "1", "2"), "axis 2: a PPMC-104 has one axis", 1),
         (("--port", "model:speed=max", "jog", "cw", "--axis", "2"), "axis 2: a PPMC-104 has one axis", 1),
         (("--port", "model:speed=max", "status", "--axis", "2"), "axis 2: a PPMC-104 has one axis", 1),
-        (("--port", "model:part=x", "info"), "part=x: there are ppmc104, ppmc2104", 1),
+        (("--port", "model:part=x", "info"), "part=x: there are ppmc104, ppmc2104, stmc", 1),
         (("--port", "model:cw2=1", "info"), "cw2=1: a ppmc104 has one axis", 1),
         (("move", "5", "--logic", "positive"), "positive logic: a PPMC-2104 does not have that", 1),
         (("move", "5", "--long-intervals"), "long intervals: a PPMC-2104 does not have that", 1),

@@ -105,7 +105,7 @@ def test_a_part_without_a_driver() -> None:
     port = ModelPort("speed=max")
     engine = port.bridge._engine
     engine._identity = engine._identity.replace(b"\x68\x00", b"\x38\x01")
-    with pytest.raises(WrongDevice, match="PPMC-312; there are drivers for PPMC-104 and PPMC-2104"):
+    with pytest.raises(WrongDevice, match="PPMC-312; there are drivers for PPMC-104, PPMC-2104 and J105"):
         open_part(port)
 
 

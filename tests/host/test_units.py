@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.cli.forecast import key_figures
+from openppmc.cli.forecast import Course, key_figures
 from openppmc.host import units
 from openppmc.host.errors import OutOfRange, PpmcError
-from openppmc.host.kinds import PPMC104, PPMC2104
+from openppmc.host.kinds import PPMC104, PPMC2104, STMC
 from openppmc.model.predict import predict_move
 
 XTAL = 16_000_000
@@ -195,3 +195,18 @@ def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, strap
     rates = predict_move(setup.data, n, rate=a, csel=straps & 1, vsel=straps >> 1)
     constant = key_figures(setup, n, clock.choose(clock.speed(a)))
     assert constant["seconds"] == pytest.approx(rates.seconds[-1], abs=1e-12)
+
+
+@given(st.integers(1, 300), st.integers(0, 90), st.integers(5, 255), st.integers(5, 255))
+def test_key_figures_and_course_of_the_stmc(n: int, pa: int, a: int, b: int) -> None:
+    """Against the predictor, with its internal clock; without ramp steps there is one speed only."""
+    slow, fast = max(a, b), min(a, b)
+    setup = STMC.plan(XTAL, 12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500)
+    assert setup.data == bytes([slow, fast, pa, 0])
+    move = predict_move(setup.data, n, part="stmc")
+    figures, course = key_figures(setup, n, None), Course.of(setup, n, None)
+    assert figures["seconds"] == pytest.approx(move.seconds[-1], abs=1e-12)
+    assert course.seconds == pytest.approx(move.seconds) and course.speeds == pytest.approx(move.speeds)
+    assert figures["top_pps"] == pytest.approx(max(move.speeds, default=12_500 / (slow if pa else fast)))
+    constant = Course.of(setup, n, setup.clock.choose(12_500 / Fraction(b)))
+    assert constant.seconds[-1] == pytest.approx((n - 1) * b / 12_500)

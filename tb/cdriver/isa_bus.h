@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The simulated ISA bus that the STMC driver is tested on: a J105 board, 8-bit I/O cycles, the steps of its motor. */
+#ifndef ISA_BUS_H
+#define ISA_BUS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum { ISA_L1, ISA_L2, ISA_L3, ISA_L4, ISA_CNP, ISA_MON } isa_input_t;
+
+/* What the driver's port functions become; a port that nobody drives reads FFh. */
+uint8_t isa_in(unsigned port);
+void isa_out(unsigned port, uint8_t value);
+#define STMC_INB(port) isa_in(port)
+#define STMC_OUTB(port, value) isa_out((port), (value))
+
+void isa_reset(bool held);                   /* pulse the reset, or leave it active */
+void isa_run(unsigned clk);                  /* let time pass */
+void isa_run_steps(unsigned count);          /* until so many steps are recorded; ends the program after 1 s */
+void isa_level(isa_input_t which, bool high);
+bool isa_irq(void);                          /* IRQ line */
+unsigned isa_steps(void);                    /* steps since isa_print_steps() */
+void isa_print_steps(const char *name);      /* "name cw=… ccw=… at t t t …", times in clk */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

