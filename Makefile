@@ -1,6 +1,6 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-PARTS := ppmc104 ppmc2104 isa_4axis
+PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
@@ -92,7 +92,7 @@ bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine
 
 trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
-	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104); do $(PY) -m scripts.trace $$part || exit 1; done
+	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104 stmc); do $(PY) -m scripts.trace $$part || exit 1; done
 
 test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))

@@ -46,10 +46,15 @@
 ../rtl/host/ppmc_wishbone.sv
 ../rtl/host/ppmc_axil.sv
 ../rtl/host/ppmc_isa.sv
+../rtl/single/ppmc_code_pkg.sv
+../rtl/single/ppmc_command.sv
+../rtl/single/ppmc_setup.sv
+../rtl/single/ppmc_pace.sv
+../rtl/single/ppmc_finish.sv
+../rtl/single/ppmc_single.sv
 ../rtl/ppmc104/ppmc104_pkg.sv
-../rtl/ppmc104/ppmc104_command.sv
 ../rtl/ppmc104/ppmc104_setup.sv
-../rtl/ppmc104/ppmc104_finish.sv
 ../rtl/ppmc104/ppmc104_pace.sv
 ../rtl/ppmc104/ppmc104.sv
+../rtl/boards/ppmc_board_host.sv
 ../rtl/boards/ppmc104_board.sv

@@ -48,10 +48,14 @@ set files [list \
   $root/rtl/host/ppmc_wishbone.sv \
   $root/rtl/host/ppmc_axil.sv \
   $root/rtl/host/ppmc_isa.sv \
+  $root/rtl/single/ppmc_code_pkg.sv \
+  $root/rtl/single/ppmc_command.sv \
+  $root/rtl/single/ppmc_setup.sv \
+  $root/rtl/single/ppmc_pace.sv \
+  $root/rtl/single/ppmc_finish.sv \
+  $root/rtl/single/ppmc_single.sv \
   $root/rtl/ppmc104/ppmc104_pkg.sv \
-  $root/rtl/ppmc104/ppmc104_command.sv \
   $root/rtl/ppmc104/ppmc104_setup.sv \
-  $root/rtl/ppmc104/ppmc104_finish.sv \
   $root/rtl/ppmc104/ppmc104_pace.sv \
   $root/rtl/ppmc104/ppmc104.sv \
   $root/rtl/ppmc2104/ppmc2104_pkg.sv \
@@ -62,9 +66,15 @@ set files [list \
   $root/rtl/ppmc2104/ppmc2104_setup.sv \
   $root/rtl/ppmc2104/ppmc2104_axis.sv \
   $root/rtl/ppmc2104/ppmc2104.sv \
+  $root/rtl/stmc/stmc_pkg.sv \
+  $root/rtl/stmc/stmc.sv \
+  $root/rtl/stmc/j105_stmc.sv \
   $root/rtl/isa_4axis/isa_4axis.sv \
+  $root/rtl/boards/ppmc_board_host.sv \
   $root/rtl/boards/ppmc104_board.sv \
   $root/rtl/boards/ppmc2104_board.sv \
+  $root/rtl/boards/ppmc_board_steps.sv \
+  $root/rtl/boards/stmc_board.sv \
 ]
 add_files -norecurse $files
 set_property file_type SystemVerilog [get_files $files]

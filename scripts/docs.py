@@ -13,15 +13,22 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from scripts.pictures import plots, tables, waves  # noqa: E402
+from scripts.pictures import plots, plots_stmc, tables, tables_stmc, waves, waves_stmc  # noqa: E402
 from scripts.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
 
 IMAGES = DOCS / "img"
-# Tables inside hand-written pages: page -> (marker, text).
-TABLES: dict[str, tuple[str, Callable[[], str]]] = {
-    "ppmc104.md": ("speed-table", tables.speed_table_104),
-    "ppmc2104.md": ("speed-table", tables.speed_table_2104),
+# Tables inside hand-written pages: page -> marker -> text.
+TABLES: dict[str, dict[str, Callable[[], str]]] = {
+    "ppmc104.md": {"speed-table": tables.speed_table_104},
+    "ppmc2104.md": {"speed-table": tables.speed_table_2104},
+    "stmc.md": {
+        "speed-table": tables_stmc.speed_table,
+        "ramp-table": tables_stmc.ramp_table,
+        "moves-table": tables_stmc.moves_table,
+        "times-table": tables_stmc.times_table,
+    },
 }
+PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS}
 
 
 def wanted() -> dict[Path, bytes]:
@@ -32,11 +39,15 @@ def wanted() -> dict[Path, bytes]:
             files[IMAGES / f"{source.stem}.svg"] = waves.render(source)
         except ValueError as error:
             raise ProjectError(str(error)) from None
-    for name in plots.PLOTS:
-        files[IMAGES / f"{name}.svg"] = plots.render(name)
-    for page, (marker, table) in TABLES.items():
+    for name, diagram in waves_stmc.DIAGRAMS.items():
+        files[IMAGES / f"{name}.svg"] = waves.draw(diagram(), name)
+    for name, plot in PLOTS.items():
+        files[IMAGES / f"{name}.svg"] = plots.render(plot)
+    for page, wanted_tables in TABLES.items():
         text = (DOCS / page).read_text(encoding="utf-8")
-        files[DOCS / page] = replace_between(text, marker, table()).encode()
+        for marker, table in wanted_tables.items():
+            text = replace_between(text, marker, table())
+        files[DOCS / page] = text.encode()
     return files
 
 

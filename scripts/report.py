@@ -1,7 +1,8 @@
 """`make report`: size and clock rate of part, board top and bitstreams; `--check` compares the sizes alone.
 
 The report places and routes everything with five seeds, writes the table into docs/benchmarks.md and the
-sizes as synthesized into docs/sizes.json. The check (`make size`) synthesizes only and fails on growth.
+sizes as synthesized into docs/sizes.json; without --part it renews the sizes of the bridges, too. The check
+(`make size`) synthesizes only and fails on growth.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from scripts import project
+from scripts import bridges, project
 from scripts.flow import size_page, sizes, targets
 from scripts.flow.netlist import Count
 from scripts.flow.synthesis import FAMILIES, SEEDS, all_seeds, synthesize
@@ -146,6 +147,8 @@ def main() -> int:
             return check(wanted, [target for found in every.values() for target in found], tell)
         for part in parts:
             report(part, every[part], args.seeds, tell)
+    if not args.part:
+        bridges.write()
     return 0
 
 

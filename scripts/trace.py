@@ -1,8 +1,9 @@
 """`make trace`: which test checks which rule, and does it pass.
 
-The rules are the rows `| P104-XXX-NN | text |` and `| AC-NN | text |` of docs/<part>.md, the results are
-build/trace/results.jsonl, written by the last test runs. The outcome is docs/traceability/<part>.md. Exit
-code 1, with a list, if a rule has no passing test, a test names an unknown rule, or a test failed.
+The rules are the rows `| P104-XXX-NN | text |` and `| AC-NN | text |` of docs/<part>.md (in that of stmc also
+`| J105-NN | text |`), the results are build/trace/results.jsonl, written by the last test runs. The outcome
+is docs/traceability/<part>.md. Exit code 1, with a list, if a rule has no passing test, a test names an
+unknown rule, or a test failed.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ from cocotb_tests.common.verifies import manual_rules, part_of_rule
 from scripts.project import BUILD, DOCS, ProjectError, console, part
 
 RESULTS = BUILD / "trace" / "results.jsonl"
+# Designs whose rules and acceptance checks are in the manual of another part.
+MANUAL_OF = {"j105_stmc": "stmc"}
 
 Record = Mapping[str, Any]
 
@@ -55,6 +58,11 @@ class Trace:
         return "pass" if all(group.passed == group.runs for group in groups) else "FAIL"
 
 
+def _part(record: Record) -> str:
+    """Part whose manual a record is about, as far as its rules do not say so."""
+    return MANUAL_OF.get(record["part"], record["part"])
+
+
 def load_records(path: Path, part_name: str) -> list[Record]:
     """Records of one part, in order of test ID."""
     if not path.is_file():
@@ -63,7 +71,7 @@ def load_records(path: Path, part_name: str) -> list[Record]:
     own = [
         record
         for record in records
-        if record["part"] == part_name or any(part_of_rule(rule) == part_name for rule in record["rules"])
+        if _part(record) == part_name or any(part_of_rule(rule) == part_name for rule in record["rules"])
     ]
     return sorted(own, key=lambda record: record["test"])
 
@@ -76,7 +84,8 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
         if record["outcome"] != "passed":
             failed.append(f"test {record['outcome']}: {record['test']}")
         for rule in record["rules"]:
-            if part_of_rule(rule) not in (None, part_name):
+            # AC-NN is numbered by each part for itself.
+            if (part_of_rule(rule) or _part(record)) != part_name:
                 continue
             if rule not in rules:
                 unknown.append(f"unknown rule {rule}: named by {record['test']}")

@@ -21,7 +21,6 @@ from cocotb_tests.common.stimulus import Recording
 from openppmc.plot.motion import draw
 from scripts.demo import waves
 from scripts.demo.demos import DEMOS, Demo
-from scripts.demo.scenes import bit
 from scripts.demo.steps import Steps
 from scripts.demo.words import exchanges
 from scripts.project import BUILD, ProjectError, console, fail, relative, run
@@ -48,7 +47,7 @@ def newest_build(part: str) -> str:
 
 def repro(demo: Demo) -> str:
     """The line that repeats the demo."""
-    return "make demo" if demo.part == "ppmc104" else f"make demo PART={demo.part}"
+    return "make demo" if demo.name == "ppmc104" else f"make demo PART={demo.name}"
 
 
 def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
@@ -133,28 +132,25 @@ def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]
     """What the motors were made to do, from the pins."""
     recording = comparison.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
+    motors = waves.motor_pulses(comparison, demo.view)
     for chapter in chapters:
-        for index, motor in enumerate(demo.view.motors):
-            falls = [
-                t
-                for t, level in bit(comparison.actual["pout_n"], index)
-                if level == 0 and chapter["begin"] <= t < chapter["end"]
-            ]
+        for motor, pulses in motors.items():
+            falls = [t for t in pulses if chapter["begin"] <= t < chapter["end"]]
             if len(falls) < 2:
                 continue
             gaps = [b - a for a, b in zip(falls, falls[1:], strict=False)]
             who = f", {demo.motors[motor]}" if motor in demo.motors else ""
             console.print(
-                f"{chapter['title']}{who}: [bold]{len(falls)} pulses[/] "
+                f"{chapter['title']}{who}: [bold]{demo.words.count(len(falls))}[/] "
                 f"in {(falls[-1] - falls[0]) * 1e3 / clk_hz:.3f} ms, "
                 f"intervals {spread(max(gaps), min(gaps))} clk, "
-                f"{spread(clk_hz / max(gaps) / 1e3, clk_hz / min(gaps) / 1e3)} kpps"
+                f"{spread(clk_hz / max(gaps) / 1e3, clk_hz / min(gaps) / 1e3)} {demo.words.speed}"
             )
 
 
 def write_waves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> list[Path]:
     """Write the VCD and its saved views; their paths."""
-    vcd, gtkw, sucl = (FOLDER / f"{demo.part}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
+    vcd, gtkw, sucl = (FOLDER / f"{demo.name}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
     waves.write_vcd(comparison, demo.view, vcd)
     period = 1_000_000_000_000 // int(str(comparison.recording.params["CLK_HZ"]))
     marks = [chapter["begin"] * period for chapter in chapters if chapter["key"] in demo.marks]

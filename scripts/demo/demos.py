@@ -7,27 +7,35 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openppmc.plot.signals import Run
-from scripts.demo import picture104, picture2104
+from scripts.demo import picture104, picture2104, picture_stmc
+from scripts.demo.scenes import Changes, falls
+from scripts.demo.scenes import steps as phase_steps
 from scripts.demo.words import Words
 from scripts.demo.words104 import Words104
 from scripts.demo.words2104 import Words2104
+from scripts.demo.words_stmc import WordsStmc
 
 
 @dataclass(frozen=True)
 class View:
-    """The VCD: `split` names the single bits of a vector, lowest first; `motors` maps a scope to the pin of
-    its pulses; `groups` are (title, signals) of the saved views.
+    """The VCD: `split` names the single bits of a vector, lowest first; `motors` maps a scope to the pin or
+    vector in which `pulses` finds its pulses; `groups` are (title, signals) of the saved views.
     """
 
     split: Mapping[str, Sequence[str]]
     motors: Mapping[str, str]
     groups: Sequence[tuple[str, Sequence[str]]]
+    pulses: Callable[[Changes], list[int]] = falls
 
 
 @dataclass(frozen=True)
 class Demo:
-    """One demo. `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves."""
+    """One demo of PART=`name`, which is played on `part`.
 
+    `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves.
+    """
+
+    name: str
     part: str
     module: str
     test: str
@@ -133,10 +141,37 @@ VIEW_2104 = View(
     ),
 )
 
+_SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
+VIEW_STMC = View(
+    split={"s": ("s1", "s2", "s3", "s4", "s5"), "drv": ("drv1", "drv2", "drv3", "drv4")},
+    motors={"motor": "s"},
+    groups=(
+        (
+            "ISA bus",
+            (
+                "host.access",
+                *(f"pins.{pin}" for pin in ("sa", "aen", "iow_n", "ior_n", "sd_i", "sd_o", "sd_oe", "irq")),
+            ),
+        ),
+        (
+            "motor",
+            (
+                "motor.speed_pps",
+                "motor.pulses",
+                *(f"pins.drv{n}" for n in range(1, 5)),
+                "pins.hold",
+            ),
+        ),
+        ("switches", tuple(f"pins.{pin}" for pin in _SWITCHES)),
+    ),
+    pulses=phase_steps,
+)
+
 DEMOS = {
-    demo.part: demo
+    demo.name: demo
     for demo in (
         Demo(
+            "ppmc104",
             "ppmc104",
             "cocotb_tests.demo.tb_demo",
             "demo_move",
@@ -147,6 +182,7 @@ DEMOS = {
         ),
         Demo(
             "ppmc2104",
+            "ppmc2104",
             "cocotb_tests.demo.tb_demo_2104",
             "demo_two_axes",
             Words2104(),
@@ -154,6 +190,16 @@ DEMOS = {
             VIEW_2104,
             ("wait", "move", "limits", "rest"),
             {"axis1": "axis 1", "axis2": "axis 2"},
+        ),
+        Demo(
+            "stmc",
+            "j105_stmc",
+            "cocotb_tests.demo.tb_demo_stmc",
+            "demo_board",
+            WordsStmc(),
+            picture_stmc.picture,
+            VIEW_STMC,
+            ("move", "limit", "reference", "rest"),
         ),
     )
 }

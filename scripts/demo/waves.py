@@ -52,6 +52,16 @@ def single_pins(
     return pins
 
 
+def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
+    """Scope of each motor -> edges of its pulses or steps at the RTL."""
+    pins = single_pins(comparison.initial, comparison.actual, view.split)
+    whole = comparison.actual
+    return {
+        scope: view.pulses(list(pins[pin][1] if pin in pins else whole[pin]))
+        for scope, pin in view.motors.items()
+    }
+
+
 def write_vcd(comparison: Any, view: View, path: Path) -> None:
     """Write all pins, the host's accesses, and pulse count and speed of each motor."""
     recording = comparison.recording
@@ -72,8 +82,7 @@ def write_vcd(comparison: Any, view: View, path: Path) -> None:
             rows += [(t, var, value) for t, value in changes]
         text = writer.register_var("host", "access", "string", init="")
         rows += [(access.t, text, access_text(access)) for access in recording.accesses]
-        for scope, pin in view.motors.items():
-            pulses = [t for t, level in pins[pin][1] if level == 0]
+        for scope, pulses in motor_pulses(comparison, view).items():
             speed = writer.register_var(scope, "speed_pps", "real", init=0.0)
             rows += [(t, speed, value) for t, value in speed_changes(pulses, clk_hz)]
             count = writer.register_var(scope, "pulses", "integer", size=32, init=0)

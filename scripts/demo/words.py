@@ -19,16 +19,19 @@ CAUSES = ((0x40, "a stop command"), (0x20, "ALM"), (0x10, "the limit"), (0x08, "
 END_STATUS, INPUTS, OUTPUTS, REMAINING = 0x80, 0x81, 0x82, 0x83
 
 
-def count_words(pulses: int) -> str:
-    """A number of pulses."""
-    return f"{pulses} pulse{'s' if pulses != 1 else ''}"
-
-
 class Words:
     """What the bytes of one part mean. A part says what differs: status, setting, the other codes, pins."""
 
+    operations = OPERATIONS
+    causes: Sequence[tuple[int, str]] = CAUSES
     reads: Mapping[int, tuple[str, int]] = {}
+    read_codes: Mapping[int, int] = {}  # where reads have other codes than END_STATUS, INPUTS, …: theirs
     switches: Sequence[tuple[int, str]] = ()
+    unit, speed, rate = "pulse", "kpps", "rate"
+
+    def count(self, pulses: int) -> str:
+        """A number of pulses or steps."""
+        return f"{pulses} {self.unit}{'s' if pulses != 1 else ''}"
 
     def axis(self, code: int) -> int:
         """Bits of a code that name an axis."""
@@ -53,11 +56,11 @@ class Words:
 
     def end(self, byte: int) -> str:
         """The finish or end status: how the last operation ended."""
-        name = OPERATIONS.get(byte & 7, ("no operation yet", 0))[0]
+        name = self.operations.get(byte & 7, ("no operation yet", 0))[0]
         if not byte & 7:
             return name
-        causes = [text for bit, text in CAUSES if byte & bit]
-        return f"{name}: {'ended by ' + ' and '.join(causes) if causes else 'all pulses made'}"
+        causes = [text for bit, text in self.causes if byte & bit]
+        return f"{name}: {'ended by ' + ' and '.join(causes) if causes else f'all {self.unit}s made'}"
 
     def inputs(self, byte: int) -> str:
         """The input signals that are active (low)."""
@@ -83,19 +86,20 @@ class Words:
             return self.setting(code | axis, data)
         if code in self.reads:
             return self.reads[code][0]
-        if code & 7 in OPERATIONS and (code & 0xC0 == 0x40 or code & 0xC7 in (0xC3, 0xC6)):
-            name, count = OPERATIONS[code & 7]
+        if code & 7 in self.operations and (code & 0xC0 == 0x40 or code & 0xC7 in (0xC3, 0xC6)):
+            name, count = self.operations[code & 7]
             words = [name, "CCW" if code & 8 else "CW"]
             values = list(data)
             if count in (1, 4) and values:
-                words.append(f"rate {values.pop(0)}")
+                words.append(f"{self.rate} {values.pop(0)}")
             if len(values) == 3:
-                words.append(count_words((values[0] | values[1] << 8 | values[2] << 16) + 1))
+                words.append(self.count((values[0] | values[1] << 8 | values[2] << 16) + 1))
             return ", ".join(words)
         return self.other(code | axis, data)
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
         """What the bytes after a read command mean; `stopped`: the last end status named a cause."""
+        code = self.read_codes.get(code, code)
         if code == END_STATUS:
             return self.end(data[0])
         if code == INPUTS:
@@ -104,7 +108,7 @@ class Words:
             return self.outputs(data[0])
         if code == REMAINING and len(data) == 3:
             left = (data[0] | data[1] << 8 | data[2] << 16) + stopped
-            return f"{count_words(left)} not made" if left else "no pulse left"
+            return f"{self.count(left)} not made" if left else f"no {self.unit} left"
         return ""
 
 

@@ -15,11 +15,14 @@ TEXT = {
     "common": "OpenPPMC, blocks that every part uses",
     "motion": "OpenPPMC, pulse timing, ramps, phases",
     "host": "OpenPPMC, host port of the parts, UART, Wishbone and AXI4-Lite bridges",
+    "single": "OpenPPMC, what the parts with one axis share",
     "ppmc104": "OpenPPMC, PPMC-104, a stepper controller for one axis",
     "ppmc2104": "OpenPPMC, PPMC-2104, a stepper controller for two axes",
+    "stmc": "OpenPPMC, J105 STMC, a stepper controller for one axis without pulse output",
+    "j105_stmc": "OpenPPMC, J105 STMC, the PC/104 board with its second step clock",
     "isa_4axis": "OpenPPMC, four axes on an ISA bus, two PPMC-2104",
 }
-NEEDS = {"motion": ["common"], "host": ["common"]}
+NEEDS = {"motion": ["common"], "host": ["common"], "single": ["common", "motion", "host"]}
 PARAMETERS = {
     "CLK_HZ": ("int", "Frequency of clk in Hz, 8e6 .. 200e6", "16000000"),
     "XTAL_HZ": ("int", "Crystal of the old chip in Hz, 1e6 .. 16e6", "16000000"),
@@ -27,7 +30,23 @@ PARAMETERS = {
     "PHASE_IDLE": ("int", "Level of s until the first initialisation", "1"),
 }
 # Parts that have no parameter of that name.
-LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis")}
+LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis", "j105_stmc")}
+STMC = {
+    "XTAL_HZ": ("int", "Crystal of the old part in Hz, 1e6 .. 20e6", "16000000"),
+    "READ_MAP": ("str", "Codes of the read commands, SHEET or FAMILY", "SHEET"),
+    "HOLD_XT": ("int", "Hold delay in crystal cycles", "544000"),
+    "CHOP_ON_XT": ("int", "On time of the chopper in crystal cycles", "1040"),
+    "CHOP_OFF_XT": ("int", "Off time of the chopper in crystal cycles", "1740"),
+}
+# What a part has in their place, or besides.
+OWN = {
+    "stmc": {**STMC, "PHASE_IDLE": ("int", "Level of s until the first initialisation", "0")},
+    "j105_stmc": {
+        **STMC,
+        "BASE_ADDR": ("int", "ISA address of the data register, even", "944"),
+        "EXT_HZ": ("int", "Second step clock in Hz, 1 .. CLK_HZ / 4", "48675"),
+    },
+}
 SMOKE_PART = "ppmc104"  # the one with a sim target
 # Boards whose vendor tools FuseSoC runs: target -> (top, constraint files with their types, flow options).
 VENDOR_BOARDS: dict[str, tuple[str, dict[str, str], str]] = {
@@ -85,7 +104,8 @@ def group_core(group: str, files: list[Path]) -> str:
 
 def part_targets(part: str) -> str:
     """Targets and parameters of a part's core."""
-    names = [name for name in PARAMETERS if part not in LACKS.get(name, ())]
+    params = {name: text for name, text in PARAMETERS.items() if part not in LACKS.get(name, ())}
+    params |= OWN.get(part, {})
     text = fileset("waivers", [], [vlnv("waivers")])
     if part == SMOKE_PART:
         text += fileset("smoke", [], [vlnv(f"{part}_smoke", "test")])
@@ -94,7 +114,8 @@ targets:
   default: &default
     filesets: [rtl]
     toplevel: {part}
-    parameters: [{", ".join(names)}]
+    # In a design of someone else they are set by the one that instantiates the part.
+    parameters: [{", ".join(f'"is_toplevel ? ({name})"' for name in params)}]
   # fusesoc run --target=lint openppmc:ppmc:{part}
   lint:
     <<: *default
@@ -107,8 +128,7 @@ targets:
     if part == SMOKE_PART:
         text += SIM_TARGET
     text += "\nparameters:\n"
-    for name in names:
-        kind, about, value = PARAMETERS[name]
+    for name, (kind, about, value) in params.items():
         text += f"  {name}:\n    datatype: {kind}\n    description: {about}\n    default: {value}\n"
         text += "    paramtype: vlogparam\n"
     return text
@@ -183,7 +203,7 @@ def core_files() -> dict[Path, str]:
     """All core files: path -> text."""
     groups = file_groups()
     cores = {
-        ROOT / "rtl" / group / f"openppmc_{group}.core": group_core(group, groups[group]) for group in TEXT
+        groups[group][0].parent / f"openppmc_{group}.core": group_core(group, groups[group]) for group in TEXT
     }
     cores[WAIVERS.parent / "openppmc_waivers.core"] = WAIVERS_CORE
     cores[WAIVERS] = (ROOT / "lint" / "verilator.vlt").read_text()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from scripts.project import PARTS, ROOT, file_groups, relative
+from scripts.project import PARTS, ROOT, board_files, file_groups, relative
 
 FROM = "Written by `make packages` from rtl/files.yml; change that, not this."
 NOT_RUN = "Not run by this project's tests, which have no vendor tools; please report what does not work."
@@ -13,13 +13,13 @@ FOLDER = ROOT / "packages"
 
 def board_modules() -> list[Path]:
     """Part with its host, for each part that has one, without what belongs to single boards."""
-    return [path for path in file_groups()["boards"] if path.stem in {f"{part}_board" for part in PARTS}]
+    used = {path for part in PARTS for path in board_files(part)}
+    return [path for path in file_groups()["boards"] if path in used]
 
 
 def part_files(part: str) -> list[Path]:
     """RTL of a part and its board module, in compile order."""
-    files = [path for group in PARTS[part].groups for path in file_groups()[group]]
-    return files + [path for path in board_modules() if path.stem == f"{part}_board"]
+    return [path for group in PARTS[part].groups for path in file_groups()[group]] + board_files(part)
 
 
 def library_files() -> list[Path]:

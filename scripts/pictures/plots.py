@@ -39,7 +39,7 @@ RAMP_B = Ramp(99, 19, 10)  # the ramp of P2104-EX-01
 PAIR = ((Ramp(127, 39, 200), 1000), (Ramp(255, 79, 100), 500))  # the coordinated move of the demo
 
 
-def _exact(of: Ramp, k: float) -> float:
+def exact_period(of: Ramp, k: float) -> float:
     """x(k) of the ramp formula, in base clocks, not rounded."""
     a, b = (of.rl + 1) ** 2, (of.rh + 1) ** 2
     return 1 / sqrt(1 / a + (1 / b - 1 / a) * k / of.pa)
@@ -49,7 +49,7 @@ def _kpps(rate: int, base_hz: int) -> float:
     return base_hz / (rate + 1) / 1000
 
 
-def _svg(figure: Figure) -> bytes:
+def svg(figure: Figure) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     plt.close(figure)
@@ -64,20 +64,20 @@ def _ramps(small: Ramp, large: Ramp, rates: tuple[int, int], top: float) -> byte
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     index = range(small.pa + 1)
     fine = [step / 20 for step in range(small.pa * 20 + 1)]
-    left.plot(fine, [_exact(small, k) - 1 for k in fine], color=GREY, lw=1, label="x(k) - 1, exact")
+    left.plot(fine, [exact_period(small, k) - 1 for k in fine], color=GREY, lw=1, label="x(k) - 1, exact")
     left.plot(index, small.rates(), "o", color=BLUE, ms=5, label="R(k), rounded")
     for k in index:
         left.annotate(str(small.rate(k)), (k, small.rate(k)), (0, 6), textcoords="offset points", ha="center")
     left.set(title=_name("Rates", small), xlabel="ramp index k", ylabel="rate", ylim=rates)
     left.legend()
     index = range(large.pa + 1)
-    exact = [CSEL_H / _exact(large, k) / 1000 for k in index]
+    exact = [CSEL_H / exact_period(large, k) / 1000 for k in index]
     right.plot(index, exact, color=GREY, lw=1, label="constant acceleration")
     speeds = [_kpps(large.rate(k), CSEL_H) for k in index]
     right.step(index, speeds, where="mid", color=BLUE, lw=1.2, label="500 kHz / (R(k) + 1)")
     right.set(title=_name("Speed", large), xlabel="ramp index k", ylabel="kpps", ylim=(0, top))
     right.legend()
-    return _svg(figure)
+    return svg(figure)
 
 
 def _name(what: str, of: Ramp) -> str:
@@ -125,7 +125,7 @@ def profile() -> bytes:
     both[0].set(title="Over pulses", xlabel="pulse", ylabel="kpps (125 kHz base clock)", ylim=(0, 14.5))
     both[1].set(title="Over time", xlabel="ms after pulse 1")
     both[0].legend(loc="lower right")
-    return _svg(figure)
+    return svg(figure)
 
 
 def _forced(of: Ramp, base_hz: int, cases: dict[int, str], top: float, last: int, stops_at_rl: bool) -> bytes:
@@ -147,7 +147,7 @@ def _forced(of: Ramp, base_hz: int, cases: dict[int, str], top: float, last: int
     clock = f"{base_hz // 1000} kHz base clock"
     axes.set(xlabel="pulse", ylabel=f"kpps ({clock})", ylim=(0, top), xlim=(0, last + 1))
     axes.legend(loc="lower right")
-    return _svg(figure)
+    return svg(figure)
 
 
 def forced() -> bytes:
@@ -171,7 +171,7 @@ def pair() -> bytes:
     axes.set(title="A straight line: half the pulses, half the speed, half the ramp")
     axes.set(xlabel="ms after pulse 1", ylabel="kpps", ylim=(0, 14.5))
     axes.legend(loc="lower center")
-    return _svg(figure)
+    return svg(figure)
 
 
 PLOTS: dict[str, Callable[[], bytes]] = {
@@ -184,7 +184,7 @@ PLOTS: dict[str, Callable[[], bytes]] = {
 }
 
 
-def render(name: str) -> bytes:
-    """The SVG of one plot of `PLOTS`."""
+def render(plot: Callable[[], bytes]) -> bytes:
+    """The SVG of one plot, in the style of all."""
     with matplotlib.rc_context(STYLE):
-        return PLOTS[name]()
+        return plot()

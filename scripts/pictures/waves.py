@@ -6,6 +6,7 @@ import json
 import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
 import wavedrom
 
@@ -21,6 +22,7 @@ STYLES = (
     (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
 )
 REF = re.compile(r"url\(#([^)]+)\)")
+LABEL_GROWTH = 1.5  # the white sheet below an arrow's label is measured for its size before STYLES
 
 
 def _referenced(root: ET.Element) -> set[str]:
@@ -44,6 +46,10 @@ def _tidy(svg: str) -> str:
         for brick in list(defs):
             if brick.get("id") not in wanted:
                 defs.remove(brick)
+    for plate in root.iter(f"{{{SVG}}}rect"):
+        if plate.get("style") == "fill:#FFF;":
+            width = float(plate.get("width", "0")) * LABEL_GROWTH
+            plate.attrib |= {"width": f"{width:.1f}", "x": f"{-width / 2:.1f}", "height": "12", "y": "-6"}
     sheet = ET.Element(f"{{{SVG}}}rect", {"width": "100%", "height": "100%", "fill": "white"})
     root.insert(0, sheet)
     text = ET.tostring(root, encoding="unicode")
@@ -52,12 +58,21 @@ def _tidy(svg: str) -> str:
     return re.sub(r">\s*<g ", ">\n<g ", text).rstrip() + "\n"
 
 
+def draw(drawing: Any, name: str) -> bytes:
+    """The SVG of a WaveDrom drawing; ValueError begins with `name` when it is not a valid one."""
+    try:
+        drawn = wavedrom.render(json.dumps(drawing))
+    except (ValueError, KeyError, IndexError) as error:
+        raise ValueError(f"{name}: {error}") from error
+    if drawn is None:
+        raise ValueError(f"{name}: neither a signal nor a reg diagram")
+    return _tidy(drawn.tostring()).encode()
+
+
 def render(source: Path) -> bytes:
     """The SVG of one WaveDrom JSON file; ValueError names the file when it is not a valid diagram."""
     try:
-        drawing = wavedrom.render(json.dumps(json.loads(source.read_text(encoding="utf-8"))))
-    except (ValueError, KeyError, IndexError) as error:
+        drawing = json.loads(source.read_text(encoding="utf-8"))
+    except ValueError as error:
         raise ValueError(f"{source.name}: {error}") from error
-    if drawing is None:
-        raise ValueError(f"{source.name}: neither a signal nor a reg diagram")
-    return _tidy(drawing.tostring()).encode()
+    return draw(drawing, source.name)

@@ -98,12 +98,19 @@ def test_unknown_board(module: str, tmp_path: Path) -> None:
     assert "BOARD=nano: no such board (known: icebreaker, ulx3s-25f," in line
 
 
-@pytest.mark.parametrize("module", ["scripts.bitstream", "scripts.flash"])
-def test_unknown_board_of_a_part(module: str, tmp_path: Path) -> None:
-    line = only_line(python(tmp_path, "-m", module, "tangnano9k", "--part", "ppmc2104"))
-    assert "BOARD=tangnano9k: no such board with ppmc2104 (known: icebreaker, ulx3s-25f, ulx3s-85f)" in line
-    line = only_line(python(tmp_path, "-m", module, "icebreaker", "--part", "ppmc2104", "--host", "bus"))
-    assert "HOST=bus: icebreaker with ppmc2104 has only uart" in line
+@pytest.mark.parametrize(("module", "part"), [("scripts.bitstream", "ppmc2104"), ("scripts.flash", "stmc")])
+def test_unknown_board_of_a_part(module: str, part: str, tmp_path: Path) -> None:
+    line = only_line(python(tmp_path, "-m", module, "tangnano9k", "--part", part))
+    assert f"BOARD=tangnano9k: no such board with {part} (known: icebreaker, ulx3s-25f, ulx3s-85f)" in line
+    line = only_line(python(tmp_path, "-m", module, "icebreaker", "--part", part, "--host", "bus"))
+    assert f"HOST=bus: icebreaker with {part} has only uart" in line
+
+
+def test_unknown_part() -> None:
+    with pytest.raises(
+        project.ProjectError, match="PART=j105: no board carries it .known: ppmc104, ppmc2104, stmc"
+    ):
+        boards.board("icebreaker", "j105")
 
 
 @pytest.mark.parametrize(

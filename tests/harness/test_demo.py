@@ -5,14 +5,16 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.common.compare import compare_recording, new_model, replay
-from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.part import PARTS
 from cocotb_tests.common.stimulus import Access, Change, Recording
 from scripts.demo import waves
 from scripts.demo.__main__ import chosen
-from scripts.demo.demos import DEMOS, VIEW_2104
+from scripts.demo.demos import DEMOS, VIEW_2104, VIEW_STMC
+from scripts.demo.scenes import steps
 from scripts.demo.words import exchanges
 from scripts.demo.words104 import Words104
 from scripts.demo.words2104 import Words2104
+from scripts.demo.words_stmc import WordsStmc
 from scripts.project import ProjectError
 
 
@@ -71,6 +73,68 @@ def test_bytes_of_the_104_in_words():
     assert rows[1].reply == "BUSY, error 1: not allowed while BUSY"
 
 
+@pytest.mark.parametrize(
+    ("script", "meaning", "reply"),
+    [
+        ("c43 d18 d00 d00 s04", "accelerate/decelerate, CW, 25 steps", "BUSY"),
+        ("c6C d31 d00 d00 d00 s04", "constant speed, CCW, divisor 49, 1 step", "BUSY"),
+        ("c4F d19 s04", "constant speed to the reference point, CCW, divisor 25", "BUSY"),
+        ("c46 s04", "accelerate to the limit, CW", "BUSY"),
+        ("c44 d00 d00 d00 d00 sD0", "constant speed, CW, divisor 0, 1 step", "error 5: divisor 0, or slow"),
+        (
+            "c80 r9E",
+            "read finish status",
+            "accelerate to the limit: ended by the limit and the deceleration limit",
+        ),
+        ("c80 r87", "read finish status", "constant speed to the reference point: found"),
+        ("c80 r97", "read finish status", "constant speed to the reference point: ended by the limit"),
+        ("c80 rA4", "read finish status", "constant speed: ended by MON low"),
+        ("c82 r85", "read inputs", "active: L1, L3, motor off"),
+        ("c83 rC6", "read outputs", "S1 S2 high, HOLD high, CCW"),
+        ("c84 r01 r00 r00", "read remaining steps", "1 step not made"),
+        ("c81 s80", "command 81", "error 0: undefined command, or a stop at rest"),
+        (
+            "c3A d8D d3B d90 d01 s00",
+            "initialise: 4 phases, full step, high = on, external clock, chopped at rest; "
+            "slow 141, fast 59, 400 steps of acceleration",
+            "ready, nothing pending",
+        ),
+    ],
+)
+def test_bytes_of_the_stmc_in_words(script, meaning, reply):
+    """Given one exchange of a host with the read codes of the sheet, then it reads as the manual says."""
+    (row,) = exchanges(WordsStmc(), accesses(script))
+    assert row.meaning == meaning
+    assert row.reply.startswith(reply)
+
+
+def test_chopping_is_no_step():
+    """Given phases that are switched off and on at rest, then only a change of pattern is a step."""
+    changes = [(5, 0b0011), (9, 0), (12, 0b0011), (15, 0), (16, 0b0011), (20, 0b0110), (30, 0), (33, 0b0110)]
+    assert steps(changes) == [20]
+
+
+def test_waves_show_the_steps_of_the_board(tmp_path):
+    """Given two single steps on the ISA bus with chopping at rest, then the VCD has them and the driver."""
+    recording = Recording("j105_stmc", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
+    t = 10
+    for reg, byte in ((1, 0x3A), (0, 20), (0, 5), (0, 8), (0, 0), (1, 0x42), (1, 0x42)):
+        recording.stimulus += [Change(t, "sa", 0x3B0 + reg), Change(t, "sd_i", byte), Change(t, "iow_n", 0)]
+        recording.stimulus += [Change(t + 9, "iow_n", 1)]
+        t += 20 if byte in (0x3A, 20, 5, 8) else 40_000
+    recording.end = t
+    recording.edges = replay(recording, new_model(recording))
+    comparison = compare_recording(recording)
+    assert comparison.mismatch is None
+    found = waves.motor_pulses(comparison, VIEW_STMC)["motor"]
+    assert len(found) == 2
+    assert [dict(comparison.actual["s"])[t] for t in found] == [0b00110, 0b01100]
+    target = tmp_path / "waves.vcd"
+    waves.write_vcd(comparison, VIEW_STMC, target)
+    text = target.read_text()
+    assert all(f" {name} $end" in text for name in ("drv1", "irq", "sd_oe", "speed_pps"))
+
+
 def test_waves_show_each_axis(tmp_path):
     """Given a step of axis 2 in a recording, then the VCD has its pins, its pulse and its speed by name."""
     recording = Recording("ppmc2104", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
@@ -103,18 +167,19 @@ def test_waves_show_each_axis(tmp_path):
 def test_every_shown_signal_exists():
     """Given the saved views, then each names a pin of its part or one of the signals beside them."""
     for demo in DEMOS.values():
-        part = PPMC2104 if demo.part == "ppmc2104" else None
+        part = PARTS[demo.part]
         split = {name for names in demo.view.split.values() for name in names}
+        pins = split | ({*part.inputs, *part.outputs} - set(demo.view.split))
         for _, group in demo.view.groups:
             for signal in group:
                 scope, name = signal.split(".")
-                known = scope == "host" or scope in demo.view.motors or name in split
-                assert known or part is None or name in (*part.inputs, *part.outputs), signal
+                assert scope == "host" or scope in demo.view.motors or name in pins, signal
 
 
 def test_unknown_part_is_one_line():
     """Given a part without a demo, then the message names those that have one."""
     assert chosen([]).part == "ppmc104"
     assert chosen(["--part", "ppmc2104"]).part == "ppmc2104"
-    with pytest.raises(ProjectError, match=r"PART=stmc: .*ppmc104, ppmc2104"):
-        chosen(["--part", "stmc"])
+    assert chosen(["--part", "stmc"]).part == "j105_stmc"
+    with pytest.raises(ProjectError, match=r"PART=isa_4axis: .*ppmc104, ppmc2104, stmc"):
+        chosen(["--part", "isa_4axis"])

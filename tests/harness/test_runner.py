@@ -97,5 +97,5 @@ def test_build_failure_is_one_clear_error(tmp_path: Path) -> None:
 
 
 def test_unknown_part_is_refused() -> None:
-    with pytest.raises(SimError, match="no list called nosuchpart"):
+    with pytest.raises(SimError, match="does not know the pins of nosuchpart"):
         part_design("nosuchpart", F16)

@@ -115,17 +115,18 @@ def test_the_check_ends_with_the_right_code(
 
 
 def test_the_breakdown_adds_up_to_the_total() -> None:
+    bridge = f"{size_page.BRIDGE}.u_bridge"
     split = Breakdown(
         total=Count(lut=100, ff=50, ram=3),
         flat={
             "": Count(4, 1),
             "u_part": Count(10, 5, 1),
             "u_part.u_axis": Count(50, 20, 1),
-            "g_uart.u_bridge": Count(30, 20, 1),
-            "g_uart.u_bridge.u_rx": Count(6, 4),
+            bridge: Count(30, 20, 1),
+            f"{bridge}.u_rx": Count(6, 4),
         },
-        kept={"": Count(), "u_part": Count(), "g_uart.u_bridge": Count(), "g_uart.u_bridge.u_rx": Count()},
-        module={"g_uart.u_bridge": "bridge", "g_uart.u_bridge.u_rx": "rx"},
+        kept={"": Count(), "u_part": Count(), bridge: Count(), f"{bridge}.u_rx": Count()},
+        module={bridge: "bridge", f"{bridge}.u_rx": "rx"},
     )
     assert size_page.bridge_rows("ppmc104", {"ecp5": split}) == [
         ["u_part", "ppmc104, all of it", "60", "25", "2"],

@@ -50,6 +50,19 @@ def test_rules_of_other_parts_are_left_alone() -> None:
     assert trace.problems == []
 
 
+def test_acceptance_checks_of_other_parts_are_left_alone() -> None:
+    other = {**record("b", "P104-BUS-01", "AC-01", outcome="failed"), "part": "ppmc2104"}
+    trace = join(RULES, [record("a", *RULES), other], "ppmc104")
+    assert trace.problems == ["test failed: t.py::t[b-f16]"]
+    assert trace.result("AC-01") == "pass" and trace.result("P104-BUS-01") == "FAIL"
+
+
+def test_a_board_is_in_the_manual_of_its_part() -> None:
+    rules = {"STMC-BUS-01": "Access", "J105-01": "Addresses", "AC-46": "Board"}
+    board = {**record("b", "J105-01", "AC-46"), "part": "j105_stmc"}
+    assert join(rules, [{**record("a", "STMC-BUS-01"), "part": "stmc"}, board], "stmc").problems == []
+
+
 def test_page_does_not_depend_on_the_order_of_results() -> None:
     records = [record(name, *RULES) for name in "cab"]
     assert page(join(RULES, records, "ppmc104"), "ppmc104") == page(
@@ -75,4 +88,5 @@ def test_verifies_refuses_what_is_no_rule_id(rule: str) -> None:
 def test_part_of_rule() -> None:
     assert part_of_rule("P104-BUS-01") == "ppmc104"
     assert part_of_rule("P2104-BUS-01") == "ppmc2104"
+    assert part_of_rule("J105-01") == part_of_rule("STMC-BUS-01") == "stmc"
     assert part_of_rule("AC-07") is None
