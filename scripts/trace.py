@@ -1,6 +1,6 @@
 """`make trace`: which test checks which rule, and does it pass.
 
-The rules are the rows `| P104-XXX-NN | text |` and `| AC-NN | text |` of docs/<part>.md (in that of stmc also
+The rules are the rows `| P104-ABC-NN | text |` and `| AC-NN | text |` of docs/<part>.md (in that of stmc also
 `| J105-NN | text |`), the results are build/trace/results.jsonl, written by the last test runs. The outcome
 is docs/traceability/<part>.md. Exit code 1, with a list, if a rule has no passing test, a test names an
 unknown rule, or a test failed.

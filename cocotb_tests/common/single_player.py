@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from dataclasses import dataclass, field
 
 import cocotb
 
 from .bench import Bench
 from .bus import BUSY
+from .config import Config
 from .player import Action, ExternalClock, Player
 
 
-class Plan(Protocol):
-    """The scenario of a seed as the player needs it."""
+@dataclass(frozen=True)
+class Scenario:
+    """One random host: build, initial pin levels, actions, clock programme, bus manners."""
 
     seed: int
+    config: Config
+    pins: dict[str, int]
     actions: list[Action]
     clock: ExternalClock
     pauses: bool
+    limit_clk: int = field(default=60_000)
 
 
 class SinglePlayer(Player):
@@ -26,7 +31,7 @@ class SinglePlayer(Player):
     Adds ("finish", clk): poll until BUSY = 0; after clk give up and send 0x40, which the rule says must help.
     """
 
-    def __init__(self, bench: Bench, scenario: Plan, rule: str) -> None:
+    def __init__(self, bench: Bench, scenario: Scenario, rule: str) -> None:
         super().__init__(bench, scenario.seed, scenario.pauses)
         self.scenario = scenario
         self.rule = rule

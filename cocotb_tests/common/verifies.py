@@ -28,14 +28,14 @@ _ROW = re.compile(
 def verifies(*ids: str) -> Callable[[F], F]:
     """Mark a test as checking these rules.
 
-    Raises ValueError at import time for an ID that is not of the form P104-XXX-NN (or a sister part's
+    Raises ValueError at import time for an ID that is not of the form P104-ABC-NN (or a sister part's
     prefix), J105-NN or AC-NN.
     """
     if not ids:
         raise ValueError("verifies() needs at least one rule ID")
     for rule in ids:
         if not RULE_ID.match(rule):
-            raise ValueError(f"verifies(): {rule!r} is not a rule ID (P104-XXX-NN or AC-NN)")
+            raise ValueError(f"verifies(): {rule!r} is not a rule ID (P104-ABC-NN or AC-NN)")
 
     def mark(test: F) -> F:
         target: Any = getattr(test, "func", test)

@@ -6,11 +6,10 @@ out on a bench; the actions are those of `common.player` and ("finish", clk).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from cocotb_tests.common.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
 from cocotb_tests.common.host_writer import HostWriter
-from cocotb_tests.common.player import Action, ExternalClock, random_clock
+from cocotb_tests.common.player import ExternalClock, random_clock
+from cocotb_tests.common.single_player import Scenario
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
@@ -22,19 +21,6 @@ INIT_CODES = [c | s << 5 | ck << 4 | lo << 3 | e << 2 for c in (1, 2, 3) for s i
 LIMIT_PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "alm_n", "cnp_n")
 CLOCK_PERIODS = (16, 20, 33, 64, 100, 119, 120, 121, 128, 135, 136, 137, 144, 160, 320)
 READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x85, 1))
-
-
-@dataclass(frozen=True)
-class Scenario:
-    """One random host: build, initial pin levels, actions, clock programme, bus manners."""
-
-    seed: int
-    config: Config
-    pins: dict[str, int]
-    actions: list[Action]
-    clock: ExternalClock
-    pauses: bool
-    limit_clk: int = field(default=60_000)
 
 
 def scenario(seed: int) -> Scenario:

@@ -6,11 +6,10 @@ more, where every rule holds to the clk (STMC-CLK-04).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from cocotb_tests.common.config import D16, D25X8, F16, Config
 from cocotb_tests.common.host_writer import HostWriter
-from cocotb_tests.common.player import Action, ExternalClock, random_clock
+from cocotb_tests.common.player import ExternalClock, random_clock
+from cocotb_tests.common.single_player import Scenario
 
 from .figures import F8X20, F12, F200, FAMILY, ODD, SWITCHES
 
@@ -29,19 +28,6 @@ KNOWN = (
 )  # fmt: skip
 COUNTS = (1, 1, 2, 3, 4, 5, 7, 8, 9, 10, 12, 13, 17, 22, 30, 60, 1000)
 READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x84, 3))
-
-
-@dataclass(frozen=True)
-class Scenario:
-    """One random host: build, initial pin levels, actions, clock programme, bus manners."""
-
-    seed: int
-    config: Config
-    pins: dict[str, int]
-    actions: list[Action]
-    clock: ExternalClock
-    pauses: bool
-    limit_clk: int = field(default=60_000)
 
 
 def scenario(seed: int) -> Scenario:

@@ -8,11 +8,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+from .chopper import Chopper
 from .codes104 import BUSY, ERR, Command, Error, Kind
+from .excitation import Excitation
 from .hostport import HostPort
 from .motion import Setup
-from .parts import Context
+from .parts import Context, Phase
+from .ramp import Ramp
 from .timed_motion import TimedMotion
+
+_DS_PATTERN = 704  # crystal cycles to the first pattern (P104-DS-01)
 
 _WHILE_BUSY = (
     Kind.STOP,
@@ -27,10 +32,19 @@ _WHILE_BUSY = (
 class ByteUnit(ABC):
     """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
 
-    def __init__(self, context: Context, port: HostPort, motion: TimedMotion) -> None:
+    def __init__(
+        self,
+        context: Context,
+        port: HostPort,
+        motion: TimedMotion,
+        excitation: Excitation,
+        chopper: Chopper,
+    ) -> None:
         self._context = context
         self._port = port
         self._motion = motion
+        self._excitation = excitation
+        self._chopper = chopper
         self.error: Error | None = None
         self.setup: Setup | None = None
         self._pending: Command | None = None
@@ -102,3 +116,35 @@ class ByteUnit(ABC):
             self._motion.stop(t)
         else:
             self._motion.slow_stop(t, reference)
+
+    def _set_up(self, t: int, code: int, ramp: Ramp, reference: int, ds_build: int) -> None:
+        """Store an initialisation that was checked and begin the table build (P104-INI-05, STMC-INI-04..07).
+
+        ds_build: crystal cycles of the build in DATASHEET, from `reference` on.
+        """
+        context = self._context
+        if self.setup is None:
+            phases, half, positive = (code & 3) + 2, bool(code & 4), bool(code & 8)
+
+            def show(at: int) -> None:
+                self._excitation.configure(phases, half, positive)
+
+            if context.datasheet:
+                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, show)
+            else:
+                show(t)
+        self.setup = Setup(ramp, external=bool(code & 0x10), chopping=bool(code & 0x20))
+        if context.datasheet:
+            done = reference + context.timebase.cyc(ds_build)
+        else:
+            done = t + context.latency.build(ramp.rl, ramp.rh, ramp.pa)
+        self._port.close_until(done)
+        context.queue.at(done, Phase.BEGIN, self._complete)
+
+    def _complete(self, t: int) -> None:
+        """End of the table build: bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
+        assert self.setup is not None
+        if self.setup.chopping:
+            self._chopper.start(t)
+        else:
+            self._chopper.stop()

@@ -16,13 +16,11 @@ from .commands import ByteUnit
 from .excitation import Excitation
 from .guard import input_register
 from .hostport import HostPort
-from .motion import Setup
 from .motion104 import Motion104
 from .parts import Context, Phase
 from .parts104 import INPUT_REGISTER
 from .ramp import Ramp
 
-_DS_PATTERN = 704
 _DS_AUX, _DS_EXCITATION_OFF = 224, 288
 
 
@@ -38,9 +36,7 @@ class CommandUnit(ByteUnit):
         chopper: Chopper,
         switching: Switching104,
     ) -> None:
-        super().__init__(context, port, motion)
-        self._excitation = excitation
-        self._chopper = chopper
+        super().__init__(context, port, motion, excitation, chopper)
         self._switching = switching
 
     def _decode(self, byte: int) -> Command:
@@ -114,30 +110,5 @@ class CommandUnit(ByteUnit):
             return Error.PA_TOO_LARGE
         if rh > rl or pa < PA_MIN:
             return Error.BAD_RAMP
-        context = self._context
-        if self.setup is None:
-            phases, half, positive = (code & 3) + 2, bool(code & 4), bool(code & 8)
-
-            def show(at: int) -> None:
-                self._excitation.configure(phases, half, positive)
-
-            if context.datasheet:
-                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, show)
-            else:
-                show(t)
-        self.setup = Setup(Ramp(rl, rh, pa), external=bool(code & 0x10), chopping=bool(code & 0x20))
-        if context.datasheet:
-            done = reference + context.timebase.cyc(264_000 + 209 * (pa - 4))
-        else:
-            done = t + context.latency.build(rl, rh, pa)
-        self._port.close_until(done)
-        context.queue.at(done, Phase.BEGIN, self._complete)
+        self._set_up(t, code, Ramp(rl, rh, pa), reference, 264_000 + 209 * (pa - 4))
         return None
-
-    def _complete(self, t: int) -> None:
-        """End of the table build: S takes effect (P104-INI-07, -08)."""
-        assert self.setup is not None
-        if self.setup.chopping:
-            self._chopper.start(t)
-        else:
-            self._chopper.stop()

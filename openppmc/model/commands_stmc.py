@@ -14,14 +14,10 @@ from .commands import ByteUnit
 from .excitation import Excitation
 from .guard import input_register
 from .hostport import HostPort
-from .motion import Setup
 from .motion_stmc import MotionStmc
-from .parts import Context, Phase
+from .parts import Context
 from .parts_stmc import INPUT_REGISTER
 from .ramp import Ramp
-
-_DS_PATTERN = 704
-_DS_BUILD, _DS_BUILD_PER_STEP = 264_000, 209
 
 
 def profile(d1: int, d2: int, pa: int) -> Ramp:
@@ -41,9 +37,7 @@ class CommandUnitStmc(ByteUnit):
         chopper: Chopper,
         read_map: str,
     ) -> None:
-        super().__init__(context, port, motion)
-        self._excitation = excitation
-        self._chopper = chopper
+        super().__init__(context, port, motion, excitation, chopper)
         self._read_map = read_map
 
     def _decode(self, byte: int) -> Command:
@@ -87,31 +81,5 @@ class CommandUnitStmc(ByteUnit):
         pa = data[2] | data[3] << 8
         if not 1 <= d2 <= d1:
             return Error.BAD_RAMP
-        context = self._context
-        if self.setup is None:
-            phases, half, positive = (code & 3) + 2, bool(code & 4), bool(code & 8)
-
-            def show(at: int) -> None:
-                self._excitation.configure(phases, half, positive)
-
-            if context.datasheet:
-                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, show)
-            else:
-                show(t)
-        ramp = profile(d1, d2, pa)
-        self.setup = Setup(ramp, external=bool(code & 0x10), chopping=bool(code & 0x20))
-        if context.datasheet:
-            done = reference + context.timebase.cyc(_DS_BUILD + _DS_BUILD_PER_STEP * pa)
-        else:
-            done = t + context.latency.build(ramp.rl, ramp.rh, ramp.pa)
-        self._port.close_until(done)
-        context.queue.at(done, Phase.BEGIN, self._complete)
+        self._set_up(t, code, profile(d1, d2, pa), reference, 264_000 + 209 * pa)
         return None
-
-    def _complete(self, t: int) -> None:
-        """End of the table build: bit 5 takes effect (STMC-CHP-01, -02)."""
-        assert self.setup is not None
-        if self.setup.chopping:
-            self._chopper.start(t)
-        else:
-            self._chopper.stop()

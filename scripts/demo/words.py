@@ -112,6 +112,22 @@ class Words:
         return ""
 
 
+class OneAxisWords(Words):
+    """Error number, or number of bytes expected, in the status register; a part has its list of `errors`."""
+
+    errors: Sequence[str] = ()
+
+    def status(self, byte: int) -> str:
+        """Flags that are set, error or bytes still expected."""
+        flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
+        number = byte >> 4 & 7
+        if byte & 0x80:
+            flags.append(f"error {number}: {self.errors[number]}")
+        elif number:
+            flags.append(f"{number} more byte{'s' if number > 1 else ''} expected")
+        return ", ".join(flags) or "ready, nothing pending"
+
+
 @dataclass
 class Exchange:
     """A command with its data, the answer, and the status bytes seen meanwhile; `t` in clk."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from scripts.demo.words import Words
+from scripts.demo.words import OneAxisWords
 
 ERRORS = (
     "undefined command, or a stop at rest",
@@ -18,9 +18,10 @@ ERRORS = (
 )
 
 
-class Words104(Words):
+class Words104(OneAxisWords):
     """One axis, error numbers in the status register."""
 
+    errors = ERRORS
     reads = {
         0x80: ("read finish status", 1),
         0x81: ("read input signals", 1),
@@ -29,16 +30,6 @@ class Words104(Words):
         0x85: ("read auxiliary inputs", 1),
     }
     switches = ((0x80, "CNP"), (0x40, "ALM"), (8, "L1"), (4, "L2"), (2, "L3"), (1, "L4"))
-
-    def status(self, byte: int) -> str:
-        """Flags that are set, error or bytes still expected."""
-        flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
-        number = byte >> 4 & 7
-        if byte & 0x80:
-            flags.append(f"error {number}: {ERRORS[number]}")
-        elif number:
-            flags.append(f"{number} more byte{'s' if number > 1 else ''} expected")
-        return ", ".join(flags) or "ready, nothing pending"
 
     def setting(self, code: int, data: Sequence[int]) -> str:
         """Motor, step, level, clock, chopping, ramp."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from scripts.demo.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, Words
+from scripts.demo.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisWords
 
 ERRORS = (
     "undefined command, or a stop at rest",
@@ -18,9 +18,10 @@ ERRORS = (
 )
 
 
-class WordsStmc(Words):
+class WordsStmc(OneAxisWords):
     """One axis with divisors, the read codes of READ_MAP = "SHEET", error numbers in the status."""
 
+    errors = ERRORS
     operations = {
         2: ("single step", 0),
         3: ("accelerate/decelerate", 3),
@@ -44,16 +45,6 @@ class WordsStmc(Words):
     read_codes = {0x80: END_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING}
     switches = ((0x80, "CNP"), (8, "L1"), (4, "L2"), (2, "L3"), (1, "L4"))
     unit, speed, rate = "step", "thousand steps/s", "divisor"
-
-    def status(self, byte: int) -> str:
-        """Flags that are set, error or bytes still expected."""
-        flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
-        number = byte >> 4 & 7
-        if byte & 0x80:
-            flags.append(f"error {number}: {ERRORS[number]}")
-        elif number:
-            flags.append(f"{number} more byte{'s' if number > 1 else ''} expected")
-        return ", ".join(flags) or "ready, nothing pending"
 
     def setting(self, code: int, data: Sequence[int]) -> str:
         """Motor, step, level, clock, chopping, ramp."""
