@@ -54,6 +54,43 @@ set files [list \
   $root/rtl/single/ppmc_pace.sv \
   $root/rtl/single/ppmc_finish.sv \
   $root/rtl/single/ppmc_single.sv \
+  $root/rtl/motion/ppmc_stage_pkg.sv \
+  $root/rtl/motion/ppmc_muldiv.sv \
+  $root/rtl/motion/ppmc_cosine_rom.sv \
+  $root/rtl/motion/ppmc_stage_table.sv \
+  $root/rtl/motion/ppmc_stage_builder.sv \
+  $root/rtl/motion/ppmc_stage_plan.sv \
+  $root/rtl/motion/ppmc_stage_unit.sv \
+  $root/rtl/motion/ppmc_stage_seq.sv \
+  $root/rtl/motion/ppmc_interval.sv \
+  $root/rtl/ppmc312/ppmc312_pkg.sv \
+  $root/rtl/ppmc312/ppmc312_bus.sv \
+  $root/rtl/ppmc312/ppmc312_mailbox.sv \
+  $root/rtl/ppmc312/ppmc312_reports.sv \
+  $root/rtl/ppmc312/ppmc312_store.sv \
+  $root/rtl/ppmc312/ppmc312_fetch.sv \
+  $root/rtl/ppmc312/ppmc312_arbiter.sv \
+  $root/rtl/ppmc312/ppmc312_judge.sv \
+  $root/rtl/ppmc312/ppmc312_compose.sv \
+  $root/rtl/ppmc312/ppmc312_reply.sv \
+  $root/rtl/ppmc312/ppmc312_answer.sv \
+  $root/rtl/ppmc312/ppmc312_readback.sv \
+  $root/rtl/ppmc312/ppmc312_free.sv \
+  $root/rtl/ppmc312/ppmc312_setup.sv \
+  $root/rtl/ppmc312/ppmc312_pace.sv \
+  $root/rtl/ppmc312/ppmc312_move.sv \
+  $root/rtl/ppmc312/ppmc312_settings.sv \
+  $root/rtl/ppmc312/ppmc312_exec.sv \
+  $root/rtl/ppmc312/ppmc312_instr.sv \
+  $root/rtl/ppmc312/ppmc312_pins.sv \
+  $root/rtl/ppmc312/ppmc312_outputs.sv \
+  $root/rtl/ppmc312/ppmc312_auxin.sv \
+  $root/rtl/ppmc312/ppmc312_window.sv \
+  $root/rtl/ppmc312/ppmc312_position.sv \
+  $root/rtl/ppmc312/ppmc312_motion.sv \
+  $root/rtl/ppmc312/ppmc312_axis.sv \
+  $root/rtl/ppmc312/ppmc312_core.sv \
+  $root/rtl/ppmc312/ppmc312.sv \
   $root/rtl/ppmc104/ppmc104_pkg.sv \
   $root/rtl/ppmc104/ppmc104_setup.sv \
   $root/rtl/ppmc104/ppmc104_pace.sv \
@@ -75,6 +112,7 @@ set files [list \
   $root/rtl/boards/ppmc2104_board.sv \
   $root/rtl/boards/ppmc_board_steps.sv \
   $root/rtl/boards/stmc_board.sv \
+  $root/rtl/boards/ppmc312_board.sv \
 ]
 add_files -norecurse $files
 set_property file_type SystemVerilog [get_files $files]

@@ -35,13 +35,15 @@ class ProjectError(Exception):
 class Part:
     """One part of the family: its top module and the groups of rtl/files.yml that it is built of.
 
-    `phase_idle`: the top has the parameter PHASE_IDLE.
+    `phase_idle`: the top has the parameter PHASE_IDLE. `families`: what it is made for; an iCE40 is too small
+    for some.
     """
 
     name: str
     groups: tuple[str, ...]
     clk_hz: int = 16_000_000
     phase_idle: bool = False
+    families: tuple[str, ...] = ("ecp5", "ice40")
 
 
 SHARED = ("common", "motion", "host")
@@ -51,6 +53,7 @@ PARTS = {
     "ppmc2104": Part("ppmc2104", (*SHARED, "ppmc2104")),
     "isa_4axis": Part("isa_4axis", (*SHARED, "ppmc2104", "isa_4axis")),
     "stmc": Part("stmc", (*SINGLE, "stmc"), phase_idle=True),
+    "ppmc312": Part("ppmc312", (*SHARED, "stage", "ppmc312"), families=("ecp5",)),
     "j105_stmc": Part("j105_stmc", (*SINGLE, "stmc", "j105_stmc")),
 }
 

@@ -10,7 +10,7 @@ from cocotb_tests.common.collect import cocotb_items
 from cocotb_tests.common.part import Part
 from cocotb_tests.common.runner import run_item
 
-from .wrapper import area_design
+from .wrapper import GROUPS, area_design
 
 ITEMS = cocotb_items(
     "cocotb_tests.blocks",
@@ -19,6 +19,9 @@ ITEMS = cocotb_items(
     "tb_ramp",
     "tb_host",
     "tb_single",
+    "tb_stage",
+    "tb_stage_walk",
+    "tb_interval",
     part=Part("blocks", "BLK", {}),
 )
 
@@ -26,5 +29,7 @@ ITEMS = cocotb_items(
 @pytest.mark.parametrize("item", ITEMS)
 def test_block(item, sim_options):
     """Run one simulation."""
-    blocks = importlib.import_module(item.module).BLOCKS
-    run_item(item, sim_options, design=area_design(item.module.rsplit("_", 1)[-1], blocks))
+    module = importlib.import_module(item.module)
+    area = getattr(module, "AREA", item.module.rsplit("_", 1)[-1])
+    groups = getattr(module, "GROUPS", GROUPS)
+    run_item(item, sim_options, design=area_design(area, module.BLOCKS, groups))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import yaml
 
 from cocotb_tests.common.paths import BUILD, ROOT
 from cocotb_tests.common.runner import Design, locked
+
+GROUPS = ("common", "motion", "host", "single")
 
 
 @dataclass(frozen=True)
@@ -54,10 +56,13 @@ def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
     return "\n".join([f"module {top} (", ",\n".join(pins), ");", *body, "endmodule", ""])
 
 
-def area_design(area: str, blocks: Mapping[str, Block]) -> Design:
-    """Design of all instances of one area; writes the top module below build/."""
+def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
+    """Design of all instances of one area; writes the top module below build/.
+
+    groups: keys of rtl/files.yml that hold what the area needs.
+    """
     lists = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
-    files = [ROOT / "rtl" / name for key in ("common", "motion", "host", "single") for name in lists[key]]
+    files = [ROOT / "rtl" / name for key in groups for name in lists[key]]
     top = f"blocks_{area}"
     path = BUILD / "blocks" / f"{top}.sv"
     text = wrapper_text(top, blocks)

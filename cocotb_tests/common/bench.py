@@ -239,6 +239,13 @@ class Bench:
 
     # ---------------------------------------------------------------- outputs
 
+    def forget(self) -> None:
+        """Drop all output edges and pin changes seen so far, for runs of many parts."""
+        self.stimulus.clear()
+        self._log.clear()
+        for changes in self._edges.values():
+            changes.clear()
+
     def _index(self) -> int:
         """Index of the edge that made a change visible now (asynchronous changes: the next edge)."""
         return -((self._t0 - int(get_sim_time("ps"))) // self.period)

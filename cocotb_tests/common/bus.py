@@ -6,7 +6,7 @@ table of the part (`BusStyle`); where a part has two styles, its style pin says 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from .bench import Bench
 from .part import BusStyle
@@ -24,7 +24,10 @@ class HostBus:
 
     strobe, read_strobe, gap: lengths in clk (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
     pause: called before each access, returns extra idle clk. timeout: limit in clk of every poll.
+    `names`: what `bench.accesses` calls an access of (kind, register), where the bus has more than two.
     """
+
+    names: Mapping[tuple[str, int], str] = {}  # noqa: RUF012, nobody writes to it
 
     def __init__(
         self,
@@ -69,7 +72,7 @@ class HostBus:
         bench.set(**{style.address: reg, "d_i": byte, **style.write_on})
         await bench.clocks(self.strobe if strobe is None else strobe)
         edge0 = bench.set(**style.write_off)
-        bench.accesses.append(Access(edge0, "write", reg, byte))
+        bench.accesses.append(Access(edge0, self.names.get(("write", reg), "write"), reg, byte))
         await bench.clocks(self.gap if gap is None else gap)
         self._owner = None
         return edge0
@@ -90,7 +93,7 @@ class HostBus:
             f"d_oe = 0 at the end of a {length} clk read strobe\n{bench.context()}"
         )
         bench.set(**style.read_off)
-        bench.accesses.append(Access(edge0, "read", reg, byte))
+        bench.accesses.append(Access(edge0, self.names.get(("read", reg), "read"), reg, byte))
         await bench.clocks(self.gap if gap is None else gap)
         self._owner = None
         return byte

@@ -180,7 +180,7 @@ def _folded_accesses(accesses: list[Any], history: int) -> list[str]:
     """Accesses as text, runs of equal status polls folded into one row."""
     rows: list[tuple[Any, int]] = []
     for access in accesses:
-        poll = access.kind == "read" and access.reg == 1
+        poll = access.kind == "CSR read" or (access.kind == "read" and access.reg == 1)
         if rows and poll and rows[-1][0][1:] == access[1:]:
             rows[-1] = (access, rows[-1][1] + 1)
         else:

@@ -53,6 +53,14 @@ STROBES_DS_RW = BusStyle(
     read_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
     read_off={"cs_n": 1, "ds_wrs_n": 1},
 )
+# The PPMC-312: eight registers, chosen by rs.
+STROBES_WE_OE = BusStyle(
+    write_on={"cs_n": 0, "we_n": 0},
+    write_off={"cs_n": 1, "we_n": 1},
+    read_on={"cs_n": 0, "oe_n": 0},
+    read_off={"cs_n": 1, "oe_n": 1},
+    address="rs",
+)
 # 8-bit ISA cycles: the address says which register, no chip select of its own.
 STROBES_ISA = BusStyle(
     write_on={"iow_n": 0},
@@ -236,7 +244,60 @@ J105_STMC = Part(
     lowest={"s": 1, "drv": 1},
 )
 
-PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104, STMC, J105_STMC)}
+PPMC312 = Part(
+    name="ppmc312",
+    prefix="P312",
+    inputs={
+        "mode": 1,
+        "d_i": 0,
+        "rs": 0,
+        "cs_n": 1,
+        "we_n": 1,
+        "oe_n": 1,
+        "rxd": 1,
+        "hsp": 0,
+        "mod": 0,
+        "adr": 0,
+        "evt0_n": 1,
+        "evt1_n": 1,
+        "auxi": 0,
+        "alm_n": 1,
+        "end_n": 1,
+        "epin": 0,
+        "epdir": 0,
+        "index_n": 1,
+        "org_n": 1,
+        "fl_n": 1,
+        "bl_n": 1,
+        "fhl_n": 1,
+        "bhl_n": 1,
+        "extck": 0,
+        "run": 1,
+    },
+    outputs={
+        "d_o": (8, 0x00),
+        "d_oe": (1, 0),
+        "wrq_n": (1, 1),
+        "irq_n": (1, 1),
+        "txd": (1, 1),
+        "snd": (1, 0),
+        "auxo_n": (6, 0x3F),
+        "exon_n": (1, 1),
+        "cclr_n": (1, 1),
+        "aclr_n": (1, 1),
+        "zclmp_n": (1, 1),
+        "cd_n": (1, 1),
+        "pout": (1, 0),
+        "dir": (1, 0),
+        "intlk_n": (1, 1),
+        "out_oe": (1, 0),
+    },
+    widths={"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8},
+    styles=(STROBES_WE_OE,),
+    clock="extck",
+)
+
+PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104, STMC, J105_STMC, PPMC312)}
 
 # Also parts whose RTL does not exist yet, so that their rule IDs already sort to the right table.
 PREFIXES = {

@@ -25,7 +25,10 @@ class Edge(NamedTuple):
 
 
 class Access(NamedTuple):
-    """One host access; `t` is edge 0 of P104-BUS-05/06: first edge with RS true, or with WS false again."""
+    """One host access; `t` is edge 0 of P104-BUS-05/06: first edge with RS true, or with WS false again.
+
+    kind: "read" or "write", or on a bus with more registers than two what the report shall show.
+    """
 
     t: int
     kind: str
@@ -33,7 +36,9 @@ class Access(NamedTuple):
     byte: int
 
     def __str__(self) -> str:
-        if self.kind == "write":
+        if self.kind not in ("read", "write"):
+            name = self.kind
+        elif self.kind == "write":
             name = "command" if self.reg else "data   "
         else:
             name = "status " if self.reg else "read   "

@@ -18,11 +18,12 @@ from .paths import ROOT
 F = TypeVar("F")
 
 RULE_ID = re.compile(
-    r"^(?:(?P<prefix>(?:P104|P2104|STMC|P312|P006)(?=-[A-Z])|J105(?=-\d))(?:-[A-Z]+)?-\d\d|AC-\d\d)$"
+    r"^(?:(?P<prefix>(?:P104|P2104|STMC|P312|P006)(?=-[A-Z])|J105(?=-\d))(?:-[A-Z]+)?-\d\d"
+    # Rules about an instruction of the PPMC-312 have its code, those about free curves a number.
+    r"|(?P<code>P312)-CMD-(?:(?!FC)[0-9A-F]{2}|8L|8V|FC-\d{1,2})|AC-\d\d)$"
 )
-_ROW = re.compile(
-    r"^\|\s*(?:\*\*|`)?(?P<id>[A-Z0-9]+(?:-[A-Z]+)?-\d\d)(?:\*\*|`)?\s*\|\s*(?P<text>.*?)\s*\|\s*$"
-)
+_ID = r"[A-Z0-9]+(?:-[A-Z]+)?-\d\d|P312-CMD-[0-9A-Z]{2}(?:-\d{1,2})?"
+_ROW = re.compile(rf"^\|\s*(?:\*\*|`)?(?P<id>{_ID})(?:\*\*|`)?\s*\|\s*(?P<text>.*?)\s*\|\s*$")
 
 
 def verifies(*ids: str) -> Callable[[F], F]:
@@ -54,7 +55,8 @@ def rules_of(test: Any) -> tuple[str, ...]:
 def part_of_rule(rule: str) -> str | None:
     """Part a rule ID belongs to; None for AC-NN, which every part numbers for itself."""
     match = RULE_ID.match(rule)
-    return PREFIXES[match["prefix"]] if match and match["prefix"] else None
+    prefix = match and (match["prefix"] or match["code"])
+    return PREFIXES[prefix] if prefix else None
 
 
 @cache

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // DP16KD: simulation model of the ECP5's block RAM in the modes that synthesis of this project uses; the
 //         model library of yosys has only its ports. Anything else ends the elaboration with an error.
-// Rules:  two ports, 9 or 18 bits each, no output register, contents start as zeros. Word address from AD4
-//         (18 bits) or AD3 (9 bits) up; with 18 bits AD0 and AD1 enable the bytes of a write.
+// Rules:  two ports, 9 or 18 bits each, no output register, contents start as zeros. Word address from AD5
+//         (36 bits), AD4 (18 bits) or AD3 (9 bits) up; with 36 bits AD0 to AD3 enable the bytes of a write,
+//         with 18 bits AD0 and AD1. With 36 bits port A only writes DIB, DIA and port B only reads, 36 bits
+//         into DOB, DOA, fewer into DOB.
 // Timing: a read stands after the clk edge; a port that writes keeps its output (NORMAL), shows the new word
 //         (WRITETHROUGH) or the old one (READBEFOREWRITE).
 `default_nettype none
@@ -27,8 +29,8 @@ module DP16KD #(
     parameter ASYNC_RESET_RELEASE = "SYNC",
     parameter CSDECODE_A = "0b000",
     parameter CSDECODE_B = "0b000",
-    parameter WRITEMODE_A = "NORMAL",
-    parameter WRITEMODE_B = "NORMAL",
+    parameter string WRITEMODE_A = "NORMAL",
+    parameter string WRITEMODE_B = "NORMAL",
     parameter CLKAMUX = "CLKA",
     parameter CLKBMUX = "CLKB",
     parameter GSR = "ENABLED",
@@ -48,8 +50,11 @@ module DP16KD #(
     output logic      DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0
 );
 
-  if (!(DATA_WIDTH_A inside {9, 18}) || !(DATA_WIDTH_B inside {9, 18})) begin : g_check_width
-    $fatal(1, "DP16KD model: DATA_WIDTH must be 9 or 18");
+  if (!(DATA_WIDTH_A inside {9, 18, 36}) || !(DATA_WIDTH_B inside {9, 18, 36})) begin : g_check_width
+    $fatal(1, "DP16KD model: DATA_WIDTH must be 9, 18 or 36");
+  end
+  if (DATA_WIDTH_B == 36 && DATA_WIDTH_A != 36) begin : g_check_wide
+    $fatal(1, "DP16KD model: port B reads 36 bits only if port A writes 36 bits");
   end
   if (REGMODE_A != "NOREG" || REGMODE_B != "NOREG") begin : g_check_reg
     $fatal(1, "DP16KD model: REGMODE must be NOREG");
@@ -64,16 +69,18 @@ module DP16KD #(
     $fatal(1, "DP16KD model: INITVAL must be zero");
   end
 
+  localparam bit Wide = DATA_WIDTH_A == 36;
+
   // Both ports can write.
   // verilator lint_off MULTIDRIVEN
-  logic [17:0] mem[1024];
+  logic [35:0] mem[512];
   // verilator lint_on MULTIDRIVEN
   logic [17:0] d[2];
-  wire logic [17:0] q[2];
+  wire logic [35:0] q[2];
   logic [13:0] ad[2];
   logic [1:0] we, ce, clk, rst;
 
-  initial for (int i = 0; i < 1024; i++) mem[i] = '0;
+  initial for (int i = 0; i < 512; i++) mem[i] = '0;
 
   assign d[0] = {DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9,
                  DIA8, DIA7, DIA6, DIA5, DIA4, DIA3, DIA2, DIA1, DIA0};
@@ -82,9 +89,9 @@ module DP16KD #(
   assign ad[0] = {ADA13, ADA12, ADA11, ADA10, ADA9, ADA8, ADA7, ADA6, ADA5, ADA4, ADA3, ADA2, ADA1, ADA0};
   assign ad[1] = {ADB13, ADB12, ADB11, ADB10, ADB9, ADB8, ADB7, ADB6, ADB5, ADB4, ADB3, ADB2, ADB1, ADB0};
   assign {DOA17, DOA16, DOA15, DOA14, DOA13, DOA12, DOA11, DOA10, DOA9,
-          DOA8, DOA7, DOA6, DOA5, DOA4, DOA3, DOA2, DOA1, DOA0} = q[0];
+          DOA8, DOA7, DOA6, DOA5, DOA4, DOA3, DOA2, DOA1, DOA0} = Wide ? q[1][17:0] : q[0][17:0];
   assign {DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9,
-          DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0} = q[1];
+          DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0} = q[1][DATA_WIDTH_B == 36 ? 18 : 0 +: 18];
   assign clk = {CLKB, CLKA};
   assign we  = {WEB, WEA};
   assign rst = {RSTB, RSTA};
@@ -92,26 +99,40 @@ module DP16KD #(
 
   for (genvar p = 0; p < 2; p++) begin : g_port
     localparam int Width = p == 0 ? DATA_WIDTH_A : DATA_WIDTH_B;
-    localparam Mode = p == 0 ? WRITEMODE_A : WRITEMODE_B;
-    logic [17:0] old, word, fresh, out;
+    localparam string Mode = p == 0 ? WRITEMODE_A : WRITEMODE_B;
+    logic [35:0] data, word, fresh, out;
+    logic [3:0] bytes;
+    logic [5:0] place;  // lowest bit of the port's word among the 36
 
     initial out = '0;
     assign q[p] = out;
 
     always_comb begin
-      old  = mem[ad[p][13:4]];
-      word = old;
-      if (Width == 18) begin
-        if (ad[p][0]) word[8:0] = d[p][8:0];
-        if (ad[p][1]) word[17:9] = d[p][17:9];
-      end else if (ad[p][3]) word[17:9] = d[p][8:0];
-      else word[8:0] = d[p][8:0];
-      fresh = (we[p] && Mode == "WRITETHROUGH") ? word : old;
-      if (Width == 9) fresh = {9'b0, ad[p][3] ? fresh[17:9] : fresh[8:0]};
+      if (Width == 36) begin
+        place = '0;
+        bytes = ad[p][3:0];
+        data  = {d[1], d[0]};
+      end else if (Width == 18) begin
+        place = ad[p][4] ? 6'd18 : '0;
+        bytes = ad[p][4] ? {ad[p][1:0], 2'b0} : {2'b0, ad[p][1:0]};
+        data  = {2{d[p]}};
+      end else begin
+        place = 6'd9 * 6'(ad[p][4:3]);
+        bytes = 4'b1 << ad[p][4:3];
+        data  = {4{d[p][8:0]}};
+      end
+      word = mem[ad[p][13:5]];
+      for (int i = 0; i < 4; i++) begin
+        if (we[p] && Mode == "WRITETHROUGH" && bytes[i]) word[9*i+:9] = data[9*i+:9];
+      end
+      fresh = (word >> place) & (36'hF_FFFF_FFFF >> (36 - Width));
     end
 
     always_ff @(posedge clk[p]) begin
-      if (ce[p] && we[p]) mem[ad[p][13:4]] <= word;
+      for (int i = 0; i < 4; i++) begin
+        if (ce[p] && we[p] && bytes[i]) mem[ad[p][13:5]][9*i+:9] <= data[9*i+:9];
+      end
+      if (Wide && p == 1 && ce[p] && we[p]) $fatal(1, "DP16KD model: with 36 bits port B must not write");
     end
 
     if (RESETMODE == "ASYNC") begin : g_async

@@ -1,4 +1,6 @@
-"""Which tests run on netlists: the part tests as they are, on every family, mostly in every configuration."""
+"""Which tests run on netlists: the part tests as they are, on every family that the part is made for, mostly
+in every configuration.
+"""
 
 from __future__ import annotations
 
@@ -12,19 +14,27 @@ from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import Design
 from cocotb_tests.gates import board
 from cocotb_tests.ppmc104 import test_ppmc104, test_random
+from cocotb_tests.ppmc312 import test_random as test_random_312
+from cocotb_tests.ppmc312 import test_scripts as test_ppmc312
 from cocotb_tests.ppmc2104 import test_ppmc2104
 from cocotb_tests.ppmc2104 import test_random as test_random_2104
 from cocotb_tests.stmc import test_board as test_j105_stmc
 from cocotb_tests.stmc import test_random as test_random_stmc
 from cocotb_tests.stmc import test_stmc
+from scripts import project
 from scripts.flow import gates
 from scripts.project import ProjectError
 
 QUICK = "quick"
-# The quick subset: these modules under F16 on all families, and the board on one.
+# The quick subset: these modules and tests under F16 on all families of the part, and the board on one.
 QUICK_MODULES = ("cocotb_tests.ppmc104.tb_acceptance_1", "cocotb_tests.ppmc104.tb_bus")
 QUICK_MODULES += ("cocotb_tests.ppmc2104.tb_acceptance_2", "cocotb_tests.stmc.tb_init")
+QUICK_TESTS = ("p312_bus",)
 QUICK_BOARD = "ice40"
+
+OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
+TOO_BIG = "the part does not fit into this family"
+COSTLY_BUILDS = "other clocks or times; synthesis of another netlist takes minutes"
 
 
 @dataclass(frozen=True)
@@ -33,13 +43,24 @@ class PartTests:
 
     `sample` is the sample of its random tests: what makes the item of a seed, and the seeds. Together the
     hosts of a sample use every configuration they choose from. `builds`: names of the configurations that
-    netlists are made of; none: all.
+    netlists are made of, for the reason in `why`; none: all.
     """
 
     directed: ModuleType
     random: ModuleType | None = None
     sample: Mapping[Callable[[int], Item], Sequence[int]] = field(default_factory=dict)
     builds: frozenset[str] = frozenset()
+    why: str = OTHER_BUILDS
+
+    @property
+    def name(self) -> str:
+        """The part's name."""
+        return self.directed.ITEMS[0].values[0].part
+
+    @property
+    def families(self) -> list[str]:
+        """FPGA families that the part is made for."""
+        return [family for family in gates.FAMILIES if family in project.part(self.name).families]
 
     @property
     def items(self) -> list[Item]:
@@ -84,6 +105,13 @@ PARTS = (
         frozenset({"f16", "family", "d25x8"}),
     ),
     PartTests(test_j105_stmc, builds=frozenset({"f16"})),
+    PartTests(
+        test_ppmc312,
+        test_random_312,
+        {test_random_312.random_item: (2, 3, 4, 5, 6, 8), test_random_312.noise_item: (1, 4, 7)},
+        frozenset({"f16"}),
+        COSTLY_BUILDS,
+    ),
 )
 
 # Test functions that are no simulation of the part: what a netlist has to do with them.
@@ -94,16 +122,19 @@ NOT_APPLICABLE = {
     "test_stmc_parameter_ranges": "elaborates illegal parameters; those of a netlist are fixed",
     "test_j105_parameter_ranges": "elaborates illegal parameters; those of a netlist are fixed",
     "test_scenarios_are_reproducible_and_varied": "checks the generator of the random hosts; no simulation",
+    "test_hosts_are_rich": "checks the generator of the random hosts; no simulation",
 }
 SIMULATING = {"test_ppmc104", "test_ppmc2104", "test_stmc", "test_board"}
-SIMULATING |= {"test_random", "test_chaos", "test_independent_axes"}
+SIMULATING |= {"test_random", "test_chaos", "test_independent_axes", "test_scripts", "test_noise"}
 
 # Simulations that are left out, because a netlist would take far too long for so many clk.
 TOO_LONG = {
     "p2104_ac_12_largest_ramp": "15 million clk; p2104_rmp_02_long_ramp_up has the same ramp",
     "p2104_ac_68_ramps_and_two_axes": "12 million clk in settings; p2104_ac_67_rate_bytes has the comparison",
+    "p312_transactions": "44 million clk; p312_motion, p312_abnormal and p312_bus have the same instructions",
+    "p312_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
+    "p312_checks_motion": "15 million clk; p312_motion and p312_bounds have shorter moves of all kinds",
 }
-OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
 
 
 @dataclass(frozen=True)
@@ -148,12 +179,14 @@ def left_out() -> dict[str, str]:
     ]
     if unknown := [name for name in found if name not in NOT_APPLICABLE]:
         raise ProjectError(f"cocotb_tests/gates/suite.py does not say why {', '.join(unknown)} is left out")
-    builds = {
-        f"{part.directed.ITEMS[0].values[0].part} in {', '.join(part.unbuilt)}": OTHER_BUILDS
+    builds = {f"{part.name} in {', '.join(part.unbuilt)}": part.why for part in PARTS if part.unbuilt}
+    families = {
+        f"{part.name} on {family}": TOO_BIG
         for part in PARTS
-        if part.unbuilt
+        for family in gates.FAMILIES
+        if family not in part.families
     }
-    return {**{name: NOT_APPLICABLE[name] for name in found}, **TOO_LONG, **builds}
+    return {**{name: NOT_APPLICABLE[name] for name in found}, **TOO_LONG, **builds, **families}
 
 
 def _tagged(item: Item, family: str) -> Item:
@@ -162,10 +195,10 @@ def _tagged(item: Item, family: str) -> Item:
 
 
 def _directed(part: PartTests, family: str) -> list[GateTest]:
-    return [
-        GateTest(family, _tagged(item, family), quick=item.module in QUICK_MODULES and item.config == F16)
-        for item in part.items
-    ]
+    def quick(item: Item) -> bool:
+        return (item.module in QUICK_MODULES or item.test in QUICK_TESTS) and item.config == F16
+
+    return [GateTest(family, _tagged(item, family), quick(item)) for item in part.items]
 
 
 def _random(part: PartTests, family: str, seed: int | None) -> list[GateTest]:
@@ -182,7 +215,8 @@ def everything(seed: int | None = None) -> list[GateTest]:
     tests = []
     for family in gates.FAMILIES:
         for part in PARTS:
-            tests += [*_directed(part, family), *_random(part, family, seed)]
+            if family in part.families:
+                tests += [*_directed(part, family), *_random(part, family, seed)]
         tests += _board(family)
     return sorted(tests, key=lambda test: test.group)
 

@@ -17,8 +17,12 @@ class Board(ABC):
     """A part whose motors follow `pout_n` and `dir`, one plant an axis.
 
     part: `Ppmc104`, `Ppmc2104` or `Stmc`. `t` is the next free clk edge. `positions` are the motors',
-    `counts` the pulse counters'. on_interrupt: called when `int_n` falls.
+    `counts` the pulse counters'. on_interrupt: called when the pin INTERRUPT falls. ADDRESS_BITS: lines of
+    the bridge's address that are wired.
     """
+
+    ADDRESS_BITS = 1
+    INTERRUPT = "int_n"
 
     def __init__(self, part: Any, plants: Sequence[Plant], on_interrupt: Callable[[], None]) -> None:
         self.part = part
@@ -28,6 +32,7 @@ class Board(ABC):
         self.counts = [0 for _ in plants]
         self.on_interrupt = on_interrupt
         self.t = 8
+        self._seen: object = None
         self._directions = [0 for _ in plants]
         self._pulse_pins = [1 for _ in plants]
         self._switches = self._levels()
@@ -54,6 +59,10 @@ class Board(ABC):
     def seconds(self) -> float:
         """Virtual time in s."""
         return self.t / self.clk_hz
+
+    def shown(self) -> object:
+        """What the register that waits look at would show now."""
+        return self.part.status
 
     def _levels(self) -> list[dict[str, int]]:
         return [plant.levels(at) for plant, at in zip(self.plants, self.positions, strict=True)]
@@ -96,7 +105,7 @@ class Board(ABC):
 
     def _follow(self, edge: Edge) -> None:
         """One output edge; bit n of `dir` and `pout_n` belongs to axis n + 1."""
-        if edge.signal == "int_n" and not edge.value:
+        if edge.signal == self.INTERRUPT and not edge.value:
             self.on_interrupt()
         elif edge.signal == "dir":
             self._directions = [edge.value >> n & 1 for n in range(len(self.plants))]
@@ -119,9 +128,10 @@ class Board(ABC):
     # ------------------------------------------------------------------ as the bridge sees it
 
     def read(self, a: int) -> int:
-        """One read cycle; only address bit 0 is wired."""
+        """One read cycle."""
         self._settle()
-        value = self.part.read(self.t, a & 1, READ_STROBE)
+        self._seen = self.shown()
+        value = self.part.read(self.t, a % (1 << self.ADDRESS_BITS), READ_STROBE)
         self._watch()
         self.t += READ_STROBE + PAUSE
         return value
@@ -129,7 +139,7 @@ class Board(ABC):
     def write(self, a: int, byte: int) -> None:
         """One write cycle."""
         self._settle()
-        self.part.write(self.t, a & 1, byte, WRITE_STROBE)
+        self.part.write(self.t, a % (1 << self.ADDRESS_BITS), byte, WRITE_STROBE)
         self._watch()
         self.t += WRITE_STROBE + PAUSE
 
@@ -152,7 +162,7 @@ class Board(ABC):
     def pin_byte(self, hold: int, axis: int) -> int:
         """int_n, hold and the six switches of an axis (0 = axis 1), from bit 0 up."""
         switches = sum(self._switches[axis][name] << place for place, name in enumerate(SWITCHES))
-        return self.part.outputs["int_n"] | hold << 1 | switches << 2
+        return self.part.outputs[self.INTERRUPT] | hold << 1 | switches << 2
 
     def count(self, axis: int = 1) -> int:
         """Pulse counter, wraps at 32 bits in the answer."""
@@ -169,8 +179,8 @@ class Board(ABC):
         return self.t * 1000 / self.clk_hz
 
     def skip(self, limit_ms: float) -> None:
-        """Go to the event that changes the status register, or to the limit."""
-        part = self.part
-        before = part.status
+        """Go to the event that changes what waits look at, or to the limit."""
+        before = self._seen  # before the last read, during which it may have changed
         limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
-        self.run_until(limit, stop=lambda: part.status != before)
+        if self.shown() == before:
+            self.run_until(limit, stop=lambda: self.shown() != before)

@@ -13,11 +13,19 @@ from .codes_stmc import READ_MAPS
 FARTHEST = 1 << 31
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
 """In the order of the bridge's PINS byte."""
-PARTS = {"ppmc104": 1, "ppmc2104": 2, "stmc": 1}
+PARTS = {"ppmc104": 1, "ppmc2104": 2, "stmc": 1, "ppmc312": 1}
 """Word `part`: its values, and how many axes they have."""
-OWN_DEFAULTS = {"stmc": {"ccw": -1000, "slow_ccw": -200}}
+OWN_DEFAULTS: dict[str, dict[str, int]] = {
+    "stmc": {"ccw": -1000, "slow_ccw": -200},
+    "ppmc312": {"ccw": -4000, "slow_ccw": -3000, "origin_from": -50, "index": 400},
+}
 """Where switches are by default on other parts than the PPMC-104. With a J105 STMC the reference point lies
-between the deceleration limits, and a search for it ends at either of them."""
+between the deceleration limits, and a search for it ends at either of them. With a PPMC-312 the origin is a
+cam well inside the limits, as its zero return wants it."""
+INDEX_AT = -20
+"""One of the places where an encoder has its index: on the cam, off its edge."""
+ENCODER_WORDS = ("index", "block")
+"""What only a machine with an encoder has."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +33,10 @@ class Plant:
     """Where the switches of an axis are, in pulses, CW positive; positions are -2^31 .. 2^31-1.
 
     cw, ccw: hard limits (active at positions >= cw and <= ccw). slow_cw, slow_ccw: slow-down limits (>= and
-    <=). origin: active at positions <= origin. alarm: active from the first to the last of the two positions.
+    <=). origin: active at positions <= origin and, with a cam, >= origin_from. alarm: active from the first
+    to the last of the two positions. index: the encoder's index is active once in so many pulses, at -20;
+    0: never. block: what the axle cannot pass CW, so that the encoder stands while pulses go on; None:
+    nothing.
     """
 
     start: int = 4000
@@ -35,6 +46,17 @@ class Plant:
     slow_ccw: int = 600
     origin: int = 0
     alarm: tuple[int, int] | None = None
+    origin_from: int = -FARTHEST
+    index: int = 0
+    block: int | None = None
+
+    def steps(self, position: int, ccw: int) -> bool:
+        """Whether the axle follows a pulse."""
+        return bool(ccw) or self.block is None or position < self.block
+
+    def index_level(self, position: int) -> int:
+        """Level of the encoder's index, 0 = active."""
+        return int(not self.index or (position - INDEX_AT) % self.index != 0)
 
     def levels(self, position: int) -> dict[str, int]:
         """Levels of the switches at a position, 0 = active."""
@@ -44,12 +66,12 @@ class Plant:
             "limit_ccw": int(position > self.ccw),
             "slow_cw": int(position < self.slow_cw),
             "slow_ccw": int(position > self.slow_ccw),
-            "origin": int(position > self.origin),
+            "origin": int(not self.origin_from <= position <= self.origin),
             "alarm": int(not alarm),
         }
 
 
-PLANT_WORDS = tuple(field.name for field in fields(Plant))
+PLANT_WORDS = tuple(field.name for field in fields(Plant) if field.name != "origin_from")
 
 
 @dataclass(frozen=True)
@@ -64,7 +86,7 @@ class Machine:
 def parse_machine(text: str) -> Machine:
     """From `word=value,word=value`; empty text: the defaults. Raises ValueError with the offending word."""
     words: list[dict[str, object]] = [{}, {}]
-    others, part, second = {}, "ppmc104", ""
+    others, part, second, encoder = {}, "ppmc104", "", ""
     for item in filter(None, (piece.strip() for piece in text.split(","))):
         word, equals, value = (piece.strip() for piece in item.partition("="))
         if not equals or not value:
@@ -76,14 +98,16 @@ def parse_machine(text: str) -> Machine:
             if part not in PARTS:
                 raise ValueError(f"part={value}: there are {', '.join(PARTS)}")
         elif name in PLANT_WORDS:
-            where = _span(word, value) if name == "alarm" else _position(word, value)
-            words[axis][name] = where
+            words[axis] |= _where(name, word, value)
             second = item if axis else second
+            encoder = item if name in ENCODER_WORDS else encoder
         else:
             others[word] = value
     if second and PARTS[part] == 1:
         article = "an" if part == "stmc" else "a"
         raise ValueError(f"{second}: {article} {part} has one axis: add part=ppmc2104")
+    if encoder and part != "ppmc312":
+        raise ValueError(f"{encoder}: only a ppmc312 has an encoder: add part=ppmc312")
     plant = Plant(**OWN_DEFAULTS.get(part, {}))
     return Machine(part, tuple(replace(plant, **own) for own in words[: PARTS[part]]), others)
 
@@ -97,6 +121,19 @@ def stmc_read_map(part: str, value: str | None) -> str:
     if value.upper() not in READ_MAPS:
         raise ValueError(f"read_map={value}: neither {' nor '.join(READ_MAPS)}")
     return value.upper()
+
+
+def _where(name: str, word: str, value: str) -> dict[str, object]:
+    """Fields of a plant for a word."""
+    if name == "alarm":
+        return {name: _span(word, value)}
+    if name == "origin":
+        first, last = _span(word, value) if ".." in value else (-FARTHEST, _position(word, value))
+        return {"origin_from": first, "origin": last}
+    number = _position(word, value)
+    if name == "index" and number < 0:
+        raise ValueError(f"{word}={value}: the pulses of a turn, 0 for an encoder without index")
+    return {name: number}
 
 
 def _position(word: str, value: str) -> int:

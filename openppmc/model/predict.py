@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from .codes import PA_MAX, PA_MIN
 from .codes_stmc import TICK_XT
 from .commands_stmc import profile
+from .predict312 import Move312, predict_setting
 from .ramp import BaseClock, Ramp, profile_index
 from .timebase import Timebase
 
@@ -50,14 +51,17 @@ def predict_move(
     vsel: int = 1,
     timebase: Timebase | None = None,
     part: str = "ppmc104",
-) -> Move:
+) -> Move | Move312:
     """Undisturbed move of n pulses with the internal clock.
 
     init: the four initialisation bytes RL, RH, PA low, PA high. rate: None for an acceleration /
     deceleration move, else the rate of a constant-speed move. part: "ppmc104", "ppmc2104" (which has no
-    vsel: leave it 1) or "stmc" (neither csel nor vsel; rates are divisors). Raises ValueError for bytes that
+    vsel: leave it 1), "stmc" (neither csel nor vsel; rates are divisors) or "ppmc312" (init: the parameters
+    of an initial setting, see `predict312`, which also has free curves). Raises ValueError for bytes that
     the part refuses and for n outside 1..2^24.
     """
+    if part == "ppmc312":
+        return predict_setting(init, n, rate, timebase)
     if len(init) != 4:
         raise ValueError(f"an initialisation has 4 data bytes, not {len(init)}")
     rl, rh, pa = init[0], init[1], init[2] | init[3] << 8

@@ -56,7 +56,7 @@ module board_tangnano9k #(
   logic [3:0] lamps;
   logic [7:0] part_d;
 
-  ppmc_clock_tangnano9k u_clock (
+  ppmc_clock_tangnano u_clock (
       .clk_27m_i(clk_27m),
       .clk_o    (clk),
       .lock_o   (lock)

@@ -11,42 +11,51 @@ module ppmc_board_host #(
     parameter string       Host      = "UART",      // or "BUS"
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,         // number in IDENT
-    parameter int unsigned Axes      = 1            // axis 1 in the low bits
+    parameter int unsigned Axes      = 1,           // axis 1 in the low bits
+    parameter int unsigned AddrBits  = 1            // address lines of the part, 1 .. 3
 ) (
-    input  wire logic              clk_i,
-    input  wire logic              rst_ni,
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
     // UART host
-    input  wire logic              rxd_i,
-    output logic                   txd_o,
+    input  wire logic                rxd_i,
+    output logic                     txd_o,
     // bus host
-    input  wire logic              cs_ni,
-    input  wire logic              rd_ni,
-    input  wire logic              wr_ni,
-    input  wire logic              a0_i,
-    input  wire logic [       7:0] d_i,
+    input  wire logic                cs_ni,
+    input  wire logic                rd_ni,
+    input  wire logic                wr_ni,
+    input  wire logic [AddrBits-1:0] a_i,
+    input  wire logic [         7:0] d_i,
     // the part's bus
-    output logic                   part_rst_no,
-    output logic                   part_cs_no,
-    output logic                   part_rd_no,
-    output logic                   part_wr_no,
-    output logic                   part_a0_o,
-    output logic      [       7:0] part_d_o,
-    input  wire logic [       7:0] part_d_i,
-    input  wire logic              int_ni,
+    output logic                     part_rst_no,
+    output logic                     part_cs_no,
+    output logic                     part_rd_no,
+    output logic                     part_wr_no,
+    output logic      [AddrBits-1:0] part_a_o,
+    output logic      [         7:0] part_d_o,
+    input  wire logic [         7:0] part_d_i,
+    input  wire logic                int_ni,
     // board
-    output logic      [       7:0] straps_o,
-    input  wire logic [Axes*6-1:0] switches_ni,  // as ppmc_uart_host has them
-    input  wire logic [  Axes-1:0] hold_i,
-    input  wire logic [  Axes-1:0] pout_ni,
-    input  wire logic [  Axes-1:0] dir_i,
-    output logic                   link_o        // 1: a script is running or an answer is on its way
+    output logic      [         7:0] straps_o,
+    input  wire logic [  Axes*6-1:0] switches_ni,  // as ppmc_uart_host has them
+    input  wire logic [    Axes-1:0] hold_i,
+    input  wire logic [    Axes-1:0] pout_ni,
+    input  wire logic [    Axes-1:0] dir_i,
+    output logic                     link_o        // 1: a script is running or an answer is on its way
 );
 
   if (Host != "UART" && Host != "BUS") begin : g_check_host
     $fatal(1, "ppmc_board_host: HOST must be UART or BUS");
   end
 
+  if (AddrBits < 1 || AddrBits > 3) begin : g_check_addr
+    $fatal(1, "ppmc_board_host: AddrBits must be 1 .. 3");
+  end
+
   if (Host == "UART") begin : g_uart
+    logic [2:0] a;
+
+    assign part_a_o = a[AddrBits-1:0];
+
     ppmc_uart_host #(
         .ClkHz    (ClkHz),
         .XtalHz   (XtalHz),
@@ -62,7 +71,7 @@ module ppmc_board_host #(
         .cs_no   (part_cs_no),
         .rd_no   (part_rd_no),
         .wr_no   (part_wr_no),
-        .a0_o    (part_a0_o),
+        .a_o     (a),
         .d_o     (part_d_o),
         .d_i     (part_d_i),
         .int_ni,
@@ -76,13 +85,13 @@ module ppmc_board_host #(
     );
 
     logic unused;
-    assign unused = ^{cs_ni, rd_ni, wr_ni, a0_i, d_i};
+    assign unused = ^{cs_ni, rd_ni, wr_ni, a_i, d_i, a};
   end else begin : g_bus
     assign part_rst_no = rst_ni;
     assign part_cs_no  = cs_ni;
     assign part_rd_no  = rd_ni;
     assign part_wr_no  = wr_ni;
-    assign part_a0_o   = a0_i;
+    assign part_a_o    = a_i;
     assign part_d_o    = d_i;
     assign straps_o    = '1;
     assign txd_o       = 1'b1;

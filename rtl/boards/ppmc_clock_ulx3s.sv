@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_clock_ulx3s: 100 MHz from the 25 MHz oscillator of a ULX3S, by a PLL of the ECP5.
-// Rules:  divisors from ecppll for 25 MHz in, 100 MHz out (VCO 600 MHz); feedback from CLKOP.
+// ppmc_clock_ulx3s: 100 MHz (75, 50) from the 25 MHz oscillator of a ULX3S, by a PLL of the ECP5.
+// Rules:  divisors from ecppll for 25 MHz in, VCO 600 MHz; feedback from CLKOP.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 
-module ppmc_clock_ulx3s (
+module ppmc_clock_ulx3s #(
+    parameter int unsigned Divisor = 6  // of 600 MHz: 6, 8 or 12
+) (
     input  wire logic clk_25m_i,
-    output logic      clk_o,      // 100 MHz
+    output logic      clk_o,      // 600 MHz / Divisor
     output logic      lock_o
 );
 
+  if (Divisor != 6 && Divisor != 8 && Divisor != 12) begin : g_check
+    $fatal(1, "ppmc_clock_ulx3s: Divisor must be 6, 8 or 12");
+  end
+
   // Currents and filter of the loop, which the vendor's tool would work out, are given as attributes.
-  (* FREQUENCY_PIN_CLKI = "25", FREQUENCY_PIN_CLKOP = "100", ICP_CURRENT = "12", LPF_RESISTOR = "8",
+  (* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8",
      MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
   EHXPLLL #(
       .CLKI_DIV       (1),
-      .CLKFB_DIV      (4),
-      .CLKOP_DIV      (6),
-      .CLKOP_CPHASE   (2),
+      .CLKFB_DIV      (24 / Divisor),
+      .CLKOP_DIV      (Divisor),
+      .CLKOP_CPHASE   (Divisor / 2 - 1),
       .CLKOP_FPHASE   (0),
       .CLKOP_ENABLE   ("ENABLED"),
       .FEEDBK_PATH    ("CLKOP"),

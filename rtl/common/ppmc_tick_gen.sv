@@ -9,7 +9,8 @@
 module ppmc_tick_gen #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter int unsigned TickXtal = 4            // crystal cycles a tick
+    parameter int unsigned TickXtal = 4,           // crystal cycles a tick
+    parameter int unsigned MinClk   = 2            // shortest tick that is allowed, clk: 1 or 2
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
@@ -23,34 +24,44 @@ module ppmc_tick_gen #(
   localparam int unsigned Step = 32'(64'(XtalHz) / Common);
   localparam int unsigned Width = ppmc_pkg::cnt_width(Modulus - 1);
 
-  if (Modulus < 2 * Step) begin : g_check
-    $fatal(1, "ppmc_tick_gen: a tick must last at least two clk");
+  if (Modulus < MinClk * Step) begin : g_check
+    $fatal(1, "ppmc_tick_gen: a tick must last at least %0d clk", MinClk);
   end
 
-  logic [Width-1:0] phase_d, phase_q;
-  logic wrap;
+  if (Modulus == Step) begin : g_every
+    logic unused_phase;
 
-  // The phase runs one clk ahead of the tick, which is what makes room for the output register.
-  always_comb begin
-    wrap = phase_q >= Width'(Modulus - Step);
-    phase_d = phase_q + (wrap ? Width'(Step) - Width'(Modulus) : Width'(Step));
-    if (restart_i) phase_d = Width'(Step);
-  end
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      phase_q <= Width'(Step);
-      tick_o  <= 1'b0;
-    end else begin
-      phase_q <= phase_d;
-      tick_o  <= wrap && !restart_i;
+    assign unused_phase = &{1'b0, restart_i, Width'(0)};
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) tick_o <= 1'b0;
+      else tick_o <= 1'b1;
     end
-  end
+  end else begin : g_phase
+    logic [Width-1:0] phase_d, phase_q;
+    logic wrap;
+
+    // The phase runs one clk ahead of the tick, which is what makes room for the output register.
+    always_comb begin
+      wrap = phase_q >= Width'(Modulus - Step);
+      phase_d = phase_q + (wrap ? Width'(Step) - Width'(Modulus) : Width'(Step));
+      if (restart_i) phase_d = Width'(Step);
+    end
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        phase_q <= Width'(Step);
+        tick_o  <= 1'b0;
+      end else begin
+        phase_q <= phase_d;
+        tick_o  <= wrap && !restart_i;
+      end
+    end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(tick_gen_phase_in_range, 32'(phase_q) < Modulus)
-  `PPMC_ASSERT(tick_gen_single, !(tick_o && $past(tick_o)))
+    `PPMC_ASSERT(tick_gen_phase_in_range, 32'(phase_q) < Modulus)
+    `PPMC_ASSERT(tick_gen_single, MinClk < 2 || !(tick_o && $past(tick_o)))
 `endif
+  end
 
 endmodule
 

@@ -21,7 +21,7 @@ module ppmc_uart_host #(
     output logic                   cs_no,
     output logic                   rd_no,
     output logic                   wr_no,
-    output logic                   a0_o,
+    output logic      [       2:0] a_o,          // a part with fewer address lines takes the low ones
     output logic      [       7:0] d_o,
     input  wire logic [       7:0] d_i,
     input  wire logic              int_ni,
@@ -102,10 +102,10 @@ module ppmc_uart_host #(
     );
   end
 
-  assign a0_o = a[0];
+  assign a_o = a[2:0];
 
   logic unused;
-  assign unused = ^a[3:1];
+  assign unused = a[3];
 
 endmodule
 

@@ -16,13 +16,20 @@ TEXT = {
     "motion": "OpenPPMC, pulse timing, ramps, phases",
     "host": "OpenPPMC, host port of the parts, UART, Wishbone and AXI4-Lite bridges",
     "single": "OpenPPMC, what the parts with one axis share",
+    "stage": "OpenPPMC, tables of 127 stages, ramps along them, exact intervals",
+    "ppmc312": "OpenPPMC, PPMC-312, a stepper controller for one axis with block instructions",
     "ppmc104": "OpenPPMC, PPMC-104, a stepper controller for one axis",
     "ppmc2104": "OpenPPMC, PPMC-2104, a stepper controller for two axes",
     "stmc": "OpenPPMC, J105 STMC, a stepper controller for one axis without pulse output",
     "j105_stmc": "OpenPPMC, J105 STMC, the PC/104 board with its second step clock",
     "isa_4axis": "OpenPPMC, four axes on an ISA bus, two PPMC-2104",
 }
-NEEDS = {"motion": ["common"], "host": ["common"], "single": ["common", "motion", "host"]}
+NEEDS = {
+    "motion": ["common"],
+    "host": ["common"],
+    "single": ["common", "motion", "host"],
+    "stage": ["common", "motion"],
+}
 PARAMETERS = {
     "CLK_HZ": ("int", "Frequency of clk in Hz, 8e6 .. 200e6", "16000000"),
     "XTAL_HZ": ("int", "Crystal of the old chip in Hz, 1e6 .. 16e6", "16000000"),
@@ -30,7 +37,7 @@ PARAMETERS = {
     "PHASE_IDLE": ("int", "Level of s until the first initialisation", "1"),
 }
 # Parts that have no parameter of that name.
-LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis", "j105_stmc")}
+LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis", "j105_stmc", "ppmc312")}
 STMC = {
     "XTAL_HZ": ("int", "Crystal of the old part in Hz, 1e6 .. 20e6", "16000000"),
     "READ_MAP": ("str", "Codes of the read commands, SHEET or FAMILY", "SHEET"),
@@ -45,6 +52,10 @@ OWN = {
         **STMC,
         "BASE_ADDR": ("int", "ISA address of the data register, even", "944"),
         "EXT_HZ": ("int", "Second step clock in Hz, 1 .. CLK_HZ / 4", "48675"),
+    },
+    "ppmc312": {
+        "VERSION": ("int", "Byte that the version instruction answers, 0 .. 255", "18"),
+        "SUM_MODE": ("str", "Checksum of the serial mode, BINARY or CHARS", "BINARY"),
     },
 }
 SMOKE_PART = "ppmc104"  # the one with a sim target

@@ -18,6 +18,7 @@ PARTS_OF = {
     "ppmc104": ["ppmc_board_host", "ppmc104_board"],
     "ppmc2104": ["ppmc_board_host", "ppmc2104_board"],
     "stmc": ["ppmc_board_host", "ppmc_board_steps", "stmc_board"],
+    "ppmc312": ["ppmc_board_host", "ppmc312_board"],
 }
 IN_USE = {name for names in PARTS_OF.values() for name in names}
 BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name[7:-3] in IN_USE]
@@ -28,6 +29,7 @@ NEEDS = {
     "isa_4axis": ["ppmc2104"],
     "stmc": ["single"],
     "j105_stmc": ["single", "stmc"],
+    "ppmc312": ["stage"],
 }
 
 

@@ -1,0 +1,173 @@
+"""What random hosts make the golden model of the PPMC-312 do, counted: they cannot become thin unseen.
+
+Keys of the counts are words: "pulses", "answer 82", "event 83", "override 80", "answer F0 20", "event F8 01",
+"report E0 SLOW", "trigger POSITION 87", "walk SLOW", "change 88", "change in RAMP", "clk ABN".
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+from unittest.mock import patch
+
+from openppmc.model.codes312 import Answer, Cause, Source
+from openppmc.model.motion312 import Order
+from openppmc.model.operation312 import Operation
+from openppmc.model.overrides312 import Fifo, Triggered
+from openppmc.model.ppmc312 import Ppmc312
+from openppmc.model.responses312 import ENCODE, POSITION, Responses
+from openppmc.model.sequence312 import Sequence
+
+SLICE = 500
+"""clk between two looks at the state."""
+
+LEAST: dict[str, int] = {
+    "pulses": 5_000,
+    "pulses in table": 1_200,
+    "start finite table": 80,
+    "start endless table": 35,
+    "start constant": 50,
+    "change 87": 20,
+    "change 88": 40,
+    "change in RAMP": 4,
+    "change in WALK": 1,
+    "final": 9,
+    "walk SLOW": 30,
+    "walk LIMIT_SLOW": 1,
+    "walk RETURN": 3,
+    "turn back": 6,
+    "trigger POSITION 80": 2,
+    "trigger POSITION 81": 4,
+    "trigger POSITION 87": 6,
+    "trigger POSITION 88": 5,
+    "trigger EVT0": 10,
+    "trigger EVT1": 5,
+    "override 8": 25,
+    "override F9": 10,
+    "event 2": 10,
+    "event 4": 15,
+    "event 8": 8,
+    "event F8": 20,
+    "answer F0": 40,
+    "answer F2": 1,
+    "answer F7 00": 10,
+    "answer F7 01": 4,
+    "report E0 ALARM": 20,
+    "report E0 LIMIT": 10,
+    "report E0 LOW": 15,
+    "report E0 NORMAL": 100,
+    "report E0 ORIGIN": 2,
+    "report E0 SLOW": 20,
+    "report E0 STOP": 30,
+    "report E1": 6,
+    "report E2": 8,
+    "report E3": 60,
+    "report E4": 15,
+    "report E9 00": 20,
+    "report E9 01": 1,
+    "report F4 00": 10,
+    "report F4 01": 50,
+    "report F4 02": 2,
+    "report F4 03": 3,
+}
+"""Beginning of a key, and how often such things have to happen in a third of the hosts of `make test`."""
+
+_SOURCES = {Source.HOST: "answer", Source.EVENT: "event", Source.OVERRIDE: "override"}
+_BY_PARAMETER = {Answer.PARAMETER, Answer.REGISTRATION, Answer.ALARM, Answer.INPUT_CHANGE}
+_BY_PARAMETER |= {Answer.EVENT_FAILED, Answer.OVERRIDE_FAILED}
+
+
+def name_of(block: bytes, source: Source | None) -> str:
+    """Key of a response block in logical order."""
+    code = block[2]
+    who = _SOURCES[source] if source else "report"
+    if code == Answer.STATUS:
+        return f"{who} F1 {block[3]}" if block[3] in (1, 2) and len(block) == 4 else f"{who} F1"
+    if code == Answer.STOPPED:
+        return f"{who} E0 {Cause(block[3]).name}"
+    if code in _BY_PARAMETER:
+        return f"{who} {code:02X} {block[3]:02X}"
+    return f"{who} {code:02X}"
+
+
+@contextmanager
+def counting() -> Iterator[Counter[str]]:
+    """Counts of everything that models do inside."""
+    counts: Counter[str] = Counter()
+    post, change = Responses.post, Responses.input_change
+    release, begin, run = Fifo._release, Operation._begin, Ppmc312.run_until
+    boundary, turn, final = Sequence.boundary, Operation._turn_back, Sequence._final
+
+    def counted_post(self: Responses, t: int, kind: int, blocks: list[bytes], source: Any = None) -> bool:
+        done = post(self, t, kind, blocks, source)
+        if kind in (POSITION, ENCODE):
+            counts["report E4" if kind == POSITION else "report E3"] += done
+        else:
+            counts[name_of(next(iter(blocks)), source)] += done
+        return done
+
+    def counted_input(self: Responses, t: int, data: int) -> None:
+        full = len(self._stores[6]) > 1
+        change(self, t, data)
+        counts["report E9 01"] += full
+
+    def counted_release(self: Fifo, t: int) -> Triggered:
+        released = release(self, t)
+        counts[f"trigger {released.entry.trigger.name} {released.entry.block[2]:02X}"] += 1
+        return released
+
+    def counted_begin(self: Operation, t: int, order: Order) -> None:
+        counts["starts"] += 1
+        plan = order.plan
+        kind = "endless" if plan.n is None else "constant" if not (plan.up or plan.down) else "finite"
+        counts[f"start {kind} {'table' if plan.up or plan.down else 'flat'}"] += 1
+        begin(self, t, order)
+
+    def counted_boundary(self: Sequence, ramps: bool = True) -> Any:
+        changed, mode = self._change, self._mode
+        step = boundary(self, ramps)
+        if self.walk_begins:
+            counts[f"walk {self._walk_cause.name}"] += 1
+        if changed is not None and self._change is None and not self.walk_begins:
+            counts["change 87" if changed.ramp else "change 88"] += 1
+            if mode.name in ("WALK", "RAMP", "FINAL") or (mode.name == "PLAN" and self.done > 1):
+                counts[f"change in {mode.name}"] += 1
+        if isinstance(step, Cause):
+            return step
+        counts["pulses"] += 1
+        counts["pulses in table"] += step.stage is not None
+        return step
+
+    def counted_final(self: Sequence) -> None:
+        final(self)
+        counts["final walk" if self._stages else "final flat"] += 1
+
+    def counted_turn(self: Operation, t: int) -> None:
+        counts["turn back"] += 1
+        turn(self, t)
+
+    def counted_run(self: Ppmc312, t: int) -> None:
+        while self.now < t:
+            before = self.now
+            run(self, min(t, before + SLICE))
+            counts[f"clk {self.state.name}"] += self.now - before
+
+    with (
+        patch.object(Responses, "post", counted_post),
+        patch.object(Responses, "input_change", counted_input),
+        patch.object(Fifo, "_release", counted_release),
+        patch.object(Operation, "_begin", counted_begin),
+        patch.object(Operation, "_turn_back", counted_turn),
+        patch.object(Sequence, "boundary", counted_boundary),
+        patch.object(Sequence, "_final", counted_final),
+        patch.object(Ppmc312, "run_until", counted_run),
+    ):
+        yield counts
+
+
+def thin(counts: Counter[str]) -> dict[str, tuple[int, int]]:
+    """What has not happened often enough: (seen, needed)."""
+    seen = {kind: sum(n for key, n in counts.items() if key.startswith(kind)) for kind in LEAST}
+    return {kind: (seen[kind], least) for kind, least in LEAST.items() if seen[kind] < least}

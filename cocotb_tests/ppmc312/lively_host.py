@@ -1,0 +1,97 @@
+"""A random host for the PPMC-312 with good manners: it keeps the part at work, scene by scene.
+
+It reads its answers (a minority is lazy), clears alarms, and takes short tables, so that whole operations
+fit in. Now and then it does what a rough host does.
+"""
+
+from __future__ import annotations
+
+from cocotb_tests.common.config import Config
+from openppmc.model.codes312 import State
+
+from .host312 import CSR, MREF, MWEF
+from .scenes import Scenes
+
+
+class Lively(Scenes):
+    """One random host of this kind."""
+
+    def __init__(self, seed: int, config: Config) -> None:
+        super().__init__(seed, config)
+        self.reads = self.rng.choice((1.0, 1.0, 1.0, 1.0, 1.0, 0.97, 0.8))
+        self.end = self.host.t + (900_000 if self.slow else 120_000)
+
+    def play(self) -> object:
+        """Scenes until the time is up."""
+        rng, host = self.rng, self.host
+        host.write(CSR, rng.choice((0, 0, 0x10, 0x20, 0x30, 0x40, 0x70)))
+        if rng.random() < 0.25:
+            self.disturb_pins()
+        self.curve()
+        scenes = (
+            (self.finite, 26),
+            (self.endless, 14),
+            (self.overrides, 16),
+            (self.events, 12),
+            (self.meeting, 8),
+            (self.origin, 6),
+            (self.slow_limit, 7),
+            (self.inputs, 5),
+            (self.encoder, 8),
+            (self.interlock, 4),
+            (self.held, 4),
+            (self.end_wait, 5),
+            (self.alarm, 3),
+            (self.several, 8),
+            (self.unread, 4),
+            (self.rough, 5),
+            (self.curve, 4),
+        )
+        while host.t < self.end:
+            rng.choices([scene for scene, _ in scenes], [weight for _, weight in scenes])[0]()
+            self.settle()
+        self.recover()
+        return host
+
+    def rough(self) -> None:
+        """What a rough host does."""
+        self.rng.choices(
+            (self.bad_block, self.registers, self.reset, self.setting, self.motion, self.registration),
+            (3, 2, 1, 1, 1, 1),
+        )[0]()
+
+    def several(self) -> None:
+        """Any instructions, one after the other."""
+        for _ in range(self.rng.randint(1, 5)):
+            if self.rng.random() < 0.5:
+                self.tell(self.block(self.rng.choice((0x26, 0x42, 0x4D, 0x25, 0x27, 0x47, 0x84, 0x43))).hex())
+            else:
+                self.instruction()
+                self.attend(100)
+
+    def settle(self) -> None:
+        """Bring the part to rest, mostly in NOR, with everything read."""
+        host, rng, model = self.host, self.rng, self.model
+        for pin in ("run", "end_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n"):
+            if not model.inputs[pin] and rng.random() < 0.95:
+                host.pins(**{pin: 1})
+        for attempt in range(8):
+            if model.state in (State.ACC, State.FIX):
+                self.attend(2_500 if model.motion.active and attempt < 3 else 400)
+            host.sync()
+            if model.state in (State.ACC, State.FIX) and attempt in (2, 4, 6):
+                self.tell(rng.choice(("03 02 80 00", "03 02 81 00", "03 02 81 00")))
+            elif model.state is State.ABN:
+                self.attend(60)
+                self.tell("03 01 24")
+            elif model.state is State.INI:
+                self.curve()
+            elif model.state is State.WRN:
+                self.tell("03 01 45")
+            elif model.state is State.NOR:
+                break
+        self.attend(rng.choice((0, 60, 600)))
+        while not host.read(CSR) & MREF and not host.read(CSR) & MWEF:
+            if rng.random() > self.reads:
+                break
+            self.response()

@@ -1,0 +1,32 @@
+"""The script modules that are played on the RTL, and the builds that their hosts ask for.
+
+A new module needs a row here; each build of a row is one simulation.
+"""
+
+from __future__ import annotations
+
+from cocotb_tests.common.config import D16, F16, F50, Config
+
+F27 = Config("f27m", clk_hz=27_000_000)
+F8V = Config("f8v34", clk_hz=8_000_000, extra=(("VERSION", 0x34),))
+
+MODULES: dict[str, tuple[Config, ...]] = {
+    "tests/model/test_312_checks_host.py": (F16, D16),
+    "tests/model/test_312_checks_events.py": (F16, D16),
+    "tests/model/test_312_checks_motion.py": (F16,),
+    "tests/model/test_312_searches.py": (F16,),
+    "tests/model/test_312_monitors.py": (F16,),
+    "tests/model/test_312_transactions.py": (F16,),
+    "tests/model/test_312_accept.py": (F16,),
+    "tests/model/test_312_edges.py": (F16, D16, F8V),
+    "tests/model/test_312_meetings.py": (F16, D16),
+    "tests/model/test_312_clock.py": (F16, F27, F8V),
+    "tests/model/test_312_datasheet.py": (D16,),
+    "cocotb_tests/ppmc312/script_bounds.py": (F16,),
+    "cocotb_tests/ppmc312/script_bus.py": (F16, D16),
+    "cocotb_tests/ppmc312/script_goals.py": (F50,),
+    "cocotb_tests/ppmc312/script_settings.py": (F16,),
+    "cocotb_tests/ppmc312/script_motion.py": (F16,),
+    "cocotb_tests/ppmc312/script_abnormal.py": (F16,),
+    "cocotb_tests/ppmc312/script_terminals.py": (F16, F27, D16),
+}

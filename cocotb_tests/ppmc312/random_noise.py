@@ -1,0 +1,76 @@
+"""Noise on every input pin of the PPMC-312: short strobes, fast clocks, moving switches; then recovery."""
+
+from __future__ import annotations
+
+import random
+
+from cocotb_tests.common.config import Config
+from openppmc.model.codes312 import State
+from openppmc.model.parts312 import HOST_PINS, INPUTS, WIDTHS
+
+from .host312 import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host312
+from .random_host import host_of
+
+SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))
+BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86, 0x80, 0x00, 0x00, 0xFF)
+
+
+def play(seed: int, config: Config) -> Host312:
+    """Noise on the model, then a host that brings the part back."""
+    rng = random.Random(f"p312 noise {seed}")
+    host = host_of(config)
+    if rng.random() < 0.7:
+        for block in TF:
+            host.ask(block)
+        host.put("03 04 86 00 0064")
+        host.pause(rng.choice((10, 400)))
+    end = host.t + rng.choice((3_000, 10_000, 25_000))
+    changes: dict[int, dict[str, int]] = {}
+    for source in (_bus, _switches):
+        t = host.t
+        while t < end:
+            for at, levels in source(rng, t):
+                changes.setdefault(at, {}).update(levels)
+                t = at
+            t += rng.choice((1, 1, 1, 2, 2, 3, 3, 4, 7, 20))
+    for t in sorted(changes):
+        host.model.pins(t, **changes[t])
+    host.t = max(changes) + 4
+    host.pins(**{pin: level for pin, level in INPUTS.items() if pin != "rst_n"})
+    host.pause(20)
+    for _ in range(200):
+        if not host.read(CSR) & MREF:
+            host.response()
+        elif not host.read(CSR) & MWEF:
+            break
+        host.pause(400)
+    host.write(CSR, 0)
+    host.put("03 01 FF")
+    host.pause(60)
+    assert host.response() == "03 01 FF" and host.condition == State.INI
+    return host
+
+
+Changes = list[tuple[int, dict[str, int]]]
+
+
+def _bus(rng: random.Random, t: int) -> Changes:
+    """One strobe of any length, or both at once; address and data may move, a read is followed by 3 clk."""
+    register = rng.choice((CSR, WCR, WAR, DWR, DWR, DWR, DWR, 7, 7, 2, 1))
+    begin = {"d_i": rng.choice(BYTES), "rs": register, "cs_n": rng.choice((0, 0, 0, 1))}
+    strobes = rng.choice(({"we_n": 0}, {"we_n": 0}, {"oe_n": 0}, {"we_n": 0, "oe_n": 0}))
+    changes: Changes = [(t, begin | strobes)]
+    t += rng.randint(1, 5)
+    if rng.random() < 0.1:
+        changes.append((t, {"rs": rng.randrange(8), "d_i": rng.choice(BYTES)}))
+        t += rng.randint(1, 3)
+    return [*changes, (t, {"cs_n": rng.getrandbits(1), "we_n": 1, "oe_n": 1}), (t + 2, {})]
+
+
+def _switches(rng: random.Random, t: int) -> Changes:
+    """One of the other pins."""
+    if rng.random() < 0.4:
+        return [(t, {"extck": rng.getrandbits(1), "epin": rng.getrandbits(1)})]
+    pin = rng.choice(SWITCHES)
+    width = WIDTHS.get(pin, 1)
+    return [(t, {pin: rng.getrandbits(width) if width > 1 else int(rng.random() < 0.7)})]

@@ -1,0 +1,322 @@
+"""A random host for the PPMC-312 with bad manners: disorder, unread answers, nonsense, resets, moving pins.
+
+Also what the well-mannered ones of `lively_host` are made of: blocks, tables, moments near a boundary.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+
+from cocotb_tests.common.config import Config
+from openppmc.model.codes312 import LENGTHS, State
+
+from .background import Background
+from .host312 import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host312
+
+PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
+MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)
+DURING = (0x80, 0x81, 0x81, 0x87, 0x87, 0x88, 0x88, 0x4D, 0x42, 0x25, 0x26, 0x40)
+RECOVERY = 3000
+"""Polls of a host that reads everything until the part is quiet."""
+
+
+def host_of(config: Config) -> Host312:
+    """A host on a model with the parameters of a build."""
+    return Host312(clk_hz=config.clk_hz, xtal_hz=config.xtal_hz, timing=config.timing)
+
+
+class Player:
+    """One random host."""
+
+    def __init__(self, seed: int, config: Config) -> None:
+        self.rng = random.Random(f"p312 {seed}")
+        self.host = host_of(config)
+        self.slow = config.datasheet
+        self.model = self.host.model
+        self.background = Background(self.model)
+        self.reads = self.rng.choice((0.3, 0.9, 0.97, 1.0, 1.0, 1.0))
+        self.rates = [100, 200, 400]
+        self.end = self.host.t + (900_000 if self.slow else 130_000)
+
+    # ------------------------------------------------------------ top level
+
+    def play(self) -> Host312:
+        rng = self.rng
+        self.disturb_pins()
+        self.setting()
+        while self.host.t < self.end:
+            action: Callable[[], object] = rng.choices(
+                (self.motion, self.instruction, self.aligned, self.bad_block, self.registers, self.setting,
+                 self.reset, self.wait, self.registration),
+                (34, 20, 14, 3, 4, 3, 1.5, 8, 12),
+            )[0]  # fmt: skip
+            action()
+        self.recover()
+        return self.host
+
+    def recover(self) -> None:
+        """A host that reads everything and then resets has a working part again (P312-BAD-09)."""
+        host = self.host
+        self.background.stop(host.t + 1)
+        host.t += 2
+        for _ in range(RECOVERY):
+            if not host.read(CSR) & MREF:
+                host.response()
+            elif not host.read(CSR) & MWEF:
+                break
+            host.pause(400)
+        host.put("03 01 FF")
+        host.pause(60)
+        assert host.response() == "03 01 FF" and host.condition == State.INI, "FF does not help"
+        assert host.ask("03 01 40") == "03 02 40 12"
+
+    # ------------------------------------------------------------ host
+
+    def send(self, text: str) -> None:
+        """Write a block if the part takes it; now and then without asking."""
+        host, rng = self.host, self.rng
+        if not host.read(CSR) & MWEF or rng.random() < 0.1:
+            host.put(text)
+            host.pause(rng.choice((0, 5, 40, 60, 250)))
+        self.fetch()
+
+    def fetch(self) -> None:
+        """Read what there is, if this host reads."""
+        host, rng = self.host, self.rng
+        for _ in range(6):
+            if host.read(CSR) & MREF:
+                return
+            if rng.random() > self.reads:
+                return
+            if rng.random() < 0.05:
+                for _ in range(rng.randint(1, 3)):
+                    host.read(rng.choice((DRR, DRR, RCR)))
+                continue
+            # A reset may have taken it away meanwhile.
+            for _ in range(0x40 - host.read(RAR)):
+                host.read(DRR)
+            host.sync()
+            if rng.random() < 0.1:
+                host.pause(rng.randint(1, 40))
+
+    def wait(self) -> None:
+        rng = self.rng
+        self.host.pause(rng.choice((20, 300, 3_000, 12_000)) * (5 if self.slow else 1))
+        self.fetch()
+        if self.model.state is State.ABN:
+            self.send("03 01 24")
+
+    def registers(self) -> None:
+        """Accesses in any order."""
+        host, rng = self.host, self.rng
+        for _ in range(rng.randint(1, 8)):
+            if rng.random() < 0.5:
+                host.write(
+                    rng.choice((CSR, WCR, WAR, DWR, 1, 4, 6, 7)),
+                    rng.choice((0x20, 0x70, 0x1D, 0x03, 0x10, 0)),
+                )
+            else:
+                host.read(rng.choice((CSR, RCR, RAR, DRR, 1, 5)))
+        if rng.random() < 0.3:
+            host.write(CSR, rng.choice((0, 0x10, 0x20, 0x30, 0x70)))
+
+    def reset(self) -> None:
+        """At any moment, also in the middle of a block."""
+        host, rng = self.host, self.rng
+        if rng.random() < 0.5:
+            host.write(WCR, 0x20)
+            host.write(WAR, 0x18)
+            host.write(DWR, 0x03)
+        if rng.random() < 0.4:
+            host.put("03 01 FF")
+            host.pause(rng.choice((0, 25, 30, 60)))
+        elif not self.slow:
+            host.pins(rst_n=0)
+            host.pause(rng.randint(1, 12))
+            host.pins(rst_n=1)
+            host.pause(rng.choice((0, 1, 8)))
+            host.t += 4
+        self.setting()
+
+    # ------------------------------------------------------------ blocks
+
+    def bad_block(self) -> None:
+        rng = self.rng
+        data = bytes(rng.choice((0, 1, 2, 3, 3, rng.randrange(256))) for _ in range(rng.randint(1, 32)))
+        self.send(data.hex())
+
+    def setting(self) -> None:
+        """A table: mostly a short free curve, sometimes one that is computed; often a new base clock."""
+        rng = self.rng
+        clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
+        if rng.random() < 0.08 and not self.slow:
+            self.rates = [40, 120, 400]
+            numbers = rng.choice(
+                ("0190 0028 000480", "0190 0028 000100", "0190 0190 000480", "0FA0 0005 001000")
+            )
+            self.send(f"03 09 00 {rng.choice((0, 8)):02X} {numbers}")
+            self.host.pause(21_000)
+            self.fetch()
+            return
+        count = rng.choice((2, 3, 3, 3, 4, 7))
+        least = rng.choice((2, 4, 12, 40, 40)) if clk == 0 else rng.choice((4, 10))
+        self.rates = sorted(rng.randint(least, least * 6 + 40) for _ in range(count))
+        if rng.random() < 0.05:
+            rng.shuffle(self.rates)
+        separate = rng.random() < 0.5
+        down = rng.randint(2, count) if separate else count
+        up = count if down < count else rng.randint(2, count)
+        up = up if separate else count
+        pulses = [[rng.randint(2, 6) for _ in range(n)] for n in ((up, down) if separate else (up,))]
+        head = (
+            f"02 04 01 {0x10 | clk:02X} {up:02X} {down:02X}" if separate else f"02 03 01 {clk:02X} {up:02X}"
+        )
+        lists = [(2, self.rates), *((3, values) for values in pulses)]
+        blocks = [head]
+        for number, (width, values) in enumerate(lists):
+            last = number == len(lists) - 1 and rng.random() > 0.02
+            data = b"".join(value.to_bytes(width, "big") for value in values)
+            blocks.append(f"{int(last):02X} {len(data):02X} {data.hex()}")
+        for block in blocks:
+            self.send(block)
+            self.host.pause(60)
+            self.fetch()
+        self.background.external(self.host.t + 2, clk >= 6, rng)
+
+    def rate(self) -> int:
+        rng = self.rng
+        return rng.choice(
+            (0, *self.rates, *self.rates, rng.randint(min(self.rates), max(self.rates)), 0xFFFF)
+        )
+
+    def block(self, code: int, trigger: int | None = None) -> bytes:
+        """Any instruction with mostly legal parameters. trigger: OV = 1 with these TRG bits."""
+        rng = self.rng
+        flags = rng.choice((0, 0, 0x40)) | (0x10 if code in (0x10, 0x11) and rng.random() < 0.4 else 0)
+        flags = flags if trigger is None else flags & 0x40 | 4 | trigger
+        position = (self.model.position + rng.randint(-4, 12)) & 0xFFFFFFFF
+        with_position = trigger in (0, 2) or rng.random() < 0.1
+        if code in (0x80, 0x81):
+            data = bytes([flags]) + (position.to_bytes(4, "big") if with_position else b"")
+        elif code in (0x87, 0x88):
+            data = bytes([flags]) + self.rate().to_bytes(2, "big")
+            data += position.to_bytes(4, "big") if with_position else b""
+        elif code in (0x82, 0x83):
+            data = bytes([flags]) + self.rate().to_bytes(2, "big")
+            data += rng.choice((1, 2, 3, 5, 9, 14, 23, 40)).to_bytes(4, "big")
+            if code == 0x82 and rng.random() < 0.2:
+                data = data[:1] + data[3:]
+        elif code in (0x10, 0x11, 0x85, 0x86):
+            data = bytes([flags]) + self.rate().to_bytes(2, "big")
+        elif code == 0x49:
+            inner = self.block(
+                rng.choice((0x25, 0x26, 0x27, 0x84, 0x83, 0x82, 0x80, 0x81, 0x87, 0x88, 0x4D, 0x42))
+            )
+            if len(inner) > 16 or rng.random() < 0.3:
+                data = bytes([rng.choice((2, 3))])
+            else:
+                data = bytes([rng.randrange(2)]) + inner
+        elif code in (0x02, 0x03):
+            data = bytes([rng.choice((0, 1, 3, 3, 5, 7, 7)), 0, rng.choice((0, 1, 2, 5, 20))])
+        elif code == 0x43:
+            data = bytes([rng.choice((0, 1, 1, 2))]) + rng.choice((0, 5, 0xFFFFFFFE, 0x7FFFFFFF)).to_bytes(
+                4, "big"
+            )
+        elif code == 0x04:
+            data = position.to_bytes(4, "big")
+        elif code == 0x05:
+            data = self.rate().to_bytes(2, "big")
+        else:
+            length = rng.choice(LENGTHS.get(code, (1,)))
+            data = bytes(rng.choice((0, 0, 1, 2, 0xFF)) for _ in range(min(length, 20) - 1))
+        if rng.random() < 0.02:
+            data = data[:-1]
+        return bytes([3, len(data) + 1, code]) + data
+
+    def instruction(self) -> None:
+        rng = self.rng
+        code = rng.choice(
+            [code for code in LENGTHS if code not in (0x00, 0x01, 0xFF)] + [0x46, 0x49, 0x02, 0x03]
+        )
+        if code == 0x41 and rng.random() < 0.7:
+            code = 0x44
+        self.send(self.block(code).hex())
+
+    def registration(self) -> None:
+        """Something that waits for a position or an event."""
+        rng = self.rng
+        if rng.random() < 0.3:
+            self.send(self.block(0x49).hex())
+            return
+        trigger = rng.choice((0, 0, 0, 1, 3, 2))
+        codes = (0x80, 0x81, 0x87, 0x88) if trigger in (0, 2) else (*MOTIONS[:5], 0x80, 0x81, 0x87, 0x88)
+        for _ in range(rng.choice((1, 1, 2, 9))):
+            self.send(self.block(rng.choice(codes), trigger).hex())
+
+    def motion(self) -> None:
+        """A motion, and what happens meanwhile."""
+        rng = self.rng
+        self.send(self.block(rng.choice(MOTIONS)).hex())
+        for _ in range(rng.choice((0, 0, 1, 1, 2, 3))):
+            if rng.random() < 0.5:
+                self.host.pause(rng.choice((30, 300, 1_500, 5_000)))
+            if rng.random() < 0.5:
+                self.send(self.block(rng.choice(DURING)).hex())
+            else:
+                self.aligned()
+        if rng.random() < 0.7:
+            self.wait()
+
+    def aligned(self) -> None:
+        """Something whose effect falls within a few clk of the end of an interval."""
+        host, rng, motion = self.host, self.rng, self.model.motion
+        if not motion.active or motion.sequence.running is None:
+            return
+        due = motion.due
+        if due is None:
+            return
+        near = due + rng.randint(-9, 5)
+        if rng.random() < 0.5:
+            text = self.block(rng.choice((0x80, 0x81, 0x81, 0x87, 0x87, 0x88, 0x88, 0x88)))
+            ahead = 29 + 6 * (len(text) + 1)
+            if text[2] > 0x81 and self.model.core.table:
+                ahead += self.model.pace.look_up()
+            interval = max(4, due - host.t)
+            while near - ahead < host.t:
+                near += interval
+            if near - ahead < host.t + 60_000 and not host.read(CSR) & MWEF:
+                host.go(max(host.t, near - ahead))
+                host.put(text.hex())
+        elif near - 2 > host.t:
+            pin = rng.choice(PINS[:-2])
+            host.go(near - 2)
+            host.pins(**{pin: 0})
+            host.pause(rng.choice((1, 2, 3, 20, 500)))
+            host.pins(**{pin: 1})
+
+    # ------------------------------------------------------------ pins
+
+    def disturb_pins(self) -> None:
+        """Pins that move by themselves: switches, events, alarms, encoder, general input."""
+        rng = self.rng
+        t, scale = self.host.t, (12 if self.slow else 1)
+        busy = rng.choice((0.2, 0.5, 1.0, 2.5))
+        while t < self.end:
+            t += int(rng.expovariate(busy / 9_000) * scale) + 1
+            kind = rng.random()
+            if kind < 0.5:
+                pin = rng.choice(PINS)
+                length = rng.choice((1, 2, 4, 30, 400, 3_000)) * (
+                    130 if self.slow and "evt" in pin else scale
+                )
+                self.background.blip(t, pin, 0, length)
+            elif kind < 0.53:
+                self.background.blip(t, "alm_n", 0, rng.choice((3, 400, 4_000)) * scale)
+            elif kind < 0.8:
+                for _ in range(rng.choice((1, 4, 15))):
+                    self.background.add(t, epdir=rng.choice((0, 0, 1)))
+                    self.background.blip(t + 1, "epin", 1, rng.randint(2, 6))
+                    t += rng.randint(8, 60)
+            else:
+                self.background.add(t, auxi=rng.randrange(256))

@@ -1,0 +1,118 @@
+"""Bounds that the rules of the PPMC-312 give for FAST, and its ports."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.verifies import verifies
+from cocotb_tests.ppmc312.host312 import T3, TF, Host312
+from openppmc.model.parts312 import INPUTS, OUTPUTS, WIDTHS
+
+BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
+"""Rates 4, 400 and 800 at 8 MHz: 8, 800 and 1600 clk."""
+T_INIT, T_EXEC, T_TRIG, T_STOP, T_PIN = 65_536, 4_096, 512, 64, 4
+POLL = 40
+"""clk that the host's poll adds."""
+
+
+@verifies("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
+def test_ports() -> None:
+    """Every port of table 1.3 and no other; the build of the RTL connects them by name."""
+    inputs = (
+        "mode d_i rs cs_n we_n oe_n rxd hsp mod adr evt0_n evt1_n auxi epin epdir index_n org_n alm_n end_n"
+    )
+    inputs += " fl_n bl_n fhl_n bhl_n extck run"
+    outputs = "d_o d_oe wrq_n irq_n txd snd auxo_n exon_n cclr_n aclr_n zclmp_n cd_n pout dir intlk_n out_oe"
+    assert set(INPUTS) - {"rst_n"} == set(inputs.split())
+    assert {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8}.items() <= dict(WIDTHS).items()
+    high = {"wrq_n", "irq_n", "txd", "exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "intlk_n"}
+    assert OUTPUTS == {name: 0x3F if name == "auxo_n" else int(name in high) for name in outputs.split()}
+    assert Host312().model.log.initial == OUTPUTS
+
+
+@verifies("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
+def test_answers_come_in_time() -> None:
+    host = Host312()
+    for setting in (T3, T3.replace("00 11", "00 19")):
+        host.issue(setting)
+        host.wait()
+        assert host.t - host.header <= T_INIT + POLL
+        assert host.response() == "03 01 00"
+    for block in (
+        "03 08 82 00 0000 00000FA1",
+        "03 08 82 00 0000 00000065",
+        "03 08 82 40 00C9 00000BB8",
+        "03 04 85 00 0000",
+        "03 04 11 00 01F4",
+    ):
+        host.issue(block)
+        host.wait()
+        assert host.t - host.header <= T_EXEC + POLL
+        host.response()
+        # t0 is no more than 64 clk before the answer, TW before pulse 1.
+        host.pulse(1)
+        host.ask("03 02 80 00")
+        host.response()
+
+
+@verifies("P312-PRT-04", "P312-MOT-34", "P312-MOT-41", "P312-INP-12", "P312-INP-30")
+def test_stops_come_in_time() -> None:
+    for pin in ("fl_n", "alm_n", "org_n"):
+        host = Host312(*BRISK)
+        host.ask("03 04 10 00 0004")
+        for phase in range(3):
+            host.pulse(20 + phase)
+        low = host.t + 3
+        host.go(low)
+        host.pins(**{pin: 0})
+        host.pause(400)
+        assert host.pulses() and low - 16 < host.pulses()[-1] <= low + T_PIN
+    host = Host312(*BRISK)
+    host.ask("03 04 86 00 0004")
+    host.issue("03 02 80 00")
+    header = host.header
+    host.pause(400)
+    assert header - 16 < host.pulses()[-1] <= header + T_STOP
+    host = Host312(*BRISK, "03 02 80 07")
+    host.ask("03 04 86 00 0004")
+    low = host.t
+    host.pins(evt1_n=0)
+    host.pause(400)
+    assert low - 16 < host.pulses()[-1] <= low + T_STOP
+
+
+@verifies("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")
+def test_changes_come_in_time() -> None:
+    """Direct or triggered, at most 512 clk until the rate of the coming intervals has changed."""
+    for code, rest in (("88", "0320"), ("87", "0320"), ("81", "")):
+        for trigger in ("direct", "pin", "position"):
+            flags, place = {"direct": ("00", ""), "pin": ("05", ""), "position": ("04", "0000000A")}[trigger]
+            data = bytes.fromhex(code + flags + rest + place)
+            block = f"03 {len(data):02X} {data.hex()}"
+            host = Host312(*BRISK, *(() if trigger == "direct" else (block,)))
+            host.ask("03 04 86 00 0004")
+            mark = host.mark
+            if trigger == "direct":
+                host.issue(block)
+                since = host.header
+            elif trigger == "pin":
+                since = host.t
+                host.pins(evt0_n=0)
+            else:
+                host.mark = mark
+                since = host.pulse(10)
+            host.pause(3000)
+            host.mark = mark
+            edges = host.pulses()
+            slow = [a for a, b in zip(edges, edges[1:], strict=False) if b - a > 8]
+            assert slow and since < slow[0] <= since + T_TRIG + 60
+
+
+@verifies("P312-OVR-11", "P312-MOT-33", "P312-MOT-31")
+def test_a_position_acts_on_the_next_interval() -> None:
+    host = Host312(*TF, "03 08 88 04 00C8 00000012", "03 08 88 04 0190 00000013")
+    host.ask("03 08 82 00 0000 0000001E")
+    for _ in range(2):
+        assert host.response() == "1B 01 88"
+    assert host.response() == "23 06 E0 40 00 00 00 1E"
+    # 12 pulses are left at the first of them: the walk of the deceleration point starts at 200. The second
+    # one makes it constant at 400 for the rest.
+    assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

@@ -1,0 +1,527 @@
+"""Operations of the PPMC-312 on tables with two sides: rates, forms, walks, changes, causes, limits."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.verifies import verifies
+from cocotb_tests.ppmc312.host312 import TF, TG, TH, TICK, Host312, clean
+
+STOP, SLOW_STOP = "03 02 80 00", "03 02 81 00"
+ALWAYS = "03 04 86 00"
+# Not monotonic, sides of their own: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
+ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
+
+
+def stopped(cause: int, position: int) -> str:
+    return clean(f"23 06 E0 {cause:02X} {position & 0xFFFFFFFF:08X}")
+
+
+def rates(text: str) -> list[int]:
+    """`400x3 200x4` as a list of intervals."""
+    words = (word.split("x") for word in text.split())
+    return [int(rate) for rate, count in words for _ in range(int(count))]
+
+
+def change(code: int, rate: int) -> str:
+    return f"03 04 {code:02X} 00 {rate:04X}"
+
+
+def run_out(host: Host312, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
+    """The stop report, all intervals but the last one, and the time from the last pulse to the report."""
+    expected = rates(pulses)
+    host.wait()
+    seen = host.t
+    assert host.response() == stopped(cause, sign * len(expected))
+    host.mark = mark
+    assert host.gaps() == expected[:-1] and len(host.pulses()) == len(expected)
+    assert 0 <= seen - host.pulses()[-1] - expected[-1] * TICK < 200
+
+
+@verifies(
+    "P312-CMD-82", "P312-CMD-83", "P312-CMD-84", "P312-CMD-85", "P312-CMD-86", "P312-CMD-10", "P312-CMD-11"
+)
+@verifies("P312-CMD-87", "P312-CMD-88", "P312-GEN-06", "P312-CMD-8V")
+def test_rates_that_may_be_asked_for() -> None:
+    host = Host312(*TG)
+    for code, tail in (
+        (0x82, "00000001"),
+        (0x83, "00000001"),
+        (0x85, ""),
+        (0x86, ""),
+        (0x10, ""),
+        (0x11, ""),
+    ):
+        length = 4 + len(tail) // 2
+        for rate, right in ((99, 0), (100, 1), (400, 1), (401, 0), (0, code != 0x10)):
+            answer = host.ask(f"03 {length:02X} {code:02X} 00 {rate:04X} {tail}")
+            if not right:
+                assert answer[6:14] == f"F0 20 {code:02X}", (code, rate)
+                continue
+            assert answer[6:8] == f"{code:02X}", (code, rate)
+            if not tail:
+                assert host.ask(STOP) == "03 01 80"
+            host.response()
+    host.ask(f"{ALWAYS} 0190")
+    for code in (0x87, 0x88):
+        for rate, right in ((0, 0), (99, 0), (401, 0), (400, 1)):
+            answer = host.ask(change(code, rate))
+            assert answer == f"03 01 {code:02X}" if right else answer[6:14] == f"F0 20 {code:02X}"
+
+
+@verifies(
+    "P312-CMD-84", "P312-CMD-82", "P312-CMD-83", "P312-CMD-85", "P312-CMD-86", "P312-MOT-13", "P312-MOT-01"
+)
+@verifies("P312-MOT-05", "P312-GEN-10")
+def test_forms_of_the_starts() -> None:
+    # 84 at R[sa]: the end of the motion comes one interval after its pulse.
+    for table, rate in ((TF, 400), (TG, 400), (TH, 200), (ODD, 200)):
+        host = Host312(*table)
+        host.ask("03 02 84 40")
+        run_out(host, host.mark, 0x40, f"{rate}x1", -1)
+    cases = [
+        ("03 06 82 40 00000007", "10", "400x3 200x1 400x3", -1),
+        ("03 08 83 00 0000 00000003", "00", "100x3", 1),
+        ("03 08 83 40 00FA 00000002", "00", "250x2", -1),
+    ]
+    for block, kind, pulses, sign in cases:
+        host = Host312(*TF)
+        assert host.ask(block) == f"03 02 {block[6:8]} {kind}"
+        run_out(host, host.mark, 0x40, pulses, sign)
+        assert host.out("dir") == (sign < 0)
+    for block, begin in (
+        ("03 04 85 40 0000", "400x3 200x4 100x5"),
+        ("03 04 85 00 0096", "400x3 200x4 150x5"),
+        ("03 04 85 00 00C9", "201x6"),
+        ("03 04 86 40 0000", "100x6"),
+        ("03 04 11 00 00C8", "400x3 200x6"),
+    ):
+        host = Host312(*TG)
+        assert host.ask(block) == f"03 02 {block[6:8]} 00"
+        mark, expected = host.mark, rates(begin)
+        host.pulse(len(expected) + 1)
+        assert host.gaps() == expected
+        assert host.ask(STOP) == "03 01 80"
+        host.mark = mark
+        sign = -1 if block[9] == "4" else 1
+        assert host.response() == stopped(0x04, sign * len(host.pulses()))
+
+
+@verifies("P312-MOT-10", "P312-MOT-11", "P312-MOT-12", "P312-BAD-15", "P312-GEN-06")
+def test_plans_on_an_odd_table() -> None:
+    """t(x) is the last stage that is slow enough, whatever comes before it."""
+    host = Host312(*ODD)
+    for n, rate, kind, pulses in (
+        (30, 0, "00", "200x3 300x4 100x16 300x7"),
+        (10, 0, "10", "200x3 300x7"),
+        (3, 0, "40", "200x3"),
+        (6, 200, "20", "300x6"),
+    ):
+        host.ask("03 06 43 00 00000000")
+        answer = host.ask(f"03 08 82 00 {rate:04X} {n:08X}")
+        if rate == 200:
+            # t(200) = 125, above the first stage: 200x3 of stage 124, 300x3 of the deceleration.
+            kind, pulses = "10", None
+        assert answer == f"03 02 82 {kind}"
+        if pulses:
+            run_out(host, host.mark, 0x40, pulses)
+        else:
+            assert host.response() == stopped(0x40, n)
+
+
+@verifies("P312-MOT-07", "P312-CMD-82", "P312-CMD-83")
+def test_counts_have_32_bits() -> None:
+    for n in (0x0001_0002, 0x0100_0002, 0x8000_0000, 0xFFFF_FFFF):
+        host = Host312("02 03 01 00 02", "00 04 0004 0010", "01 06 000002 000002")
+        for block in (f"03 08 83 00 0004 {n:08X}", f"03 06 82 00 {n:08X}"):
+            host.ask(block)
+            host.pulse(12)
+            host.ask(STOP)
+            assert host.response()[:11] == "23 06 E0 04"
+
+
+@verifies("P312-CMD-8L", "P312-CMD-80", "P312-CMD-81", "P312-CMD-87", "P312-CMD-88")
+def test_positions_that_are_not_needed() -> None:
+    host = Host312(*TF)
+    host.ask(f"{ALWAYS} 0064")
+    assert host.ask("03 08 88 03 00C8 00000001") == "03 01 88"
+    assert host.ask("03 08 87 02 0190 00000001") == "03 01 87"
+    assert host.ask("03 08 88 05 00C8 00000001") == "03 01 E8"
+    assert host.ask("03 06 81 05 00000001") == "03 01 E8"
+    assert host.ask("03 06 80 07 00000001") == "03 01 E8"
+    host.blip("evt0_n")
+    assert host.response() == "1B 01 88"
+    host.blip("evt0_n")
+    assert host.response() == "1B 01 81"
+    assert host.response()[:11] == "23 06 E0 08"
+    host.ask(f"{ALWAYS} 00C8")
+    host.blip("evt1_n")
+    assert host.response() == "1B 01 80"
+    assert host.response()[:11] == "23 06 E0 04"
+    host.ask(f"{ALWAYS} 00C8")
+    assert host.ask("03 06 81 00 00000001") == "03 01 81"
+    assert host.response()[:11] == "23 06 E0 08"
+    host.ask(f"{ALWAYS} 00C8")
+    assert host.ask("03 06 80 01 00000001") == "03 01 80"
+    assert host.response()[:11] == "23 06 E0 04"
+
+
+WALKS = [
+    # Table, start, what is done after which pulses, all intervals, cause.
+    (TG, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x6 200x4", 0x08),
+    (TG, f"{ALWAYS} 0096", [(4, SLOW_STOP)], "150x4 200x4", 0x08),
+    (TG, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4", 0x10),  # as slow as the stop speed
+    (TG, f"{ALWAYS} 012C", [(4, SLOW_STOP)], "300x4", 0x10),
+    (TH, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4 200x4 400x3", 0x08),
+    (TH, f"{ALWAYS} 00C9", [(4, SLOW_STOP)], "201x4 400x3", 0x08),
+    (ODD, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x6 300x7", 0x08),
+    (TF, "03 08 83 00 0064 0000000A", [(4, SLOW_STOP)], "100x4 100x5 200x1", 0x40),
+    (TF, "03 08 83 00 0064 00000014", [(4, SLOW_STOP), (6, SLOW_STOP)], "100x9 200x4 400x3", 0x08),
+    (TG, "03 04 85 00 0000", [(5, SLOW_STOP)], "400x3 200x2", 0x10),
+    (TG, "03 04 85 00 0000", [(2, SLOW_STOP)], "400x2", 0x10),
+    (
+        TF,
+        "03 04 85 00 0000",
+        [(9, SLOW_STOP), (11, change(0x88, 150)), (14, SLOW_STOP)],
+        "400x3 200x4 100x4 150x3 200x4 400x3",
+        0x08,
+    ),
+    (TF, "03 08 82 00 0000 0000001E", [(29, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x2", 0x10),
+    (TF, "03 08 82 00 0000 0000001E", [(30, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x3", 0x40),
+    # Ramps of 87, and where they meet the deceleration point.
+    (TF, "03 08 83 00 0190 00000014", [(3, change(0x87, 150))], "400x3 200x4 150x13", 0x40),
+    (TH, "03 08 83 00 0190 00000014", [(3, change(0x87, 100))], "400x3 200x4 100x13", 0x40),
+    (TG, "03 08 83 00 0064 00000014", [(3, change(0x87, 400))], "100x3 200x4 400x13", 0x40),
+    (TH, "03 08 83 00 0064 00000014", [(3, change(0x87, 400))], "100x3 200x4 400x3 400x10", 0x40),
+    (TF, "03 08 83 00 0064 00000014", [(3, change(0x87, 200))], "100x3 200x17", 0x40),
+    (TF, "03 08 83 00 0064 00000014", [(3, change(0x87, 201))], "100x3 200x4 201x13", 0x40),
+    (TF, "03 08 83 00 00C8 0000000A", [(3, change(0x87, 200))], "200x10", 0x40),
+    (TF, "03 08 83 00 0064 00000008", [(5, change(0x87, 400))], "100x5 200x3", 0x40),
+    (
+        TF,
+        "03 08 82 00 0096 0000001E",
+        [(13, change(0x87, 100))],
+        "400x3 200x4 150x6 100x10 100x5 200x2",
+        0x40,
+    ),
+    (TF, "03 08 82 00 0096 0000001E", [(9, change(0x87, 400))], "400x3 200x4 150x2 200x4 400x17", 0x40),
+    (TF, "03 08 82 00 0096 00000014", [(11, change(0x87, 400))], "400x3 200x4 150x4 200x2 200x4 400x3", 0x40),
+    (TG, "03 08 82 00 0000 0000001E", [(15, change(0x88, 150))], "400x3 200x4 100x8 150x5 200x10", 0x40),
+    (TF, "03 08 82 00 0000 0000001E", [(25, change(0x88, 300))], "400x3 200x4 100x16 200x2 300x5", 0x40),
+    (
+        TF,
+        "03 08 83 00 0064 0000000A",
+        [(4, change(0x88, 300)), (6, change(0x88, 250))],
+        "100x4 300x2 250x4",
+        0x40,
+    ),
+    # Two held for one boundary: the newer one counts.
+    (TF, "03 08 83 00 0190 0000000A", [(4, change(0x88, 300)), (4, change(0x87, 400))], "400x10", 0x40),
+    (TF, "03 08 83 00 0190 0000000A", [(4, change(0x87, 100)), (4, change(0x88, 350))], "400x4 350x6", 0x40),
+]
+
+
+@pytest.mark.parametrize(("table", "start", "acts", "pulses", "cause"), WALKS)
+@verifies(
+    "P312-MOT-20", "P312-MOT-30", "P312-MOT-31", "P312-MOT-32", "P312-MOT-33", "P312-OVR-11", "P312-CMD-81"
+)
+def test_walks_and_changes(table: tuple[str, ...], start: str, acts: list, pulses: str, cause: int) -> None:
+    host = Host312(*table)
+    host.ask(start)
+    mark = host.mark
+    for number, block in acts:
+        host.mark = mark
+        host.pulse(number, 20)
+        assert host.ask(block) == f"03 01 {block[6:8]}"
+    run_out(host, mark, cause, pulses)
+
+
+@verifies("P312-MOT-34", "P312-MOT-06", "P312-MOT-03", "P312-INP-12")
+def test_causes_that_come_together() -> None:
+    for start, levels, cause in (
+        (f"{ALWAYS} 0190", {"alm_n": 0, "fl_n": 0, "org_n": 0}, 0x80),
+        ("03 04 10 00 0190", {"fl_n": 0, "org_n": 0, "fhl_n": 0}, 0x01),
+        ("03 04 10 00 0064", {"org_n": 0, "fhl_n": 0}, 0x20),
+        (f"{ALWAYS} 0190", {"bl_n": 0, "fl_n": 0}, 0x01),
+    ):
+        host = Host312(*TF, "03 03 05 FFFF")
+        host.ask(start)
+        host.pulse(3, 20)  # pout is high, and it stays so for its time
+        low = host.t
+        host.pins(**levels)
+        if cause == 0x80:
+            assert host.response() == "23 02 F4 00"
+        assert host.response() == stopped(cause, 3)
+        assert host.model.log.falls("pout", low)[0] - host.pulses()[2] == 80
+    # 81 and a high-speed limit for one boundary.
+    host = Host312(*TF, "03 03 05 FFFF")
+    host.ask(f"{ALWAYS} 0064")
+    host.pulse(3, 20)
+    host.issue(SLOW_STOP)
+    host.pins(fhl_n=0)
+    assert host.response() == "03 01 81"
+    assert host.response() == stopped(0x02, 15)
+
+
+@verifies("P312-MOT-34", "P312-MOT-06", "P312-MOT-35", "P312-PRT-04")
+def test_immediate_stops_cut_the_interval_short() -> None:
+    for pin in ("fl_n", "alm_n", "org_n"):
+        host = Host312(*TF, "03 02 06 01")
+        host.pins(end_n=0)
+        host.ask("03 04 10 00 0190")
+        edge = host.pulse(2, 2000)
+        host.pins(**{pin: 0})
+        host.pause(70)
+        assert host.condition == (0x10 if pin == "alm_n" else 0x02)
+        assert host.pulses()[-1] == edge
+    # After the last pulse the cause is NOS, and the interval still ends at once.
+    host = Host312(*TF)
+    host.ask("03 08 83 00 0190 00000002")
+    host.pulse(2, 2000)
+    host.pins(fl_n=0)
+    host.pause(70)
+    assert host.condition == 0x02 and host.response() == stopped(0x40, 2)
+    host.pins(fl_n=1)
+    host.ask("03 08 83 00 0190 00000002")
+    host.pulse(2, 2000)
+    assert host.ask(STOP) == "03 01 80"
+    assert host.condition == 0x02 and host.response() == stopped(0x40, 4)
+
+
+@verifies("P312-INP-10", "P312-INP-11", "P312-INP-12", "P312-CHK-34", "P312-CHK-35", "P312-BAD-12")
+def test_limits_of_both_directions() -> None:
+    own = {0: ("fl_n", "fhl_n"), 1: ("bl_n", "bhl_n")}
+    for ccw in (0, 1):
+        sign = -1 if ccw else 1
+        host = Host312(*TF, "03 03 05 00C8")
+        away = dict.fromkeys(own[1 - ccw], 0)
+        host.pins(**away)
+        # Starts with the limits of the other direction, and runs past them.
+        host.ask(f"03 08 83 {ccw << 6:02X} 0064 00000003")
+        assert host.response() == stopped(0x40, 3 * sign)
+        limit, slow = own[ccw]
+        host.pins(**{slow: 0})
+        for block, right in (
+            (f"03 08 83 {ccw << 6:02X} 00C8 00000001", 0),
+            (f"03 08 83 {ccw << 6:02X} 00C9 00000001", 1),
+            (f"03 08 82 {ccw << 6:02X} 0000 00000001", 0),
+            (f"03 08 82 {ccw << 6:02X} 00C9 00000001", 1),
+            (f"03 02 84 {ccw << 6:02X}", 1),
+            (f"03 04 10 {ccw << 6:02X} 00C8", 0),
+            (f"03 04 11 {ccw << 6:02X} 0064", 0),
+            (f"03 04 85 {ccw << 6:02X} 0000", 0),
+        ):
+            answer = host.ask(block)
+            assert (answer == "03 01 F2") == (not right), block
+            if right:
+                host.response()
+            assert host.condition == 0x02
+        host.pins(**{slow: 1, limit: 0})
+        for block in ("83 {} 0190 00000001", "82 {} 0190 00000001", "10 {} 0190", "11 {} 0190", "85 {} 0190"):
+            text = block.format(f"{ccw << 6:02X}")
+            assert host.ask(f"03 {len(bytes.fromhex(text)):02X} {text}") == "03 01 F2"
+        assert host.ask(f"03 02 84 {ccw << 6:02X}") == "03 01 F2"
+        host.pins(**{limit: 1})
+        host.ask(f"03 04 86 {ccw << 6:02X} 00C9")
+        host.pins(**{slow: 0})
+        host.pulse(4, 20)
+        host.ask(change(0x88, 200))
+        # As fast as HSL now: the walk begins with the interval after the next boundary.
+        assert host.response()[:11] == "23 06 E0 02"
+        assert host.gaps()[-7:] == rates("200x5 400x2")
+
+
+@verifies("P312-MOT-31", "P312-INP-12", "P312-MOT-30")
+def test_high_speed_limit_and_88() -> None:
+    host = Host312(*TF, "03 03 05 0096")
+    host.ask(f"{ALWAYS} 0064")
+    mark = host.mark
+    host.pulse(3, 20)
+    host.pins(fhl_n=0)
+    host.pulse(5, 20)
+    # Slower than HSL: the walk is cancelled and does not come back.
+    assert host.ask(change(0x88, 300)) == "03 01 88"
+    host.mark = mark
+    host.pulse(12, 20)
+    assert host.gaps() == rates("100x5 300x6")
+    # Fast enough again: another walk, from the table's stage.
+    assert host.ask(change(0x88, 150)) == "03 01 88"
+    host.response()
+    host.mark = mark
+    assert host.gaps() == rates("100x5 300x7 150x1 200x4 400x2")
+
+
+@verifies("P312-STA-04", "P312-INP-20", "P312-INP-12")
+def test_limits_act_from_the_first_clk_of_a_held_motion() -> None:
+    for levels, cause in (({"fl_n": 0}, 0x01), ({"fhl_n": 0}, 0x10), ({"bl_n": 0, "bhl_n": 0}, 0x40)):
+        host = Host312(*TF)
+        host.pins(run=0)
+        assert host.ask("03 08 83 00 0064 00000002") == "03 02 83 01"
+        host.pins(**levels)
+        # A new table cannot come between; what is held is fixed.
+        assert host.ask("03 03 05 FFFF") == "03 03 F1 00 20"
+        host.pins(run=1)
+        assert host.response() == "23 01 E2"
+        assert host.response() == stopped(cause, 2 if cause == 0x40 else 0)
+
+
+@verifies("P312-INP-20", "P312-CMD-45", "P312-CHK-32", "P312-CHK-33")
+def test_every_start_is_held() -> None:
+    host = Host312(*TF)
+    for block, answer, cause in (
+        ("03 08 82 40 0000 00000002", "03 02 82 11", 0x40),
+        ("03 08 82 00 0000 0000001E", "03 02 82 01", 0x40),
+        ("03 08 82 00 012C 0000000A", "03 02 82 21", 0x40),
+        ("03 08 83 00 0190 00000002", "03 02 83 01", 0x40),
+        ("03 02 84 40", "03 01 84", 0x40),
+        ("03 04 85 00 0000", "03 02 85 01", 0x04),
+        ("03 04 86 40 0000", "03 02 86 01", 0x04),
+        ("03 04 10 00 0190", "03 02 10 01", 0x04),
+        ("03 04 11 40 0000", "03 02 11 01", 0x04),
+    ):
+        host.pins(run=0)
+        assert host.ask(block) == answer
+        mark = host.mark
+        host.pause(2000)
+        assert host.condition == 0x20 and not host.pulses()
+        assert host.ask("03 04 86 00 0064") == "03 03 F1 00 20"
+        host.pins(run=1)
+        assert host.response() == "23 01 E2"
+        # RUN means nothing any more.
+        host.pins(run=0)
+        host.mark = mark
+        host.pulse(1)
+        if cause == 0x04:
+            host.ask(STOP)
+        assert host.response()[:11] == f"23 06 E0 {cause:02X}"
+    assert host.ask("03 01 45") == "03 02 45 01"
+    assert host.ask("03 02 84 00") == "03 01 84"
+    assert host.response()[:11] == "23 06 E0 40"
+    assert host.ask("03 01 45") == "03 02 45 00"
+    host.ask("03 02 84 00")
+    assert host.condition == 0x20
+
+
+@verifies(
+    "P312-MOT-40", "P312-MOT-41", "P312-MOT-42", "P312-MOT-43", "P312-CMD-10", "P312-CMD-11", "P312-MON-03"
+)
+def test_searches_in_every_form() -> None:
+    for ccw in (0, 1):
+        sign = -1 if ccw else 1
+        for index in (0, 1):
+            flags = f"{ccw << 6 | index << 4:02X}"
+            host = Host312(*TG, "03 04 02 07 FFFF")
+            host.ask(f"03 04 10 {flags} 00C8")
+            assert host.out("dir") == ccw
+            host.pulse(2, 20)
+            host.pins(index_n=0)
+            host.pulse(4, 20)
+            host.pins(index_n=1, org_n=0)
+            if index:
+                host.pulse(6, 20)
+                host.pins(index_n=0)
+            count = 6 if index else 4
+            assert host.response() == stopped(0x20, count * sign)
+            # 11: the way back at R[sa]; nothing rests between the phases.
+            host.pins(org_n=1, index_n=1)
+            host.ask("03 06 43 00 00000000")
+            assert host.out("zclmp_n") == 0
+            host.ask(f"03 04 11 {flags} 0000")
+            mark = host.mark
+            host.pulse(9, 20)
+            host.pins(org_n=0, index_n=1 - index)
+            host.pulse(10, 20)
+            host.pins(org_n=1, index_n=1)
+            host.pulse(22, 20)
+            assert host.out("dir") == 1 - ccw and host.out("zclmp_n") == 1
+            assert not host.model.log.falls("zclmp_n", mark)
+            host.pins(org_n=0, index_n=1 - index)
+            assert host.response() == stopped(0x20, (19 - 3) * sign)
+            edges = host.pulses()
+            gaps = [(b - a) / TICK for a, b in zip(edges, edges[1:], strict=False)]
+            assert gaps[:18] == rates("400x3 200x4 100x8 200x3") and gaps[19:] == [400] * 2
+            assert host.condition == 0x02 and host.quiet()
+
+
+@verifies("P312-MOT-42", "P312-MOT-43", "P312-MOT-34")
+def test_zero_return_that_ends_otherwise() -> None:
+    # At the origin before pulse 1, and too slow for a walk: phase 2 at once.
+    for rate, number in (("0000", 0), ("0190", 3)):
+        host = Host312(*TF)
+        if not number:
+            host.pins(org_n=0)
+        host.ask(f"03 04 11 00 {rate}")
+        if number:
+            host.pulse(number, 20)
+            host.pins(org_n=0)
+        assert host.response() == stopped(0x20, number)
+        assert len(host.pulses()) == number and host.out("dir") == 1
+    # Stops of phase 1 end it.
+    for act, cause in (
+        ({"fl_n": 0}, 0x01),
+        ({"fhl_n": 0}, 0x02),
+        ({"alm_n": 0}, 0x80),
+        (STOP, 0x04),
+        (SLOW_STOP, 0x08),
+    ):
+        host = Host312(*TF)
+        host.ask("03 04 11 00 0000")
+        host.pulse(9, 20)
+        if isinstance(act, str):
+            host.ask(act)
+        else:
+            host.pins(**act)
+        while not (answer := host.response()).startswith("23 06 E0"):
+            assert answer == "23 02 F4 00"
+        assert answer[9:11] == f"{cause:02X}" and host.out("dir") == 0
+    # Limits of the other direction in phase 2, 80 and 81 there.
+    for act, cause in (({"bl_n": 0}, 0x01), ({"fl_n": 0, "fhl_n": 0}, 0x20), (STOP, 0x04), (SLOW_STOP, 0x10)):
+        host = Host312(*TF)
+        host.ask("03 04 11 00 0190")
+        host.pulse(3, 20)
+        host.pins(org_n=0)
+        host.pulse(3, 100)
+        host.pins(org_n=1)
+        host.pulse(5, 20)
+        assert host.out("dir") == 1
+        if isinstance(act, str):
+            host.ask(act)
+        else:
+            host.pins(**act)
+        if cause == 0x20:
+            host.pins(org_n=0)
+        assert host.response() == stopped(cause, 1)
+
+
+@verifies("P312-MOT-32", "P312-MOT-30", "P312-MOT-31", "P312-INP-12")
+def test_changes_that_wait_for_pulse_1() -> None:
+    """The newest one counts, and it starts from the plan's rate, not from that of one which was replaced."""
+    setting = ("02 03 01 06 03", "00 06 0008 000C 0010", "01 09 000003 000002 000003")
+
+    def seen(host: Host312) -> list[int]:
+        for _ in range(80):
+            host.pins(extck=1)
+            host.pause(10)
+            host.pins(extck=0)
+            host.pause(10)
+        host.mark = 0
+        return [gap // 22 for gap in host.gaps(1)]
+
+    for changes, expected in (
+        ((change(0x88, 8), change(0x87, 8)), [12, 12, 8, 8, 8, 8, 8, 8]),
+        ((change(0x88, 8), change(0x87, 12)), [12] * 6),
+        ((change(0x87, 8), change(0x88, 12)), [12] * 6),
+    ):
+        host = Host312(*setting)
+        host.ask("03 04 86 00 0010")
+        for block in changes:
+            host.ask(block)
+        assert seen(host)[: len(expected)] == expected, changes
+    # A high-speed limit is compared with the rate that pulse 1 has without the change.
+    host = Host312(*setting)
+    host.ask("03 03 05 000C")
+    host.ask("03 04 86 00 0010")
+    host.ask(change(0x88, 8))
+    host.pins(fhl_n=0)
+    host.pause(300)
+    assert host.condition == 0x08

@@ -1,0 +1,273 @@
+"""Settings of the PPMC-312 through its pins: initial setting, free curves, table read, what they leave."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.verifies import verifies
+from cocotb_tests.ppmc312.host312 import CSR, MWEF, RATES, T1, T2, T3, T4, TF, TG, TH, Host312, clean
+from openppmc.model.tables312 import build
+
+T5 = "03 09 00 09 2000 0040 00EA60"
+
+
+def read_table(host: Host312) -> tuple[list[int], list[list[int]]]:
+    """Head of the table read, and its three lists, fastest stage first."""
+    head = bytes.fromhex(host.ask("03 01 41"))
+    assert head[:3] == bytes.fromhex("020A41")
+    lists: list[list[int]] = [[], [], []]
+    counts = (head[3], head[4], head[5])
+    widths, most = (2, 3, 3), (6, 4, 4)
+    while [len(values) for values in lists] != list(counts):
+        block = bytes.fromhex(host.response())
+        item = block[2] - 1
+        data = block[3:]
+        values = [
+            int.from_bytes(data[k : k + widths[item]], "big") for k in range(0, len(data), widths[item])
+        ]
+        lists[item] += values
+        left = counts[item] - len(lists[item])
+        assert len(values) == most[item] or left == 0
+        last = [len(values) for values in lists] == list(counts)
+        assert block[0] == last and block[1] == 1 + len(data)
+    assert not host.read(CSR) & MWEF
+    return list(head[3:]), lists
+
+
+def weighted(values: list[int]) -> int:
+    """Sum of (i + 1) x value over the stages, slowest first; the values come fastest first."""
+    return sum((i + 1) * value for i, value in enumerate(reversed(values)))
+
+
+@verifies("P312-CHK-09", "P312-CHK-10", "P312-CHK-11", "P312-CMD-41", "P312-TBL-01", "P312-TBL-02")
+def test_reference_tables_read_back() -> None:
+    sums = {T1: (51_297, 2_435_805, 156_518), T2: (56_947, 2_501_371, 162_503)}
+    for setting, (total, rates_sum, pulses_sum) in sums.items():
+        head, (rates, up, down) = read_table(Host312(setting))
+        assert head == [127, 127, 0, 0, 7, 208, 0, 7, 208] and not down
+        assert (sum(rates), weighted(rates), weighted(up)) == (total, rates_sum, pulses_sum)
+        assert rates[63] == 333 and rates[-1] == 1000 and rates[0] == 200 and sum(up) == 2000
+    _, (rates, up, _) = read_table(Host312(T5))
+    assert weighted(rates) == 1_512_493 and rates[63] == 127 and up[63] == 473
+    assert rates[:-7:-1] == [8192, 8036, 7589, 6952, 6226, 5490] and up[:-7:-1] == [7, 7, 8, 9, 9, 11]
+    assert up[5::-1] == [934, 935, 937, 937, 937, 938]
+
+
+@verifies("P312-TBL-03", "P312-TBL-04", "P312-TBL-06", "P312-CMD-41", "P312-GEN-03")
+def test_tables_with_two_sides_read_back() -> None:
+    for setting, counts in ((T3, [127, 127, 96]), (T4, [127, 96, 127])):
+        head, (rates, up, down) = read_table(Host312(setting))
+        assert head[:3] == counts
+        long, short = (up, down) if setting == T3 else (down, up)
+        assert rates[95] == 504 and short[::-1][:6] == [8, 9, 10, 9, 9, 10]
+        assert short[5::-1] == [22, 22, 22, 22, 22, 23]
+        assert sum(short) == 1500 and sum(long) == 2000 and weighted(long) == 156_518
+    # The longest numbers: sums beyond 2^38.
+    setting = "03 0E 00 18 FFFF FF80 FEFF FFFFFF 8ABCDE"
+    table = build(0xFFFF, 0xFF80, 0xFEFF, 0xFFFFFF, 0x8ABCDE, 0, True)
+    head, (rates, up, down) = read_table(Host312(setting))
+    assert head[3:] == [0xFF, 0xFF, 0xFF, 0x8A, 0xBC, 0xDE]
+    assert rates[::-1] == list(table.rates[table.first :])
+    assert up[::-1] == list(table.pa[table.sa :]) and down[::-1] == list(table.pd[table.sd :])
+
+
+@verifies("P312-CMD-00", "P312-GEN-05", "P312-TBL-05")
+def test_initial_setting_layouts_and_order_of_checks() -> None:
+    host = Host312()
+    good = [
+        T1,
+        "03 0E 00 01 03E8 0001 00C8 0007D0 000001",  # LE = 0: RP and ND mean nothing
+        "03 09 00 E1 03E8 00C8 0007D0",  # bits 7..5 mean nothing
+        "03 0E 00 11 03E8 03E8 00C8 0007D0 0007D0",
+    ]
+    for block in good:
+        assert host.ask(block) == "03 01 00", block
+        assert host.condition == 0x02
+        head, (rates, up, down) = read_table(host)
+        assert head[2] == (127 if block[9] == "1" else 0) and weighted(rates) == 2_435_805
+        assert weighted(up) == 156_518 and (not down or down == up)
+    bad = [
+        (0x01, "03 0E 00 11 0010 0010 0001 0007D0 0007D0"),  # before 03
+        (0x01, "03 0E 00 11 03E8 0010 00C8 0007D0 0007D0"),  # stop rate
+        (0x03, "03 0E 00 11 03E8 0100 03E8 0007D0 0007D0"),  # before 02 and 04
+        (0x02, "03 0E 00 11 03E8 03E7 0380 000001 0007D0"),  # before 04 and 05
+        (0x04, "03 0E 00 11 00F0 03E8 00C8 000001 0007D0"),  # before 05
+        (0x05, "03 0E 00 11 03E8 03E8 00C8 0007D0 000476"),  # deceleration side alone
+        (0x05, "03 09 00 01 03E8 00C8 000000"),
+        (0x00, "03 0A 00 01 03E8 00C8 0007D0 00"),
+        (0x00, "03 01 00"),
+        (0x00, "03 0F 00 11 03E8 01F4 00C8 0007D0 0005DC 00"),
+    ]
+    for number, block in bad:
+        host.ask(T1)
+        answer = bytes.fromhex(host.ask(block))
+        data = bytes.fromhex(block)[2:]
+        assert answer[:4] == bytes([3, len(data) + 2, 0xF0, number]) and answer[4:] == data, block
+        assert host.ask("03 01 4D") == "03 04 4D 00 01 00"
+        assert host.ask("03 01 41") == "03 03 F1 00 01"
+
+
+@verifies("P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9", "P312-OVR-05", "P312-BLK-02", "P312-CMD-05")
+def test_a_setting_empties_the_buffers() -> None:
+    filled = (*TF, "03 05 49 00 03 01 25", "03 04 88 07 00C8", "03 06 80 04 0000FFFF")
+    for block, state in ((T1, 2), ("03 09 00 01 03E8 03E8 0007D0", 1), (TF[0], 1), ("03 03 01 01 03", 1)):
+        host = Host312(*filled)
+        assert host.ask("03 01 4D") == "03 04 4D 00 02 62"
+        host.ask(block)
+        if block == TF[0]:
+            assert host.ask("03 01 4D") == "03 03 F1 02 01"
+        assert host.ask("03 01 4D") == f"03 04 4D 00 {state:02X} 00"
+    # Refused by the table of states: nothing happens.
+    host = Host312(*filled)
+    host.ask("03 04 86 00 0190")
+    for block in (T1, TF[0], "03 08 00 01 03E8 00C8 0007"):
+        assert host.ask(block) == "03 03 F1 00 08"
+    assert host.ask("03 01 4D") == "03 04 4D 00 08 62"
+    host.ask("03 02 80 00")
+    host.response()
+    host.pins(fhl_n=0)
+    # HSL: as set, then RH of the new table, by either way of giving one.
+    host.ask("03 03 05 00C8")
+    assert host.ask("03 04 86 00 00C9") == "03 02 86 00"
+    host.ask("03 02 80 00")
+    host.response()
+    for setting in ((T1,), TG):
+        for block in setting:
+            host.ask(block)
+        assert host.ask("03 04 86 00 0000") == "03 01 F2"
+    assert host.ask("03 04 86 00 0065") == "03 02 86 00"
+
+
+def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[int, int]) -> list[str]:
+    """Blocks of a transfer with so many rates and pulse numbers a block."""
+    blocks = [
+        bytes([2, 3 + (down is not None), 1, 0x11 if down else 1, len(up), *([len(down)] if down else [])])
+    ]
+    lists = [(rates, 2, step[0]), (up, 3, step[1]), *([(down, 3, step[1])] if down else [])]
+    for values, width, most in lists:
+        for k in range(0, len(values), most):
+            data = b"".join(value.to_bytes(width, "big") for value in values[k : k + most])
+            blocks.append(bytes([0, len(data)]) + data)
+    blocks[-1] = b"\x01" + blocks[-1][1:]
+    return [block.hex() for block in blocks]
+
+
+CURVES = [
+    # The longest in the longest blocks, sides of their own, and one value a block.
+    ([300 + 3 * k for k in range(127)], [2 + k for k in range(127)], None, (15, 10)),
+    ([50 * (k + 1) for k in range(9)], [0x10_0000 + k for k in range(4)], list(range(2, 11)), (4, 3)),
+    ([2, 0xFFFF], [2, 0xFF_FFFD], [3, 4], (1, 1)),
+    ([100, 300, 200], [5, 4, 3], [6, 7], (3, 3)),
+]
+
+
+@pytest.mark.parametrize("case", CURVES, ids=["longest", "two-sides", "one-a-block", "not-monotonic"])
+@verifies(
+    "P312-CMD-01",
+    "P312-CMD-FC-1",
+    "P312-CMD-FC-2",
+    "P312-CMD-FC-3",
+    "P312-CMD-FC-8",
+    "P312-CMD-FC-10",
+    "P312-CHK-12",
+    "P312-BAD-15",
+)
+def test_free_curves(case: tuple) -> None:
+    rates, up, down, step = case
+    host = Host312()
+    lists = [rates, up, *([down] if down else [])]
+    done, item = 0, 0
+    blocks = curve(*case)
+    assert host.ask(blocks[0]) == clean(f"03 03 01 00 {len(rates):02X}")
+    for block in blocks[1:-1]:
+        done += (len(block) // 2 - 2) // (2 if item == 0 else 3)
+        if done == len(lists[item]):
+            done, item = 0, item + 1
+        assert host.ask(block) == clean(f"03 03 01 {item:02X} {len(lists[item]) - done:02X}")
+    total, rest = sum(up), sum(down or up)
+    assert host.ask(blocks[-1]) == clean(f"03 08 01 0F {total:06X} {rest:06X}")
+    assert host.condition == 0x02
+    head, got = read_table(host)
+    assert head[:3] == [len(rates), len(up), len(down) if down else 0]
+    assert got == [rates, up, down or []]
+    # Highest and lowest rate that may be asked for: of stage 126 and of the first stage in use.
+    assert host.ask(f"03 08 83 00 {rates[0] - 1:04X} 00000001")[6:11] == "F0 20"
+    if rates[-1] < 0xFFFF:
+        assert host.ask(f"03 08 83 00 {rates[-1] + 1:04X} 00000001")[6:11] == "F0 20"
+    assert host.ask(f"03 08 83 00 {rates[-1]:04X} 00000001") == "03 02 83 00"
+
+
+FC_ERRORS = [
+    # Code blocks.
+    ("11", ("02 04 01 11 01 03",)),
+    ("11", ("02 04 01 11 03 01",)),
+    ("11", ("02 04 01 11 80 03",)),
+    ("11", ("02 04 01 11 03 80",)),
+    ("11", ("02 03 01 11 03",)),
+    ("11", ("02 05 01 11 03 03 00",)),
+    ("11", ("02 01 01",)),
+    ("10", ("03 04 01 11 80 03",)),  # before 11
+    # Sizes: 15, 16, also in a block with an instruction's header; then 16, 18/19, 1A, 17 in this order.
+    ("15", (TF[0], "00 1F" + "0064" * 15)),
+    ("16", (TF[0], "00 07 0064 00C8 0190")),
+    ("16", (TF[0], "00 00 64")),
+    ("16", (TF[0], "03 03 40")),
+    ("16", (TF[0], "01 05 0001 0001 00")),
+    ("16", (TF[0], "00 08 0001 0002 0003 0004")),
+    ("18", (TF[0], "01 06 0064 0001 0190")),
+    ("18", (TF[0], "00 02 0000")),
+    ("17", (TF[0], "01 06 0064 00C8 0190")),
+    ("17", (TF[0], RATES, "01 03 000005")),
+    ("19", (TF[0], RATES, "00 09 FFFFFF 000001 FFFFFF")),
+    ("1A", (TF[0], RATES, "00 09 FFFFFF 000002 000002")),
+    ("1A", (TF[0], RATES, "00 03 FFFFFF", "00 03 000002")),
+    ("17", (TG[0], RATES, "01 09 000005 000004 000003")),
+    ("1A", (*TG[:3], "00 06 FFFFFF 000002")),
+    ("19", (*TG[:3], "01 06 000006 000000")),
+    ("16", (*TG[:3], "01 09 000006 000004 000002")),
+    ("17", (*TG[:3], "00 06 000006 000004")),
+]
+
+
+@pytest.mark.parametrize(("number", "blocks"), FC_ERRORS)
+@verifies("P312-CMD-FC-4", "P312-CMD-FC-9", "P312-CHK-13", "P312-BAD-11", "P312-BLK-01")
+def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
+    host = Host312(*TF, "03 04 88 07 00C8", *blocks[:-1])
+    echo = bytes.fromhex(blocks[-1])[2:]
+    assert (
+        host.ask(blocks[-1])
+        == f"03 {len(echo[:28]) + 2:02X} F0 {number} {echo[:28].hex(' ').upper()}".strip()
+    )
+    assert host.ask("03 01 4D") == "03 04 4D 00 01 00"
+    assert host.ask("03 01 41") == "03 03 F1 00 01"
+    assert host.ask(RATES) == "03 03 F1 01 01"
+
+
+@verifies("P312-CMD-FC-8", "P312-RSP-20", "P312-BAD-11", "P312-INP-31", "P312-CMD-FF")
+def test_a_transfer_that_is_disturbed() -> None:
+    # The answer to a block is not read: alarm, no transfer any more.
+    host = Host312(T1, TF[0])
+    host.issue(TF[1])
+    host.pause(200)
+    host.issue(TF[2])
+    assert [host.response() for _ in range(2)] == ["03 03 01 01 03", "23 02 F4 01"]
+    assert host.ask(TF[2]) == "03 03 F1 01 10"
+    host.ask("03 01 24")
+    assert host.condition == 0x01
+    # Other instructions do not open one; a curve is complete only once.
+    for block in (TF[2], "00 02 0064", "07 01 40"):
+        assert host.ask(block) == "03 03 F1 01 01"
+    for block in TH:
+        host.ask(block)
+    assert host.ask(TH[-1]) == "03 03 F1 01 02"
+    head, (rates, up, down) = read_table(host)
+    assert (rates, up, down) == ([100, 200, 400], [6, 4], [5, 4, 3]) and head[:3] == [3, 2, 3]
+    for block in ("02 01 40", "02 02 80 00", "02 09 00 01 03E8 00C8 0007D0"):
+        assert host.ask(block) == "03 03 F1 01 02"
+    # A block after an unread answer, then FF: it goes through at once.
+    host.ask(TF[0])
+    host.issue(TF[1])
+    host.pause(200)
+    host.issue("03 01 FF")
+    host.pause(200)
+    assert host.response() == "03 01 FF" and host.quiet() and host.condition == 0x01

@@ -1,0 +1,59 @@
+"""Random hosts and noise on all pins, compared with the golden model on every clk."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.common.bench import Bench
+from cocotb_tests.common.part import PPMC312
+from cocotb_tests.common.tape import play
+from cocotb_tests.common.verifies import verifies
+
+from . import random_host, random_noise
+
+
+def _seeds(bench: Bench) -> list[int]:
+    """What this simulation plays, one after the other; its own seed if nothing else is said."""
+    return [int(word) for word in os.environ.get("OPENPPMC_SEEDS", str(bench.seed)).split()]
+
+
+@cocotb.test()
+@verifies(
+    "P312-GEN-01",
+    "P312-GEN-12",
+    "P312-PAR-05",
+    "P312-PAR-08",
+    "P312-RSP-11",
+    "P312-RSP-20",
+    "P312-BLK-01",
+    "P312-OVR-02",
+    "P312-OVR-10",
+    "P312-OVR-11",
+    "P312-MOT-01",
+    "P312-MOT-02",
+    "P312-MOT-30",
+    "P312-MOT-33",
+    "P312-MOT-34",
+    "P312-INP-12",
+    "P312-BAD-09",
+)
+async def p312_random_host(dut: Any) -> None:
+    """Given random hosts, when the RTL gets their pins, then all outputs change as in the golden model."""
+    bench = await Bench.start(dut, PPMC312)
+    for seed in _seeds(bench):
+        host = random_host.play(seed, bench.config)
+        result = await play(bench, host.tape, f"seed {seed} alone: make test T=p312_random_host SEED={seed}")
+        assert result.edges_compared > 200, f"seed {seed} did next to nothing"
+
+
+@cocotb.test()
+@verifies("P312-BAD-01", "P312-BAD-02", "P312-BAD-09", "P312-PAR-09", "P312-PAR-10", "P312-GEN-01")
+async def p312_random_noise(dut: Any) -> None:
+    """Given noise on all pins, when the RTL gets it, then all outputs change as in the golden model."""
+    bench = await Bench.start(dut, PPMC312)
+    for seed in _seeds(bench):
+        host = random_noise.play(seed, bench.config)
+        await play(bench, host.tape, f"seed {seed} alone: make test T=p312_random_noise SEED={seed}")

@@ -1,0 +1,99 @@
+"""Random hosts against the golden model, and noise: fixed lists of seeds; `--seed N` plays seed N only.
+
+One simulation plays several seeds of one build after the other, each from a reset. `make soak PART=ppmc312`
+plays as many others as you like.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.config import D16, F16, F50, Config
+from cocotb_tests.common.part import PPMC312
+from cocotb_tests.common.runner import SimOptions, run_item
+
+from .census import counting, thin
+from .random_host import BUILDS, ODD, plan, play
+
+SEEDS = range(1, 151)
+NOISE_SEEDS = range(1, 33)
+BATCH = 14
+
+
+def _item(test: str, seed: int, config: Config) -> Item:
+    base = next(
+        param.values[0]
+        for param in cocotb_items("cocotb_tests.ppmc312", "tb_random", part=PPMC312)
+        if param.values[0].test == test
+    )
+    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
+
+
+def random_item(seed: int) -> Item:
+    """The random host of one seed; the seed decides the build configuration, too."""
+    return _item("p312_random_host", seed, plan(seed))
+
+
+def noise_item(seed: int) -> Item:
+    """The noise run of one seed."""
+    return _item("p312_random_noise", seed, (F16, F16, F50, ODD, F16, D16)[seed % 6])
+
+
+def batches(items: list[Item]) -> list[tuple[Item, str]]:
+    """(first item, all seeds) of each simulation."""
+    builds: dict[str, list[Item]] = {}
+    for item in items:
+        builds.setdefault(item.config.name, []).append(item)
+    return [
+        (group[k], " ".join(str(item.seed) for item in group[k : k + BATCH]))
+        for group in builds.values()
+        for k in range(0, len(group), BATCH)
+    ]
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """One pytest item a batch."""
+    if "item" in metafunc.fixturenames:
+        chosen = metafunc.config.getoption("--seed")
+        noise = "noise" in metafunc.function.__name__
+        make, fixed = (noise_item, NOISE_SEEDS) if noise else (random_item, SEEDS)
+        sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])])
+        metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
+
+
+def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """The hosts of some seeds: every output edge equals the golden model's."""
+    print(f"seeds {seeds}")
+    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+
+
+def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """Noise on all pins, then recovery."""
+    print(f"seeds {seeds}")
+    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+
+
+def test_scenarios_are_reproducible_and_varied() -> None:
+    """The fixed seeds use every build, each seed once; the same seed gives the same build."""
+    configs = [plan(seed) for seed in SEEDS]
+    assert configs == [plan(seed) for seed in SEEDS]
+    assert {config.name for config in configs} == {config.name for config, _ in BUILDS}
+    played = [
+        int(word) for _, seeds in batches([random_item(seed) for seed in SEEDS]) for word in seeds.split()
+    ]
+    assert sorted(played) == list(SEEDS)
+
+
+def test_hosts_are_rich() -> None:
+    """Of every third host with FAST times: each kind of thing happens some times, and the part is at work."""
+    with counting() as counts:
+        for seed in SEEDS[::3]:
+            if not plan(seed).datasheet:
+                play(seed, plan(seed))
+    assert not thin(counts), f"too rare (seen, needed): {thin(counts)}"
+    clk = sum(number for kind, number in counts.items() if kind.startswith("clk "))
+    assert (counts["clk ABN"] + counts["clk INI"]) / clk < 0.3
+    assert (counts["clk ACC"] + counts["clk FIX"]) / clk > 0.3

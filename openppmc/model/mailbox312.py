@@ -1,0 +1,185 @@
+"""Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..12).
+
+Another host side has the same members: `sample`, `offer`, `done`, `levels`, `ready`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from .pace312 import Pace
+from .parts import Context, Phase
+from .responses312 import Responses
+from .scheduler import Event
+
+CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
+EWRQ, EWIRQ, ERIRQ, MWEF, MREF = 0x40, 0x20, 0x10, 0x08, 0x04
+WINDOW = 0x20
+SYNC = 2
+"""Pin to decision."""
+_IDLE = {"cs_n": 1, "we_n": 1, "oe_n": 1, "rs": 0, "d_i": 0}
+
+
+class Mailbox:
+    """take(t, block): a complete instruction block in logical order, at its header's write event."""
+
+    def __init__(
+        self, context: Context, pace: Pace, responses: Responses, take: Callable[[int, bytes], None]
+    ) -> None:
+        self._context, self._pace = context, pace
+        self._responses, self._take = responses, take
+        self._pins: Mapping[str, int] = _IDLE
+        self._writing = self._reading = False
+        self._showing: int | None = None
+        self._enables = 0
+        self._armed = False
+        self._pointer = WINDOW
+        self._bytes: list[int] = []
+        self._busy = False
+        self._is_ready = False
+        self._window = b""
+        self._at = 0
+        self._free_from = 0
+        self._loading: Event | None = None
+        self._picked = self._taken = False
+        self._accessing = False
+        self._access_end = -(1 << 40)
+        self._wait_until: int | None = None
+
+    # ------------------------------------------------------------------ for the part
+
+    def ready(self, t: int) -> None:
+        """The interface may be used from edge t on."""
+        self._is_ready = True
+
+    def done(self, t: int) -> None:
+        """The instruction has been processed and its answer stored (P312-PAR-06)."""
+        self._context.queue.at(t, Phase.STORE, self._open)
+
+    def _open(self, t: int) -> None:
+        self._busy = False
+
+    def offer(self, t: int) -> None:
+        """A response may wait from edge t on: load it if the window is free (P312-PAR-08)."""
+        if self._window or self._picked or self._loading:
+            return
+        at = max(t + self._pace.load, self._free_from)
+        self._loading = self._context.queue.at(at, Phase.PINS, self._load)
+
+    def levels(self) -> dict[str, int]:
+        """Internal levels behind irq_n."""
+        wants = (self._enables & EWIRQ and not self.mwef) or (self._enables & ERIRQ and self._window)
+        return {"irq_n": int(not wants)}
+
+    @property
+    def csr(self) -> int:
+        """The status register."""
+        return self._register(CSR)
+
+    @property
+    def mwef(self) -> bool:
+        """No instruction may be written."""
+        return self._busy or not self._is_ready
+
+    def _load(self, t: int) -> None:
+        """The response is chosen; the host sees it when its bytes are there."""
+        self._loading = None
+        picked = self._responses.pick()
+        if picked is not None:
+            self._picked = True
+            self._context.queue.at(t + self._pace.show, Phase.STORE, lambda at: self._display(picked))
+
+    def _display(self, block: bytes) -> None:
+        self._picked = False
+        self._window, self._at = block[::-1], 0
+
+    # ------------------------------------------------------------------ strobes
+
+    def sample(self, t: int, pins: Mapping[str, int]) -> None:
+        """Edge t samples new levels of the bus pins (P312-PAR-10, -11)."""
+        levels = {pin: pins[pin] for pin in _IDLE}
+        self._context.queue.at(t + SYNC, Phase.BUS, lambda at: self._see(at, levels))
+
+    def _see(self, t: int, pins: Mapping[str, int]) -> None:
+        """Decisions at edge t use these levels first."""
+        chosen = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
+        writing, reading = bool(chosen and not pins["we_n"]), bool(chosen and not pins["oe_n"])
+        queue, old = self._context.queue, self._pins
+        if self._writing and not writing:
+            self._store(t, old["rs"], old["d_i"])
+        self._watch_access(t, writing and pins["rs"] == WRITE or reading and pins["rs"] == READ)
+        if reading and not self._reading:
+            queue.at(t + 1, Phase.CHOPPER, self._show)
+        elif self._showing is not None and not reading:
+            reg, self._showing = self._showing, None
+            self._context.log.set(t, "d_oe", 0)
+            queue.at(t, Phase.QUEUE, lambda at: self._after_read(at, reg))
+        self._writing, self._reading, self._pins = writing, reading, pins
+
+    def _show(self, t: int) -> None:
+        """d_o takes the register once a strobe, on the second edge that has seen it."""
+        if self._reading and self._showing is None:
+            self._showing, self._taken = self._pins["rs"], bool(self._window)
+            self._context.log.set(t, "d_oe", 1)
+            self._context.log.set(t, "d_o", self._register(self._showing))
+
+    def _watch_access(self, t: int, accessing: bool) -> None:
+        """A DWR or DRR strobe begins or ends (P312-PAR-12)."""
+        timebase = self._context.timebase
+        if self._accessing and not accessing:
+            self._access_end = t
+        elif accessing and not self._accessing:
+            gap = self._pace.wrq_fast
+            if self._context.datasheet:
+                gap = -(-19 * timebase.clk_hz // (2 * timebase.xtal_hz))
+            over = self._access_end + gap
+            if self._enables & EWRQ and over > t:
+                self._context.log.set(t, "wrq_n", 0)
+                self._wait_until = over
+                self._context.queue.at(over, Phase.QUEUE, self._wait_over)
+        self._accessing = accessing
+
+    def _wait_over(self, t: int) -> None:
+        if self._wait_until == t:
+            self._wait_until = None
+            self._context.log.set(t, "wrq_n", 1)
+
+    def _register(self, reg: int) -> int:
+        if reg == CSR:
+            return self._enables | (MWEF if self.mwef else 0) | (0 if self._window else MREF)
+        if reg == ADDRESS:
+            return 0x40 - (len(self._window) - self._at)
+        if reg == READ and self._window:
+            return self._window[self._at]
+        return 0
+
+    def _after_read(self, t: int, reg: int) -> None:
+        """A read strobe has ended; one that began before there was a response has shown none of its bytes."""
+        if not self._taken:
+            return
+        if reg == CONTROL:
+            self._at = 0
+        elif reg == READ:
+            self._at += 1
+            if self._at == len(self._window):
+                self._window, self._at, self._free_from = b"", 0, t + self._pace.reload
+                self._responses.read(t)
+                self.offer(t)
+
+    # ------------------------------------------------------------------ write window
+
+    def _store(self, t: int, reg: int, byte: int) -> None:
+        if reg == CSR:
+            self._enables = byte & (EWRQ | EWIRQ | ERIRQ)
+        elif self.mwef:
+            return
+        elif reg == CONTROL:
+            self._armed = byte == WINDOW
+        elif reg == ADDRESS:
+            self._pointer, self._bytes = min(byte, WINDOW), []
+        elif reg == WRITE and self._armed and self._pointer < WINDOW:
+            self._bytes.append(byte)
+            self._pointer += 1
+            if self._pointer == WINDOW:
+                self._busy = True
+                self._take(t, bytes(reversed(self._bytes)))

@@ -1,0 +1,200 @@
+"""Golden model of the PPMC-312 at pin level, event driven and exact to the clk.
+
+Pins and time: `chip`. Host side: `mailbox312` with `responses312`. Instructions: `unit312`, `checks312`,
+`settings312`, `starts312`, `terminals312`, `overrides312`. Tables: `tables312`, `curve312`. Motion:
+`plan312`, `sequence312`, `motion312`, `operation312`. Pins: `inputs312`, `outputs312`, `position312`. Here:
+P312-PRT-01..03, reset, software reset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from .chip import Chip
+from .codes312 import Source, State
+from .core312 import Core, HostSide
+from .mailbox312 import Mailbox
+from .motion312 import Motion
+from .pace312 import READY, Pace
+from .parts import Context, Phase, PinRegister
+from .parts312 import HOST_PINS, INPUTS, OUTPUTS, WIDTHS
+from .scheduler import Callback, Event, Scheduler
+from .timebase import Latency, QuantumCounter
+
+_LATE = ("irq_n", "intlk_n")
+_SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
+"""What the inside sees of the pins before it has sampled them."""
+
+
+class Scope(Scheduler):
+    """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
+
+    def __init__(self, queue: Scheduler) -> None:
+        super().__init__()
+        self._queue = queue
+        self.alive = True
+
+    def at(self, t: int, phase: int, action: Callback) -> Event:
+        """Call `action(t)` unless the blocks have been replaced by then."""
+        return self._queue.at(t, phase, lambda now: action(now) if self.alive else None)
+
+
+class Ppmc312(Chip):
+    """One PPMC-312.
+
+    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET", version 0..255; ValueError for
+    anything else. The model starts just released from reset, before edge 0. With mode = 0 the host side is
+    silent.
+    """
+
+    INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
+
+    def __init__(
+        self,
+        clk_hz: int = 16_000_000,
+        xtal_hz: int = 16_000_000,
+        timing: str = "FAST",
+        version: int = 0x12,
+        pace: Pace | None = None,
+        latency: Latency | None = None,
+    ) -> None:
+        if not 0 <= version <= 255:
+            raise ValueError(f"version {version} is outside 0..255")
+        super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, latency)
+        self.pace = pace or Pace()
+        self._version = version
+        self._latched: dict[str, int] = dict(INPUTS)
+        self._counter = QuantumCounter(self.timebase, 0)
+        self._build()
+        self._released(0)
+        self._sample(0, self.INPUTS)
+
+    def _build(self) -> None:
+        """Fresh blocks in their reset state; the synchronisers show inactive levels."""
+        levels = dict(_SYNCHRONISED)
+        self._scope = Scope(self._queue)
+        self._context = Context(
+            self.timebase, self.latency, self.datasheet, self._scope, self.log, self._counter, levels
+        )
+        self.core = Core(self._context, self.pace, self._version, self._make_host, self._software_reset)
+
+    def _make_host(self, core: Core) -> HostSide:
+        self._host = Mailbox(core.context, self.pace, core.responses, core.unit.host_block)
+        return self._host
+
+    # ------------------------------------------------------------------ reset
+
+    def _restart(self) -> None:
+        self._build()
+        self._out_oe = 0
+
+    def _released(self, t: int) -> None:
+        """Edge t is the first one after a reset (P312-PRT-02, -03)."""
+        self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
+        self._out_oe = 0
+        self._held = self._levels()
+        self._registers = self._make_registers()
+        ready = t + (self.timebase.cyc(READY) + self.pace.start if self.datasheet else self.pace.ready)
+        self._bus_from, self._pins_from = t + self.pace.ready, ready + 1
+        self._queue.at(ready, Phase.END, self._ready)
+
+    def _make_registers(self) -> list[tuple[tuple[str, ...], PinRegister]]:
+        """Most outputs are registers themselves, some follow an internal level."""
+        late = {name: level for name, level in self._held.items() if name in _LATE}
+        early = {name: level for name, level in self._held.items() if name not in _LATE}
+        return [
+            (tuple(levels), PinRegister(self._queue, lag, levels, self.log.set))
+            for levels, lag in ((early, 0), (late, self.pace.pins))
+        ]
+
+    def _ready(self, t: int) -> None:
+        self._out_oe = 1
+        self._host.ready(t)
+
+    def _sample(self, t: int, changed: Iterable[str]) -> None:
+        """Nothing is sampled while a part is in reset; its first edge samples everything."""
+        names = set(changed)
+        if bus := names.intersection(self.HOST_PINS):
+            super()._sample(max(t, self._bus_from), bus)
+        if others := names.difference(self.HOST_PINS):
+            super()._sample(max(t, self._pins_from), others)
+
+    def _software_reset(self, t: int, source: Source) -> None:
+        """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer."""
+        self._scope.alive = False
+        self._queue.at(t, Phase.PIN, self._reset_outputs)
+        self._build()
+        self._bus_from = self._pins_from = t + self.pace.reboot
+        self._sample(t, self.INPUTS)
+        self._queue.at(t + 1, Phase.PINS, self._latch_mode)
+        self._queue.at(t, Phase.END, self._host.ready)
+        self._queue.at(t + self.pace.reboot, Phase.BUS, self.core.unit.answer_reset)
+
+    def _latch_mode(self, t: int) -> None:
+        self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
+
+    def _reset_outputs(self, t: int) -> None:
+        """The pins that follow no internal level, and those that do so a clk later."""
+        for pin in ("d_oe", "d_o", "wrq_n", *_LATE):
+            self.log.set(t, pin, OUTPUTS[pin])
+
+    # ------------------------------------------------------------------ inside of `chip`
+
+    def _levels(self) -> dict[str, int]:
+        """Internal levels behind the pins."""
+        core, motion = self.core, self.motion
+        pulse = {"pout": motion.pout, "dir": motion.direction, "intlk_n": int(not core.interlock.on)}
+        return {**core.outputs.levels(), **pulse, **self._host.levels(), "out_oe": self._out_oe}
+
+    def _latch(self, t: int) -> None:
+        """Before out_oe the pins keep their reset levels (P312-PRT-02)."""
+        levels = self._levels() if self._out_oe else self._held
+        for names, register in self._registers:
+            register.latch(t, {name: levels[name] for name in names})
+
+    def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
+        if self._latched["mode"]:
+            self._host.sample(t, pins)
+
+    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+        if t < self._pins_from + self.latency.input_sync:
+            return
+        inside, core = self._context.levels, self.core
+        before = dict(inside)
+        inside.update(levels)
+        if levels["epin"] and not before["epin"]:
+            core.count_encoder(t, levels["epdir"])
+        core.filters.see(t, levels)
+        if levels["run"] != before["run"]:
+            core.operation.look_at_run(t)
+        if levels["auxi"] != before["auxi"]:
+            core.input_change.see(t)
+        if levels["extck"] != before["extck"] and core.table is not None:
+            counted = {6: 1, 7: 0}.get(core.table.clk)
+            if counted == levels["extck"]:
+                self._queue.at(t, Phase.BASE, self.motion.tick)
+
+    def _strobe(self, write: bool, reg: int) -> dict[str, int]:
+        return {"cs_n": 0, "we_n" if write else "oe_n": 0, "rs": reg}
+
+    # ------------------------------------------------------------------ what there is to see
+
+    @property
+    def motion(self) -> Motion:
+        """The pulse output."""
+        return self.core.operation.motion
+
+    @property
+    def csr(self) -> int:
+        """What a read of CSR would show, without the access."""
+        return self._host.csr
+
+    @property
+    def state(self) -> State:
+        """Operation state."""
+        return self.core.state
+
+    @property
+    def position(self) -> int:
+        """POS."""
+        return self.core.counters.pulse

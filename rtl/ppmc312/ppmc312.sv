@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312: intelligent stepper controller for one axis, a replacement for the PPMC-312.
+// Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF and, through its blocks, all others.
+// Timing: inputs act two clk after the pin. out_oe and the core come two clk after the release of the reset.
+// Note:   over its parallel bus (mode = 1). With mode = 0 the station is silent: txd rests, the bus is ignored.
+`default_nettype none
+
+module ppmc312
+  import ppmc312_pkg::*;
+  import ppmc_stage_pkg::*;
+#(
+    parameter int unsigned CLK_HZ   = 16_000_000,  // 8e6 .. 200e6, at least XTAL_HZ / 2
+    parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter string       TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
+    parameter int unsigned VERSION  = 'h12,        // what the version instruction answers, 0 .. 255
+    parameter string       SUM_MODE = "BINARY"     // or "CHARS": checksum of the serial mode
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // host, parallel
+    input  wire logic       mode,     // 1 parallel, 0 serial; taken at the end of a reset
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe,
+    input  wire logic [2:0] rs,
+    input  wire logic       cs_n,
+    input  wire logic       we_n,
+    input  wire logic       oe_n,
+    output logic            wrq_n,
+    output logic            irq_n,
+    // host, serial
+    input  wire logic       rxd,
+    output logic            txd,
+    output logic            snd,
+    input  wire logic       hsp,
+    input  wire logic [2:0] mod,
+    input  wire logic [3:0] adr,
+    // events, generalized input and output
+    input  wire logic       evt0_n,
+    input  wire logic       evt1_n,
+    input  wire logic [7:0] auxi,
+    output logic      [5:0] auxo_n,
+    // driver
+    output logic            exon_n,
+    output logic            cclr_n,
+    output logic            aclr_n,
+    output logic            zclmp_n,
+    output logic            cd_n,
+    input  wire logic       alm_n,
+    input  wire logic       end_n,
+    // encoder, switches
+    input  wire logic       epin,
+    input  wire logic       epdir,
+    input  wire logic       index_n,
+    input  wire logic       org_n,
+    input  wire logic       fl_n,
+    input  wire logic       bl_n,
+    input  wire logic       fhl_n,
+    input  wire logic       bhl_n,
+    // pulses
+    output logic            pout,
+    output logic            dir,      // 0 = CW
+    input  wire logic       extck,
+    input  wire logic       run,
+    output logic            intlk_n,
+    output logic            out_oe
+);
+
+  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+    $fatal(1, "ppmc312: TIMING must be FAST or DATASHEET");
+  end
+  if (SUM_MODE != "BINARY" && SUM_MODE != "CHARS") begin : g_check_sum
+    $fatal(1, "ppmc312: SUM_MODE must be BINARY or CHARS");
+  end
+  if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000 || CLK_HZ < XTAL_HZ / 2) begin : g_check_clk
+    $fatal(1, "ppmc312: CLK_HZ must be 8e6 .. 200e6 and at least XTAL_HZ / 2");
+  end
+  if (XTAL_HZ < 1_000_000 || XTAL_HZ > 16_000_000) begin : g_check_xtal
+    $fatal(1, "ppmc312: XTAL_HZ must be 1e6 .. 16e6");
+  end
+
+  if (VERSION > 255) begin : g_check_version
+    $fatal(1, "ppmc312: VERSION must be 0 .. 255");
+  end
+
+  localparam bit Datasheet = TIMING == "DATASHEET";
+  // 9.5 crystal cycles
+  localparam int unsigned WaitClk = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
+  localparam int unsigned StartXtal = 25_600;
+  localparam int unsigned StartBits = 16;
+
+  logic unused_serial;
+  assign unused_serial = &{1'b0, rxd, hsp, mod, adr};
+  assign txd = 1'b1;
+  assign snd = 1'b0;
+
+  // ---- reset -----------------------------------------------------------------------------------------------------
+
+  logic
+      rst_pin, rst_q, rst_host_q, rst_core, rst_host, boot_q, reset, started, mode_s, parallel_q, unused_meta;
+
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .rst_no(rst_pin)
+  );
+
+  if (Datasheet) begin : g_start
+    ppmc_xtal_timer #(
+        .ClkHz (CLK_HZ),
+        .XtalHz(XTAL_HZ),
+        .Width (StartBits)
+    ) u_start (
+        .clk_i    (clk),
+        .rst_ni   (rst_pin),
+        .restart_i(1'b0),
+        .limit_i  (StartBits'(StartXtal)),
+        .past_o   (started)
+    );
+  end else begin : g_fast
+    localparam int unsigned Unused = StartXtal + StartBits;
+    logic unused_start;
+
+    assign unused_start = Unused[0];
+    always_ff @(posedge clk or negedge rst_pin) begin
+      if (!rst_pin) started <= 1'b0;
+      else started <= 1'b1;
+    end
+  end
+
+  // The levels before the end of the reset count, so this one runs during it.
+  ppmc_sync #(
+      .Width(1)
+  ) u_mode (
+      .clk_i (clk),
+      .rst_ni(1'b1),
+      .d_i   (mode),
+      .q1_o  (unused_meta),
+      .q2_o  (mode_s)
+  );
+
+  always_ff @(posedge clk or negedge rst_pin) begin
+    if (!rst_pin) begin
+      rst_q      <= 1'b0;
+      rst_host_q <= 1'b0;
+      boot_q     <= 1'b0;
+      out_oe     <= 1'b0;
+      parallel_q <= 1'b0;
+    end else begin
+      out_oe     <= started;
+      rst_q      <= started && !reset;
+      rst_host_q <= !reset;
+      boot_q     <= reset || (boot_q && !rst_q);
+      if (!rst_host_q) parallel_q <= mode_s;
+    end
+  end
+
+  // The pin resets all at once, whatever the registers of the resets hold.
+  assign rst_core = rst_q && rst_pin;
+  assign rst_host = rst_host_q && rst_pin;
+
+  // ---- inputs ----------------------------------------------------------------------------------------------------
+
+  levels_t plain, levels;
+  logic [1:0] evt_level, evt_edge;
+  logic run_s, epin_s, epdir_s;
+  logic [7:0] auxi_s;
+
+  ppmc312_pins #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(Datasheet)
+  ) u_pins (
+      .clk_i(clk),
+      .rst_ni(rst_core),
+      .pins_i(
+      '{
+          alm_n: alm_n,
+          end_n: end_n,
+          index_n: index_n,
+          org_n: org_n,
+          fhl_n: fhl_n,
+          bhl_n: bhl_n,
+          fl_n: fl_n,
+          bl_n: bl_n
+      }
+      ),
+      .evt_ni({evt1_n, evt0_n}),
+      .run_i(run),
+      .epin_i(epin),
+      .epdir_i(epdir),
+      .auxi_i(auxi),
+      .plain_o(plain),
+      .levels_o(levels),
+      .evt_no(evt_level),
+      .edge_o(evt_edge),
+      .run_o(run_s),
+      .epin_o(epin_s),
+      .epdir_o(epdir_s),
+      .auxi_o(auxi_s)
+  );
+
+  // ---- host ------------------------------------------------------------------------------------------------------
+
+  logic blk_valid, blk_done, rd_any, rd_load, rd_done;
+  logic [BLOCK_BITS:0] blk_size, rd_size;
+  logic [BLOCK_BITS-1:0] blk_addr, rd_addr;
+  logic [7:0] blk_data, rd_data;
+
+  ppmc312_mailbox #(
+      .WaitClk(WaitClk)
+  ) u_mailbox (
+      .clk_i      (clk),
+      .rst_ni     (rst_host),
+      .ready_i    (out_oe),
+      .rs_i       (rs),
+      .cs_ni      (cs_n || !parallel_q),
+      .we_ni      (we_n),
+      .oe_ni      (oe_n),
+      .d_i,
+      .d_o,
+      .d_oe_o     (d_oe),
+      .wrq_no     (wrq_n),
+      .irq_no     (irq_n),
+      .blk_valid_o(blk_valid),
+      .blk_size_o (blk_size),
+      .blk_addr_i (blk_addr),
+      .blk_data_o (blk_data),
+      .blk_done_i (blk_done),
+      .rd_any_i   (rd_any),
+      .rd_load_o  (rd_load),
+      .rd_size_i  (rd_size),
+      .rd_addr_o  (rd_addr),
+      .rd_data_i  (rd_data),
+      .rd_done_o  (rd_done)
+  );
+
+  ppmc312_core #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(Datasheet),
+      .Version  (8'(VERSION))
+  ) u_core (
+      .clk_i      (clk),
+      .rst_ni     (rst_core),
+      .boot_i     (boot_q),
+      .reset_o    (reset),
+      .blk_valid_i(blk_valid),
+      .blk_size_i (blk_size),
+      .blk_addr_o (blk_addr),
+      .blk_data_i (blk_data),
+      .blk_done_o (blk_done),
+      .rd_any_o   (rd_any),
+      .rd_load_i  (rd_load),
+      .rd_size_o  (rd_size),
+      .rd_addr_i  (rd_addr),
+      .rd_data_o  (rd_data),
+      .rd_done_i  (rd_done),
+      .plain_i    (plain),
+      .levels_i   (levels),
+      .evt_ni     (evt_level),
+      .edge_i     (evt_edge),
+      .run_i      (run_s),
+      .epin_i     (epin_s),
+      .epdir_i    (epdir_s),
+      .auxi_i     (auxi_s),
+      .extck_i    (extck),
+      .pout_o     (pout),
+      .dir_o      (dir),
+      .intlk_no   (intlk_n),
+      .exon_no    (exon_n),
+      .cclr_no    (cclr_n),
+      .aclr_no    (aclr_n),
+      .zclmp_no   (zclmp_n),
+      .cd_no      (cd_n),
+      .auxo_no    (auxo_n)
+  );
+
+endmodule
+
+`default_nettype wire

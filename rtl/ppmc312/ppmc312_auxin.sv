@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_auxin: tells when bits of the generalized input change.
+// Rules:  P312-MON-10, P312-CMD-28.
+// Timing: looked at every 50 us from the instruction on.
+`default_nettype none
+
+module ppmc312_auxin #(
+    parameter int unsigned ClkHz  = 16_000_000,
+    parameter int unsigned XtalHz = 16_000_000
+) (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic       set_i,
+    input  wire logic       repeat_i,  // 0: ends after one report
+    input  wire logic [7:0] mask_i,
+    input  wire logic [7:0] auxi_i,    // synchronous
+    output logic            report_o,
+    output logic      [7:0] data_o
+);
+
+  localparam int unsigned SampleXtal = 800;
+
+  logic tick, repeat_q;
+  logic [7:0] mask_q, former_q;
+
+  ppmc_tick_gen #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (XtalHz),
+      .TickXtal(SampleXtal)
+  ) u_sample (
+      .clk_i,
+      .rst_ni,
+      .restart_i(set_i),
+      .tick_o   (tick)
+  );
+
+  assign data_o   = (former_q ^ auxi_i) & mask_q;
+  assign report_o = tick && data_o != '0;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      repeat_q <= 1'b0;
+      mask_q   <= '0;
+      former_q <= '0;
+    end else if (set_i) begin
+      repeat_q <= repeat_i;
+      mask_q   <= mask_i;
+      former_q <= auxi_i;
+    end else if (tick) begin
+      former_q <= auxi_i;
+      if (report_o && !repeat_q) mask_q <= '0;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_bus: strobes of the 8-bit parallel bus into register writes and reads, and the wait request.
+// Rules:  P312-PAR-09..12, P312-GEN-01.
+// Timing: a write whose end is first sampled at edge 0 gives wr_o in the cycle before edge 2. A read that is
+//         first sampled at edge 0 drives the bus from edge 3 on, until 2 edges after its end; rd_done_o comes
+//         in the cycle before edge 2 after that end. d_o never changes during a strobe.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_bus #(
+    parameter int unsigned WaitClk = 6  // T_WRQ
+) (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    // pins
+    input  wire logic [2:0] rs_i,
+    input  wire logic       cs_ni,
+    input  wire logic       we_ni,
+    input  wire logic       oe_ni,
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe_o,
+    output logic            wrq_no,
+    // registers
+    input  wire logic       wait_i,     // EWRQ: the wait request is used
+    output logic            wr_o,       // a write is complete
+    output logic      [2:0] wr_rs_o,
+    output logic      [7:0] wr_data_o,
+    output logic      [2:0] rd_rs_o,    // register that is being read
+    input  wire logic [7:0] rd_data_i,  // its value
+    output logic            rd_show_o,  // its value is taken
+    output logic            rd_done_o   // the read has ended
+);
+
+  localparam logic [2:0] RegDwr = 3'b101;
+  localparam logic [2:0] RegDrr = 3'b111;
+  localparam int unsigned Width = ppmc_pkg::cnt_width(WaitClk);
+
+  logic cs_n, we_n, oe_n, wr2, rd2, wr3_q, rd3_q, busy2, busy3_q;
+  logic [2:0] rs2, rs_q;
+  logic [ 7:0] d2;
+  logic [13:0] unused_meta;
+
+  ppmc_sync #(
+      .Width(14)
+  ) u_sync (
+      .clk_i,
+      .rst_ni,
+      .d_i ({cs_ni, we_ni, oe_ni, rs_i, d_i}),
+      .q1_o(unused_meta),
+      .q2_o({cs_n, we_n, oe_n, rs2, d2})
+  );
+
+  assign wr2 = !cs_n && !we_n && oe_n;
+  assign rd2 = !cs_n && we_n && !oe_n;
+  assign wr_o = wr3_q && !wr2;
+  assign rd_show_o = rd2 && rd3_q && !d_oe_o;
+  assign rd_done_o = d_oe_o && !rd2;
+  assign rd_rs_o = d_oe_o ? rs_q : rs2;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      wr3_q     <= 1'b0;
+      rd3_q     <= 1'b0;
+      wr_rs_o   <= '0;
+      wr_data_o <= '0;
+      rs_q      <= '0;
+      d_oe_o    <= 1'b0;
+      d_o       <= '0;
+    end else begin
+      wr3_q <= wr2;
+      rd3_q <= rd2;
+      if (wr2) begin
+        wr_rs_o   <= rs2;
+        wr_data_o <= d2;
+      end
+      // The first sample may have met the address lines while they changed: that of the second counts.
+      d_oe_o <= rd2 && rd3_q;
+      if (rd_show_o) begin
+        rs_q <= rs2;
+        d_o  <= rd_data_i;
+      end
+    end
+  end
+
+  // Wait request: a data access that begins too soon after the one before waits for the rest of that time.
+  logic [Width-1:0] age_q;  // clk since the end of the last data access
+  logic [Width-1:0] wait_q;  // clk to wait
+  logic early;
+
+  assign busy2 = (wr2 && rs2 == RegDwr) || (rd2 && rs2 == RegDrr);
+  assign early = busy2 && !busy3_q && wait_i && age_q != Width'(WaitClk);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy3_q <= 1'b0;
+      age_q   <= Width'(WaitClk);
+      wait_q  <= '0;
+      wrq_no  <= 1'b1;
+    end else begin
+      busy3_q <= busy2;
+      if (busy3_q && !busy2) age_q <= Width'(1);
+      else if (age_q != Width'(WaitClk)) age_q <= age_q + 1'b1;
+      if (early) wait_q <= Width'(WaitClk) - age_q;
+      else if (wait_q != '0) wait_q <= wait_q - 1'b1;
+      wrq_no <= !early && wait_q <= Width'(1);
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_par_09, !(wr2 && rd2))
+  `PPMC_ASSERT(p312_par_11_still, !(d_oe_o && $past(d_oe_o)) || d_o == $past(d_o))
+`endif
+
+endmodule
+
+`default_nettype wire

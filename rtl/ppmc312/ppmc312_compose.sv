@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_compose: the answer to an instruction: what it has come to, in the bytes of the protocol.
+// Rules:  sections 3.1, 10.1, 10.2; P312-OVR-04, P312-EVT-02, P312-CMD-FC-1..4, P312-CMD-49.
+// Timing: combinational.
+`default_nettype none
+
+module ppmc312_compose
+  import ppmc312_pkg::*;
+(
+    input  wire block_t               block_i,
+    input  wire verdict_e             verdict_i,
+    input  wire logic     [ 7:0]      error_i,
+    input  wire status_e              status_i,
+    // where the instruction is; at most one
+    input  wire logic                 at_boot_i,
+    input  wire logic                 at_act_i,
+    input  wire logic                 at_setup_i,
+    input  wire logic                 at_copy_i,
+    input  wire logic                 at_move_i,
+    input  wire logic                 fails_i,        // was triggered and cannot be executed
+    input  wire logic                 registers_i,    // was to be registered with the command FIFO
+    input  wire logic                 used_i,         // the trigger is in use by the other kind
+    input  wire logic     [ 2:0]      evt_count_i,    // of the event buffer concerned
+    input  wire logic     [ 3:0]      reply_extra_i,
+    input  wire logic     [ 8:0][7:0] reply_data_i,
+    input  wire logic                 setup_bad_i,
+    input  wire logic     [ 7:0]      setup_error_i,
+    input  wire logic                 complete_i,
+    input  wire logic     [ 1:0]      list_i,
+    input  wire logic     [ 6:0]      left_i,
+    input  wire logic     [23:0]      acc_sum_i,
+    input  wire logic     [23:0]      dec_sum_i,
+    input  wire logic                 limited_i,
+    input  wire logic                 refused_i,
+    input  wire logic     [ 7:0]      kind_i,
+    output answer_t                   answer_o
+);
+
+  logic [7:0] code, flags;
+  logic [1:0] fail_code;
+  logic host, inner, starts;
+
+  assign code   = block_i.code;
+  assign flags  = block_i.par[0];
+  assign host   = block_i.source == SrcHost;
+  assign inner  = code == I_EVT_SET;
+  assign starts = !(code inside {I_RAMP, I_SPEED});
+
+  always_comb begin
+    fail_code = 2'd0;
+    if (at_act_i && verdict_i == VerdictStatus) fail_code = 2'd1;
+    if (at_move_i) fail_code = limited_i ? 2'd2 : 2'd1;
+  end
+
+  always_comb begin
+    answer_o = '{
+        head: {3'b000, block_i.source, 3'b011},
+        code: code,
+        extra: reply_extra_i,
+        data: reply_data_i,
+        echo: 1'b0
+    };
+    unique case (1'b1)
+      at_boot_i: begin
+        answer_o.head  = 8'h03;
+        answer_o.code  = I_RESET;
+        answer_o.extra = 4'd0;
+      end
+      at_setup_i: begin
+        answer_o.code = I_FREE;
+        if (block_i.head[1] || !host) begin  // initial setting
+          answer_o.code  = code;
+          answer_o.extra = 4'd0;
+        end else if (complete_i) begin
+          answer_o.extra = 4'd7;
+          answer_o.data[6:0] = {
+            dec_sum_i[7:0],
+            dec_sum_i[15:8],
+            dec_sum_i[23:16],
+            acc_sum_i[7:0],
+            acc_sum_i[15:8],
+            acc_sum_i[23:16],
+            8'h0f
+          };
+        end else begin
+          answer_o.extra     = 4'd2;
+          answer_o.data[1:0] = {1'b0, left_i, 6'd0, list_i};
+        end
+        if (setup_bad_i) begin
+          answer_o.code    = A_PARAM;
+          answer_o.extra   = 4'd1;
+          answer_o.data[0] = setup_error_i;
+          answer_o.echo    = 1'b1;
+        end
+      end
+      at_copy_i: begin
+        answer_o.code    = inner ? code : A_STORED;
+        answer_o.extra   = inner ? 4'd1 : 4'd0;
+        answer_o.data[0] = 8'h00;
+      end
+      at_move_i: begin
+        answer_o.extra   = (starts && code != I_STEP) ? 4'd1 : 4'd0;
+        answer_o.data[0] = kind_i;
+        if (refused_i) begin
+          answer_o.code      = A_STATUS;
+          answer_o.extra     = 4'd2;
+          answer_o.data[1:0] = {2'b00, status_i, 8'h00};
+        end
+        if (limited_i) begin
+          answer_o.code  = A_LIMIT;
+          answer_o.extra = 4'd0;
+        end
+      end
+      default: begin
+        if (code == I_FREE) begin
+          answer_o.extra = 4'd2;
+          answer_o.data[1:0] = {
+            (flags[4] && block_i.par[2] > block_i.par[1]) ? block_i.par[2] : block_i.par[1], 8'h00
+          };
+        end
+        if (inner) begin
+          answer_o.extra   = 4'd1;
+          answer_o.data[0] = used_i ? 8'h01 : 8'h02;
+          if (flags[1]) answer_o.data[0] = evt_count_i == '0 ? 8'h05 : (evt_count_i == 3'd1) ? 8'h04 : 8'h03;
+        end
+        if (registers_i) begin
+          answer_o.code    = A_FULL;
+          answer_o.extra   = 4'd1;
+          answer_o.data[0] = 8'(used_i);
+        end
+        if (code == I_TABLE && verdict_i == VerdictGo) answer_o.head[0] = 1'b0;  // data blocks follow
+        unique case (verdict_i)
+          VerdictPar: begin
+            answer_o.code    = A_PARAM;
+            answer_o.extra   = 4'd1;
+            answer_o.data[0] = error_i;
+            answer_o.echo    = 1'b1;
+          end
+          VerdictStatus: begin
+            answer_o.code      = A_STATUS;
+            answer_o.extra     = 4'd2;
+            answer_o.data[1:0] = {2'b00, status_i, error_i};
+          end
+          VerdictCommand: begin
+            answer_o.code    = A_COMMAND;
+            answer_o.extra   = 4'd1;
+            answer_o.data[0] = code;
+          end
+          VerdictSize: begin
+            answer_o.code    = A_SIZE;
+            answer_o.extra   = 4'd1;
+            answer_o.data[0] = block_i.len;
+          end
+          default: ;
+        endcase
+      end
+    endcase
+    if (fails_i) begin
+      answer_o.code    = (block_i.source == SrcEvent) ? A_EVENT : A_OVERRIDE;
+      answer_o.extra   = 4'd1;
+      answer_o.data[0] = (at_act_i && verdict_i == VerdictCommand) ? 8'h05 : 8'(fail_code);
+      answer_o.echo    = 1'b0;
+    end
+  end
+
+  logic unused_bits;
+  assign unused_bits = &{1'b0, block_i, flags};
+
+endmodule
+
+`default_nettype wire

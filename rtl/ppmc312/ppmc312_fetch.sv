@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_fetch: takes an instruction apart, and copies one into the store of those that wait.
+// Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
+// Timing: 19 clk from start_i or copy_i to done_o, whatever the length. Bytes come two clk after addr_o.
+`default_nettype none
+
+module ppmc312_fetch
+  import ppmc312_pkg::*;
+(
+    input  wire logic                     clk_i,
+    input  wire logic                     rst_ni,
+    input  wire logic                     start_i,     // take apart
+    input  wire source_e                  source_i,    // with start_i: where from
+    input  wire logic    [  BLOCK_BITS:0] size_i,      // with start_i: bytes of the host's block
+    input  wire logic                     copy_i,      // copy
+    input  wire logic                     inner_i,     // the block within an event setting
+    output logic                          busy_o,
+    output logic                          done_o,
+    output block_t                        block_o,
+    // where the instruction stands
+    output logic         [BLOCK_BITS-1:0] addr_o,
+    input  wire logic    [           7:0] data_i,
+    // where the copy goes
+    output logic                          put_we_o,
+    output logic         [           3:0] put_addr_o,
+    output logic         [           7:0] put_data_o
+);
+
+  localparam logic [4:0] Bytes = 5'd16;
+  localparam logic [4:0] Inner = 5'd4;  // header of the block within an event setting
+
+  logic run_q, copy_q;
+  logic [4:0] sent_q, at_q;
+  logic [1:0] valid_q;
+  logic [7:0] limit;  // bytes that there are
+  logic [3:0] index;
+  logic shifted;
+
+  assign addr_o = sent_q + (copy_q && inner_i ? Inner : '0);
+  assign busy_o = run_q;
+  assign done_o = run_q && at_q == Bytes;
+  assign put_we_o = copy_q && valid_q[1];
+  assign put_addr_o = at_q[3:0];
+  assign put_data_o = data_i;
+
+  // Parameters go to the places of the long form.
+  assign limit = (block_o.source == SrcHost) ? 8'(block_o.size) : block_o.len + 8'd2;
+  assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
+      (block_o.code == I_MOVE && block_o.len == 8'd6 && at_q >= 5'd4);
+  assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      run_q   <= 1'b0;
+      copy_q  <= 1'b0;
+      sent_q  <= '0;
+      at_q    <= '0;
+      valid_q <= '0;
+    end else if (start_i || copy_i) begin
+      run_q   <= 1'b1;
+      copy_q  <= copy_i;
+      sent_q  <= '0;
+      at_q    <= '0;
+      valid_q <= '0;
+    end else begin
+      valid_q <= {valid_q[0], run_q && sent_q != Bytes};
+      if (run_q && sent_q != Bytes) sent_q <= sent_q + 1'b1;
+      if (valid_q[1]) at_q <= at_q + 1'b1;
+      if (done_o) begin
+        run_q  <= 1'b0;
+        copy_q <= 1'b0;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) block_o <= '0;
+    else if (start_i) block_o <= '{source: source_i, size: size_i, default: '0};
+    else if (valid_q[1] && !copy_q) begin
+      if (8'(at_q) < limit || at_q < 5'd2) begin
+        unique case (at_q)
+          5'd0:    block_o.head <= data_i;
+          5'd1:    block_o.len <= (limit == 8'd1 && block_o.source == SrcHost) ? 8'd0 : data_i;
+          5'd2:    block_o.code <= data_i;
+          default: if (index < 4'(PARAMS)) block_o.par[index] <= data_i;
+        endcase
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_mailbox: the parallel front end: CSR, write window (WCR, WAR, DWR), read window (RCR, RAR, DRR),
+// interrupt.
+// Rules:  P312-PAR-01..08, P312-PRT-01/02, P312-BAD-01..03/07/08.
+// Timing: a block is offered one clk after the write of its header; irq_no follows its terms by one clk. A
+//         report is shown 6 clk after its load, which comes at least 8 clk after the last byte of the one
+//         before.
+// Note:   blocks and reports cross to the core in logical order; the bus has them reversed.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_mailbox
+  import ppmc312_pkg::*;
+#(
+    parameter int unsigned WaitClk = 6  // T_WRQ
+) (
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic                  ready_i,      // 0: no instruction may be written yet
+    // pins
+    input  wire logic [           2:0] rs_i,
+    input  wire logic                  cs_ni,
+    input  wire logic                  we_ni,
+    input  wire logic                  oe_ni,
+    input  wire logic [           7:0] d_i,
+    output logic      [           7:0] d_o,
+    output logic                       d_oe_o,
+    output logic                       wrq_no,
+    output logic                       irq_no,
+    // blocks of the host
+    output logic                       blk_valid_o,  // one waits to be processed
+    output logic      [  BLOCK_BITS:0] blk_size_o,   // its bytes, 1 .. 32
+    input  wire logic [BLOCK_BITS-1:0] blk_addr_i,   // logical: 0 = header
+    output logic      [           7:0] blk_data_o,   // two clk later
+    input  wire logic                  blk_done_i,   // it is processed and answered
+    // reports to the host
+    input  wire logic                  rd_any_i,     // one waits
+    output logic                       rd_load_o,    // load it
+    input  wire logic [  BLOCK_BITS:0] rd_size_i,    // bytes of the loaded one, from 2 clk after the load on
+    output logic      [BLOCK_BITS-1:0] rd_addr_o,    // logical
+    input  wire logic [           7:0] rd_data_i,    // at most three clk later
+    output logic                       rd_done_o     // it has been read
+);
+
+  localparam logic [2:0] RegCsr = 3'b000;
+  localparam logic [2:0] RegCr = 3'b010;  // WCR, RCR
+  localparam logic [2:0] RegAr = 3'b011;  // WAR, RAR
+  localparam logic [2:0] RegDwr = 3'b101;
+  localparam logic [2:0] RegDrr = 3'b111;
+  localparam logic [7:0] Arm = 8'h20;
+  localparam logic [BLOCK_BITS:0] Top = (BLOCK_BITS + 1)'(32);
+
+  logic wr, rd_show, rd_done, mwef, mref, take, enable_wrq_q, enable_write_q, enable_read_q, armed_q;
+  logic [2:0] wr_rs, rd_rs;
+  logic [7:0] wr_data, rd_data;
+  logic [BLOCK_BITS:0] at_q;  // write pointer; 0x20: nothing is taken
+  logic [BLOCK_BITS:0] left_q;  // bytes of the report that wait to be read; 0: there is none
+
+  ppmc312_bus #(
+      .WaitClk(WaitClk)
+  ) u_bus (
+      .clk_i,
+      .rst_ni,
+      .rs_i,
+      .cs_ni,
+      .we_ni,
+      .oe_ni,
+      .d_i,
+      .d_o,
+      .d_oe_o,
+      .wrq_no,
+      .wait_i   (enable_wrq_q),
+      .wr_o     (wr),
+      .wr_rs_o  (wr_rs),
+      .wr_data_o(wr_data),
+      .rd_rs_o  (rd_rs),
+      .rd_data_i(rd_data),
+      .rd_show_o(rd_show),
+      .rd_done_o(rd_done)
+  );
+
+  assign mwef = blk_valid_o || !ready_i;
+  assign mref = left_q == '0;
+
+  // ---- write window ----------------------------------------------------------------------------------------------
+
+  assign take = wr && wr_rs == RegDwr && !mwef && armed_q && at_q != Top;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {enable_wrq_q, enable_write_q, enable_read_q} <= '0;
+      armed_q                                       <= 1'b0;
+      at_q                                          <= Top;
+      blk_size_o                                    <= '0;
+      blk_valid_o                                   <= 1'b0;
+    end else begin
+      if (wr && wr_rs == RegCsr) {enable_wrq_q, enable_write_q, enable_read_q} <= wr_data[6:4];
+      if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == Arm;
+      if (wr && wr_rs == RegAr && !mwef) begin
+        at_q       <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
+        blk_size_o <= Top - wr_data[BLOCK_BITS:0];
+      end
+      if (take) at_q <= at_q + 1'b1;
+      if (take && at_q == Top - 1'b1) blk_valid_o <= 1'b1;
+      else if (blk_done_i) blk_valid_o <= 1'b0;
+    end
+  end
+
+  ppmc_ram #(
+      .Width   (8),
+      .AddrBits(BLOCK_BITS)
+  ) u_window (
+      .clk_i,
+      .we_i   (take),
+      .waddr_i(at_q[BLOCK_BITS-1:0]),
+      .wdata_i(wr_data),
+      .raddr_i(~blk_addr_i),
+      .rdata_o(blk_data_o)
+  );
+
+  // ---- read window -----------------------------------------------------------------------------------------------
+
+  logic [3:0] pause_q;  // clk before the next step
+  logic loaded_q, shown_q, last;
+
+  // A read that began before there was a report has shown none of its bytes.
+  assign last = rd_done && shown_q && rd_rs == RegDrr && left_q == (BLOCK_BITS + 1)'(1);
+  assign rd_load_o = rd_any_i && mref && !loaded_q && pause_q == '0;
+  assign rd_done_o = last;
+  assign rd_addr_o = mref ? BLOCK_BITS'(rd_size_i - 1'b1) : BLOCK_BITS'(left_q - 1'b1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      loaded_q <= 1'b0;
+      shown_q  <= 1'b0;
+      pause_q  <= '0;
+      left_q   <= '0;
+    end else begin
+      if (rd_show) shown_q <= !mref;
+      if (pause_q != '0) pause_q <= pause_q - 1'b1;
+      if (rd_load_o) begin
+        loaded_q <= 1'b1;
+        pause_q  <= 4'd5;
+      end else if (last) begin
+        loaded_q <= 1'b0;
+        pause_q  <= 4'd9;
+        left_q   <= '0;
+      end else if (loaded_q && mref && pause_q == '0) begin
+        left_q <= rd_size_i;
+      end else if (rd_done && shown_q) begin
+        if (rd_rs == RegDrr) left_q <= left_q - 1'b1;
+        if (rd_rs == RegCr) left_q <= rd_size_i;
+      end
+    end
+  end
+
+  always_comb begin
+    unique case (rd_rs)
+      RegCsr:  rd_data = {1'b0, enable_wrq_q, enable_write_q, enable_read_q, mwef, mref, 2'b00};
+      RegAr:   rd_data = 8'h40 - 8'(left_q);
+      RegDrr:  rd_data = mref ? 8'h00 : rd_data_i;
+      default: rd_data = 8'h00;
+    endcase
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) irq_no <= 1'b1;
+    else irq_no <= !((enable_write_q && !mwef) || (enable_read_q && !mref));
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_par_07, mref || left_q <= rd_size_i)
+  `PPMC_ASSERT(p312_par_06, !(take && mwef))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_outputs: pins that instructions and the course of a motion switch: excitation, counter clear, alarm
+// clear, zero clamp, current reduction, generalized output; and the way out of the abnormal status.
+// Rules:  P312-CMD-20..26, P312-OUT-01/02, P312-INP-31/33, P312-MON-06.
+// Timing: pins follow by one clk; pulses last 24.576 ms, the current is reduced 100 ms after the last motion.
+`default_nettype none
+
+module ppmc312_outputs #(
+    parameter int unsigned ClkHz  = 16_000_000,
+    parameter int unsigned XtalHz = 16_000_000
+) (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    // instructions
+    input  wire logic       excite_i,    // excitation on, off
+    input  wire logic       relax_i,
+    input  wire logic       cclr_i,
+    input  wire logic       aclr_i,
+    input  wire logic       clamp_i,
+    input  wire logic       aux_i,
+    input  wire logic [5:0] aux_data_i,  // 1 = low
+    // course of things
+    input  wire logic       launch_i,    // t0
+    input  wire logic       rested_i,    // pulse output has ended
+    input  wire logic       abn_i,       // abnormal status
+    input  wire logic       alm_ni,
+    input  wire logic       end_ni,
+    input  wire logic       near_i,      // in-position: inside, coupled to the zero clamp
+    input  wire logic       coupled_i,
+    output logic            leave_o,     // the abnormal status ends
+    // pins
+    output logic            exon_no,
+    output logic            cclr_no,
+    output logic            aclr_no,
+    output logic            zclmp_no,
+    output logic            cd_no,
+    output logic      [5:0] auxo_no
+);
+
+  localparam int unsigned PulseXtal = 393_216;
+  localparam int unsigned PulseBits = 19;
+  localparam int unsigned RestXtal = 1_600_000;
+  localparam int unsigned RestBits = 21;
+
+  logic [1:0] pulse_n, start, past;
+  logic leaving_q, resting_q, rested;
+
+  assign start = {aclr_i, cclr_i};
+  assign {aclr_no, cclr_no} = pulse_n;
+
+  for (genvar n = 0; n < 2; n++) begin : g_pulse
+    ppmc_xtal_timer #(
+        .ClkHz (ClkHz),
+        .XtalHz(XtalHz),
+        .Width (PulseBits)
+    ) u_timer (
+        .clk_i,
+        .rst_ni,
+        .restart_i(start[n]),
+        .limit_i  (PulseBits'(PulseXtal - 1)),
+        .past_o   (past[n])
+    );
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) pulse_n[n] <= 1'b1;
+      else if (start[n]) pulse_n[n] <= 1'b0;
+      else if (past[n]) pulse_n[n] <= 1'b1;
+    end
+  end
+
+  ppmc_xtal_timer #(
+      .ClkHz (ClkHz),
+      .XtalHz(XtalHz),
+      .Width (RestBits)
+  ) u_rest (
+      .clk_i,
+      .rst_ni,
+      .restart_i(rested_i),
+      .limit_i  (RestBits'(RestXtal - 1)),
+      .past_o   (rested)
+  );
+
+  // An alarm that goes while its clear pulse lasts has been cleared by it.
+  assign leave_o = leaving_q && alm_ni;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      leaving_q <= 1'b0;
+      resting_q <= 1'b0;
+      exon_no   <= 1'b1;
+      zclmp_no  <= 1'b1;
+      cd_no     <= 1'b1;
+      auxo_no   <= '1;
+    end else begin
+      if (aclr_i) leaving_q <= abn_i;
+      else if (leave_o || aclr_no) leaving_q <= 1'b0;
+
+      if (excite_i) exon_no <= 1'b0;
+      else if (relax_i) exon_no <= 1'b1;
+
+      if (launch_i) zclmp_no <= 1'b1;
+      else if (clamp_i || near_i || (coupled_i && !end_ni)) zclmp_no <= 1'b0;
+
+      if (rested_i) resting_q <= 1'b1;
+      else if (launch_i) resting_q <= 1'b0;
+      if (!alm_ni || (resting_q && rested && !launch_i)) cd_no <= 1'b0;
+      else if (launch_i) cd_no <= 1'b1;
+
+      if (aux_i) auxo_no <= ~aux_data_i;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_pace: when an instruction takes effect: at once, or after the old chip's time.
+// Rules:  P312-TIM-02..13, P312-TIM-20.
+// Timing: open_o is high when the time of block_i, counted from the last clk of idle_i, has passed. Without
+//         Datasheet it is always high.
+// Note:   the times of starts are those of pulse 1, which comes TW after t0.
+`default_nettype none
+
+module ppmc312_pace
+  import ppmc312_pkg::*;
+#(
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0
+) (
+    input  wire logic         clk_i,
+    input  wire logic         rst_ni,
+    input  wire logic         idle_i,   // no instruction is being processed
+    input  wire block_t       block_i,
+    input  wire logic   [7:0] kind_i,   // of a planned operation; 0 = trapezoid
+    output logic              open_o
+);
+
+  localparam int unsigned Width = 22;
+
+  if (Datasheet) begin : g_pace
+    // crystal cycles; what has passed on the way here is about 1 us and does not matter
+    localparam int unsigned PerUs = 16;
+    localparam int unsigned Lead = WIDTH_XTAL + 8;
+
+    logic past, paced_q, given;
+    logic [Width-1:0] limit, limit_q;
+
+    function automatic logic [Width-1:0] us(int unsigned n);
+      return Width'(PerUs * n - 8);
+    endfunction
+
+    function automatic logic [Width-1:0] pulse_us(int unsigned n);
+      return Width'(PerUs * n - Lead);
+    endfunction
+
+    assign given = {block_i.par[1], block_i.par[2]} != '0;
+
+    always_comb begin
+      limit = '0;
+      unique case (block_i.code)
+        I_INIT: begin
+          unique case ({
+            block_i.par[0][3], block_i.par[0][4]
+          })
+            2'b00:   limit = us(115_000);
+            2'b01:   limit = us(200_000);
+            2'b10:   limit = us(175_000);
+            default: limit = us(260_000);
+          endcase
+        end
+        I_MOVE: begin
+          if (given) limit = (kind_i == '0) ? pulse_us(900) : pulse_us(1400);
+          else limit = (kind_i == '0) ? pulse_us(100) : pulse_us(700);
+        end
+        I_CONST, I_CONT: limit = pulse_us(400);
+        I_HIGH, I_ZERO:  limit = given ? pulse_us(400) : pulse_us(60);
+        I_ORIGIN, I_STEP: limit = pulse_us(500);
+        // the position stops the pulses by itself
+        I_HALT:    limit = (block_i.source == SrcOverride && !block_i.par[0][0]) ? '0 : us(350);
+        I_AUX_OUT: limit = us(300);
+        default:   ;
+      endcase
+    end
+
+    // The limit is a clk late, so it must have been the same for two.
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        limit_q <= '0;
+        paced_q <= 1'b0;
+      end else begin
+        limit_q <= limit;
+        paced_q <= past && limit == limit_q;
+      end
+    end
+
+    ppmc_xtal_timer #(
+        .ClkHz (ClkHz),
+        .XtalHz(XtalHz),
+        .Width (Width)
+    ) u_timer (
+        .clk_i,
+        .rst_ni,
+        .restart_i(idle_i),
+        .limit_i  (limit_q),
+        .past_o   (past)
+    );
+
+    assign open_o = paced_q;
+  end else begin : g_fast
+    localparam int unsigned Unused = ClkHz + XtalHz + Width;
+    logic unused_bits;
+
+    assign unused_bits = &{1'b0, Unused[0], clk_i, rst_ni, idle_i, block_i, kind_i};
+    assign open_o = 1'b1;
+  end
+
+  logic unused_block;
+  assign unused_block = &{1'b0, block_i};
+
+endmodule
+
+`default_nettype wire

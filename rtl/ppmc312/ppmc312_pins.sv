@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_pins: every input pin of the motor side into the clock of the core, with the old chip's filters.
+// Rules:  P312-GEN-01, P312-INP-01, P312-TIM-14.
+// Timing: synchronised levels 2 clk after the pin; edges in the clk in which the level has become low. With
+//         Datasheet a low level counts after 200 us, of the event pins after 25 ms; a high one at once.
+`default_nettype none
+
+module ppmc312_pins
+  import ppmc312_pkg::*;
+#(
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0
+) (
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    // pins
+    input  wire levels_t       pins_i,
+    input  wire logic    [1:0] evt_ni,
+    input  wire logic          run_i,
+    input  wire logic          epin_i,
+    input  wire logic          epdir_i,
+    input  wire logic    [7:0] auxi_i,
+    // inside
+    output levels_t            plain_o,   // as on the pins
+    output levels_t            levels_o,  // filtered
+    output logic         [1:0] evt_no,    // as on the pins
+    output logic         [1:0] edge_o,    // filtered event has become low
+    output logic               run_o,
+    output logic               epin_o,
+    output logic               epdir_o,
+    output logic         [7:0] auxi_o
+);
+
+  localparam int unsigned Filtered = $bits(levels_t) + 2;
+  localparam int unsigned Pins = Filtered + 11;
+  localparam int unsigned LevelXtal = 3200;
+  localparam int unsigned EventXtal = 400_000;
+
+  logic [Pins-1:0] unused_meta;
+  logic [Filtered-1:0] asis, taken;
+  logic [1:0] evt_q;
+
+  ppmc_sync #(
+      .Width(Pins)
+  ) u_sync (
+      .clk_i,
+      .rst_ni,
+      .d_i ({auxi_i, run_i, epin_i, epdir_i, evt_ni, pins_i}),
+      .q1_o(unused_meta),
+      .q2_o({auxi_o, run_o, epin_o, epdir_o, evt_no, plain_o})
+  );
+
+  assign asis = {evt_no, plain_o};
+
+  if (Datasheet) begin : g_filter
+    for (genvar n = 0; n < Filtered; n++) begin : g_pin
+      localparam int unsigned Limit = (n < $bits(levels_t)) ? LevelXtal : EventXtal;
+      localparam int unsigned Width = ppmc_pkg::cnt_width(Limit + 3);
+      logic past;
+
+      ppmc_xtal_timer #(
+          .ClkHz (ClkHz),
+          .XtalHz(XtalHz),
+          .Width (Width)
+      ) u_timer (
+          .clk_i,
+          .rst_ni,
+          .restart_i(asis[n]),
+          .limit_i  (Width'(Limit)),
+          .past_o   (past)
+      );
+
+      assign taken[n] = asis[n] || !past;
+    end
+  end else begin : g_plain
+    localparam int unsigned Unused = ClkHz + XtalHz + LevelXtal + EventXtal;
+    logic unused_times;
+
+    assign unused_times = Unused[0];
+    assign taken = asis;
+  end
+
+  assign levels_o = taken[$bits(levels_t)-1:0];
+  assign edge_o   = evt_q & ~taken[Filtered-1-:2];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) evt_q <= '1;
+    else evt_q <= taken[Filtered-1-:2];
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_pkg: instruction codes, statuses, what each status accepts, lengths, reports and errors of the
+// PPMC-312.
+// Rules:  P312-STA-01 (accept table), section 3.1 (lengths), sections 10.1..10.3 (reports, errors, causes).
+`default_nettype none
+
+package ppmc312_pkg;
+
+  // ---- sizes -----------------------------------------------------------------------------------------------------
+
+  localparam int unsigned RATE_BITS = 16;
+  localparam int unsigned BLOCK_BITS = 5;  // address in a block of 32 bytes
+  localparam int unsigned WIDTH_XTAL = 80;  // TW
+
+  // ---- instruction codes -----------------------------------------------------------------------------------------
+
+  localparam logic [7:0] I_INIT = 8'h00;
+  localparam logic [7:0] I_FREE = 8'h01;
+  localparam logic [7:0] I_INPOS = 8'h02;
+  localparam logic [7:0] I_ENCODE = 8'h03;
+  localparam logic [7:0] I_LOCK_POS = 8'h04;
+  localparam logic [7:0] I_LIMIT = 8'h05;
+  localparam logic [7:0] I_END = 8'h06;
+  localparam logic [7:0] I_ORIGIN = 8'h10;
+  localparam logic [7:0] I_ZERO = 8'h11;
+  localparam logic [7:0] I_EXC_ON = 8'h20;
+  localparam logic [7:0] I_EXC_OFF = 8'h21;
+  localparam logic [7:0] I_CCLR = 8'h22;
+  localparam logic [7:0] I_CLAMP = 8'h23;
+  localparam logic [7:0] I_ACLR = 8'h24;
+  localparam logic [7:0] I_AUX_IN = 8'h25;
+  localparam logic [7:0] I_AUX_OUT = 8'h26;
+  localparam logic [7:0] I_PINS = 8'h27;
+  localparam logic [7:0] I_MASK = 8'h28;
+  localparam logic [7:0] I_VERSION = 8'h40;
+  localparam logic [7:0] I_TABLE = 8'h41;
+  localparam logic [7:0] I_POS = 8'h42;
+  localparam logic [7:0] I_POS_SET = 8'h43;
+  localparam logic [7:0] I_LOCK = 8'h44;
+  localparam logic [7:0] I_SYNC = 8'h45;
+  localparam logic [7:0] I_EVT_READ = 8'h47;
+  localparam logic [7:0] I_EVT_SET = 8'h49;
+  localparam logic [7:0] I_STATUS = 8'h4d;
+  localparam logic [7:0] I_HALT = 8'h80;
+  localparam logic [7:0] I_DECEL = 8'h81;
+  localparam logic [7:0] I_MOVE = 8'h82;
+  localparam logic [7:0] I_CONST = 8'h83;
+  localparam logic [7:0] I_STEP = 8'h84;
+  localparam logic [7:0] I_HIGH = 8'h85;
+  localparam logic [7:0] I_CONT = 8'h86;
+  localparam logic [7:0] I_RAMP = 8'h87;
+  localparam logic [7:0] I_SPEED = 8'h88;
+  localparam logic [7:0] I_RESET = 8'hff;
+
+  // ---- statuses: one bit each, in the order of the condition byte ------------------------------------------------
+
+  typedef enum logic [5:0] {
+    StatusIni = 6'b000001,
+    StatusNor = 6'b000010,
+    StatusAcc = 6'b000100,
+    StatusFix = 6'b001000,
+    StatusAbn = 6'b010000,
+    StatusWrn = 6'b100000
+  } status_e;
+
+  // ---- what the decoder knows of a code --------------------------------------------------------------------------
+
+  typedef struct packed {
+    logic       known;
+    logic       has_ov;     // bit 2 of the first parameter asks for a registration
+    logic       starts;     // starts pulses
+    logic       rated;      // parameters 1, 2 are a rate
+    logic       rate_zero;  // and 0 stands for RH
+    logic       counted;    // parameters 3 .. 6 are a number of pulses
+    logic [5:0] now;        // statuses that accept it, OV = 0
+    logic [5:0] later;      // statuses that accept it, OV = 1
+    logic [4:0] len_a;      // lengths of code and parameters
+    logic [4:0] len_b;
+  } info_t;
+
+  localparam logic [5:0] AT_REST = StatusIni | StatusNor;
+  localparam logic [5:0] RUNNING = StatusAcc | StatusFix;
+  localparam logic [5:0] LATER = StatusNor | StatusAcc | StatusFix;
+  localparam logic [5:0] ALWAYS = 6'b111111;
+
+  function automatic info_t common_info(logic [5:0] now, logic [4:0] len);
+    return
+    '{
+        known: 1'b1,
+        has_ov: 1'b0,
+        starts: 1'b0,
+        rated: 1'b0,
+        rate_zero: 1'b0,
+        counted: 1'b0,
+        now: now,
+        later: now,
+        len_a: len,
+        len_b: len
+    }
+    ;
+  endfunction
+
+  function automatic info_t info_of(logic [7:0] code);
+    info_t i;
+    i = common_info(ALWAYS, 5'd1);
+    unique case (code)
+      I_INIT: begin
+        i = common_info(AT_REST, 5'd14);
+        i.len_b = 5'd9;
+      end
+      I_FREE: begin
+        i = common_info(AT_REST, 5'd3);
+        i.len_b = 5'd4;
+      end
+      I_INPOS, I_ENCODE:                              i = common_info(AT_REST, 5'd4);
+      I_LOCK_POS:                                     i = common_info(AT_REST, 5'd5);
+      I_LIMIT:                                        i = common_info(StatusNor, 5'd3);
+      I_END:                                          i = common_info(AT_REST, 5'd2);
+      I_EXC_ON, I_EXC_OFF, I_CCLR, I_CLAMP, I_TABLE:  i = common_info(AT_REST, 5'd1);
+      I_ACLR:                                         i = common_info(AT_REST | StatusAbn | StatusWrn, 5'd1);
+      I_AUX_IN, I_PINS, I_VERSION, I_STATUS, I_RESET: i = common_info(ALWAYS, 5'd1);
+      I_AUX_OUT, I_POS:                               i = common_info(ALWAYS, 5'd2);
+      I_MASK:                                         i = common_info(AT_REST, 5'd3);
+      I_POS_SET:                                      i = common_info(AT_REST, 5'd6);
+      I_LOCK:                                         i = common_info(StatusNor, 5'd1);
+      I_SYNC:                                         i = common_info(StatusNor | StatusWrn, 5'd1);
+      I_EVT_READ: begin
+        i = common_info(StatusNor, 5'd1);
+        i.len_b = 5'd2;
+      end
+      I_EVT_SET:                                      i = common_info(StatusNor, 5'd2);
+      I_HALT, I_DECEL: begin
+        i = common_info(RUNNING, 5'd2);
+        i.len_b = 5'd6;
+      end
+      I_MOVE: begin
+        i = common_info(StatusNor, 5'd8);
+        i.len_b = 5'd6;
+      end
+      I_CONST:                                        i = common_info(StatusNor, 5'd8);
+      I_STEP:                                         i = common_info(StatusNor, 5'd2);
+      I_HIGH, I_CONT, I_ORIGIN, I_ZERO:               i = common_info(StatusNor, 5'd4);
+      I_RAMP: begin
+        i = common_info(StatusFix, 5'd4);
+        i.len_b = 5'd8;
+      end
+      I_SPEED: begin
+        i = common_info(RUNNING, 5'd4);
+        i.len_b = 5'd8;
+      end
+      default:                                        i.known = 1'b0;
+    endcase
+    if (code inside {I_HALT, I_DECEL, I_MOVE, I_CONST, I_HIGH, I_CONT, I_RAMP, I_SPEED}) begin
+      i.has_ov = 1'b1;
+      i.later  = LATER;
+    end
+    i.starts    = code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT};
+    i.rated     = code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_HIGH, I_CONT, I_RAMP, I_SPEED};
+    i.rate_zero = code inside {I_ZERO, I_MOVE, I_CONST, I_HIGH, I_CONT};
+    i.counted   = code inside {I_MOVE, I_CONST};
+    return i;
+  endfunction
+
+  // ---- reports, error numbers ------------------------------------------------------------------------------------
+
+  localparam logic [7:0] A_STOP = 8'he0;
+  localparam logic [7:0] A_UNLOCK = 8'he1;
+  localparam logic [7:0] A_HELD = 8'he2;
+  localparam logic [7:0] A_ENCODE = 8'he3;
+  localparam logic [7:0] A_INPOS = 8'he4;
+  localparam logic [7:0] A_STORED = 8'he8;
+  localparam logic [7:0] A_AUX = 8'he9;
+  localparam logic [7:0] A_PARAM = 8'hf0;
+  localparam logic [7:0] A_STATUS = 8'hf1;
+  localparam logic [7:0] A_LIMIT = 8'hf2;
+  localparam logic [7:0] A_ALARM = 8'hf4;
+  localparam logic [7:0] A_COMMAND = 8'hf5;
+  localparam logic [7:0] A_SIZE = 8'hf6;
+  localparam logic [7:0] A_FULL = 8'hf7;
+  localparam logic [7:0] A_EVENT = 8'hf8;
+  localparam logic [7:0] A_OVERRIDE = 8'hf9;
+
+  localparam logic [7:0] E_INIT_LEN = 8'h00;
+  localparam logic [7:0] E_RATE = 8'h01;
+  localparam logic [7:0] E_SPREAD = 8'h02;
+  localparam logic [7:0] E_ORDER = 8'h03;
+  localparam logic [7:0] E_CLOSE = 8'h04;
+  localparam logic [7:0] E_THIN = 8'h05;
+  localparam logic [7:0] E_FREE_HEADER = 8'h10;
+  localparam logic [7:0] E_FREE_STAGES = 8'h11;
+  localparam logic [7:0] E_FREE_LONG = 8'h15;
+  localparam logic [7:0] E_FREE_SIZE = 8'h16;
+  localparam logic [7:0] E_FREE_LAST = 8'h17;
+  localparam logic [7:0] E_FREE_RATE = 8'h18;
+  localparam logic [7:0] E_FREE_PULSES = 8'h19;
+  localparam logic [7:0] E_FREE_SUM = 8'h1a;
+  localparam logic [7:0] E_RATE_RANGE = 8'h20;
+  localparam logic [7:0] E_TRIGGER = 8'h21;
+  localparam logic [7:0] E_OPERAND = 8'h23;
+  localparam logic [7:0] E_EVT_NUMBER = 8'h24;
+  localparam logic [7:0] E_EVT_LEN = 8'h25;
+  localparam logic [7:0] E_INPOS_ZERO = 8'h26;
+  localparam logic [7:0] E_ENCODE_ZERO = 8'h27;
+
+  // Why a motion ended; bit order of the byte in E0 (section 10.3). Exactly one is set.
+  typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} cause_t;
+
+  // ---- who asked for an instruction ------------------------------------------------------------------------------
+
+  typedef enum logic [1:0] {
+    SrcHost     = 2'b00,
+    SrcEvent    = 2'b01,
+    SrcOverride = 2'b11
+  } source_e;  // coded as RESP of the answer's header
+
+  // ---- an instruction on its way ---------------------------------------------------------------------------------
+
+  localparam int unsigned PARAMS = 13;  // parameters of the longest instruction
+
+  // A block, parameters at their place in the long form of the instruction, missing ones 0.
+  typedef struct packed {
+    source_e                source;
+    logic [BLOCK_BITS:0]    size;    // bytes
+    logic [7:0]             head;
+    logic [7:0]             len;
+    logic [7:0]             code;
+    logic [PARAMS-1:0][7:0] par;     // par[0] is the first one
+  } block_t;
+
+  // What comes of the judgement.
+  typedef enum logic [2:0] {
+    VerdictGo,
+    VerdictData,     // a block of a free-curve transfer
+    VerdictPar,      // F0 with an error number
+    VerdictStatus,   // F1
+    VerdictCommand,  // F5
+    VerdictSize      // F6
+  } verdict_e;
+
+  // An answer: header and length come from where it goes.
+  typedef struct packed {
+    logic [7:0]      head;
+    logic [7:0]      code;
+    logic [3:0]      extra;  // bytes behind the code
+    logic [8:0][7:0] data;   // these, data[0] first
+    logic            echo;   // then the instruction as received
+  } answer_t;
+
+  // ---- instructions that wait for a trigger ----------------------------------------------------------------------
+
+  // Into the store: bytes first, then the entry.
+  typedef struct packed {
+    logic        we;
+    logic        to_event;  // into event buffer n, else into the command FIFO
+    logic        n;
+    logic [3:0]  addr;
+    logic [7:0]  data;
+    logic        put;
+    logic [7:0]  code;
+    logic [1:0]  trig;
+    logic [31:0] pos;
+  } put_t;
+
+  // Out of the store.
+  typedef struct packed {
+    logic       take;        // the triggered entry is taken
+    logic       from_event;  // of event buffer n, else of the command FIFO
+    logic       n;
+    logic       all;         // everything is removed
+    logic       fifo;        // the command FIFO
+    logic [1:0] events;      // event buffers
+    logic [1:0] highest;     // the highest entry of an event buffer
+  } remove_t;
+
+  // What the store has.
+  typedef struct packed {
+    logic                 due;          // the command FIFO has something to be executed
+    logic [1:0]           due_trig;     // that this has triggered
+    logic [1:0]           events;       // the event buffers
+    logic [3:0]           fifo_count;
+    logic [1:0]           fifo_events;  // the FIFO has one that waits for this event pin
+    logic [1:0][2:0]      event_count;
+    logic [1:0][1:0]      event_next;
+    logic [1:0][3:0][7:0] event_codes;
+  } stored_t;
+
+  // ---- levels of the pins after synchroniser and filter, as on the pin -------------------------------------------
+
+  typedef struct packed {logic alm_n, end_n, index_n, org_n, fhl_n, bhl_n, fl_n, bl_n;} levels_t;
+
+  // ---- an operation, as the start gives it to the motion unit ----------------------------------------------------
+
+  typedef struct packed {
+    logic ccw;
+    logic zero;    // zero return: a second phase follows
+    logic origin;  // ends at the origin (constant-speed search)
+    logic index;   // the origin needs INDEX, too
+  } op_t;
+
+endpackage
+
+`default_nettype wire

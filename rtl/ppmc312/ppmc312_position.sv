@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_position: the two positions and what is compared with them.
+// Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
+// Timing: pos_o changes one clk after count_i, counted_o is high in the clk that follows. The monitors see a
+//         position 3 clk later; in-position is looked at from 4 clk after the end of pulse output on.
+`default_nettype none
+
+module ppmc312_position
+  import ppmc312_pkg::*;
+(
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    // pulses
+    input  wire logic        count_i,
+    input  wire logic        ccw_i,
+    input  wire logic        output_i,        // pulses are being output
+    // encoder, synchronous
+    input  wire logic        epin_i,
+    input  wire logic        epdir_i,
+    // instructions
+    input  wire logic [31:0] value_i,
+    input  wire logic        set_pos_i,
+    input  wire logic        set_enc_i,
+    input  wire logic        set_lock_i,      // interlock position
+    input  wire logic        toggle_lock_i,
+    input  wire logic [ 1:0] set_window_i,    // in-position, encode: flags and range below
+    input  wire logic [ 2:0] window_flags_i,  // FO, RES, EN
+    input  wire logic [15:0] window_range_i,
+    // positions
+    output logic      [31:0] pos_o,
+    output logic      [31:0] enc_o,
+    output logic             counted_o,
+    // interlock
+    output logic             lock_o,
+    output logic             unlock_o,        // report E1
+    // monitors: index 0 in-position, 1 encode
+    output logic      [ 1:0] window_on_o,
+    output logic      [ 1:0] outside_o,
+    output logic      [ 1:0] wait_o,
+    output logic      [ 1:0] value_o,
+    input  wire logic [ 1:0] load_i,
+    input  wire logic [ 1:0] read_i,
+    output logic             near_o,          // zero clamp: in-position rests inside, with coupling
+    output logic             coupled_o        // zero clamp: in-position is looked at, with coupling
+);
+
+  logic epin_q, couple_q, hit, quiet;
+  logic [31:0] lock_pos_q, diff_q;
+  logic [15:0] size_q;
+  logic negative_q, large_q;
+  logic [1:0][16:0] room;  // range - size as a sum: bit 16 tells that it is not negative
+  logic [1:0][15:0] range_q;
+  logic [1:0] inside_q, evaluate;
+  logic [3:0] quiet_q;
+
+  assign hit = counted_o && lock_o && pos_o == lock_pos_q;
+  assign quiet = quiet_q[3] && !output_i;
+  assign evaluate = {1'b1, quiet};
+  assign coupled_o = couple_q && window_on_o[0] && quiet;
+  assign near_o = coupled_o && inside_q[0];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pos_o      <= '0;
+      enc_o      <= '0;
+      counted_o  <= 1'b0;
+      epin_q     <= 1'b1;  // a pin that rests high must not look like an edge
+      lock_pos_q <= '0;
+      lock_o     <= 1'b0;
+      unlock_o   <= 1'b0;
+      couple_q   <= 1'b0;
+      quiet_q    <= '0;
+    end else begin
+      counted_o <= count_i;
+      if (set_pos_i) pos_o <= value_i;
+      else if (count_i) pos_o <= pos_o + {{31{ccw_i}}, 1'b1};
+
+      epin_q <= epin_i;
+      if (set_enc_i) enc_o <= value_i;
+      else if (epin_i && !epin_q) enc_o <= enc_o + {{31{epdir_i}}, 1'b1};
+
+      if (set_lock_i) lock_pos_q <= value_i;
+      unlock_o <= hit;
+      if (hit) lock_o <= 1'b0;
+      else if (toggle_lock_i) lock_o <= !lock_o;
+
+      if (set_window_i[0]) couple_q <= window_flags_i[2];
+      quiet_q <= (output_i || set_window_i[0]) ? '0 : {quiet_q[2:0], 1'b1};
+    end
+  end
+
+  always_comb begin
+    for (int unsigned n = 0; n < 2; n++) begin
+      room[n] = {1'b0, range_q[n]} + {1'b0, ~size_q} + 17'(!negative_q);
+    end
+  end
+
+  // No reset: ranges are set before they are used, the rest follows.
+  always_ff @(posedge clk_i) begin
+    diff_q <= pos_o - enc_o;
+    // The size of a negative difference is one more than its bits inverted.
+    negative_q <= diff_q[31];
+    size_q <= diff_q[15:0] ^ {16{diff_q[31]}};
+    large_q <= diff_q[31:16] != {16{diff_q[31]}};
+    for (int unsigned n = 0; n < 2; n++) begin
+      if (set_window_i[n]) range_q[n] <= window_range_i;
+      inside_q[n] <= !large_q && room[n][16];
+    end
+  end
+
+  for (genvar n = 0; n < 2; n++) begin : g_window
+    ppmc312_window u_window (
+        .clk_i,
+        .rst_ni,
+        .set_i     (set_window_i[n]),
+        .enable_i  (window_flags_i[0]),
+        .repeat_i  (window_flags_i[1]),
+        .evaluate_i(evaluate[n]),
+        .inside_i  (inside_q[n]),
+        .enabled_o (window_on_o[n]),
+        .outside_o (outside_o[n]),
+        .wait_o    (wait_o[n]),
+        .value_o   (value_o[n]),
+        .load_i    (load_i[n]),
+        .read_i    (read_i[n])
+    );
+  end
+
+endmodule
+
+`default_nettype wire

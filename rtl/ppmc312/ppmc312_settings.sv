@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_settings: what instructions set and motions look at: high-speed limit, END and RUN monitoring.
+// Rules:  P312-CMD-05/06/45, P312-CMD-00, P312-GEN-12.
+// Timing: one clk after do_i.
+`default_nettype none
+
+module ppmc312_settings
+  import ppmc312_pkg::*;
+(
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        do_i,
+    input  wire logic [ 7:0] code_i,
+    input  wire logic [15:0] value_i,       // first two parameters
+    input  wire logic        built_i,       // a new table is in force
+    input  wire logic [15:0] fast_i,        // its high-speed rate
+    output logic      [15:0] limit_rate_o,  // HSL
+    output logic             end_watch_o,   // END is monitored
+    output logic             ungated_o      // RUN is not
+);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      limit_rate_o <= '1;
+      end_watch_o  <= 1'b0;
+      ungated_o    <= 1'b0;
+    end else begin
+      if (built_i) limit_rate_o <= fast_i;
+      else if (do_i && code_i == I_LIMIT) limit_rate_o <= value_i;
+      if (do_i && code_i == I_END) end_watch_o <= value_i[8];
+      if (do_i && code_i == I_SYNC) ungated_o <= !ungated_o;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_store: instructions that wait for a trigger: the command FIFO of eight and two event buffers of four.
+// Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
+// Timing: a new head of the FIFO is armed 2 clk after the trigger of the one before. halt_o comes one clk after
+//         the count. Bytes of an entry stand two clk after fetch_addr_i.
+// How:    entries are whole blocks in one RAM: 16 places for the FIFO, because triggered ones stay until they
+//         have been processed, and 2 * 4 for the events. The FIFO has three pointers: written, armed, processed.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_store
+  import ppmc312_pkg::*;
+(
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    // triggers
+    input  wire logic    [ 1:0] edge_i,         // falling edges of the event pins
+    input  wire logic           counted_i,      // the position has just been counted
+    input  wire logic    [31:0] pos_i,
+    output logic                halt_o,         // a position-triggered immediate stop has been reached
+    output stored_t             stored_o,
+    input  wire put_t           put_i,
+    input  wire remove_t        remove_i,
+    // bytes of the entry that has been taken last
+    input  wire logic           fetch_event_i,
+    input  wire logic    [ 3:0] fetch_addr_i,
+    output logic         [ 7:0] fetch_data_o
+);
+
+  typedef struct packed {
+    logic       halt;
+    logic [1:0] trig;
+  } tag_t;
+
+  tag_t tags[16];
+  logic [31:0] places[16];
+  logic [31:0] head_pos_q;
+  tag_t head_q;
+  logic [1:0] trigs[16];
+  logic [1:0] done_trig, event_q;
+  logic [1:0][2:0] count_q;
+  logic [1:0][1:0] next_q;
+  logic [1:0][3:0][7:0] codes_q;
+  logic [3:0] written_q, armed_q, done_q, taken_q;
+  logic head_valid_q, fire, taken_n_q;
+  logic [1:0] use_edge, fifo_edge;
+  logic [1:0][1:0] taken_entry_q;
+  logic [1:0][3:0] waits_q;  // FIFO entries that wait for an event pin
+  logic push, drop;
+
+  // ---- command FIFO ----------------------------------------------------------------------------------------------
+
+  assign push = put_i.put && !put_i.to_event;
+  assign drop = remove_i.all || remove_i.fifo;
+  assign use_edge = edge_i & {count_q[1] != '0, count_q[0] != '0};
+  assign fifo_edge = edge_i & ~use_edge;
+
+  always_comb begin
+    fire = 1'b0;
+    if (head_valid_q) begin
+      unique case (head_q.trig)
+        2'b01:   fire = fifo_edge[0];
+        2'b11:   fire = fifo_edge[1];
+        default: fire = counted_i && pos_i == head_pos_q;
+      endcase
+    end
+  end
+
+  assign done_trig = trigs[done_q];
+  assign stored_o = '{
+          due: done_q != armed_q,
+          due_trig: done_trig,
+          events: event_q,
+          fifo_count: written_q - armed_q,
+          fifo_events: {waits_q[1] != '0, waits_q[0] != '0},
+          event_count: count_q,
+          event_next: next_q,
+          event_codes: codes_q
+      };
+
+  always_ff @(posedge clk_i) begin
+    if (push) begin
+      tags[written_q]   <= '{halt: put_i.code == I_HALT, trig: put_i.trig};
+      trigs[written_q]  <= put_i.trig;
+      places[written_q] <= put_i.pos;
+    end
+    head_q     <= tags[armed_q];
+    head_pos_q <= places[armed_q];
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {written_q, armed_q, done_q, taken_q} <= '0;
+      head_valid_q                          <= 1'b0;
+      halt_o                                <= 1'b0;
+      waits_q                               <= '0;
+    end else begin
+      head_valid_q <= armed_q != written_q && !fire && !drop;
+      halt_o       <= fire && head_q.halt && !head_q.trig[0];
+      if (drop) begin
+        armed_q <= written_q;
+        done_q  <= written_q;
+        waits_q <= '0;
+      end else begin
+        if (push) written_q <= written_q + 1'b1;
+        if (fire) armed_q <= armed_q + 1'b1;
+        if (remove_i.take && !remove_i.from_event) begin
+          done_q  <= done_q + 1'b1;
+          taken_q <= done_q;
+        end
+        for (int unsigned n = 0; n < 2; n++) begin
+          waits_q[n] <= waits_q[n] + 4'(push && put_i.trig == {1'(n), 1'b1}) -
+              4'(fire && head_q.trig == {1'(n), 1'b1});
+        end
+      end
+    end
+  end
+
+  // ---- event buffers ---------------------------------------------------------------------------------------------
+
+  for (genvar n = 0; n < 2; n++) begin : g_event
+    logic take, put, empty, one;
+
+    assign take  = remove_i.take && remove_i.from_event && remove_i.n == 1'(n);
+    assign put   = put_i.put && put_i.to_event && put_i.n == 1'(n);
+    assign empty = remove_i.all || remove_i.events[n];
+    assign one   = 3'(next_q[n]) + 3'd1 == count_q[n];
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        event_q[n]       <= 1'b0;
+        count_q[n]       <= '0;
+        next_q[n]        <= '0;
+        codes_q[n]       <= '0;
+        taken_entry_q[n] <= '0;
+      end else if (empty) begin
+        event_q[n] <= 1'b0;
+        count_q[n] <= '0;
+        next_q[n]  <= '0;
+        codes_q[n] <= '0;
+      end else begin
+        event_q[n] <= use_edge[n] || (event_q[n] && !take);
+        if (take) begin
+          taken_entry_q[n] <= next_q[n];
+          next_q[n] <= one ? '0 : next_q[n] + 1'b1;
+        end
+        if (put) begin
+          codes_q[n][count_q[n][1:0]] <= put_i.code;
+          count_q[n] <= count_q[n] + 1'b1;
+          next_q[n] <= '0;
+        end else if (remove_i.highest[n]) begin
+          codes_q[n][count_q[n][1:0]-2'd1] <= '0;
+          count_q[n] <= count_q[n] - 1'b1;
+          next_q[n] <= '0;
+          if (count_q[n] == 3'd1) event_q[n] <= 1'b0;  // nothing is left to be executed
+        end
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) taken_n_q <= 1'b0;
+    else if (remove_i.take) taken_n_q <= remove_i.n;
+  end
+
+  // ---- bytes: 0 .. 255 the FIFO, 256 .. 383 the events -----------------------------------------------------------
+
+  logic [8:0] put_at, fetch_at;
+
+  assign put_at = put_i.to_event ? {2'b10, put_i.n, count_q[put_i.n][1:0], put_i.addr} :
+      {1'b0, written_q, put_i.addr};
+  assign fetch_at = fetch_event_i ? {2'b10, taken_n_q, taken_entry_q[taken_n_q], fetch_addr_i} :
+      {1'b0, taken_q, fetch_addr_i};
+
+  ppmc_ram #(
+      .Width   (8),
+      .AddrBits(9)
+  ) u_bytes (
+      .clk_i,
+      .we_i   (put_i.we),
+      .waddr_i(put_at),
+      .wdata_i(put_i.data),
+      .raddr_i(fetch_at),
+      .rdata_o(fetch_data_o)
+  );
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ovr_01, stored_o.fifo_count <= 4'd8)
+  `PPMC_ASSERT(p312_evt_01, count_q[0] <= 3'd4 && count_q[1] <= 3'd4)
+  `PPMC_ASSERT(p312_evt_01_take, !(remove_i.take && remove_i.from_event) || event_q[remove_i.n])
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_window: one of the two monitors (in-position, encode): inside or outside, and when the host is told.
+// Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
+// Timing: wait_o follows inside_i by two clk.
+// Note:   a report exists while the state differs from the one that the host has read last.
+`default_nettype none
+
+module ppmc312_window (
+    input  wire logic clk_i,
+    input  wire logic rst_ni,
+    input  wire logic set_i,       // instruction: takes the two bits below
+    input  wire logic enable_i,
+    input  wire logic repeat_i,    // 0: ends after one report
+    input  wire logic evaluate_i,  // the state follows inside_i
+    input  wire logic inside_i,
+    output logic      enabled_o,
+    output logic      outside_o,
+    output logic      wait_o,      // a report waits
+    output logic      value_o,     // 1 = outside
+    input  wire logic load_i,      // it is being loaded
+    input  wire logic read_i       // and has been read
+);
+
+  logic repeat_q, told_q, loaded_q, shown_q, kept_q, fresh_q;
+
+  assign outside_o = enabled_o && value_o;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      enabled_o <= 1'b0;
+      repeat_q  <= 1'b0;
+      value_o   <= 1'b0;
+      told_q    <= 1'b0;
+      loaded_q  <= 1'b0;
+      shown_q   <= 1'b0;
+      kept_q    <= 1'b0;
+      wait_o    <= 1'b0;
+      fresh_q   <= 1'b0;
+    end else begin
+      fresh_q <= set_i;  // the state of the new range is not known yet
+      if (load_i) begin
+        loaded_q <= 1'b1;
+        shown_q  <= value_o;
+        kept_q   <= 1'b0;
+      end else if (read_i) begin
+        loaded_q <= 1'b0;
+        told_q   <= shown_q;
+      end
+      if (set_i) begin
+        enabled_o <= enable_i;
+        repeat_q  <= repeat_i;
+        value_o   <= 1'b0;
+        told_q    <= 1'b0;
+        kept_q    <= 1'b0;
+        wait_o    <= 1'b0;
+      end else begin
+        if (enabled_o && evaluate_i && !fresh_q) value_o <= !inside_i;
+        wait_o <= !load_i && !loaded_q && (kept_q || (enabled_o && value_o != told_q));
+        if (enabled_o && !repeat_q && value_o != told_q && !loaded_q) begin
+          enabled_o <= 1'b0;
+          kept_q    <= !load_i;
+        end
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

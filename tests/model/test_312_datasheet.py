@@ -1,0 +1,96 @@
+"""DATASHEET times of the PPMC-312 (chapter 8)."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.verifies import verifies
+from cocotb_tests.ppmc312.host312 import CSR, MREF, T1, T2, TF, Host312
+
+STOP = "03 02 80 00"
+
+
+@pytest.mark.parametrize(
+    ("setting", "ms"),
+    [
+        (T1, 115),
+        ("03 0E 00 11 03E8 01F4 00C8 0007D0 0005DC", 200),
+        (T2, 175),
+        ("03 0E 00 19 03E8 01F4 00C8 0007D0 0005DC", 260),
+    ],
+)
+@verifies("P312-CHK-65", "P312-TIM-02", "P312-TIM-03", "P312-TIM-04", "P312-TIM-05")
+def test_datasheet_setting_times(setting: str, ms: int) -> None:
+    host = Host312(timing="DATASHEET")
+    host.issue(setting)
+    host.go(host.header + ms * 16_000 - 16)
+    assert host.read(CSR) & MREF and host.condition == 0x01
+    host.go(host.header + ms * 16_000 + 16)
+    assert not host.read(CSR) & MREF and host.condition == 0x02
+
+
+@verifies("P312-TIM-13", "P312-TIM-20")
+def test_datasheet_output_time_and_ready_time() -> None:
+    host = Host312(timing="DATASHEET")
+    assert host.model.log.of("out_oe")[0][0] - 25_600 in range(0, 8)
+    host.issue("03 02 26 01")
+    host.wait()
+    (edge,) = host.model.log.of("auxo_n")
+    assert abs(edge[0] - host.header - 4800) <= 16
+    assert host.response() == "03 01 26"
+    host.issue("03 09 00 01 03E8 03E8 0007D0")
+    host.pause(4096)
+    assert host.response().startswith("03 0B F0 03")
+
+
+@pytest.mark.parametrize(
+    ("block", "us"),
+    [
+        ("03 08 82 40 0000 0000001E", 100),
+        ("03 08 82 40 0000 00000007", 700),
+        ("03 08 82 40 0096 00000014", 900),
+        ("03 08 82 40 0096 00000007", 1400),
+        ("03 08 83 40 0190 00000003", 400),
+        ("03 04 86 40 0190", 400),
+        ("03 04 85 40 0000", 60),
+        ("03 04 85 40 0096", 400),
+        ("03 04 11 40 0000", 60),
+        ("03 04 11 40 0096", 400),
+        ("03 04 10 40 0190", 500),
+        ("03 02 84 40", 500),
+    ],
+)
+@verifies(
+    "P312-CHK-68", "P312-TIM-06", "P312-TIM-07", "P312-TIM-08", "P312-TIM-09", "P312-TIM-10", "P312-TIM-11"
+)
+def test_datasheet_start_times(block: str, us: int) -> None:
+    host = Host312(*TF, timing="DATASHEET")
+    host.issue(block)
+    header = host.header
+    host.pulse(1)
+    assert abs(host.pulses()[0] - header - 16 * us) <= 16
+    assert host.pulses()[0] - host.model.log.rises("dir", host.mark)[0] in (80, 81, 82)
+
+
+@verifies("P312-TIM-12", "P312-TIM-14")
+def test_datasheet_stop_and_pins() -> None:
+    host = Host312(*TF, timing="DATASHEET")
+    host.ask("03 04 86 00 0064")
+    mark = host.mark
+    host.pulse(5, 10)
+    host.issue(STOP)
+    header = host.header
+    assert host.response() == "03 01 80"
+    host.mark = mark
+    assert header < host.pulses()[-1] <= header + 5616
+    assert host.pulses()[-1] > header + 5600 - 1700
+    host.response()
+    host.ask("03 04 86 00 0064")
+    host.pulse(5, 10)
+    host.pins(fl_n=0)
+    host.pause(3000)
+    host.pins(fl_n=1)
+    low = host.t
+    host.pins(fl_n=0)
+    assert host.response().startswith("23 06 E0 01")
+    assert low + 3200 - 1700 < host.pulses()[-1] <= low + 3205

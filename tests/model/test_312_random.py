@@ -1,0 +1,80 @@
+"""Random hosts on the PPMC-312 model: whatever they send, the part answers, counts and never hangs."""
+
+from __future__ import annotations
+
+import os
+import random
+
+import pytest
+
+from cocotb_tests.ppmc312.host312 import CSR, MREF, MWEF, TF, TG, TH, Host312
+from openppmc.model.codes312 import LENGTHS, State
+
+FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
+SEEDS = range(FIRST, FIRST + 40)
+PINS = ("evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n")
+
+
+def instruction(rng: random.Random) -> bytes:
+    """Mostly legal blocks, sometimes noise."""
+    if rng.random() < 0.08:
+        return bytes(rng.randrange(256) for _ in range(rng.randint(1, 32)))
+    code = rng.choice([*LENGTHS, 0x82, 0x82, 0x83, 0x80, 0x81, 0x87, 0x88, 0x10, 0x11, 0x46])
+    while code == 0xFF:
+        code = rng.choice(list(LENGTHS))
+    length = rng.choice(LENGTHS.get(code, (1,)))
+    data = bytearray(rng.choice((0, 0, 1, 2, 4, 5, 7, 0x40, 0x44, 0x50)) for _ in range(length - 1))
+    if code in (0x82, 0x83, 0x85, 0x86, 0x87, 0x88, 0x10, 0x11) and length >= 4 and code:
+        rate = rng.choice((0, 100, 100, 150, 200, 300, 400, 401))
+        if not (code == 0x82 and length == 6):
+            data[1:3] = rate.to_bytes(2, "big")
+    if length >= 6:
+        data[-4:] = rng.choice((1, 7, 23, 30, 60)).to_bytes(4, "big")
+    if code == 0x49:
+        inner = instruction(rng)[2:16] or b"\x40"
+        data = bytearray([rng.choice((0, 1, 2)), 3, len(inner)]) + inner
+    return bytes([3, len(data) + 1, code]) + bytes(data)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_random_host(seed: int) -> None:
+    print(f"seed {seed}: OPENPPMC_SEED={seed} repeats it")
+    rng = random.Random(seed)
+    host = Host312(*rng.choice((TF, TG, TH)), timing=rng.choice(("FAST", "FAST", "DATASHEET")))
+    model, reads = host.model, rng.choice((0.2, 0.9, 1.0))
+    for _ in range(60):
+        if not host.read(CSR) & MWEF:
+            host.put(instruction(rng)[:32].hex())
+        host.pause(rng.choice((50, 500, 5_000, 30_000)))
+        if rng.random() < 0.3:
+            host.blip(rng.choice(PINS), rng.choice((10, 100, 5_000)), rng.choice((10, 1_000)))
+        if rng.random() < 0.1:
+            host.pins(run=rng.randrange(2), auxi=rng.randrange(256), epin=rng.randrange(2))
+        if rng.random() < 0.03:
+            host.blip("alm_n", 4_000)
+        while rng.random() < reads and not host.read(CSR) & MREF:
+            response = host.response().split()
+            assert int(response[1], 16) == len(response) - 2 and response[0] in (
+                "00",
+                "01",
+                "02",
+                "03",
+                "0B",
+                "1B",
+                "23",
+            )
+        if model.state is State.ABN and rng.random() < 0.5 and not host.read(CSR) & MWEF:
+            host.put("03 01 24")
+            host.pause(200)
+    # A host that reads everything and then resets has a working part again.
+    for _ in range(2500):
+        host.pause(2000)
+        if not host.read(CSR) & MREF:
+            host.response()
+        elif not host.read(CSR) & MWEF:
+            break
+    assert host.ask("03 01 FF") == "03 01 FF" and host.condition == State.INI
+    edges = model.log.of("pout")
+    highs = [b - a for (a, level), (b, _) in zip(edges, edges[1:], strict=False) if level]
+    assert all(high == 80 for high in highs[:-1])
+    assert host.ask("03 01 40") == "03 02 40 12"
