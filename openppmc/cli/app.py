@@ -10,11 +10,12 @@ import typer
 from rich.live import Live
 
 from .. import __version__
-from ..host import Ppmc2104, PpmcError, serial_ports, units
+from ..host import OutOfRange, Ppmc312, Ppmc2104, PpmcError, serial_ports, units
 from ..host.link import DEFAULT_BAUD
-from . import show
+from . import show, show312
 from .forecast import key_figures, plot_move
 from .options import Side, with_setup
+from .overrides import Override, parse_override, register, watch
 from .player import Player, check_speeds, check_steps, positions, stop_all
 from .program import read_program
 from .session import BOARD, PartName, Session, initialise, opened, ready, setup_values
@@ -39,6 +40,24 @@ AnyAxis = Annotated[
     int | None,
     typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2 (all)", show_default=False),
 ]
+
+
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--at", metavar="POS:WHAT", help="ppmc312: there stop, halt or another speed (repeatable)"),
+]
+EncoderRange = Annotated[
+    int | None,
+    typer.Option("--encoder", min=1, max=65_535, metavar="N", help="ppmc312: tell if it is off by more"),
+]
+
+
+def override_values(texts: list[str] | None) -> list[Override]:
+    """The values of --at."""
+    try:
+        return [parse_override(text) for text in texts or ()]
+    except ValueError as error:
+        raise typer.BadParameter(f"--at {error}") from None
 
 
 def _version(wanted: bool) -> None:
@@ -122,17 +141,22 @@ def move(
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
     pulse_only: Annotated[bool, typer.Option("--pulse-only", help="the phases stand still")] = False,
+    overrides: Overrides = None,
+    encoder: EncoderRange = None,
 ) -> None:
     """Move so many pulses. Two numbers move both axes of a part, begun at the same moment."""
     if speed is not None and pulse_only:
         raise typer.BadParameter("only moves with a ramp can be --pulse-only: leave --speed out")
     if len(pulses) > 2 or (len(pulses) == 2 and axis is not None):
         raise typer.BadParameter("move wants one number, with --axis if need be, or one number for each axis")
+    wanted = override_values(overrides)
     both = len(pulses) == 2
     with ready(typed, (1, 2) if both else (axis or 1,)) as session:
         guard, part = session.guard, session.part
         chosen = part.axes if both else (session.axis(axis or 1),)
         away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
+        watch(part, encoder)
+        register(part, wanted)
         if both and isinstance(part, Ppmc2104):
             x, y = away
             ends = list(part.together(x, y, speed, speed, guard.progress, pulse_only))
@@ -143,6 +167,7 @@ def move(
         guard.bar_off()
         for end in ends:
             show.say(show.end_line(end))
+        show.reports(part)
 
 
 @app.command()
@@ -175,6 +200,7 @@ def jog(
         end = motion.wait(progress=look)
         guard.bar_off()
         show.say(show.end_line(end))
+        show.reports(session.part)
 
 
 @app.command()
@@ -186,11 +212,15 @@ def home(
     search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
     fast: Annotated[bool, typer.Option("--fast", help="at high speed to the slow-down limit first")] = False,
     to_limit: Annotated[bool, typer.Option("--to-limit", help="to the hard limit first")] = False,
+    index: Annotated[bool, typer.Option("--index", help="ppmc312: to the encoder's index on it")] = False,
 ) -> None:
     """Find the origin switch and call it position 0."""
     with ready(typed, (axis,)) as session:
-        motor = session.axis(axis)
-        motor.home(direction.code, search, fast, to_limit, progress=session.guard.progress)
+        motor, progress = session.axis(axis), session.guard.progress
+        if index and not isinstance(session.part, Ppmc312):
+            raise OutOfRange(f"index: a {session.kind} does not have that")
+        own = {"index": True} if index else {}
+        motor.home(direction.code, search, fast, to_limit, progress=progress, **own)
         session.guard.bar_off()
         show.say(f"{motor.who}position {motor.position}: origin found")
 
@@ -250,17 +280,17 @@ def monitor(
 ) -> None:
     """Watch position and switches until Ctrl-C."""
     with opened() as session:
-        guard, link = session.guard, session.part.link
+        guard = session.guard
         look: Callable[[], dict[str, str]] = lambda: _rows(_looks(session, axis))  # noqa: E731
         if not show.out.is_terminal:
             for turn in range(count or 10**9):
                 if turn:
-                    guard.pause(link, every)
+                    guard.pause(session.part, every)
                 show.say("  ".join(f"{name} {value}" for name, value in look().items()))
             return
         with Live(show.table(look()), console=show.out, auto_refresh=False) as live:
             for _ in range((count or 10**9) - 1):
-                guard.pause(link, every)
+                guard.pause(session.part, every)
                 live.update(show.table(look()), refresh=True)
 
 
@@ -294,11 +324,35 @@ def plan(
     rows["top speed"] = f"{units.nearby(figures['top_pps'])} pps"
     if "plateau_intervals" in figures:
         rows["acceleration"] = f"{figures['ramp_pulses']} pulses, {figures['ramp_seconds']:.6g} s"
+        if "down_pulses" in figures:
+            rows["deceleration"] = f"{figures['down_pulses']} pulses"
         rows["plateau"] = f"{figures['plateau_intervals']} intervals"
     rows["duration"] = f"{figures['seconds']:.6g} s from the first to the last pulse"
     show.out.print(show.table(rows))
     if plot is not None:
         show.say(f"plot: {plot}")
+
+
+@app.command()
+@with_setup
+def table(
+    typed: dict[str, Any],
+    out: Annotated[Path | None, typer.Option("--out", help="write it into this file instead")] = None,
+) -> None:
+    """Read the ramps back from a PPMC-312, as the CSV that --curve takes."""
+    with ready(typed, (1,)) as session:
+        part = session.part
+        if not isinstance(part, Ppmc312):
+            raise OutOfRange(f"table: a {session.kind} cannot be asked for it")
+        lines = show312.table_lines(part.read_table(), part.known_setup())
+    if out is None:
+        show.say("\n".join(lines))
+        return
+    try:
+        out.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise PpmcError(f"{out}: cannot be written ({error.strerror})") from error
+    show.say(f"{len(lines) - 1} stages: {out}")
 
 
 # ---------------------------------------------------------------------- script files

@@ -10,18 +10,23 @@ from typing import Any
 
 from ..host import units
 from ..host.errors import OutOfRange, PpmcError
+from ..host.kinds import AnySetup
+from ..host.profile312 import Setup312
 from ..model.codes import ENDLESS
 from ..model.ramp import profile_index
+from .forecast312 import course312, figures312
 
 LONGEST_PLOT = 1_000_000
 
 
-def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+def key_figures(setup: AnySetup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
     """Figures of an undisturbed move; times in s from the first to the last pulse, speeds in pps.
 
     Computed interval by interval along the ramp, in closed form on the plateau. OutOfRange for a number of
     pulses that the part cannot do.
     """
+    if isinstance(setup, Setup312):
+        return figures312(setup, pulses, speed)
     n = abs(pulses)
     if not 1 <= n <= ENDLESS:
         raise OutOfRange(f"{pulses} pulses: a move has 1 to {ENDLESS} pulses either way")
@@ -58,8 +63,10 @@ class Course:
     speeds: list[float]
 
     @classmethod
-    def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
+    def of(cls, setup: AnySetup, pulses: int, speed: units.Speed | None) -> Course:
         """With the ramp of the set-up or at a constant speed, pulses from 1 on."""
+        if isinstance(setup, Setup312):
+            return cls(*course312(setup, pulses, speed))
         if speed is None:
             ramp, clock = setup.ramp(), setup.clock
             counts = [ramp.rate(profile_index(pulses, ramp.pa, j)) + 1 for j in range(1, pulses)]
@@ -72,7 +79,7 @@ class Course:
         return cls(seconds, [speeds[count] for count in counts])
 
 
-def plot_move(setup: units.Setup, pulses: int, speed: units.Speed | None, path: Path) -> None:
+def plot_move(setup: AnySetup, pulses: int, speed: units.Speed | None, path: Path) -> None:
     """Speed over time as PNG, SVG or PDF. OutOfRange for moves too long to draw and for file names that the
     plotter does not know."""
     try:

@@ -13,7 +13,6 @@ from rich.progress import Progress as Bars
 
 from ..host import PpmcError
 from ..host.device import Device
-from ..host.link import Link
 from ..host.motion import Progress
 
 BAR_AFTER = 0.6
@@ -58,12 +57,13 @@ class Guard:
         self.check()
         self.bar(now)
 
-    def pause(self, link: Link, seconds: float) -> None:
+    def pause(self, part: Device, seconds: float) -> None:
         """Let time pass on the board's clock."""
+        link = part.link
         end = link.clock() + seconds
         while (left := end - link.clock()) > 0:
             self.check()
-            link.pause(min(left, 0.1))
+            part.attend(min(left, 0.1))
         self.check()
 
     # ------------------------------------------------------------------ bar

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields, replace
 from enum import Enum
@@ -11,9 +12,8 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ..host import units
 from ..host.errors import PpmcError
-from ..host.kinds import PPMC104, Kind
+from ..host.kinds import PPMC104, AnySetup, Kind
 
 _PANEL = "Set-up (remembered by init)"
 
@@ -39,11 +39,11 @@ class Side(str, Enum):
 
 @dataclass(frozen=True)
 class SetupValues:
-    """Values of the options; speeds in pps, clocks in Hz."""
+    """Values of the options; speeds in pps, clocks in Hz. ramp None: as usual for the part."""
 
     start: float = 1000
     high: float = 5000
-    ramp: int = 200
+    ramp: int | None = None
     phases: int = 4
     half_step: bool = False
     logic: str | None = None
@@ -51,6 +51,10 @@ class SetupValues:
     base_clock: float | None = None
     external_clock: float | None = None
     long_intervals: bool = False
+    stop: float | None = None
+    down: int | None = None
+    sigmoid: bool = False
+    curve: str | None = None
 
     def merged(self, changes: dict[str, Any]) -> SetupValues:
         """With other values where they are given. PpmcError for names that do not exist."""
@@ -65,13 +69,13 @@ class SetupValues:
         """For the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int, kind: Kind = PPMC104, axis: int = 1) -> units.Setup:
+    def plan(self, xtal_hz: int, kind: Kind = PPMC104, axis: int = 1) -> AnySetup:
         """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
         return kind.plan(
             xtal_hz,
             self.start,
             self.high,
-            self.ramp,
+            kind.usual_ramp if self.ramp is None else self.ramp,
             self.phases,
             self.half_step,
             None if self.logic is None else Logic(self.logic) is Logic.POSITIVE,
@@ -80,6 +84,10 @@ class SetupValues:
             self.external_clock,
             self.long_intervals,
             axis,
+            self.stop,
+            self.down,
+            self.sigmoid,
+            self.curve,
         )
 
 
@@ -91,7 +99,8 @@ _OPTIONS: dict[str, Any] = {
     "start": Annotated[float | None, _option("--start", text="start-up speed (1000)", metavar="PPS")],
     "high": Annotated[float | None, _option("--high", text="high speed (5000)", metavar="PPS")],
     "ramp": Annotated[
-        int | None, _option("--ramp", text="pulses from start to high speed (200)", metavar="PULSES")
+        int | None,
+        _option("--ramp", text="pulses from start to high speed (200; ppmc312: 2000)", metavar="PULSES"),
     ],
     "phases": Annotated[
         int | None, _option("--phases", text="phases of the motor: 3, 4, 5 (4)", metavar="N")
@@ -106,7 +115,8 @@ _OPTIONS: dict[str, Any] = {
         float | None,
         _option(
             "--base-clock",
-            text="500000 or 125000, stmc: 48675 or 12500 (the one that reaches the start speed)",
+            text="500000 or 125000, stmc: 48675 or 12500, ppmc312: 8e6 … 15625 "
+            "(the one that reaches the start speed)",
             metavar="HZ",
         ),
     ],
@@ -116,6 +126,17 @@ _OPTIONS: dict[str, Any] = {
     "long_intervals": Annotated[
         bool | None,
         _option("--long-intervals/--plain-intervals", text="7.5 us more an interval (vsel low) (plain)"),
+    ],
+    "stop": Annotated[
+        float | None, _option("--stop", text="ppmc312: stop speed (the start speed)", metavar="PPS")
+    ],
+    "down": Annotated[
+        int | None, _option("--down", text="ppmc312: pulses of the deceleration (--ramp)", metavar="PULSES")
+    ],
+    "sigmoid": Annotated[bool | None, _option("--sigmoid/--linear", text="ppmc312: shape (linear)")],
+    "curve": Annotated[
+        str | None,
+        _option("--curve", text="ppmc312: free curve, a CSV of pps,up[,down], slowest first", metavar="FILE"),
     ],
 }
 
@@ -129,6 +150,8 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         typed = {name: value for name, value in typed.items() if value is not None}
         if "logic" in typed:
             typed["logic"] = typed["logic"].value
+        if "curve" in typed:
+            typed["curve"] = os.path.abspath(typed["curve"])  # init remembers it
         return command(**arguments, typed=typed)
 
     hints = get_type_hints(command, include_extras=True)

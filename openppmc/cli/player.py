@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from ..host import Axis, End, NothingToStop, Ppmc104, Ppmc2104, PpmcError
+from ..host import Axis, End, NothingToStop, Ppmc104, Ppmc312, Ppmc2104, PpmcError
 from ..host.kinds import AUX, COILS_OFF, Kind
+from . import show, words312
 from .options import SetupValues
 from .program import OF_ALL_AXES, OF_AXES, ScriptError, Step
 from .session import Session
@@ -54,6 +55,7 @@ class Player:
                 continue
             try:
                 self._do(step)
+                show.reports(self._part, self._say)
             except ScriptError:
                 raise
             except PpmcError as error:
@@ -62,7 +64,7 @@ class Player:
                 self._guard.bar_off()
 
     def _do(self, step: Step) -> None:
-        values, progress, link = step.values, self._guard.progress, self._part.link
+        values, progress = step.values, self._guard.progress
         number = step.axis or 1
         axis = self._session.axis(number)
         if step.word == "init":
@@ -73,14 +75,15 @@ class Player:
         elif step.word == "step":
             axis.step(values["side"])
         elif step.word == "jog":
-            axis.jog(values["side"], values["speed"], values["ramped"])
-            self._guard.pause(link, values["seconds"])
-            axis.stop()
+            motion = axis.jog(values["side"], values["speed"], values["ramped"])
+            self._guard.pause(self._part, values["seconds"])
+            if motion.end is None:
+                axis.stop()
         elif step.word == "home":
             fast, limit = values["approach"] == "fast", values["approach"] == "to-limit"
             axis.home(values["side"], values["speed"], fast, limit, progress=progress)
         elif step.word == "wait":
-            self._guard.pause(link, values["seconds"])
+            self._guard.pause(self._part, values["seconds"])
         elif step.word == "stop":
             status = self._part.status().raw
             if busy := tuple(motor for motor in self._session.chosen(step.axis) if status & motor.busy):
@@ -89,7 +92,9 @@ class Player:
             axis.zero()
         elif step.word == "aux" and isinstance(self._part, Ppmc104):
             self._part.aux(values["on"])
-        elif step.word == "auxo" and isinstance(self._part, (Ppmc104, Ppmc2104)):
+        elif step.word in words312.WORDS and isinstance(self._part, Ppmc312):
+            words312.do(self._part, step.word, values)
+        elif step.word == "auxo" and isinstance(self._part, (Ppmc104, Ppmc2104, Ppmc312)):
             self._part.auxo(values["value"])
         elif step.word == "off":
             for motor in self._chosen(step):
@@ -142,6 +147,8 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
 
 def _lacks(step: Step, kind: Kind) -> str:
     """What a part does not have for this step, empty if it has all."""
+    if lacks := words312.lacks(step.word, kind):
+        return lacks
     if step.word == "off" and COILS_OFF not in kind.has:
         return f"a {kind} cannot switch its coils off"
     if step.word == "aux" and AUX not in kind.has:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..host import PpmcError
+from . import words312
 from .options import Logic, SetupValues, Side
 
 DEEPEST = 20
@@ -141,11 +142,13 @@ _YES = {"yes": True, "on": True, "1": True, "no": False, "off": False, "0": Fals
 def _init(words: list[str]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for name, text in _pairs(words).items():
-        if name in ("start", "high", "base_clock", "external_clock"):
+        if name in ("start", "high", "stop", "base_clock", "external_clock"):
             values[name] = _number(text, name, 1e-6, 1e7)
-        elif name in ("ramp", "phases"):
+        elif name in ("ramp", "down"):
+            values[name] = _whole(text, name, 0, 0xFFFFFF)
+        elif name == "phases":
             values[name] = _whole(text, name, 0, 65535)
-        elif name in ("half_step", "chop", "long_intervals"):
+        elif name in ("half_step", "chop", "long_intervals", "sigmoid"):
             if text.lower() not in _YES:
                 raise ValueError(f"{name} {text!r} is neither yes nor no")
             values[name] = _YES[text.lower()]
@@ -211,7 +214,7 @@ def _aux(words: list[str]) -> dict[str, Any]:
 
 
 def _auxo(words: list[str]) -> dict[str, Any]:
-    value = _whole(_first(words, "value"), "outputs", 0, 15)
+    value = _whole(_first(words, "value"), "outputs", 0, 63)
     _none_left(words)
     return {"value": value}
 
@@ -245,4 +248,8 @@ _WORDS: dict[str, Callable[[list[str]], dict[str, Any]]] = {
     "auxo": _auxo,
     "off": _plain,
     "position": _plain,
+    "at": words312.read_at,
+    "event": words312.read_event,
+    "pulse": words312.read_pulse,
+    "watch": words312.read_watch,
 }

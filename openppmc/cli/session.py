@@ -28,6 +28,7 @@ class PartName(str, Enum):
     PPMC104 = "ppmc104"
     PPMC2104 = "ppmc2104"
     STMC = "stmc"
+    PPMC312 = "ppmc312"
 
     @property
     def kind(self) -> Kind:

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from typing import Any
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..host import AnyPart, Axis, End, units
-from ..host.kinds import name_of
+from ..host import AnyPart, Axis, End, Ppmc312, units
+from ..host.answers312 import Alarm, Failed
+from ..host.kinds import AnySetup, name_of
 from ..host.link import Link
+from ..host.profile312 import Setup312
 from ..host.registers2104 import Status as Status2104
 from ..host.script import RATES
+from . import show312
 
 out = Console(highlight=False)
 
@@ -63,6 +67,8 @@ def identity_values(link: Link) -> dict[str, Any]:
 
 def status_values(part: AnyPart, axis: Axis) -> dict[str, Any]:
     """Everything that may be read of an axis at any time."""
+    if isinstance(part, Ppmc312):
+        return show312.status_values(part)
     status = part.status()
     error: Any = None
     if isinstance(status, Status2104):
@@ -88,7 +94,24 @@ def status_rows(values: dict[str, Any], prefix: str = "") -> dict[str, str]:
         "switches": ", ".join(active) or "none active",
         "last byte": "good" if error is None else f"error {error}",
     }
+    if "state" in values:
+        del rows["last byte"]
+        rows |= show312.state_rows(values)
     return {prefix + name: text for name, text in rows.items()}
+
+
+def reports(part: AnyPart, tell: Callable[[str], None] = say) -> None:
+    """What a PPMC-312 said meanwhile, a line each. Raises what went wrong, after all of it."""
+    if not isinstance(part, Ppmc312):
+        return
+    trouble = None
+    while (report := part.next_report()) is not None:
+        if isinstance(report, (Failed, Alarm)):
+            trouble = trouble or report.error
+        else:
+            tell(show312.report_line(report))
+    if trouble is not None:
+        raise trouble
 
 
 def end_line(end: End) -> str:
@@ -97,8 +120,10 @@ def end_line(end: End) -> str:
     return f"{end.who}position {end.position}{pulses}: {end.why}"
 
 
-def setup_rows(setup: units.Setup) -> dict[str, str]:
+def setup_rows(setup: AnySetup) -> dict[str, str]:
     """Asked and reached speeds, ramp, bytes."""
+    if isinstance(setup, Setup312):
+        return show312.setup_rows(setup)
     byte_name = "rate" if setup.clock.beyond else "divisor"
 
     def speed(value: units.Speed) -> str:
@@ -118,8 +143,10 @@ def setup_rows(setup: units.Setup) -> dict[str, str]:
     return rows
 
 
-def setup_values(setup: units.Setup) -> dict[str, Any]:
+def setup_values(setup: AnySetup) -> dict[str, Any]:
     """For JSON."""
+    if isinstance(setup, Setup312):
+        return show312.setup_values(setup)
     return {
         "start_pps": float(setup.start.reached),
         "high_pps": float(setup.high.reached),

@@ -48,6 +48,7 @@ from .link import Link
 from .motion import Motion, Progress
 from .parts import AnyPart, open_part
 from .ppmc104 import Ppmc104
+from .ppmc312 import Ppmc312
 from .ppmc2104 import Ppmc2104
 from .stmc import Stmc
 from .transport import open_port, serial_ports
@@ -82,6 +83,7 @@ __all__ = [
     "PortError",
     "Ppmc104",
     "Ppmc2104",
+    "Ppmc312",
     "PpmcError",
     "Progress",
     "ProtocolError",

@@ -43,6 +43,10 @@ class Device:
             link.close()
             raise
 
+    def attend(self, seconds: float) -> None:
+        """Let time of the board pass, and read what the part says by itself."""
+        self.link.pause(seconds)
+
     def close(self) -> None:
         """Close the port; a motion goes on."""
         self.link.close()

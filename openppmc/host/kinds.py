@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
+from typing import TypeAlias
 
 from ..model.codes import PA_MAX, PA_MIN
 from ..model.codes_stmc import BOARD_CLOCK_HZ, TICK_XT
-from . import units
+from . import free312, profile312, units
 from .ending import ALARM_INPUT
 from .errors import OutOfRange, WrongDevice
 
+AnySetup: TypeAlias = units.Setup | profile312.Setup312
 AXIS_BIT = 0x20
 """Bit of a command code that names axis 2."""
 BOARD_CLOCK = BOARD_CLOCK_HZ
@@ -20,6 +23,9 @@ LONG = "long intervals"
 PULSE_ONLY = "pulse only"
 COILS_OFF = "excitation off"
 AUX = "output AUX"
+PHASES = "phase outputs"
+OWN_STOP = "a deceleration of its own"
+CURVES = "ramps of other shapes"
 """What not all parts have."""
 
 
@@ -42,6 +48,7 @@ class Kind:
     rate_gap: int = 0
     alarm: tuple[str, str] = ALARM_INPUT
     origin_between: bool = False
+    usual_ramp: int = 200
 
     def __str__(self) -> str:
         return self.name
@@ -100,12 +107,24 @@ class Kind:
         external_clock: units.Number | None = None,
         long_intervals: bool = False,
         axis: int = 1,
-    ) -> units.Setup:
+        stop_pps: units.Number | None = None,
+        down_pulses: int | None = None,
+        sigmoid: bool = False,
+        curve: str | None = None,
+    ) -> AnySetup:
         """Rates and command of an initialisation; arguments as those of the drivers' `initialise`.
 
-        positive_logic None: what the part has, or positive where it has both. Raises OutOfRange.
+        positive_logic None: what the part has, or positive where it has both. curve: a file, see
+        `free312.read_stages`. Raises OutOfRange.
         """
-        for wanted, what in ((positive_logic, POSITIVE), (long_intervals, LONG)):
+        own_stop = stop_pps is not None or down_pulses is not None
+        shaped = sigmoid or curve is not None
+        for wanted, what in (
+            (positive_logic, POSITIVE),
+            (long_intervals, LONG),
+            (own_stop, OWN_STOP),
+            (shaped, CURVES),
+        ):
             if wanted:
                 self.need(what)
         clock = self.ramp_clock(xtal_hz, start_pps, base_clock, external_clock, int(not long_intervals))
@@ -115,6 +134,53 @@ class Kind:
         else:
             code = bits | clock.external << 3 | chop << 4 | (self.check_axis(axis) - 1) * AXIS_BIT
         return units.plan_setup(clock, start_pps, high_pps, ramp_pulses, code, self.rate_gap, self.lengths)
+
+
+class Kind312(Kind):
+    """The PPMC-312: speeds are a base clock over a 16-bit rate, and the clock is part of the table. It has
+    neither phases nor straps that choose anything."""
+
+    def constant_clock(
+        self, xtal_hz: int, ramp: units.BaseClock | None, pps: units.Number
+    ) -> units.BaseClock:
+        if ramp is None:
+            raise OutOfRange("a speed needs a base clock, which an initialisation chooses: initialise first")
+        ramp.choose(pps)
+        return ramp
+
+    def plan(
+        self,
+        xtal_hz: int,
+        start_pps: units.Number = 1000,
+        high_pps: units.Number = 5000,
+        ramp_pulses: int = 2000,
+        phases: int = 4,
+        half_step: bool = False,
+        positive_logic: bool | None = None,
+        chop: bool = False,
+        base_clock: units.Number | None = None,
+        external_clock: units.Number | None = None,
+        long_intervals: bool = False,
+        axis: int = 1,
+        stop_pps: units.Number | None = None,
+        down_pulses: int | None = None,
+        sigmoid: bool = False,
+        curve: str | None = None,
+    ) -> AnySetup:
+        self.check_axis(axis)
+        for wanted, what in (
+            (half_step or phases != 4 or chop or positive_logic, PHASES),
+            (long_intervals, LONG),
+        ):
+            if wanted:
+                self.need(what)
+        if curve is not None:
+            if sigmoid or stop_pps is not None or down_pulses is not None:
+                raise OutOfRange("a free curve has its own speeds and pulses: give either it or those")
+            return free312.plan_file(xtal_hz, Path(curve), base_clock, external_clock)
+        slowest = start_pps if stop_pps is None else min(start_pps, stop_pps)
+        clock = profile312.choose_clock(xtal_hz, slowest, base_clock, external_clock)
+        return profile312.plan_setup(clock, start_pps, high_pps, ramp_pulses, stop_pps, down_pulses, sigmoid)
 
 
 class KindStmc(Kind):
@@ -172,7 +238,18 @@ STMC = KindStmc(
     alarm=("MON input", "switch the motor on (MON high)"),
     origin_between=True,
 )
-KINDS = {kind.number: kind for kind in (PPMC104, PPMC2104, STMC)}
+PPMC312 = Kind312(
+    312,
+    "ppmc312",
+    "PPMC-312",
+    has=frozenset((COILS_OFF, OWN_STOP, CURVES)),
+    outputs=63,
+    lengths=(1, 0xFFFFFF),
+    alarm=("alarm input", "clear the drive's alarm, then the part's"),
+    origin_between=True,
+    usual_ramp=2000,
+)
+KINDS = {kind.number: kind for kind in (PPMC104, PPMC2104, STMC, PPMC312)}
 BY_WORD = {kind.word: kind for kind in KINDS.values()}
 
 

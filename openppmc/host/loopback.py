@@ -10,6 +10,7 @@ import time
 
 from ..model.board import Board
 from ..model.board104 import Board104
+from ..model.board312 import Board312
 from ..model.board2104 import Board2104
 from ..model.board_stmc import BoardStmc
 from ..model.bridge import Bridge
@@ -48,10 +49,12 @@ class ModelPort:
             if options:
                 known = ", ".join((*PLANT_WORDS, *OPTIONS))
                 raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
-            board: Board104 | Board2104 | BoardStmc
+            board: Board
             settings = (clk_hz, xtal_hz, timing, self._interrupt)
             if machine.part == "ppmc104":
                 board = Board104(machine.plants[0], *settings)
+            elif machine.part == "ppmc312":
+                board = Board312(machine.plants[0], *settings)
             elif machine.part == "stmc":
                 board = BoardStmc(machine.plants[0], *settings, read_map)
             else:

@@ -7,12 +7,13 @@ from typing import TypeAlias
 from .kinds import KINDS, kind_of
 from .link import DEFAULT_BAUD, Link
 from .ppmc104 import Ppmc104
+from .ppmc312 import Ppmc312
 from .ppmc2104 import Ppmc2104
 from .stmc import Stmc
 from .transport import Port
 
-AnyPart: TypeAlias = Ppmc104 | Ppmc2104 | Stmc
-DRIVERS: dict[int, type[AnyPart]] = {kind.kind.number: kind for kind in (Ppmc104, Ppmc2104, Stmc)}
+AnyPart: TypeAlias = Ppmc104 | Ppmc2104 | Stmc | Ppmc312
+DRIVERS: dict[int, type[AnyPart]] = {kind.kind.number: kind for kind in (Ppmc104, Ppmc2104, Stmc, Ppmc312)}
 assert set(DRIVERS) == set(KINDS)
 
 

@@ -43,6 +43,7 @@ class BaseClock:
     period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
     the strap pins that choose it. external: it comes in at the `clock` pin. least_rate: lowest rate byte
     that the driver uses with it. beyond: base clocks of an interval beyond its rate byte.
+    slowest_rate: the highest rate. clk: number of the base clock on a PPMC-312.
     """
 
     period: Fraction
@@ -52,6 +53,8 @@ class BaseClock:
     external: bool = False
     least_rate: int = 0
     beyond: int = 1
+    slowest_rate: int = SLOWEST_RATE
+    clk: int = 0
 
     @classmethod
     def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1, least_rate: int = 0) -> BaseClock:
@@ -104,7 +107,7 @@ class BaseClock:
     @property
     def slowest(self) -> Fraction:
         """Lowest speed in pps."""
-        return self.speed(SLOWEST_RATE)
+        return self.speed(self.slowest_rate)
 
     @property
     def fastest(self) -> Fraction:
@@ -124,7 +127,7 @@ class BaseClock:
                 f"(base clock {nearby(self.hertz)} Hz)"
             )
         periods = (1 / asked - self.extra) / self.period
-        rate = min(SLOWEST_RATE, max(self.least_rate, int(periods + Fraction(1, 2)) - self.beyond))
+        rate = min(self.slowest_rate, max(self.least_rate, int(periods + Fraction(1, 2)) - self.beyond))
         return Speed(asked, rate, self.speed(rate), self)
 
 

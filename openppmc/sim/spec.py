@@ -8,6 +8,7 @@ from pathlib import Path
 from ..model.plant import PLANT_WORDS, Plant, parse_machine, stmc_read_map
 
 OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "vcd", "vcd_from", "vcd_for", "log")
+PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
 KNOWN = ", ".join((*PLANT_WORDS, *OPTIONS))
 
 
@@ -19,11 +20,11 @@ class SpecError(ValueError):
 class Spec:
     """A virtual board as it was asked for.
 
-    part: ppmc104, ppmc2104 or stmc. plants: one an axis. speed: times real time, None: as fast as the
-    machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz:
-    crystal of the emulated chip, 1e6 … 16e6 (stmc: 20e6). timing: FAST or DATASHEET. read_map: of an stmc,
-    SHEET or FAMILY. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log: file that
-    gets a line a pulse, or None.
+    part: ppmc104, ppmc2104, stmc or ppmc312. plants: one an axis. speed: times real time, None: as fast as
+    the machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6).
+    xtal_hz: crystal of the emulated chip, 1e6 … 16e6 (stmc: 20e6). timing: FAST or DATASHEET. read_map: of
+    an stmc, SHEET or FAMILY. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log:
+    file that gets a line a pulse, or None.
     """
 
     part: str = "ppmc104"
@@ -48,7 +49,11 @@ class Spec:
         """Arguments of the program in tb/board."""
         words = []
         for plant, suffix in zip(self.plants, ("", "2"), strict=False):
-            words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLANT_WORDS if word != "alarm"]
+            words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLACES]
+            if self.part == "ppmc312":
+                words.append(f"index={plant.index}")
+            if plant.block is not None:
+                words.append(f"block={plant.block}")
             if plant.alarm is not None:
                 words.append(f"alarm{suffix}={plant.alarm[0]}..{plant.alarm[1]}")
         words.append(f"speed={'max' if self.speed is None else self.speed}")

@@ -86,11 +86,12 @@ void Board::change() {
     if (pins == motion_) return;
     const unsigned stepped = motors_.steps(motion_, pins);
     motion_ = pins;
+    encoder_low(top);
     if (!stepped) return;
     for (unsigned n = 0; n < kAxes; ++n) {
         if (!(stepped >> n & 1)) continue;
         const bool dir = motors_.ccw(top, n);
-        plants_[n].pulse(dir);
+        if (plants_[n].pulse(dir)) encoder_pulse(top, dir);
         if (!log_) continue;
         std::fprintf(log_, "%" PRIu64 " %d %" PRId64, now_ - 1, dir, plants_[n].position());
         if (kAxes > 1) std::fprintf(log_, " %u", n + 1);
@@ -150,7 +151,7 @@ std::string Board::status() const {
                   "clk=%" PRIu64 " seconds=%.3f factor=%.3f asleep=%d open=%d rate=%u lost=%" PRIu64
                   " int=%d link=%d",
                   now_, static_cast<double>(now_) / static_cast<double>(clk_hz_), pace_.factor(), dozing_, pty_.open(),
-                  pty_.rate(), pty_.lost(), !top.int_n, top.led_link);
+                  pty_.rate(), pty_.lost(), interrupt(top), top.led_link);
     std::string all = line;
     for (unsigned n = 0; n < kAxes; ++n) {
         const Plant& plant = plants_[n];

@@ -49,6 +49,9 @@ Options parse_options(int argc, char** argv) {
         setters["slow_cw" + of] = position(plant.slow_cw);
         setters["slow_ccw" + of] = position(plant.slow_ccw);
         setters["origin" + of] = position(plant.origin);
+        setters["origin_from" + of] = position(plant.origin_from);
+        setters["index" + of] = position(plant.index);
+        setters["block" + of] = [&plant](const std::string& text) { plant.block = integer(text); };
         setters["alarm" + of] = [&plant](const std::string& text) {
             const size_t dots = text.find("..");
             if (dots == std::string::npos) throw std::runtime_error("alarm=" + text + ": not a range");

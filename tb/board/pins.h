@@ -35,6 +35,16 @@ class Motors {
 
 inline void idle_inputs(Vboard& top) { top.cs_n = top.rd_n = top.wr_n = 1; }
 
+#elif BOARD_PART == 312
+
+inline unsigned motion_pins(const Vboard& top) { return top.pout; }
+
+class Motors {
+   public:
+    unsigned steps(unsigned before, unsigned now) { return now & ~before; }
+    bool ccw(const Vboard& top, unsigned) const { return top.dir; }
+};
+
 #else
 
 inline unsigned motion_pins(const Vboard& top) { return top.pout_n; }
@@ -69,6 +79,28 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
 
 inline unsigned phases(const Vboard& top, unsigned axis) { return axis ? top.s2_n : top.s1_n; }
 
+#elif BOARD_PART == 312
+
+inline void idle_inputs(Vboard& top) {
+    top.cs_n = top.oe_n = top.we_n = 1;
+    top.run = top.evt0_n = top.evt1_n = 1;
+    top.auxi = 0xFF;
+    top.end_n = 0;  // the drive says at once that it is where it shall be
+}
+
+inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
+    const Plant& plant = plants[0];
+    top.fl_n = !plant.l1;
+    top.bl_n = !plant.l2;
+    top.fhl_n = !plant.l3;
+    top.bhl_n = !plant.l4;
+    top.org_n = !plant.cnp;
+    top.alm_n = !plant.alm;
+    top.index_n = !plant.index;
+}
+
+inline unsigned phases(const Vboard&, unsigned) { return 0; }
+
 #else
 
 inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
@@ -87,6 +119,20 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
 
 inline unsigned phases(const Vboard& top, unsigned) { return top.s; }
 
+#endif
+
+// An encoder gives a pulse as long as that of the motor for each one that the axle follows.
+#if BOARD_PART == 312
+inline void encoder_low(Vboard& top) { top.epin = 0; }
+inline void encoder_pulse(Vboard& top, bool ccw) {
+    top.epdir = ccw;
+    top.epin = 1;
+}
+inline bool interrupt(const Vboard& top) { return !top.irq_n; }
+#else
+inline void encoder_low(Vboard&) {}
+inline void encoder_pulse(Vboard&, bool) {}
+inline bool interrupt(const Vboard& top) { return !top.int_n; }
 #endif
 
 #if BOARD_PART == 104

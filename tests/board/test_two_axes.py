@@ -272,7 +272,7 @@ def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("port", "expected"),
     [
-        ("sim:part=ppmc312", "there are ppmc104, ppmc2104"),
+        ("sim:part=ppmc999", "there are ppmc104, ppmc2104"),
         ("sim:cw2=500", "a ppmc104 has one axis"),
         ("sim:part=ppmc2104,cw2=5,ccw2=10", "cw2=5,ccw2=10: the CW limit"),
     ],

@@ -232,7 +232,7 @@ def test_a_script(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "line", "message"),
     [
-        ("move 1\nhup", 2, "unknown command 'hup' (there are aux, auxo"),
+        ("move 1\nhup", 2, "unknown command 'hup' (there are at, aux, auxo"),
         ("move", 1, "number of pulses is missing"),
         ("move x", 1, "pulses 'x' is not a whole number"),
         ("move 99999999", 1, "outside -16777216 to 16777216"),

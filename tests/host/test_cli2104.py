@@ -81,7 +81,7 @@ def test_plan(run: Run) -> None:
         (("move", "1", "2", "3"), "one number for each axis", 2),
         (("move", "1", "2", "--axis", "1"), "one number for each axis", 2),
         (("move", "1", "--axis", "3"), "Invalid value for '--axis'", 2),
-        (("--part", "ppmc312", "info"), "'ppmc312' is not one of 'ppmc104', 'ppmc2104', 'stmc'", 2),
+        (("--part", "ppmc999", "info"), "'ppmc999' is not one of 'ppmc104', 'ppmc2104', 'stmc'", 2),
         (("--port", "model:speed=max", "move", "1", "2"), "axis 2: a PPMC-104 has one axis", 1),
         (("--port", "model:speed=max", "jog", "cw", "--axis", "2"), "axis 2: a PPMC-104 has one axis", 1),
         (("--port", "model:speed=max", "status", "--axis", "2"), "axis 2: a PPMC-104 has one axis", 1),

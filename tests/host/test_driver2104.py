@@ -104,8 +104,8 @@ def test_open_part_takes_the_driver_of_what_is_there() -> None:
 def test_a_part_without_a_driver() -> None:
     port = ModelPort("speed=max")
     engine = port.bridge._engine
-    engine._identity = engine._identity.replace(b"\x68\x00", b"\x38\x01")
-    with pytest.raises(WrongDevice, match="PPMC-312; there are drivers for PPMC-104, PPMC-2104 and J105"):
+    engine._identity = engine._identity.replace(b"\x68\x00", b"\xe7\x03")
+    with pytest.raises(WrongDevice, match="PPMC-999; there are drivers for PPMC-104, PPMC-2104, J105"):
         open_part(port)
 
 

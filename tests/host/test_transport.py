@@ -252,7 +252,7 @@ def test_machine_text() -> None:
         with pytest.raises(ValueError, match=r"form|number|outside|behind"):
             parse_machine(text)
     for text, complaint in (
-        ("part=ppmc312", "part=ppmc312: there are ppmc104, ppmc2104"),
+        ("part=ppmc999", "part=ppmc999: there are ppmc104, ppmc2104"),
         ("cw2=5,start=3", "cw2=5: a ppmc104 has one axis"),
         ("part=ppmc2104,alarm2=5", "alarm2=5 is not of the form alarm2=100..200"),
     ):
