@@ -13,7 +13,17 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from scripts.pictures import plots, plots_stmc, tables, tables_stmc, waves, waves_stmc  # noqa: E402
+from scripts.pictures import (  # noqa: E402
+    plots,
+    plots_312,
+    plots_stmc,
+    tables,
+    tables_312,
+    tables_stmc,
+    waves,
+    waves_312,
+    waves_stmc,
+)
 from scripts.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
 
 IMAGES = DOCS / "img"
@@ -27,8 +37,14 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "moves-table": tables_stmc.moves_table,
         "times-table": tables_stmc.times_table,
     },
+    "ppmc312.md": {
+        "table-table": tables_312.table_table,
+        "moves-table": tables_312.moves_table,
+        "times-table": tables_312.times_table,
+    },
 }
-PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS}
+PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS}
+DIAGRAMS = {**waves_stmc.DIAGRAMS, **waves_312.DIAGRAMS}
 
 
 def wanted() -> dict[Path, bytes]:
@@ -39,7 +55,7 @@ def wanted() -> dict[Path, bytes]:
             files[IMAGES / f"{source.stem}.svg"] = waves.render(source)
         except ValueError as error:
             raise ProjectError(str(error)) from None
-    for name, diagram in waves_stmc.DIAGRAMS.items():
+    for name, diagram in DIAGRAMS.items():
         files[IMAGES / f"{name}.svg"] = waves.draw(diagram(), name)
     for name, plot in PLOTS.items():
         files[IMAGES / f"{name}.svg"] = plots.render(plot)

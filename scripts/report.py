@@ -21,7 +21,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from scripts import bridges, project
 from scripts.flow import size_page, sizes, targets
 from scripts.flow.netlist import Count
-from scripts.flow.synthesis import FAMILIES, SEEDS, all_seeds, synthesize
+from scripts.flow.synthesis import SEEDS, all_seeds, synthesize
 from scripts.flow.targets import Target
 from scripts.flow.yosys_job import BEST
 from scripts.project import console, fail
@@ -83,7 +83,7 @@ def board_row(target: Target, count: Count, netlist: Path, seeds: int, tell: Tel
     # The first start of a WebAssembly tool compiles it; two at once would do that twice.
     runs = [one(1)]
     with ThreadPoolExecutor(2) as pool:
-        runs += pool.map(one, range(2, seeds + 1))
+        runs += pool.map(one, range(2, min(seeds, target.board.seeds) + 1))
     fmax = sorted(run["fmax"] for run in runs)
     return size_page.Row(target.design, target.board.device, count, fmax, runs[0], target.board.clk_hz / 1e6)
 
@@ -101,7 +101,8 @@ def report(part: str, wanted: list[Target], seeds: int, tell: Tell) -> None:
     if part in targets.BOARD_TOPS:
         base = targets.base_job(part, True)
         folder = targets.FOLDER / "breakdown"
-        split = {family: synthesize(folder, base, family, BEST[family])[0] for family in FAMILIES}
+        families = project.part(part).families
+        split = {family: synthesize(folder, base, family, BEST[family])[0] for family in families}
     tell(f"{part} instance by instance")
     text = size_page.markdown(part, rows, split, seeds)
     console.print(size_page.terminal(rows))
@@ -132,8 +133,11 @@ def main() -> int:
     parts = [project.part(args.part).name] if args.part else list(project.PARTS)
     every = {part: targets.targets(part) for part in project.PARTS}
     wanted = [target for part in parts for target in every[part]]
-    routes = sum(1 if target.board else len(targets.devices(target)) for target in wanted)
-    steps = len(wanted) + (0 if args.check else routes * args.seeds + len(parts))
+    routes = sum(
+        min(args.seeds, target.board.seeds) if target.board else args.seeds * len(targets.devices(target))
+        for target in wanted
+    )
+    steps = len(wanted) + (0 if args.check else routes + len(parts))
     columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
         task = progress.add_task("synthesis", total=steps)

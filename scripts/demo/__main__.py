@@ -18,15 +18,14 @@ from cocotb_tests.common.compare import Comparison, compare_recording, write_rep
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
-from openppmc.plot.motion import draw
 from scripts.demo import waves
 from scripts.demo.demos import DEMOS, Demo
 from scripts.demo.steps import Steps
-from scripts.demo.words import exchanges
 from scripts.project import BUILD, ProjectError, console, fail, relative, run
 
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
+MOST = 11  # bytes of a block that are printed
 
 
 def last_line(path: Path) -> str:
@@ -66,8 +65,9 @@ def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]
 
 
 def hexes(data: list[int]) -> str:
-    """Bytes as hex pairs."""
-    return " ".join(f"{byte:02X}" for byte in data)
+    """Bytes as hex pairs; a long block loses its end."""
+    text = " ".join(f"{byte:02X}" for byte in data[:MOST])
+    return text + (" …" if len(data) > MOST else "")
 
 
 def show_talk(demo: Demo, recording: Recording, chapters: list[dict[str, Any]]) -> None:
@@ -83,7 +83,7 @@ def show_talk(demo: Demo, recording: Recording, chapters: list[dict[str, Any]]) 
     table.add_column("in words", overflow="fold")
     for chapter in chapters:
         inside = [a for a in recording.accesses if chapter["begin"] <= a.t < chapter["end"]]
-        rows = exchanges(demo.words, inside)
+        rows = demo.words.exchanges(inside)
         if rows:
             table.add_row("", "", f"[bold]{chapter['title']}[/]")
         for row in rows:
@@ -181,7 +181,7 @@ def main(arguments: list[str] | None = None) -> int:
         saved = write_waves(demo, comparison, chapters)
         picture = FOLDER / "profile.png"
         try:
-            steps.run("draw the picture", lambda: draw(demo.picture(comparison, chapters), picture))
+            steps.run("draw the picture", lambda: demo.draw(comparison, chapters, picture))
         except (IndexError, StopIteration):
             # Wrong RTL may lack the very edges that the close-ups are about.
             if comparison.mismatch is None:

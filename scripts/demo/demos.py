@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
+from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
-from scripts.demo import picture104, picture2104, picture_stmc
-from scripts.demo.scenes import Changes, falls
+from scripts.demo import picture104, picture312, picture2104, picture_stmc
+from scripts.demo.scenes import Changes, access_text, falls, register_text, rises
 from scripts.demo.scenes import steps as phase_steps
 from scripts.demo.words import Words
 from scripts.demo.words104 import Words104
+from scripts.demo.words312 import Words312
 from scripts.demo.words2104 import Words2104
 from scripts.demo.words_stmc import WordsStmc
 
@@ -19,20 +22,23 @@ from scripts.demo.words_stmc import WordsStmc
 @dataclass(frozen=True)
 class View:
     """The VCD: `split` names the single bits of a vector, lowest first; `motors` maps a scope to the pin or
-    vector in which `pulses` finds its pulses; `groups` are (title, signals) of the saved views.
+    vector in which `pulses` finds its pulses; `groups` are (title, signals) of the saved views; `access` is
+    the text of a host access.
     """
 
     split: Mapping[str, Sequence[str]]
     motors: Mapping[str, str]
     groups: Sequence[tuple[str, Sequence[str]]]
     pulses: Callable[[Changes], list[int]] = falls
+    access: Callable[[Any], str] = access_text
 
 
 @dataclass(frozen=True)
 class Demo:
     """One demo of PART=`name`, which is played on `part`.
 
-    `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves.
+    `picture` gives what the usual picture shows; `own` draws another one instead. `marks`: chapters marked in
+    the saved views; `motors`: names of axes in the list of moves.
     """
 
     name: str
@@ -40,10 +46,18 @@ class Demo:
     module: str
     test: str
     words: Words
-    picture: Callable[[Any, Sequence[Mapping[str, Any]]], Run]
+    picture: Callable[[Any, Sequence[Mapping[str, Any]]], Run] | None
     view: View
     marks: Sequence[str]
     motors: Mapping[str, str] = field(default_factory=dict)
+    own: Callable[[Any, Sequence[Mapping[str, Any]], Path], None] | None = None
+
+    def draw(self, comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
+        """Draw the picture of a run."""
+        if self.own is not None:
+            self.own(comparison, chapters, path)
+        elif self.picture is not None:
+            draw(self.picture(comparison, chapters), path)
 
 
 VIEW_104 = View(
@@ -167,6 +181,24 @@ VIEW_STMC = View(
     pulses=phase_steps,
 )
 
+VIEW_312 = View(
+    split={"auxo_n": [f"auxo{n}_n" for n in range(6)], "auxi": [f"auxi{n}" for n in range(8)]},
+    motors={"motor": "pout"},
+    groups=(
+        (
+            "host",
+            (
+                "host.access",
+                *(f"pins.{pin}" for pin in ("cs_n", "rs", "we_n", "oe_n", "d_i", "d_o", "d_oe", "irq_n")),
+            ),
+        ),
+        ("motor", ("motor.speed_pps", "motor.pulses", "pins.pout", "pins.dir", "pins.cd_n")),
+        ("switches", tuple(f"pins.{pin}" for pin in ("evt0_n", "org_n", "fl_n", "bl_n", "run", "alm_n"))),
+    ),
+    pulses=rises,
+    access=register_text,
+)
+
 DEMOS = {
     demo.name: demo
     for demo in (
@@ -200,6 +232,17 @@ DEMOS = {
             picture_stmc.picture,
             VIEW_STMC,
             ("move", "limit", "reference", "rest"),
+        ),
+        Demo(
+            "ppmc312",
+            "ppmc312",
+            "cocotb_tests.demo.tb_demo_312",
+            "demo_blocks",
+            Words312(),
+            None,
+            VIEW_312,
+            ("free", "sigmoid", "linear", "override", "return"),
+            own=picture312.draw,
         ),
     )
 }

@@ -24,6 +24,21 @@ def falls(changes: Changes) -> list[int]:
     return [t for t, level in changes if level == 0]
 
 
+def rises(changes: Changes) -> list[int]:
+    """Edges on which a pin becomes high."""
+    return [t for t, level in changes if level == 1]
+
+
+def access_text(access: Any) -> str:
+    """A host access as a word: C43 command, DE7 data, S04 status read, R83 data read."""
+    return f"{('DC' if access.kind == 'write' else 'RS')[access.reg]}{access.byte:02X}"
+
+
+def register_text(access: Any) -> str:
+    """An access to named registers: the name with `:=` for a write, and the byte."""
+    return f"{access.kind.removesuffix(' read')} {access.byte:02X}"
+
+
 def steps(changes: Changes) -> list[int]:
     """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
     found, last = [], 0

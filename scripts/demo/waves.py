@@ -21,11 +21,6 @@ from scripts.demo.scenes import bit
 LATEST_FALL = 2.1e-3  # s without a pulse: speed 0
 
 
-def access_text(access: Any) -> str:
-    """A host access as a word: C43 command, DE7 data, S04 status read, R83 data read."""
-    return f"{('DC' if access.kind == 'write' else 'RS')[access.reg]}{access.byte:02X}"
-
-
 def speed_changes(pulses: Sequence[int], clk_hz: int) -> Iterator[tuple[int, float]]:
     """(edge, pulses per second) changes, 0 between motions."""
     gap = round(LATEST_FALL * clk_hz)
@@ -81,7 +76,7 @@ def write_vcd(comparison: Any, view: View, path: Path) -> None:
             var = writer.register_var("pins", name, "wire", size=size, init=level)
             rows += [(t, var, value) for t, value in changes]
         text = writer.register_var("host", "access", "string", init="")
-        rows += [(access.t, text, access_text(access)) for access in recording.accesses]
+        rows += [(access.t, text, view.access(access)) for access in recording.accesses]
         for scope, pulses in motor_pulses(comparison, view).items():
             speed = writer.register_var(scope, "speed_pps", "real", init=0.0)
             rows += [(t, speed, value) for t, value in speed_changes(pulses, clk_hz)]

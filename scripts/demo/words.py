@@ -33,6 +33,10 @@ class Words:
         """A number of pulses or steps."""
         return f"{pulses} {self.unit}{'s' if pulses != 1 else ''}"
 
+    def exchanges(self, accesses: Sequence[Any]) -> Sequence[Any]:
+        """The accesses of a host as rows of the table: see `Exchange` for what a row has."""
+        return exchanges(self, accesses)
+
     def axis(self, code: int) -> int:
         """Bits of a code that name an axis."""
         return 0

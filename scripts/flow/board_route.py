@@ -103,7 +103,7 @@ def pack(on: Board, folder: Path, target: Path) -> None:
     command = {
         "ice40": ["yowasp-icepack", routed, target.name],
         "ecp5": ["yowasp-ecppack", "--compress", "--input", routed, "--bit", target.name],
-        "gowin": ["gowin_pack", "-d", "GW1N-9C", "--sspi_as_gpio", "-o", target.name, routed],
+        "gowin": ["gowin_pack", "-d", on.chip, "--sspi_as_gpio", "-o", target.name, routed],
     }[on.family]
     run(command, folder, on.title)
     if not target.is_file() or not target.stat().st_size:

@@ -43,6 +43,8 @@ class Board:
     loader: str
     route: tuple[str, ...]  # nextpnr's choice of the device
     part: str = "ppmc104"
+    chip: str = ""  # Gowin's family, as nextpnr and the packer call it
+    seeds: int = 5  # `make report` places it with at most so many; one takes minutes on some
 
     def folder(self, host: str) -> Path:
         """build/boards/<board> for the UART host, build/boards/<board>-bus for the other."""
@@ -113,6 +115,7 @@ BOARDS = {
             suffix=".fs",
             loader="tangnano9k",
             route=("--device", "GW1NR-LV9QN88PC6/I5", "--vopt", "family=GW1N-9C"),
+            chip="GW1N-9C",
         ),
     )
 }
@@ -141,7 +144,40 @@ def with_part(part: str) -> dict[str, Board]:
     return {board.name: board for board in boards}
 
 
-BY_PART = {"ppmc104": BOARDS, "ppmc2104": with_part("ppmc2104"), "stmc": with_part("stmc")}
+TANGNANO20K = Board(
+    name="tangnano20k",
+    title="Tang Nano 20K",
+    device="GW2AR-LV18QN88C8/I7",
+    family="gowin",
+    top={"uart": "board_tangnano20k_ppmc312"},
+    constraints={"uart": "tangnano20k-ppmc312.cst"},
+    oscillator=("clk_27m", 27),
+    clk_hz=54_000_000,
+    goal_mhz=50,
+    suffix=".fs",
+    loader="tangnano20k",
+    route=("--device", "GW2AR-LV18QN88C8/I7", "--vopt", "family=GW2A-18C"),
+    part="ppmc312",
+    chip="GW2A-18C",
+    seeds=1,
+)
+
+
+def with_ppmc312() -> dict[str, Board]:
+    """The boards that carry a PPMC-312: it is too large for an iCE40 and a Tang Nano 9K."""
+    boards = (
+        replace(carrying("ppmc312", name), clk_hz=50_000_000, goal_mhz=50)
+        for name in ("ulx3s-25f", "ulx3s-85f")
+    )
+    return {board.name: board for board in (*boards, TANGNANO20K)}
+
+
+BY_PART = {
+    "ppmc104": BOARDS,
+    "ppmc2104": with_part("ppmc2104"),
+    "stmc": with_part("stmc"),
+    "ppmc312": with_ppmc312(),
+}
 
 
 def board(name: str, part: str = "ppmc104") -> Board:

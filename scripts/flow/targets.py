@@ -11,7 +11,7 @@ from scripts import project
 
 from . import board_route, boards, pnr
 from .netlist import Count, flat_counts
-from .synthesis import FAMILIES, run_yosys, wrapped_netlist
+from .synthesis import run_yosys, wrapped_netlist
 from .yosys_job import BEST
 
 FOLDER = project.BUILD / "report"
@@ -61,9 +61,10 @@ def base_job(part: str, board_top: bool) -> dict:
 
 def targets(part: str) -> list[Target]:
     """Everything to measure for a part."""
-    found = [Target(part, family, base_job(part, False)) for family in FAMILIES]
+    families = project.part(part).families
+    found = [Target(part, family, base_job(part, False)) for family in families]
     if part in BOARD_TOPS:
-        found += [Target(BOARD_TOPS[part], family, base_job(part, True)) for family in FAMILIES]
+        found += [Target(BOARD_TOPS[part], family, base_job(part, True)) for family in families]
         found += [
             Target(f"{on.stem(HOST)} bitstream", on.family, board=on) for on in boards.BY_PART[part].values()
         ]

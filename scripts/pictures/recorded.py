@@ -42,9 +42,23 @@ def read_cycle(edge: int, reg: int, strobe: int = 5) -> Schedule:
     return [(edge, {"cs_n": 0, "rd_n": 0, "a0": reg}), (edge + strobe, {"cs_n": 1, "rd_n": 1})]
 
 
-def record(chip: Any, inputs: Levels, schedule: Schedule, columns: Sequence[int | None]) -> Samples:
-    """Drive a model by the schedule and look at it on the edges of the columns, which must rise."""
+def mailbox_flags(chip: Any) -> Levels:
+    """OBF, IBF, BUSY of a part with a status register."""
     core = getattr(chip, "core", chip)
+    return {"obf": core.status & 1, "ibf": core.status >> 1 & 1, "busy": int(core.busy)}
+
+
+def record(
+    chip: Any,
+    inputs: Levels,
+    schedule: Schedule,
+    columns: Sequence[int | None],
+    flags: Callable[[Any], Levels] = mailbox_flags,
+) -> Samples:
+    """Drive a model by the schedule and look at it on the edges of the columns, which must rise.
+
+    `flags`: what there is to see besides pins.
+    """
     pins, due = dict(inputs), list(schedule)
     found: list[Levels | None] = []
     for edge in columns:
@@ -56,8 +70,7 @@ def record(chip: Any, inputs: Levels, schedule: Schedule, columns: Sequence[int 
             chip.pins(at, **levels)
             pins |= levels
         chip.run_until(edge)
-        flags = {"obf": core.status & 1, "ibf": core.status >> 1 & 1, "busy": int(core.busy)}
-        found.append({**pins, **chip.outputs, **flags})
+        found.append({**pins, **chip.outputs, **flags(chip)})
     return found
 
 

@@ -24,6 +24,7 @@ FILES = {
     if on.family != "gowin"
 } | {
     ("board_tangnano9k", "tangnano9k.cst", "tangnano9k.sdc", "clk_27m", 27),
+    ("board_tangnano20k_ppmc312", "tangnano20k-ppmc312.cst", "tangnano20k-ppmc312.sdc", "clk_27m", 27),
     ("board_arty_a7", "arty_a7.xdc", "arty_a7.xdc", "clk", 100),
     ("board_de10nano", "de10nano.qsf", "de10nano.sdc", "clk", 50),
 }
@@ -113,7 +114,7 @@ def test_ports_and_pins(top: str, file: str, clock_file: str, clock: str, mhz: f
 def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: str, mhz: float) -> None:
     path = CONSTRAINTS / file
     text = path.read_text()
-    buttons = {"btn_f1", "key_n"}  # one is pulled down, the other has a resistor and a Schmitt trigger
+    buttons = {"btn", "btn_f1", "key_n"}  # pulled down; the last has a resistor and a Schmitt trigger
     for name, port in ports(top).items():
         if name in buttons | {clock}:
             continue

@@ -8,11 +8,12 @@ from cocotb_tests.common.compare import compare_recording, new_model, replay
 from cocotb_tests.common.part import PARTS
 from cocotb_tests.common.stimulus import Access, Change, Recording
 from scripts.demo import waves
-from scripts.demo.__main__ import chosen
-from scripts.demo.demos import DEMOS, VIEW_2104, VIEW_STMC
-from scripts.demo.scenes import steps
+from scripts.demo.__main__ import chosen, hexes
+from scripts.demo.demos import DEMOS, VIEW_312, VIEW_2104, VIEW_STMC
+from scripts.demo.scenes import register_text, steps
 from scripts.demo.words import exchanges
 from scripts.demo.words104 import Words104
+from scripts.demo.words312 import Words312
 from scripts.demo.words2104 import Words2104
 from scripts.demo.words_stmc import WordsStmc
 from scripts.project import ProjectError
@@ -108,6 +109,111 @@ def test_bytes_of_the_stmc_in_words(script, meaning, reply):
     assert row.reply.startswith(reply)
 
 
+def registers(script: str) -> list[Access]:
+    """Accesses of a PPMC-312 host: `> block` and `< block` in logical order, `p` a poll of CSR."""
+    found: list[tuple[str, int, int]] = []
+    for line in script.split(";"):
+        kind, _, text = line.strip().partition(" ")
+        data = bytes.fromhex(text)[::-1]
+        if kind == "p":
+            found.append(("CSR read", 0, data[0]))
+        elif kind == ">":
+            found += [("WCR :=", 2, 0x20), ("WAR :=", 3, 0x20 - len(data)), *(("DWR :=", 5, b) for b in data)]
+        else:
+            found += [("RAR read", 3, 0x40 - len(data)), *(("DRR read", 7, b) for b in data)]
+    return [Access(t, *access) for t, access in enumerate(found)]
+
+
+@pytest.mark.parametrize(
+    ("sent", "got", "meaning", "reply"),
+    [
+        (
+            "03 09 00 09 03E8 00C8 0007D0",
+            "03 01 00",
+            "initial setting: sigmoid, 1 MHz, rates 1000 to 200, 2000 pulses",
+            "done",
+        ),
+        (
+            "03 08 82 40 0000 00001388",
+            "03 02 82 10",
+            "accelerate/decelerate, CCW, high speed, 5000 pulses",
+            "triangle",
+        ),
+        ("03 08 83 00 0064 00000005", "03 02 83 01", "constant speed, CW, rate 100, 5 pulses", "held"),
+        ("03 08 87 04 00C8 FFFFFFFE", "03 01 E8", "ramp to rate 200, at position -2", "registered"),
+        ("03 02 81 07", "03 02 F7 01", "decelerating stop, on event 1", "not registered 01"),
+        ("03 04 11 40 0000", "03 01 F2", "zero return, CCW, high speed", "limit"),
+        ("03 01 4D", "03 04 4D 00 10 02", "read status", "state ABN, 2 waiting"),
+        ("02 03 01 01 03", "03 03 01 00 03", "free curve: 1 MHz, 3 stages", "3 rates to come"),
+        (
+            "01 09 000005 000004 000003",
+            "03 08 01 0F 00000C 00000C",
+            "free curve: data, the last",
+            "done: 12 up, 12 down",
+        ),
+        ("03 02 42 00", "03 06 42 00 FFFFFE3D", "read pulse position", "-451"),
+        ("03 01 40", "03 02 40 12", "read version", "version 12"),
+    ],
+)
+def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
+    """Given one instruction and its answer, then they read as the manual says."""
+    (row,) = Words312().exchanges(registers(f"> {sent}; p 14; p 10; < {got}"))
+    assert (row.meaning, row.reply) == (meaning, reply)
+    assert (row.sent, row.answer) == (list(bytes.fromhex(sent)), list(bytes.fromhex(got)))
+    assert row.statuses == [0x14, 0x10]
+
+
+def test_reports_of_the_312_are_rows_of_their_own():
+    """Given a stop report behind an answer, and an override's, then each has its row and no instruction."""
+    rows = Words312().exchanges(
+        registers("> 03 02 84 00; < 03 01 84; p 14; < 23 06 E0 40 00000001; < 1B 02 82 00; < 23 02 F4 01")
+    )
+    assert [row.meaning for row in rows] == ["single pulse, CW", "interrupt", "interrupt", "interrupt"]
+    assert [row.reply for row in rows] == [
+        "done",
+        "stopped at 1: all pulses made",
+        "by override: trapezoid",
+        "ALARM 01",
+    ]
+
+
+def test_a_report_before_the_answer_has_its_own_row():
+    """Given an alarm that is read first, then the answer still belongs to its instruction."""
+    rows = Words312().exchanges(registers("> 03 01 40; < 23 02 F4 00; < 03 02 40 12"))
+    assert [(row.meaning, row.reply) for row in rows] == [
+        ("read version", "version 12"),
+        ("interrupt", "ALARM 00"),
+    ]
+
+
+def test_long_blocks_lose_their_end():
+    """Given a block that would not fit into its column, then its first bytes are printed."""
+    assert hexes([3, 1, 64]) == "03 01 40"
+    assert hexes(list(range(20))) == "00 01 02 03 04 05 06 07 08 09 0A …"
+
+
+def test_waves_name_the_registers(tmp_path):
+    """Given a version read in a recording, then the VCD has the host's accesses by name, and its pins."""
+    recording = Recording("ppmc312", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
+    t = 10
+    for reg, byte in ((2, 0x20), (3, 0x1D), (5, 0x40), (5, 0x01), (5, 0x03)):
+        recording.stimulus += [Change(t, pin, level) for pin, level in
+                               (("cs_n", 0), ("we_n", 0), ("rs", reg), ("d_i", byte))]  # fmt: skip
+        recording.stimulus += [Change(t + 3, "cs_n", 1), Change(t + 3, "we_n", 1)]
+        recording.accesses.append(Access(t + 3, {2: "WCR :=", 3: "WAR :=", 5: "DWR :="}[reg], reg, byte))
+        t += 6
+    recording.end = t + 200
+    recording.edges = replay(recording, new_model(recording))
+    comparison = compare_recording(recording)
+    assert comparison.mismatch is None
+    target = tmp_path / "waves.vcd"
+    waves.write_vcd(comparison, VIEW_312, target)
+    text = target.read_text()
+    assert all(f" {name} $end" in text for name in ("pout", "auxo3_n", "auxi7", "speed_pps"))
+    assert all(f"\nsDWR\\x20:=\\x20{byte} " in text for byte in ("40", "01", "03"))
+    assert register_text(Access(0, "DRR read", 7, 0x12)) == "DRR 12"
+
+
 def test_chopping_is_no_step():
     """Given phases that are switched off and on at rest, then only a change of pattern is a step."""
     changes = [(5, 0b0011), (9, 0), (12, 0b0011), (15, 0), (16, 0b0011), (20, 0b0110), (30, 0), (33, 0b0110)]
@@ -181,5 +287,6 @@ def test_unknown_part_is_one_line():
     assert chosen([]).part == "ppmc104"
     assert chosen(["--part", "ppmc2104"]).part == "ppmc2104"
     assert chosen(["--part", "stmc"]).part == "j105_stmc"
-    with pytest.raises(ProjectError, match=r"PART=isa_4axis: .*ppmc104, ppmc2104, stmc"):
+    assert chosen(["--part", "ppmc312"]).part == "ppmc312"
+    with pytest.raises(ProjectError, match=r"PART=isa_4axis: .*ppmc104, ppmc2104, stmc, ppmc312"):
         chosen(["--part", "isa_4axis"])

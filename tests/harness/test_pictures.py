@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from scripts.pictures import waves, waves_stmc
+from scripts.pictures import tables_312, waves, waves_312, waves_stmc
+from scripts.pictures.bench_312 import marked
 from scripts.pictures.recorded import Row, beside_gaps, record, wave, write_cycle
 from scripts.pictures.stmc_bench import Bench
 
@@ -43,3 +44,35 @@ def test_diagrams_are_drawn_with_wide_labels():
     svg = waves.draw(waves_stmc.DIAGRAMS["stmc_end"](), "stmc_end").decode()
     (width,) = re.findall(r'<rect[^>]*fill:#FFF;[^>]*width="([\d.]+)"[^>]*/><text[^>]*><tspan>34 ms', svg)
     assert float(width) > 5 * 6
+
+
+def test_letters_stand_where_a_line_changes():
+    """Given a line with three changes, one of them in a gap, then letters go to the changes in turn."""
+    samples = [{"a": 0}, {"a": 1}, {"a": 1}, None, {"a": 0}, {"a": 1}]
+    assert marked(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}
+    assert marked(Row("a", "a"), samples, "").nodes == {}
+
+
+def test_a_block_of_the_312_is_drawn_byte_by_byte():
+    """Given the version read, then its accesses are those of the manual, and the flags change with them."""
+    access, mwef, mref, irq = waves_312.DIAGRAMS["ppmc312_block"]()["signal"]
+    there = [word.strip() for word in access["data"]]
+    assert there[:5] == ["WCR 20", "WAR 1D", "DWR 40", "DWR 01", "DWR 03"]
+    assert there[5:] == ["RAR 3C", "DRR 12", "DRR 40", "DRR 02", "DRR 03"]
+    assert mwef["wave"] == "0.....1|0......"
+    assert mref["wave"] == irq["wave"] == "1......|0.....1"
+
+
+def test_worked_moves_of_the_312():
+    """Given the table of moves, then shapes, pulses and times are those of the rules' worked examples."""
+    rows = tables_312.moves_table().splitlines()
+    assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
+    assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows
+    assert "| TG, N = 3 | 40 | 3, 0, 0 | 400×3 | 1200 |" in rows
+    for text, kind, parts, ticks in (
+        ("T1, N = 5000", "00", "2000, 1000, 2000", 1_532_294),
+        ("T3, N = 3000", "10", "1730, 0, 1270", 992_384),
+        ("T4, N = 700", "10", "211, 0, 489", 362_582),
+    ):
+        (row,) = [row for row in rows if row.startswith(f"| {text} |")]
+        assert row.startswith(f"| {text} | {kind} | {parts} |") and row.endswith(f" {ticks} |")

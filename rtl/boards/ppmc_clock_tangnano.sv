@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_clock_tangnano: 54 MHz from the 27 MHz oscillator of a Tang Nano, by a PLL.
+// Rules:  divisors from gowin_pll for 27 MHz in, 54 MHz out. 9K: GW1NR-9C, 8 (VCO 432 MHz); 20K: GW2A-18C, 16 (864 MHz).
+// Timing: lock_o is asynchronous.
+`default_nettype none
+
+module ppmc_clock_tangnano #(
+    parameter string Device = "GW1NR-9C",
+    parameter int    OutDiv = 8
+) (
+    input  wire logic clk_27m_i,
+    output logic      clk_o,      // 54 MHz
+    output logic      lock_o
+);
+
+  rPLL #(
+      .DEVICE   (Device),
+      .FCLKIN   ("27"),
+      .IDIV_SEL (0),
+      .FBDIV_SEL(1),
+      .ODIV_SEL (OutDiv)
+  ) u_pll (
+      .CLKIN   (clk_27m_i),
+      .CLKFB   (1'b0),
+      .RESET   (1'b0),
+      .RESET_P (1'b0),
+      .FBDSEL  (6'd0),
+      .IDSEL   (6'd0),
+      .ODSEL   (6'd0),
+      .DUTYDA  (4'd0),
+      .PSDA    (4'd0),
+      .FDLY    (4'd0),
+      .CLKOUT  (clk_o),
+      .LOCK    (lock_o),
+      .CLKOUTP (),
+      .CLKOUTD (),
+      .CLKOUTD3()
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,184 @@
+"""What docs/ppmc312_examples.md prints, and the first chapter of docs/ppmc312.md, on the golden model."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from cocotb_tests.common.paths import ROOT
+from cocotb_tests.ppmc312.host312 import Host312, clean
+from openppmc.model.codes312 import LENGTHS, OVERRIDABLE, Code, State, accepts
+
+DOCS = ROOT / "docs"
+PAGE = DOCS / "ppmc312_examples.md"
+MS = 16_000
+LONG = 60_000_000  # clk; nothing on the page takes longer
+
+
+class Player:
+    """One session. `lines` are those of the page."""
+
+    def __init__(self) -> None:
+        self.host = Host312()
+
+    def play(self, lines: list[str], where: str) -> None:
+        """All lines; an AssertionError names the first that is not as printed."""
+        for number, line in enumerate(lines, 1):
+            kind, _, rest = line.partition(" ")
+            # Two spaces begin a comment.
+            words = re.split(r"\s{2,}", rest.strip())[0]
+            found = getattr(self, KINDS[kind])(words)
+            assert found is None or found == words, f"{where}, line {number}: {line!r} gave {found}"
+
+    def write(self, words: str) -> None:
+        rs, byte = (int(word, 16) for word in words.split())
+        self.host.write(rs, byte)
+
+    def read(self, words: str) -> str:
+        rs = words.split()[0]
+        return f"{rs} {self.host.read(int(rs)):02X}"
+
+    def send(self, words: str) -> None:
+        mark = self.host.mark
+        self.host.issue(words)
+        self.host.mark = mark
+
+    def answer(self, words: str) -> str:
+        got = self.host.response(LONG)
+        return words if got == clean(words) else got
+
+    def pin(self, words: str) -> None:
+        name, *levels = words.split()
+        for level in levels:
+            self.host.pins(**{name: int(level)})
+            self.host.pause(20)
+
+    def at(self, words: str) -> None:
+        while missing := max(0, int(words) - len(self.host.pulses())):
+            for _ in range(missing):  # an event makes one pulse at the most
+                self.host.step()
+
+    def ms(self, words: str) -> None:
+        self.host.pause(int(words) * MS)
+
+    def count(self, words: str) -> str:
+        self.host.sync()
+        found = len(self.host.pulses())
+        self.host.mark = self.host.t
+        return str(found)
+
+
+KINDS = {
+    "w": "write",
+    "r": "read",
+    ">": "send",
+    "<": "answer",
+    "pin": "pin",
+    "at": "at",
+    "ms": "ms",
+    "=": "count",
+}
+
+
+def chapters() -> dict[str, list[list[str]]]:
+    """Title of a chapter -> its sessions, one line each access."""
+    parts = re.split(r"^## (?=\d)", PAGE.read_text(encoding="utf-8"), flags=re.M)[1:]
+    found = {}
+    for text in parts:
+        blocks = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
+        found[text.splitlines()[0]] = [block.splitlines() for block in blocks]
+    return found
+
+
+CHAPTERS = chapters()
+
+
+@pytest.mark.parametrize("title", CHAPTERS, ids=lambda title: title.split()[0])
+def test_session(title):
+    """Given a chapter of the page, when its lines are played one after the other, then all is as printed."""
+    player = Player()
+    for block in CHAPTERS[title]:
+        player.play(block, title)
+
+
+def test_a_wrong_byte_is_found():
+    """Given an answer that is printed wrong, then the line is named."""
+    with pytest.raises(AssertionError, match="line 2: '< 03 02 40 13' gave 03 02 40 12"):
+        Player().play(["> 03 01 40", "< 03 02 40 13"], "x")
+    with pytest.raises(AssertionError, match="gave 0 04"):
+        Player().play(["r 0 00"], "x")
+    with pytest.raises(AssertionError, match="gave 0"):
+        Player().play(["= 5"], "x")
+
+
+def test_first_move_of_the_manual_is_that_of_the_examples():
+    """Given the ten-byte chapter of the manual, then its writes and blocks are those of example 1."""
+    text = (DOCS / "ppmc312.md").read_text(encoding="utf-8")
+    chapter = text.split("### 1.1 ")[1].split("\n## ")[0]
+    writes = [line[2:].split("  ")[0].strip() for line in CHAPTERS["1 The first move, every access"][0]
+              if line.startswith("w")]  # fmt: skip
+    printed = re.findall(r"`w (\d \w\w)`", chapter)
+    assert printed == writes[: len(printed) - 1] + [writes[13]]
+    dwr = re.findall(r"then DWR ([0-9A-F ]+)\.", chapter)[0].split()
+    assert [f"5 {byte}" for byte in dwr] == writes[14:]
+    blocks = [clean(block) for block in re.findall(r"`([0-9A-F ]{8,})`", chapter)]
+    assert blocks[0] == clean("".join(word[2:] for word in writes[12:1:-1]))
+    assert blocks[2] == clean("".join(word[2:] for word in writes[:13:-1]))
+
+
+def test_free_curve_of_the_instructions_page():
+    """Given the transfer printed there, then each block has the answer that is indented below it."""
+    text = (DOCS / "ppmc312_instructions.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
+    lines = [line.strip() for line in block.splitlines()]
+    Player().play([f"{'<' if n % 2 else '>'} {line}" for n, line in enumerate(lines)], "free curve")
+
+
+STATES = (State.INI, State.NOR, State.ACC, State.FIX, State.ABN, State.WRN)
+
+
+def accepted() -> dict[int, list[str]]:
+    """Code -> cells of the manual's table of what each state accepts."""
+    text = (DOCS / "ppmc312.md").read_text(encoding="utf-8")
+    head = "| Instruction | INI | NOR | ACC | FIX | ABN | WRN |\n"
+    rows = text.split(head)[1].split("\n\n")[0].splitlines()[1:]
+    found = {}
+    for row in rows:
+        name, *cells = [cell.strip() for cell in row.strip("|").split("|")]
+        for code in re.findall(r"\b[0-9A-F]{2}\b", name):
+            found[int(code, 16)] = cells
+    return found
+
+
+def test_table_of_states_is_that_of_the_model():
+    """Given each instruction in each state, then the manual's table says what the model does."""
+    table = accepted()
+    assert set(table) == set(LENGTHS)
+    for code, cells in table.items():
+        for state, cell in zip(STATES, cells, strict=True):
+            for override in {False, code in OVERRIDABLE}:
+                word = cell.split("/")[override] if "/" in cell else cell
+                has_table = state != State.INI
+                at = f"{code:02X} in {state.name}, OV = {override:d}: {cell!r}"
+                assert (word == "O") == accepts(code, state, override, False, has_table), at
+                if word == "END wait":
+                    assert accepts(code, state, override, True, has_table), at
+                if word == "with a table":
+                    assert accepts(code, state, override, False, True), at
+
+
+def test_lengths_of_the_instructions_page():
+    """Given the list of instructions, then each has the lengths that the model accepts, and a chapter."""
+    text = (DOCS / "ppmc312_instructions.md").read_text(encoding="utf-8")
+    head = text.split("\n## ")[0]
+    rows = re.findall(r"\| \[([0-9A-F, ]+)\]\(#[^)]+\) \| [^|]+ \| ([^|]+) \|", head)
+    found = {}
+    for codes, lengths in rows:
+        for code in codes.split(", "):
+            found[int(code, 16)] = [int(word, 16) for word in re.findall(r"[0-9A-F]{2}", lengths)]
+    assert set(found) == set(LENGTHS)
+    for code, lengths in found.items():
+        if code != Code.EVENT_SET:
+            assert sorted(lengths) == sorted(LENGTHS[code]), f"{code:02X}"
+        assert re.search(rf"^### (?:[0-9A-F]{{2}}, )*{code:02X}\b", text, re.M), f"{code:02X}"
