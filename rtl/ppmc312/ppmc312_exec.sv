@@ -86,6 +86,7 @@ module ppmc312_exec
     StFirst,    // reset, unread answers; the comparisons settle
     StSettle,
     StAct,
+    StWait,     // as the old chip does before 26 and 80; the verdict stands
     StSetup,
     StPace,     // the old chip is still at it
     StCopy,
@@ -152,7 +153,7 @@ module ppmc312_exec
       .clk_i,
       .rst_ni,
       .block_i  (block_o),
-      .keep_i   (settle_q && slow),
+      .keep_i   (state_q inside {StAct, StWait}),
       .status_i,
       .end_wait_i,
       .transfer_i,
@@ -171,7 +172,7 @@ module ppmc312_exec
   end
 
   assign fetch_event_o = block_o.source == SrcEvent;
-  assign hold_o = state_q inside {StAct, StWrite, StReadback} || read_more_i;
+  assign hold_o = act || state_q inside {StWrite, StReadback} || read_more_i;
   assign idle_o = state_q == StIdle;
   assign settled_o = !stored_i.due && !(state_q != StIdle && block_o.source == SrcOverride);
 
@@ -182,7 +183,7 @@ module ppmc312_exec
 
   // ---- what it asks for ------------------------------------------------------------------------------------------
 
-  assign act = state_q == StAct;
+  assign act = state_q == StAct && !slow;
   assign slow = !open_i && verdict == VerdictGo && !ov && code inside {I_AUX_OUT, I_HALT};
   assign go = act && verdict == VerdictGo && !ov;
   assign inner = code == I_EVT_SET;
@@ -307,13 +308,15 @@ module ppmc312_exec
         end
         StFetch:  if (fetch_done) state_q <= StFirst;
         StFirst:  state_q <= unread ? StIdle : StSettle;
-        StSettle: if (settle_q && !slow) state_q <= StAct;
+        StSettle: if (settle_q) state_q <= StAct;
         StAct: begin
           state_q <= StWrite;
-          if (build_o || data_o) state_q <= StSetup;
+          if (slow) state_q <= StWait;
+          else if (build_o || data_o) state_q <= StSetup;
           else if (registers) state_q <= StCopy;
           else if (move_o) state_q <= StMove;
         end
+        StWait:   if (!slow) state_q <= StAct;
         StSetup:  if (setup_ends) state_q <= (build_q && !setup_bad_i && !open_i) ? StPace : StWrite;
         StPace:   if (open_i) state_q <= StWrite;
         StCopy:   if (fetch_done) state_q <= StWrite;

