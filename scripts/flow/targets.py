@@ -33,6 +33,11 @@ class Target:
         """Where its files go."""
         return FOLDER / self.design.replace(" ", "-")
 
+    @property
+    def job(self) -> tuple[str, str]:
+        """The same for targets with the same netlist: boards that differ in their FPGA's size only."""
+        return (self.board.top[HOST] if self.board else self.design, self.family)
+
     def synthesize(self) -> tuple[Count, Path]:
         """Size and mapped netlist."""
         if self.board:
@@ -72,15 +77,19 @@ def targets(part: str) -> list[Target]:
 
 
 def synthesize_all(wanted: list[Target], done: Callable[[Target], None]) -> list[tuple[Count, Path]]:
-    """Size and netlist of each, two at a time; `done` hears of each."""
+    """Size and netlist of each, two at a time, the same netlist once; `done` hears of each."""
 
     def one(target: Target) -> tuple[Count, Path]:
         result = target.synthesize()
-        done(target)
+        for like in wanted:
+            if like.job == target.job:
+                done(like)
         return result
 
+    jobs = {target.job: target for target in wanted}
     with ThreadPoolExecutor(2) as pool:
-        return list(pool.map(one, wanted))
+        results = dict(zip(jobs, pool.map(one, jobs.values()), strict=True))
+    return [results[target.job] for target in wanted]
 
 
 def devices(target: Target) -> list[pnr.Device]:
