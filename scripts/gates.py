@@ -29,6 +29,8 @@ from scripts.project import ProjectError, console
 
 # A failing test runs again with waves, which needs another build: only when few tests were asked for.
 WAVES_UP_TO = 20
+# Wall-clock limit of a simulation in s: a netlist takes five times as long as the RTL.
+LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ def run_one(options: SimOptions, test: GateTest) -> Outcome:
 
     def work() -> str:
         try:
-            return attempt(test.item, options, design=test.design())
+            return attempt(test.item, options, LIMIT, test.design())
         except ProjectError as error:
             return str(error)
 
