@@ -65,6 +65,7 @@ add_file -type verilog $root/rtl/motion/ppmc_stage_unit.sv
 add_file -type verilog $root/rtl/motion/ppmc_stage_seq.sv
 add_file -type verilog $root/rtl/motion/ppmc_interval.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_pkg.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_serial_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_bus.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_mailbox.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_reports.sv
@@ -91,6 +92,15 @@ add_file -type verilog $root/rtl/ppmc312/ppmc312_position.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_motion.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_axis.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_core.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_codes.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_frame.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_block.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_counts.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_polled.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_replies.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_sender.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_serial.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_reset.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312.sv
 add_file -type verilog $root/rtl/ppmc104/ppmc104_pkg.sv
 add_file -type verilog $root/rtl/ppmc104/ppmc104_setup.sv

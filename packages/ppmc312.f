@@ -56,6 +56,7 @@
 ../rtl/motion/ppmc_stage_seq.sv
 ../rtl/motion/ppmc_interval.sv
 ../rtl/ppmc312/ppmc312_pkg.sv
+../rtl/ppmc312/ppmc312_serial_pkg.sv
 ../rtl/ppmc312/ppmc312_bus.sv
 ../rtl/ppmc312/ppmc312_mailbox.sv
 ../rtl/ppmc312/ppmc312_reports.sv
@@ -82,6 +83,15 @@
 ../rtl/ppmc312/ppmc312_motion.sv
 ../rtl/ppmc312/ppmc312_axis.sv
 ../rtl/ppmc312/ppmc312_core.sv
+../rtl/ppmc312/ppmc312_codes.sv
+../rtl/ppmc312/ppmc312_frame.sv
+../rtl/ppmc312/ppmc312_block.sv
+../rtl/ppmc312/ppmc312_counts.sv
+../rtl/ppmc312/ppmc312_polled.sv
+../rtl/ppmc312/ppmc312_replies.sv
+../rtl/ppmc312/ppmc312_sender.sv
+../rtl/ppmc312/ppmc312_serial.sv
+../rtl/ppmc312/ppmc312_reset.sv
 ../rtl/ppmc312/ppmc312.sv
 ../rtl/boards/ppmc_board_host.sv
 ../rtl/boards/ppmc312_board.sv

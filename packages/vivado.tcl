@@ -64,6 +64,7 @@ set files [list \
   $root/rtl/motion/ppmc_stage_seq.sv \
   $root/rtl/motion/ppmc_interval.sv \
   $root/rtl/ppmc312/ppmc312_pkg.sv \
+  $root/rtl/ppmc312/ppmc312_serial_pkg.sv \
   $root/rtl/ppmc312/ppmc312_bus.sv \
   $root/rtl/ppmc312/ppmc312_mailbox.sv \
   $root/rtl/ppmc312/ppmc312_reports.sv \
@@ -90,6 +91,15 @@ set files [list \
   $root/rtl/ppmc312/ppmc312_motion.sv \
   $root/rtl/ppmc312/ppmc312_axis.sv \
   $root/rtl/ppmc312/ppmc312_core.sv \
+  $root/rtl/ppmc312/ppmc312_codes.sv \
+  $root/rtl/ppmc312/ppmc312_frame.sv \
+  $root/rtl/ppmc312/ppmc312_block.sv \
+  $root/rtl/ppmc312/ppmc312_counts.sv \
+  $root/rtl/ppmc312/ppmc312_polled.sv \
+  $root/rtl/ppmc312/ppmc312_replies.sv \
+  $root/rtl/ppmc312/ppmc312_sender.sv \
+  $root/rtl/ppmc312/ppmc312_serial.sv \
+  $root/rtl/ppmc312/ppmc312_reset.sv \
   $root/rtl/ppmc312/ppmc312.sv \
   $root/rtl/ppmc104/ppmc104_pkg.sv \
   $root/rtl/ppmc104/ppmc104_setup.sv \

@@ -56,7 +56,7 @@ class Design:
 
     `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch;
     the inside can then be optimised, which doubles the speed. Without them, and in runs with waves, every
-    signal is visible.
+    signal is visible. `libraries`: archives that are linked in, each with its content's digest in its path.
     """
 
     top: str
@@ -65,6 +65,7 @@ class Design:
     params: Mapping[str, Any] = field(default_factory=dict)
     args: Sequence[str] = ()
     ports: Sequence[str] = ()
+    libraries: Sequence[Path] = ()
 
 
 class SimError(AssertionError):
@@ -131,6 +132,8 @@ def _digest(design: Design, waves: bool) -> str:
         sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
+    if design.libraries:
+        what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
     sha.update(repr((*what, waves, versions)).encode())
     return sha.hexdigest()[:16]
 
@@ -167,7 +170,7 @@ def build(design: Design, waves: bool = False) -> Path:
                 includes=list(design.includes),
                 hdl_toplevel=design.top,
                 parameters={name: as_sv_literal(value) for name, value in design.params.items()},
-                build_args=args,
+                build_args=[*args, *map(str, design.libraries)],
                 build_dir=folder,
                 timescale=("1ps", "1ps"),
                 waves=waves,

@@ -29,7 +29,7 @@ QUICK = "quick"
 # The quick subset: these modules and tests under F16 on all families of the part, and the board on one.
 QUICK_MODULES = ("cocotb_tests.ppmc104.tb_acceptance_1", "cocotb_tests.ppmc104.tb_bus")
 QUICK_MODULES += ("cocotb_tests.ppmc2104.tb_acceptance_2", "cocotb_tests.stmc.tb_init")
-QUICK_TESTS = ("p312_bus",)
+QUICK_TESTS = ("p312_bus", "p312_serial_tour")
 QUICK_BOARD = "ice40"
 
 OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
@@ -108,7 +108,11 @@ PARTS = (
     PartTests(
         test_ppmc312,
         test_random_312,
-        {test_random_312.random_item: (2, 3, 4, 5, 6, 8), test_random_312.noise_item: (1, 4, 7)},
+        {
+            test_random_312.random_item: (2, 3, 4, 5, 6, 8),
+            test_random_312.noise_item: (1, 4, 7),
+            test_random_312.serial_item: (31,),
+        },
         frozenset({"f16"}),
         COSTLY_BUILDS,
     ),
@@ -123,9 +127,17 @@ NOT_APPLICABLE = {
     "test_j105_parameter_ranges": "elaborates illegal parameters; those of a netlist are fixed",
     "test_scenarios_are_reproducible_and_varied": "checks the generator of the random hosts; no simulation",
     "test_hosts_are_rich": "checks the generator of the random hosts; no simulation",
+    "test_hosts_on_the_line_are_rich": "checks the generator of the random hosts; no simulation",
 }
 SIMULATING = {"test_ppmc104", "test_ppmc2104", "test_stmc", "test_board"}
-SIMULATING |= {"test_random", "test_chaos", "test_independent_axes", "test_scripts", "test_noise"}
+SIMULATING |= {
+    "test_random",
+    "test_chaos",
+    "test_independent_axes",
+    "test_scripts",
+    "test_noise",
+    "test_serial",
+}
 
 # Simulations that are left out, because a netlist would take far too long for so many clk.
 TOO_LONG = {
@@ -133,6 +145,13 @@ TOO_LONG = {
     "p2104_ac_68_ramps_and_two_axes": "12 million clk in settings; p2104_ac_67_rate_bytes has the comparison",
     "p312_transactions": "44 million clk; p312_motion, p312_abnormal and p312_bus have the same instructions",
     "p312_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
+    **dict.fromkeys(
+        (
+            f"p312_serial_{name}"
+            for name in ("checks", "transactions", "line", "frames", "codes", "polls", "resets")
+        ),
+        "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks",
+    ),
     "p312_checks_motion": "15 million clk; p312_motion and p312_bounds have shorter moves of all kinds",
 }
 

@@ -6,6 +6,8 @@ import heapq
 import random
 from typing import Any
 
+STRAPS = ("mode", "mod", "adr")
+
 
 class Background:
     """Puts scheduled pin changes in front of whatever is done to a model at that time or later."""
@@ -42,8 +44,8 @@ class Background:
         """Nothing moves any more; everything is at its idle level from edge t on."""
         self._heap.clear()
         self._clock = None
-        idle = {pin: level for pin, level in self._model.INPUTS.items() if pin not in self._model.HOST_PINS}
-        self._pin(t, **{pin: level for pin, level in idle.items() if pin != "rst_n"})
+        kept = {*self._model.HOST_PINS, *STRAPS, "rst_n", "rxd"}
+        self._pin(t, **{pin: level for pin, level in self._model.INPUTS.items() if pin not in kept})
 
     def _due(self, t: int) -> None:
         """Everything before edge t, and at it."""

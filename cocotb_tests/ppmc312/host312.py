@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.common.block_host import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, RCR, WAR, WCR, clean
 from cocotb_tests.common.stimulus import Access
-from cocotb_tests.common.tape import Tape
-from openppmc.model.ppmc312 import Ppmc312
+
+from .script_host import TICK, Script
 
 __all__ = [
     "CSR",
@@ -30,9 +30,6 @@ __all__ = [
     "clean",
 ]
 
-TICK = 16
-"""clk of a tick at F = 1 MHz and a clock of 16 MHz."""
-
 T1 = "03 09 00 01 03E8 00C8 0007D0"
 T2 = "03 09 00 09 03E8 00C8 0007D0"
 T3 = "03 0E 00 11 03E8 01F4 00C8 0007D0 0005DC"
@@ -43,22 +40,24 @@ TG = ("02 04 01 11 03 02", RATES, "00 09 000005 000004 000003", "01 06 000006 00
 TH = ("02 04 01 11 02 03", RATES, "00 06 000006 000004", "01 09 000005 000004 000003")
 
 
-class Host312:
-    """`t` is the next free edge; every method moves it on. Keyword arguments go to the model.
-
-    Blocks and answers are texts of hexadecimal bytes in logical order.
-    """
+class Host312(Script):
+    """The host on the parallel bus. Blocks and answers are texts of hexadecimal bytes in logical order."""
 
     def __init__(self, *setting: str, **parameters: object) -> None:
-        self.model = Ppmc312(**parameters)  # type: ignore[arg-type]
-        self.tape = Tape("ppmc312", self.model, {name.upper(): value for name, value in parameters.items()})
+        super().__init__(**parameters)
         self.t = 8
-        self.mark = 0
         self.header = 0
         while self.read(CSR) & MWEF:
             self.t += 100
         for block in setting:
             self.ask(block)
+
+    @classmethod
+    def on(cls, other: Script) -> Host312:
+        """The bus of a part that another host has had so far."""
+        host = cls.__new__(cls)
+        host.model, host.tape, host.t, host.mark, host.header = other.model, other.tape, other.t, other.t, 0
+        return host
 
     # ------------------------------------------------------------------ bus
 
@@ -118,68 +117,3 @@ class Host312:
         """Whether no response comes for so long."""
         self.pause(clk)
         return bool(self.read(CSR) & MREF)
-
-    @property
-    def condition(self) -> int:
-        """Condition byte of the status read, without using the bus."""
-        self.sync()
-        return int(self.model.state)
-
-    # ------------------------------------------------------------------ time
-
-    def go(self, t: int) -> None:
-        """Run to just before edge t; the next access or pin change is there."""
-        self.t = t
-        self.sync()
-
-    def pause(self, clk: int) -> None:
-        """Let time pass."""
-        self.go(self.t + clk)
-
-    def sync(self) -> None:
-        """Run the model up to the present."""
-        self.model.run_until(max(self.model.now, self.t - 1))
-
-    def pins(self, **levels: int) -> None:
-        """Pin levels from edge t on."""
-        self.model.pins(self.t, **levels)
-        self.t += 1
-
-    def blip(self, pin: str, clk: int = 20, gap: int = 2000) -> None:
-        """A low pulse on a pin, then time for its processing."""
-        self.pins(**{pin: 0})
-        self.pause(clk)
-        self.pins(**{pin: 1})
-        self.pause(gap)
-
-    def pulse(self, number: int, after: int = 0) -> int:
-        """Run to pulse `number` since `mark`; the next access is `after` clk later."""
-        while len(self.pulses()) < number:
-            self.step()
-        edge = self.pulses()[number - 1]
-        self.go(max(self.t, edge + 1 + after))
-        return edge
-
-    def step(self) -> None:
-        """Run to the next event of the model."""
-        edge = self.model.next_event
-        assert edge is not None, "nothing happens any more"
-        self.go(max(self.t, edge + 1))
-
-    # ------------------------------------------------------------------ what was seen
-
-    def pulses(self) -> list[int]:
-        """Rising edges of pout since `mark`."""
-        return self.model.log.rises("pout", self.mark)
-
-    def gaps(self, tick: int = TICK) -> list[int]:
-        """Their distances in ticks of so many clk; not whole ones are an error."""
-        edges = self.pulses()
-        clk = [b - a for a, b in zip(edges, edges[1:], strict=False)]
-        assert not any(gap % tick for gap in clk)
-        return [gap // tick for gap in clk]
-
-    def out(self, signal: str) -> int:
-        """Present output level."""
-        self.sync()
-        return self.model.outputs[signal]

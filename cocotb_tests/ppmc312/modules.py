@@ -8,6 +8,8 @@ from __future__ import annotations
 from cocotb_tests.common.config import D16, F16, F50, Config
 
 F27 = Config("f27m", clk_hz=27_000_000)
+F27X12 = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
+CHARS = Config("chars", extra=(("SUM_MODE", "CHARS"),))
 F8V = Config("f8v34", clk_hz=8_000_000, extra=(("VERSION", 0x34),))
 
 MODULES: dict[str, tuple[Config, ...]] = {
@@ -29,4 +31,12 @@ MODULES: dict[str, tuple[Config, ...]] = {
     "cocotb_tests/ppmc312/script_motion.py": (F16,),
     "cocotb_tests/ppmc312/script_abnormal.py": (F16,),
     "cocotb_tests/ppmc312/script_terminals.py": (F16, F27, D16),
+    "cocotb_tests/ppmc312/script_serial_tour.py": (F16,),
+    "tests/model/test_312_serial_checks.py": (F16, CHARS),
+    "tests/model/test_312_serial_transactions.py": (F16,),
+    "cocotb_tests/ppmc312/script_serial_line.py": (F16, F27, F27X12),
+    "cocotb_tests/ppmc312/script_serial_frames.py": (F16, CHARS, F8V),
+    "cocotb_tests/ppmc312/script_serial_codes.py": (F16,),
+    "cocotb_tests/ppmc312/script_serial_polls.py": (F16,),
+    "cocotb_tests/ppmc312/script_serial_resets.py": (F16, D16),
 }

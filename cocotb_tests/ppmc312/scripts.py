@@ -1,4 +1,4 @@
-"""Scripts: test functions whose hosts are `Host312`, run on the golden model and played on the RTL.
+"""Scripts: test functions whose hosts are `Host312` or `Serial312`, run on the model and played on the RTL.
 
 A script module is a plain pytest module. Its functions build hosts and check answers, pulses and levels;
 `cases` are all of them with their parameters, `parameters_of` the build that a tape belongs to.
@@ -21,7 +21,13 @@ from cocotb_tests.common.paths import ROOT
 from cocotb_tests.common.tape import Tape
 from cocotb_tests.common.verifies import rules_of
 
-DEFAULTS: dict[str, object] = {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST", "VERSION": 0x12}
+DEFAULTS: dict[str, object] = {
+    "CLK_HZ": 16_000_000,
+    "XTAL_HZ": 16_000_000,
+    "TIMING": "FAST",
+    "VERSION": 0x12,
+    "SUM_MODE": "BINARY",
+}
 
 
 class Case(NamedTuple):

@@ -12,7 +12,7 @@ from cocotb_tests.common.part import PPMC312
 from cocotb_tests.common.tape import play
 from cocotb_tests.common.verifies import verifies
 
-from . import random_host, random_noise
+from . import random_host, random_noise, random_serial
 
 
 def _seeds(bench: Bench) -> list[int]:
@@ -57,3 +57,30 @@ async def p312_random_noise(dut: Any) -> None:
     for seed in _seeds(bench):
         host = random_noise.play(seed, bench.config)
         await play(bench, host.tape, f"seed {seed} alone: make test T=p312_random_noise SEED={seed}")
+
+
+@cocotb.test()
+@verifies(
+    "P312-SER-01",
+    "P312-SER-10",
+    "P312-SER-11",
+    "P312-SER-12",
+    "P312-SER-14",
+    "P312-SER-15",
+    "P312-SER-16",
+    "P312-SER-18",
+    "P312-SER-19",
+    "P312-SER-21",
+    "P312-SER-22",
+    "P312-SER-30",
+    "P312-BAD-16",
+    "P312-PRT-01",
+)
+async def p312_random_serial(dut: Any) -> None:
+    """Given random hosts on the line, when the RTL gets their pins, then it does what the model does."""
+    bench = await Bench.start(dut, PPMC312)
+    for seed in _seeds(bench):
+        host = random_serial.play(seed, bench.config)
+        again = f"seed {seed} alone: make test T=p312_random_serial SEED={seed}"
+        result = await play(bench, host.tape, again)
+        assert result.edges_compared > 200, f"seed {seed} did next to nothing"

@@ -15,11 +15,14 @@ from cocotb_tests.common.config import D16, F16, F50, Config
 from cocotb_tests.common.part import PPMC312
 from cocotb_tests.common.runner import SimOptions, run_item
 
+from . import random_serial
 from .census import counting, thin
+from .census_serial import counting_frames, thin_frames
 from .random_host import BUILDS, ODD, plan, play
 
 SEEDS = range(1, 151)
 NOISE_SEEDS = range(1, 33)
+SERIAL_SEEDS = range(1, 41)
 BATCH = 14
 
 
@@ -42,6 +45,11 @@ def noise_item(seed: int) -> Item:
     return _item("p312_random_noise", seed, (F16, F16, F50, ODD, F16, D16)[seed % 6])
 
 
+def serial_item(seed: int) -> Item:
+    """The random host on the line of one seed; the seed decides the build configuration, too."""
+    return _item("p312_random_serial", seed, random_serial.plan(seed))
+
+
 def batches(items: list[Item]) -> list[tuple[Item, str]]:
     """(first item, all seeds) of each simulation."""
     builds: dict[str, list[Item]] = {}
@@ -54,12 +62,19 @@ def batches(items: list[Item]) -> list[tuple[Item, str]]:
     ]
 
 
+KINDS = {
+    "test_random": (random_item, SEEDS),
+    "test_noise": (noise_item, NOISE_SEEDS),
+    "test_serial": (serial_item, SERIAL_SEEDS),
+}
+"""What makes the item of a seed, and the seeds of `make test`."""
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """One pytest item a batch."""
     if "item" in metafunc.fixturenames:
         chosen = metafunc.config.getoption("--seed")
-        noise = "noise" in metafunc.function.__name__
-        make, fixed = (noise_item, NOISE_SEEDS) if noise else (random_item, SEEDS)
+        make, fixed = KINDS[metafunc.function.__name__]
         sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])])
         metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
 
@@ -72,6 +87,12 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery."""
+    print(f"seeds {seeds}")
+    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+
+
+def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """Hosts on the line of the serial mode."""
     print(f"seeds {seeds}")
     run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
 
@@ -97,3 +118,14 @@ def test_hosts_are_rich() -> None:
     clk = sum(number for kind, number in counts.items() if kind.startswith("clk "))
     assert (counts["clk ABN"] + counts["clk INI"]) / clk < 0.3
     assert (counts["clk ACC"] + counts["clk FIX"]) / clk > 0.3
+
+
+def test_hosts_on_the_line_are_rich() -> None:
+    """The fixed seeds use every build; each kind of frame, reply and error happens some times."""
+    assert {random_serial.plan(seed).name for seed in SERIAL_SEEDS} == {
+        c.name for c, _ in random_serial.BUILDS
+    }
+    with counting_frames() as counts:
+        for seed in SERIAL_SEEDS:
+            random_serial.play(seed, random_serial.plan(seed))
+    assert not thin_frames(counts), f"too rare (seen, needed): {thin_frames(counts)}"

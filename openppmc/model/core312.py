@@ -1,6 +1,7 @@
 """What instructions of the PPMC-312 act on: all blocks of the part behind its pins, and its state.
 
-Chapter 4, P312-GEN-12, P312-INP-30..33. The host side is made by `make_host`, so that another can be put in.
+Chapter 4, P312-GEN-12, P312-INP-30..33. `make_host` makes the host side of the parallel bus; `connect` puts
+another in.
 """
 
 from __future__ import annotations
@@ -40,6 +41,9 @@ class HostSide(Protocol):
 
     def ready(self, t: int) -> None:
         """The interface may be used."""
+
+    def answer(self, t: int, source: Source, block: bytes) -> None:
+        """Serial mode only: the answer to an instruction, which no store keeps."""
 
 
 class Core:
@@ -88,6 +92,10 @@ class Core:
         self.input_change = InputChange(context, self.responses)
         self.unit = Unit(self)
         self.host = make_host(self)
+
+    def connect(self, host: HostSide, serial: bool) -> None:
+        """The host side, when it is known which one it is: right after a reset."""
+        self.host, self.responses.serial = host, serial
 
     # ------------------------------------------------------------------ state
 

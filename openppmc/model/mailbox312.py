@@ -1,12 +1,13 @@
 """Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..12).
 
-Another host side has the same members: `sample`, `offer`, `done`, `levels`, `ready`.
+Another host side has the same members: `sample`, `offer`, `done`, `levels`, `ready`, `answer`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from .codes312 import Source
 from .pace312 import Pace
 from .parts import Context, Phase
 from .responses312 import Responses
@@ -65,6 +66,9 @@ class Mailbox:
             return
         at = max(t + self._pace.load, self._free_from)
         self._loading = self._context.queue.at(at, Phase.PINS, self._load)
+
+    def answer(self, t: int, source: Source, block: bytes) -> None:
+        """Answers wait in the store."""
 
     def levels(self) -> dict[str, int]:
         """Internal levels behind irq_n."""

@@ -22,7 +22,7 @@ from .sequence312 import Change
 class Operation:
     """pins: input levels as decisions see them. alarm(t, status): multiple occurrence. rested(t): something
     has moved, or pulse output has ended. settled(): nothing that a position has stopped for waits.
-    end_monitored, run_ignored (CWS), speed_limit (HSL) are settings."""
+    end_monitored, run_ignored (CWS), speed_limit (HSL) are settings; last_cause: of the last stop report."""
 
     def __init__(
         self,
@@ -48,6 +48,7 @@ class Operation:
         self.end_monitored = self.run_ignored = False
         self._held: Order | None = None
         self._end_wait: Cause | None = None
+        self.last_cause: Cause | None = None
 
     # ------------------------------------------------------------------ state
 
@@ -168,5 +169,6 @@ class Operation:
 
     def _store(self, t: int, cause: Cause) -> None:
         position = self._counters.pulse.to_bytes(4, "big")
+        self.last_cause = cause
         if not self._responses.report(t, responses312.STOPPED, Answer.STOPPED, cause, position):
             self._alarm(t, Alarm.STOPPED)

@@ -39,6 +39,10 @@ class Pace:
     Monitors. compare_lag: POS or ENC to inside or outside, one clk more to the status bit, two to the report.
     quiet: rest to the first look at the in-position monitor.
 
+    Serial mode. heard: middle of the stop bit to the character. frame: last character to what is a header
+    write in parallel mode. look: the same to the look at reports, state and counters, with which snd rises.
+    reply: stored answer to the rise of snd. silence: clk beyond the 20 ms.
+
     DATASHEET. early: XTAL cycles that a time is shortened by, for what has passed on the way; paced: its end
     to the effect.
 
@@ -80,6 +84,11 @@ class Pace:
     armed: int = 2
     compare_lag: int = 3
     quiet: int = 4
+    heard: int = 1
+    frame: int = 1
+    look: int = 1
+    reply: int = 0
+    silence: int = 1
     early: int = 8
     paced: int = 3
     pins: int = 1
@@ -144,4 +153,4 @@ STOP, OUTPUT = 350 * US, 300 * US
 PIN_LOW, EVT_LOW = 200 * US, 25_000 * US
 
 # Functional times, in XTAL cycles, the same in both modes.
-CLEAR_PULSE, CURRENT_DOWN, SAMPLE = 393_216, 1_600_000, 800
+CLEAR_PULSE, CURRENT_DOWN, SAMPLE, SILENCE = 393_216, 1_600_000, 800, 320_000

@@ -50,3 +50,4 @@ OUTPUTS: dict[str, int] = {
 }
 WIDTHS: dict[str, int] = {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8}
 HOST_PINS = ("d_i", "rs", "cs_n", "we_n", "oe_n")
+SERIAL_PINS = ("rxd",)

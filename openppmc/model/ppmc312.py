@@ -13,12 +13,14 @@ from collections.abc import Iterable, Mapping
 from .chip import Chip
 from .codes312 import Source, State
 from .core312 import Core, HostSide
+from .line312 import bit_time
 from .mailbox312 import Mailbox
 from .motion312 import Motion
 from .pace312 import READY, Pace
 from .parts import Context, Phase, PinRegister
-from .parts312 import HOST_PINS, INPUTS, OUTPUTS, WIDTHS
+from .parts312 import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS
 from .scheduler import Callback, Event, Scheduler
+from .station312 import Log, Station
 from .timebase import Latency, QuantumCounter
 
 _LATE = ("irq_n", "intlk_n")
@@ -43,8 +45,10 @@ class Ppmc312(Chip):
     """One PPMC-312.
 
     clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET", version 0..255; ValueError for
-    anything else. The model starts just released from reset, before edge 0. With mode = 0 the host side is
-    silent.
+    anything else. sum_mode "BINARY" or "CHARS": checksum of the serial mode. straps: pin levels from the
+    beginning on, as mode, mod, adr. The model starts just released from reset, before edge 0.
+    replies: (edge at which snd rises, whole frame) of all that the station has sent; sent: (edge in the
+    middle of the stop bit, character). Both may be emptied at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -55,14 +59,21 @@ class Ppmc312(Chip):
         xtal_hz: int = 16_000_000,
         timing: str = "FAST",
         version: int = 0x12,
+        sum_mode: str = "BINARY",
+        straps: Mapping[str, int] | None = None,
         pace: Pace | None = None,
         latency: Latency | None = None,
     ) -> None:
         if not 0 <= version <= 255:
             raise ValueError(f"version {version} is outside 0..255")
+        if sum_mode not in ("BINARY", "CHARS"):
+            raise ValueError(f"sum_mode {sum_mode!r} is neither BINARY nor CHARS")
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, latency)
         self.pace = pace or Pace()
-        self._version = version
+        self._version, self._sum_mode = version, sum_mode
+        self._pins |= straps or {}
+        self.replies: list[tuple[int, bytes]] = []
+        self.sent: list[tuple[int, int]] = []
         self._latched: dict[str, int] = dict(INPUTS)
         self._counter = QuantumCounter(self.timebase, 0)
         self._build()
@@ -79,8 +90,24 @@ class Ppmc312(Chip):
         self.core = Core(self._context, self.pace, self._version, self._make_host, self._software_reset)
 
     def _make_host(self, core: Core) -> HostSide:
-        self._host = Mailbox(core.context, self.pace, core.responses, core.unit.host_block)
-        return self._host
+        self._mailbox = Mailbox(core.context, self.pace, core.responses, core.unit.host_block)
+        return self._mailbox
+
+    def _latch_mode(self, t: int) -> None:
+        """The end of a reset: what the pins say of the host side (P312-PRT-03)."""
+        self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
+        self._connect()
+
+    def _connect(self) -> None:
+        """The host side that the latched pins say."""
+        self._host: HostSide = self._mailbox
+        self._host_pins = {*self.HOST_PINS}
+        if not self._latched["mode"]:
+            bit = bit_time(self._latched["mod"], self.timebase.clk_hz, self.timebase.xtal_hz)
+            log = Log(self.replies, self.sent)
+            self._host = Station(self.core, bit, self._latched["adr"], self._sum_mode, log)
+            self._host_pins = {*SERIAL_PINS}
+        self.core.connect(self._host, not self._latched["mode"])
 
     # ------------------------------------------------------------------ reset
 
@@ -90,7 +117,7 @@ class Ppmc312(Chip):
 
     def _released(self, t: int) -> None:
         """Edge t is the first one after a reset (P312-PRT-02, -03)."""
-        self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
+        self._latch_mode(t)
         self._out_oe = 0
         self._held = self._levels()
         self._registers = self._make_registers()
@@ -114,9 +141,9 @@ class Ppmc312(Chip):
     def _sample(self, t: int, changed: Iterable[str]) -> None:
         """Nothing is sampled while a part is in reset; its first edge samples everything."""
         names = set(changed)
-        if bus := names.intersection(self.HOST_PINS):
-            super()._sample(max(t, self._bus_from), bus)
-        if others := names.difference(self.HOST_PINS):
+        if self._host_pins & names:
+            self._queue.at(max(t, self._bus_from), Phase.PINS, lambda now: self._sample_bus(now, self._pins))
+        if others := names.difference(self.HOST_PINS, SERIAL_PINS):
             super()._sample(max(t, self._pins_from), others)
 
     def _software_reset(self, t: int, source: Source) -> None:
@@ -124,19 +151,22 @@ class Ppmc312(Chip):
         self._scope.alive = False
         self._queue.at(t, Phase.PIN, self._reset_outputs)
         self._build()
+        self._connect()
         self._bus_from = self._pins_from = t + self.pace.reboot
         self._sample(t, self.INPUTS)
         self._queue.at(t + 1, Phase.PINS, self._latch_mode)
-        self._queue.at(t, Phase.END, self._host.ready)
+        self._queue.at(t + 1, Phase.END, lambda now: self._host.ready(now))
         self._queue.at(t + self.pace.reboot, Phase.BUS, self.core.unit.answer_reset)
-
-    def _latch_mode(self, t: int) -> None:
-        self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
 
     def _reset_outputs(self, t: int) -> None:
         """The pins that follow no internal level, and those that do so a clk later."""
-        for pin in ("d_oe", "d_o", "wrq_n", *_LATE):
+        for pin in ("d_oe", "d_o", "wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
+
+    def hear(self, t: int, byte: int | None) -> None:
+        """A whole character on the line, whose stop bit edge t samples, without the levels of rxd; None for
+        one with a low stop bit. Serial mode only; ValueError for an edge already run."""
+        self._queue.at(t, Phase.BUS, lambda now: self.station.hear(now, byte))
 
     # ------------------------------------------------------------------ inside of `chip`
 
@@ -153,8 +183,7 @@ class Ppmc312(Chip):
             register.latch(t, {name: levels[name] for name in names})
 
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
-        if self._latched["mode"]:
-            self._host.sample(t, pins)
+        self._host.sample(t, pins)
 
     def _see(self, t: int, levels: Mapping[str, int]) -> None:
         if t < self._pins_from + self.latency.input_sync:
@@ -186,8 +215,15 @@ class Ppmc312(Chip):
 
     @property
     def csr(self) -> int:
-        """What a read of CSR would show, without the access."""
+        """What a read of CSR would show, without the access; parallel mode only."""
+        assert isinstance(self._host, Mailbox)
         return self._host.csr
+
+    @property
+    def station(self) -> Station:
+        """The host side of the serial mode; there is a new one after every reset."""
+        assert isinstance(self._host, Station)
+        return self._host
 
     @property
     def state(self) -> State:

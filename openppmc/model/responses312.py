@@ -13,6 +13,7 @@ from .codes312 import SPONTANEOUS, Answer, Source
 ALARM, ANSWER, INTERLOCK, HOLD, STOPPED, INPUT, POSITION, ENCODE = range(1, 9)
 CLASSES = range(1, 9)
 _DEPTH = {INPUT: 2}
+_REPLACED = (INTERLOCK, HOLD, STOPPED)
 
 
 def block(header: int, *content: int | bytes) -> bytes:
@@ -33,7 +34,8 @@ class Report:
 class Responses:
     """All stores. offered(t) is called when there may be something new to load, read(t, report, block) when
     the host has read a block, which report.blocks no longer has. holding(): an answer is about to be stored.
-    fresh: classes whose content is what is true when they are loaded."""
+    fresh: classes whose content is what is true when they are loaded. serial: a newer report of classes 3 to
+    5 replaces the older, and nothing waits for answers (P312-SER-21)."""
 
     def __init__(
         self,
@@ -42,6 +44,7 @@ class Responses:
         holding: Callable[[], bool],
     ) -> None:
         self._offered, self._was_read, self._holding = offered, was_read, holding
+        self.serial = False
         self.fresh: dict[int, Callable[[], bytes]] = {}
         self._stores: dict[int, list[Report]] = {kind: [] for kind in CLASSES}
         self.loaded: Report | None = None
@@ -62,7 +65,9 @@ class Responses:
     def post(self, t: int, kind: int, blocks: Iterable[bytes], source: Source | None = None) -> bool:
         """Store a report; False, and it is lost, if the store is occupied."""
         if self.occupied(kind):
-            return False
+            if not self.serial or kind not in _REPLACED:
+                return False
+            self._stores[kind].clear()
         self._stores[kind].append(Report(kind, list(blocks), source))
         self._offered(t)
         return True
@@ -88,12 +93,26 @@ class Responses:
         While an answer is about to be stored, reports of classes 3 to 8 wait for it.
         """
         for kind in CLASSES:
-            if self._stores[kind] and (kind <= ANSWER or not self._holding()):
+            if self._stores[kind] and (kind <= ANSWER or self.serial or not self._holding()):
                 self.loaded = self._stores[kind][0]
                 if kind in self.fresh:
                     self.loaded.blocks = [self.fresh[kind]()]
                 return self.loaded.blocks[0]
         return None
+
+    @property
+    def alarmed(self) -> bool:
+        """An alarm report waits."""
+        return bool(self._stores[ALARM])
+
+    def take(self, t: int) -> tuple[int, bytes] | None:
+        """Serial mode: class and block of the first waiting report, which is read by that."""
+        block = self.pick()
+        if block is None or self.loaded is None:
+            return None
+        kind = self.loaded.kind
+        self.read(t)
+        return kind, block
 
     @property
     def any_waiting(self) -> bool:

@@ -90,8 +90,7 @@ class Unit:
             return
         waits, host = self._next(t), self._host is not None and self._seen(self._host.since, t)
         if waits is not None and not (self._host_next and host):
-            occupied = bool(self._core.responses.answer) or self._storing
-            if occupied or (not self._answered and self._host is None):
+            if not self._core.responses.serial and self._unread():
                 self._lost(t, waits)
             else:
                 self._host_next = True
@@ -101,6 +100,11 @@ class Unit:
             assert job
             self._host_next = False
             self._begin(t, job)
+
+    def _unread(self) -> bool:
+        """An answer has not been read, or is about to be stored."""
+        occupied = bool(self._core.responses.answer) or self._storing
+        return occupied or (not self._answered and self._host is None)
 
     def _seen(self, since: int, t: int) -> bool:
         """What has come on edge `since` can be begun at t."""
@@ -263,6 +267,11 @@ class Unit:
         self._answer(t, Source.HOST, [bytes([Source.HOST, 1, Code.RESET])])
 
     def _store(self, t: int, block: bytes, source: Source) -> None:
+        if self._core.responses.serial:
+            self._storing = self.holding = False
+            self._answered = True
+            self._core.host.answer(t, source, block)
+            return
         if not self._core.responses.post(t, ANSWER, [block], source):
             # Behind an answer to an event or an override; the mailbox stays closed (P312-RSP-20).
             self._late = block

@@ -96,6 +96,7 @@ module ppmc_uart_bridge
       .clk_i,
       .rst_ni,
       .step_i (step),
+      .wrap_i ('0),
       .rxd_i,
       .byte_o (rx_byte),
       .valid_o(rx_valid),

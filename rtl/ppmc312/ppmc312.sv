@@ -2,11 +2,13 @@
 // ppmc312: intelligent stepper controller for one axis, a replacement for the PPMC-312.
 // Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF and, through its blocks, all others.
 // Timing: inputs act two clk after the pin. out_oe and the core come two clk after the release of the reset.
-// Note:   over its parallel bus (mode = 1). With mode = 0 the station is silent: txd rests, the bus is ignored.
+// Note:   mode = 1: over its parallel bus; mode = 0: as a station on a serial line. What the pin said at the end
+//         of the last reset counts. The front end that is not in use rests.
 `default_nettype none
 
 module ppmc312
   import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
   import ppmc_stage_pkg::*;
 #(
     parameter int unsigned CLK_HZ   = 16_000_000,  // 8e6 .. 200e6, at least XTAL_HZ / 2
@@ -86,78 +88,34 @@ module ppmc312
   localparam bit Datasheet = TIMING == "DATASHEET";
   // 9.5 crystal cycles
   localparam int unsigned WaitClk = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
-  localparam int unsigned StartXtal = 25_600;
-  localparam int unsigned StartBits = 16;
-
-  logic unused_serial;
-  assign unused_serial = &{1'b0, rxd, hsp, mod, adr};
-  assign txd = 1'b1;
-  assign snd = 1'b0;
-
   // ---- reset -----------------------------------------------------------------------------------------------------
 
-  logic
-      rst_pin, rst_q, rst_host_q, rst_core, rst_host, boot_q, reset, started, mode_s, parallel_q, unused_meta;
+  logic rst_core, rst_host, boot, reset, serial, talks;
+  logic [2:0] speed;
+  logic [3:0] number;
 
-  ppmc_reset u_reset (
-      .clk_i (clk),
-      .rst_ni(rst_n),
-      .rst_no(rst_pin)
+  ppmc312_reset #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(Datasheet)
+  ) u_reset (
+      .clk_i      (clk),
+      .rst_ni     (rst_n),
+      .reset_i    (reset),
+      .mode_i     (mode),
+      .mod_i      (mod),
+      .adr_i      (adr),
+      .rst_core_no(rst_core),
+      .rst_host_no(rst_host),
+      .boot_o     (boot),
+      .ready_o    (out_oe),
+      .serial_o   (serial),
+      .mod_o      (speed),
+      .adr_o      (number)
   );
 
-  if (Datasheet) begin : g_start
-    ppmc_xtal_timer #(
-        .ClkHz (CLK_HZ),
-        .XtalHz(XTAL_HZ),
-        .Width (StartBits)
-    ) u_start (
-        .clk_i    (clk),
-        .rst_ni   (rst_pin),
-        .restart_i(1'b0),
-        .limit_i  (StartBits'(StartXtal)),
-        .past_o   (started)
-    );
-  end else begin : g_fast
-    localparam int unsigned Unused = StartXtal + StartBits;
-    logic unused_start;
-
-    assign unused_start = Unused[0];
-    always_ff @(posedge clk or negedge rst_pin) begin
-      if (!rst_pin) started <= 1'b0;
-      else started <= 1'b1;
-    end
-  end
-
-  // The levels before the end of the reset count, so this one runs during it.
-  ppmc_sync #(
-      .Width(1)
-  ) u_mode (
-      .clk_i (clk),
-      .rst_ni(1'b1),
-      .d_i   (mode),
-      .q1_o  (unused_meta),
-      .q2_o  (mode_s)
-  );
-
-  always_ff @(posedge clk or negedge rst_pin) begin
-    if (!rst_pin) begin
-      rst_q      <= 1'b0;
-      rst_host_q <= 1'b0;
-      boot_q     <= 1'b0;
-      out_oe     <= 1'b0;
-      parallel_q <= 1'b0;
-    end else begin
-      out_oe     <= started;
-      rst_q      <= started && !reset;
-      rst_host_q <= !reset;
-      boot_q     <= reset || (boot_q && !rst_q);
-      if (!rst_host_q) parallel_q <= mode_s;
-    end
-  end
-
-  // The pin resets all at once, whatever the registers of the resets hold.
-  assign rst_core = rst_q && rst_pin;
-  assign rst_host = rst_host_q && rst_pin;
+  logic unused_hsp;
+  assign unused_hsp = &{1'b0, hsp};
 
   // ---- inputs ----------------------------------------------------------------------------------------------------
 
@@ -202,10 +160,14 @@ module ppmc312
 
   // ---- host ------------------------------------------------------------------------------------------------------
 
-  logic blk_valid, blk_done, rd_any, rd_load, rd_done;
-  logic [BLOCK_BITS:0] blk_size, rd_size;
-  logic [BLOCK_BITS-1:0] blk_addr, rd_addr;
-  logic [7:0] blk_data, rd_data;
+  logic answered, line_we, bus_valid, line_valid, blk_done, rd_any, bus_load, line_load, rd_done;
+  logic [BLOCK_BITS:0] bus_size, line_size, rd_size;
+  logic [BLOCK_BITS-1:0] blk_addr, bus_addr, line_addr;
+  logic [7:0] blk_data, line_data, rd_data, answer_code;
+  logic [3:0] line_at;
+  logic [2:0] answer_first;
+  status_e status;
+  poll_t found;
 
   ppmc312_mailbox #(
       .WaitClk(WaitClk)
@@ -214,7 +176,7 @@ module ppmc312
       .rst_ni     (rst_host),
       .ready_i    (out_oe),
       .rs_i       (rs),
-      .cs_ni      (cs_n || !parallel_q),
+      .cs_ni      (cs_n || serial),
       .we_ni      (we_n),
       .oe_ni      (oe_n),
       .d_i,
@@ -222,17 +184,52 @@ module ppmc312
       .d_oe_o     (d_oe),
       .wrq_no     (wrq_n),
       .irq_no     (irq_n),
-      .blk_valid_o(blk_valid),
-      .blk_size_o (blk_size),
+      .blk_valid_o(bus_valid),
+      .blk_size_o (bus_size),
       .blk_addr_i (blk_addr),
       .blk_data_o (blk_data),
       .blk_done_i (blk_done),
-      .rd_any_i   (rd_any),
-      .rd_load_o  (rd_load),
+      .line_we_i  (line_we),
+      .line_at_i  (line_at),
+      .line_data_i(line_data),
+      .rd_any_i   (rd_any && !serial),
+      .rd_load_o  (bus_load),
       .rd_size_i  (rd_size),
-      .rd_addr_o  (rd_addr),
+      .rd_addr_o  (bus_addr),
       .rd_data_i  (rd_data),
       .rd_done_o  (rd_done)
+  );
+
+  // Binary speeds (bit 2 low) are not documented, and there is no speed 0.
+  assign talks = serial && speed[2] && speed[1:0] != 2'b00;
+
+  ppmc312_serial #(
+      .ClkHz   (CLK_HZ),
+      .XtalHz  (XTAL_HZ),
+      .CharsSum(SUM_MODE == "CHARS")
+  ) u_serial (
+      .clk_i         (clk),
+      .rst_ni        (rst_host),
+      .ready_i       (out_oe),
+      .enable_i      (talks),
+      .rate_i        (speed[1:0]),
+      .adr_i         (number),
+      .rxd_i         (rxd),
+      .txd_o         (txd),
+      .snd_o         (snd),
+      .blk_valid_o   (line_valid),
+      .blk_size_o    (line_size),
+      .blk_we_o      (line_we),
+      .blk_at_o      (line_at),
+      .blk_data_o    (line_data),
+      .answered_i    (answered),
+      .answer_code_i (answer_code),
+      .answer_first_i(answer_first),
+      .rd_addr_o     (line_addr),
+      .rd_data_i     (rd_data),
+      .status_i      (status),
+      .take_o        (line_load),
+      .found_i       (found)
   );
 
   ppmc312_core #(
@@ -241,39 +238,45 @@ module ppmc312
       .Datasheet(Datasheet),
       .Version  (8'(VERSION))
   ) u_core (
-      .clk_i      (clk),
-      .rst_ni     (rst_core),
-      .boot_i     (boot_q),
-      .reset_o    (reset),
-      .blk_valid_i(blk_valid),
-      .blk_size_i (blk_size),
-      .blk_addr_o (blk_addr),
-      .blk_data_i (blk_data),
-      .blk_done_o (blk_done),
-      .rd_any_o   (rd_any),
-      .rd_load_i  (rd_load),
-      .rd_size_o  (rd_size),
-      .rd_addr_i  (rd_addr),
-      .rd_data_o  (rd_data),
-      .rd_done_i  (rd_done),
-      .plain_i    (plain),
-      .levels_i   (levels),
-      .evt_ni     (evt_level),
-      .edge_i     (evt_edge),
-      .run_i      (run_s),
-      .epin_i     (epin_s),
-      .epdir_i    (epdir_s),
-      .auxi_i     (auxi_s),
-      .extck_i    (extck),
-      .pout_o     (pout),
-      .dir_o      (dir),
-      .intlk_no   (intlk_n),
-      .exon_no    (exon_n),
-      .cclr_no    (cclr_n),
-      .aclr_no    (aclr_n),
-      .zclmp_no   (zclmp_n),
-      .cd_no      (cd_n),
-      .auxo_no    (auxo_n)
+      .clk_i         (clk),
+      .rst_ni        (rst_core),
+      .serial_i      (serial),
+      .boot_i        (boot && !serial),
+      .reset_o       (reset),
+      .blk_valid_i   (line_valid || bus_valid),
+      .blk_size_i    (serial ? line_size : bus_size),
+      .blk_addr_o    (blk_addr),
+      .blk_data_i    (blk_data),
+      .blk_done_o    (blk_done),
+      .rd_any_o      (rd_any),
+      .rd_load_i     (line_load || bus_load),
+      .rd_size_o     (rd_size),
+      .rd_addr_i     (serial ? line_addr : bus_addr),
+      .rd_data_o     (rd_data),
+      .rd_done_i     (rd_done),
+      .answered_o    (answered),
+      .answer_code_o (answer_code),
+      .answer_first_o(answer_first),
+      .status_o      (status),
+      .poll_o        (found),
+      .plain_i       (plain),
+      .levels_i      (levels),
+      .evt_ni        (evt_level),
+      .edge_i        (evt_edge),
+      .run_i         (run_s),
+      .epin_i        (epin_s),
+      .epdir_i       (epdir_s),
+      .auxi_i        (auxi_s),
+      .extck_i       (extck),
+      .pout_o        (pout),
+      .dir_o         (dir),
+      .intlk_no      (intlk_n),
+      .exon_no       (exon_n),
+      .cclr_no       (cclr_n),
+      .aclr_no       (aclr_n),
+      .zclmp_no      (zclmp_n),
+      .cd_no         (cd_n),
+      .auxo_no       (auxo_n)
   );
 
 endmodule

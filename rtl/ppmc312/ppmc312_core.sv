@@ -6,6 +6,7 @@
 
 module ppmc312_core
   import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
   import ppmc_stage_pkg::*;
 #(
     parameter int unsigned       ClkHz     = 16_000_000,
@@ -15,7 +16,8 @@ module ppmc312_core
 ) (
     input  wire logic                     clk_i,
     input  wire logic                     rst_ni,
-    input  wire logic                     boot_i,       // the reset came from an instruction
+    input  wire logic                     serial_i,        // the front end is the serial station
+    input  wire logic                     boot_i,          // the reset came from an instruction: tell so
     output logic                          reset_o,
     // front end: blocks of the host, reports to it, in logical order
     input  wire logic                     blk_valid_i,
@@ -29,6 +31,12 @@ module ppmc312_core
     input  wire logic    [BLOCK_BITS-1:0] rd_addr_i,
     output logic         [           7:0] rd_data_o,
     input  wire logic                     rd_done_i,
+    // what only the serial station looks at
+    output logic                          answered_o,      // the host's block
+    output logic         [           7:0] answer_code_o,   // one clk later
+    output logic         [           2:0] answer_first_o,
+    output status_e                       status_o,
+    output poll_t                         poll_o,          // rd_load_i takes it
     // pins, synchronous; extck is not
     input  wire levels_t                  plain_i,
     input  wire levels_t                  levels_i,
@@ -58,12 +66,14 @@ module ppmc312_core
   op_t op;
   plan_t plan;
   cause_t cause;
+  answer_t answer;
+  triggered_e what;
   logic act, exec_multi, multi, over, over_q, start, change, built, pos_halt, settled, counted, end_wait;
   logic held, stop, alarm, lock, unlock, end_watch, ungated, aux_report;
   logic commit, commit_host, hold, full, full_host, waits, answer_we;
   logic [1:0] alarm_code, over_code, over_code_q, window_on, outside, window_wait, window_value;
   logic [1:0] window_load, window_read;
-  logic [3:0] reply_extra, unused_class;
+  logic [3:0] reply_extra;
   logic [8:0][7:0] reply_data;
   logic [7:0] code, answer_data, aux_data;
   logic [31:0] pos, enc;
@@ -74,8 +84,20 @@ module ppmc312_core
   logic [BLOCK_BITS-1:0] answer_addr;
   logic [BLOCK_BITS:0] commit_size;
 
-  assign code  = block.code;
+  assign code = block.code;
   assign multi = exec_multi || over_q;
+  assign status_o = status;
+  assign answered_o = commit && commit_host;
+  assign answer_code_o = answer.code;
+  assign answer_first_o = answer.data[0][2:0];
+
+  always_comb begin
+    unique case (answer.code)
+      A_EVENT:    what = FailEvent;
+      A_OVERRIDE: what = FailOverride;
+      default:    what = (block.source == SrcEvent) ? DoneEvent : DoneOverride;
+    endcase
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -96,6 +118,7 @@ module ppmc312_core
   ) u_instr (
       .clk_i,
       .rst_ni,
+      .serial_i,
       .boot_i,
       .reset_o,
       .blk_valid_i,
@@ -138,6 +161,7 @@ module ppmc312_core
       .commit_o     (commit),
       .commit_size_o(commit_size),
       .commit_host_o(commit_host),
+      .answer_o     (answer),
       .full_i       (full),
       .full_host_i  (full_host),
       .waits_i      (waits)
@@ -245,6 +269,7 @@ module ppmc312_core
   ppmc312_reports u_reports (
       .clk_i,
       .rst_ni,
+      .serial_i,
       .alarm_i       (alarm),
       .alarm_code_i  (alarm_code),
       .answer_we_i   (answer_we),
@@ -253,6 +278,7 @@ module ppmc312_core
       .commit_i      (commit),
       .commit_size_i (commit_size),
       .commit_host_i (commit_host),
+      .commit_what_i (what),
       .full_o        (full),
       .full_host_o   (full_host),
       .waits_o       (waits),
@@ -273,7 +299,7 @@ module ppmc312_core
       .hold_i        (hold),
       .rd_any_o,
       .rd_load_i,
-      .rd_class_o    (unused_class),
+      .poll_o,
       .rd_size_o,
       .rd_addr_i,
       .rd_data_o,
@@ -281,7 +307,7 @@ module ppmc312_core
   );
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block, curve};
+  assign unused_bits = &{1'b0, block, curve, answer};
 
 endmodule
 

@@ -13,6 +13,7 @@ module ppmc312_exec
 (
     input  wire logic                          clk_i,
     input  wire logic                          rst_ni,
+    input  wire logic                          serial_i,       // answers never wait to be read
     input  wire logic                          boot_i,         // after a reset by instruction: tell so
     output logic                               reset_o,        // reset everything
     // blocks of the host
@@ -330,7 +331,7 @@ module ppmc312_exec
           (setup_ends && !(build_q && !setup_bad_i && !open_i)) || copy_ends || move_ends) begin
         write_q <= 1'b1;
       end
-      if (commit_o && host && blk_valid_i) host_wait_q <= 1'b1;
+      if (commit_o && host && blk_valid_i && !serial_i) host_wait_q <= 1'b1;
     end
   end
 

@@ -14,6 +14,7 @@ module ppmc312_instr
 ) (
     input  wire logic                          clk_i,
     input  wire logic                          rst_ni,
+    input  wire logic                          serial_i,
     input  wire logic                          boot_i,
     output logic                               reset_o,
     // front end
@@ -62,6 +63,7 @@ module ppmc312_instr
     output logic                               commit_o,
     output logic         [  BLOCK_BITS:0]      commit_size_o,
     output logic                               commit_host_o,
+    output answer_t                            answer_o,       // holds until blk_done_o
     input  wire logic                          full_i,
     input  wire logic                          full_host_i,
     input  wire logic                          waits_i
@@ -69,7 +71,6 @@ module ppmc312_instr
 
   put_t put;
   remove_t remove;
-  answer_t answer;
   curve_t curve;
   entry_t entry;
   plan_t plan;
@@ -92,6 +93,7 @@ module ppmc312_instr
   ppmc312_exec u_exec (
       .clk_i,
       .rst_ni,
+      .serial_i,
       .boot_i,
       .reset_o,
       .blk_valid_i,
@@ -135,7 +137,7 @@ module ppmc312_instr
       .limited_i    (limited),
       .refused_i    (refused),
       .kind_i       (kind),
-      .answer_o     (answer),
+      .answer_o,
       .write_o      (write),
       .echo_bytes_o (echo_bytes),
       .written_i    (written),
@@ -279,7 +281,7 @@ module ppmc312_instr
       .clk_i,
       .rst_ni,
       .start_i     (write),
-      .answer_i    (answer),
+      .answer_i    (answer_o),
       .echo_bytes_i(echo_bytes),
       .busy_o      (unused_busy),
       .done_o      (written),

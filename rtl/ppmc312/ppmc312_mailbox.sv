@@ -33,6 +33,10 @@ module ppmc312_mailbox
     input  wire logic [BLOCK_BITS-1:0] blk_addr_i,   // logical: 0 = header
     output logic      [           7:0] blk_data_o,   // two clk later
     input  wire logic                  blk_done_i,   // it is processed and answered
+    // the serial station writes its blocks here, too
+    input  wire logic                  line_we_i,
+    input  wire logic [           3:0] line_at_i,    // logical
+    input  wire logic [           7:0] line_data_i,
     // reports to the host
     input  wire logic                  rd_any_i,     // one waits
     output logic                       rd_load_o,    // load it
@@ -111,9 +115,9 @@ module ppmc312_mailbox
       .AddrBits(BLOCK_BITS)
   ) u_window (
       .clk_i,
-      .we_i   (take),
-      .waddr_i(at_q[BLOCK_BITS-1:0]),
-      .wdata_i(wr_data),
+      .we_i   (take || line_we_i),
+      .waddr_i(line_we_i ? ~BLOCK_BITS'(line_at_i) : at_q[BLOCK_BITS-1:0]),
+      .wdata_i(line_we_i ? line_data_i : wr_data),
       .raddr_i(~blk_addr_i),
       .rdata_o(blk_data_o)
   );

@@ -1,68 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_reports: what waits to be told to the host: eight classes of reports, each with a store of its own.
-// Rules:  P312-RSP-10/11/20/21, section 10.1.
+// Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30, section 10.1.
 // Timing: an event stands in its store one clk later. rd_size_o and the bytes hold from 2 clk after rd_load_i.
 // Note:   class 2 has two places: one is read while the next answer is written. An answer that is complete
-//         (commit_i) moves on as soon as the one before has been read.
+//         (commit_i) moves on as soon as the one before has been read. In serial mode the station takes the
+//         answer to the host from there, and class 2 tells what came of triggered instructions; a report is
+//         taken in the clk of rd_load_i, and a newer one replaces one that waits.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc312_reports
   import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
 (
-    input  wire logic                    clk_i,
-    input  wire logic                    rst_ni,
+    input  wire logic                        clk_i,
+    input  wire logic                        rst_ni,
+    input  wire logic                        serial_i,
     // class 1
-    input  wire logic                    alarm_i,
-    input  wire logic   [           1:0] alarm_code_i,
+    input  wire logic                        alarm_i,
+    input  wire logic       [           1:0] alarm_code_i,
     // class 2
-    input  wire logic                    answer_we_i,
-    input  wire logic   [BLOCK_BITS-1:0] answer_addr_i,
-    input  wire logic   [           7:0] answer_data_i,
-    input  wire logic                    commit_i,
-    input  wire logic   [  BLOCK_BITS:0] commit_size_i,
-    input  wire logic                    commit_host_i,   // it answers the host
-    output logic                         full_o,          // one waits to be read
-    output logic                         full_host_o,     // it answers the host
-    output logic                         waits_o,         // a second one waits behind it
+    input  wire logic                        answer_we_i,
+    input  wire logic       [BLOCK_BITS-1:0] answer_addr_i,
+    input  wire logic       [           7:0] answer_data_i,
+    input  wire logic                        commit_i,
+    input  wire logic       [  BLOCK_BITS:0] commit_size_i,
+    input  wire logic                        commit_host_i,   // it answers the host
+    input  wire triggered_e                  commit_what_i,   // if not: what came of it
+    output logic                             full_o,          // one waits to be read
+    output logic                             full_host_o,     // it answers the host
+    output logic                             waits_o,         // a second one waits behind it
     // classes 3, 4, 5
-    input  wire logic                    unlock_i,
-    input  wire logic                    held_i,
-    input  wire logic                    stop_i,
-    input  wire cause_t                  stop_cause_i,
-    input  wire logic   [          31:0] stop_pos_i,
-    output logic                         over_o,          // multiple occurrence, one of them is lost
-    output logic        [           1:0] over_code_o,
+    input  wire logic                        unlock_i,
+    input  wire logic                        held_i,
+    input  wire logic                        stop_i,
+    input  wire cause_t                      stop_cause_i,
+    input  wire logic       [          31:0] stop_pos_i,
+    output logic                             over_o,          // multiple occurrence, one of them is lost
+    output logic            [           1:0] over_code_o,
     // class 6
-    input  wire logic                    aux_clear_i,
-    input  wire logic                    aux_i,
-    input  wire logic   [           7:0] aux_data_i,
+    input  wire logic                        aux_clear_i,
+    input  wire logic                        aux_i,
+    input  wire logic       [           7:0] aux_data_i,
     // classes 7 and 8: in-position, encode
-    input  wire logic   [           1:0] window_i,        // a report waits
-    input  wire logic   [           1:0] window_value_i,
-    output logic        [           1:0] window_load_o,   // it is being loaded
-    output logic        [           1:0] window_read_o,   // it has been read
+    input  wire logic       [           1:0] window_i,        // a report waits
+    input  wire logic       [           1:0] window_value_i,
+    output logic            [           1:0] window_load_o,   // it is being loaded
+    output logic            [           1:0] window_read_o,   // it has been read
     // front end
-    input  wire logic                    hold_i,          // an answer is about to come: only classes 1, 2
-    output logic                         rd_any_o,
-    input  wire logic                    rd_load_i,
-    output logic        [           3:0] rd_class_o,
-    output logic        [  BLOCK_BITS:0] rd_size_o,
-    input  wire logic   [BLOCK_BITS-1:0] rd_addr_i,
-    output logic        [           7:0] rd_data_o,
-    input  wire logic                    rd_done_i
+    input  wire logic                        hold_i,          // an answer is about to come: only classes 1, 2
+    output logic                             rd_any_o,
+    input  wire logic                        rd_load_i,
+    output poll_t                            poll_o,          // serial mode
+    output logic            [  BLOCK_BITS:0] rd_size_o,
+    input  wire logic       [BLOCK_BITS-1:0] rd_addr_i,
+    output logic            [           7:0] rd_data_o,
+    input  wire logic                        rd_done_i
 );
 
   logic [8:1] waiting, offered;
-  logic hold;
-  logic [3:0] lowest;
+  logic hold, load, done;
+  logic [3:0] lowest, class_q, class_done;
+  triggered_e what_q;
+  logic told_q;  // class 2 of the serial mode
   logic loaded_q, bank_q, value_q, aux_busy, shift, host_q;
   logic [1:0] alarm_q;
   logic [5:3] once_q, once, once_done;
   logic alarm_full_q, full_q, waits_q;
   logic [1:0] aux_count_q;
   logic [1:0][7:0] aux_q;
-  logic aux_over_q;
+  logic aux_over_q, aux_flag_q;
   logic [BLOCK_BITS:0] size_q, wait_size_q;
   cause_t cause_q;
   logic [31:0] pos_q;
@@ -72,10 +79,17 @@ module ppmc312_reports
   // ---- what waits, which is next ---------------------------------------------------------------------------------
 
   assign waiting = {
-    window_i[1], window_i[0], aux_count_q != '0, once_q[5], once_q[4], once_q[3], full_q, alarm_full_q
+    window_i[1],
+    window_i[0],
+    aux_count_q != '0,
+    once_q[5],
+    once_q[4],
+    once_q[3],
+    full_q || told_q,
+    alarm_full_q
   };
   // What an instruction brings about is told after its answer.
-  assign hold = hold_i || (waits_q && !full_q);
+  assign hold = !serial_i && (hold_i || (waits_q && !full_q));
   assign offered = hold ? {6'd0, waiting[2:1]} : waiting;
   assign rd_any_o = offered != '0 && !loaded_q;
 
@@ -84,19 +98,30 @@ module ppmc312_reports
     for (int unsigned n = 8; n >= 1; n--) if (offered[n]) lowest = 4'(n);
   end
 
-  assign window_load_o = {rd_load_i && lowest == 4'd8, rd_load_i && lowest == 4'd7};
-  assign window_read_o = {rd_done_i && rd_class_o == 4'd8, rd_done_i && rd_class_o == 4'd7};
+  assign load = rd_load_i && !serial_i;
+  assign done = serial_i ? rd_load_i && offered != '0 : rd_done_i;
+  assign class_done = serial_i ? lowest : class_q;
+  assign window_load_o = {rd_load_i && lowest == 4'd8, rd_load_i && lowest == 4'd7} & window_i;
+  assign window_read_o = {done && class_done == 4'd8, done && class_done == 4'd7};
+  assign poll_o = '{
+          item: (offered == '0) ? 4'd0 : lowest,
+          triggered: what_q,
+          cause: cause_q,
+          flag: aux_flag_q,
+          data: aux_q[0],
+          outside: (lowest == 4'd8) ? window_value_i[1] : window_value_i[0]
+      };
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      loaded_q   <= 1'b0;
-      rd_class_o <= 4'd1;
-      value_q    <= 1'b0;
-    end else if (rd_load_i) begin
-      loaded_q   <= 1'b1;
-      rd_class_o <= lowest;
-      value_q    <= (lowest == 4'd8) ? window_value_i[1] : window_value_i[0];
-    end else if (rd_done_i) begin
+      loaded_q <= 1'b0;
+      class_q  <= 4'd1;
+      value_q  <= 1'b0;
+    end else if (load) begin
+      loaded_q <= 1'b1;
+      class_q  <= lowest;
+      value_q  <= (lowest == 4'd8) ? window_value_i[1] : window_value_i[0];
+    end else if (done) begin
       loaded_q <= 1'b0;
     end
   end
@@ -104,8 +129,8 @@ module ppmc312_reports
   // ---- classes 1, 3, 4, 5 ----------------------------------------------------------------------------------------
 
   assign once = {stop_i, held_i, unlock_i};
-  assign once_done = {rd_class_o == 4'd5, rd_class_o == 4'd4, rd_class_o == 4'd3} & {3{rd_done_i}};
-  assign over_o = (once & once_q & ~once_done) != '0;
+  assign once_done = {class_done == 4'd5, class_done == 4'd4, class_done == 4'd3} & {3{done}};
+  assign over_o = !serial_i && (once & once_q & ~once_done) != '0;
   assign over_code_o = (stop_i && once_q[5] && !once_done[5]) ? 2'd3 : 2'd2;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -117,11 +142,11 @@ module ppmc312_reports
       pos_q        <= '0;
     end else begin
       once_q <= (once_q & ~once_done) | once;
-      if (stop_i && (!once_q[5] || once_done[5])) begin
+      if (stop_i && (serial_i || !once_q[5] || once_done[5])) begin
         cause_q <= stop_cause_i;
         pos_q   <= stop_pos_i;
       end
-      if (rd_done_i && rd_class_o == 4'd1) alarm_full_q <= 1'b0;
+      if (done && class_done == 4'd1 && !(serial_i && alarm_i)) alarm_full_q <= 1'b0;
       else if (alarm_i && !alarm_full_q) begin
         alarm_full_q <= 1'b1;
         alarm_q      <= alarm_code_i;
@@ -145,20 +170,26 @@ module ppmc312_reports
       bank_q      <= 1'b0;
       host_q      <= 1'b0;
       wait_host_q <= 1'b0;
+      what_q      <= DoneOverride;
+      told_q      <= 1'b0;
       size_q      <= '0;
       wait_size_q <= '0;
     end else begin
-      if (commit_i) begin
+      if (commit_i && !serial_i) begin
         waits_q     <= 1'b1;
         wait_size_q <= commit_size_i;
         wait_host_q <= commit_host_i;
       end else if (go) waits_q <= 1'b0;
+      if (serial_i && commit_i && !commit_host_i) begin
+        told_q <= 1'b1;
+        what_q <= commit_what_i;
+      end else if (done && class_done == 4'd2) told_q <= 1'b0;
       if (go) begin
         full_q <= 1'b1;
         bank_q <= !bank_q;
         size_q <= wait_size_q;
         host_q <= wait_host_q;
-      end else if (rd_done_i && rd_class_o == 4'd2) full_q <= 1'b0;
+      end else if (done && class_done == 4'd2) full_q <= 1'b0;
     end
   end
 
@@ -167,17 +198,17 @@ module ppmc312_reports
       .AddrBits(BLOCK_BITS + 1)
   ) u_answers (
       .clk_i,
-      .we_i   (answer_we_i),
+      .we_i   (answer_we_i && (!serial_i || commit_host_i)),
       .waddr_i({!bank_q, answer_addr_i}),
       .wdata_i(answer_data_i),
-      .raddr_i({bank_q, rd_addr_i}),
+      .raddr_i({bank_q ^ serial_i, rd_addr_i}),
       .rdata_o(ram_byte)
   );
 
   // ---- class 6: two places, the second keeps the newest data -----------------------------------------------------
 
-  assign aux_busy = loaded_q && rd_class_o == 4'd6;
-  assign shift = rd_done_i && rd_class_o == 4'd6;
+  assign aux_busy = loaded_q && class_q == 4'd6;
+  assign shift = done && class_done == 4'd6;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -197,7 +228,6 @@ module ppmc312_reports
   end
 
   // The flag belongs to the second place and moves on with it.
-  logic aux_flag_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) aux_flag_q <= 1'b0;
     else if (shift) aux_flag_q <= aux_over_q && aux_count_q == 2'd2;
@@ -208,7 +238,7 @@ module ppmc312_reports
 
   always_comb begin
     own_size = 3'd2;
-    unique case (rd_class_o)
+    unique case (class_q)
       4'd3: {code, own_size} = {A_UNLOCK, 3'd1};
       4'd4: {code, own_size} = {A_HELD, 3'd1};
       4'd5: {code, own_size} = {A_STOP, 3'd6};
@@ -225,14 +255,14 @@ module ppmc312_reports
       3'd1:    own_byte = 8'(own_size);
       3'd2:    own_byte = code;
       3'd3: begin
-        unique case (rd_class_o)
+        unique case (class_q)
           4'd5:       own_byte = cause_q;
           4'd6:       own_byte = 8'(aux_flag_q);
           4'd7, 4'd8: own_byte = 8'(value_q);
           default:    own_byte = 8'(alarm_q);
         endcase
       end
-      3'd4:    own_byte = (rd_class_o == 4'd6) ? aux_q[0] : pos_q[31:24];
+      3'd4:    own_byte = (class_q == 4'd6) ? aux_q[0] : pos_q[31:24];
       3'd5:    own_byte = pos_q[23:16];
       3'd6:    own_byte = pos_q[15:8];
       default: own_byte = pos_q[7:0];
@@ -241,11 +271,11 @@ module ppmc312_reports
 
   always_ff @(posedge clk_i) own_q <= own_byte;
 
-  assign rd_size_o = (rd_class_o == 4'd2) ? size_q : (BLOCK_BITS + 1)'(own_size) + (BLOCK_BITS + 1)'(2);
-  assign rd_data_o = (rd_class_o == 4'd2) ? ram_byte : own_q;
+  assign rd_size_o = (class_q == 4'd2) ? size_q : (BLOCK_BITS + 1)'(own_size) + (BLOCK_BITS + 1)'(2);
+  assign rd_data_o = (serial_i || class_q == 4'd2) ? ram_byte : own_q;
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_rsp_10_order, !rd_load_i || offered != '0)
+  `PPMC_ASSERT(p312_rsp_10_order, !load || offered != '0)
   `PPMC_ASSERT(p312_rsp_20_bank, !(answer_we_i && waits_q))
 `endif
 

@@ -18,7 +18,7 @@ module ppmc312_window (
     output logic      wait_o,      // a report waits
     output logic      value_o,     // 1 = outside
     input  wire logic load_i,      // it is being loaded
-    input  wire logic read_i       // and has been read
+    input  wire logic read_i       // and has been read; both in one clk: taken at once
 );
 
   logic repeat_q, told_q, loaded_q, shown_q, kept_q, fresh_q;
@@ -39,9 +39,10 @@ module ppmc312_window (
     end else begin
       fresh_q <= set_i;  // the state of the new range is not known yet
       if (load_i) begin
-        loaded_q <= 1'b1;
+        loaded_q <= !read_i;
         shown_q  <= value_o;
         kept_q   <= 1'b0;
+        if (read_i) told_q <= value_o;
       end else if (read_i) begin
         loaded_q <= 1'b0;
         told_q   <= shown_q;

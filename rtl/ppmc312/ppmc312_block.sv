@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_block: an instruction received in serial mode, as the block of the parallel bus that means the same.
+// Rules:  P312-SER-40..43, P312-GEN-04.
+// Timing: data_o is combinational; size_o holds from the last data byte on.
+`default_nettype none
+
+module ppmc312_block
+  import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
+(
+    input  wire logic                        clk_i,
+    input  wire serial_code_t                info_i,
+    // bytes on their way into the write window
+    input  wire logic                        we_i,
+    input  wire logic                        head_i,  // one that is made here: header, length, code, flags
+    input  wire logic         [         3:0] at_i,
+    input  wire logic         [         7:0] data_i,  // as received
+    output logic              [         7:0] data_o,
+    output logic              [BLOCK_BITS:0] size_o
+);
+
+  localparam logic [3:0] Flags = 4'd3;  // place of the first parameter
+  localparam logic [3:0] InnerLen = 4'd5;  // of the length within an event registration
+  localparam logic [7:0] InnerTop = 8'd8;  // its longest value
+  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes of the block around it
+  localparam logic [BLOCK_BITS:0] None = 6'd2;  // makes a size abnormality
+
+  logic [3:0] inner_q;
+  logic long_q;
+
+  always_ff @(posedge clk_i) begin
+    if (we_i && !head_i && at_i == InnerLen) begin
+      inner_q <= data_i[3:0];
+      long_q  <= data_i > InnerTop;
+    end
+  end
+
+  always_comb begin
+    size_o = (BLOCK_BITS + 1)'(info_i.size);
+    if (info_i.embeds) size_o = long_q ? None : (BLOCK_BITS + 1)'(inner_q) + Inner;
+  end
+
+  // Split tables do not exist here, and the monitors always repeat.
+  always_comb begin
+    data_o = data_i;
+    if (head_i) begin
+      unique case (at_i[1:0])
+        2'd0:    data_o = 8'h03;
+        2'd1:    data_o = 8'(size_o) - 8'd2;
+        2'd2:    data_o = info_i.code;
+        default: data_o = info_i.flags;
+      endcase
+    end else if (at_i == Flags) begin
+      if (info_i.code == I_INIT) data_o[7:4] = '0;
+      if (info_i.code inside {I_INPOS, I_ENCODE}) data_o[1] = 1'b1;
+    end
+  end
+
+  logic unused_info;
+  assign unused_info = &{1'b0, info_i};
+
+endmodule
+
+`default_nettype wire

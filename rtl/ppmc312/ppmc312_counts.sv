@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_counts: how many framing, overrun and checksum errors there have been since they were read.
+// Rules:  P312-SER-14, P312-SER-15, P312-SER-45.
+// Timing: one clk after the error. One at a time, none in the clk of a reading.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_counts (
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire logic [2:0]      error_i,  // framing, overrun, checksum
+    input  wire logic            read_i,   // they are being read
+    output logic      [2:0][7:0] count_o
+);
+
+  logic [7:0] old, more;
+
+  always_comb begin
+    unique case (1'b1)
+      error_i[0]: old = count_o[0];
+      error_i[1]: old = count_o[1];
+      default:    old = count_o[2];
+    endcase
+    more = old + 8'(old != '1);
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) count_o <= '0;
+    else if (read_i) count_o <= '0;
+    else begin
+      for (int unsigned n = 0; n < 3; n++) if (error_i[n]) count_o[n] <= more;
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ser_45, (error_i & (error_i - 1'b1)) == '0 && !(read_i && error_i != '0))
+`endif
+
+endmodule
+
+`default_nettype wire

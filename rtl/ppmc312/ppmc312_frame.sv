@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_frame: takes the frames of the host apart: control code, hexadecimal data, checksum, silence.
+// Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
+// Timing: poll_o, run_o, fault_o, strange_o and overrun_o come in the clk of the character, or of the end of the
+//         silence, that decides.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_frame
+  import ppmc312_serial_pkg::*;
+#(
+    parameter int unsigned ClkHz    = 16_000_000,
+    parameter int unsigned XtalHz   = 16_000_000,
+    parameter bit          CharsSum = 1'b0         // checksum of the characters instead of their values
+) (
+    input  wire logic               clk_i,
+    input  wire logic               rst_ni,
+    input  wire logic         [3:0] adr_i,
+    // characters
+    input  wire logic         [7:0] byte_i,
+    input  wire logic               valid_i,
+    input  wire logic               error_i,    // one without a stop bit
+    input  wire logic               busy_i,     // a reply is pending or being sent
+    // code table
+    output logic              [7:0] code_o,
+    input  wire serial_code_t       info_i,
+    // the block that means the same on the parallel bus: its bytes, data first, then what comes before them
+    output logic                    we_o,
+    output logic                    head_o,     // one of those
+    output logic              [3:0] at_o,
+    output logic              [7:0] data_o,
+    // what it comes to
+    output logic                    poll_o,
+    output logic                    run_o,      // an instruction, its checksum is right
+    output logic                    fault_o,    // a wrong checksum
+    output logic                    strange_o,  // an unknown code
+    output logic                    overrun_o
+);
+
+  localparam int unsigned SilenceXtal = 320_000;  // 20 ms
+  localparam int unsigned SilenceBits = 19;
+
+  typedef enum logic [2:0] {
+    StSkip,  // until the next control code
+    StCode,
+    StWait,
+    StLook,  // the table knows it or not
+    StData,
+    StHead,  // header, length, code, flags
+    StSum,
+    StOdd    // unknown: until silence
+  } state_e;
+
+  state_e state_q;
+  logic control, own, take, digit, letter, hex, past, silent, ends, right, last;
+  logic poll_q, bad_q, low_q;
+  logic [3:0] nibble, high_q, at_q, first;
+  logic [6:0] sum_q;
+
+  // ---- characters ------------------------------------------------------------------------------------------------
+
+  assign control = valid_i && byte_i[7];
+  assign own = byte_i[6:5] == 2'b00 && byte_i[3:0] == adr_i;
+  assign take = valid_i && !byte_i[7];
+  assign digit = byte_i[7:4] == 4'h3 && byte_i[3:0] <= 4'd9;
+  assign letter = byte_i[7:4] == 4'h6 && byte_i[3:0] inside {[4'd1 : 4'd6]};
+  assign hex = digit || letter;
+  assign nibble = byte_i[3:0] + (byte_i[6] ? 4'd9 : 4'd0);
+
+  ppmc_xtal_timer #(
+      .ClkHz (ClkHz),
+      .XtalHz(XtalHz),
+      .Width (SilenceBits)
+  ) u_silence (
+      .clk_i,
+      .rst_ni,
+      .restart_i(valid_i),
+      .limit_i  (SilenceBits'(SilenceXtal)),
+      .past_o   (past)
+  );
+
+  assign silent = past && !valid_i && !error_i;
+
+  // ---- what it comes to ------------------------------------------------------------------------------------------
+
+  assign right = byte_i[6:0] == ~sum_q && !bad_q;
+  assign ends = take && state_q == StSum;
+  assign poll_o = ends && right && poll_q;
+  assign run_o = ends && right && !poll_q;
+  assign fault_o = (ends && !right) || (silent && state_q == StOdd && bad_q);
+  assign strange_o = silent && state_q == StOdd && !bad_q;
+  assign overrun_o = control && own && busy_i;
+
+  assign head_o = state_q == StHead;
+  assign we_o = (take && state_q == StData && low_q) || head_o;
+  assign first = info_i.flagged ? 4'd4 : 4'd3;
+  assign last = at_q + 1'b1 == info_i.size;
+  assign at_o = at_q;
+  assign data_o = {high_q, nibble};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) state_q <= StSkip;
+    else if (error_i) state_q <= StSkip;
+    else if (control) begin
+      state_q <= StSkip;
+      if (own && !busy_i) state_q <= byte_i[4] ? StCode : StSum;
+    end else if (state_q == StWait) state_q <= StLook;
+    else if (state_q == StLook) begin
+      state_q <= StData;
+      if (first == info_i.size) state_q <= StHead;
+      if (!info_i.known) state_q <= StOdd;
+    end else if (head_o) begin
+      if (at_q + 1'b1 == first) state_q <= StSum;
+    end else if (take) begin
+      unique case (state_q)
+        StCode: begin
+          if (low_q) state_q <= StWait;
+          if (!hex) state_q <= StOdd;
+        end
+        StData:  if (low_q && last) state_q <= StHead;
+        StSum:   state_q <= StSkip;
+        default: ;
+      endcase
+    end else if (silent) state_q <= StSkip;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (control) begin
+      poll_q <= !byte_i[4];
+      bad_q  <= 1'b0;
+      low_q  <= 1'b0;
+      sum_q  <= CharsSum ? 7'd0 : byte_i[6:0];
+    end else begin
+      if (state_q == StLook) at_q <= (first == info_i.size) ? 4'd0 : first;
+      if (head_o) at_q <= at_q + 1'b1;
+      if (take && state_q inside {StCode, StData}) begin
+        if (!hex) bad_q <= 1'b1;
+        low_q <= !low_q;
+        if (state_q == StData && low_q) at_q <= last ? 4'd0 : at_q + 1'b1;
+        if (CharsSum) sum_q <= sum_q + byte_i[6:0];
+        else sum_q <= sum_q + (low_q ? {3'd0, nibble} : {nibble[2:0], 4'd0});
+      end
+    end
+    if (take) high_q <= nibble;
+    if (take && state_q == StCode) code_o <= {code_o[3:0], nibble};
+  end
+
+  logic unused_info;
+  assign unused_info = &{1'b0, info_i};
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ser_19, !busy_i || !(poll_o || run_o || fault_o || strange_o))
+  `PPMC_ASSERT(p312_ser_14, !run_o || !bad_q)
+`endif
+
+endmodule
+
+`default_nettype wire

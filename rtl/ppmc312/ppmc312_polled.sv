@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_polled: what a poll is answered: the first report that waits, else busy or ready.
+// Rules:  P312-SER-30, sections 4 and 10.3.
+// Timing: combinational.
+`default_nettype none
+
+module ppmc312_polled
+  import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
+(
+    input  wire poll_t   poll_i,
+    input  wire status_e status_i,
+    output reply_t       reply_o
+);
+
+  logic [7:0] code;
+
+  always_comb begin
+    unique case (poll_i.item)
+      4'd1:    code = 8'h46;
+      4'd2: begin
+        unique case (poll_i.triggered)
+          FailEvent:    code = 8'h4a;
+          FailOverride: code = 8'h4b;
+          DoneOverride: code = 8'h28;
+          default:      code = 8'h29;
+        endcase
+      end
+      4'd3:    code = 8'h22;
+      4'd4:    code = 8'h23;
+      4'd5:    code = end_code(poll_i.cause);
+      4'd6:    code = 8'h2a;
+      4'd7:    code = {7'h13, poll_i.outside};
+      default: code = {7'h12, poll_i.outside};
+    endcase
+    reply_o = '{
+        kind: (poll_i.item == 4'd5) ? KindData : KindSpecific,
+        count: (poll_i.item == 4'd6) ? 3'd3 : 3'd1,
+        stored: 1'b0,
+        data: {poll_i.data, 7'd0, poll_i.flag, code}
+    };
+    if (poll_i.item == 4'd0) begin
+      reply_o.kind  = (status_i inside {StatusAcc, StatusFix, StatusWrn}) ? KindBusy : KindReady;
+      reply_o.count = 3'd0;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_replies: from a frame to its one reply: polls and the station's own read-outs at once, everything
+// else when the core has executed it.
+// Rules:  P312-SER-14, P312-SER-17..20, P312-SER-30, P312-SER-45/46, P312-STA-01 (4E, 4F).
+// Timing: a frame that comes with clk n is offered to the core in clk n + 2, or its reply is there in clk n + 2.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_replies
+  import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
+(
+    input  wire logic               clk_i,
+    input  wire logic               rst_ni,
+    // frames
+    input  wire logic               poll_i,
+    input  wire logic               run_i,
+    input  wire logic               fault_i,
+    input  wire logic               strange_i,
+    input  wire logic         [7:0] code_i,
+    input  wire serial_code_t       info_i,
+    input  wire logic               framing_i,
+    input  wire logic               overrun_i,
+    output logic                    busy_o,          // a reply is pending or being sent
+    // core
+    input  wire status_e            status_i,
+    output logic                    take_o,          // the report that a poll finds is taken
+    input  wire poll_t              found_i,
+    output logic                    blk_valid_o,
+    input  wire logic               answered_i,      // it has been executed
+    input  wire logic         [7:0] answer_code_i,   // one clk later: what it has come to
+    input  wire logic         [2:0] answer_first_i,
+    // sender
+    output logic                    send_o,
+    output reply_t                  reply_o,
+    input  wire logic               sent_i
+);
+
+  typedef enum logic [1:0] {
+    StIdle,
+    StRun,
+    StSend
+  } state_e;
+
+  state_e state_q;
+  reply_t polled, reply;
+  logic poll_q, run_q, fault_q, strange_q, read_counts, fails, refused, own, done_q, reply_we;
+  logic [3:0] error, error_q;
+  logic [2:0][7:0] counts;
+
+  ppmc312_polled u_polled (
+      .poll_i (found_i),
+      .status_i,
+      .reply_o(polled)
+  );
+
+  ppmc312_counts u_counts (
+      .clk_i,
+      .rst_ni,
+      .error_i({fault_i, overrun_i, framing_i}),
+      .read_i (read_counts),
+      .count_o(counts)
+  );
+
+  // ---- what is replied -------------------------------------------------------------------------------------------
+
+  assign refused = code_i != S_END && !(status_i inside {StatusIni, StatusNor});
+  assign own = run_q && info_i.local_read;
+  assign take_o = poll_q;
+  assign read_counts = own && !refused && code_i == S_COUNTS;
+
+  always_comb begin
+    fails = 1'b0;
+    error = answer_code_i[3:0] + 4'd2;  // F0 42, F1 43, F2 44, F6 48, F7 49
+    if (answer_code_i[7:4] == 4'hf) fails = 1'b1;
+    else if (answer_code_i == I_EVT_SET && answer_first_i inside {3'd1, 3'd2, 3'd5}) begin
+      fails = 1'b1;
+      error = 4'd9;
+    end
+    if (strange_q) error = 4'd7;
+    if (own) error = 4'd3;
+  end
+
+  always_comb begin
+    reply = '{kind: KindSpecific, count: 3'd1, stored: 1'b0, data: {16'd0, 4'h4, error}};
+    if (poll_q) reply = polled;
+    else if (fault_q) reply.data[0] = 8'h41;
+    else if (own && !refused) begin
+      reply.kind = KindData;
+      unique case (code_i)
+        S_END:   reply.data[0] = end_code(found_i.cause);
+        S_ERROR: reply.data[0] = {1'b0, error_q != '0, 2'b00, error_q};
+        default: begin
+          reply.count = 3'd3;
+          reply.data  = counts;
+        end
+      endcase
+    end else if (done_q && !fails) begin
+      reply.kind   = (info_i.reads == '0) ? KindReady : KindData;
+      reply.count  = info_i.reads;
+      reply.stored = 1'b1;
+    end
+  end
+
+  assign reply_we = poll_q || fault_q || strange_q || own || done_q;
+
+  always_ff @(posedge clk_i) begin
+    if (reply_we) reply_o <= reply;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) error_q <= '0;
+    else if (strange_q || (own && refused) || (done_q && fails)) error_q <= error;
+    else if (own && code_i == S_ERROR) error_q <= '0;
+  end
+
+  // ---- one frame after the other ---------------------------------------------------------------------------------
+
+  assign busy_o = state_q != StIdle || run_q || poll_q || fault_q || strange_q;
+  assign blk_valid_o = state_q == StRun && !done_q;
+  assign send_o = reply_we;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q                                     <= StIdle;
+      {poll_q, run_q, fault_q, strange_q, done_q} <= '0;
+    end else begin
+      {poll_q, run_q, fault_q, strange_q} <= {poll_i, run_i, fault_i, strange_i};
+      done_q <= state_q == StRun && answered_i;
+      if (reply_we) state_q <= StSend;
+      else if (run_q) state_q <= StRun;
+      else if (sent_i) state_q <= StIdle;
+    end
+  end
+
+  logic unused_info;
+  assign unused_info = &{1'b0, info_i};
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ser_14_offer, !blk_valid_o || $past(blk_valid_o || run_q))
+  `PPMC_ASSERT(p312_ser_19_one, !reply_we || state_q != StSend)
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_reset: resets of the pin and of the instruction; what the pins say at their end: mode, speed, number.
+// Rules:  P312-GEN-01, P312-PRT-02/03, P312-CMD-FF, P312-TIM-01.
+// Timing: ready_o and the core come two clk after the release of the reset, in DATASHEET 1.6 ms. The host's side
+//         comes one clk after it; the levels that count are those of the pins two clk before.
+`default_nettype none
+
+module ppmc312_reset #(
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0
+) (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,       // pin
+    input  wire logic       reset_i,      // instruction
+    input  wire logic       mode_i,
+    input  wire logic [2:0] mod_i,
+    input  wire logic [3:0] adr_i,
+    output logic            rst_core_no,
+    output logic            rst_host_no,
+    output logic            boot_o,       // the core comes back from an instruction
+    output logic            ready_o,
+    output logic            serial_o,
+    output logic      [2:0] mod_o,
+    output logic      [3:0] adr_o
+);
+
+  localparam int unsigned StartXtal = 25_600;
+  localparam int unsigned StartBits = 16;
+
+  logic rst_pin, rst_q, rst_host_q, started;
+  logic [7:0] pins, unused_meta;
+
+  ppmc_reset u_reset (
+      .clk_i,
+      .rst_ni,
+      .rst_no(rst_pin)
+  );
+
+  if (Datasheet) begin : g_start
+    ppmc_xtal_timer #(
+        .ClkHz (ClkHz),
+        .XtalHz(XtalHz),
+        .Width (StartBits)
+    ) u_start (
+        .clk_i,
+        .rst_ni   (rst_pin),
+        .restart_i(1'b0),
+        .limit_i  (StartBits'(StartXtal)),
+        .past_o   (started)
+    );
+  end else begin : g_fast
+    localparam int unsigned Unused = StartXtal + StartBits + ClkHz + XtalHz;
+    logic unused_start;
+
+    assign unused_start = Unused[0];
+    always_ff @(posedge clk_i or negedge rst_pin) begin
+      if (!rst_pin) started <= 1'b0;
+      else started <= 1'b1;
+    end
+  end
+
+  // The levels before the end of the reset count, so this one runs during it.
+  ppmc_sync #(
+      .Width(8)
+  ) u_pins (
+      .clk_i,
+      .rst_ni(1'b1),
+      .d_i   ({mode_i, mod_i, adr_i}),
+      .q1_o  (unused_meta),
+      .q2_o  (pins)
+  );
+
+  always_ff @(posedge clk_i or negedge rst_pin) begin
+    if (!rst_pin) begin
+      rst_q                    <= 1'b0;
+      rst_host_q               <= 1'b0;
+      boot_o                   <= 1'b0;
+      ready_o                  <= 1'b0;
+      {serial_o, mod_o, adr_o} <= {1'b1, 7'd0};  // nobody may talk
+    end else begin
+      ready_o    <= started;
+      rst_q      <= started && !reset_i;
+      rst_host_q <= !reset_i;
+      boot_o     <= reset_i || (boot_o && !rst_q);
+      if (!rst_host_q) {serial_o, mod_o, adr_o} <= {!pins[7], pins[6:0]};
+    end
+  end
+
+  // The pin resets all at once, whatever the registers of the resets hold.
+  assign rst_core_no = rst_q && rst_pin;
+  assign rst_host_no = rst_host_q && rst_pin;
+
+endmodule
+
+`default_nettype wire

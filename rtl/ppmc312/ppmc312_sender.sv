@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_sender: sends a reply: gate, control code, hexadecimal data, checksum.
+// Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
+// Timing: snd_o rises with the clk after send_i. Edge n of the frame, the first start bit being number 1 and the
+//         fall of snd_o the last, comes ceil(n * bit time) after it.
+// Rate:   the phase counts up by step_i a clk and has run through a bit when it passes 2**Width; wrap_i is then
+//         added instead: step_i less the modulus.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_sender
+  import ppmc312_serial_pkg::*;
+#(
+    parameter int unsigned Width    = 20,
+    parameter bit          CharsSum = 1'b0
+) (
+    input  wire logic               clk_i,
+    input  wire logic               rst_ni,
+    input  wire logic   [      3:0] adr_i,
+    input  wire logic   [Width-1:0] step_i,
+    input  wire logic   [Width-1:0] wrap_i,
+    input  wire logic               send_i,
+    input  wire reply_t             reply_i,   // holds from the clk after send_i on
+    output logic        [      1:0] index_o,   // data byte
+    input  wire logic   [      7:0] stored_i,  // this one, if it stands in the store; two clk later
+    output logic                    sent_o,
+    output logic                    txd_o,
+    output logic                    snd_o
+);
+
+  typedef enum logic [1:0] {
+    StControl,
+    StHigh,
+    StLow,
+    StSum
+  } state_e;
+
+  state_e state_q;
+  logic over, last_q;
+  logic [Width-1:0] phase_q;
+  logic [2:0] at_q;  // data bytes sent
+  logic [3:0] left_q;  // bits of the character to come
+  logic [7:0] bits_q, char;
+  logic [6:0] sum_q, control;
+  logic [7:0] data;
+  logic [3:0] nibble;
+
+  // ---- characters ------------------------------------------------------------------------------------------------
+
+  assign index_o = at_q[1:0];
+  assign control = {1'b0, reply_i.kind, adr_i};
+
+  always_comb begin
+    unique case (at_q[1:0])
+      2'd0:    data = reply_i.data[0];
+      2'd1:    data = reply_i.data[1];
+      default: data = reply_i.data[2];
+    endcase
+    if (reply_i.stored) data = stored_i;
+    nibble = (state_q == StHigh) ? data[7:4] : data[3:0];
+    unique case (state_q)
+      StControl: char = {1'b1, control};
+      StSum:     char = {1'b0, ~sum_q};
+      default:   char = (nibble > 4'd9) ? 8'(nibble) + 8'h57 : {4'h3, nibble};
+    endcase
+  end
+
+  // ---- bits ------------------------------------------------------------------------------------------------------
+
+  assign sent_o = snd_o && over && left_q == '0 && last_q;
+
+  // The phase is one step ahead, which makes room for the registers of the pins.
+  always_ff @(posedge clk_i) begin
+    if (!snd_o) {over, phase_q} <= {1'b0, wrap_i};
+    else {over, phase_q} <= {1'b0, phase_q} + {1'b0, over ? wrap_i : step_i};
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      snd_o <= 1'b0;
+      txd_o <= 1'b1;
+    end else begin
+      if (send_i) snd_o <= 1'b1;
+      else if (sent_o) snd_o <= 1'b0;
+      if (snd_o && over) txd_o <= (left_q == '0) ? last_q : bits_q[0];
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!snd_o) begin
+      state_q <= StControl;
+      left_q  <= '0;
+      last_q  <= 1'b0;
+      at_q    <= '0;
+    end else if (over && left_q != '0) begin
+      left_q <= left_q - 1'b1;
+      bits_q <= {1'b1, bits_q[7:1]};
+    end else if (over) begin
+      left_q <= 4'd9;
+      bits_q <= char;
+      unique case (state_q)
+        StControl: begin
+          sum_q   <= CharsSum ? 7'd0 : control;
+          state_q <= (reply_i.count == '0) ? StSum : StHigh;
+        end
+        StHigh: begin
+          sum_q   <= sum_q + (CharsSum ? char[6:0] : {nibble[2:0], 4'd0});
+          state_q <= StLow;
+        end
+        StLow: begin
+          sum_q   <= sum_q + (CharsSum ? char[6:0] : {3'd0, nibble});
+          state_q <= (at_q + 1'b1 == reply_i.count) ? StSum : StHigh;
+          at_q    <= at_q + 1'b1;
+        end
+        default: last_q <= 1'b1;
+      endcase
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ser_18_gate, txd_o || snd_o)
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_serial: the serial front end: a station on a line with a host. Frames in, blocks to the core, replies
+// out.
+// Rules:  section 2.4, P312-PRT-01..03, P312-BAD-16/17.
+// Timing: characters count in the middle of their stop bit. See ppmc312_replies and ppmc312_sender.
+// Rate:   bits last whole phases of an accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_serial
+  import ppmc312_pkg::*;
+  import ppmc312_serial_pkg::*;
+#(
+    parameter int unsigned ClkHz    = 16_000_000,
+    parameter int unsigned XtalHz   = 16_000_000,
+    parameter bit          CharsSum = 1'b0
+) (
+    input  wire logic                     clk_i,
+    input  wire logic                     rst_ni,
+    input  wire logic                     ready_i,         // 0: nothing may be received yet
+    input  wire logic                     enable_i,        // 0: silent
+    input  wire logic    [           1:0] rate_i,          // 1: 19 200, 2: 38 400, 3: 83 333 baud
+    input  wire logic    [           3:0] adr_i,
+    // pins
+    input  wire logic                     rxd_i,
+    output logic                          txd_o,
+    output logic                          snd_o,
+    // blocks of the host
+    output logic                          blk_valid_o,
+    output logic         [  BLOCK_BITS:0] blk_size_o,
+    output logic                          blk_we_o,        // into the write window
+    output logic         [           3:0] blk_at_o,        // logical: 0 = header
+    output logic         [           7:0] blk_data_o,
+    // their answers
+    input  wire logic                     answered_i,
+    input  wire logic    [           7:0] answer_code_i,
+    input  wire logic    [           2:0] answer_first_i,
+    output logic         [BLOCK_BITS-1:0] rd_addr_o,
+    input  wire logic    [           7:0] rd_data_i,
+    // state and reports
+    input  wire status_e                  status_i,
+    output logic                          take_o,
+    input  wire poll_t                    found_i
+);
+
+  // Bit time = Modulus / step clk.
+  localparam longint unsigned Clk = 64'(ClkHz) * 64'd480_000;
+  localparam longint unsigned Xtal = 64'(XtalHz) * 64'd4;
+  localparam longint unsigned Common = ppmc_pkg::gcd(Clk, Xtal);
+  // Even, so that the middle of a bit is exact.
+  localparam longint unsigned Twice = ((Clk / Common) % 2 == 0) ? 64'd1 : 64'd2;
+  localparam longint unsigned Modulus = Twice * Clk / Common;
+  localparam longint unsigned Unit = Twice * Xtal / Common;
+  localparam int unsigned Width = 32'($clog2(Modulus));
+  localparam longint unsigned Rest = (64'd1 << Width) - Modulus;
+
+  logic [Width-1:0] step, wrap;
+  logic [7:0] char, code, data;
+  logic valid, error, take_valid, framing, unused_break;
+  logic head, poll, run, fault, strange, overrun, busy, send, sent;
+  logic [1:0] index;
+  serial_code_t info;
+  reply_t reply;
+
+  always_comb begin
+    unique case (rate_i)
+      2'd3: begin
+        step = Width'(64'd625 * Unit);
+        wrap = Width'(64'd625 * Unit + Rest);
+      end
+      2'd2: begin
+        step = Width'(64'd288 * Unit);
+        wrap = Width'(64'd288 * Unit + Rest);
+      end
+      default: begin
+        step = Width'(64'd144 * Unit);
+        wrap = Width'(64'd144 * Unit + Rest);
+      end
+    endcase
+  end
+
+  ppmc_uart_rx #(
+      .Width  (Width),
+      .Modulus(Modulus)
+  ) u_rx (
+      .clk_i,
+      .rst_ni,
+      .step_i (step),
+      .wrap_i (wrap),
+      .rxd_i  (rxd_i || !enable_i),
+      .byte_o (char),
+      .valid_o(valid),
+      .error_o(error),
+      .break_o(unused_break)
+  );
+
+  assign take_valid = valid && ready_i;
+  assign framing = error && ready_i;
+
+  ppmc312_codes u_codes (
+      .clk_i,
+      .code_i(code),
+      .info_o(info)
+  );
+
+  ppmc312_frame #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (XtalHz),
+      .CharsSum(CharsSum)
+  ) u_frame (
+      .clk_i,
+      .rst_ni,
+      .adr_i,
+      .byte_i   (char),
+      .valid_i  (take_valid),
+      .error_i  (framing),
+      .busy_i   (busy),
+      .code_o   (code),
+      .info_i   (info),
+      .we_o     (blk_we_o),
+      .head_o   (head),
+      .at_o     (blk_at_o),
+      .data_o   (data),
+      .poll_o   (poll),
+      .run_o    (run),
+      .fault_o  (fault),
+      .strange_o(strange),
+      .overrun_o(overrun)
+  );
+
+  ppmc312_block u_block (
+      .clk_i,
+      .info_i(info),
+      .we_i  (blk_we_o),
+      .head_i(head),
+      .at_i  (blk_at_o),
+      .data_i(data),
+      .data_o(blk_data_o),
+      .size_o(blk_size_o)
+  );
+
+  ppmc312_replies u_replies (
+      .clk_i,
+      .rst_ni,
+      .poll_i   (poll),
+      .run_i    (run),
+      .fault_i  (fault),
+      .strange_i(strange),
+      .code_i   (code),
+      .info_i   (info),
+      .framing_i(framing),
+      .overrun_i(overrun),
+      .busy_o   (busy),
+      .status_i,
+      .take_o,
+      .found_i,
+      .blk_valid_o,
+      .answered_i,
+      .answer_code_i,
+      .answer_first_i,
+      .send_o   (send),
+      .reply_o  (reply),
+      .sent_i   (sent)
+  );
+
+  // Answers of a position tell which one, before the position itself.
+  assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
+
+  ppmc312_sender #(
+      .Width   (Width),
+      .CharsSum(CharsSum)
+  ) u_sender (
+      .clk_i,
+      .rst_ni,
+      .adr_i,
+      .step_i  (step),
+      .wrap_i  (wrap),
+      .send_i  (send),
+      .reply_i (reply),
+      .index_o (index),
+      .stored_i(rd_data_i),
+      .sent_o  (sent),
+      .txd_o,
+      .snd_o
+  );
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_bad_17, enable_i || !snd_o)
+  `PPMC_ASSERT(p312_prt_02, ready_i || !busy)
+`endif
+
+endmodule
+
+`default_nettype wire

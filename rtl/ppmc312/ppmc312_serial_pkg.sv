@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_serial_pkg: what the parts of the serial station say to each other: codes, polled reports, replies.
+// Rules:  sections 2.4 and 3.6; P312-SER-20, P312-SER-30, section 10.3 (END codes).
+`default_nettype none
+
+package ppmc312_serial_pkg;
+
+  // ---- an instruction code of the serial mode --------------------------------------------------------------------
+
+  typedef struct packed {
+    logic       known;
+    logic       local_read;  // the station answers it itself: 40, 4E, 4F
+    logic       embeds;      // an event registration: its block tells its own length
+    logic [7:0] code;        // of the same instruction on the parallel bus
+    logic [3:0] size;        // bytes of the parallel block, header to last parameter
+    logic       flagged;     // the first parameter is made here, not received
+    logic [7:0] flags;       // this is it
+    logic [2:0] reads;       // data bytes of the reply; 0: an acknowledgement
+  } serial_code_t;
+
+  localparam logic [7:0] S_END = 8'h40;
+  localparam logic [7:0] S_ERROR = 8'h4e;
+  localparam logic [7:0] S_COUNTS = 8'h4f;
+
+  // ---- what a poll would find ------------------------------------------------------------------------------------
+
+  typedef enum logic [1:0] {
+    DoneOverride = 2'b00,  // 28
+    DoneEvent    = 2'b01,  // 29
+    FailEvent    = 2'b10,  // 4A
+    FailOverride = 2'b11   // 4B
+  } triggered_e;
+
+  typedef struct packed {
+    logic [3:0]          item;       // class of the first report that waits; 0: none
+    triggered_e          triggered;  // class 2
+    ppmc312_pkg::cause_t cause;      // class 5; stays for the END code
+    logic                flag;       // class 6
+    logic [7:0]          data;
+    logic                outside;    // classes 7, 8
+  } poll_t;
+
+  function automatic logic [7:0] end_code(ppmc312_pkg::cause_t c);
+    return {
+      2'b00,
+      {2{c != '0}},
+      c.nos || c.low,
+      c.dec || c.stp || c.del,
+      c.org || c.dec || c.stp || c.stl,
+      c.als || c.low || c.stp || c.stl
+    };
+  endfunction
+
+  // ---- a reply ---------------------------------------------------------------------------------------------------
+
+  // Coded as bits 5:4 of its control code.
+  typedef enum logic [1:0] {
+    KindBusy     = 2'b00,
+    KindReady    = 2'b01,
+    KindData     = 2'b10,
+    KindSpecific = 2'b11
+  } kind_e;
+
+  typedef struct packed {
+    kind_e           kind;
+    logic [2:0]      count;   // data bytes
+    logic            stored;  // they stand in the store of answers
+    logic [2:0][7:0] data;    // else these, data[0] first
+  } reply_t;
+
+endpackage
+
+`default_nettype wire
