@@ -13,7 +13,9 @@ from .. import __version__
 from ..host import OutOfRange, Ppmc312, Ppmc2104, PpmcError, serial_ports, units
 from ..host.link import DEFAULT_BAUD
 from . import show, show312
+from .bus_session import LINE_WORDS
 from .forecast import key_figures, plot_move
+from .group import PartGroup
 from .options import Side, with_setup
 from .overrides import Override, parse_override, register, watch
 from .player import Player, check_speeds, check_steps, positions, stop_all
@@ -25,6 +27,7 @@ XTAL_HZ = 16_000_000
 
 app = typer.Typer(
     name="openppmc",
+    cls=PartGroup,
     help="Drive stepper controllers of the PPMC family through their UART bridge.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -72,17 +75,23 @@ def options(
         str,
         typer.Option("--port", "-p", envvar="OPENPPMC_PORT", help="/dev/ttyUSB0, COM3, sim:… or model:…"),
     ] = "",
-    baud: Annotated[int, typer.Option(help="line rate to work with")] = DEFAULT_BAUD,
+    baud: Annotated[
+        int | None,
+        typer.Option(help=f"line rate to work with ({DEFAULT_BAUD}; ppmc312-serial: 19200, 38400 or 83333)"),
+    ] = None,
     part: Annotated[
         PartName | None,
         typer.Option(envvar="OPENPPMC_PART", help="the part (what the board has; virtual: ppmc104)"),
     ] = None,
+    line: Annotated[
+        str, typer.Option(envvar="OPENPPMC_LINE", metavar="WORDS", help=f"ppmc312-serial: {LINE_WORDS}")
+    ] = "",
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="print it")
     ] = False,
 ) -> None:
     """Drive stepper controllers of the PPMC family through their UART bridge."""
-    BOARD.port, BOARD.baud, BOARD.part = port, baud, part
+    BOARD.port, BOARD.baud, BOARD.part, BOARD.line = port, baud, part, line
 
 
 # ---------------------------------------------------------------------- boards

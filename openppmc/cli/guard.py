@@ -83,6 +83,21 @@ class Guard:
             self._bars.start()
         self._bars.update(self._task, total=now.asked, completed=now.made, at=now.position)
 
+    def count_bar(self, what: str, done: int, of: int) -> None:
+        """Show or move a bar that counts; only on a terminal."""
+        if not sys.stderr.isatty():
+            return
+        if self._bars is None:
+            columns = (
+                TextColumn("{task.description}"),
+                BarColumn(),
+                TextColumn("{task.completed}/{task.total}"),
+            )
+            self._bars = Bars(*columns, console=Console(stderr=True), transient=True)
+            self._task = self._bars.add_task(what, total=of)
+            self._bars.start()
+        self._bars.update(self._task, completed=done)
+
     def bar_off(self) -> None:
         """The motion is over."""
         if self._bars is not None:
@@ -119,5 +134,7 @@ class Guard:
         try:
             at = [str(axis.position) for axis in part.axes]
         except PpmcError:
+            return f"interrupted: {how}"
+        if not at:
             return f"interrupted: {how}"
         return f"interrupted: {how}, position{'s' if len(at) > 1 else ''} {' and '.join(at)}"

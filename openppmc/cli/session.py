@@ -29,6 +29,7 @@ class PartName(str, Enum):
     PPMC2104 = "ppmc2104"
     STMC = "stmc"
     PPMC312 = "ppmc312"
+    PPMC312_SERIAL = "ppmc312-serial"
 
     @property
     def kind(self) -> Kind:
@@ -38,11 +39,13 @@ class PartName(str, Enum):
 
 @dataclass
 class Board:
-    """Which board, from the options in front of the command. part: None if the user named none."""
+    """Which board, from the options in front of the command. baud: None: what is usual. part: None if the
+    user named none. line: options of a line of ppmc312-serial."""
 
     port: str = ""
-    baud: int = DEFAULT_BAUD
+    baud: int | None = None
     part: PartName | None = None
+    line: str = ""
 
     @property
     def spec(self) -> str:
@@ -102,7 +105,7 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 def opened() -> Iterator[Session]:
     """The board, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
     number = None if BOARD.part is None else BOARD.part.kind.number
-    with Guard() as guard, open_part(BOARD.spec, BOARD.baud, number) as part:
+    with Guard() as guard, open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part:
         try:
             guard.check()
             yield Session(part, guard)

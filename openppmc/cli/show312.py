@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..host import Ppmc312, units
+from ..host import units
 from ..host.answers312 import (
     Alarm,
     EncoderChange,
@@ -16,6 +16,7 @@ from ..host.answers312 import (
     Report,
     Stopped,
 )
+from ..host.axis312 import Axis312
 from ..host.profile312 import Setup312
 from ..host.settings312 import TableRead
 from ..model.codes312 import Code, Source
@@ -28,7 +29,7 @@ _DONE = {
 }
 
 
-def status_values(part: Ppmc312) -> dict[str, Any]:
+def status_values(part: Axis312) -> dict[str, Any]:
     """Everything that may be read at any time."""
     status = part.status()
     return {
@@ -100,6 +101,8 @@ def report_line(report: Report) -> str:
     """One line for a report."""
     if isinstance(report, Executed):
         by = "override" if report.by is Source.OVERRIDE else "event"
+        if report.code is None:
+            return f"{by}: an instruction carried out"
         return f"{by}: {_DONE.get(Code(report.code), f'instruction {report.code:02X} carried out')}"
     if isinstance(report, (Failed, Alarm)):
         return str(report.error)

@@ -24,7 +24,7 @@ def state_folder() -> Path:
 
 def lasting(port: str) -> bool:
     """Virtual boards are new each time, so nothing is remembered for them."""
-    return bool(port) and not port.startswith((MODEL, SIM))
+    return bool(port) and not f"{port}:".startswith((MODEL, SIM))
 
 
 def _file(port: str, axis: int) -> Path:

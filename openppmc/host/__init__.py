@@ -49,7 +49,9 @@ from .motion import Motion, Progress
 from .parts import AnyPart, open_part
 from .ppmc104 import Ppmc104
 from .ppmc312 import Ppmc312
+from .ppmc312_bus import Ppmc312Bus
 from .ppmc2104 import Ppmc2104
+from .station312 import Station312
 from .stmc import Stmc
 from .transport import open_port, serial_ports
 
@@ -84,11 +86,13 @@ __all__ = [
     "Ppmc104",
     "Ppmc2104",
     "Ppmc312",
+    "Ppmc312Bus",
     "PpmcError",
     "Progress",
     "ProtocolError",
     "RampTooLong",
     "StartRefused",
+    "Station312",
     "Stmc",
     "StoppedEarly",
     "Timeout",

@@ -88,10 +88,11 @@ class Alarm:
 
 @dataclass(frozen=True)
 class Executed:
-    """An override or an event has carried an instruction out. data: what it answered."""
+    """An override or an event has carried an instruction out. code: which one, None in serial mode, where
+    nobody says it. data: what it answered."""
 
     by: Source
-    code: int
+    code: int | None
     data: bytes = b""
 
 

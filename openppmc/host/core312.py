@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import replace
+from typing import Protocol
 
 from ..model.codes312 import Code
 from . import blocks312
@@ -15,12 +16,29 @@ from .link import Link
 from .motion312 import Motion312
 from .profile312 import Setup312
 from .registers312 import Inputs312, Status312
-from .script import Script
-from .window312 import ANSWER_MS, Window
+from .window312 import ANSWER_MS, SHORTEST, Window
 
 MOST_KEPT = 1000
-RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
-"""Strap bits of the board: RUN, and the event inputs (0 = active)."""
+
+
+class Instructions(Protocol):
+    """What carries instructions to a part; `window312.Window` does by the bridge, `serial312` by a line."""
+
+    @property
+    def answers(self) -> int:
+        """Answers so far; reports that come after one are younger than its instruction."""
+
+    def open(self) -> None:
+        """After a reset of the part."""
+
+    def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
+        """Carry out an instruction block; returns the answer. Raises the part's refusal and LinkErrors."""
+
+    def more(self) -> Response:
+        """The next block of an answer of several."""
+
+    def collect(self) -> None:
+        """Read what waits."""
 
 
 class Core312:
@@ -41,9 +59,12 @@ class Core312:
         self.reports: deque[Report] = deque(maxlen=MOST_KEPT)
         self._motion: Motion312 | None = None
         self._mark = 0
-        self._straps = 0xFF
-        self.window = Window(link, self._arrived)
+        self.window = self._make_window()
         self.window.open()
+
+    def _make_window(self) -> Instructions:
+        """The way of instructions to the part and of responses back."""
+        return Window(self.link, self._arrived)
 
     @property
     def motion(self) -> Motion312 | None:
@@ -79,6 +100,10 @@ class Core312:
             report = response.report()
         except BadResponse as error:
             raise ProtocolError(f"{self.link.name}: {error}") from error
+        self._heard(report)
+
+    def _heard(self, report: Report) -> None:
+        """Give a report to the motion that it ends, or keep it."""
         motion = self._motion
         younger = self.window.answers > self._mark
         if isinstance(report, Stopped) and motion is not None and motion.end is None and younger:
@@ -176,12 +201,7 @@ class Core312:
         """Six general outputs, 0 to 63: a 1 makes its pin low."""
         self.instruct(blocks312.outputs(value))
 
-    # ------------------------------------------------------------------ reset and board
-
-    def reset(self) -> None:
-        """Reset of the part by its pin, in any state: pulses end at once, no table, position 0."""
-        self.link.execute(Script().reset())
-        self.forget()
+    # ------------------------------------------------------------------ reset
 
     def software_reset(self) -> None:
         """The part's own reset instruction; the same but for the pin."""
@@ -193,18 +213,3 @@ class Core312:
         self.setup = self._motion = None
         self.reports.clear()
         self.window.open()
-
-    def allow_run(self, on: bool) -> None:
-        """Level of the part's RUN input by the board's strap; a switch at the pin can still forbid."""
-        self._strap(RUN, on)
-
-    def pulse_event(self, event: int) -> None:
-        """A pulse at event input 1 or 2 by the board's strap: 30 ms long, so DATASHEET timing sees it too."""
-        bit = {1: EVENT_1, 2: EVENT_2}[blocks312.buffer_number(event) + 1]
-        self._strap(bit, False)
-        self.link.pause(0.03)
-        self._strap(bit, True)
-
-    def _strap(self, bit: int, high: bool) -> None:
-        self._straps = self._straps & ~bit | (bit if high else 0)
-        self.link.execute(Script().straps(self._straps))

@@ -95,7 +95,7 @@ _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
     0x26: (ParameterRefused, "the in-position range must be 1 to 65535"),
     0x27: (ParameterRefused, "the encoder range must be 1 to 65535"),
 }
-_STATES: dict[int, tuple[type[CommandRefused], str]] = {
+STATES: dict[int, tuple[type[CommandRefused], str]] = {
     State.INI: (NotInitialised, "the part has no table (power-up, reset, refused setting): initialise it"),
     State.NOR: (NothingToStop, "nothing to stop or to change: the motor is at rest"),
     State.ACC: (NotWhileBusy, "the part is busy with a motion (speed changing): wait, or stop it first"),
@@ -103,6 +103,7 @@ _STATES: dict[int, tuple[type[CommandRefused], str]] = {
     State.ABN: (InAlarm, ""),
     State.WRN: (HeldByRun, ""),
 }
+LIMIT = "it may not start: a limit switch of this direction is active: move the other way"
 _ALARMS = {
     0: "the alarm input is active: clear the drive's alarm, then clear the part's",
     1: "an instruction, override or event met an unread answer: read the part's reports more often, clear "
@@ -137,12 +138,10 @@ def refused312(code: int, parameters: bytes) -> CommandRefused | None:
     if code == Answer.STATUS:
         if first:
             return OutOfTurn(first)
-        state, text = _STATES.get(parameters[1], (NotWhileBusy, ""))
+        state, text = STATES.get(parameters[1], (NotWhileBusy, ""))
         return state(parameters[1], text)
     if code == Answer.LIMIT:
-        return StartRefused(
-            first, "it may not start: a limit switch of this direction is active: move the other way"
-        )
+        return StartRefused(first, LIMIT)
     if code == Answer.COMMAND:
         return UnknownCode(first)
     if code == Answer.SIZE:

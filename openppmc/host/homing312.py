@@ -11,16 +11,16 @@ from .homing import Homing
 from .motion import Progress
 
 if TYPE_CHECKING:
-    from .ppmc312 import Ppmc312
+    from .axis312 import Axis312
     from .units import Number
 
 
 class Homing312(Homing):
-    """One homing run; see `Ppmc312.home`. index: searches end at an index of the encoder."""
+    """One homing run; see `Axis312.home`. index: searches end at an index of the encoder."""
 
     def __init__(
         self,
-        axis: Ppmc312,
+        axis: Axis312,
         direction: int,
         search_pps: Number | None,
         back_off: int,

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from ..model.codes import PA_MAX, PA_MIN
 from ..model.codes_stmc import BOARD_CLOCK_HZ, TICK_XT
 from . import free312, profile312, units
+from .ascii312 import STATIONS, station_number
 from .ending import ALARM_INPUT
 from .errors import OutOfRange, WrongDevice
 
@@ -22,6 +23,7 @@ POSITIVE = "positive logic"
 LONG = "long intervals"
 PULSE_ONLY = "pulse only"
 COILS_OFF = "excitation off"
+FREE_CURVES = "free curves"
 AUX = "output AUX"
 PHASES = "phase outputs"
 OWN_STOP = "a deceleration of its own"
@@ -171,6 +173,8 @@ class Kind312(Kind):
         for wanted, what in (
             (half_step or phases != 4 or chop or positive_logic, PHASES),
             (long_intervals, LONG),
+            (stop_pps is not None or down_pulses is not None, OWN_STOP),
+            (curve is not None, FREE_CURVES),
         ):
             if wanted:
                 self.need(what)
@@ -181,6 +185,13 @@ class Kind312(Kind):
         slowest = start_pps if stop_pps is None else min(start_pps, stop_pps)
         clock = profile312.choose_clock(xtal_hz, slowest, base_clock, external_clock)
         return profile312.plan_setup(clock, start_pps, high_pps, ramp_pulses, stop_pps, down_pulses, sigmoid)
+
+
+class Kind312Line(Kind312):
+    """Stations of a line: their numbers begin with 0."""
+
+    def check_axis(self, axis: int) -> int:
+        return station_number(axis)
 
 
 class KindStmc(Kind):
@@ -242,15 +253,27 @@ PPMC312 = Kind312(
     312,
     "ppmc312",
     "PPMC-312",
-    has=frozenset((COILS_OFF, OWN_STOP, CURVES)),
+    has=frozenset((COILS_OFF, OWN_STOP, CURVES, FREE_CURVES)),
     outputs=63,
     lengths=(1, 0xFFFFFF),
     alarm=("alarm input", "clear the drive's alarm, then the part's"),
     origin_between=True,
     usual_ramp=2000,
 )
+PPMC312_SERIAL = Kind312Line(
+    312,
+    "ppmc312-serial",
+    "PPMC-312 in serial mode",
+    axes=STATIONS,
+    has=frozenset((COILS_OFF, CURVES)),
+    outputs=PPMC312.outputs,
+    lengths=PPMC312.lengths,
+    alarm=PPMC312.alarm,
+    origin_between=True,
+    usual_ramp=PPMC312.usual_ramp,
+)
 KINDS = {kind.number: kind for kind in (PPMC104, PPMC2104, STMC, PPMC312)}
-BY_WORD = {kind.word: kind for kind in KINDS.values()}
+BY_WORD = {kind.word: kind for kind in (*KINDS.values(), PPMC312_SERIAL)}
 
 
 def name_of(number: int) -> str:

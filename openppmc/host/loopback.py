@@ -6,8 +6,6 @@ breaks.
 
 from __future__ import annotations
 
-import time
-
 from ..model.board import Board
 from ..model.board104 import Board104
 from ..model.board312 import Board312
@@ -17,10 +15,9 @@ from ..model.bridge import Bridge
 from ..model.bridge_ops import RATES
 from ..model.plant import PLANT_WORDS, parse_machine, stmc_read_map
 from .errors import Disconnected, PortError
+from .pacer import Pacer
 
 BITS_PER_BYTE = 10
-_SLICE = 0.01
-_LAG = 0.25
 OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "unplug")
 
 
@@ -41,7 +38,7 @@ class ModelPort:
         try:
             machine = parse_machine(text)
             options = dict(machine.others)
-            self._speed = _speed(options.pop("speed", "1"))
+            self._pacer = Pacer(_speed(options.pop("speed", "1")))
             clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
             timing = options.pop("timing", "FAST").upper()
             self._unplug = float(options.pop("unplug", "inf"))
@@ -64,7 +61,6 @@ class ModelPort:
         self.board: Board = board
         axes = len(machine.plants)
         self.bridge = Bridge(board, board.NUMBER, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes)
-        self._origin = time.monotonic()
 
     # ------------------------------------------------------------------ port
 
@@ -73,8 +69,8 @@ class ModelPort:
         self._catch_up()
         end = self.board.seconds + timeout
         while not self._waiting and (left := end - self.board.seconds) > 0:
-            self._pass_time(left if self._speed is None else min(left, _SLICE * self._speed))
-            self._pace()
+            self._pass_time(self._pacer.step(left))
+            self._pacer.wait(self.board.seconds)
             self._check()
         data = bytes(self._waiting)
         self._waiting.clear()
@@ -120,25 +116,11 @@ class ModelPort:
         clk = count * BITS_PER_BYTE * self.board.clk_hz // self._baud
         self.board.run_until(self.board.t + clk)
 
-    def _pace(self) -> None:
-        """Do not run ahead of the wall clock; forget the lag of a model that cannot keep up."""
-        if self._speed is None:
-            return
-        ahead = self.board.seconds / self._speed - (time.monotonic() - self._origin)
-        if ahead > 0:
-            time.sleep(ahead)
-        elif ahead < -_LAG:
-            self._origin -= ahead
-
     def _catch_up(self) -> None:
         """The board went on while the program did something else."""
-        if self._speed is None:
-            return
-        behind = (time.monotonic() - self._origin) * self._speed - self.board.seconds
-        if behind > _SLICE:
-            end = self.board.seconds + behind
-            while (left := end - self.board.seconds) > 0:
-                self._pass_time(left)
+        end = self.board.seconds + self._pacer.behind(self.board.seconds)
+        while (left := end - self.board.seconds) > 0:
+            self._pass_time(left)
 
     # ------------------------------------------------------------------ bytes from the bridge
 

@@ -2,191 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from . import blocks312, units
-from .axis import CCW, CW
+from . import blocks312
+from .axis312 import Axis312
 from .device import Device
-from .ending import Cause, End
-from .errors import NothingToStop
-from .homing312 import Homing312
-from .kinds import PPMC312, PULSE_ONLY
-from .motion import Progress
-from .motion312 import Motion312
-from .overrides312 import Overrides312
+from .kinds import PPMC312
+from .link import Link
+from .script import Script
 
-OnProgress = Callable[[Progress], None]
+RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
+"""Strap bits of the board: RUN, and the event inputs (0 = active)."""
 
 
-class Ppmc312(Overrides312, Device):
+class Ppmc312(Axis312, Device):
     """One PPMC-312: part and axis in one object; see `device.Device`.
 
     Directions: 0 or CW, 1 or CCW. Speeds in pulses per second, those of motions within the table; pulses and
     positions signed, CW positive. Any method may raise LinkErrors; instructions raise what the part refuses
-    (CommandRefused, `errors312`). Settings and tables: `settings312`, overrides and events: `overrides312`,
-    registers and outputs: `core312`.
+    (CommandRefused, `errors312`). Motions: `axis312`, settings and tables: `settings312`, overrides and
+    events: `overrides312`, registers and outputs: `core312`.
     """
 
     kind = PPMC312
+
+    def __init__(self, link: Link) -> None:
+        self._straps = 0xFF
+        super().__init__(link)
 
     @property
     def axes(self) -> tuple[Ppmc312, ...]:  # type: ignore[override]
         return (self,)
 
-    # ------------------------------------------------------------------ motions
+    def reset(self) -> None:
+        """Reset of the part by its pin, in any state: pulses end at once, no table, position 0."""
+        self.link.execute(Script().reset())
+        self.forget()
 
-    def start_move(self, pulses: int, pulse_only: bool = False) -> Motion312:
-        """Begin a move with ramps: 1 to 2^32 - 1 pulses either way."""
-        if pulse_only:
-            self.kind.need(PULSE_ONLY)
-        return self._start(self.move_block(pulses), _side(pulses), abs(pulses))
+    def allow_run(self, on: bool) -> None:
+        """Level of the part's RUN input by the board's strap; a switch at the pin can still forbid."""
+        self._strap(RUN, on)
 
-    def start_constant(self, pulses: int, pps: units.Number) -> Motion312:
-        """Begin a move at constant speed, without ramps."""
-        return self._start(self.move_block(pulses, pps), _side(pulses), abs(pulses))
+    def pulse_event(self, event: int) -> None:
+        """A pulse at event input 1 or 2 by the board's strap: 30 ms long, so DATASHEET timing sees it too."""
+        bit = {1: EVENT_1, 2: EVENT_2}[blocks312.buffer_number(event) + 1]
+        self._strap(bit, False)
+        self.link.pause(0.03)
+        self._strap(bit, True)
 
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
-        """Move with ramps and wait. Raises LimitReached, AlarmStop, StoppedEarly if it ends early."""
-        if pulses == 0:
-            return self.told(End(Cause.COMPLETE, 0, 0, self.position, 0))
-        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
-
-    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
-        """Move with ramps to a position, and wait."""
-        return self.move(position - self.position, progress)
-
-    def move_constant(self, pulses: int, pps: units.Number, progress: OnProgress | None = None) -> End:
-        """Move at constant speed and wait; errors as `move`."""
-        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
-
-    def jog(
-        self,
-        direction: int,
-        speed: units.Number | None = None,
-        high: bool = False,
-        pulse_only: bool = False,
-    ) -> Motion312:
-        """Run until a stop, a limit or the alarm. speed: constant, in pps, default the start speed; high:
-        with a ramp to `speed`, default the high speed."""
-        if pulse_only:
-            self.kind.need(PULSE_ONLY)
-        if high:
-            rate = 0 if speed is None else self.rate_of(speed)
-        else:
-            rate = self._search_rate(speed)
-        return self._start(blocks312.run(direction, rate, high), direction)
-
-    def step(self, direction: int) -> End:
-        """One pulse."""
-        return self._start(blocks312.single_step(direction), direction, 1).wait().check(1)
-
-    def search(self, direction: int, pps: units.Number | None = None, index: bool = False) -> Motion312:
-        """Run at constant speed (default: start speed) until the origin, or until the index on it."""
-        return self._start(blocks312.origin_search(direction, self._search_rate(pps), index), direction)
-
-    def zero_return(self, direction: int, pps: units.Number | None = None, index: bool = False) -> Motion312:
-        """Run at high speed (or pps) to the origin, slow down past it and come back to it at the start speed.
-        Wants an origin switch that is active over a short way only."""
-        rate = 0 if pps is None else self.rate_of(pps)
-        return self._start(blocks312.zero_return(direction, rate, index), direction)
-
-    def home(
-        self,
-        direction: int = CCW,
-        search_pps: units.Number | None = None,
-        fast: bool = False,
-        to_limit: bool = False,
-        back_off: int = 100,
-        progress: OnProgress | None = None,
-        index: bool = False,
-    ) -> End:
-        """Find the origin switch from the far side and make its edge position 0.
-
-        direction: towards the switch. search_pps: default the start speed. fast: first a zero return at high
-        speed; to_limit: first to the slow-down limit at high speed and on to the hard limit. back_off: pulses
-        of each step off the switch when the search would begin on it. index: the origin is the first index of
-        the encoder on the switch. Raises OriginNotFound, LimitReached, AlarmStop, StoppedEarly.
-        """
-        return Homing312(self, direction, search_pps, back_off, progress, index).run(fast, to_limit)
-
-    # ------------------------------------------------------------------ while it runs
-
-    def change_speed(self, pps: units.Number, ramped: bool = True) -> None:
-        """Another speed of the table for the motion that runs: with a ramp (the speed must be constant now)
-        or at once. NothingToStop at rest, NotWhileBusy on a ramp."""
-        self.instruct(blocks312.change(self.rate_of(pps), ramped))
-
-    def stop(self, wait: bool = True) -> End | None:
-        """Stop with a ramp. Returns the End, None if not waited for.
-
-        A motor that has just come to rest is fine; NothingToStop if it was at rest, HeldByRun if the start
-        still waits for RUN.
-        """
-        return self._stop(False, wait)
-
-    def halt(self, wait: bool = True) -> End | None:
-        """Stop at once; steps may be lost at high speed. As `stop` otherwise."""
-        return self._stop(True, wait)
-
-    def brake(self, now: bool = False) -> None:
-        """Stop a motion that this object started, without waiting; fine if it has ended by itself."""
-        try:
-            self.instruct(blocks312.immediate_stop() if now else blocks312.slow_stop())
-        except NothingToStop:
-            self.window.collect()
-            if self._motion is None or self._motion.end is None:
-                raise
-        else:
-            if self._motion is not None:
-                self._motion.stop_ordered = True
-
-    # ------------------------------------------------------------------ inside
-
-    def _stop(self, now: bool, wait: bool) -> End | None:
-        motion = self._motion
-        if motion is None or motion.end is not None:
-            # Perhaps one that another program, an override or an event started.
-            self._mark = self.window.answers
-            self._motion, before = Motion312(self, None, CW, None), motion
-            self._motion.stop_ordered = True
-            try:
-                self.instruct(blocks312.immediate_stop() if now else blocks312.slow_stop())
-            except BaseException:
-                self._motion = before
-                raise
-            motion = self._motion
-        else:
-            motion.stop_ordered = True
-            self.brake(now)
-        return motion.wait() if wait else None
-
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion312:
-        """Start a motion; its end may be reported in the same message as its answer."""
-        before, begin = self._motion, self.position
-        self._mark = self.window.answers
-        self._motion = motion = Motion312(self, asked, direction, begin)
-        self.link.forget_events()
-        try:
-            data = self.instruct(block, 4)
-        except BaseException:
-            self._motion = before
-            raise
-        motion.accepted(data[0] if data else None)
-        return motion
-
-    def _search_rate(self, pps: units.Number | None) -> int:
-        """Rate of a constant speed, by default the start speed that is really reached."""
-        if pps is not None:
-            return self.rate_of(pps)
-        setup = self.known_setup()
-        return setup.table.rates[setup.table.sa]
-
-    @property
-    def search_speed(self) -> units.Number:
-        """Speed of searches and jogs that name none, in pps. OutOfRange without a setup."""
-        setup = self.known_setup()
-        return setup.clock.speed(setup.table.rates[setup.table.sa])
-
-
-def _side(pulses: int) -> int:
-    return CCW if pulses < 0 else CW
+    def _strap(self, bit: int, high: bool) -> None:
+        self._straps = self._straps & ~bit | (bit if high else 0)
+        self.link.execute(Script().straps(self._straps))

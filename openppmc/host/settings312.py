@@ -54,7 +54,7 @@ class Settings312(Core312):
         event buffers are emptied. Raises OutOfRange, and NotWhileBusy during a motion.
         """
         return self.apply(
-            PPMC312.plan(
+            self.kind.plan(
                 self.link.identity.xtal_hz,
                 start_pps,
                 high_pps,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import time
-from typing import Protocol
+from collections.abc import Callable
+from typing import Any, Protocol
 
 import serial
 from serial.tools import list_ports
@@ -14,7 +15,6 @@ from .errors import Disconnected, PortError
 
 BASE_BAUD = 115_200
 SIM, MODEL = "sim:", "model:"
-_SLICE = 0.02
 _GONE = "the port went away: check the cable, plug the board in and run the command again"
 
 
@@ -42,20 +42,30 @@ class Port(Protocol):
 class SerialPort:
     """A device node through pyserial, opened exclusively."""
 
+    SLICE = 0.02
+
     def __init__(self, path: str, baud: int = BASE_BAUD) -> None:
         self.name = path
         try:
-            self._serial = serial.Serial(path, baud, timeout=_SLICE, write_timeout=2, exclusive=True)
+            self._serial = self._open(path, baud)
         except (OSError, ValueError, serial.SerialException) as error:
             raise PortError(_why_not(path, error)) from error
 
+    def _open(self, path: str, baud: int) -> serial.SerialBase:
+        return serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
+
     def read(self, timeout: float) -> bytes:
         end = time.monotonic() + timeout
+        least = int(timeout > 0)
+        while True:
+            data = self._guarded(lambda: self._serial.read(max(least, self._serial.in_waiting)))
+            if data or time.monotonic() >= end:
+                return data
+
+    def _guarded(self, action: Callable[[], bytes]) -> bytes:
+        """What an access to the port gives. Raises Disconnected."""
         try:
-            while True:
-                data = self._serial.read(max(1, self._serial.in_waiting))
-                if data or time.monotonic() >= end:
-                    return data
+            return action()
         except (OSError, TypeError, serial.SerialException) as error:
             raise Disconnected(f"{self.name}: {_GONE}") from error
 
@@ -93,13 +103,11 @@ class SimPort(SerialPort):
 
     def __init__(self, text: str, baud: int = BASE_BAUD) -> None:
         try:
-            from openppmc import sim
+            self._board = self._start(text)
         except ImportError as error:
             raise PortError(
                 f"sim: the virtual board is not installed ({error}): try model: instead"
             ) from error
-        try:
-            self._board = sim.start(text)
         except (OSError, RuntimeError, ValueError) as error:
             raise PortError(f"sim: {error}") from error
         try:
@@ -108,6 +116,11 @@ class SimPort(SerialPort):
             self._board.close()
             raise
         self.name = SIM + text
+
+    def _start(self, text: str) -> Any:
+        from openppmc import sim
+
+        return sim.start(text)
 
     def close(self) -> None:
         super().close()
@@ -145,6 +158,8 @@ def _why_not(path: str, error: Exception) -> str:
     """Cause and cure of a failed open."""
     code = getattr(error, "errno", None)
     text = str(error)
+    if "://" in path:
+        return f"{path}: cannot be opened ({' '.join(text.split())}): check address and network"
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or not (os.path.exists(path) or os.name == "nt"):
         return f"{path}: no such port; {describe_ports()}"
     if "lock" in text or code == errno.EBUSY:

@@ -8,16 +8,22 @@ It is built from a checkout of the project; docs/virtual_board.md has the words 
 
 from .board import AxisStatus, SimBoard, Status, start
 from .build import SimError
+from .line_child import LineStatus, SimLine, start_line
+from .line_spec import is_line
 from .spec import KNOWN, Spec, SpecError, parse_spec
 
 __all__ = [
     "KNOWN",
     "AxisStatus",
+    "LineStatus",
     "SimBoard",
     "SimError",
+    "SimLine",
     "Spec",
     "SpecError",
     "Status",
+    "is_line",
     "parse_spec",
     "start",
+    "start_line",
 ]

@@ -10,9 +10,15 @@ from pathlib import Path
 
 from .board import AxisStatus, SimBoard, Status, start
 from .build import SimError
+from .line_child import SimLine, start_line
+from .line_spec import KNOWN as LINE_KNOWN
+from .line_spec import PART, is_line
 from .spec import KNOWN, SpecError
 
-USAGE = f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md"
+USAGE = (
+    f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md\n"
+    f"part={PART}: {LINE_KNOWN}"
+)
 LIVE, PLAIN = 0.2, 30.0
 SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp"))
 ALARM = {"stmc": "MON low"}
@@ -43,11 +49,15 @@ def motor(axis: AxisStatus, alarm: str) -> str:
     return f"position {axis.position:8}  {'at rest' if axis.hold else 'moving':7}  active: {switches}"
 
 
-def show(board: SimBoard) -> None:
+def show(board: SimBoard | SimLine) -> None:
     """Status until the board ends: a live line on a terminal, else a line now and then."""
     live = sys.stdout.isatty()
     while True:
-        text = line(board.status(), ALARM.get(board.spec.part, "ALM"))
+        text = (
+            board.status().text()
+            if isinstance(board, SimLine)
+            else line(board.status(), ALARM.get(board.spec.part, "ALM"))
+        )
         if live:
             columns = shutil.get_terminal_size().columns
             print(f"\r{text[: columns - 1]:{columns - 1}}", end="", flush=True)
@@ -65,13 +75,14 @@ def main(arguments: list[str]) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         text, link = split_link(",".join(arguments))
-        with start(text) as board:
+        with start_line(text) if is_line(text) else start(text) as board:
             name = board.port
             if link is not None:
                 link.unlink(missing_ok=True)
                 link.symlink_to(board.port)
                 name = str(link)
-            print(f"virtual board at {name}; try: openppmc --port {name} info")
+            try_this = f"--part {PART} --port {name} scan" if is_line(text) else f"--port {name} info"
+            print(f"virtual board at {name}; try: openppmc {try_this}")
             print("Ctrl-C ends it", flush=True)
             show(board)
     except (SimError, SpecError, OSError) as error:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import subprocess
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
+from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 from .build import SimError, build
 from .spec import Spec, parse_spec
 
+Self = TypeVar("Self", bound="Child")
 _KINDS = {"int": int, "float": float, "bool": lambda text: text == "1", "str": str}
 
 
@@ -75,19 +77,16 @@ def _typed(kind: type[AxisStatus], values: dict[str, str]) -> dict[str, Any]:
     return {name: _KINDS[kinds[name]](text) for name, text in values.items()}
 
 
-class SimBoard:
-    """A virtual board that runs until `close`, the end of the `with` block or the end of this program.
+class Child:
+    """A board in a process of its own, which ends with `close`, with the end of the `with` block or with this
+    program. port: path of its pseudo-terminal. process: the child."""
 
-    port: path of the pseudo-terminal. process: the child. spec: what was asked for.
-    """
-
-    def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
-        self.spec = spec
-        program = build(spec.part, spec.parameters, spec.vcd is not None, say)
+    def __init__(self, command: Sequence[str | Path], env: dict[str, str] | None = None) -> None:
         try:
             # The program ends with its standard input, so with this process, however that ends.
             self.process = subprocess.Popen(
-                [program, *spec.arguments()],
+                command,
+                env=env,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 text=True,
@@ -111,8 +110,8 @@ class SimBoard:
         """False when the program has ended."""
         return self.process.poll() is None
 
-    def status(self) -> Status:
-        """What the board shows now. Raises SimError when the program has ended."""
+    def _ask_status(self) -> str:
+        """What the program answers to `status`. Raises SimError when it has ended."""
         assert self.process.stdin is not None
         try:
             with self._lock:
@@ -123,7 +122,7 @@ class SimBoard:
             line = ""
         if not line.startswith("status "):
             raise SimError("the virtual board has ended")
-        return Status.parse(line.removeprefix("status "))
+        return line.removeprefix("status ")
 
     def close(self) -> None:
         """End the program; allowed twice."""
@@ -140,13 +139,26 @@ class SimBoard:
             process.kill()
             process.wait()
 
-    def __enter__(self) -> SimBoard:
+    def __enter__(self: Self) -> Self:
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+class SimBoard(Child):
+    """A virtual board; see `Child`. spec: what was asked for."""
+
+    def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
+        self.spec = spec
+        program = build(spec.part, spec.parameters, spec.vcd is not None, say)
+        super().__init__([program, *spec.arguments()])
+
+    def status(self) -> Status:
+        """What the board shows now. Raises SimError when the program has ended."""
+        return Status.parse(self._ask_status())
 
 
 def start(spec: str = "", say: Callable[[str], None] | None = None, **options: object) -> SimBoard:

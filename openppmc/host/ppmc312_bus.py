@@ -1,0 +1,192 @@
+"""Driver of PPMC-312 in serial mode: up to sixteen stations on one line.
+
+with Ppmc312Bus.open("/dev/ttyUSB0", speed=38400) as bus:
+    x, y = bus.axis(0), bus.axis(5)
+    for axis in (x, y):
+        axis.initialise(start_pps=1000, high_pps=8000, ramp_pulses=4000)
+    bus.wait([x.start_move(2500), y.start_move(-1200)])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+
+from serial.rs485 import RS485Settings
+
+from .answers312 import Report
+from .ascii312 import SPEEDS, STATIONS, SumMode
+from .device import Device
+from .ending import End
+from .errors import CommandRefused, NothingToStop, NotInitialised, OutOfRange, PpmcError
+from .errors_serial312 import DuplicateAddress, GarbledReply, StationSilent
+from .kinds import PPMC312_SERIAL
+from .line312 import PATIENCE, XTAL_HZ, Counters, Line
+from .motion import Progress
+from .registers312 import Status312
+from .serial312 import VERSION
+from .station312 import POLL_EVERY, ErrorCounts, SerialMotion, Station312, wait_all
+from .transport import Port
+
+SCAN_ATTEMPTS = 2
+
+
+@dataclass(frozen=True)
+class Found:
+    """A station that `scan` has found.
+
+    version, status, position: None if its replies are garbled. errors: its own error counters, which this
+    has cleared; None if it could not be asked (motion, alarm). counters: of the master. trouble: what is
+    wrong, empty if nothing is.
+    """
+
+    station: int
+    version: int | None
+    status: Status312 | None
+    position: int | None
+    errors: ErrorCounts | None
+    counters: Counters = field(repr=False)
+    trouble: str = ""
+
+
+class Ppmc312Bus(Device):
+    """A line (`line312.Line`) with its stations, which `axis` gives; see `device.Device`.
+
+    Leaving its `with` block by an exception decelerates motions that this object started.
+    """
+
+    kind = PPMC312_SERIAL
+
+    def __init__(self, line: Line) -> None:
+        self.line = self.link = line  # type: ignore[assignment]
+        self._stations: dict[int, Station312] = {}
+
+    @classmethod
+    def open(  # type: ignore[override]
+        cls,
+        spec: str | Port,
+        speed: int = SPEEDS[0],
+        sum_mode: SumMode = SumMode.BINARY,
+        echo: bool = False,
+        rs485: RS485Settings | None = None,
+        patience: float = PATIENCE,
+        xtal_hz: int = XTAL_HZ,
+    ) -> Ppmc312Bus:
+        """Open a port; arguments as those of `line312.Line`. Says nothing on the line."""
+        return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
+
+    def axis(self, station: int) -> Station312:
+        """The station with this number, 0 to 15, whether it is there or not; always the same object."""
+        if station not in self._stations:
+            self._stations[station] = Station312(self.line, station)
+        return self._stations[station]
+
+    @property
+    def axes(self) -> tuple[Station312, ...]:  # type: ignore[override]
+        """The stations in use so far."""
+        return tuple(self._stations[number] for number in sorted(self._stations))
+
+    # ------------------------------------------------------------------ who is there
+
+    def scan(
+        self, stations: Iterable[int] = range(STATIONS), progress: Callable[[int], None] | None = None
+    ) -> list[Found]:
+        """Ask who is there; progress: called with each number before it is asked. Reads and clears the error
+        counters of stations at rest. Takes twice the patience for each address without a station."""
+        found = []
+        for number in stations:
+            if progress is not None:
+                progress(number)
+            axis = self._stations.get(number) or Station312(self.line, number)
+            if (one := self.look(axis)) is not None:
+                self._stations.setdefault(number, axis)
+                found.append(one)
+        return found
+
+    def look(self, axis: Station312) -> Found | None:
+        """One station, None if there is none."""
+        counters, heard = axis.counters, axis.counters.garbled
+        try:
+            version = axis.window.request(bytes([VERSION]), attempts=SCAN_ATTEMPTS).data[0]
+        except StationSilent:
+            return None
+        except GarbledReply:
+            return Found(axis.number, None, None, None, None, counters, _GARBLED)
+        try:
+            status, position = axis.status(), axis.position
+            axis.inputs()
+            try:
+                errors = axis.error_counts()
+            except CommandRefused:
+                errors = None
+        except GarbledReply:
+            return Found(axis.number, version, None, None, None, counters, _GARBLED)
+        trouble = _NOISE if counters.garbled > heard else ""
+        return Found(axis.number, version, status, position, errors, counters, trouble)
+
+    def check(self, stations: Iterable[int]) -> None:
+        """All of these answer. Raises StationSilent, or DuplicateAddress where only garbled replies come."""
+        for number in stations:
+            one = self.look(self.axis(number))
+            if one is None:
+                raise StationSilent(
+                    f"{self.line.name}: no station {number}: is it powered, are address and speed right?"
+                )
+            if one.trouble == _GARBLED:
+                raise DuplicateAddress(f"{self.line.name}: station {number}: {_GARBLED}")
+
+    # ------------------------------------------------------------------ several at once
+
+    def poll(self, stations: Iterable[int] | None = None) -> dict[int, list[Report]]:
+        """Poll stations (default: those in use) once; what they report, for those that report something."""
+        polled = {axis.number: axis.poll() for axis in self._chosen(stations)}
+        return {number: reports for number, reports in polled.items() if reports}
+
+    def wait(
+        self,
+        motions: Sequence[SerialMotion | Station312] | None = None,
+        timeout: float | None = None,
+        progress: Callable[[Progress], None] | None = None,
+    ) -> list[End]:
+        """Wait until motions, or the motions of stations (default: of all in use), are over; does not judge.
+
+        timeout: s, None for ever; Timeout leaves the rest running. progress: called about ten times a second.
+        """
+        wanted = self.axes if motions is None else motions
+        chosen = [one.motion if isinstance(one, Station312) else one for one in wanted]
+        if motions is not None and None in chosen:
+            raise OutOfRange("this station was started by nobody: start it first")
+        return wait_all([one for one in chosen if isinstance(one, SerialMotion)], timeout, progress)
+
+    def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[End]:
+        """Stop stations (default: those in use) and wait; all are told before an error is raised. Those at
+        rest are passed over."""
+        errors: list[PpmcError] = []
+        moving = []
+        for axis in self._chosen(stations):
+            try:
+                (axis.halt if now else axis.stop)(wait=False)
+                moving.append(axis)
+            except (NothingToStop, NotInitialised):
+                pass
+            except PpmcError as error:
+                errors.append(error)
+        ends = self.wait(moving)
+        if errors:
+            raise errors[0]
+        return ends
+
+    def attend(self, seconds: float) -> None:
+        """Let time pass, and poll the stations in use."""
+        end = self.line.clock() + seconds
+        while (left := end - self.line.clock()) > 0:
+            for axis in self.axes:
+                axis.window.collect()
+            self.line.pause(min(left, POLL_EVERY))
+
+    def _chosen(self, stations: Iterable[int] | None) -> list[Station312]:
+        return list(self.axes) if stations is None else [self.axis(number) for number in stations]
+
+
+_GARBLED = "only garbled replies: noise, another speed or checksum rule, or two stations with this address"
+_NOISE = "some replies were garbled: noise, missing termination, or two stations with this address"

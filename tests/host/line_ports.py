@@ -1,0 +1,96 @@
+"""Ports for tests of a line: one that spoils frames and replies of a modelled line, one that plays a text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openppmc.host import Ppmc312Bus
+from openppmc.host.line_loopback312 import ModelLine
+
+LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "break reply", "break frame"
+BAUD = 38_400
+
+
+class Spoiled(ModelLine):
+    """A modelled line. frames: all that was sent. plan: says what happens to a frame, or None."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text, BAUD)
+        self.frames: list[bytes] = []
+        self.plan: Callable[[bytes], str | None] = lambda frame: None
+        self._fate: str | None = None
+
+    def write(self, data: bytes) -> None:
+        self.frames.append(data)
+        self._fate = self.plan(data)
+        if self._fate == LOSE_FRAME:
+            self.line.run(round(len(data) * 10 * self.line.bit))
+        elif self._fate == BREAK_FRAME:
+            super().write(data[:-1] + bytes([data[-1] ^ 1]))
+        else:
+            super().write(data)
+
+    def read(self, timeout: float) -> bytes:
+        end = self.clock() + timeout
+        data = super().read(timeout)
+        if data and self._fate == LOSE_REPLY:
+            while (left := end - self.clock()) > 0:
+                super().read(left)
+            return b""
+        if data and self._fate == BREAK_REPLY:
+            self._fate = None
+            return bytes([data[0] ^ 8]) + data[1:]
+        return data
+
+
+def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
+    """A plan: the first `times` frames with this serial code meet that fate."""
+    left = times
+
+    def plan(frame: bytes) -> str | None:
+        nonlocal left
+        if left and frame[1:3] == f"{code:02x}".encode():
+            left -= 1
+            return fate
+        return None
+
+    return plan
+
+
+class Played:
+    """A port that answers each frame with the next text, whatever it was. Time passes only here."""
+
+    name = "played"
+
+    def __init__(self, *replies: str, echo: bool = False) -> None:
+        self.replies = [bytes.fromhex(reply) for reply in replies]
+        self.frames: list[bytes] = []
+        self._echo = echo
+        self._now = 0.0
+        self._waiting = b""
+
+    def read(self, timeout: float) -> bytes:
+        data, self._waiting = self._waiting, b""
+        if not data:
+            self._now += timeout
+        return data
+
+    def write(self, data: bytes) -> None:
+        self.frames.append(data)
+        reply = self.replies.pop(0) if self.replies else b""
+        self._waiting += (data if self._echo else b"") + reply
+
+    def set_baud(self, baud: int) -> None:
+        pass
+
+    def clock(self) -> float:
+        return self._now
+
+    def close(self) -> None:
+        pass
+
+
+def spoiled(text: str = "stations=2") -> tuple[Spoiled, Ppmc312Bus]:
+    """Such a port, and a bus on it."""
+    port = Spoiled("speed=max," + text)
+    return port, Ppmc312Bus.open(port, BAUD)
