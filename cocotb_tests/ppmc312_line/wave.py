@@ -1,0 +1,42 @@
+"""Characters as levels of a line: start bit, eight data bits, stop bit, at any speed."""
+
+from __future__ import annotations
+
+from math import ceil
+
+Wave = list[tuple[int, int]]
+"""(edge of clk from which on, level) changes of a line that is high before; the end is high again."""
+
+
+def wave(data: bytes, start: float, bit: float, gap: float = 0.0) -> Wave:
+    """Levels of characters from time `start` on, each followed by `gap` more bits; times in clk."""
+    changes: Wave = []
+    level, at = 1, start
+    for byte in data:
+        for number, bit_level in enumerate((0, *(byte >> place & 1 for place in range(8)), 1)):
+            if bit_level != level:
+                level = bit_level
+                changes.append((ceil(at + number * bit), level))
+        at += (10 + gap) * bit
+    return changes
+
+
+def length(data: bytes, bit: float, gap: float = 0.0) -> float:
+    """clk that characters take."""
+    return len(data) * (10 + gap) * bit
+
+
+def merged(*waves: Wave) -> Wave:
+    """Several drivers at once: low as soon as one of them is low."""
+    changes: Wave = []
+    levels = [1] * len(waves)
+    for t, number, level in sorted((t, i, level) for i, one in enumerate(waves) for t, level in one):
+        before = min(levels)
+        levels[number] = level
+        if min(levels) == before:
+            continue
+        if changes and changes[-1][0] == t:
+            changes.pop()  # low for no time at all
+        else:
+            changes.append((t, min(levels)))
+    return changes
