@@ -1,6 +1,7 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc ppmc312
+PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc ppmc312 \
+         $(if $(filter demo board soak bench,$(MAKECMDGOALS)),ppmc312-serial)
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))

@@ -79,8 +79,13 @@ def main() -> int:
     """Measure and write docs/benchmarks.md."""
     parser = argparse.ArgumentParser(prog="bench.py", description=__doc__)
     parser.add_argument("--part", default="ppmc104")
+    name = parser.parse_args().part
+    if name == "ppmc312-serial":
+        from scripts import bench_line
+
+        return bench_line.main()
     try:
-        part = project.part(parser.parse_args().part).name
+        part = project.part(name).name
         recording, times = measure(part)
     except SimError as error:
         return project.fail(str(error))

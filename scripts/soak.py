@@ -1,5 +1,6 @@
 """`make soak SEED= COUNT=`: random hosts without end, each against the golden model, edge by edge.
 
+With PART=ppmc312-serial: random streams on a line of stations (`soak_line`).
 Seeds S, S+1, … S+N-1 run on J worker processes. A failure does not stop the rest; at the end the failing
 seeds are listed with the line that repeats each. Exit code 1 if any failed.
 """
@@ -22,12 +23,15 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from scripts import soak_line
 from scripts.pool import as_done
 from scripts.project import ProjectError, console, part
 
 
 def one(part_name: str, seed: int) -> tuple[int, str, str]:
     """Run one seed in this process; returns (seed, test id, message or "")."""
+    if part_name == soak_line.NAME:
+        return soak_line.one(seed)
     from cocotb_tests.common.runner import attempt
 
     item = importlib.import_module(f"cocotb_tests.{part_name}.test_random").random_item(seed)
@@ -65,7 +69,10 @@ def soak(part_name: str, first: int, count: int, jobs: int) -> int:
         for seed, name in sorted(failures):
             console.print(f"  make test T={name} SEED={seed}", markup=False)
         return 1
-    console.print(f"{done} seeds passed: every output edge as in the golden model")
+    told = "every output edge as in the golden model"
+    if part_name == soak_line.NAME:
+        told = soak_line.summary(first, done)
+    console.print(f"{done} seeds passed: {told}")
     return 0 if done == count else 130
 
 
@@ -80,7 +87,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2, help="worker processes")
     given = parser.parse_args(arguments)
     try:
-        part(given.part)
+        if given.part != soak_line.NAME:
+            part(given.part)
         if given.count < 1 or given.jobs < 1:
             raise ProjectError("--count and --jobs must be 1 or more")
     except ProjectError as error:

@@ -3,8 +3,7 @@
 The rules are the rows `| P104-ABC-NN | text |` and `| AC-NN | text |` of docs/<part>.md (in that of stmc also
 `| J105-NN | text |`), the results are build/trace/results.jsonl, written by the last test runs. The outcome
 is docs/traceability/<part>.md. Exit code 1, with a list, if a rule has no passing test, a test names an
-unknown rule, or a test failed. Rules of what is not built yet (`LATER`) need no test; they have a table of
-their own, and a test that names one of them is a problem, too: then the entry is out of date.
+unknown rule, or a test failed.
 """
 
 from __future__ import annotations
@@ -27,22 +26,6 @@ RESULTS = BUILD / "trace" / "results.jsonl"
 # Designs whose rules and acceptance checks are in the manual of another part.
 MANUAL_OF = {"j105_stmc": "stmc"}
 
-
-@dataclass(frozen=True)
-class Later:
-    """Rules of a part that wait for something that is not built: what, and a pattern for their whole IDs."""
-
-    what: str
-    rules: re.Pattern[str]
-
-
-LATER = {
-    "ppmc312": Later(
-        "serial mode",
-        re.compile(r"P312-(?:SER-\d\d|BAD-1[67]|CHK-(?:5[4-9]|6[0167]|73))"),
-    )
-}
-
 Record = Mapping[str, Any]
 
 
@@ -63,15 +46,11 @@ class Group:
 
 @dataclass
 class Trace:
-    """Rules joined with results; `problems` is empty when everything is covered and passes.
-
-    `later`: the rules that wait for something that is not built; `rules` has the others.
-    """
+    """Rules joined with results; `problems` is empty when everything is covered and passes."""
 
     rules: dict[str, str]
     groups: dict[str, list[Group]]
     problems: list[str]
-    later: dict[str, str] = field(default_factory=dict)
 
     def result(self, rule: str) -> str:
         """Word for the table: pass, FAIL or NO TEST."""
@@ -101,20 +80,14 @@ def load_records(path: Path, part_name: str) -> list[Record]:
 
 def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Trace:
     """Join rules and records; every gap and failure becomes a problem."""
-    waits = LATER[part_name].rules if part_name in LATER else None
-    later = {rule: text for rule, text in rules.items() if waits and waits.fullmatch(rule)}
-    rules = {rule: text for rule, text in rules.items() if rule not in later}
     found: dict[str, dict[str, Group]] = defaultdict(dict)
-    failed, unknown, early = [], [], []
+    failed, unknown = [], []
     for record in records:
         if record["outcome"] != "passed":
             failed.append(f"test {record['outcome']}: {record['test']}")
         for rule in record["rules"]:
             # AC-NN is numbered by each part for itself.
             if (part_of_rule(rule) or _part(record)) != part_name:
-                continue
-            if rule in later:
-                early.append(f"rule of the {LATER[part_name].what}, which waits: {rule} in {record['test']}")
                 continue
             if rule not in rules:
                 unknown.append(f"unknown rule {rule}: named by {record['test']}")
@@ -130,7 +103,7 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
         for rule in rules
         if not any(g.passed for g in groups.get(rule, []))
     ]
-    return Trace(rules, groups, [*bare, *unknown, *early, *failed], later)
+    return Trace(rules, groups, [*bare, *unknown, *failed])
 
 
 def _table(trace: Trace, rules: Sequence[str]) -> list[str]:
@@ -163,15 +136,6 @@ def page(trace: Trace, part_name: str) -> str:
     ]
     if checks:
         lines += ["", "## Acceptance checks", "", *_table(trace, checks)]
-    if trace.later:
-        what = LATER[part_name].what
-        lines += ["", f"## Later: {what}", ""]
-        lines += [
-            f"The {what} is not built yet. These {len(trace.later)} rules and checks have no tests.",
-            "",
-        ]
-        lines += ["| Rule | Statement |", "|---|---|"]
-        lines += [f"| {rule} | {text} |" for rule, text in trace.later.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -200,9 +164,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         console.print(f"error: {len(trace.problems)} traceability problems of {name}", markup=False)
         return 1
     tests = {group.name for groups in trace.groups.values() for group in groups}
-    waiting = f", {len(trace.later)} of the {LATER[name].what} wait" if trace.later else ""
     console.print(
-        f"{name}: all {len(trace.rules)} rules have passing tests ({len(tests)} tests){waiting}", markup=False
+        f"{name}: all {len(trace.rules)} rules have passing tests ({len(tests)} tests)", markup=False
     )
     return 0
 

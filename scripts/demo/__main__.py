@@ -18,7 +18,7 @@ from cocotb_tests.common.compare import Comparison, compare_recording, write_rep
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
-from scripts.demo import waves
+from scripts.demo import line312, waves
 from scripts.demo.demos import DEMOS, Demo
 from scripts.demo.steps import Steps
 from scripts.project import BUILD, ProjectError, console, fail, relative, run
@@ -159,18 +159,26 @@ def write_waves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any
     return [vcd, gtkw, sucl]
 
 
-def chosen(arguments: list[str] | None) -> Demo:
-    """The demo of the part that the command line names; ProjectError lists those there are."""
+def part_of(arguments: list[str] | None) -> str:
+    """The part that the command line names."""
     parser = argparse.ArgumentParser(prog="demo", description="A part through a move, compared and drawn.")
     parser.add_argument("--part", default="ppmc104")
-    name = parser.parse_args(arguments).part
+    return str(parser.parse_args(arguments).part)
+
+
+def chosen(arguments: list[str] | None) -> Demo:
+    """The demo of one part, which the command line names; ProjectError lists those there are."""
+    name = part_of(arguments)
     if name not in DEMOS:
-        raise ProjectError(f"PART={name}: there is no demo of it (there is one of {', '.join(DEMOS)})")
+        known = ", ".join((*DEMOS, line312.NAME))
+        raise ProjectError(f"PART={name}: there is no demo of it (there is one of {known})")
     return DEMOS[name]
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the demo; 0 when RTL and golden model agree in every edge."""
+    if part_of(arguments) == line312.NAME:
+        return line312.main()
     demo = chosen(arguments)
     steps = Steps()
     begin = time.monotonic()

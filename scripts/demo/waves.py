@@ -18,6 +18,7 @@ from cocotb_tests.common.part import PARTS
 from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 
+TEXTS = ("host.access", "line.question", "line.answer")
 LATEST_FALL = 2.1e-3  # s without a pulse: speed 0
 
 
@@ -117,7 +118,9 @@ def gtkwave(vcd: Path, target: Path, part: str, view: View, end_ps: int, marks: 
                 lines += ["@88420", names[name], "@20000", "-", "-", "-"]
             elif name.endswith(".pulses"):
                 lines += ["@24", names[name]]
-            elif name == "host.access":
+            elif name.endswith(".position"):
+                lines += ["@420", names[name]]
+            elif name in TEXTS:
                 lines += ["@20", names[name]]
             else:
                 lines += ["@22" if "[" in names[name] else "@28", names[name]]

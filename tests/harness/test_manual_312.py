@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -17,7 +18,18 @@ LONG = 60_000_000  # clk; nothing on the page takes longer
 
 
 class Player:
-    """One session. `lines` are those of the page."""
+    """One session on the bus. `lines` are those of the page."""
+
+    KINDS = {
+        "w": "write",
+        "r": "read",
+        ">": "send",
+        "<": "answer",
+        "pin": "pin",
+        "at": "at",
+        "ms": "ms",
+        "=": "count",
+    }
 
     def __init__(self) -> None:
         self.host = Host312()
@@ -28,7 +40,7 @@ class Player:
             kind, _, rest = line.partition(" ")
             # Two spaces begin a comment.
             words = re.split(r"\s{2,}", rest.strip())[0]
-            found = getattr(self, KINDS[kind])(words)
+            found = getattr(self, self.KINDS[kind])(words)
             assert found is None or found == words, f"{where}, line {number}: {line!r} gave {found}"
 
     def write(self, words: str) -> None:
@@ -69,21 +81,9 @@ class Player:
         return str(found)
 
 
-KINDS = {
-    "w": "write",
-    "r": "read",
-    ">": "send",
-    "<": "answer",
-    "pin": "pin",
-    "at": "at",
-    "ms": "ms",
-    "=": "count",
-}
-
-
-def chapters() -> dict[str, list[list[str]]]:
-    """Title of a chapter -> its sessions, one line each access."""
-    parts = re.split(r"^## (?=\d)", PAGE.read_text(encoding="utf-8"), flags=re.M)[1:]
+def chapters(page: Path) -> dict[str, list[list[str]]]:
+    """Title of a chapter with sessions -> its sessions, one line each access."""
+    parts = re.split(r"^##+ (?=\d)", page.read_text(encoding="utf-8"), flags=re.M)[1:]
     found = {}
     for text in parts:
         blocks = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
@@ -91,7 +91,7 @@ def chapters() -> dict[str, list[list[str]]]:
     return found
 
 
-CHAPTERS = chapters()
+CHAPTERS = chapters(PAGE)
 
 
 @pytest.mark.parametrize("title", CHAPTERS, ids=lambda title: title.split()[0])

@@ -63,37 +63,6 @@ def test_a_board_is_in_the_manual_of_its_part() -> None:
     assert join(rules, [{**record("a", "STMC-BUS-01"), "part": "stmc"}, board], "stmc").problems == []
 
 
-SERIAL = {"P312-PAR-01": "Registers", "P312-CHK-01": "Reset", "P312-SER-01": "UART", "P312-CHK-54": "Poll"}
-
-
-def of_312(test: str, *rules: str) -> dict[str, object]:
-    return {**record(test, *rules), "part": "ppmc312"}
-
-
-def test_rules_of_what_is_not_built_have_a_table_of_their_own() -> None:
-    trace = join(SERIAL, [of_312("a", "P312-PAR-01", "P312-CHK-01")], "ppmc312")
-    assert trace.problems == []
-    head, _, tail = page(trace, "ppmc312").partition("## Later: serial mode")
-    assert "1 of 1 rules and 1 of 1 acceptance checks" in head
-    assert "These 2 rules and checks have no tests." in tail
-    assert "| P312-SER-01 | UART |" in tail and "| P312-CHK-54 | Poll |" in tail
-
-
-def test_other_rules_cannot_wait() -> None:
-    trace = join(SERIAL, [of_312("a", "P312-CHK-01")], "ppmc312")
-    assert trace.problems == ["rule without a passing test: P312-PAR-01"]
-
-
-def test_test_of_what_is_not_built_is_a_problem() -> None:
-    trace = join(SERIAL, [of_312("a", "P312-PAR-01", "P312-CHK-01", "P312-CHK-54")], "ppmc312")
-    assert trace.problems == ["rule of the serial mode, which waits: P312-CHK-54 in t.py::t[a-f16]"]
-
-
-@pytest.mark.parametrize("rule", ["P312-CHK-53", "P312-CHK-62", "P312-CHK-65", "P312-CHK-68", "P312-BAD-15"])
-def test_rules_of_the_parallel_bus_do_not_wait(rule: str) -> None:
-    assert join({rule: "x"}, [], "ppmc312").problems == [f"rule without a passing test: {rule}"]
-
-
 def test_page_does_not_depend_on_the_order_of_results() -> None:
     records = [record(name, *RULES) for name in "cab"]
     assert page(join(RULES, records, "ppmc104"), "ppmc104") == page(

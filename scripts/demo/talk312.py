@@ -1,0 +1,104 @@
+"""Frames of the PPMC-312's line as pairs of question and answer, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openppmc.model.serial312 import END_CODES
+
+KINDS = {0x80: "busy", 0x90: "ready", 0xA0: "data", 0xB0: "specific"}
+CAUSES = {code: cause.name.lower().replace("_", " ") for cause, code in END_CODES.items()}
+STARTS = {0x83: "accelerate/decelerate, CW", 0xA3: "accelerate/decelerate, CCW"}
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """What the master sent from `begin` on and what came back until `end`; `replied` to it (all in clk)."""
+
+    begin: int
+    sent_end: int
+    replied: int
+    end: int
+    question: bytes
+    answer: bytes
+
+    @property
+    def station(self) -> int:
+        """Number of the station."""
+        return self.question[0] & 15
+
+    @property
+    def data(self) -> bytes:
+        """Data of the question; none of a poll."""
+        return bytes.fromhex(self.question[1:-1].decode())
+
+    @property
+    def code(self) -> int:
+        """Instruction code, 0 of a poll. The initial setting counts as 100h."""
+        return (self.data[0] or 0x100) if self.data else 0
+
+    @property
+    def kind(self) -> str:
+        """Kind of the answer; "" without one."""
+        return KINDS[self.answer[0] & 0xF0] if self.answer else ""
+
+    @property
+    def content(self) -> bytes:
+        """Data of the answer."""
+        return bytes.fromhex(self.answer[1:-1].decode())
+
+    @property
+    def sent(self) -> str:
+        """The question as characters: control code and checksum in hexadecimal, what is between as text."""
+        return as_text(self.question)
+
+    @property
+    def got(self) -> str:
+        """The answer as characters."""
+        return as_text(self.answer)
+
+    @property
+    def meaning(self) -> str:
+        """The question in words."""
+        data, number = self.data, f"station {self.station}: "
+        if not data:
+            return number + "poll"
+        if self.code == 0x100:
+            slow, fast, pulses = (int.from_bytes(data[a:b], "big") for a, b in ((2, 4), (4, 6), (6, 9)))
+            return f"{number}initial setting, rates {slow} to {fast}, {pulses} pulses"
+        if data[0] in STARTS:
+            return f"{number}{STARTS[data[0]]}, {int.from_bytes(data[3:7], 'big')} pulses"
+        return number + {0x42: "read pulse position"}.get(data[0], f"instruction {data[0]:02X}")
+
+    @property
+    def reply(self) -> str:
+        """The answer in words."""
+        if self.kind != "data":
+            return self.kind if self.kind != "specific" else f"report {self.content.hex()}"
+        if not self.code:
+            return f"stopped: {CAUSES.get(self.content[0], '?')}"
+        if self.code == 0x42:
+            return str(int.from_bytes(self.content, "big", signed=True))
+        return f"data {self.content.hex(' ')}"
+
+
+def as_text(frame: bytes) -> str:
+    """A frame on paper: 83 0a becomes `92 "0a" 6D`."""
+    if not frame:
+        return ""
+    middle = f' "{frame[1:-1].decode()}"' if len(frame) > 2 else ""
+    return f"{frame[0]:02X}{middle} {frame[-1]:02X}"
+
+
+def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
+    """Rows (begin, end, "master" or "station", characters in hexadecimal) in time, as exchanges."""
+    found: list[Exchange] = []
+    for begin, end, who, text in talk:
+        begin, end, data = int(begin), int(end), bytes.fromhex(str(text))
+        if who == "master":
+            found.append(Exchange(begin, end, end, end, data, b""))
+        elif found:
+            asked = found[-1]
+            found[-1] = Exchange(asked.begin, asked.sent_end, begin, end, asked.question, data)
+    return found

@@ -1,0 +1,112 @@
+"""Demo, soak and bench of the PPMC-312's line: frames in words, figures, a line of models. No simulator."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.part import PPMC312
+from cocotb_tests.demo.tb_demo_312_serial import PULSES, SETTING
+from cocotb_tests.ppmc312_line.master import Master, NoFrameError, Reply, at_once, understood
+from cocotb_tests.ppmc312_line.models import ModelLine, heard
+from cocotb_tests.ppmc312_line.setting import ALL, LINE, STATIONS
+from cocotb_tests.ppmc312_line.wave import merged, wave
+from openppmc.model.frames312 import frame
+from scripts import bench_line, soak_line
+from scripts.demo.__main__ import chosen, part_of
+from scripts.demo.talk312 import exchanges
+from scripts.demo.waves_line312 import view
+from scripts.project import ProjectError
+from scripts.soak import main as soak
+
+
+def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
+    """One question and its answer."""
+    return [(0, 100, "master", question.hex()), (200, 300, "station", answer.hex())]
+
+
+@pytest.mark.parametrize(
+    ("sent", "got", "meaning", "reply"),
+    [
+        (frame(0x83), frame(0x83), "station 3: poll", "busy"),
+        (frame(0x8F), frame(0xAF, b"\x38"), "station 15: poll", "stopped: normal"),
+        (frame(0x81), frame(0xB1, b"\x46"), "station 1: poll", "report 46"),
+        (frame(0x92, bytes.fromhex("a3 0000 00000064")), frame(0x92),
+         "station 2: accelerate/decelerate, CCW, 100 pulses", "ready"),
+        (frame(0x90, bytes.fromhex(SETTING)), frame(0x90),
+         "station 0: initial setting, rates 320 to 160, 864 pulses", "ready"),
+        (frame(0x94, b"\x42"), frame(0xA4, b"\xff\xff\xff\xfe"), "station 4: read pulse position", "-2"),
+    ],
+)  # fmt: skip
+def test_frames_in_words(sent, got, meaning, reply):
+    """Given one exchange on the line, then the demo says what it means."""
+    (one,) = exchanges(talk(sent, got))
+    assert (one.meaning, one.reply) == (meaning, reply)
+    assert (one.sent[:2], one.got[-2:]) == (f"{sent[0]:02X}", f"{got[-1]:02X}")
+
+
+def test_a_question_without_an_answer():
+    """Given two questions of which only the second is answered, then the first has no kind."""
+    rows = exchanges([(0, 10, "master", "817e"), *talk(frame(0x82), frame(0x92))])
+    assert [row.kind for row in rows] == ["", "ready"]
+
+
+def test_levels_of_a_line():
+    """Given the sheet's bits, then a character is low for its zeros, and two drivers make it low together."""
+    assert wave(b"\x55", 0, 10) == [(10 * number, number & 1) for number in range(10)]
+    assert wave(b"\xff", 5, 9.6) == [(5, 0), (15, 1)]
+    assert merged([(0, 0), (10, 1)], [(5, 0), (20, 1)]) == [(0, 0), (20, 1)]
+    assert merged([(0, 0), (10, 1)], [(10, 0), (20, 1)]) == [(0, 0), (20, 1)]
+
+
+def test_what_a_station_hears():
+    """Given a low driver of station 2, then the pins say who hears it."""
+    driven = ALL & ~(1 << 2)
+    levels = {**LINE.inputs, "hear_others": 1, "hear_self": 0}
+    assert [heard(levels, driven, number) for number in (1, 2)] == [0, 1]
+    assert [heard({**levels, "hear_others": 0, "hear_self": 1}, driven, n) for n in (1, 2)] == [1, 0]
+    assert heard({**levels, "noise": 1 << 1}, driven, 1) == 1
+    assert heard({**levels, "master": 0}, ALL, 7) == 0
+
+
+@pytest.mark.parametrize(
+    "data", ["", "81", "c17e", "816e", "a13338 27", "a1333826ff", "b1344C0d", "a1338a26"]
+)
+def test_what_is_no_frame(data):
+    """Given other characters than a frame, then they are refused."""
+    with pytest.raises(NoFrameError):
+        understood(bytes.fromhex(data))
+
+
+def test_a_line_of_models_answers():
+    """Given sixteen models on a line, then the polled one answers, in the window, and the master hears it."""
+    line = ModelLine()
+    at_once(line.until(8))
+    master = Master(line)
+    assert at_once(master.poll(11)) == Reply("ready", 11, b"")
+    assert at_once(master.exchange(frame(0x8B)[:1])) is None
+    assert [said.data for said in master.heard] == [frame(0x9B)]
+
+
+def test_demo_and_its_waves():
+    """Given the name of the line, then its demo is found by it, and each shown pin is one of a station."""
+    assert part_of(["--part", "ppmc312-serial"]) == "ppmc312-serial"
+    with pytest.raises(ProjectError, match="ppmc312, ppmc312-serial"):
+        chosen(["--part", "isa_4axis"])
+    names = {name.split(".")[1] for _, group in view(STATIONS).groups[1:] for name in group}
+    assert names - {"speed_pps", "position"} <= set(PPMC312.outputs)
+    assert len(PULSES) == STATIONS == 16 and min(PULSES) > 0
+
+
+def test_soak_counts_its_bytes(capsys):
+    """Given a thousand seeds, then more than 100 000 bytes have been on a line bit by bit."""
+    assert 1000 * soak_line.SIZE >= 100_000
+    assert "520,000 bytes on golden models, 2,400 on the RTL" in soak_line.summary(1, 1000)
+    assert "RTL" not in soak_line.summary(1, 10)
+    assert soak(["ppmc312-serial", "--count", "0"]) == 2
+    assert soak(["ppmc312-parallel"]) == 2
+
+
+def test_figures_against_the_goal():
+    """Given 8 million clk in 40 and in 60 s, then one reaches 1/50 of real time."""
+    rows = bench_line.rows_of([("a", 8_000_000, 70, 40), ("b", 8_000_000, 70, 60)], 8_000_000)
+    assert [row[-2:] for row in rows] == [["1/40", "reached"], ["1/60", "missed"]]
