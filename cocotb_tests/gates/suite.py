@@ -143,7 +143,7 @@ SIMULATING |= {
 TOO_LONG = {
     "p2104_ac_12_largest_ramp": "15 million clk; p2104_rmp_02_long_ramp_up has the same ramp",
     "p2104_ac_68_ramps_and_two_axes": "12 million clk in settings; p2104_ac_67_rate_bytes has the comparison",
-    "p312_transactions": "44 million clk; p312_motion, p312_abnormal and p312_bus have the same instructions",
+    "p312_transactions": "8 million clk; p312_motion, p312_abnormal and p312_bus have the same instructions",
     "p312_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
     **dict.fromkeys(
         (
