@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..model.codes import (
@@ -21,13 +20,13 @@ from .ending import Cause, End
 from .errors import AlreadyDecelerating, NothingToStop, OutOfRange
 from .homing import Homing
 from .kinds import PULSE_ONLY
-from .motion import READ_FINISH, Motion, Progress
+from .motion import READ_FINISH, Motion
+from .moves import Moves, OnProgress
 from .script import Script
 
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
 OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
-OnProgress = Callable[[Progress], None]
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ class Order:
         return self.operation in RAMP_OPERATIONS
 
 
-class Axis(AxisCore):
+class Axis(Moves, AxisCore):
     """One axis. Directions: 0 or CW, 1 or CCW. Speeds in pulses per second, pulses signed, CW positive.
 
     Any method may raise LinkErrors; commands raise the part's CommandRefused errors. A part says how its
@@ -91,20 +90,6 @@ class Axis(AxisCore):
     def start_constant(self, pulses: int, pps: units.Number) -> Motion:
         """Begin a move at constant speed, without ramps."""
         return self.start(self.move_order(pulses, pps))
-
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
-        """Move with ramps and wait. Raises LimitReached, AlarmStop, StoppedEarly if it ends early."""
-        if pulses == 0:
-            return self.nothing_to_move()
-        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
-
-    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
-        """Move with ramps to a reading of the pulse counter, and wait."""
-        return self.move(position - self.position, progress)
-
-    def move_constant(self, pulses: int, pps: units.Number, progress: OnProgress | None = None) -> End:
-        """Move at constant speed and wait; errors as `move`."""
-        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
     def jog(
         self,

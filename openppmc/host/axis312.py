@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from . import blocks312, units
 from .axis import CCW, CW
 from .ending import Cause, End
 from .errors import NothingToStop
 from .homing312 import Homing312
 from .kinds import PULSE_ONLY
-from .motion import Progress
 from .motion312 import Motion312
+from .moves import Moves, OnProgress
 from .overrides312 import Overrides312
 
-OnProgress = Callable[[Progress], None]
 
-
-class Axis312(Overrides312):
+class Axis312(Moves, Overrides312):
     """See `ppmc312.Ppmc312`."""
 
     make_motion = Motion312
@@ -34,19 +30,9 @@ class Axis312(Overrides312):
         """Begin a move at constant speed, without ramps."""
         return self._start(self.move_block(pulses, pps), _side(pulses), abs(pulses))
 
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
-        """Move with ramps and wait. Raises LimitReached, AlarmStop, StoppedEarly if it ends early."""
-        if pulses == 0:
-            return self.told(End(Cause.COMPLETE, 0, 0, self.position, 0))
-        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
-
-    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
-        """Move with ramps to a position, and wait."""
-        return self.move(position - self.position, progress)
-
-    def move_constant(self, pulses: int, pps: units.Number, progress: OnProgress | None = None) -> End:
-        """Move at constant speed and wait; errors as `move`."""
-        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
+    def nothing_to_move(self) -> End:
+        """The End of a move of 0 pulses."""
+        return self.told(End(Cause.COMPLETE, 0, 0, self.position, 0))
 
     def jog(
         self,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from ..model.codes2104 import CMND
 from . import units
-from .axis import Axis, OnProgress
+from .axis import Axis
 from .axis2104 import Axis2104
 from .device import Device
 from .ending import End
@@ -22,6 +22,7 @@ from .errors import (
 from .kinds import AXIS_BIT, PPMC2104
 from .link import Link
 from .motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
+from .moves import OnProgress
 from .registers2104 import Status
 from .script import Answer, Script
 

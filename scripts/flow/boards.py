@@ -166,7 +166,7 @@ TANGNANO20K = Board(
 def with_ppmc312() -> dict[str, Board]:
     """The boards that carry a PPMC-312: it is too large for an iCE40 and a Tang Nano 9K."""
     boards = (
-        replace(carrying("ppmc312", name), clk_hz=50_000_000, goal_mhz=50)
+        replace(carrying("ppmc312", name), clk_hz=50_000_000, goal_mhz=50, seeds=3)
         for name in ("ulx3s-25f", "ulx3s-85f")
     )
     return {board.name: board for board in (*boards, TANGNANO20K)}
