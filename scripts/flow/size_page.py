@@ -37,8 +37,8 @@ class Row:
         """Median Fmax, the lower one of two in the middle."""
         return self.fmax[(len(self.fmax) - 1) // 2]
 
-    def cells(self) -> list[str]:
-        """The row as text."""
+    def cells(self, seeds: int = 0) -> list[str]:
+        """The row as text; the number of its seeds in brackets if it has fewer than `seeds`."""
         share = ""
         if self.used:
             share = f"{100 * self.used['lut'] / self.used['lut_total']:.0f} %"
@@ -50,7 +50,8 @@ class Row:
             str(self.count.ram),
             share,
             f"{self.median:.1f}",
-            f"{self.fmax[0]:.1f} … {self.fmax[-1]:.1f}",
+            f"{self.fmax[0]:.1f} … {self.fmax[-1]:.1f}"
+            + ("" if len(self.fmax) >= seeds else f" ({len(self.fmax)})"),
             f"{self.clk_mhz:g} MHz" if self.clk_mhz else "",
         ]
 
@@ -103,14 +104,15 @@ def bridge_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
 
 def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
     """The whole block between a part's markers; `split` is empty when the part has no board top."""
+    few = ", or as many as stand in brackets" if any(len(row.fmax) < seeds for row in rows) else ""
     parts = [
         f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (on ECP5 a carry cell "
         "counts as two LUT, on Gowin an adder bit as one); Fmax of `clk` after place and route, median of "
-        f"{seeds} seeds. Part and board top (part and UART bridge, 24 MHz) with free pins, on UP5K "
+        f"{seeds} seeds{few}. Part and board top (part and UART bridge, 24 MHz) with free pins, on UP5K "
         "through shift registers; the bitstreams with their boards' constraints, *of the device* being the "
         "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
         f"fails when one has grown by more than {LIMIT} %.",
-        markdown_table(list(HEADS), [row.cells() for row in rows], left=2),
+        markdown_table(list(HEADS), [row.cells(seeds) for row in rows], left=2),
     ]
     if split:
         heads = [
