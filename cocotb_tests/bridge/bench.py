@@ -8,11 +8,11 @@ import signal
 from typing import Any
 
 import cocotb
-from cocotb.clock import Clock
 from cocotb.handle import Immediate
 from cocotb.triggers import Event, FallingEdge, RisingEdge, Timer, ValueChange, with_timeout
 from cocotb.utils import get_sim_time
 
+from cocotb_tests.common import native
 from cocotb_tests.common.config import Config
 from openppmc.host.frames import Broken, Deframer, encode
 
@@ -67,7 +67,7 @@ class Bench:
             getattr(dut, pin).value = level
         await Timer(bench.period // 2, "ps")
         dut.rst_ni.value = 0
-        Clock(dut.clk_i, bench.period, "ps").start(start_high=False)
+        native.clock(native.port("clk_i"), bench.period // 2)
         await Timer(4 * bench.period, "ps")
         dut.rst_ni.value = 1
         await bench.clocks(4)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import cocotb
-from cocotb.clock import Clock
 from cocotb.handle import Immediate
 from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
+from cocotb_tests.common import native
 from cocotb_tests.common.config import Config, configs
 from cocotb_tests.common.part import PPMC2104, BusStyle
 
@@ -67,7 +67,7 @@ async def start(dut: Any, busc: int) -> Host:
         getattr(dut, pin).value = level
     await Timer(PERIOD // 2, "ps")
     dut.lock.value = 0
-    Clock(dut.clk, PERIOD, "ps").start(start_high=False)
+    native.clock(native.port("clk"), PERIOD // 2)
     await Timer(4 * PERIOD, "ps")
     same("lamps in reset", int(dut.lamps.value), 0)
     dut.lock.value = 1

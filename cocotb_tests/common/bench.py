@@ -1,8 +1,8 @@
 """`Bench`: clock, reset, pin driver, edge monitors and time arithmetic around one part.
 
 Time is the index of rising clk edges; edge 0 is the first one that sees rst_n = 1 after the first reset.
-Pins are driven on falling edges: a change made now is stamped `bench.now`, the next rising edge. Monitors
-wake on value changes only, so a quiet second costs nothing in Python.
+Pins are driven on falling edges: a change made now is stamped `bench.now`, the next rising edge. Clock, pins
+and the recorder of output edges are those of the simulation's main program (`native`), which needs no Python.
 """
 
 from __future__ import annotations
@@ -15,11 +15,10 @@ from pathlib import Path
 from typing import Any
 
 import cocotb
-from cocotb.clock import Clock
 from cocotb.handle import Immediate
 from cocotb.triggers import First, Timer
-from cocotb.utils import get_sim_time
 
+from . import native
 from .config import F16, Config
 from .part import PPMC104, Part
 from .stimulus import Access, Change, Edge, Recording, level_at
@@ -50,9 +49,10 @@ class Bench:
         self.stimulus: list[Change] = []
         self.accesses: list[Access] = []
         self.initial: dict[str, int] = {}
-        self._log: list[Edge] = []
         self._edges: dict[str, list[tuple[int, int]]] = {}
+        self._watched: dict[int, list[tuple[int, int]]] = {}
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
+        self._ports = {name: native.port(name) for name in self._handles}
         self._t0 = 0
 
     # ---------------------------------------------------------------- start, reset
@@ -70,6 +70,7 @@ class Bench:
         """
         bench = cls(dut, part)
         bench._arm_wall_clock()
+        native.collect_seldom()
         # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0.
         dut.clk.set(Immediate(0))
         dut.rst_n.set(Immediate(1))
@@ -79,14 +80,15 @@ class Bench:
         await Timer(bench.half, "ps")
         dut.rst_n.value = 0
         # Falling edges lie half a period behind rising edges; the first edge is a rising one.
-        Clock(dut.clk, bench.period, "ps").start(start_high=False)
+        native.clock(native.port("clk"), bench.half)
         await Timer(bench.period * max(2, reset_clk), "ps")
-        bench._t0 = int(get_sim_time("ps")) + bench.half
+        bench._t0 = native.now() + bench.half
         bench._handles["rst_n"].value = 1
         bench.pins["rst_n"] = 1
         for pin, level in pins.items():
             if level != part.inputs[pin]:
                 bench.stimulus.append(Change(0, pin, level))
+        native.seen()  # what an earlier bench of this simulation has left
         for name in part.watched:
             bench.watch(name)
         if settle:
@@ -97,7 +99,12 @@ class Bench:
         """Record the edges of an output from now on; all but `part.unwatched` are recorded anyway."""
         self.initial[output] = self.level(output)
         self._edges[output] = []
-        cocotb.start_soon(self._monitor(output))
+        port = self._ports[output]
+        if port < 0:
+            cocotb.start_soon(self._monitor(output))
+        else:
+            self._watched[port] = self._edges[output]
+            native.watch(port)
 
     def _arm_wall_clock(self) -> None:
         """End this simulator process if it runs away (a test of seconds that takes minutes)."""
@@ -121,7 +128,7 @@ class Bench:
 
     def sim_time(self) -> int:
         """Simulation time in ps."""
-        return int(get_sim_time("ps"))
+        return native.now()
 
     def edge_time(self, edge: int) -> int:
         """Simulation time of rising edge `edge` in ps."""
@@ -130,7 +137,7 @@ class Bench:
     @property
     def now(self) -> int:
         """Index of the next rising clk edge: the stamp of a pin change made at this moment."""
-        return (int(get_sim_time("ps")) - self._t0) // self.period + 1
+        return (native.now() - self._t0) // self.period + 1
 
     async def until(self, edge: int) -> int:
         """Go to the falling clk edge before rising edge `edge` (then now == edge).
@@ -138,7 +145,7 @@ class Bench:
         Raises ValueError if that moment has passed.
         """
         target = self._t0 + (edge - 1) * self.period + self.half
-        delta = target - int(get_sim_time("ps"))
+        delta = target - native.now()
         if delta < 0:
             if self.now == edge:
                 return edge
@@ -154,7 +161,7 @@ class Bench:
     async def align(self) -> int:
         """Go to the next falling edge if just after a rising one; returns `now`."""
         target = self._t0 + (self.now - 1) * self.period + self.half
-        delta = target - int(get_sim_time("ps"))
+        delta = target - native.now()
         if delta > 0:
             await Timer(delta, "ps")
         return self.now
@@ -168,7 +175,7 @@ class Bench:
         KeyError for an unknown pin. Unchanged levels are neither driven nor logged.
         """
         stamp = self.now
-        if self._t0 + (stamp - 1) * self.period + self.half > int(get_sim_time("ps")):
+        if self._t0 + (stamp - 1) * self.period + self.half > native.now():
             raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
         for pin, level in levels.items():
             if self.pin(pin) != level:
@@ -187,12 +194,19 @@ class Bench:
         return [t for t, v in _bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
 
     def _drive(self, stamp: int, pin: str, level: int) -> None:
-        port, place = self.part.locate(pin)
-        if place is not None:
-            level = self.pins[port] & ~(1 << place) | level << place
+        port, level = self._levelled(pin, level)
         self.pins[port] = level
-        self._handles[port].value = level
+        number = self._ports[port]
+        if number < 0:
+            self._handles[port].value = level
+        else:
+            native.put(number, level)
         self.stimulus.append(Change(stamp, port, level))
+
+    def _levelled(self, pin: str, level: int) -> tuple[str, int]:
+        """Port of a pin and the port's level with the pin at `level`."""
+        port, place = self.part.locate(pin)
+        return port, level if place is None else self.pins[port] & ~(1 << place) | level << place
 
     def set_between_edges(self, **levels: int) -> int:
         """As `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
@@ -200,6 +214,26 @@ class Bench:
         for pin, level in levels.items():
             self._drive(stamp, pin, level)
         return stamp
+
+    def play(self, changes: Iterable[Change]) -> None:
+        """Have pin changes made at their stamps, in order of time and none in the past, without Python.
+
+        Those of `now` are made at once; the caller waits until the others have been. Until then `pins` is
+        ahead of the pins, and nobody else may drive any.
+        """
+        rows, now = [], self.now
+        for t, pin, value in changes:
+            if t <= now:
+                self.set(**{pin: value})
+                continue
+            port, level = self._levelled(pin, value)
+            if self.pins[port] != level:
+                if self._ports[port] < 0:
+                    raise ValueError(f"{port} is too wide for a tape")
+                self.pins[port] = level
+                self.stimulus.append(Change(t, port, level))
+                rows.append((self._t0 + (t - 1) * self.period + self.half, self._ports[port], level))
+        native.tape(rows)
 
     def at(self, edge: int, **levels: int) -> Any:
         """Schedule pin levels so that rising edge `edge` is the first to sample them; returns the task."""
@@ -242,36 +276,50 @@ class Bench:
     def forget(self) -> None:
         """Drop all output edges and pin changes seen so far, for runs of many parts."""
         self.stimulus.clear()
-        self._log.clear()
-        for changes in self._edges.values():
+        for changes in self._seen().values():
             changes.clear()
 
-    def _index(self) -> int:
-        """Index of the edge that made a change visible now (asynchronous changes: the next edge)."""
-        return -((self._t0 - int(get_sim_time("ps"))) // self.period)
+    def _index(self, time: int) -> int:
+        """Index of the edge that made a change at a time visible (asynchronous changes: the next edge)."""
+        return -((self._t0 - time) // self.period)
 
-    async def _monitor(self, name: str) -> None:
-        handle, changes = self._handles[name], self._edges[name]
-        trigger = handle.value_change
-        while True:
-            await trigger
-            t, value = self._index(), int(handle.value)
+    def _seen(self) -> dict[str, list[tuple[int, int]]]:
+        """Changes (edge, level) of all watched outputs up to now, the last one of each edge."""
+        t0, period, watched = self._t0, self.period, self._watched
+        for time, port, value in native.seen():
+            changes, t = watched[port], -((t0 - time) // period)
             if changes and changes[-1][0] == t:
                 changes[-1] = (t, value)
             else:
                 changes.append((t, value))
-            self._log.append(Edge(t, name, value))
+        return self._edges
+
+    async def _monitor(self, name: str) -> None:
+        """Record a port that is too wide for the recorder."""
+        handle, changes = self._handles[name], self._edges[name]
+        trigger = handle.value_change
+        while True:
+            await trigger
+            t, value = self._index(native.now()), int(handle.value)
+            if changes and changes[-1][0] == t:
+                changes[-1] = (t, value)
+            else:
+                changes.append((t, value))
+
+    def _port_level(self, port: str) -> int:
+        number = self._ports[port]
+        return int(self._handles[port].value) if number < 0 else native.read(number)
 
     def level(self, output: str) -> int:
         """Present level of an output, or of one bit of it ("pout_n[2]")."""
         port, place = self.part.locate(output)
-        level = int(self._handles[port].value)
+        level = self._port_level(port)
         return level if place is None else level >> place & 1
 
     def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
         """Changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
         port, place = self.part.locate(output)
-        changes = self._edges[port]
+        changes = self._seen()[port]
         if place is not None:
             changes = _bit_changes(changes, place, self.initial[port])
         return [(t, value) for t, value in changes if t >= since]
@@ -303,7 +351,7 @@ class Bench:
     def level_at(self, output: str, edge: int) -> int:
         """Level of an output just after rising edge `edge`."""
         port, place = self.part.locate(output)
-        level = level_at(self._edges[port], edge, self.initial[port])
+        level = level_at(self._seen()[port], edge, self.initial[port])
         return level if place is None else level >> place & 1
 
     # ---------------------------------------------------------------- waiting for outputs
@@ -327,7 +375,7 @@ class Bench:
             # A change of the port may be one of its other bits.
             was, before = before, self.level(output)
             if before != was and level in (None, before):
-                t = self._index()
+                t = self._index(native.now())
                 await self.align()
                 return t
         want = "a change" if level is None else f"level {level}"
@@ -352,7 +400,7 @@ class Bench:
     def context(self, last: int = 8) -> str:
         """The last output edges, pin changes and host accesses, for messages."""
         pins = [c for c in self.stimulus if c.pin not in {*self.part.bus_pins, self.part.clock}]
-        shown = [edge for edge in self._log if edge.signal not in ("d_o", "d_oe")]
+        shown = [edge for edge in self._all_edges() if edge.signal not in ("d_o", "d_oe")]
         lines = [f"now: edge {self.now}, config {self.config.name}, seed {self.seed}", "last output edges:"]
         lines += [f"  {e.t:>9} {e.signal} = {e.value:#x}" for e in shown[-last:]]
         lines += ["last pin changes:"] + [f"  {c.t:>9} {c.pin} = {c.value:#x}" for c in pins[-last:]]
@@ -377,12 +425,13 @@ class Bench:
             seed=self.seed,
             end=self.now - 1,
             stimulus=list(self.stimulus),
-            edges=sorted(
-                (Edge(t, name, value) for name, rows in self._edges.items() for t, value in rows),
-                key=lambda edge: edge.t,
-            ),
+            edges=self._all_edges(),
             accesses=list(self.accesses),
         )
+
+    def _all_edges(self) -> list[Edge]:
+        rows = (Edge(t, name, value) for name, changes in self._seen().items() for t, value in changes)
+        return sorted(rows, key=lambda edge: edge.t)
 
 
 def _bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from . import native
 from .part import PREFIXES
 from .paths import TRACE
 from .runner import SimOptions, locked
@@ -127,5 +128,6 @@ class _Recorder:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Only the controller records; xdist workers have `workerinput`."""
+    native.collect_seldom()
     if not hasattr(config, "workerinput"):
         config.pluginmanager.register(_Recorder(config), "openppmc-trace")

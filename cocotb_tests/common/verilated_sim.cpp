@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock, a recorder of output
+// levels and a player of pin changes that run without them: a clk costs two evaluations of the design and nothing
+// else. `native.py` is the other side. Compiled once for all designs: `verilated_top.inc` is what a design adds.
+// The makefile wants small code.
+#pragma GCC optimize("O2")
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "verilated.h"
+#include "verilated_syms.h"
+#include "verilated_vpi.h"
+#if VM_TRACE
+#include "verilated_vcd_c.h"
+#endif
+
+void top_create();
+void top_eval_step();
+void top_eval_end_step();
+std::uint64_t top_next_time();
+void top_final();
+#if VM_TRACE
+void top_trace(VerilatedVcdC* file);
+#endif
+extern "C" void vlog_startup_routines_bootstrap(void);
+
+namespace {
+
+constexpr std::uint64_t NEVER = ~0ULL;
+std::uint64_t main_time = 0;
+
+// A port of the top module, up to 64 bits wide.
+struct Port {
+    void* data;
+    std::uint32_t bytes;
+    std::uint64_t load() const {
+        switch (bytes) {
+            case 1: return *static_cast<std::uint8_t*>(data);
+            case 2: return *static_cast<std::uint16_t*>(data);
+            case 4: return *static_cast<std::uint32_t*>(data);
+            default: return *static_cast<std::uint64_t*>(data);
+        }
+    }
+    void store(std::uint64_t value) const { std::memcpy(data, &value, bytes); }
+};
+// Layouts that native.py reads and writes.
+struct Row {
+    std::uint64_t time, port, value;
+};
+struct Watched {
+    std::uint32_t port;
+    std::uint64_t level;
+};
+
+std::vector<Port> ports;
+std::vector<Watched> watched;
+std::vector<Row> seen, taken, tape, deposits;
+std::size_t tape_place = 0;
+int clock_port = -1;
+std::uint64_t clock_level = 0, clock_next = NEVER, clock_half = 0;
+bool dirty = false;  // a port has been written since the last evaluation
+bool woken = true;   // some callback has run in this time step
+
+bool value_callbacks() {
+    bool any = false;
+    while (VerilatedVpi::callValueCbs()) any = true;
+    woken |= any;
+    return any;
+}
+
+void callbacks(std::uint32_t reason) { woken |= VerilatedVpi::callCbs(reason); }
+
+void do_puts() {
+    VerilatedVpi::doInertialPuts();
+    if (deposits.empty()) return;
+    for (const Row& put : deposits) ports[put.port].store(put.value);
+    deposits.clear();
+    dirty = true;
+}
+
+bool eval_needed() { return dirty || VerilatedVpi::evalNeeded(); }
+
+void evaluate() {
+    VerilatedVpi::clearEvalNeeded();
+    dirty = false;
+    top_eval_step();
+}
+
+void record() {
+    for (Watched& watch : watched) {
+        const std::uint64_t level = ports[watch.port].load();
+        if (level != watch.level) {
+            watch.level = level;
+            seen.push_back({main_time, watch.port, level});
+        }
+    }
+}
+
+// Clock and tape at this moment, unless it is not theirs.
+void drive() {
+    while (tape_place < tape.size() && tape[tape_place].time <= main_time) {
+        ports[tape[tape_place].port].store(tape[tape_place].value);
+        ++tape_place;
+        dirty = true;
+    }
+    if (main_time >= clock_next) {
+        clock_level ^= 1;
+        ports[clock_port].store(clock_level);
+        clock_next += clock_half;
+        dirty = true;
+    }
+}
+
+// Evaluate until nothing changes any more, with all callbacks of the time step.
+void settle() {
+    do {
+        do {
+            evaluate();
+            do_puts();
+            value_callbacks();
+        } while (eval_needed());
+        callbacks(cbReadWriteSynch);
+        do_puts();
+        value_callbacks();
+    } while (eval_needed());
+}
+
+std::uint64_t driven_next() {
+    return tape_place < tape.size() && tape[tape_place].time < clock_next ? tape[tape_place].time : clock_next;
+}
+
+#if VM_TRACE
+VerilatedVcdC* trace_file = nullptr;
+#endif
+
+void close() {
+    VerilatedVpi::callCbs(cbEndOfSimulation);
+#if VM_TRACE
+    if (trace_file) trace_file->close();
+#endif
+}
+
+int port_of(const char* name) {
+    const VerilatedScope* const scope = Verilated::threadContextp()->scopeFind("TOP");
+    const VerilatedVar* const var = scope ? scope->varFind(name) : nullptr;
+    if (!var || var->udims() || var->entSize() > 8) return -1;
+    ports.push_back({var->datap(), static_cast<std::uint32_t>(var->entSize())});
+    return static_cast<int>(ports.size()) - 1;
+}
+
+}  // namespace
+
+double sc_time_stamp() { return static_cast<double>(main_time); }
+
+// What native.py calls. Times are steps of the simulation, ports the numbers that openppmc_port() gave.
+extern "C" {
+
+// Number of a port; -1 if there is none or it is wider than 64 bits.
+int openppmc_port(const char* name) { return port_of(name); }
+
+std::uint64_t openppmc_read(int port) { return ports[port].load(); }
+
+std::uint64_t openppmc_time() { return main_time; }
+
+// As a deposit of cocotb: the level comes with the next evaluation of this time step.
+void openppmc_put(int port, std::uint64_t value) {
+    deposits.push_back({main_time, static_cast<std::uint64_t>(port), value});
+}
+
+// Low now, first rising edge after `half`.
+void openppmc_clock(int port, std::uint64_t half) {
+    clock_port = port;
+    clock_half = half;
+    clock_level = 0;
+    clock_next = main_time + half;
+    openppmc_put(port, 0);
+}
+
+void openppmc_watch(int port) {
+    watched.push_back({static_cast<std::uint32_t>(port), ports[port].load()});
+}
+
+// Changes of watched ports since the last call; they stay in place until the next one.
+const Row* openppmc_seen(std::uint64_t* count) {
+    record();
+    taken.swap(seen);
+    seen.clear();
+    *count = taken.size();
+    return taken.data();
+}
+
+// Changes of ports to come, in order of time, all of them in the future.
+void openppmc_tape(const Row* rows, std::uint64_t count) {
+    tape.assign(rows, rows + count);
+    tape_place = 0;
+}
+}
+
+int main(int argc, char** argv) {
+    bool traced = false;
+    for (int i = 1; i < argc; ++i) traced |= !std::strcmp(argv[i], "--trace");
+    Verilated::commandArgs(argc, argv);
+    top_create();
+    Verilated::fatalOnVpiError(false);
+#if VM_TRACE
+    Verilated::traceEverOn(true);
+    if (traced) {
+        trace_file = new VerilatedVcdC;
+        top_trace(trace_file);
+        trace_file->open("dump.vcd");
+    }
+#else
+    static_cast<void>(traced);
+#endif
+    vlog_startup_routines_bootstrap();
+    Verilated::addExitCb([](void*) { close(); }, nullptr);
+    VerilatedVpi::callCbs(cbStartOfSimulation);
+    value_callbacks();
+    settle();
+
+    std::uint64_t deadline = 0;
+    while (!Verilated::gotFinish()) {
+        // The time step is over: everything has settled.
+        top_eval_end_step();
+        callbacks(cbReadOnlySynch);
+        record();
+#if VM_TRACE
+        if (trace_file) trace_file->dump(main_time);
+#endif
+        const bool waiting = woken;  // callbacks may wait for the next time step
+        woken = false;
+        // What is due may have been cancelled.
+        if (waiting || deadline <= main_time) deadline = VerilatedVpi::cbNextDeadline();
+        const std::uint64_t own = driven_next(), timing = top_next_time();
+        std::uint64_t next = own < timing ? own : timing;
+        if (deadline < next) next = deadline;
+        if (next == NEVER) break;
+        main_time = next;
+        if (waiting || deadline == next) {
+            callbacks(cbNextSimTime);
+            value_callbacks();
+            callbacks(cbAfterDelay);
+            value_callbacks();
+            // Levels put without delay are seen before all others.
+            if (eval_needed()) evaluate();
+            do_puts();
+        }
+        if (own <= next) drive();
+        value_callbacks();
+        if (woken) {
+            settle();
+            continue;
+        }
+        evaluate();
+        if (value_callbacks()) {
+            do_puts();
+            settle();
+        }
+    }
+    top_final();
+    close();
+    return Verilated::threadContextp()->errorCount() > 0 ? 1 : 0;
+}
