@@ -90,12 +90,7 @@ class Chip(ABC):
         queue = self._queue
         if t < queue.now:
             raise ValueError(f"run_until({t}): edge {queue.now} is done")
-        while (edge := queue.next_edge()) is not None and edge <= t:
-            queue.now = edge - 1
-            queue.run_edge(edge)
-            self._latch(edge)
-            queue.run_edge(edge)
-        queue.now = t
+        queue.run_until(t, self._latch)
 
     # ------------------------------------------------------------------ pins
 
@@ -105,24 +100,26 @@ class Chip(ABC):
         Raises ValueError for an edge already run, an unknown pin or a level out of range. rst_n = 0 acts
         at once; its output edges are stamped t.
         """
+        inputs, widths = self.INPUTS, self.WIDTHS
         for pin, level in levels.items():
-            if pin not in self.INPUTS:
+            if pin not in inputs:
                 raise ValueError(f"no input pin {pin!r}")
-            if not 0 <= level < 1 << self.WIDTHS.get(pin, 1):
+            if not 0 <= level < 1 << widths.get(pin, 1):
                 raise ValueError(f"level {level} of {pin} is out of range")
-        if t <= self.now:
+        if t <= self._queue.now:
             raise ValueError(f"pins({t}): edge {self.now} is done")
         self.run_until(t - 1)
         if levels.get("rst_n") == 0:
             self._reset(t)
-        released = levels.get("rst_n") == 1 and not self._pins["rst_n"]
-        before = dict(self._pins)
-        self._pins.update(levels)
+        pins = self._pins
+        released = levels.get("rst_n") == 1 and not pins["rst_n"]
+        changed = {pin for pin, level in levels.items() if level != pins[pin]}
+        pins.update(levels)
         if released:
             self._released(t)
-            self._sample(t, self._pins)
-        elif self._pins["rst_n"]:
-            self._sample(t, {pin for pin, level in levels.items() if level != before[pin]})
+            self._sample(t, pins)
+        elif pins["rst_n"]:
+            self._sample(t, changed)
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
         """Edge t samples pins; the levels reach the inside `input_sync` clk later."""

@@ -62,7 +62,12 @@ class Outputs:
         """Current reduction on: its time is over, or alm_n is low."""
         self.cd_n = 0
 
+    @property
+    def values(self) -> tuple[int, ...]:
+        """The internal levels."""
+        return self.exon_n, self.cclr_n, self.aclr_n, self.zclmp_n, self.cd_n, self.auxo_n
+
     def levels(self) -> dict[str, int]:
         """Pin names and internal levels."""
         names = ("exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "auxo_n")
-        return {name: getattr(self, name) for name in names}
+        return dict(zip(names, self.values, strict=True))

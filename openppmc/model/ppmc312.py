@@ -28,17 +28,31 @@ _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
 """What the inside sees of the pins before it has sampled them."""
 
 
+class _Asked(Event):
+    """What a block has asked for; only the present blocks have any in the queue."""
+
+    __slots__ = ()
+
+
 class Scope(Scheduler):
     """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
 
     def __init__(self, queue: Scheduler) -> None:
         super().__init__()
         self._queue = queue
-        self.alive = True
+        self._alive = True
 
     def at(self, t: int, phase: int, action: Callback) -> Event:
         """Call `action(t)` unless the blocks have been replaced by then."""
-        return self._queue.at(t, phase, lambda now: action(now) if self.alive else None)
+        event = self._queue.at(t, phase, action, _Asked)
+        if not self._alive:
+            event.cancel()
+        return event
+
+    def close(self) -> None:
+        """The blocks are replaced."""
+        self._alive = False
+        self._queue.cancel(_Asked)
 
 
 class Ppmc312(Chip):
@@ -121,6 +135,7 @@ class Ppmc312(Chip):
         self._out_oe = 0
         self._held = self._levels()
         self._registers = self._make_registers()
+        self._seen: object = None
         ready = t + (self.timebase.cyc(READY) + self.pace.start if self.datasheet else self.pace.ready)
         self._bus_from, self._pins_from = t + self.pace.ready, ready + 1
         self._queue.at(ready, Phase.END, self._ready)
@@ -148,7 +163,7 @@ class Ppmc312(Chip):
 
     def _software_reset(self, t: int, source: Source) -> None:
         """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer."""
-        self._scope.alive = False
+        self._scope.close()
         self._queue.at(t, Phase.PIN, self._reset_outputs)
         self._build()
         self._connect()
@@ -178,7 +193,15 @@ class Ppmc312(Chip):
 
     def _latch(self, t: int) -> None:
         """Before out_oe the pins keep their reset levels (P312-PRT-02)."""
-        levels = self._levels() if self._out_oe else self._held
+        if not self._out_oe:
+            levels = self._held
+        else:
+            # Most edges change none of them.
+            core, motion = self.core, self.motion
+            seen = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
+            if seen == self._seen:
+                return
+            self._seen, levels = seen, self._levels()
         for names, register in self._registers:
             register.latch(t, {name: levels[name] for name in names})
 

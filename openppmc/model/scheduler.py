@@ -33,11 +33,11 @@ class Scheduler:
         self._heap: list[tuple[int, int, int, Event]] = []
         self._serial = 0
 
-    def at(self, t: int, phase: int, action: Callback) -> Event:
+    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
         """Call `action(t)` at edge t in this phase. Raises ValueError for an edge already worked on."""
         if t <= self.now:
             raise ValueError(f"event for edge {t}, but edge {self.now} is done")
-        event = Event(action)
+        event = kind(action)
         self._serial += 1
         heapq.heappush(self._heap, (t, phase, self._serial, event))
         return event
@@ -47,6 +47,12 @@ class Scheduler:
         for *_, event in self._heap:
             event.cancel()
         self._heap.clear()
+
+    def cancel(self, kind: type[Event]) -> None:
+        """Cancel all events of a kind."""
+        for *_, event in self._heap:
+            if isinstance(event, kind):
+                event.cancel()
 
     def next_edge(self) -> int | None:
         """Edge of the next event, None if there is none."""
@@ -60,3 +66,26 @@ class Scheduler:
             action = heapq.heappop(self._heap)[3].action
             if action is not None:
                 action(t)
+
+    def run_until(self, t: int, after: Callback) -> None:
+        """Run every event up to edge t, also those that are added meanwhile; `after` follows the events of
+        each edge and may add some to it."""
+        heap, pop = self._heap, heapq.heappop
+        while heap:
+            edge, _, _, event = heap[0]
+            if edge > t:
+                break
+            if event.action is None:
+                pop(heap)
+                continue
+            self.now = edge - 1
+            while heap and heap[0][0] == edge:
+                action = pop(heap)[3].action
+                if action is not None:
+                    action(edge)
+            after(edge)
+            while heap and heap[0][0] == edge:
+                action = pop(heap)[3].action
+                if action is not None:
+                    action(edge)
+        self.now = t
