@@ -10,6 +10,8 @@
 ../rtl/common/ppmc_xtal_timer.sv
 ../rtl/common/ppmc_uart_rx.sv
 ../rtl/common/ppmc_uart_tx.sv
+../rtl/common/ppmc_i2c_pkg.sv
+../rtl/common/ppmc_i2c_master.sv
 ../rtl/motion/ppmc_motion_pkg.sv
 ../rtl/motion/ppmc_op_pkg.sv
 ../rtl/motion/ppmc_ramp_pkg.sv

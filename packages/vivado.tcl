@@ -12,6 +12,8 @@ set files [list \
   $root/rtl/common/ppmc_xtal_timer.sv \
   $root/rtl/common/ppmc_uart_rx.sv \
   $root/rtl/common/ppmc_uart_tx.sv \
+  $root/rtl/common/ppmc_i2c_pkg.sv \
+  $root/rtl/common/ppmc_i2c_master.sv \
   $root/rtl/motion/ppmc_motion_pkg.sv \
   $root/rtl/motion/ppmc_op_pkg.sv \
   $root/rtl/motion/ppmc_ramp_pkg.sv \
@@ -101,6 +103,34 @@ set files [list \
   $root/rtl/ppmc312/ppmc312_serial.sv \
   $root/rtl/ppmc312/ppmc312_reset.sv \
   $root/rtl/ppmc312/ppmc312.sv \
+  $root/rtl/pmc006/pmc006_pkg.sv \
+  $root/rtl/pmc006/pmc006_calc_pkg.sv \
+  $root/rtl/pmc006/pmc006_calc_rom.sv \
+  $root/rtl/pmc006/pmc006_calc.sv \
+  $root/rtl/pmc006/pmc006_rate.sv \
+  $root/rtl/pmc006/pmc006_motion.sv \
+  $root/rtl/pmc006/pmc006_sine_rom.sv \
+  $root/rtl/pmc006/pmc006_refs.sv \
+  $root/rtl/pmc006/pmc006_bridge.sv \
+  $root/rtl/pmc006/pmc006_drive.sv \
+  $root/rtl/pmc006/pmc006_frame.sv \
+  $root/rtl/pmc006/pmc006_serial.sv \
+  $root/rtl/pmc006/pmc006_range.sv \
+  $root/rtl/pmc006/pmc006_exec.sv \
+  $root/rtl/pmc006/pmc006_settings.sv \
+  $root/rtl/pmc006/pmc006_accept.sv \
+  $root/rtl/pmc006/pmc006_guard.sv \
+  $root/rtl/pmc006/pmc006_stall.sv \
+  $root/rtl/pmc006/pmc006_key.sv \
+  $root/rtl/pmc006/pmc006_buffer.sv \
+  $root/rtl/pmc006/pmc006_program.sv \
+  $root/rtl/pmc006/pmc006_ports.sv \
+  $root/rtl/pmc006/pmc006_position.sv \
+  $root/rtl/pmc006/pmc006_page.sv \
+  $root/rtl/pmc006/pmc006_eeprom.sv \
+  $root/rtl/pmc006/pmc006_answer.sv \
+  $root/rtl/pmc006/pmc006_control.sv \
+  $root/rtl/pmc006/pmc006.sv \
   $root/rtl/ppmc104/ppmc104_pkg.sv \
   $root/rtl/ppmc104/ppmc104_setup.sv \
   $root/rtl/ppmc104/ppmc104_pace.sv \
@@ -119,10 +149,14 @@ set files [list \
   $root/rtl/isa_4axis/isa_4axis.sv \
   $root/rtl/boards/ppmc_board_host.sv \
   $root/rtl/boards/ppmc104_board.sv \
+  $root/rtl/boards/ppmc_board_reset.sv \
+  $root/rtl/boards/ppmc_board_lamp.sv \
+  $root/rtl/boards/ppmc_board_panel.sv \
   $root/rtl/boards/ppmc2104_board.sv \
   $root/rtl/boards/ppmc_board_steps.sv \
   $root/rtl/boards/stmc_board.sv \
   $root/rtl/boards/ppmc312_board.sv \
+  $root/rtl/boards/pmc006_board.sv \
 ]
 add_files -norecurse $files
 set_property file_type SystemVerilog [get_files $files]

@@ -54,6 +54,7 @@ PARTS = {
     "isa_4axis": Part("isa_4axis", (*SHARED, "ppmc2104", "isa_4axis")),
     "stmc": Part("stmc", (*SINGLE, "stmc"), phase_idle=True),
     "ppmc312": Part("ppmc312", (*SHARED, "stage", "ppmc312"), families=("ecp5",)),
+    "pmc006": Part("pmc006", ("common", "motion", "pmc006")),
     "j105_stmc": Part("j105_stmc", (*SINGLE, "stmc", "j105_stmc")),
 }
 
@@ -86,16 +87,18 @@ def sources(of: Part) -> list[Path]:
 
 
 def board_files(part_name: str) -> list[Path]:
-    """The board module of a part and the files beside it that it instantiates; none if it has no board.
+    """The board module of a part and the files beside it that it is built from; none if it has no board.
 
     In compile order.
     """
     files = file_groups().get("boards", [])
-    top = next((path for path in files if path.stem == f"{part_name}_board"), None)
-    if top is None:
-        return []
-    text = top.read_text(encoding="utf-8")
-    return [path for path in files if path == top or re.search(rf"^\s*{path.stem}\s", text, re.M)]
+    found = {path for path in files if path.stem == f"{part_name}_board"}
+    while True:
+        text = "\n".join(path.read_text(encoding="utf-8") for path in found)
+        more = {path for path in files if re.search(rf"^\s*{path.stem}\s", text, re.M)} - found
+        if not more:
+            return [path for path in files if path in found]
+        found |= more
 
 
 def include_dirs() -> list[Path]:

@@ -172,11 +172,22 @@ def with_ppmc312() -> dict[str, Board]:
     return {board.name: board for board in (*boards, TANGNANO20K)}
 
 
+def with_pmc006() -> dict[str, Board]:
+    """The boards that carry a PMC006B4. Its host is a serial line: there is no bus."""
+    larger = (
+        replace(carrying("pmc006", name, ("uart",)), clk_hz=50_000_000, goal_mhz=50)
+        for name in ("ulx3s-25f", "ulx3s-85f")
+    )
+    boards = (carrying("pmc006", "icebreaker", ("uart",)), *larger)
+    return {board.name: board for board in boards}
+
+
 BY_PART = {
     "ppmc104": BOARDS,
     "ppmc2104": with_part("ppmc2104"),
     "stmc": with_part("stmc"),
     "ppmc312": with_ppmc312(),
+    "pmc006": with_pmc006(),
 }
 
 

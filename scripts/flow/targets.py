@@ -19,7 +19,7 @@ from .yosys_job import BEST
 FOLDER = project.BUILD / "report"
 BOARD_TOPS = {part: f"{part}_board" for part in boards.BY_PART}
 HOST = "uart"
-SIMULATED = ("ppmc104", "ppmc2104", "stmc", "ppmc312")
+SIMULATED = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006")
 """Parts whose netlist with default parameters `make test-gates` simulates, too: it is kept for that."""
 
 
@@ -68,7 +68,7 @@ def base_job(part: str, board_top: bool) -> dict:
         "top": top,
         "include": [project.relative(path) for path in project.include_dirs()],
         "sources": [project.relative(path) for path in sources],
-        "params": {"HOST": "UART"} if board_top else {},
+        "params": {"HOST": "UART"} if board_top and "HOST" in boards.parameters(top) else {},
     }
 
 

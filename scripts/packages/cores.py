@@ -18,6 +18,7 @@ TEXT = {
     "single": "OpenPPMC, what the parts with one axis share",
     "stage": "OpenPPMC, tables of 127 stages, ramps along them, exact intervals",
     "ppmc312": "OpenPPMC, PPMC-312, a stepper controller for one axis with block instructions",
+    "pmc006": "OpenPPMC, PMC006B4, a microstepping controller with a serial line and user programs",
     "ppmc104": "OpenPPMC, PPMC-104, a stepper controller for one axis",
     "ppmc2104": "OpenPPMC, PPMC-2104, a stepper controller for two axes",
     "stmc": "OpenPPMC, J105 STMC, a stepper controller for one axis without pulse output",
@@ -37,7 +38,7 @@ PARAMETERS = {
     "PHASE_IDLE": ("int", "Level of s until the first initialisation", "1"),
 }
 # Parts that have no parameter of that name.
-LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis", "j105_stmc", "ppmc312")}
+LACKS = {"PHASE_IDLE": ("ppmc2104", "isa_4axis", "j105_stmc", "ppmc312", "pmc006")}
 STMC = {
     "XTAL_HZ": ("int", "Crystal of the old part in Hz, 1e6 .. 20e6", "16000000"),
     "READ_MAP": ("str", "Codes of the read commands, SHEET or FAMILY", "SHEET"),
@@ -56,6 +57,16 @@ OWN = {
     "ppmc312": {
         "VERSION": ("int", "Byte that the version instruction answers, 0 .. 255", "18"),
         "SUM_MODE": ("str", "Checksum of the serial mode, BINARY or CHARS", "BINARY"),
+    },
+    "pmc006": {
+        "XTAL_HZ": ("int", "Without effect", "16000000"),
+        "STEP_ACK": ("str", "Answer to the step command, MANUAL (3) or ECHO (its data)", "MANUAL"),
+        "BAUD": ("int", "Serial rate, 1200 .. 115200", "9600"),
+        "I2C_HZ": ("int", "Clock of the EEPROM, 10000 .. 400000", "400000"),
+        "EE_DEV": ("int", "Address of the EEPROM, 0 .. 127", "80"),
+        "T_OFF_NS": ("int", "Off time of the chopper in ns, 1000 .. 100000", "20000"),
+        "T_BLANK_NS": ("int", "Blanking of the comparator in ns, 100 .. 10000", "1000"),
+        "FW_VERSION": ("int", "Answer to the version command, 32 bits", "291"),
     },
 }
 SMOKE_PART = "ppmc104"  # the one with a sim target

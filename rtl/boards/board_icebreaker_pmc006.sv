@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// board_icebreaker_pmc006: PMC006B4 on an iCEBreaker (iCE40UP5K-SG48), clk 24 MHz. Its pins have room for three of the
+//                          five inputs and outputs each, and for no converter: no analog speed, no stall.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker-pmc006.pcf.
+// Timing: of pmc006_board.
+`default_nettype none
+
+module board_icebreaker_pmc006 #(
+    parameter string       STEP_ACK   = "MANUAL",  // or "ECHO"
+    parameter int unsigned BAUD       = 9600,
+    parameter int unsigned I2C_HZ     = 400_000,
+    parameter int unsigned T_OFF_NS   = 20_000,
+    parameter int unsigned T_BLANK_NS = 1_000
+) (
+    input  wire logic       clk_12m,
+    input  wire logic       btn_n,        // 0: reset
+    // host: USB-UART
+    input  wire logic       uart_rxd,
+    output logic            uart_txd,
+    // PMOD 1A: H-bridges and references of the motor
+    output logic            m10,
+    output logic            m11,
+    output logic            bridge_a_en,
+    output logic            pwm_a_ref,
+    output logic            m20,
+    output logic            m21,
+    output logic            bridge_b_en,
+    output logic            pwm_b_ref,
+    // PMOD 1B: comparators, EEPROM, RS-485 transceiver, factory restore
+    input  wire logic       cmp_a,
+    input  wire logic       cmp_b,
+    inout  wire logic       scl,
+    inout  wire logic       sda,
+    input  wire logic       rs485_rxd,
+    output logic            rs485_txd,
+    output logic            rs485_de,
+    input  wire logic       fset_n,
+    // PMOD 2: switches, inputs, outputs
+    input  wire logic       ext1,
+    input  wire logic       ext2,
+    input  wire logic [2:0] gpi,
+    output logic      [2:0] gpo,
+    // lamps, 0 = on
+    output logic            ledg_n,
+    output logic            ledr_n
+);
+
+  localparam int unsigned ClkHz = 24_000_000;
+
+  logic clk, lock, scl_oe, sda_oe, moving, line;
+  logic [4:0] gpo_all;
+  logic unused;
+  logic [1:0] unused_lamps;
+
+  ppmc_clock_icebreaker u_clock (
+      .clk_12m_i(clk_12m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  pmc006_board #(
+      .CLK_HZ    (ClkHz),
+      .STEP_ACK  (STEP_ACK),
+      .BAUD      (BAUD),
+      .I2C_HZ    (I2C_HZ),
+      .T_OFF_NS  (T_OFF_NS),
+      .T_BLANK_NS(T_BLANK_NS)
+  ) u_board (
+      .clk,
+      .lock,
+      .req_n   (btn_n),
+      .uart_rxd,
+      .uart_txd,
+      .rs485_rxd,
+      .rs485_txd,
+      .rs485_de,
+      .m10,
+      .m11,
+      .bridge_a_en,
+      .m20,
+      .m21,
+      .bridge_b_en,
+      .pwm_a_ref,
+      .pwm_b_ref,
+      .cmp_a,
+      .cmp_b,
+      .ext1,
+      .ext2,
+      .ext1_pu (),
+      .ext2_pu (),
+      .fset_n,
+      .gpi     ({2'b11, gpi}),
+      .gpo     (gpo_all),
+      .conv    (10'd0),
+      .adc_stb (1'b0),
+      .bemf_stb(1'b0),
+      .scl_i   (scl),
+      .scl_oe,
+      .sda_i   (sda),
+      .sda_oe,
+      .mon_step(),
+      .mon_dir (),
+      .lamps   ({unused_lamps, moving, line})
+  );
+
+  assign scl = scl_oe ? 1'b0 : 'z;
+  assign sda = sda_oe ? 1'b0 : 'z;
+  assign gpo = gpo_all[2:0];
+  assign ledg_n = !line;
+  assign ledr_n = !moving;
+  assign unused = &{1'b0, gpo_all[4:3]};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_i2c_master: moves the two lines of an I2C bus: START, STOP, bytes, freeing of a stuck bus. One master.
+// Rules:  P006 section 13.1, P006-BAD-13 (clock held low).
+// Timing: everything moves on tick_i, four a bit. A bit: SDA, SCL up, look, SCL down; START and STOP take six
+//         ticks. cmd_i stands until done_o or fail_o, one clk after the last tick; a new one that stands before the
+//         next tick follows without a gap. While the clock is held low the look is repeated, StretchTicks times.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_i2c_master
+  import ppmc_i2c_pkg::*;
+#(
+    parameter int unsigned StretchTicks = 1601
+) (
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire logic           tick_i,
+    input  wire i2c_cmd_e       cmd_i,
+    input  wire logic     [7:0] byte_i,    // to send; 8'hff to receive
+    input  wire logic           ack_i,     // ninth bit to send: 1 leaves it to the other side
+    output logic                first_o,   // byte_i has been taken
+    output logic                done_o,
+    output logic                fail_o,    // the clock or the data line is stuck; both are released
+    output logic          [7:0] byte_o,
+    output logic                nack_o,    // the ninth bit, or the one that ended a freeing
+    input  wire logic           scl_i,     // synchronised
+    input  wire logic           sda_i,
+    output logic                scl_oe_o,
+    output logic                sda_oe_o
+);
+
+  localparam int unsigned StretchBits = ppmc_pkg::cnt_width(StretchTicks - 1);
+
+  logic [2:0] step_q;
+  logic [3:0] bit_q;
+  logic [8:0] shift_q;
+  logic [StretchBits-1:0] stretch_q;
+  logic frame, ends, last, held, stuck, first, low;
+
+  assign frame = cmd_i == CmdStart || cmd_i == CmdStop;
+  assign first = step_q == 3'd0 && bit_q == 4'd0 && !frame;
+  assign low = first ? !byte_i[7] : !shift_q[8];
+  assign held = step_q == 3'd2 && !scl_i;
+  assign stuck = cmd_i == CmdFree && bit_q == 4'd8 && !shift_q[0];
+  assign ends = bit_q == 4'd8 || (cmd_i == CmdFree && shift_q[0]);
+  assign last = frame ? step_q == 3'd5 : step_q == 3'd3 && ends;
+
+  assign first_o = tick_i && cmd_i == CmdByte && first;
+  assign byte_o = shift_q[8:1];
+  assign nack_o = shift_q[0];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      step_q   <= '0;
+      bit_q    <= '0;
+      done_o   <= 1'b0;
+      fail_o   <= 1'b0;
+      scl_oe_o <= 1'b0;
+      sda_oe_o <= 1'b0;
+    end else begin
+      done_o <= 1'b0;
+      fail_o <= 1'b0;
+      if (tick_i && cmd_i != CmdNone) begin
+        if (!held) step_q <= last ? 3'd0 : step_q + 1'b1;
+        unique case (step_q)
+          3'd0: begin
+            if (cmd_i != CmdStart) scl_oe_o <= 1'b1;
+            sda_oe_o <= (cmd_i == CmdStop) || (cmd_i == CmdByte && low);
+          end
+          3'd1:    scl_oe_o <= 1'b0;
+          3'd3: begin
+            if (frame) sda_oe_o <= cmd_i == CmdStart;
+            else begin
+              scl_oe_o <= !stuck;
+              step_q   <= 3'd0;
+              bit_q    <= last ? 4'd0 : bit_q + 1'b1;
+              fail_o   <= stuck;
+              done_o   <= last && !stuck;
+            end
+          end
+          3'd5: begin
+            scl_oe_o <= cmd_i == CmdStart;
+            done_o   <= 1'b1;
+          end
+          default: ;
+        endcase
+        if (held && stretch_q == StretchBits'(StretchTicks - 1)) begin
+          step_q   <= '0;
+          bit_q    <= '0;
+          fail_o   <= 1'b1;
+          scl_oe_o <= 1'b0;
+          sda_oe_o <= 1'b0;
+        end
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (step_q != 3'd2) stretch_q <= '0;
+    else if (tick_i && held) stretch_q <= stretch_q + 1'b1;
+    if (tick_i && first) shift_q <= {byte_i, ack_i};
+    else if (tick_i && step_q == 3'd2 && scl_i) shift_q <= {shift_q[7:0], sda_i};
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(i2c_master_one_end, !(done_o && fail_o))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_i2c_pkg: what the I2C master can be told to do.
+// Rules:  P006 section 13.1.
+`default_nettype none
+
+package ppmc_i2c_pkg;
+
+  typedef enum logic [2:0] {
+    CmdNone,
+    CmdStart,
+    CmdStop,
+    CmdByte,
+    CmdFree    // clock pulses until SDA is high, at most nine
+  } i2c_cmd_e;
+
+endpackage
+
+`default_nettype wire

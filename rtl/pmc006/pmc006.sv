@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006: integrated microstepping controller with a serial line, a replacement for the PMC006B4.
+// Rules:  sections 1.1, 1.2, 4 and, through its blocks, all others.
+// Timing: inputs act two clk after the pin, all outputs are registers. From the reset to the end of the boot the part
+//         neither hears nor drives the motor.
+`default_nettype none
+
+module pmc006
+  import pmc006_pkg::*;
+#(
+    parameter int unsigned CLK_HZ     = 16_000_000,    // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,    // without effect
+    parameter string       TIMING     = "FAST",        // or "DATASHEET", which behaves alike
+    parameter string       STEP_ACK   = "MANUAL",      // what s answers: 3, or with "ECHO" its data
+    parameter int unsigned BAUD       = 9600,          // 1200 .. 115 200
+    parameter int unsigned I2C_HZ     = 400_000,       // 10e3 .. 400e3
+    parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 7 bits
+    parameter int unsigned T_OFF_NS   = 20_000,        // chopper, 1_000 .. 100_000
+    parameter int unsigned T_BLANK_NS = 1_000,         // 100 .. 10_000
+    parameter int unsigned FW_VERSION = 32'h0000_0123
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // host
+    input  wire logic       rxd,
+    output logic            txd,
+    output logic            de,
+    // switches, general inputs and outputs, converters
+    input  wire logic       ext1,
+    input  wire logic       ext2,
+    output logic            ext1_pu,
+    output logic            ext2_pu,
+    input  wire logic       fset_n,
+    input  wire logic [4:0] gpi,
+    output logic      [4:0] gpo,
+    input  wire logic [9:0] adc_data,
+    input  wire logic       adc_valid,
+    input  wire logic [9:0] bemf_level,
+    input  wire logic       bemf_valid,
+    // motor
+    output logic      [7:0] phase_a_ref,
+    output logic            phase_a_sign,
+    output logic      [7:0] phase_b_ref,
+    output logic            phase_b_sign,
+    output logic            pwm_a_ref,
+    output logic            pwm_b_ref,
+    input  wire logic       cmp_a,
+    input  wire logic       cmp_b,
+    output logic            bridge_a_en,
+    output logic            bridge_b_en,
+    output logic            m10,
+    output logic            m11,
+    output logic            m20,
+    output logic            m21,
+    // EEPROM, open drain
+    input  wire logic       scl_i,
+    output logic            scl_o,
+    output logic            scl_oe,
+    input  wire logic       sda_i,
+    output logic            sda_o,
+    output logic            sda_oe,
+    // what happens
+    output logic            mon_step,
+    output logic            mon_dir,
+    output logic            mon_busy
+);
+
+  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+    $fatal(1, "pmc006: TIMING must be FAST or DATASHEET");
+  end
+  if (STEP_ACK != "MANUAL" && STEP_ACK != "ECHO") begin : g_check_ack
+    $fatal(1, "pmc006: STEP_ACK must be MANUAL or ECHO");
+  end
+  if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
+    $fatal(1, "pmc006: CLK_HZ must be 8e6 .. 200e6");
+  end
+  if (BAUD < 1200 || BAUD > 115_200) begin : g_check_baud
+    $fatal(1, "pmc006: BAUD must be 1200 .. 115200");
+  end
+  if (I2C_HZ < 10_000 || I2C_HZ > 400_000) begin : g_check_i2c
+    $fatal(1, "pmc006: I2C_HZ must be 10000 .. 400000");
+  end
+  if (EE_DEV > 'h7f) begin : g_check_device
+    $fatal(1, "pmc006: EE_DEV must be 0 .. 127");
+  end
+  if (T_OFF_NS < 1_000 || T_OFF_NS > 100_000) begin : g_check_off
+    $fatal(1, "pmc006: T_OFF_NS must be 1000 .. 100000");
+  end
+  if (T_BLANK_NS < 100 || T_BLANK_NS > 10_000) begin : g_check_blank
+    $fatal(1, "pmc006: T_BLANK_NS must be 100 .. 10000");
+  end
+
+  // ---- reset, time, inputs ---------------------------------------------------------------------------------------
+
+  logic rst, us, unused_crystal;
+  logic fset_s, scl_s, sda_s;
+  logic [1:0] ext_s;
+  logic [4:0] gpi_s;
+  logic [9:0] unused_meta;
+
+  assign unused_crystal = &{1'b0, XTAL_HZ};
+
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .rst_no(rst)
+  );
+
+  ppmc_tick_gen #(
+      .ClkHz   (CLK_HZ),
+      .XtalHz  (1_000_000),
+      .TickXtal(1)
+  ) u_us (
+      .clk_i    (clk),
+      .rst_ni   (rst),
+      .restart_i(1'b0),
+      .tick_o   (us)
+  );
+
+  ppmc_sync #(
+      .Width(10)
+  ) u_pins (
+      .clk_i (clk),
+      .rst_ni(rst),
+      .d_i   ({fset_n, scl_i, sda_i, ext2, ext1, gpi}),
+      .q1_o  (unused_meta),
+      .q2_o  ({fset_s, scl_s, sda_s, ext_s, gpi_s})
+  );
+
+  // ---- host ------------------------------------------------------------------------------------------------------
+
+  logic go, boot;
+  logic [7:0] code, addr;
+  logic [31:0] data, reply;
+
+  pmc006_serial #(
+      .ClkHz(CLK_HZ),
+      .Baud (BAUD)
+  ) u_serial (
+      .clk_i  (clk),
+      .rst_ni (rst),
+      .ready_i(!boot),
+      .addr_i (addr),
+      .rxd_i  (rxd),
+      .txd_o  (txd),
+      .de_o   (de),
+      .go_o   (go),
+      .code_o (code),
+      .data_o (data),
+      .reply_i(reply)
+  );
+
+  // ---- control, motion, drive ------------------------------------------------------------------------------------
+
+  settings_t settings;
+  logic start, run, speed, halt, busy, step, forward, steady;
+  logic [ 7:0] increment;
+  logic [10:0] bump;
+  logic [ 6:0] lead;
+  logic [30:0] count;
+
+  pmc006_control #(
+      .ClkHz  (CLK_HZ),
+      .I2cHz  (I2C_HZ),
+      .Device (7'(EE_DEV)),
+      .Echo   (STEP_ACK == "ECHO"),
+      .Version(FW_VERSION)
+  ) u_control (
+      .clk_i       (clk),
+      .rst_ni      (rst),
+      .us_i        (us),
+      .boot_o      (boot),
+      .go_i        (go),
+      .code_i      (code),
+      .data_i      (data),
+      .reply_o     (reply),
+      .addr_o      (addr),
+      .fset_ni     (fset_s),
+      .ext_i       (ext_s),
+      .gpi_i       (gpi_s),
+      .pull_up_o   ({ext2_pu, ext1_pu}),
+      .gpo_o       (gpo),
+      .bemf_level_i(bemf_level),
+      .bemf_valid_i(bemf_valid),
+      .scl_i       (scl_s),
+      .sda_i       (sda_s),
+      .scl_oe_o    (scl_oe),
+      .sda_oe_o    (sda_oe),
+      .settings_o  (settings),
+      .start_o     (start),
+      .count_o     (count),
+      .run_o       (run),
+      .speed_o     (speed),
+      .halt_o      (halt),
+      .busy_i      (busy),
+      .step_i      (step),
+      .forward_i   (forward),
+      .steady_i    (steady)
+  );
+
+  pmc006_motion u_motion (
+      .clk_i       (clk),
+      .rst_ni      (rst),
+      .us_i        (us),
+      .settings_i  (settings),
+      .start_i     (start),
+      .count_i     (count),
+      .run_i       (run),
+      .speed_mode_i(speed),
+      .halt_i      (halt),
+      .adc_data_i  (adc_data),
+      .adc_valid_i (adc_valid),
+      .busy_o      (busy),
+      .step_o      (step),
+      .forward_o   (forward),
+      .steady_o    (steady),
+      .increment_o (increment),
+      .bump_o      (bump),
+      .lead_o      (lead)
+  );
+
+  pmc006_drive #(
+      .ClkHz   (CLK_HZ),
+      .TOffNs  (T_OFF_NS),
+      .TBlankNs(T_BLANK_NS)
+  ) u_drive (
+      .clk_i         (clk),
+      .rst_ni        (rst),
+      .us_i          (us),
+      .boot_i        (boot),
+      .settings_i    (settings),
+      .busy_i        (busy),
+      .step_i        (step),
+      .forward_i     (forward),
+      .increment_i   (increment),
+      .bump_i        (bump),
+      .lead_i        (lead),
+      .cmp_a_i       (cmp_a),
+      .cmp_b_i       (cmp_b),
+      .phase_a_ref_o (phase_a_ref),
+      .phase_a_sign_o(phase_a_sign),
+      .phase_b_ref_o (phase_b_ref),
+      .phase_b_sign_o(phase_b_sign),
+      .pwm_a_ref_o   (pwm_a_ref),
+      .pwm_b_ref_o   (pwm_b_ref),
+      .bridge_a_en_o (bridge_a_en),
+      .bridge_b_en_o (bridge_b_en),
+      .m10_o         (m10),
+      .m11_o         (m11),
+      .m20_o         (m20),
+      .m21_o         (m21)
+  );
+
+  always_ff @(posedge clk or negedge rst) begin
+    if (!rst) mon_step <= 1'b0;
+    else mon_step <= step;
+  end
+
+  assign mon_dir = forward;
+  assign mon_busy = busy;
+  assign scl_o = 1'b0;
+  assign sda_o = 1'b0;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_answer: the data of a reply: what is in force after the instruction.
+// Rules:  section 3.1 (reply data), sections 3.2, 3.3, 7.4 (words), P006-CMD-50/52/55/56, P006-FRM-09.
+// Timing: registered at take_i, one clk after the instruction has acted.
+`default_nettype none
+
+module pmc006_answer
+  import pmc006_pkg::*;
+#(
+    parameter bit          Echo    = 1'b0,          // s answers its data
+    parameter logic [31:0] Version = 32'h0000_0123
+) (
+    input  wire logic             clk_i,
+    input  wire logic             take_i,
+    input  wire order_t           order_i,
+    input  wire logic             took_i,      // s, t, B, E, W, G, z have been accepted
+    input  wire settings_t        settings_i,
+    input  wire control_t         control_i,
+    input  wire logic             speed_i,     // SPEED_MODE
+    input  wire logic             busy_i,
+    input  wire logic             stall_i,
+    input  wire logic      [ 1:0] flags_i,     // EXT1, EXT2
+    input  wire logic      [ 1:0] ext_i,       // pins
+    input  wire logic      [ 4:0] gpi_i,
+    input  wire logic      [ 4:0] gpo_i,
+    input  wire logic      [ 4:0] out_i,       // register GPO
+    input  wire logic      [ 7:0] pp_i,
+    input  wire logic      [31:0] pos_i,
+    input  wire logic      [31:0] stpos_i,
+    input  wire logic      [31:0] word_i,      // of the program
+    output logic           [31:0] reply_o
+);
+
+  logic [31:0] whole, reply;
+  logic [13:0] part;
+  logic unused_bits;
+
+  assign unused_bits = &{1'b0, order_i, settings_i};
+
+  // Few have more than 14 bits.
+  always_comb begin
+    unique case (order_i.op)
+      I_ABORT, I_POS_SET: whole = order_i.data;
+      I_STEP: whole = !took_i ? 32'd0 : Echo ? order_i.data : 32'd3;
+      I_PUT: whole = took_i ? order_i.data : 32'd0;
+      I_GET: whole = took_i ? word_i : 32'd0;
+      I_POS: whole = pos_i;
+      I_STPOS: whole = stpos_i;
+      I_VERSION: whole = Version;
+      default: whole = 32'd0;
+    endcase
+  end
+
+  always_comb begin
+    unique case (order_i.op)
+      I_POINTER: part = 14'(pp_i);
+      I_BURN, I_TRY, I_SAVE, I_START: part = 14'(took_i);
+      I_OFFLINE: part = 14'(control_i.offline);
+      I_TRIGGER, I_TRIGGER_READ: part = 14'(control_i.trigm);
+      I_VSTART: part = 14'(settings_i.vstart);
+      I_CCOMP: part = 14'(settings_i.ccomp);
+      I_RUN: part = 14'(speed_i);
+      I_STATUS2: part = 14'({control_i.offline, settings_i.dir, speed_i, control_i.exten, settings_i.free});
+      I_SCOMP: part = 14'(settings_i.scomp);
+      I_ATT, I_ATT_READ: part = 14'(settings_i.att);
+      I_VSTOP: part = 14'(settings_i.vstop);
+      I_STLEN: part = 14'(control_i.stlen);
+      I_STCFG: part = 14'(control_i.stcfg);
+      I_STLVL: part = 14'(control_i.stlvl);
+      I_AUTODEC: part = 14'(settings_i.autodec);
+      I_DIR: part = 14'(settings_i.dir);
+      I_CURRENT, I_CURRENT_READ: part = 14'(settings_i.cur);
+      I_EXTEN: part = 14'(control_i.exten);
+      I_FREE: part = 14'(settings_i.free);
+      I_DEC, I_DEC_READ: part = 14'(settings_i.dec);
+      I_STATUS1: part = 14'({stall_i, settings_i.autodec, flags_i, busy_i});
+      I_MSTEP, I_MSTEP_READ: part = 14'(settings_i.mstep);
+      I_VMAX, I_VMAX_READ: part = settings_i.vmax;
+      I_ACC, I_ACC_READ: part = 14'(settings_i.acc);
+      I_ADDR: part = 14'(control_i.addr);
+      I_PORTS: part = 14'({ext_i, gpi_i[4:3], gpo_i, gpi_i[2:0]});
+      I_OUT: part = 14'({out_i, 3'd0});
+      default: part = 14'd0;
+    endcase
+    reply = whole | 32'(part);
+  end
+
+  always_ff @(posedge clk_i) if (take_i) reply_o <= reply;
+
+endmodule
+
+`default_nettype wire

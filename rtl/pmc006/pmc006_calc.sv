@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_calc: the planner's calculator: one adder that multiplies and divides step by step, a small memory and
+//         the program of pmc006_calc_rom.
+// Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
+// Timing: 2 clk for an instruction, n + 1 for n steps. A planning ends within 700 clk of plan_i, an update tick
+//         within 640 of advance_i; either may come while an old run is still going on, which it ends.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_calc
+  import pmc006_calc_pkg::*;
+(
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        plan_i,     // a motion begins: plan it
+    input  wire logic        advance_i,  // an update tick
+    output logic             busy_o,
+    // the motion; steady while busy
+    input  wire logic        short_i,    // kind L
+    input  wire logic        speed_i,    // kind V
+    input  wire logic        stop_i,     // stop request, as sampled
+    input  wire logic        analog_i,
+    input  wire logic [ 2:0] acc_i,      // taken with plan_i
+    input  wire logic [ 2:0] dec_i,
+    input  wire logic [13:0] v_i,
+    input  wire logic [11:0] ve_i,
+    input  wire logic [30:0] left_i,     // until 6 clk after the start
+    input  wire logic [ 7:0] mstep_i,    // 1, 2, 4, .. 128
+    // settings, as sampled
+    input  wire logic [13:0] vmax_i,
+    input  wire logic [ 9:0] adc_i,
+    input  wire logic [11:0] cur_i,
+    input  wire logic [10:0] ccomp_i,
+    input  wire logic [10:0] scomp_i,
+    // results
+    output phase_e           phase_o,
+    output logic      [13:0] next_o,     // Vn
+    output logic             start_v_o,  // one clk: V is Vn now
+    output logic      [10:0] bump_o,     // Bn
+    output logic      [ 6:0] lead_o      // Wn
+);
+
+
+  instr_t instr, ir_q;  // as fetched, while the operand is read; as executed
+  operand_e src;
+  logic run_q, exec_q, fetch, last, done, taken;
+  logic [8:0] pc_q, pc_d;
+  logic [4:0] left_q, steps;
+  logic plan_q, up_q, smooth_q, carry_q, zero;
+  logic [2:0] acc_q, dec_q;
+
+  logic [31:0] hi_q, lo_q, word_q, source_q, source_d, operand, a, b;
+  logic [32:0] sum;
+  logic mul, div, root, shift_only;
+  logic [2:0] n_way, n_rate;
+
+  // ---- sequence --------------------------------------------------------------------------------------------------
+
+  assign busy_o = run_q;
+  assign last   = exec_q && left_q == '0;
+  assign done   = last && run_q;
+  assign fetch  = plan_i || advance_i || done;
+
+  always_comb begin
+    unique case (cond_e'(ir_q.aux))
+      Always:     taken = 1'b1;
+      IfCarry:    taken = carry_q;
+      IfNotCarry: taken = !carry_q;
+      IfZero:     taken = zero;
+      IfShort:    taken = short_i;
+      IfSpeed:    taken = speed_i;
+      IfStop:     taken = stop_i && speed_i;
+      IfAnalog:   taken = analog_i;
+      IfPlan:     taken = plan_q;
+      IfEnding:   taken = phase_o[1:0] == PhEnd[1:0];
+      IfRamp:     taken = phase_o[2];
+      IfLive:     taken = phase_o[1:0] == PhCruise[1:0] && !short_i;
+      IfUp:       taken = up_q;
+      IfSmooth:   taken = smooth_q;
+      IfAcc5:     taken = acc_q == 3'd5;
+      IfDec5:     taken = dec_q == 3'd5;
+      default:    taken = 1'b0;
+    endcase
+    if (plan_i) pc_d = EntryPlan;
+    else if (advance_i) pc_d = EntryTick;
+    else if (ir_q.op == OpJump && taken) pc_d = ir_q.low;
+    else pc_d = pc_q + 1'b1;
+    unique case (instr.op)
+      OpMul: begin
+        unique case (steps_e'(instr.aux))
+          N1:      steps = 5'd0;
+          N2:      steps = 5'd1;
+          N4:      steps = 5'd3;
+          N16:     steps = 5'd15;
+          default: steps = 5'd31;
+        endcase
+      end
+      OpDiv, OpRoot: steps = 5'd31;
+      default:       steps = 5'd0;
+    endcase
+  end
+
+  pmc006_calc_rom u_rom (
+      .clk_i,
+      .fetch_i(fetch),
+      .addr_i (pc_d),
+      .code_o (instr)
+  );
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) run_q <= 1'b0;
+    else if (plan_i || advance_i) run_q <= 1'b1;
+    else if (done && ir_q.op == OpHalt) run_q <= 1'b0;
+  end
+
+  // No reset: a start sets what follows.
+  always_ff @(posedge clk_i) begin
+    if (fetch) pc_q <= pc_d;
+    ir_q   <= instr;
+    exec_q <= !fetch && run_q;
+    if (!exec_q) left_q <= steps;
+    else left_q <= left_q - 1'b1;
+  end
+
+  // ---- operands --------------------------------------------------------------------------------------------------
+
+  assign src = operand_e'(instr.low[5:0]);
+  assign n_way = instr.aux[0] ? dec_q : acc_q;
+  assign n_rate = up_q ? acc_q : dec_q;
+
+  always_comb begin
+    unique case (src)
+      K1:      source_d = 32'd1;
+      K3:      source_d = 32'd3;
+      K4:      source_d = 32'd4;
+      K100:    source_d = 32'd100;
+      K150:    source_d = 32'd150;
+      K153:    source_d = 32'd153;
+      K325:    source_d = 32'd325;
+      K416:    source_d = 32'd416;
+      K20000:  source_d = 32'd20000;
+      K54400:  source_d = 32'd54400;
+      K3x2p16: source_d = 32'd196608;
+      K2p31:   source_d = 32'h8000_0000;
+      RV:      source_d = 32'(v_i);
+      RVe:     source_d = 32'(ve_i);
+      RLeft:   source_d = 32'(left_i);
+      RVmax:   source_d = 32'(vmax_i);
+      RAdc:    source_d = 32'({adc_i, 6'd0});
+      RAdc9:   source_d = 32'({adc_i[9], 6'd0});
+      RCur:    source_d = 32'(cur_i);
+      RCcomp:  source_d = 32'(ccomp_i);
+      RScomp:  source_d = 32'(scomp_i);
+      RMstep:  source_d = 32'(mstep_i);
+      RLo:     source_d = lo_q;
+      RMid:    source_d = {hi_q[15:0], lo_q[31:16]};
+      RMargin: source_d = 32'({1'b1, hi_q[13:12]});
+      RRoot:   source_d = 32'({next_o, 2'b01});
+      RRate:   source_d = 32'd17 << n_rate;
+      RWay:    source_d = 32'd3400 << n_way;
+      default: source_d = '0;
+    endcase
+  end
+
+  (* no_rw_check *)
+  logic [31:0] words[16];
+
+  always_ff @(posedge clk_i) begin
+    if (done && ir_q.op == OpStore) words[ir_q.low[3:0]] <= hi_q;
+    word_q   <= words[src[3:0]];
+    source_q <= source_d;
+  end
+
+  assign operand = (ir_q.low[5:4] == 2'b00) ? word_q : source_q;
+
+  // ---- the adder -------------------------------------------------------------------------------------------------
+
+  assign mul = ir_q.op == OpMul;
+  assign root = ir_q.op == OpRoot;
+  assign div = ir_q.op == OpDiv || root;
+  assign shift_only = root && left_q[0];  // a digit of a root takes two bits of its square
+  assign zero = hi_q == '0;
+
+  always_comb begin
+    a   = div ? {hi_q[30:0], lo_q[31]} : (ir_q.op == OpLoad) ? '0 : hi_q;
+    b   = (div || ir_q.op == OpSub) ? ~operand : (mul && !lo_q[0]) ? '0 : operand;
+    sum = {1'b0, a} + {1'b0, b} + 33'(div || ir_q.op == OpSub);
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (exec_q) begin
+      unique case (ir_q.op)
+        OpLoad, OpAdd, OpSub: begin
+          if (ir_q.aux[1]) {hi_q, lo_q} <= {32'd0, sum[31:0]};
+          else hi_q <= sum[31:0];
+          if (ir_q.op != OpLoad) carry_q <= sum[32];
+        end
+        OpMul:   {hi_q, lo_q} <= {sum, lo_q[31:1]};
+        OpDiv, OpRoot: begin
+          hi_q <= (sum[32] && !shift_only) ? sum[31:0] : a;
+          lo_q <= {lo_q[30:0], sum[32]};
+        end
+        default: ;
+      endcase
+    end
+  end
+
+  // ---- results ---------------------------------------------------------------------------------------------------
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      plan_q    <= 1'b0;
+      phase_o   <= PhCruise;
+      start_v_o <= 1'b0;
+    end else begin
+      start_v_o <= done && ir_q.op == OpOut && out_e'(ir_q.aux) == OutSpeed;
+      if (plan_i || advance_i) plan_q <= plan_i;
+      if (done && ir_q.op == OpSet) begin
+        if (ir_q.aux[3]) phase_o <= phase_e'({1'b0, phase_o[1:0]});
+        else if (ir_q.aux[2]) phase_o <= phase_e'(ir_q.low[4:2]);
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (done && ir_q.op == OpOut) begin
+      unique case (out_e'(ir_q.aux))
+        OutNext, OutSpeed: next_o <= hi_q[13:0];
+        OutBump:           bump_o <= hi_q[16:6];
+        OutLead:           lead_o <= (hi_q[8:6] != '0) ? 7'd64 : 7'(hi_q[5:0]);
+        OutAcc:            acc_q <= acc_q + 1'b1;
+        OutDec:            dec_q <= dec_q + 1'b1;
+        default:           ;
+      endcase
+    end else if (exec_q && root && !left_q[0]) next_o <= {next_o[12:0], sum[32]};
+    if (done && ir_q.op == OpSet) begin
+      if (ir_q.aux[1]) up_q <= ir_q.low[1];
+      if (ir_q.aux[0]) smooth_q <= ir_q.low[0];
+    end
+    if (plan_i) begin
+      acc_q    <= acc_i;
+      dec_q    <= dec_i;
+      up_q     <= 1'b1;
+      smooth_q <= 1'b1;
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(calc_not_overtaken, !(advance_i && busy_o))
+  `PPMC_ASSERT(calc_coefficients, !busy_o || (acc_q <= 3'd5 && dec_q <= 3'd5))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_control: everything between the line to the host and the motor: executor, registers, user program, EEPROM,
+//         guards.
+// Rules:  sections 3, 4, 7, 12 and 13, through its blocks.
+// Timing: start_o, run_o and halt_o are combinational, in the clk before the edge on which BUSY changes.
+`default_nettype none
+
+module pmc006_control
+  import pmc006_pkg::*;
+#(
+    parameter int unsigned        ClkHz   = 16_000_000,
+    parameter int unsigned        I2cHz   = 400_000,
+    parameter logic        [ 6:0] Device  = 7'h50,
+    parameter bit                 Echo    = 1'b0,
+    parameter logic        [31:0] Version = 32'h0000_0123
+) (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        us_i,
+    output logic             boot_o,
+    // host
+    input  wire logic        go_i,
+    input  wire logic [ 7:0] code_i,
+    input  wire logic [31:0] data_i,
+    output logic      [31:0] reply_o,
+    output logic      [ 7:0] addr_o,
+    // pins, inputs synchronised
+    input  wire logic        fset_ni,
+    input  wire logic [ 1:0] ext_i,
+    input  wire logic [ 4:0] gpi_i,
+    output logic      [ 1:0] pull_up_o,     // EXT1, EXT2
+    output logic      [ 4:0] gpo_o,
+    input  wire logic [ 9:0] bemf_level_i,
+    input  wire logic        bemf_valid_i,
+    input  wire logic        scl_i,
+    input  wire logic        sda_i,
+    output logic             scl_oe_o,
+    output logic             sda_oe_o,
+    // motion
+    output settings_t        settings_o,
+    output logic             start_o,
+    output logic      [30:0] count_o,
+    output logic             run_o,
+    output logic             speed_o,
+    output logic             halt_o,
+    input  wire logic        busy_i,
+    input  wire logic        step_i,
+    input  wire logic        forward_i,
+    input  wire logic        steady_i
+);
+
+  order_t   order;
+  control_t control;
+  logic next, cancel, begins, claim, second, trial, tries;
+  logic load, load_wide, store, legal, act, place, take, write, took, took_q;
+  logic put, program_took, burning, autostart, byte_we, key_stop;
+  logic free, save, burn, mode, stall, ext_event, stall_stop, stall_mark;
+  logic rst_set, restore, unused_armed;
+  logic [1:0] flags;
+  logic [4:0] out;
+  logic [7:0] load_op, byte_read, byte_written, word_at, pp;
+  logic [ 9:0] byte_at;
+  logic [15:0] pair;
+  logic [31:0] word, position, stall_position;
+
+  // ---- executor, registers ---------------------------------------------------------------------------------------
+
+  pmc006_exec u_exec (
+      .clk_i,
+      .rst_ni,
+      .go_i,
+      .code_i,
+      .data_i,
+      .next_i     (next),
+      .cancel_i   (cancel),
+      .begin_o    (begins),
+      .claim_o    (claim),
+      .second_o   (second),
+      .trial_o    (trial),
+      .word_i     (word),
+      .load_i     (load),
+      .load_op_i  (load_op),
+      .load_data_i({load_wide ? pair[15:8] : 8'd0, pair[7:0]}),
+      .store_i    (store),
+      .order_o    (order),
+      .legal_o    (legal),
+      .act_o      (act),
+      .place_o    (place),
+      .step_i,
+      .try_i      (tries),
+      .reply_o    (take)
+  );
+
+  assign write = act && legal;
+
+  pmc006_settings u_settings (
+      .clk_i,
+      .rst_ni   (rst_set),
+      .order_i  (order),
+      .write_i  (write),
+      .settings_o,
+      .control_o(control)
+  );
+
+  // ---- user program ----------------------------------------------------------------------------------------------
+
+  pmc006_program u_program (
+      .clk_i,
+      .rst_ni,
+      .autostart_i(autostart),
+      .order_i    (order),
+      .legal_i    (legal),
+      .act_i      (act),
+      .begin_i    (begins),
+      .next_o     (next),
+      .cancel_o   (cancel),
+      .second_i   (second),
+      .trial_i    (trial),
+      .word_at_o  (word_at),
+      .try_o      (tries),
+      .put_o      (put),
+      .took_o     (program_took),
+      .burning_i  (burning),
+      .pp_o       (pp),
+      .us_i,
+      .stop_o     (key_stop),
+      .gpi_i,
+      .flags_i    (flags),
+      .busy_i,
+      .stall_i    (stall)
+  );
+
+  pmc006_buffer u_buffer (
+      .clk_i,
+      .claim_i  (claim),
+      .word_at_i(word_at),
+      .put_i    (put),
+      .data_i   (order.data),
+      .word_o   (word),
+      .byte_at_i(byte_at),
+      .we_i     (byte_we),
+      .byte_i   (byte_written),
+      .byte_o   (byte_read),
+      .pair_o   (pair)
+  );
+
+  // ---- EEPROM ----------------------------------------------------------------------------------------------------
+
+  assign save = act && order.op == I_SAVE && free;
+  assign burn = act && order.op == I_BURN && free;
+
+  pmc006_key #(
+      .LowTicks (20_001),
+      .HighTicks(0),
+      .Armed    (1'b1)
+  ) u_fset (
+      .clk_i,
+      .rst_ni,
+      .us_i,
+      .pin_i  (fset_ni),
+      .hit_o  (restore),
+      .armed_o(unused_armed)
+  );
+
+  pmc006_eeprom #(
+      .ClkHz (ClkHz),
+      .I2cHz (I2cHz),
+      .Device(Device)
+  ) u_eeprom (
+      .clk_i,
+      .rst_ni,
+      .fset_ni,
+      .restore_i  (restore),
+      .save_i     (save),
+      .burn_i     (burn),
+      .free_o     (free),
+      .burning_o  (burning),
+      .boot_o,
+      .autostart_o(autostart),
+      .rst_set_no (rst_set),
+      .settings_i (settings_o),
+      .control_i  (control),
+      .load_o     (load),
+      .load_op_o  (load_op),
+      .load_wide_o(load_wide),
+      .store_o    (store),
+      .legal_i    (legal),
+      .claim_i    (claim),
+      .byte_at_o  (byte_at),
+      .we_o       (byte_we),
+      .byte_o     (byte_written),
+      .byte_i     (byte_read),
+      .scl_i,
+      .sda_i,
+      .scl_oe_o,
+      .sda_oe_o
+  );
+
+  // ---- motion -------------------------------------------------------------------------------------------------------
+
+  pmc006_accept u_accept (
+      .clk_i,
+      .rst_ni,
+      .order_i   (order),
+      .legal_i   (legal),
+      .act_i     (act),
+      .settings_i(settings_o),
+      .busy_i,
+      .locked_i  (|flags),
+      .ext_i     (ext_event),
+      .stall_i   (stall_stop),
+      .key_i     (key_stop),
+      .start_o,
+      .run_o,
+      .halt_o,
+      .speed_o,
+      .mode_o    (mode)
+  );
+
+  pmc006_position u_position (
+      .clk_i,
+      .rst_ni,
+      .step_i,
+      .forward_i,
+      .set_i  (place),
+      .data_i (order.data),
+      .mark_i (stall_mark),
+      .pos_o  (position),
+      .stall_o(stall_position)
+  );
+
+  // ---- guards, ports, answer -------------------------------------------------------------------------------------
+
+  pmc006_guard u_guard (
+      .clk_i,
+      .rst_ni,
+      .ext_i,
+      .rising_i(control.trigm),
+      .enable_i(control.exten),
+      .clear_i ({act && order.op == I_CLEAR2, act && order.op == I_CLEAR1}),
+      .event_o (ext_event),
+      .flags_o (flags)
+  );
+
+  pmc006_stall u_stall (
+      .clk_i,
+      .rst_ni,
+      .level_i (bemf_level_i),
+      .valid_i (bemf_valid_i),
+      .config_i(control.stcfg),
+      .length_i(control.stlen),
+      .limit_i (control.stlvl),
+      .busy_i,
+      .steady_i,
+      .start_i (start_o || run_o),
+      .clear_i (act && order.op == I_STALL),
+      .stop_o  (stall_stop),
+      .mark_o  (stall_mark),
+      .stall_o (stall)
+  );
+
+  pmc006_ports u_ports (
+      .clk_i,
+      .rst_ni,
+      .order_i(order),
+      .write_i(write),
+      .pull_i (stall && control.stcfg[2]),
+      .out_o  (out),
+      .gpo_o
+  );
+
+  assign took = program_took || save || burn || start_o;
+
+  pmc006_answer #(
+      .Echo(Echo),
+      .Version(Version)
+  ) u_answer (
+      .clk_i,
+      .take_i    (take),
+      .order_i   (order),
+      .took_i    (took_q),
+      .settings_i(settings_o),
+      .control_i (control),
+      .speed_i   (mode),
+      .busy_i,
+      .stall_i   (stall),
+      .flags_i   (flags),
+      .ext_i,
+      .gpi_i,
+      .gpo_i     (gpo_o),
+      .out_i     (out),
+      .pp_i      (pp),
+      .pos_i     (position),
+      .stpos_i   (stall_position),
+      .word_i    (word),
+      .reply_o
+  );
+
+  always_ff @(posedge clk_i) took_q <= took;
+
+  assign addr_o = control.addr;
+  assign count_o = order.data[30:0];
+  assign pull_up_o = ~control.trigm;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_eeprom: boot, save, burn and factory restore: what goes over the bus of the EEPROM, and into the registers.
+// Rules:  section 13, P006-CMD-02/41, P006-BAD-12..15/22/24.
+// Timing: bus on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte is taken on the tick that begins its first bit. At
+//         boot the page is looked through, then carried out, eight clk a byte.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_eeprom
+  import pmc006_pkg::*;
+  import ppmc_i2c_pkg::*;
+#(
+    parameter int unsigned ClkHz = 16_000_000,
+    parameter int unsigned I2cHz = 400_000,
+    parameter logic [6:0] Device = 7'h50
+) (
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire logic            fset_ni,      // synchronised
+    input  wire logic            restore_i,    // it has been low long enough
+    // requests
+    input  wire logic            save_i,
+    input  wire logic            burn_i,
+    output logic                 free_o,       // one can be taken
+    output logic                 burning_o,
+    output logic                 boot_o,
+    output logic                 autostart_o,
+    output logic                 rst_set_no,   // reset of the parameter registers: a restore during the boot
+    // registers
+    input  wire settings_t       settings_i,
+    input  wire control_t        control_i,
+    output logic                 load_o,       // carry out load_op_o with the pair or byte of the buffer
+    output logic           [7:0] load_op_o,
+    output logic                 load_wide_o,
+    output logic                 store_o,      // else only look whether it is legal
+    input  wire logic            legal_i,
+    // buffer
+    input  wire logic            claim_i,      // the executor reads it
+    output logic           [9:0] byte_at_o,
+    output logic                 we_o,
+    output logic           [7:0] byte_o,
+    input  wire logic      [7:0] byte_i,
+    // bus, synchronised
+    input  wire logic            scl_i,
+    input  wire logic            sda_i,
+    output logic                 scl_oe_o,
+    output logic                 sda_oe_o
+);
+
+  localparam int unsigned StretchTicks = 4 * I2cHz / 1000 + 1;
+  localparam int unsigned PollTicks = 4 * I2cHz / 100;
+  localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollTicks);
+  localparam logic [9:0] Program = 10'h020;
+  localparam logic [9:0] Mark = 10'h342;
+  localparam logic [4:0] FirstField = 5'h03;
+  localparam logic [4:0] LastField = 5'h15;
+
+  typedef enum logic [3:0] {
+    StReset,   // FSET, then the state of the bus
+    StFree,
+    StStart,
+    StDevice,
+    StHigh,    // address
+    StLow,
+    StAgain,   // START of a read
+    StSource,  // device, to read from
+    StData,
+    StStop,
+    StWipe,    // no program
+    StLoad,    // registers from the page
+    StSettle,
+    StIdle
+  } state_e;
+
+  state_e state_q;
+  logic tick, first, done, fail, nack;
+  logic boot_q, restore_q, poll_q, read_q, burn_q, mark_q, factory_q, fail_q, again_q, last_q, store_q;
+  logic page_bad_q, program_bad_q, last, over, sent, got, wrong, clear_sum, give_up;
+  logic [1:0] fresh_q;
+  logic [2:0] phase_q;
+  logic [9:0] at_q;
+  logic [7:0] received, data, ahead_q, out;
+  logic [PollBits-1:0] poll_count_q;
+  i2c_cmd_e cmd;
+
+  // ---- bus -------------------------------------------------------------------------------------------------------
+
+  ppmc_tick_gen #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (4 * I2cHz),
+      .TickXtal(1)
+  ) u_tick (
+      .clk_i,
+      .rst_ni,
+      .restart_i(1'b0),
+      .tick_o   (tick)
+  );
+
+  always_comb begin
+    out = 8'hff;
+    unique case (state_q)
+      StFree:           cmd = CmdFree;
+      StStart, StAgain: cmd = CmdStart;
+      StStop:           cmd = CmdStop;
+      StDevice: begin
+        cmd = CmdByte;
+        out = {Device, 1'b0};
+      end
+      StHigh: begin
+        cmd = CmdByte;
+        out = {6'd0, at_q[9:8]};
+      end
+      StLow: begin
+        cmd = CmdByte;
+        out = at_q[7:0];
+      end
+      StSource: begin
+        cmd = CmdByte;
+        out = {Device, 1'b1};
+      end
+      StData: begin
+        cmd = CmdByte;
+        if (!read_q) out = data;
+      end
+      default:          cmd = CmdNone;
+    endcase
+  end
+
+  ppmc_i2c_master #(
+      .StretchTicks(StretchTicks)
+  ) u_master (
+      .clk_i,
+      .rst_ni,
+      .tick_i (tick),
+      .cmd_i  (cmd),
+      .byte_i (out),
+      .ack_i  (!(state_q == StData && read_q && !last)),
+      .first_o(first),
+      .done_o (done),
+      .fail_o (fail),
+      .byte_o (received),
+      .nack_o (nack),
+      .scl_i,
+      .sda_i,
+      .scl_oe_o,
+      .sda_oe_o
+  );
+
+  // ---- bytes -----------------------------------------------------------------------------------------------------
+
+  assign sent = first && state_q == StData && !read_q;
+  assign got  = done && state_q == StData && read_q;
+  assign last = at_q == Mark || (at_q[4:0] == '1 && !(read_q && at_q[9:5] != '0));
+
+  pmc006_page u_page (
+      .clk_i,
+      .rst_ni,
+      .at_i      (at_q),
+      .sent_i    (sent),
+      .got_i     (got),
+      .received_i(received),
+      .clear_i   (clear_sum),
+      .burn_i    (burn_q),
+      .mark_i    (mark_q),
+      .ahead_i   (ahead_q),
+      .factory_i (factory_q),
+      .settings_i,
+      .control_i,
+      .byte_o    (data),
+      .wrong_o   (wrong),
+      .op_o      (load_op_o),
+      .wide_o    (load_wide_o)
+  );
+
+  assign clear_sum = state_q == StSettle || state_q == StIdle ||
+      (done && state_q == StStop && !again_q && (read_q || (poll_q && mark_q)));
+
+  assign byte_at_o = at_q;
+  assign we_o = got || (state_q == StWipe && program_bad_q);
+  assign byte_o = (state_q == StWipe) ? 8'd0 : received;
+
+  // The executor has the buffer first; between two bytes there is time enough.
+  always_ff @(posedge clk_i) begin
+    fresh_q <= {fresh_q[0], !claim_i};
+    if (fresh_q[1]) ahead_q <= byte_i;
+    if (first) last_q <= last;
+  end
+
+  // ---- factory restore -------------------------------------------------------------------------------------------
+
+  // The reset values are the factory's: all of them return at once, and stay until the boot is over.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) rst_set_no <= 1'b0;
+    else rst_set_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));
+  end
+
+  // ---- sequence --------------------------------------------------------------------------------------------------
+
+  assign free_o = state_q == StIdle && !restore_q;
+  assign burning_o = burn_q;
+  assign boot_o = boot_q;
+  assign load_o = state_q == StLoad && phase_q == 3'd3;
+  assign store_o = store_q;
+  assign over = poll_count_q == PollBits'(PollTicks);
+  assign give_up = fail || (done && state_q == StStop && (fail_q || (again_q && over)));
+  assign autostart_o = state_q == StSettle && !restore_q && boot_q && control_i.offline && !program_bad_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!poll_q) poll_count_q <= '0;
+    else if (tick && !over) poll_count_q <= poll_count_q + 1'b1;
+    phase_q <= (state_q == StLoad) ? phase_q + 1'b1 : 3'd0;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q       <= StReset;
+      boot_q        <= 1'b1;
+      restore_q     <= 1'b0;
+      poll_q        <= 1'b0;
+      read_q        <= 1'b0;
+      burn_q        <= 1'b0;
+      mark_q        <= 1'b0;
+      factory_q     <= 1'b0;
+      fail_q        <= 1'b0;
+      again_q       <= 1'b0;
+      store_q       <= 1'b0;
+      page_bad_q    <= 1'b0;
+      program_bad_q <= 1'b0;
+      at_q          <= '0;
+    end else begin
+      if (got || sent || state_q == StWipe) at_q <= at_q + 1'b1;
+      if (wrong) begin
+        if (at_q[9:5] != '0) program_bad_q <= 1'b1;
+        else page_bad_q <= 1'b1;
+      end
+
+      unique case (state_q)
+        StReset:
+        if (tick && (fset_ni || restore_q)) begin
+          state_q <= sda_i ? StStart : StFree;
+          poll_q  <= sda_i;
+        end
+        StFree:  if (done) state_q <= StStop;
+        StStart: if (done) state_q <= StDevice;
+        StDevice, StHigh, StLow, StSource:
+        if (done) begin
+          unique case (state_q)
+            StDevice: state_q <= poll_q ? StStop : StHigh;
+            StHigh:   state_q <= StLow;
+            StLow:    state_q <= read_q ? StAgain : StData;
+            default:  state_q <= StData;
+          endcase
+          if (nack) begin
+            state_q <= StStop;
+            again_q <= poll_q;
+            fail_q  <= !poll_q;
+          end
+        end
+        StAgain: if (done) state_q <= StSource;
+        StData:
+        if (done) begin
+          if (last_q) state_q <= StStop;
+          if (!read_q && nack) begin
+            state_q <= StStop;
+            fail_q  <= 1'b1;
+          end
+        end
+        StStop:
+        if (done) begin
+          state_q <= StStart;
+          again_q <= 1'b0;
+          if (!again_q) begin
+            poll_q <= !poll_q && !read_q;
+            if (poll_q) begin
+              if (boot_q && !factory_q) read_q <= 1'b1;
+              else if (mark_q) begin
+                mark_q <= 1'b0;
+                at_q   <= Program;
+              end else if (!burn_q || at_q > Mark) state_q <= StSettle;
+            end
+            if (read_q && at_q > Mark) begin
+              state_q <= StWipe;
+              read_q  <= 1'b0;
+              at_q    <= Program;
+            end
+          end
+        end
+        StWipe: begin
+          if (!program_bad_q || at_q == 10'h33f) begin
+            state_q <= (page_bad_q || restore_q) ? StSettle : StLoad;
+            at_q    <= 10'(FirstField);
+          end
+        end
+        StLoad: begin
+          if (phase_q == 3'd5 && load_op_o != I_NONE && !legal_i) page_bad_q <= 1'b1;
+          if (phase_q == 3'd7) begin
+            at_q <= at_q + 1'b1;
+            if (at_q[4:0] == LastField) begin
+              at_q    <= 10'(FirstField);
+              store_q <= 1'b1;
+              if (store_q || page_bad_q || restore_q) state_q <= StSettle;
+            end
+          end
+        end
+        default: begin  // StSettle, StIdle
+          state_q   <= StIdle;
+          boot_q    <= 1'b0;
+          burn_q    <= 1'b0;
+          factory_q <= 1'b0;
+          at_q      <= '0;
+          fail_q    <= 1'b0;
+          again_q   <= 1'b0;
+          poll_q    <= 1'b0;
+          mark_q    <= 1'b0;
+          if (restore_q || (state_q == StIdle && (save_i || burn_i))) begin
+            state_q   <= StStart;
+            boot_q    <= boot_q;
+            restore_q <= 1'b0;
+            factory_q <= restore_q;
+            burn_q    <= burn_i && !restore_q;
+            mark_q    <= burn_i && !restore_q;
+            if (burn_i && !restore_q) at_q <= Mark;
+          end
+        end
+      endcase
+
+      if (give_up) begin
+        state_q <= StSettle;
+        if (boot_q && !factory_q) begin
+          state_q       <= StWipe;
+          at_q          <= Program;
+          page_bad_q    <= 1'b1;
+          program_bad_q <= 1'b1;
+          read_q        <= 1'b0;
+        end
+      end
+      if (restore_i) restore_q <= 1'b1;
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p006_eep_22, !(save_i && burn_i))
+  `PPMC_ASSERT(p006_bad_12, free_o || !(save_i || burn_i))
+`endif
+
+endmodule
+
+`default_nettype wire

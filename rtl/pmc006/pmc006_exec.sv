@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_exec: carries instructions out, one at a time: of a frame, of the user program, of the EEPROM at boot.
+// Rules:  P006-FRM-03, P006-CMD-52/53, P006-PRG-15/16, P006-STA-15.
+// Timing: a frame takes effect 4 clk after its last sample if nothing is under way, an instruction of the program
+//         5 clk after its start; both act on the edge that ends the clk of act_o. reply_o comes one clk later.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_exec
+  import pmc006_pkg::*;
+(
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    // frames
+    input  wire logic        go_i,
+    input  wire logic [ 7:0] code_i,
+    input  wire logic [31:0] data_i,
+    // user program
+    input  wire logic        next_i,       // its next instruction is due
+    input  wire logic        cancel_i,     // forget the one under way
+    output logic             begin_o,      // it is under way
+    output logic             claim_o,      // the buffer's address is the executor's
+    output logic             second_o,     // word W1 instead of W0
+    output logic             trial_o,      // of the instruction at PP
+    input  wire logic [31:0] word_i,       // two clk after the address
+    // EEPROM
+    input  wire logic        load_i,
+    input  wire logic [ 7:0] load_op_i,
+    input  wire logic [15:0] load_data_i,
+    input  wire logic        store_i,      // carry out; else only look whether it is legal
+    // what is carried out
+    output order_t           order_o,
+    output logic             legal_o,      // its data are in range
+    output logic             act_o,
+    output logic             place_o,      // the same for the position
+    input  wire logic        step_i,       // a step is counted in this clk
+    input  wire logic        try_i,        // E has been accepted
+    output logic             reply_o       // take the reply
+);
+
+  typedef enum logic [2:0] {
+    StIdle,
+    StFirst,   // address of W0
+    StSecond,  // address of W1
+    StDecode,  // W0 is there
+    StLook,
+    StAct,
+    StReply
+  } state_e;
+
+  state_e  state_q;
+  source_e source_q;
+  logic ask_q, again_q, ok, legal_q, program_q, place;
+  logic [7:0] op_q;
+  logic [3:0] option_q;
+
+  assign program_q = source_q == FromProgram || source_q == FromTry;
+  // A position is set in a clk in which no step is counted. It is none of the acts: they can stop the motor, and so
+  // suppress the step.
+  assign place = state_q == StAct && op_q == I_POS_SET;
+  assign place_o = place && !step_i;
+
+  assign act_o = state_q == StAct && !place && !(cancel_i && source_q == FromProgram);
+  assign reply_o = state_q == StReply;
+  assign legal_o = legal_q;
+  assign begin_o = state_q == StIdle && !ask_q && next_i;
+  assign trial_o = source_q == FromTry;
+  assign second_o = program_q && state_q != StFirst;
+  assign claim_o = source_q != FromBoot && state_q inside {StFirst, StSecond, StDecode, StLook, StAct};
+
+  always_comb begin
+    order_o = '{op: op_q, option: option_q, source: source_q, data: data_i};
+    if (program_q) order_o.data = word_i;
+    if (source_q == FromBoot) order_o.data = {16'd0, load_data_i};
+  end
+
+  pmc006_range u_range (
+      .order_i(order_o),
+      .ok_o   (ok)
+  );
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q  <= StIdle;
+      source_q <= FromBoot;
+      ask_q    <= 1'b0;
+    end else begin
+      if (go_i) ask_q <= 1'b1;
+      unique case (state_q)
+        StIdle:
+        if (ask_q) begin
+          ask_q    <= 1'b0;
+          source_q <= FromFrame;
+          state_q  <= StLook;
+        end else if (load_i) begin
+          source_q <= FromBoot;
+          state_q  <= StLook;
+        end else if (next_i) begin
+          source_q <= FromProgram;
+          state_q  <= StFirst;
+        end
+        StFirst: state_q <= StSecond;
+        StSecond: state_q <= StDecode;
+        StDecode: state_q <= StLook;
+        StLook: state_q <= (source_q == FromBoot && !store_i) ? StIdle : StAct;
+        StAct: if (!place || !step_i) state_q <= (source_q == FromFrame) ? StReply : StIdle;
+        default: begin  // StReply
+          state_q <= StIdle;
+          if (again_q) begin
+            source_q <= FromTry;
+            state_q  <= StFirst;
+          end
+        end
+      endcase
+      if (cancel_i && source_q == FromProgram && state_q != StIdle) state_q <= StIdle;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (state_q == StIdle) begin
+      op_q     <= load_i ? load_op_i : code_i[7] ? I_NONE : code_i;
+      option_q <= '0;
+    end else if (state_q == StDecode) begin
+      op_q     <= op_of(word_i[7:0]);
+      option_q <= (word_i[15:12] == '0) ? word_i[11:8] : 4'hf;
+    end
+    legal_q <= ok;
+    again_q <= act_o && try_i;
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p006_sta_15, !(place_o && step_i) && !(place_o && act_o))
+  `PPMC_ASSERT(p006_frm_07, !(go_i && ask_q))
+`endif
+
+endmodule
+
+`default_nettype wire

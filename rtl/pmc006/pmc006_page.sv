@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_page: what stands where in the EEPROM: bytes as they are sent, or expected where they are checked; their sum;
+//         which instruction loads a parameter.
+// Rules:  section 13.1 (map, factory page), P006-EEP-10/11/22, P006-BAD-14/15.
+// Timing: byte_o and wrong_o are combinational. The high byte of a pair is kept when the low one is sent, so that
+//         registers go whole.
+`default_nettype none
+
+module pmc006_page
+  import pmc006_pkg::*;
+(
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic [9:0] at_i,
+    input wire logic sent_i,  // byte_o is taken
+    input wire logic got_i,  // received_i has come
+    input wire logic [7:0] received_i,
+    input wire logic clear_i,  // the sum
+    input wire logic burn_i,
+    input wire logic mark_i,  // the program is going to change
+    input wire logic [7:0] ahead_i,  // byte of the program
+    input wire logic factory_i,
+    input wire settings_t settings_i,
+    input wire control_t control_i,
+    output logic [7:0] byte_o,
+    output logic wrong_o,  // what has come is not what it must be
+    output logic [7:0] op_o,  // instruction that loads the byte or pair, I_NONE if there is none
+    output logic wide_o  // a pair
+);
+
+  settings_t set;
+  control_t ctl;
+  logic [4:0] at;
+  logic [7:0] page, high_q;
+  logic [15:0] pair, sum_q;
+  logic tail, check, unused_bits;
+
+  assign at = at_i[4:0];
+  assign tail = at_i[9:8] == 2'b11 && at_i[6];  // behind the program
+  assign set = factory_i ? SETTINGS_RESET : settings_i;
+  assign ctl = factory_i ? CONTROL_RESET : control_i;
+  assign unused_bits = &{1'b0, set, ctl};
+
+  always_comb begin
+    unique case (at[4:1])
+      4'h6: pair = 16'(set.vstart);
+      4'h7: pair = 16'(set.vstop);
+      4'h8: pair = 16'(set.ccomp);
+      4'h9: pair = 16'(set.scomp);
+      4'ha: pair = 16'(set.cur);
+      default: pair = 16'd0;
+    endcase
+    unique case (at)
+      5'h00:   page = 8'h50;
+      5'h01:   page = 8'h36;
+      5'h02:   page = 8'h01;
+      5'h03:   page = ctl.addr;
+      5'h04:   page = set.mstep;
+      5'h06:   page = 8'(set.acc);
+      5'h07:   page = 8'(set.dec);
+      5'h08:   page = 8'(set.autodec);
+      5'h09:   page = 8'(set.att);
+      5'h0a:   page = 8'(ctl.trigm);
+      5'h0b:   page = 8'(ctl.offline);
+      5'h1f:   page = sum_q[7:0];
+      default: page = at[0] ? high_q : pair[7:0];
+    endcase
+  end
+
+  always_comb begin
+    byte_o = burn_i ? ahead_i : page;
+    if (tail) begin
+      unique case (at[1:0])
+        2'd0:    byte_o = sum_q[7:0];
+        2'd1:    byte_o = sum_q[15:8];
+        default: byte_o = mark_i ? 8'h00 : 8'h5a;
+      endcase
+    end
+    check   = tail || at_i inside {10'h000, 10'h001, 10'h002, 10'h01f};
+    wrong_o = got_i && check && received_i != byte_o;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) sum_q <= '0;
+    else if (clear_i) sum_q <= '0;
+    else if ((sent_i || got_i) && !tail) sum_q <= sum_q + 16'(got_i ? received_i : byte_o);
+  end
+
+  always_ff @(posedge clk_i) if (sent_i && !at[0]) high_q <= pair[15:8];
+
+  always_comb begin
+    unique case (at)
+      5'h03:   op_o = I_ADDR;
+      5'h04:   op_o = I_MSTEP;
+      5'h06:   op_o = I_ACC;
+      5'h07:   op_o = I_DEC;
+      5'h08:   op_o = I_AUTODEC;
+      5'h09:   op_o = I_ATT;
+      5'h0a:   op_o = I_TRIGGER;
+      5'h0b:   op_o = I_OFFLINE;
+      5'h0c:   op_o = I_VSTART;
+      5'h0e:   op_o = I_VSTOP;
+      5'h10:   op_o = I_CCOMP;
+      5'h12:   op_o = I_SCOMP;
+      5'h14:   op_o = I_CURRENT;
+      default: op_o = I_NONE;
+    endcase
+    wide_o = at >= 5'h0c;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_pkg: instruction codes, registers and their factory values of the PMC006B4.
+// Rules:  sections 3.0 (registers), 3.1 (codes), 12.3 (opcodes of the user program).
+`default_nettype none
+
+package pmc006_pkg;
+
+  // ---- instructions: codes of the frames, and with bit 7 those of the user program that no frame has -----------------
+
+  localparam logic [7:0] I_NONE = 8'h00;
+  localparam logic [7:0] I_POINTER = 8'h41;  // A
+  localparam logic [7:0] I_BURN = 8'h42;  // B
+  localparam logic [7:0] I_TRY = 8'h45;  // E
+  localparam logic [7:0] I_OFFLINE = 8'h46;  // F
+  localparam logic [7:0] I_GET = 8'h47;  // G
+  localparam logic [7:0] I_ABORT = 8'h49;  // I
+  localparam logic [7:0] I_TRIGGER = 8'h4a;  // J
+  localparam logic [7:0] I_TRIGGER_READ = 8'h4b;  // K
+  localparam logic [7:0] I_VSTART = 8'h4c;  // L
+  localparam logic [7:0] I_CCOMP = 8'h4d;  // M
+  localparam logic [7:0] I_RUN = 8'h4e;  // N
+  localparam logic [7:0] I_STATUS2 = 8'h4f;  // O
+  localparam logic [7:0] I_SCOMP = 8'h50;  // P
+  localparam logic [7:0] I_ATT = 8'h51;  // Q
+  localparam logic [7:0] I_VERSION = 8'h52;  // R
+  localparam logic [7:0] I_VSTOP = 8'h53;  // S
+  localparam logic [7:0] I_STLEN = 8'h54;  // T
+  localparam logic [7:0] I_ATT_READ = 8'h55;  // U
+  localparam logic [7:0] I_PUT = 8'h57;  // W
+  localparam logic [7:0] I_STPOS = 8'h58;  // X
+  localparam logic [7:0] I_STCFG = 8'h59;  // Y
+  localparam logic [7:0] I_STLVL = 8'h5a;  // Z
+  localparam logic [7:0] I_AUTODEC = 8'h61;  // a
+  localparam logic [7:0] I_CLEAR1 = 8'h62;  // b
+  localparam logic [7:0] I_POS = 8'h63;  // c
+  localparam logic [7:0] I_DIR = 8'h64;  // d
+  localparam logic [7:0] I_CURRENT = 8'h65;  // e
+  localparam logic [7:0] I_EXTEN = 8'h66;  // f
+  localparam logic [7:0] I_FREE = 8'h67;  // g
+  localparam logic [7:0] I_DEC_READ = 8'h68;  // h
+  localparam logic [7:0] I_POS_SET = 8'h69;  // i
+  localparam logic [7:0] I_STATUS1 = 8'h6a;  // j
+  localparam logic [7:0] I_MSTEP_READ = 8'h6b;  // k
+  localparam logic [7:0] I_CLEAR2 = 8'h6c;  // l
+  localparam logic [7:0] I_MSTEP = 8'h6d;  // m
+  localparam logic [7:0] I_CURRENT_READ = 8'h6e;  // n
+  localparam logic [7:0] I_DEC = 8'h6f;  // o
+  localparam logic [7:0] I_STALL = 8'h70;  // p
+  localparam logic [7:0] I_VMAX_READ = 8'h71;  // q
+  localparam logic [7:0] I_ACC_READ = 8'h72;  // r
+  localparam logic [7:0] I_STEP = 8'h73;  // s
+  localparam logic [7:0] I_SAVE = 8'h74;  // t
+  localparam logic [7:0] I_ACC = 8'h75;  // u
+  localparam logic [7:0] I_VMAX = 8'h76;  // v
+  localparam logic [7:0] I_ADDR = 8'h77;  // w
+  localparam logic [7:0] I_PORTS = 8'h78;  // x
+  localparam logic [7:0] I_OUT = 8'h79;  // y
+  localparam logic [7:0] I_START = 8'h7a;  // z
+
+  localparam logic [7:0] P_END = 8'h80;
+  localparam logic [7:0] P_CNTI = 8'h8b;
+  localparam logic [7:0] P_CNTC = 8'h8c;
+  localparam logic [7:0] P_JMP = 8'h8d;
+  localparam logic [7:0] P_JNE = 8'h8e;
+  localparam logic [7:0] P_JEQ = 8'h8f;
+  localparam logic [7:0] P_WAIT = 8'h90;
+  localparam logic [7:0] P_OUT = 8'h91;
+  localparam logic [7:0] P_CMP = 8'h92;
+  localparam logic [7:0] P_RESET_EN = 8'h93;
+  localparam logic [7:0] P_PAUSE_EN = 8'h94;
+
+  // Opcode of the user program: the same instruction as one of a frame, or one of its own.
+  function automatic logic [7:0] op_of(logic [7:0] opcode);
+    unique case (opcode)
+      8'h01:   return I_STEP;
+      8'h02:   return I_MSTEP;
+      8'h03:   return I_DIR;
+      8'h04:   return I_EXTEN;
+      8'h05:   return I_FREE;
+      8'h06:   return I_CLEAR2;
+      8'h07:   return I_CLEAR1;
+      8'h08:   return I_VMAX;
+      8'h09:   return I_ACC;
+      8'h0a:   return I_TRIGGER;
+      default: return (opcode > 8'h14) ? P_END : {1'b1, opcode[6:0]};
+    endcase
+  endfunction
+
+  // Where an instruction comes from.
+  typedef enum logic [1:0] {
+    FromFrame,
+    FromProgram,
+    FromTry,      // one instruction of the program, by E
+    FromBoot      // a parameter of the EEPROM
+  } source_e;
+
+  // What is carried out.
+  typedef struct packed {
+    logic [7:0]  op;
+    logic [3:0]  option;  // of the program; 15: more than that
+    source_e     source;
+    logic [31:0] data;
+  } order_t;
+
+  localparam logic [6:0] LAST_LINE = 7'd99;
+  localparam logic [7:0] WORDS = 8'd200;
+
+  // ---- registers -------------------------------------------------------------------------------------------------
+
+  // What motion and drive look at.
+  typedef struct packed {
+    logic [7:0]  mstep;     // 0, 2, 4, .. 128
+    logic [11:0] cur;       // mA, 400 .. 4000
+    logic [2:0]  acc;       // 0 .. 5
+    logic [2:0]  dec;
+    logic        autodec;
+    logic [2:0]  att;       // 1 .. 4
+    logic [11:0] vstart;    // pps, 65 .. 3000
+    logic [11:0] vstop;
+    logic [10:0] ccomp;     // 100 .. 1200
+    logic [10:0] scomp;     // 300 .. 2000
+    logic [13:0] vmax;      // pps, 0 .. 16000
+    logic        dir;       // 1 = forward
+    logic        regulate;
+    logic        free;
+  } settings_t;
+
+  localparam settings_t SETTINGS_RESET = '{
+      mstep: 8'd16,
+      cur: 12'd800,
+      acc: 3'd0,
+      dec: 3'd0,
+      autodec: 1'b1,
+      att: 3'd1,
+      vstart: 12'd600,
+      vstop: 12'd600,
+      ccomp: 11'd300,
+      scomp: 11'd1250,
+      vmax: 14'd1000,
+      dir: 1'b1,
+      regulate: 1'b0,
+      free: 1'b0
+  };
+
+  // What only the control looks at.
+  typedef struct packed {
+    logic [7:0] addr;     // 1 .. 120, 255
+    logic [1:0] trigm;    // 1 = rising edge; bit 0 EXT1
+    logic [1:0] exten;
+    logic       offline;
+    logic [6:0] stlen;    // 0 .. 64
+    logic [2:0] stcfg;
+    logic [8:0] stlvl;
+  } control_t;
+
+  localparam control_t CONTROL_RESET = '{
+      addr: 8'hff,
+      trigm: 2'b00,
+      exten: 2'b00,
+      offline: 1'b0,
+      stlen: 7'd64,
+      stcfg: 3'b000,
+      stlvl: 9'd0
+  };
+
+endpackage
+
+`default_nettype wire

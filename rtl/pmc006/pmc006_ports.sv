@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_ports: the general outputs.
+// Rules:  section 7.4, P006-CMD-46, P006-IO-02/03, P006-STL-03, section 12.3 (OUT).
+// Timing: gpo_o one clk after the register.
+`default_nettype none
+
+module pmc006_ports
+  import pmc006_pkg::*;
+(
+    input  wire logic         clk_i,
+    input  wire logic         rst_ni,
+    input  wire order_t       order_i,
+    input  wire logic         write_i,  // order_i is carried out, its data are legal
+    input  wire logic         pull_i,   // of the stall on GPO5
+    output logic        [4:0] out_o,    // register GPO
+    output logic        [4:0] gpo_o     // the pins
+);
+
+  logic unused_bits;
+
+  assign unused_bits = &{1'b0, order_i};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      out_o <= '0;
+      gpo_o <= '0;
+    end else begin
+      gpo_o <= {out_o[4] || pull_i, out_o[3:0]};
+      if (write_i && order_i.op == I_OUT) out_o <= order_i.data[7:3];
+      for (int unsigned i = 0; i < 5; i++) begin
+        if (write_i && order_i.op == P_OUT && order_i.option == 4'(i + 1)) out_o[i] <= order_i.data[0];
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_position: the position counter and the position of the last stall.
+// Rules:  P006-MOT-05, P006-CMD-19/24/30, P006-STA-15, P006-STL-02/04.
+// Timing: registers. Nobody sets the position in a clk in which a step is counted.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_position (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        step_i,
+    input  wire logic        forward_i,
+    input  wire logic        set_i,
+    input  wire logic [31:0] data_i,
+    input  wire logic        mark_i,     // a stall
+    output logic      [31:0] pos_o,
+    output logic      [31:0] stall_o
+);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pos_o   <= '0;
+      stall_o <= '0;
+    end else begin
+      if (set_i) pos_o <= data_i;
+      else if (step_i) pos_o <= pos_o + {{31{!forward_i}}, 1'b1};
+      if (mark_i) stall_o <= pos_o;
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p006_sta_15, !(set_i && step_i))
+`endif
+
+endmodule
+
+`default_nettype wire

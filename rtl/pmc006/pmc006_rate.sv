@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_rate: the running motion's time and steps: update ticks, speed in force, rate accumulator, steps left.
+// Rules:  P006-MOT-01..05, section 5.3.
+// Timing: E = edge of a us tick. At E the count of ticks, V, B and W change, or the motion ends; a step that is due
+//         is made at E + 2 (step_o is high in the clk before that edge); advance_o follows in the clk after it.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_rate (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        us_i,
+    input  wire logic        load_i,     // a motion is accepted
+    input  wire logic [30:0] count_i,    // its steps
+    input  wire logic [11:0] vstart_i,
+    input  wire logic        endless_i,  // kind V
+    input  wire logic        busy_i,
+    input  wire logic        halt_i,
+    input  wire logic        rest_i,     // end at this update tick
+    input  wire logic        start_v_i,  // V = Vn
+    input  wire logic [13:0] next_i,     // Vn
+    input  wire logic [10:0] bump_i,     // Bn
+    input  wire logic [ 6:0] lead_i,     // Wn
+    output logic             launch_o,   // t = 0
+    output logic             update_o,   // update tick
+    output logic             sample_o,   // every 100th
+    output logic             advance_o,  // start of advance()
+    output logic             step_o,     // combinational
+    output logic             stop_o,     // combinational: the motion ends, halted or by itself
+    output logic      [13:0] v_o,
+    output logic      [30:0] left_o,     // R
+    output logic      [10:0] bump_o,     // B
+    output logic      [ 6:0] lead_o      // W
+);
+
+  // Clk between acceptance and t = 0: more than the planner needs.
+  localparam int unsigned Plan = 800;
+  localparam logic [6:0] Ticks = 7'd100;
+
+  // The accumulator holds ACCU + 2^20 - 10^6: a carry is a step.
+  localparam logic [19:0] Rest = 20'd48_576;
+
+  logic [9:0] plan_q;
+  logic [6:0] ticks_q, updates_q;
+  logic [19:0] accu_q;
+  logic [20:0] sum;
+  logic planned, run_q, tick, wrap, last_q;
+  logic begun_q;  // accumulate
+  logic due_q;  // step
+  logic [1:0] updated_q;
+
+  assign planned  = plan_q == '0;
+  assign launch_o = busy_i && !run_q && planned && us_i;
+  assign tick     = run_q && us_i;
+  assign wrap     = ticks_q == Ticks - 1'b1;
+  assign update_o = tick && wrap;
+  assign sample_o = update_o && updates_q == Ticks - 1'b1;
+  assign step_o   = due_q && busy_i && !halt_i;
+  assign stop_o   = halt_i || (update_o && rest_i) || (due_q && last_q && !endless_i);
+  assign sum      = {1'b0, accu_q} + {1'b0, due_q ? Rest : 20'(v_o)};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      run_q     <= 1'b0;
+      begun_q   <= 1'b0;
+      updated_q <= '0;
+      due_q     <= 1'b0;
+      advance_o <= 1'b0;
+    end else begin
+      if (launch_o) run_q <= 1'b1;
+      if (stop_o || load_i) run_q <= 1'b0;
+      begun_q   <= tick;
+      updated_q <= {updated_q[0], launch_o || update_o};
+      due_q     <= begun_q && sum[20] && busy_i;
+      advance_o <= updated_q[1];
+    end
+  end
+
+  // No reset: an accepted motion sets what follows.
+  always_ff @(posedge clk_i) begin
+    if (load_i) plan_q <= 10'(Plan - 1);
+    else if (!planned) plan_q <= plan_q - 1'b1;
+
+    if (!run_q) {ticks_q, updates_q} <= '0;
+    else if (tick) begin
+      ticks_q <= wrap ? '0 : ticks_q + 1'b1;
+      if (wrap) updates_q <= sample_o ? '0 : updates_q + 1'b1;
+    end
+
+    if (!run_q) accu_q <= Rest;
+    else if (begun_q || due_q) accu_q <= sum[19:0];
+
+    if (load_i) v_o <= 14'(vstart_i);
+    else if (update_o || start_v_i) v_o <= next_i;
+
+    if (load_i) left_o <= count_i;
+    else if (step_o) left_o <= left_o - 1'b1;
+    last_q <= left_o == 31'd1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {bump_o, lead_o} <= '0;
+    else if (load_i || stop_o) {bump_o, lead_o} <= '0;
+    else if (update_o) {bump_o, lead_o} <= {bump_i, lead_i};
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(rate_pulse_apart, !(step_o && $past(step_o)))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_serial: the line to the host: frames in, one reply out for each that is executed.
+// Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
+// Timing: with e = the edge of the last stop-bit sample: go_o in the clk after e, de_o rises ceil(1 bit) after e, bit
+//         edge n comes ceil((2 + n) bits) after e, de_o falls ceil(82 bits) after e. Deaf from e + 1 until then.
+// Rate:   bits last whole phases of an accumulator with an exact modulus.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_serial #(
+    parameter int unsigned ClkHz = 16_000_000,
+    parameter int unsigned Baud  = 9600
+) (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        ready_i,  // 0: hears nothing yet
+    input  wire logic [ 7:0] addr_i,
+    input  wire logic        rxd_i,    // raw pin
+    output logic             txd_o,
+    output logic             de_o,
+    output logic             go_o,
+    output logic      [ 7:0] code_o,
+    output logic      [31:0] data_o,
+    input  wire logic [31:0] reply_i   // steady from half a bit after go_o on
+);
+
+  localparam longint unsigned Common = ppmc_pkg::gcd(64'(ClkHz), 64'(Baud));
+  // Even, so that the middle of a bit is exact.
+  localparam longint unsigned Twice = ((64'(ClkHz) / Common) % 2 == 0) ? 64'd1 : 64'd2;
+  localparam longint unsigned Modulus = Twice * 64'(ClkHz) / Common;
+  localparam longint unsigned Unit = Twice * 64'(Baud) / Common;
+  localparam int unsigned Width = 32'($clog2(Modulus));
+  localparam longint unsigned Rest = (64'd1 << Width) - Modulus;
+  localparam logic [Width-1:0] Step = Width'(Unit);
+  localparam logic [Width-1:0] Wrap = Width'(Unit + Rest);
+  // Bits are counted from the sample on, which is two clk old when its result stands in the registers.
+  localparam logic [Width-1:0] Zero = Width'(Rest + 64'd2 * Unit);
+  localparam logic [Width-1:0] Half = Width'(Rest + 64'd2 * Unit + Modulus / 64'd2);
+  localparam logic [7:0] Silence = 8'd202;  // 192 bits until the next start, 9.5 from there to its end
+
+  logic [7:0] char, next, sum_q, bits_q;
+  logic valid, error, unused_break, line, unused_meta;
+  logic listen, open_q, deaf_q, late_q, over_q;
+  logic [Width-1:0] phase_q;
+  logic [7:0] count_q;
+  logic [3:0] left_q, at_q;
+
+  // ---- receiver --------------------------------------------------------------------------------------------------
+
+  // After deafness the line has to be high once, or the rest of a byte would look like the start of one.
+  ppmc_sync u_line (
+      .clk_i,
+      .rst_ni,
+      .d_i (rxd_i),
+      .q1_o(unused_meta),
+      .q2_o(line)
+  );
+
+  assign listen = ready_i && !deaf_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) open_q <= 1'b0;
+    else open_q <= listen && (open_q || line);
+  end
+
+  ppmc_uart_rx #(
+      .Width  (Width),
+      .Modulus(Modulus)
+  ) u_rx (
+      .clk_i,
+      .rst_ni,
+      .step_i (Step),
+      .wrap_i (Wrap),
+      .rxd_i  (rxd_i || !open_q),
+      .byte_o (char),
+      .valid_o(valid),
+      .error_o(error),
+      .break_o(unused_break)
+  );
+
+  pmc006_frame u_frame (
+      .clk_i,
+      .rst_ni,
+      .addr_i,
+      .byte_i (char),
+      .valid_i(valid && listen),
+      .error_i(error),
+      .late_i (late_q),
+      .go_o,
+      .code_o,
+      .data_o
+  );
+
+  // ---- bits since the last byte ----------------------------------------------------------------------------------
+
+  always_ff @(posedge clk_i) begin
+    if (valid) {over_q, phase_q} <= {1'b0, go_o ? Zero : Half};
+    else {over_q, phase_q} <= {1'b0, phase_q} + {1'b0, over_q ? Wrap : Step};
+    if (valid) count_q <= '0;
+    else if (over_q) count_q <= count_q + 1'b1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) late_q <= 1'b0;
+    else if (valid) late_q <= 1'b0;
+    else if (over_q && count_q == Silence - 1'b1) late_q <= 1'b1;
+  end
+
+  // ---- reply -----------------------------------------------------------------------------------------------------
+
+  always_comb begin
+    unique case (at_q[2:0])
+      3'd0:    next = 8'ha5;
+      3'd1:    next = 8'h7a;
+      3'd2:    next = addr_i;
+      3'd3:    next = reply_i[7:0];
+      3'd4:    next = reply_i[15:8];
+      3'd5:    next = reply_i[23:16];
+      3'd6:    next = reply_i[31:24];
+      default: next = sum_q;
+    endcase
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      deaf_q <= 1'b0;
+      de_o   <= 1'b0;
+      txd_o  <= 1'b1;
+    end else if (go_o) deaf_q <= 1'b1;
+    else if (deaf_q && over_q) begin
+      de_o <= 1'b1;
+      if (de_o && left_q != '0) txd_o <= bits_q[0];
+      else if (de_o && at_q[3]) {deaf_q, de_o} <= 2'b00;
+      else if (de_o) txd_o <= 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (go_o) begin
+      left_q <= '0;
+      at_q   <= '0;
+      sum_q  <= '0;
+    end else if (de_o && over_q) begin
+      if (left_q != '0) begin
+        left_q <= left_q - 1'b1;
+        bits_q <= {1'b1, bits_q[7:1]};
+      end else begin
+        left_q <= 4'd9;
+        bits_q <= next;
+        at_q   <= at_q + 1'b1;
+        sum_q  <= sum_q + next;
+      end
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p006_frm_07, !de_o || deaf_q)
+  `PPMC_ASSERT(p006_frm_03, de_o || txd_o)
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_stall: says when the back EMF has been too low for too many samples at constant speed.
+// Rules:  section 7.2, P006-STA-03/14, P006-STL-01..06.
+// Timing: a sample is compared on its edge and counted in the clk after; STALL stands from the end of that on. stop_o
+//         already comes in that clk, so that no step follows the position of the stall.
+`default_nettype none
+
+module pmc006_stall (
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic [9:0] level_i,
+    input  wire logic       valid_i,
+    input  wire logic [2:0] config_i,  // STCFG
+    input  wire logic [6:0] length_i,  // STLEN
+    input  wire logic [8:0] limit_i,   // STLVL
+    input  wire logic       busy_i,
+    input  wire logic       steady_i,  // constant speed above 0
+    input  wire logic       start_i,   // of a motion
+    input  wire logic       clear_i,
+    output logic            stop_o,    // of the motion
+    output logic            mark_o,    // note the position
+    output logic            stall_o
+);
+
+  logic sample_q, low_q, counts;
+  logic [6:0] count_q;
+  logic [7:0] up;
+
+  assign up = {1'b0, count_q} + 1'b1;
+  assign counts = low_q && config_i[0] && !stall_o && busy_i && steady_i;
+  assign mark_o = sample_q && counts && up >= {1'b0, length_i};
+  assign stop_o = config_i[1] && busy_i && (stall_o || mark_o);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      sample_q <= 1'b0;
+      stall_o  <= 1'b0;
+    end else begin
+      sample_q <= valid_i;
+      stall_o  <= mark_o || (stall_o && !clear_i && !start_i);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) low_q <= level_i < {1'b0, limit_i};
+    if (start_i) count_q <= '0;
+    else if (sample_q) count_q <= counts ? up[6:0] : '0;
+  end
+
+  logic unused_config;
+  assign unused_config = &{1'b0, config_i};
+
+endmodule
+
+`default_nettype wire
