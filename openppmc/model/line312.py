@@ -9,8 +9,10 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from math import ceil
+from typing import Protocol
 
 from .parts import Context, Phase
+from .scheduler import Event, Scheduler
 
 BITS = 10
 """Start bit, eight data bits, stop bit."""
@@ -24,15 +26,31 @@ def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
     return None if cycles is None else cycles * clk_hz / xtal_hz
 
 
+class Queued(Protocol):
+    """Anything that has the queue of a part."""
+
+    @property
+    def queue(self) -> Scheduler:
+        """Its events."""
+        ...
+
+
 class Receiver:
     """bit: clk of a bit. got(t, byte): a character, its stop bit sampled at edge t; None if it was low."""
 
-    def __init__(self, context: Context, bit: Fraction, got: Callable[[int, int | None], None]) -> None:
+    def __init__(self, context: Queued, bit: Fraction, got: Callable[[int, int | None], None]) -> None:
         self._queue, self._bit, self._got = context.queue, bit, got
         self._level = 1
         self._history: list[tuple[int, int]] = []
         self._start: int | None = None
         self._broken = False
+        self._event: Event | None = None
+
+    def forget(self) -> None:
+        """What is on its way is none; the line has to be high first."""
+        if self._event:
+            self._event.cancel()
+        self._start, self._broken = None, True
 
     def see(self, t: int, level: int) -> None:
         """The synchronised line from edge t on."""
@@ -43,7 +61,7 @@ class Receiver:
             self._broken = False
         elif not self._broken:
             self._start, self._history = t, [(t, level)]
-            self._queue.at(self._middle(0), Phase.BUS, self._verify)
+            self._event = self._queue.at(self._middle(0), Phase.BUS, self._verify)
 
     def _middle(self, number: int) -> int:
         """Edge that samples bit `number`, 0 for the start bit."""
@@ -55,7 +73,7 @@ class Receiver:
         if self._level:
             self._start = None
         else:
-            self._queue.at(self._middle(BITS - 1), Phase.BUS, self._stop)
+            self._event = self._queue.at(self._middle(BITS - 1), Phase.BUS, self._stop)
 
     def _at(self, t: int) -> int:
         """Level that edge t has seen."""

@@ -1,0 +1,59 @@
+"""Electrical angle and current references of the PMC006B4 (P006-EXC-01..03, -10..-15, -30)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import floor, pi, sin
+from typing import NamedTuple
+
+CYCLE, QUARTER = 512, 128
+"""Units of an electrical cycle, and of a full step."""
+HOME = 64
+"""The angle after a reset."""
+SCALE = 256
+
+
+class Phase(NamedTuple):
+    """Reference of a phase: 0..255 of 4000 mA, and 1 for M11 -> M10 or M21 -> M20."""
+
+    ref: int
+    sign: int
+
+
+class References(NamedTuple):
+    """Both phases."""
+
+    a: Phase
+    b: Phase
+
+
+OFF = References(Phase(0, 0), Phase(0, 0))
+WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(QUARTER + 1))
+"""S[0..128]."""
+
+
+def wave(unit: int) -> int:
+    """Signed sine of an angle in units, -256..256; odd and symmetric like the sine itself."""
+    unit %= CYCLE
+    if unit >= CYCLE // 2:
+        return -wave(unit - CYCLE // 2)
+    return WAVE[min(unit, CYCLE // 2 - unit)]
+
+
+def reference(unit: int, peak: int) -> Phase:
+    """A phase at an angle with peak code 0..255 (P006-EXC-12)."""
+    height = wave(unit)
+    return Phase((2 * abs(height) * peak + SCALE) // (2 * SCALE), int(height < 0))
+
+
+@lru_cache(maxsize=1 << 14)
+def references(angle: int, peak: int) -> References:
+    """Both phases at an angle that has the advance in it (P006-EXC-12, -14)."""
+    return References(reference(angle + QUARTER, peak), reference(angle, peak))
+
+
+def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int:
+    """RI (P006-EXC-30): base code, compensation, and whether the current has decayed by 2^att."""
+    if busy:
+        return min(255, base + added)
+    return base // (1 << att) if decayed else base

@@ -1,0 +1,240 @@
+"""A motor and its comparators on a PMC006B4: two windings between the half bridges (R-22 of P006).
+
+Currents are exact between two changes of the bridges: resistance, inductance, supply and a sinusoidal back
+EMF. Switches and diodes are ideal. Times are edges of clk outside and seconds inside.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import atan2, exp, hypot, pi, sin
+from typing import NamedTuple, Protocol, TypeVar
+
+FULL_SCALE_A, FULL_CODE = 4.0, 255
+WINDOW_S = 20e-6
+"""A comparator with back EMF changes at most once in so long."""
+BRIDGES = {
+    "a": ("bridge_a_en", "m10", "m11", "phase_a_ref", "phase_a_sign", "cmp_a"),
+    "b": ("bridge_b_en", "m20", "m21", "phase_b_ref", "phase_b_sign", "cmp_b"),
+}
+QUARTER = {"a": pi / 2, "b": 0.0}
+"""Phase A is the cosine of the angle."""
+
+
+class Part(Protocol):
+    """What is asked of the golden model."""
+
+    now: int
+    next_event: int | None
+    outputs: Mapping[str, int]
+    run_until: Callable[[int], None]
+
+    def pins(self, t: int, **levels: int) -> None:
+        """Input levels from edge t on."""
+
+
+@dataclass(frozen=True)
+class Motor:
+    """Winding, ohm > 0 and henry > 0, and supply of the bridges."""
+
+    ohm: float = 1.0
+    henry: float = 2e-3
+    volt: float = 24.0
+
+
+class Emf(NamedTuple):
+    """volt * sin(rad_s * t + angle)."""
+
+    volt: float = 0.0
+    rad_s: float = 0.0
+    angle: float = 0.0
+
+
+class Arc:
+    """Current from `begin` (s) on, with a constant voltage on the winding and a back EMF."""
+
+    __slots__ = ("_amplitude", "_decay", "_emf", "_free", "_lag", "_level", "begin", "rests_at")
+
+    def __init__(self, motor: Motor, begin: float, ampere: float, volt: float, emf: Emf) -> None:
+        self.begin, self._emf = begin, emf
+        self._decay = motor.ohm / motor.henry
+        self._level = volt / motor.ohm
+        reactance = emf.rad_s * motor.henry
+        self._amplitude = emf.volt / hypot(motor.ohm, reactance)
+        self._lag = emf.angle - atan2(reactance, motor.ohm)
+        self._free = 0.0
+        self.rests_at = float("inf")
+        self._free = ampere - self.at(begin)
+
+    def at(self, t: float) -> float:
+        """Ampere at t >= begin."""
+        if t >= self.rests_at:
+            return 0.0
+        current = self._level + self._free * exp(self._decay * (self.begin - t))
+        if self._amplitude:
+            current -= self._amplitude * sin(self._emf.rad_s * t + self._lag)
+        return current
+
+    def rest_at_zero(self, positive: bool) -> None:
+        """The diodes let nothing flow the other way: from the first zero on there is no current."""
+        low, high = self.begin, self.begin + WINDOW_S
+        while (self.at(high) > 0) == positive:
+            low, high = high, high + WINDOW_S
+        for _ in range(40):
+            middle = (low + high) / 2
+            low, high = (middle, high) if (self.at(middle) > 0) == positive else (low, middle)
+        self.rests_at = high
+
+
+class Level:
+    """Reference in ampere from `begin` on, behind a first-order low-pass filter; tau 0: none."""
+
+    __slots__ = ("_from", "_tau", "begin", "sign", "to")
+
+    def __init__(self, begin: float, before: float, to: float, sign: int, tau: float) -> None:
+        self.begin, self._from, self.to, self.sign, self._tau = begin, before, to, sign, tau
+
+    def at(self, t: float) -> float:
+        """Ampere at t >= begin, without sign."""
+        if not self._tau:
+            return self.to
+        return self.to + (self._from - self.to) * exp((self.begin - t) / self._tau)
+
+
+Piece = TypeVar("Piece", Arc, Level)
+
+
+class Winding:
+    """One phase: present arc and level, and all of the past."""
+
+    def __init__(self, motor: Motor, name: str, begin: float, tau: float) -> None:
+        self._motor, self._tau = motor, tau
+        self._pins = BRIDGES[name]
+        self.cmp_pin = self._pins[-1]
+        self.emf = Emf()
+        self._seen: tuple[int, ...] = ()
+        self.cmp = 0
+        self.arcs = [Arc(motor, begin, 0.0, 0.0, self.emf)]
+        self.arcs[0].rests_at = begin
+        self.levels = [Level(begin, 0.0, 0.0, 0, tau)]
+
+    def look(self, t: float, outputs: Mapping[str, int], anew: bool = False) -> None:
+        """The part's outputs at t; anew: the back EMF has changed."""
+        seen = tuple(outputs[pin] for pin in self._pins[:-1])
+        if seen[:3] != self._seen[:3] or anew:
+            self._switch(t, *seen[:3])
+        if seen[3:] != self._seen[3:]:
+            to = seen[3] * FULL_SCALE_A / FULL_CODE
+            self.levels.append(Level(t, self.levels[-1].at(t), to, seen[4], self._tau))
+        self._seen = seen
+
+    def _switch(self, t: float, on: int, plus: int, minus: int) -> None:
+        current = self.arcs[-1].at(t)
+        volt = self._motor.volt
+        if on:
+            arc = Arc(self._motor, t, current, volt * (plus - minus), self.emf)
+        else:
+            arc = Arc(self._motor, t, current, -volt if current > 0 else volt, self.emf)
+            if current:
+                arc.rest_at_zero(current > 0)
+            else:
+                arc.rests_at = t
+        self.arcs.append(arc)
+
+    def above(self, t: float) -> int:
+        """Level of the comparator: the current in the direction of the sign has reached the reference."""
+        level, current = self.levels[-1], self.arcs[-1].at(t)
+        return int((-current if level.sign else current) >= level.at(t))
+
+    def current(self, t: float) -> float:
+        """Ampere at any time."""
+        return _of(self.arcs, t).at(t)
+
+    def reference(self, t: float) -> float:
+        """Reference with its sign, ampere, at any time."""
+        level = _of(self.levels, t)
+        return -level.at(t) if level.sign else level.at(t)
+
+
+def _of(pieces: list[Piece], t: float) -> Piece:
+    """The piece that is valid at t."""
+    return pieces[max(0, bisect_right(pieces, t, key=lambda piece: piece.begin) - 1)]
+
+
+class Plant:
+    """Takes the place of `model.run_until`; comparator pins go through `model.pins`, thus on a host's tape.
+
+    clk_hz: of the model. tau: of the reference's low-pass filter, s; 0: an ideal one. windings: "a", "b".
+    """
+
+    def __init__(self, model: Part, clk_hz: int, motor: Motor | None = None, tau: float = 0.0) -> None:
+        self._model, self._run, self._hz = model, model.run_until, clk_hz
+        self.motor = motor or Motor()
+        now = self.seconds(model.now)
+        self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
+        self._look()
+        model.run_until = self.run_until
+
+    def seconds(self, t: int) -> float:
+        """Time of an edge."""
+        return t / self._hz
+
+    def spin(self, volt: float, hz: float, angle: float = 0.0) -> None:
+        """Back EMF from now on: amplitude, electrical frequency, angle at edge 0 in rad (B: its sine).
+
+        Raises ValueError if the amplitude reaches the supply.
+        """
+        if abs(volt) >= self.motor.volt:
+            raise ValueError(f"{volt} V of back EMF with a supply of {self.motor.volt} V")
+        for name, winding in self.windings.items():
+            winding.emf = Emf(volt, 2 * pi * hz, angle + QUARTER[name])
+        self._look(anew=True)
+
+    def detach(self) -> None:
+        """The model runs alone again."""
+        self._model.run_until = self._run
+
+    # ------------------------------------------------------------------ time
+
+    def run_until(self, t: int) -> None:
+        """As that of the model; currents and comparators follow."""
+        model = self._model
+        while model.now < t:
+            event = model.next_event
+            edge = t if event is None else min(t, event)
+            flips = [self._flip(winding, edge) for winding in self.windings.values()]
+            flip = min((at for at in flips if at is not None), default=None)
+            if flip is None:
+                self._run(edge)
+            else:
+                self._run(flip - 1)
+                changed = [w for w, at in zip(self.windings.values(), flips, strict=True) if at == flip]
+                for winding in changed:
+                    winding.cmp ^= 1
+                model.pins(flip, **{winding.cmp_pin: winding.cmp for winding in changed})
+                self._run(flip)
+            self._look()
+
+    def _look(self, anew: bool = False) -> None:
+        for winding in self.windings.values():
+            winding.look(self.seconds(self._model.now), self._model.outputs, anew)
+
+    def _flip(self, winding: Winding, last: int) -> int | None:
+        """First edge up to `last` that samples another level of the comparator."""
+        begin = self._model.now
+        window = int(WINDOW_S * self._hz)
+        before, hz = winding.cmp, self._hz
+        while begin < last:
+            end = min(last, begin + window)
+            if winding.above(end / hz) != before:
+                while end - begin > 1:
+                    middle = (begin + end) // 2
+                    if winding.above(middle / hz) != before:
+                        end = middle
+                    else:
+                        begin = middle
+                return end
+            begin = end
+        return None

@@ -1,0 +1,115 @@
+"""Registers of the PMC006B4: legal and factory values, and the EEPROM page that keeps some of them.
+
+P006 chapter 3.0, P006-EEP-10, -20, chapter 13.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from dataclasses import dataclass
+
+MICROSTEPS = (0, 2, 4, 8, 16, 32, 64, 128)
+SPEEDS = range(65, 3001)
+BOTH = range(2)
+
+LEGAL: dict[str, Container[int]] = {
+    "addr": (*range(1, 121), 255),
+    "mstep": MICROSTEPS,
+    "cur": range(400, 4001),
+    "acc": range(6),
+    "dec": range(6),
+    "autodec": BOTH,
+    "att": range(1, 5),
+    "trigm": range(4),
+    "offline": BOTH,
+    "vstart": SPEEDS,
+    "vstop": SPEEDS,
+    "ccomp": range(100, 1201),
+    "scomp": range(300, 2001),
+    "vmax": range(1, 16001),
+    "dir": BOTH,
+    "exten": range(4),
+    "free": BOTH,
+    "stlen": range(64),
+    "stcfg": range(8),
+    "stlvl": range(512),
+    "pp": range(200),
+}
+"""What an instruction or the EEPROM may write; `vmax` 0 and `pp` 200 come about otherwise."""
+
+
+@dataclass
+class Settings:
+    """All registers but positions and flags, at their factory values."""
+
+    addr: int = 255
+    mstep: int = 16
+    cur: int = 800
+    acc: int = 0
+    dec: int = 0
+    autodec: int = 1
+    att: int = 1
+    trigm: int = 0
+    offline: int = 0
+    vstart: int = 600
+    vstop: int = 600
+    ccomp: int = 300
+    scomp: int = 1250
+    vmax: int = 1000
+    dir: int = 1
+    exten: int = 0
+    free: int = 0
+    gpo: int = 0
+    stlen: int = 64
+    stcfg: int = 0
+    stlvl: int = 0
+    pp: int = 0
+    analog: int = 0
+
+    def load(self, values: dict[str, int]) -> None:
+        """Take over what the EEPROM has kept."""
+        for name, value in values.items():
+            setattr(self, name, value)
+
+
+PAGE, MAGIC = 32, bytes((0x50, 0x36, 0x01))
+PLACES: dict[str, tuple[int, int]] = {
+    "addr": (3, 1),
+    "mstep": (4, 1),
+    "acc": (6, 1),
+    "dec": (7, 1),
+    "autodec": (8, 1),
+    "att": (9, 1),
+    "trigm": (10, 1),
+    "offline": (11, 1),
+    "vstart": (12, 2),
+    "vstop": (14, 2),
+    "ccomp": (16, 2),
+    "scomp": (18, 2),
+    "cur": (20, 2),
+}
+"""Place and bytes of each saved register."""
+
+
+def page_of(settings: Settings) -> bytes:
+    """The parameter block as `t` writes it."""
+    page = bytearray(MAGIC + bytes(PAGE - 1 - len(MAGIC)))
+    for name, (place, size) in PLACES.items():
+        page[place : place + size] = int(getattr(settings, name)).to_bytes(size, "little")
+    return bytes(page) + bytes([sum(page) % 256])
+
+
+FACTORY_PAGE = page_of(Settings())
+
+
+def framed(page: bytes) -> bool:
+    """Whether the head and the sum of a block are right."""
+    return page[: len(MAGIC)] == MAGIC and sum(page[:-1]) % 256 == page[-1]
+
+
+def values_of(page: bytes) -> dict[str, int] | None:
+    """Registers of a block read from the EEPROM; None if it is not valid as a whole (P006 13.2, step 5)."""
+    if not framed(page):
+        return None
+    values = {name: int.from_bytes(page[at : at + size], "little") for name, (at, size) in PLACES.items()}
+    return values if all(value in LEGAL[name] for name, value in values.items()) else None

@@ -1,0 +1,158 @@
+"""Motion and drive of the PMC006B4 without the rest of the part, for tests: time, records, plain runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from openppmc.model.drive006 import Drive
+from openppmc.model.edges import EdgeLog
+from openppmc.model.engine006 import UPDATE, Engine, Live, Order, Stage
+from openppmc.model.motion006 import Motion
+from openppmc.model.pace006 import Pace006
+from openppmc.model.parts import Phase
+from openppmc.model.parts006 import OUTPUTS, Shared, Ticks
+from openppmc.model.scheduler import Scheduler
+from openppmc.model.settings006 import Settings
+
+SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}
+
+
+class Bench:
+    """The two blocks at clk_hz with registers at factory values but those given; BOOT is over at edge 0.
+
+    steps: edges of mon_step. ends: edges at which BUSY has fallen by itself. position: steps, signed.
+    """
+
+    def __init__(self, clk_hz: int = 16_000_000, t_off_ns: int = 20_000, **registers: int) -> None:
+        self.settings = Settings()
+        self.settings.load(registers)
+        self.queue, self.log = Scheduler(), EdgeLog(OUTPUTS)
+        self.us = Ticks(clk_hz, 1_000_000)
+        self.shared = Shared(self.queue, self.log, clk_hz, self.us, Pace006(), self.settings)
+        self.steps: list[int] = []
+        self.ends: list[int] = []
+        self.position = 0
+        self.motion = Motion(self.shared, self._stepped, self.ends.append)
+        self.drive = Drive(self.shared, self.motion, t_off_ns)
+        self.per_us = clk_hz // 1_000_000
+        self.do(self.drive.booted)
+
+    def _stepped(self, t: int, forward: bool) -> None:
+        self.steps.append(t)
+        self.position += 1 if forward else -1
+
+    @property
+    def t(self) -> int:
+        """The coming edge."""
+        return self.queue.now + 1
+
+    def run(self, t: int) -> None:
+        """Run all edges up to and including t."""
+        while (edge := self.queue.next_edge()) is not None and edge <= t:
+            self.queue.now = edge - 1
+            self.queue.run_edge(edge)
+        self.queue.now = t
+
+    def wait(self, us: float) -> None:
+        """Run for so many us."""
+        self.run(self.queue.now + round(us * self.per_us))
+
+    def rest(self) -> None:
+        """Run until a motion has ended by itself."""
+        while self.motion.busy:
+            edge = self.queue.next_edge()
+            assert edge is not None
+            self.run(edge)
+
+    def do(self, action: Callable[[int], None], phase: Phase = Phase.STORE) -> int:
+        """Call action(t) in the coming edge t, and run it."""
+        t = self.t
+        self.queue.at(t, phase, action)
+        self.run(t)
+        return t
+
+    def change(self, **registers: int) -> int:
+        """Registers have these values after the coming edge."""
+
+        def write(t: int) -> None:
+            self.settings.load(registers)
+            self.drive.settings_changed(t)
+
+        return self.do(write)
+
+    def start(self, count: int | None) -> int:
+        """A displacement, or speed mode for None; returns the edge of t = 0."""
+        motion = self.motion
+        t = self.do(motion.run if count is None else lambda t: motion.start(t, count))
+        return self.us.edge_of(self.us.first(t + self.shared.pace.plan))
+
+    def halt(self) -> int:
+        """Stop at once in the coming edge."""
+        return self.do(self.motion.halt, Phase.GUARD)
+
+    def references(self) -> tuple[int, int, int, int]:
+        """phase_a_ref, its sign, phase_b_ref, its sign."""
+        levels = self.log.levels
+        a, b = (levels[f"phase_{x}_ref"] for x in "ab")
+        return a, levels["phase_a_sign"], b, levels["phase_b_sign"]
+
+
+@dataclass
+class Made:
+    """An undisturbed or disturbed motion in us: steps as (us, speed, stage), updates as (us, speed), its end.
+
+    goal: of the first ramp. braked_at: us of the update that began the final deceleration.
+    """
+
+    engine: Engine
+    goal: int
+    steps: list[tuple[int, int, Stage]] = field(default_factory=list)
+    updates: list[tuple[int, int]] = field(default_factory=list)
+    end: int = 0
+    braked_at: int | None = None
+
+    @property
+    def intervals(self) -> list[int]:
+        """us between steps, the first from t = 0."""
+        times = [0, *(t for t, *_ in self.steps)]
+        return [b - a for a, b in zip(times, times[1:], strict=False)]
+
+
+def undisturbed(target: int) -> Callable[[int], Live]:
+    """The registers as they stay."""
+    return lambda t: Live(target)
+
+
+def make(order: Order, live: Callable[[int], Live] | None = None, updates: int = 1 << 40) -> Made:
+    """The steps of a motion; live(t): registers at t us. Ends after so many updates in any case."""
+    live = live or undisturbed(order.target)
+    engine = Engine(order)
+    made = Made(engine, engine.goal, updates=[(0, engine.speed)])
+    engine.advance(live(0))
+
+    def go(before: int, ticks: int) -> bool:
+        first = engine.stage
+        offsets = engine.segment(ticks)
+        if not (engine.over and offsets[-1] == 1):
+            braked = engine.braked
+            if before:
+                engine.advance(live(before + 1))
+            made.braked_at = made.braked_at if engine.braked is braked else before + 1
+        for offset in offsets:
+            stage = first if offset == 1 and before else engine.stage
+            made.steps.append((before + offset, engine.speed, stage))
+        return not engine.over
+
+    t = UPDATE - 1
+    going = go(0, t)
+    while going and len(made.updates) <= updates:
+        if engine.stage is Stage.END and live(t + 1).stop:
+            made.end = t + 1
+            return made
+        engine.load()
+        made.updates.append((t + 1, engine.speed))
+        going = go(t, UPDATE)
+        t += UPDATE
+    made.end = made.steps[-1][0] if made.steps else t
+    return made

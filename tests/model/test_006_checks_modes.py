@@ -1,0 +1,48 @@
+"""PMC006 acceptance checks under other parameters: the other reply to s, the other timing mode."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.config import Config
+from cocotb_tests.common.scripts import building, cases, model_only
+from cocotb_tests.common.tape import taping
+from cocotb_tests.common.verifies import verifies
+from cocotb_tests.pmc006.scenes import ready, rest
+
+MODULES = [f"tests/model/test_006_checks_{name}.py" for name in ("link", "motion", "guard", "program")]
+COSTLY = ("35", "36", "37", "38", "41", "66", "nothing")
+"""Those with an EEPROM, which knows nothing of these parameters."""
+
+
+@verifies("P006-AC-53", "P006-CMD-55")
+def test_ac_53() -> None:
+    host = ready(step_ack="ECHO")
+    assert host.swap("A5 FF 73 1F 01 00 00 37") == "A5 7A FF 1F 01 00 00 3E"
+    mark = host.mark
+    assert host.ask("s", 5) == 0
+    rest(host)
+    gaps = host.intervals(mark)
+    assert len(gaps) == 286 and gaps[:3] == [1613, 1534, 1439] and sum(gaps) == 132_476 - 1659
+    assert host.ask("s", 0) == 0
+
+
+@model_only("all the other checks under other parameters")
+@pytest.mark.parametrize(
+    "build",
+    [
+        Config("datasheet", clk_hz=8_000_000, timing="DATASHEET", extra=(("BAUD", 115_200),)),
+        Config("echo", clk_hz=8_000_000, extra=(("STEP_ACK", "ECHO"), ("BAUD", 115_200))),
+    ],
+)
+@verifies("P006-AC-48", "P006-AC-53")
+def test_ac_48(build: Config) -> None:
+    """The checks that are played on the RTL, too, in their short form."""
+    run = 0
+    for path in MODULES:
+        for case in cases(path):
+            if not case.name.endswith(COSTLY):
+                with building(build), taping():
+                    case.call()
+                run += 1
+    assert run > 40
