@@ -79,8 +79,9 @@ class Part:
     `inputs` maps every input pin except clk/rst_n to its idle level; `outputs` maps every output to
     (width, reset level). `widths` are those of inputs wider than one bit. `lowest` names ports whose lowest
     bit is not number 0. `parameters` are those of the top module. `styles` are the styles of the host bus by
-    the level of `style_pin`; a part with one style has no such pin. `clock` is the external base clock.
-    `unwatched` outputs run freely all the time: only tests that ask for them record their edges.
+    the level of `style_pin`; a part with one style has no such pin, one without a bus has none at all.
+    `clock` is the external base clock. `unwatched` outputs run freely all the time: only tests that ask for
+    them record their edges. `defaults` are the parameters of a build that names none.
     """
 
     name: str
@@ -94,6 +95,7 @@ class Part:
     style_pin: str = ""
     lowest: Mapping[str, int] = field(default_factory=dict)
     unwatched: frozenset[str] = frozenset()
+    defaults: Mapping[str, object] = field(default_factory=dict)
 
     @property
     def watched(self) -> tuple[str, ...]:
@@ -137,9 +139,10 @@ class Part:
 
     @property
     def bus_pins(self) -> frozenset[str]:
-        """Input pins of the host bus."""
+        """Input pins of the host bus; on a part with none its serial line."""
         used = {pin for style in self.styles for pin in (*style.write_on, *style.read_on, style.address)}
-        return frozenset(used | {pin for pin in ("d_i", "sd_i") if pin in self.inputs})
+        data = ("d_i", "sd_i") if self.styles else ("rxd",)
+        return frozenset(used | {pin for pin in data if pin in self.inputs})
 
 
 PPMC104 = Part(
@@ -295,9 +298,78 @@ PPMC312 = Part(
     widths={"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8},
     styles=(STROBES_WE_OE,),
     clock="extck",
+    defaults={
+        "CLK_HZ": 16_000_000,
+        "XTAL_HZ": 16_000_000,
+        "TIMING": "FAST",
+        "VERSION": 0x12,
+        "SUM_MODE": "BINARY",
+    },
 )
 
-PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104, STMC, J105_STMC, PPMC312)}
+PMC006 = Part(
+    name="pmc006",
+    prefix="P006",
+    inputs={
+        "rxd": 1,
+        "ext1": 1,
+        "ext2": 1,
+        "fset_n": 1,
+        "gpi": 0x1F,
+        "adc_data": 0,
+        "adc_valid": 0,
+        "bemf_level": 0,
+        "bemf_valid": 0,
+        "cmp_a": 0,
+        "cmp_b": 0,
+        "scl_i": 1,
+        "sda_i": 1,
+    },
+    outputs={
+        "txd": (1, 1),
+        "de": (1, 0),
+        "ext1_pu": (1, 1),
+        "ext2_pu": (1, 1),
+        "gpo": (5, 0),
+        "phase_a_ref": (8, 0),
+        "phase_a_sign": (1, 0),
+        "phase_b_ref": (8, 0),
+        "phase_b_sign": (1, 0),
+        "pwm_a_ref": (1, 0),
+        "pwm_b_ref": (1, 0),
+        "bridge_a_en": (1, 0),
+        "bridge_b_en": (1, 0),
+        "m10": (1, 0),
+        "m11": (1, 0),
+        "m20": (1, 0),
+        "m21": (1, 0),
+        "scl_o": (1, 0),
+        "scl_oe": (1, 0),
+        "sda_o": (1, 0),
+        "sda_oe": (1, 0),
+        "mon_step": (1, 0),
+        "mon_dir": (1, 1),
+        "mon_busy": (1, 0),
+    },
+    widths={"gpi": 5, "adc_data": 10, "bemf_level": 10},
+    styles=(),
+    clock="",
+    unwatched=frozenset({"pwm_a_ref", "pwm_b_ref"}),
+    defaults={
+        "CLK_HZ": 16_000_000,
+        "XTAL_HZ": 16_000_000,
+        "TIMING": "FAST",
+        "STEP_ACK": "MANUAL",
+        "BAUD": 9600,
+        "I2C_HZ": 400_000,
+        "EE_DEV": 0x50,
+        "T_OFF_NS": 20_000,
+        "T_BLANK_NS": 1_000,
+        "FW_VERSION": 0x123,
+    },
+)
+
+PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104, STMC, J105_STMC, PPMC312, PMC006)}
 
 # Also parts whose RTL does not exist yet, so that their rule IDs already sort to the right table.
 PREFIXES = {

@@ -62,11 +62,8 @@ def taping() -> Iterator[list[Tape]]:
         _shelves.remove(shelf)
 
 
-async def play(bench: Bench, tape: Tape, what: str = "") -> Comparison:
-    """Reset the part, play the tape, compare; AssertionError with the report at a difference.
-
-    `what` says what is played. The files of the report go to bench.out.
-    """
+async def record(bench: Bench, tape: Tape) -> Recording:
+    """Reset the part and play the tape; what was recorded, from the first edge on."""
     end, part = tape.finish(), bench.part
     await bench.align()
     bench.set(rst_n=0)
@@ -78,7 +75,7 @@ async def play(bench: Bench, tape: Tape, what: str = "") -> Comparison:
     bench.play(Change(base + t, pin, value) for t, pin, value in tape.changes)
     await bench.until(base + end + 1)
     seen = bench.recording()
-    recording = Recording(
+    return Recording(
         part=part.name,
         params=tape.params,
         seed=bench.seed,
@@ -87,6 +84,15 @@ async def play(bench: Bench, tape: Tape, what: str = "") -> Comparison:
         edges=[Edge(edge.t - base, edge.signal, edge.value) for edge in seen.edges],
         accesses=tape.accesses,
     )
+
+
+async def play(bench: Bench, tape: Tape, what: str = "") -> Comparison:
+    """Play the tape and compare; AssertionError with the report at a difference.
+
+    `what` says what is played. The files of the report go to bench.out.
+    """
+    recording, part = await record(bench, tape), bench.part
+    end = recording.end
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched}
     resets = [change.t for change in tape.changes if change.pin == "rst_n" and not change.value]

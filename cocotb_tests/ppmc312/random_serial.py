@@ -9,11 +9,11 @@ import random
 from collections.abc import Callable
 from fractions import Fraction
 
+from cocotb_tests.common.background import Background
 from cocotb_tests.common.config import D16, F16, Config
 from openppmc.model.codes312 import State
 from openppmc.model.serial312 import LENGTHS
 
-from .background import Background
 from .modules import CHARS, F8V, F27X12
 from .serial312 import SILENCE, Serial312, summed
 
@@ -59,7 +59,7 @@ class Talker:
             **parameters,
         )
         self.model = self.host.model
-        self.background = Background(self.model)
+        self.background = Background(self.model, ("mode", "mod", "adr"))
         self.frames = rng.randint(20, 30)
         self.noisy = rng.random() < 0.3
 

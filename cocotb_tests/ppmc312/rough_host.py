@@ -8,10 +8,10 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 
+from cocotb_tests.common.background import Background
 from cocotb_tests.common.config import Config
 from openppmc.model.codes312 import LENGTHS, State
 
-from .background import Background
 from .host312 import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host312
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
@@ -34,7 +34,7 @@ class Player:
         self.host = host_of(config)
         self.slow = config.datasheet
         self.model = self.host.model
-        self.background = Background(self.model)
+        self.background = Background(self.model, ("mode", "mod", "adr"))
         self.reads = self.rng.choice((0.3, 0.9, 0.97, 1.0, 1.0, 1.0))
         self.rates = [100, 200, 400]
         self.end = self.host.t + (900_000 if self.slow else 130_000)

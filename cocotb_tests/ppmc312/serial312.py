@@ -5,11 +5,11 @@ Its UART is its own: what the part sends is read from the levels of txd, and eve
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from math import ceil
 
 from cocotb_tests.common.block_host import clean
+from cocotb_tests.common.serial_line import SerialLine, characters
 
 from .script_host import TICK, Script
 
@@ -36,7 +36,7 @@ def summed(control: int, data: bytes = b"", mode: str = "BINARY") -> bytes:
     return bytes([control]) + text + bytes([(total ^ 0xFF) & 0x7F])
 
 
-class Serial312(Script):
+class Serial312(SerialLine, Script):
     """mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
 
     Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the
@@ -51,12 +51,9 @@ class Serial312(Script):
         self.sum_mode = str(parameters.get("sum_mode", "BINARY"))
         self.pins(rst_n=0, mode=mode, mod=mod, adr=adr)
         self.pause(12)
-        self.error = Fraction(error)
-        self.bit = Fraction(0)
+        self.open_line(Fraction(0), error)
         self.speed(mod)
         self.wire = ""
-        self.middle = Fraction(0)
-        self._free = Fraction(0)
         self._heard = 0
         self.pins(rst_n=1)
         self.pause(12)
@@ -73,55 +70,6 @@ class Serial312(Script):
         self.bit = timebase.clk_hz / rate
 
     # ------------------------------------------------------------------ to the part
-
-    def character(
-        self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
-    ) -> None:
-        """One character; stop: level of its stop bit. spikes: (place in bits, clk) where the line has the
-        wrong level. bits: how many of it are sent before the line rests."""
-        bit = self.bit * (1 + self.error)
-        start = max(self._free, Fraction(self.t))
-        levels = [0, *(byte >> place & 1 for place in range(8)), stop]
-        changes = [(start + number * bit, level) for number, level in enumerate(levels) if number < bits]
-        end = start + Fraction(bits) * bit
-        self.middle = start + Fraction(19, 2) * self.bit
-        for place, clk in spikes:
-            begin = start + Fraction(place) * bit
-            level = levels[int(place)]
-            changes += [(begin, 1 - level), (begin + clk, level)]
-        for at, level in sorted(changes):
-            self._drive(ceil(at), level)
-        if not stop or bits < 10:
-            self._drive(ceil(end), 1)
-            end += bit
-        self.t, self._free = ceil(end), end
-
-    def _drive(self, t: int, level: int) -> None:
-        if self.model.inputs["rxd"] != level:
-            self.model.pins(max(t, self.model.now + 1), rxd=level)
-
-    def send(self, line: bytes, gap: float = 0) -> None:
-        """Characters as they are; gap: idle time between two of them in bits."""
-        for byte in line:
-            self.character(byte)
-            if gap:
-                self._free += Fraction(gap) * self.bit
-        self.t = ceil(self._free)
-
-    def raw(self, text: str) -> None:
-        """The same from hexadecimal text."""
-        self.send(bytes.fromhex(text))
-
-    def back_to(self, t: int) -> None:
-        """The next character begins on edge t, which may lie before the end of the last stop bit's rest."""
-        self.t, self._free = t, Fraction(0)
-
-    def low(self, bits: float) -> None:
-        """Break: the line is low for so long, then high for a bit time."""
-        self._drive(self.t, 0)
-        self.t += ceil(Fraction(bits) * self.bit)
-        self._drive(self.t, 1)
-        self.t += ceil(self.bit)
 
     def say(self, text: str, adr: int | None = None) -> None:
         """An instruction; pulses count from here."""
@@ -162,19 +110,8 @@ class Serial312(Script):
         count, rest = divmod(round((fall - rise) / bit) - 1, 10)
         assert not rest and fall == rise + ceil((10 * count + 1) * bit), "snd falls in a character"
         edges = [edge for edge in self.model.log.of("txd", rise) if edge[0] <= fall]
-        grid = {rise + ceil(number * bit) for number in range(10 * count + 1)}
-        assert all(t in grid for t, _ in edges), "txd changes within a bit"
-
-        def level(number: int) -> int:
-            middle = rise + (number + Fraction(1, 2)) * bit
-            return next((value for t, value in reversed(edges) if t <= middle), 1)
-
-        assert level(0), "no idle bit before the first character"
-        line = bytearray()
-        for first in range(1, 10 * count + 1, 10):
-            assert not level(first) and level(first + 9), "no start or stop bit"
-            line.append(sum(level(first + 1 + place) << place for place in range(8)))
-        return bytes(line)
+        assert not edges or edges[0][0] >= rise + bit, "no idle bit before the first character"
+        return characters(edges, rise + bit, bit, count)
 
     def _meaning(self, line: bytes) -> str:
         control, data = line[0], bytes.fromhex(line[1:-1].decode("ascii"))

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import pytest
 
+from cocotb_tests.common.batches import batches
 from cocotb_tests.common.collect import Item, cocotb_items
 from cocotb_tests.common.config import D16, F16, F50, Config
 from cocotb_tests.common.part import PPMC312
@@ -50,18 +51,6 @@ def serial_item(seed: int) -> Item:
     return _item("p312_random_serial", seed, random_serial.plan(seed))
 
 
-def batches(items: list[Item]) -> list[tuple[Item, str]]:
-    """(first item, all seeds) of each simulation."""
-    builds: dict[str, list[Item]] = {}
-    for item in items:
-        builds.setdefault(item.config.name, []).append(item)
-    return [
-        (group[k], " ".join(str(item.seed) for item in group[k : k + BATCH]))
-        for group in builds.values()
-        for k in range(0, len(group), BATCH)
-    ]
-
-
 KINDS = {
     "test_random": (random_item, SEEDS),
     "test_noise": (noise_item, NOISE_SEEDS),
@@ -75,7 +64,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if "item" in metafunc.fixturenames:
         chosen = metafunc.config.getoption("--seed")
         make, fixed = KINDS[metafunc.function.__name__]
-        sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])])
+        sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])], BATCH)
         metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
 
 
@@ -103,7 +92,9 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     assert configs == [plan(seed) for seed in SEEDS]
     assert {config.name for config in configs} == {config.name for config, _ in BUILDS}
     played = [
-        int(word) for _, seeds in batches([random_item(seed) for seed in SEEDS]) for word in seeds.split()
+        int(word)
+        for _, seeds in batches([random_item(seed) for seed in SEEDS], BATCH)
+        for word in seeds.split()
     ]
     assert sorted(played) == list(SEEDS)
 

@@ -1,7 +1,8 @@
-"""Scripts: test functions whose hosts are `Host312` or `Serial312`, run on the model and played on the RTL.
+"""Scripts: test functions whose hosts are at work on a golden model; their tapes are played on the RTL.
 
 A script module is a plain pytest module. Its functions build hosts and check answers, pulses and levels;
-`cases` are all of them with their parameters, `parameters_of` the build that a tape belongs to.
+`cases` are all of them with their parameters, `build_of` the build that a tape belongs to. Hosts that name no
+parameters may ask for those of the build that is simulated (`parameters`).
 """
 
 from __future__ import annotations
@@ -11,23 +12,21 @@ import importlib.util
 import inspect
 import itertools
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-from cocotb_tests.common.config import Config
-from cocotb_tests.common.paths import ROOT
-from cocotb_tests.common.tape import Tape
-from cocotb_tests.common.verifies import rules_of
+from .config import Config
+from .part import PARTS, Part
+from .paths import ROOT
+from .tape import Tape
+from .verifies import rules_of
 
-DEFAULTS: dict[str, object] = {
-    "CLK_HZ": 16_000_000,
-    "XTAL_HZ": 16_000_000,
-    "TIMING": "FAST",
-    "VERSION": 0x12,
-    "SUM_MODE": "BINARY",
-}
+F = TypeVar("F")
+
+_builds: list[Config] = []
 
 
 class Case(NamedTuple):
@@ -64,9 +63,21 @@ def rules(path: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(rule for function in functions(load(path)) for rule in rules_of(function)))
 
 
+def model_only(why: str) -> Callable[[F], F]:
+    """Mark a script that is not played on the RTL, for the reason given."""
+
+    def mark(function: F) -> F:
+        function._openppmc_model_only = why  # type: ignore[attr-defined]
+        return function
+
+    return mark
+
+
 def cases(path: str, word: str = "") -> Iterator[Case]:
-    """Every call that pytest would make, those with `word` in their name."""
+    """Every call that pytest would make of what is played, those with `word` in their name."""
     for function in functions(load(path)):
+        if hasattr(function, "_openppmc_model_only"):
+            continue
         sets = [
             ([name.strip() for name in _names(mark.args[0])], mark.args[1])
             for mark in getattr(function, "pytestmark", [])
@@ -86,11 +97,38 @@ def _names(names: str | tuple[str, ...]) -> list[str]:
     return names.split(",") if isinstance(names, str) else list(names)
 
 
-def build_of(params: dict[str, object]) -> tuple[object, ...]:
+@contextmanager
+def building(config: Config) -> Iterator[None]:
+    """Inside, `parameters` are those of this build."""
+    _builds.append(config)
+    try:
+        yield
+    finally:
+        _builds.pop()
+
+
+def simulating() -> bool:
+    """Whether the tape will be played: scripts may then be shorter than on the model alone."""
+    return bool(_builds)
+
+
+def parameters(part: Part, given: Mapping[str, object]) -> dict[str, object]:
+    """Parameters of a model, in lower case: those of the build that is simulated, then the given ones.
+
+    Outside of a simulation those not given have the part's defaults.
+    """
+    own = {name.lower(): value for name, value in part.defaults.items()}
+    if _builds:
+        own |= {name.lower(): value for name, value in part.params(_builds[-1]).items()}
+    return {**own, **given}
+
+
+def build_of(part: Part, params: Mapping[str, object]) -> tuple[object, ...]:
     """Comparable parameters of a build; what is not named has its default."""
-    return tuple({**DEFAULTS, **params}.get(name) for name in DEFAULTS)
+    return tuple({**part.defaults, **params}.get(name) for name in part.defaults)
 
 
 def fits(tape: Tape, config: Config) -> bool:
     """Whether a tape was made for a build."""
-    return build_of(tape.params) == build_of(config.params)
+    part = PARTS[tape.part]
+    return build_of(part, tape.params) == build_of(part, config.params)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import heapq
 import random
+from collections.abc import Sequence
 from typing import Any
-
-STRAPS = ("mode", "mod", "adr")
 
 
 class Background:
-    """Puts scheduled pin changes in front of whatever is done to a model at that time or later."""
+    """Puts scheduled pin changes in front of whatever is done to a model at that time or later.
 
-    def __init__(self, model: Any) -> None:
+    kept: pins that `stop` leaves alone, beside those of the bus, rst_n and rxd.
+    """
+
+    def __init__(self, model: Any, kept: Sequence[str] = ()) -> None:
+        self._kept = {*model.HOST_PINS, *kept, "rst_n", "rxd"}
         self._pins, self._run = model.pins, model.run_until
         self._model = model
         self._heap: list[tuple[int, int, dict[str, int]]] = []
@@ -44,8 +47,7 @@ class Background:
         """Nothing moves any more; everything is at its idle level from edge t on."""
         self._heap.clear()
         self._clock = None
-        kept = {*self._model.HOST_PINS, *STRAPS, "rst_n", "rxd"}
-        self._pin(t, **{pin: level for pin, level in self._model.INPUTS.items() if pin not in kept})
+        self._pin(t, **{pin: level for pin, level in self._model.INPUTS.items() if pin not in self._kept})
 
     def _due(self, t: int) -> None:
         """Everything before edge t, and at it."""
