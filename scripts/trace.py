@@ -21,7 +21,7 @@ from typing import Any
 from cocotb_tests.common.verifies import manual_rules, part_of_rule
 from scripts.project import BUILD, DOCS, ProjectError, console, part
 
-CHECK = re.compile(r"AC-|P312-CHK-")
+CHECK = re.compile(r"AC-|P312-CHK-|P006-AC-")
 RESULTS = BUILD / "trace" / "results.jsonl"
 # Designs whose rules and acceptance checks are in the manual of another part.
 MANUAL_OF = {"j105_stmc": "stmc"}

@@ -13,6 +13,9 @@ from cocotb_tests.common.collect import Item
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import Design
 from cocotb_tests.gates import board
+from cocotb_tests.pmc006 import test_random as test_random_006
+from cocotb_tests.pmc006 import test_scripts as test_pmc006
+from cocotb_tests.pmc006.modules import F8B
 from cocotb_tests.ppmc104 import test_ppmc104, test_random
 from cocotb_tests.ppmc312 import test_random as test_random_312
 from cocotb_tests.ppmc312 import test_scripts as test_ppmc312
@@ -26,10 +29,11 @@ from scripts.flow import gates
 from scripts.project import ProjectError
 
 QUICK = "quick"
-# The quick subset: these modules and tests under F16 on all families of the part, and the board on one.
+# The quick subset: these modules and tests in one build on all families of the part, and the board on one.
 QUICK_MODULES = ("cocotb_tests.ppmc104.tb_acceptance_1", "cocotb_tests.ppmc104.tb_bus")
 QUICK_MODULES += ("cocotb_tests.ppmc2104.tb_acceptance_2", "cocotb_tests.stmc.tb_init")
-QUICK_TESTS = ("p312_bus", "p312_serial_tour")
+QUICK_TESTS = ("p312_bus", "p312_serial_tour", "p006_tour")
+QUICK_BUILDS = (F16, F8B)
 QUICK_BOARD = "ice40"
 
 OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
@@ -116,6 +120,13 @@ PARTS = (
         frozenset({"f16"}),
         COSTLY_BUILDS,
     ),
+    PartTests(
+        test_pmc006,
+        test_random_006,
+        {test_random_006.random_item: (3, 4, 5, 6)},
+        frozenset({F8B.name}),
+        COSTLY_BUILDS,
+    ),
 )
 
 # Test functions that are no simulation of the part: what a netlist has to do with them.
@@ -153,6 +164,11 @@ TOO_LONG = {
         "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks",
     ),
     "p312_checks_motion": "15 million clk; p312_motion and p312_bounds have shorter moves of all kinds",
+    **{
+        item.test: "2 to 15 million clk; p006_tour, _bridge, _current and random hosts have the same blocks"
+        for item in (param.values[0] for param in test_pmc006.ITEMS)
+        if item.test not in ("p006_tour", "p006_bridge", "p006_current", "p006_streams")
+    },
 }
 
 
@@ -215,7 +231,7 @@ def _tagged(item: Item, family: str) -> Item:
 
 def _directed(part: PartTests, family: str) -> list[GateTest]:
     def quick(item: Item) -> bool:
-        return (item.module in QUICK_MODULES or item.test in QUICK_TESTS) and item.config == F16
+        return (item.module in QUICK_MODULES or item.test in QUICK_TESTS) and item.config in QUICK_BUILDS
 
     return [GateTest(family, _tagged(item, family), quick(item)) for item in part.items]
 

@@ -56,7 +56,7 @@ def test_choosing() -> None:
     quick = suite.chosen(EVERYTHING, "quick")
     assert 60 < len(quick) < 150
     assert {t.family for t in quick} == set(gates.FAMILIES)
-    assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "ppmc104_board"}
+    assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "ppmc104_board"}
     some = suite.chosen(EVERYTHING, "D16-ECP5")
     assert some and all(t.group[0] == "ecp5" for t in some)
 
@@ -66,7 +66,7 @@ def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     builds = {name: why for name, why in suite.left_out().items() if why in reasons}
     families = {"ppmc312 on ice40": suite.TOO_BIG}
     assert suite.left_out() == {**suite.NOT_APPLICABLE, **suite.TOO_LONG, **builds, **families}
-    assert [name.split(" in ")[0] for name in builds] == ["stmc", "j105_stmc", "ppmc312"]
+    assert [name.split(" in ")[0] for name in builds] == ["stmc", "j105_stmc", "ppmc312", "pmc006"]
     tests = {param.values[0].test for part in suite.PARTS for param in part.directed.ITEMS}
     assert set(suite.TOO_LONG) <= tests
     monkeypatch.setattr(test_ppmc104, "test_something_new", lambda: None, raising=False)

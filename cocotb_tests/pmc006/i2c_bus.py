@@ -1,0 +1,64 @@
+"""The two lines between the golden model of the PMC006 and its EEPROM: what both pull, seen by both."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from openppmc.model.eeprom24c32 import Eeprom24C32
+
+
+class I2cBus:
+    """Takes the place of `model.run_until`: what the part pulls at edge t is on the lines from edge t + 1 on.
+
+    So is what the device pulls. The pin changes go through `model.pins`, thus on the tape.
+    """
+
+    def __init__(self, model: Any, device: Eeprom24C32) -> None:
+        self.model, self.device = model, device
+        self._run = model.run_until
+        self._lines = (1, 1)
+        self._pulled = (0, 0)
+        self._look: int | None = 0
+        model.run_until = self.run_until
+
+    def again(self, t: int) -> None:
+        """Something outside has changed what the device pulls: look at edge t."""
+        self._look = t if self._look is None else min(t, self._look)
+
+    def run_until(self, t: int) -> None:
+        """As that of the model; the lines follow."""
+        model, device, levels, run = self.model, self.device, self.model.log.levels, self._run
+        while True:
+            pulled = levels["scl_oe"], levels["sda_oe"]
+            if pulled != self._pulled:
+                self._pulled = pulled
+                self.again(model.now + 1)
+            own, event = self._look, model.next_event
+            if device.due is not None and (own is None or device.due < own):
+                own = device.due
+            edge = t + 1 if event is None else event
+            if own is not None and own <= edge:
+                edge = own
+            if edge > t:
+                break
+            if edge == own:
+                self._settle(edge)
+            run(edge)
+        if t > model.now:
+            run(t)
+
+    def _settle(self, t: int) -> None:
+        """Levels of the lines at edge t."""
+        device = self.device
+        scl, sda = (
+            int(not mine and not its)
+            for mine, its in zip(self._pulled, (device.scl, device.sda), strict=True)
+        )
+        if (scl, sda) != self._lines:
+            self._lines = scl, sda
+            self.model.pins(t, scl_i=scl, sda_i=sda)
+        self._look = None
+        before = device.scl, device.sda
+        device.look(t, scl, sda)
+        if (device.scl, device.sda) != before:
+            self._look = t + 1

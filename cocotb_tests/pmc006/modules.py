@@ -1,0 +1,44 @@
+"""The script modules that are played on the RTL, and the builds that simulate them.
+
+A new module needs a row here; each build of a row is one simulation. Most run at 8 MHz and 115200 baud, where
+they need the fewest clk; a few at the defaults, at a clock that is no multiple of 1 MHz, and in the other
+timing mode with the other reply to s.
+"""
+
+from __future__ import annotations
+
+from cocotb_tests.common.config import F16, Config
+
+FAST_LINE = ("BAUD", 115_200)
+F8B = Config("f8b", clk_hz=8_000_000, extra=(FAST_LINE,))
+ODD = Config(
+    "odd11",
+    clk_hz=11_059_200,
+    extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
+)
+D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
+
+MODULES: dict[str, tuple[Config, ...]] = {
+    "tests/model/test_006_checks_link.py": (F8B,),
+    "tests/model/test_006_checks_motion.py": (F8B,),
+    "tests/model/test_006_checks_guard.py": (F8B,),
+    "tests/model/test_006_checks_modes.py": (D8E,),
+    "tests/model/test_006_checks_program.py": (F8B,),
+    "cocotb_tests/pmc006/script_tour.py": (F8B, F16, D8E),
+    "cocotb_tests/pmc006/script_link.py": (F8B, ODD),
+    "cocotb_tests/pmc006/script_codes.py": (F8B,),
+    "cocotb_tests/pmc006/script_motion.py": (F8B,),
+    "cocotb_tests/pmc006/script_angle.py": (F8B,),
+    "cocotb_tests/pmc006/script_bridge.py": (F8B, ODD),
+    "cocotb_tests/pmc006/script_current.py": (F8B,),
+    "cocotb_tests/pmc006/script_guard.py": (F8B,),
+    "cocotb_tests/pmc006/script_analog.py": (F8B,),
+    "cocotb_tests/pmc006/script_clock.py": (ODD,),
+    "cocotb_tests/pmc006/script_states.py": (F8B,),
+    "cocotb_tests/pmc006/script_keys.py": (F8B,),
+    "cocotb_tests/pmc006/script_program.py": (F8B,),
+    "cocotb_tests/pmc006/script_waits.py": (F8B,),
+    "cocotb_tests/pmc006/script_eeprom.py": (F8B,),
+    "cocotb_tests/pmc006/script_save.py": (F8B,),
+    "cocotb_tests/pmc006/script_meetings.py": (F8B,),
+}

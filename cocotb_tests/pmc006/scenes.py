@@ -1,0 +1,193 @@
+"""What many scripts of the PMC006 begin with: SETUP of chapter 11, motions, programs, EEPROM pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from cocotb_tests.common.part import PMC006
+from cocotb_tests.common.scripts import parameters
+from openppmc.model.eeprom24c32 import Eeprom24C32
+
+from .script_host import Host006
+
+EXT1, EXT2, DECAY, STALL = 0x02, 0x04, 0x08, 0x10
+"""Bits of status 1 beside BUSY."""
+FREE_RUN, EXT1_EN, EXT2_EN, SPEED_MODE, FORWARD, OFFLINE = 0x01, 0x02, 0x04, 0x08, 0x10, 0x20
+"""Bits of status 2."""
+
+FACTORY_PAGE = bytes.fromhex("503601FF1000000001010000580258022C01E2042003") + bytes(9) + b"\x82"
+
+
+def setup(host: Host006) -> Host006:
+    """SETUP: e 1000, u 3, o 3, v 3200."""
+    host.ok(e=1000, u=3, o=3, v=3200)
+    return host
+
+
+def ready(**given: object) -> Host006:
+    """A host behind SETUP."""
+    return setup(Host006(**given))  # type: ignore[arg-type]
+
+
+def brisk(host: Host006, speed: int = 3000, **settings: int) -> Host006:
+    """Constant speed from the first step to the last."""
+    host.ok(v=speed, L=speed, S=speed, **settings)
+    return host
+
+
+def quick(speed: int = 3000, **given: object) -> Host006:
+    """A host whose motions are `brisk`."""
+    return brisk(Host006(**given), speed)  # type: ignore[arg-type]
+
+
+def start(host: Host006, count: int) -> None:
+    """An accepted s."""
+    assert host.ask("s", count) == host.accepted(count)
+
+
+def run(host: Host006, on: int = 1) -> None:
+    """N 1 or N 0 with the reply that says so."""
+    assert host.ask("N", on) == on
+
+
+def rest(host: Host006, limit_us: float = 10_000_000) -> int:
+    """Run to the end of motion; returns its edge."""
+    return host.until("mon_busy", 0, limit_us)
+
+
+def move(host: Host006, count: int) -> list[int]:
+    """A whole move; returns its intervals in us. The number of steps is checked."""
+    start(host, count)
+    rest(host)
+    assert len(host.steps()) == count, f"{len(host.steps())} steps instead of {count}"
+    return host.intervals()
+
+
+def after_steps(host: Host006, count: int, limit_us: float = 20_000_000) -> int:
+    """Run until so many steps have been made since `mark`; returns the edge of that step."""
+    end = host.t + host.us(limit_us)
+    while host.made() < count:
+        assert host.t < end, f"only {host.made()} steps"
+        host.step()
+    return host.steps()[count - 1]
+
+
+def cruise(host: Host006, interval: float, limit_us: float = 1_000_000) -> None:
+    """Run until the last two intervals are this one, rounded up or down."""
+    end = host.t + host.us(limit_us)
+    seen = host.made()
+    last: list[int] = []
+    while len(last) < 2 or not all(abs(one - interval) < 1 for one in last):
+        assert host.t < end, f"the interval of {interval} us is never reached"
+        host.step()
+        if host.made() != seen:
+            seen = host.made()
+            steps = host.last_steps(3)
+            last = [host.in_us(b - a) for a, b in zip(steps, steps[1:], strict=False)]
+
+
+def still(host: Host006, clk: int | None = None) -> bool:
+    """Whether no step is made for so long (10 ms)."""
+    host.sync()
+    since = host.t
+    host.pause(host.us(10_000) if clk is None else clk)
+    return not host.steps(since)
+
+
+# ---------------------------------------------------------------------- programs
+
+
+class Op(NamedTuple):
+    """One instruction of a user program: opcode, option, operand (12.2)."""
+
+    code: int
+    option: int = 0
+    operand: int = 0
+
+    @property
+    def words(self) -> tuple[int, int]:
+        """W0, W1."""
+        return self.code | self.option << 8, self.operand & 0xFFFFFFFF
+
+
+END = Op(0x00)
+WAIT_REST = Op(0x10, 8, 0)
+
+
+def rot(count: int) -> Op:
+    """ROT."""
+    return Op(0x01, 0, count)
+
+
+def out(number: int, level: int) -> Op:
+    """OUT on GPO `number`."""
+    return Op(0x11, number, level)
+
+
+def goto(target: int, code: int = 0x0D) -> Op:
+    """JMP, or JNE 0x0E, JEQ 0x0F."""
+    return Op(code, 0, target)
+
+
+P1 = (
+    Op(0x03, 0, 1),
+    Op(0x08, 0, 3200),
+    Op(0x0C),
+    rot(200),
+    WAIT_REST,
+    Op(0x0B),
+    Op(0x12, 8, 3),
+    goto(3, 0x0E),
+    out(1, 1),
+    END,
+)
+"""Program P1 of 12.8."""
+
+
+def words(program: Iterable[Op]) -> list[int]:
+    """All words of a program."""
+    return [word for op in program for word in op.words]
+
+
+def download(host: Host006, program: Iterable[Op], first: int = 0) -> None:
+    """Write a program from instruction `first` on and point to it."""
+    assert host.ask("A", 2 * first) == 2 * first
+    for word in words(program):
+        assert host.ask("W", word) == word
+    assert host.ask("A", 2 * first) == 2 * first
+
+
+def load(host: Host006, *program: Op) -> None:
+    """Write a program and run it."""
+    download(host, program)
+    assert host.ask("z") == 1
+
+
+def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x5A) -> bytes:
+    """Content of an EEPROM with a parameter page and a program (13.1)."""
+    code = b"".join(word.to_bytes(4, "little") for word in words(program)).ljust(800, b"\0")
+    return page + code + (sum(code) & 0xFFFF).to_bytes(2, "little") + bytes([mark])
+
+
+def page(**changes: int) -> bytes:
+    """The factory page with other bytes at the addresses given as a00..a1e; its sum is right."""
+    content = bytearray(FACTORY_PAGE)
+    for name, value in changes.items():
+        content[int(name[1:], 16)] = value
+    content[31] = sum(content[:31]) & 0xFF
+    return bytes(content)
+
+
+# ---------------------------------------------------------------------- EEPROM
+
+
+def device(content: bytes = b"", **more: int) -> Eeprom24C32:
+    """An EEPROM at the clock of the part that the next host will have."""
+    values = {name: int(str(parameters(PMC006, {})[name])) for name in ("clk_hz", "ee_dev")}
+    return Eeprom24C32(values["clk_hz"], content, **{"device": values["ee_dev"], **more})  # type: ignore[arg-type]
+
+
+def with_eeprom(content: bytes = b"", address: int = 0xFF, write_us: int = 5_000, **levels: int) -> Host006:
+    """A host on a part with an EEPROM."""
+    return Host006(address=address, eeprom=device(content, write_us=write_us), levels=levels)

@@ -1,0 +1,153 @@
+"""Scripts: choppers and bridges."""
+
+from __future__ import annotations
+
+import random
+from math import ceil
+
+from cocotb_tests.common.verifies import verifies
+
+from .scenes import after_steps, brisk, rest, run, start
+from .script_host import Host006
+
+
+class Times:
+    """TOFF, BL, TF of chapter 6.6 in clk."""
+
+    def __init__(self, host: Host006) -> None:
+        params = host.tape.params
+        hz = host.clk_hz
+        self.off, self.blank = (
+            ceil(int(str(params[name])) * hz / 1_000_000_000) for name in ("T_OFF_NS", "T_BLANK_NS")
+        )
+        self.fast = max(self.blank, self.off >> 1)
+
+
+def ready() -> tuple[Host006, Times]:
+    """A part that holds its full current."""
+    host = Host006()
+    host.ok(a=0, e=4000)
+    return host, Times(host)
+
+
+def never_both(host: Host006) -> bool:
+    """Whether the two halves of a bridge are never high together."""
+    for pair in (("m10", "m11"), ("m20", "m21")):
+        times = sorted({t for name in pair for t, _ in host.edges(name)})
+        if any(all(host.level_at(name, t) for name in pair) for t in times[:400]):
+            return False
+    return True
+
+
+@verifies("P006-CHP-02", "P006-CHP-03", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20")
+def test_stuck_comparators() -> None:
+    """At 1: OFF and FAST alternate; at 0: ON for ever; each phase by itself."""
+    host, times = ready()
+    assert (host.out("m10"), host.out("m11"), host.out("m20"), host.out("m21")) == (1, 0, 1, 0)
+    for cmp, plus, minus, other in (("cmp_a", "m10", "m11", "m20"), ("cmp_b", "m20", "m21", "m10")):
+        host.pins(**{cmp: 1})
+        edge = host.t - 1
+        host.pause(6 * (times.off + times.fast))
+        (down, _), *more = host.edges(plus, edge)
+        assert 0 < down - edge <= 4 and not more and not host.edges(other, edge)
+        changes = host.edges(minus, edge)[:8]
+        assert changes[0][0] - down == times.off
+        gaps = [b[0] - a[0] for a, b in zip(changes, changes[1:], strict=False)]
+        assert gaps == ([times.fast, times.off] * 4)[: len(gaps)]
+        host.pins(**{cmp: 0})
+        edge = host.t - 1
+        host.pause(2 * (times.off + times.fast))
+        assert host.out(plus) and not host.out(minus)
+        host.pause(20 * times.off)
+        assert host.edges(plus, edge)[-1][0] < edge + 2 * times.off + times.fast
+    assert never_both(host)
+
+
+@verifies("P006-CHP-03", "P006-CHP-05")
+def test_lengths_of_the_pulses() -> None:
+    """ON: the blanking at least, then until the comparator; FAST ends with it, or after TF."""
+    host, times = ready()
+
+    def cycle(rise: int, fall: int) -> tuple[int, int]:
+        """cmp_a rises `rise` clk after an ON begins; it falls `fall` clk after the next pulse begins."""
+        host.pins(cmp_a=1)
+        host.pause(2 * times.off + 2 * times.fast)
+        host.pins(cmp_a=0)
+        host.pause(2 * times.off + times.fast)
+        host.pins(cmp_a=1)
+        host.pause(5)
+        down = host.edges("m10", 0)[-1][0]
+        host.pins(cmp_a=0)
+        up = down + times.off
+        host.go(up + rise)
+        host.pins(cmp_a=1)
+        host.pause(times.blank + 8)
+        end = host.edges("m10", up + 1)[0][0]
+        host.go(end + times.off + fall)
+        back = end + times.off
+        host.pins(cmp_a=0)
+        host.pause(times.fast + times.blank + 8)
+        changes = host.edges("m11", back)
+        assert changes[0] == (back, 1)
+        return end - up, changes[1][0] - back
+
+    for rise in (0, 1, times.blank - 3, times.blank, times.blank + 1, 5 * times.blank):
+        for fall in (1, times.blank + 3, times.fast - 6):
+            on, fast = cycle(rise, fall)
+            assert max(times.blank, rise + 2) <= on <= max(times.blank, rise + 2) + 2
+            assert max(times.blank, fall) <= fast <= max(times.blank, fall + 4)
+    _, fast = cycle(3, times.fast + 5)
+    assert fast == times.fast
+
+
+@verifies("P006-CHP-04", "P006-CHP-02", "P006-CHP-06")
+def test_reversals() -> None:
+    """A new sign, or a reference of 0, is an OFF of TOFF; the bridge never reverses directly."""
+    host, times = ready()
+    brisk(host, 500, m=2, P=300)
+    for direction in (1, 0):
+        host.ok(d=direction)
+        start(host, 9)
+        mark = host.mark
+        rest(host)
+        host.pause(times.off + 64)
+        for phase, pair in (("a", ("m10", "m11")), ("b", ("m20", "m21"))):
+            turned = [edge for edge, _ in host.edges(f"phase_{phase}_sign", mark)]
+            gone = [edge for edge, ref in host.edges(f"phase_{phase}_ref", mark) if not ref]
+            assert turned
+            for edge in (*turned, *gone):
+                assert not any(host.level_at(name, edge + 1) for name in pair)
+                rises = [t for name in pair for t, level in host.edges(name, edge) if level]
+                assert not rises or min(rises) >= edge + times.off
+    assert never_both(host)
+
+
+@verifies("P006-CHP-01", "P006-CHP-04", "P006-STA-12")
+def test_bridges_off() -> None:
+    host, times = ready()
+    host.pins(cmp_a=1)
+    host.pause(times.off + 9)
+    host.ok(g=1)
+    assert [host.out(name) for name in ("bridge_a_en", "bridge_b_en", "m10", "m11", "m20", "m21")] == [0] * 6
+    mark = host.t
+    host.pause(5 * times.off)
+    assert not any(host.edges(name, mark) for name in ("m10", "m11", "m20", "m21"))
+    host.ok(g=0)
+    up = host.edges("bridge_b_en", host.said)[0][0]
+    ref = host.edges("phase_b_ref", up - 64)[0][0]
+    rise = next(t for t, level in host.edges("m20", up) if level)
+    assert rise >= max(up, ref) + times.off
+
+
+@verifies("P006-CHP-03", "P006-CHP-04", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20")
+def test_restless_comparators() -> None:
+    """Comparators at any moment while the motor turns."""
+    host, times = ready()
+    brisk(host, 2500, m=4)
+    run(host)
+    rng = random.Random(6)
+    for _ in range(250):
+        host.pins(**{rng.choice(("cmp_a", "cmp_b")): rng.getrandbits(1)})
+        host.pause(rng.choice((1, 2, 5, times.blank, times.fast, times.off, 3 * times.off)))
+    after_steps(host, 3)
+    assert host.ask("I") == 0 and never_both(host)

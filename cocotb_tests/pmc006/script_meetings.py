@@ -1,0 +1,268 @@
+"""Scripts: two things in the same clk, or some clk apart: stops, starts, flags, keys, frames, the program."""
+
+from __future__ import annotations
+
+from math import ceil
+
+from cocotb_tests.common.verifies import verifies
+
+from .frames import command
+from .scenes import DECAY, EXT1, Op, after_steps, brisk, download, goto, load, out, quick, run, start
+from .script_host import EXECUTE, Host006
+
+NEAR = range(-3, 4)
+"""Distances in clk."""
+ACT = 4
+"""clk from e to the effect of a frame that finds nobody at work; the sweeps go over both sides of it."""
+TICKS = 1001
+"""µs ticks of a filter."""
+HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
+
+
+def meet(host: Host006, code: str, data: int, shift: int, **levels: int) -> int:
+    """A frame, and pins whose effect inside is so many clk behind that of the frame. Returns the reply."""
+    begin = host.t
+    host.say(code, data)
+    host.model.pins(begin + frame_clk(host) + ACT + shift - 2, **levels)
+    return host.hear()
+
+
+def frame_clk(host: Host006) -> int:
+    """clk from the begin of a frame to its e: the start of the last byte is seen, then its stop bit."""
+    return 7 * ceil(10 * host.bit) + 2 + ceil(9.5 * host.bit) - 1
+
+
+def say_at(host: Host006, t: int, code: str, data: int = 0) -> int:
+    """A frame whose effect would be at edge t, if nothing is under way. Returns the reply."""
+    host.go(t - ACT - frame_clk(host))
+    host.say(code, data)
+    return host.hear()
+
+
+def key_event(host: Host006, edge: int) -> int:
+    """Edge of the event of a key that edge `edge` has sampled low."""
+    first = -(-(edge + 2 - 1) * 1_000_000 // host.clk_hz)
+    return 1 - (-(first + TICKS - 1) * host.clk_hz // 1_000_000)
+
+
+@verifies("P006-STA-14", "P006-STA-10", "P006-EXT-02", "P006-STA-01", "P006-STA-18")
+def test_start_and_emergency_stop() -> None:
+    """Wherever the edge falls: flag set, motor at rest, and a reply of 0 or of an accepted start."""
+    host = quick()
+    host.ok(f=1)
+    replies = []
+    for code, data, good in (("s", 100, host.accepted(100)), ("N", 1, 1)):
+        for shift in NEAR:
+            reply = meet(host, code, data, shift, ext1=0)
+            assert not host.busy and reply in (0, good) and host.status() == DECAY | EXT1
+            replies.append(bool(reply))
+            assert host.ask("b") == 0
+            # The level of one pin and a change of another are no edge.
+            host.pins(gpi=KEY1)
+            host.pins(gpi=HIGH)
+            assert host.status() == DECAY
+            host.pins(ext1=1)
+            assert host.ask("b") == 0 and host.ask("O") & 8 == 0
+    assert replies[0] is False and replies[len(NEAR) - 1] is True and host.position() == 0
+
+
+@verifies("P006-STA-14", "P006-EXT-08", "P006-CMD-23", "P006-CMD-27")
+def test_flag_and_its_clearing() -> None:
+    """Setting wins in the same clk; so does the enable of the clk itself."""
+    host = Host006()
+    host.ok(f=1)
+    left = []
+    for shift in NEAR:
+        assert meet(host, "b", 0, shift, ext1=0) == 0
+        left.append(host.status() & EXT1)
+        host.pins(ext1=1)
+        assert host.ask("b") == 0
+    assert left == [0] * 3 + [EXT1] * 4
+    for code, data, back, wanted in (("f", 1, 0, 3), ("J", 1, 0, 3)):
+        host.ok(f=int(code == "J"), J=0)
+        seen = []
+        for shift in NEAR:
+            # Enabled, or changed to the rising edge, about the time of a falling one.
+            assert meet(host, code, data, shift, ext1=0) == data
+            seen.append(bool(host.status() & EXT1))
+            assert host.ask("f", 0) == 0
+            host.pins(ext1=1)
+            assert host.ask("b") == 0
+            host.ok(f=int(code == "J"), J=back)
+        assert sum(seen) in (wanted, wanted + 1) and len(set(seen)) == 2
+
+
+@verifies("P006-STA-15", "P006-CMD-30", "P006-CMD-52")
+def test_position_and_step() -> None:
+    """It is set a clk before, with, or behind a step: none is lost."""
+    host = quick(2500)
+    run(host)
+    after_steps(host, 3)
+    period = host.us(400)
+    for shift in range(-3, 4):
+        due = host.edges("mon_step")[-2][0] + 20 * period + shift
+        assert say_at(host, due, "i", 1 << 30) == 1 << 30
+        later = [t for t, level in host.edges("mon_step", due + 1) if level]
+        assert host.model.position == (1 << 30) + len(later)
+        assert (due - shift in [t for t, _ in host.edges("mon_step")]) and len(later) >= (shift < 0)
+    assert host.ask("I") == 0
+
+
+@verifies("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
+def test_speed_mode_taken_up_again_at_its_end() -> None:
+    """Up to the edge on which it would end N=1 prolongs the motion; behind it a new one begins."""
+    host = Host006()
+    host.ok(v=300, L=300, S=65, o=5)
+    length = 0
+    for shift in (None, *NEAR):
+        begin = -(-(host.t + frame_clk(host) + 20) // 8) * 8
+        assert say_at(host, begin, "N", 1) == 1 and host.edges("mon_busy")[-1] == (begin, 1)
+        assert say_at(host, begin + host.us(5_000), "N", 0) == 0 and host.busy
+        if shift is None:
+            length = host.until("mon_busy", 0) - begin
+            continue
+        assert say_at(host, begin + length + shift, "N", 1) == 1
+        again = [(begin + length, 0), (begin + length + shift, 1)] if shift > 0 else []
+        assert host.edges("mon_busy", begin + 1) == again, shift
+        assert host.ask("O") & 8 and host.ask("I") == 0
+
+
+def ready_for_reset(host: Host006) -> int:
+    """Run the program from its begin, press GPI1; returns the edge of the event to come."""
+    host.ok(A=0)
+    assert host.ask("z") == 1
+    host.pins(gpi=KEY1)
+    return key_event(host, host.t - 1)
+
+
+@verifies("P006-PRG-31", "P006-STA-14", "P006-PRG-15", "P006-BAD-23")
+def test_reset_key_and_frames() -> None:
+    """Starts, F 0 and z about the edge of the event."""
+    host = quick(2500)
+    host.wait_us(1_010)
+    download(host, [Op(0x13, 1, 3), Op(0x10, 3, 0), goto(1), out(1, 1), goto(4)])
+    for code, data in (("s", 50), ("N", 1), ("F", 0), ("I", 0), ("i", 9)):
+        for shift in (-2, -1, 0, 1, 2):
+            event = ready_for_reset(host)
+            reply = say_at(host, event + shift, code, data)
+            host.sync()
+            halted = host.model.desk.program.halted
+            assert halted == (code == "F") and (not host.busy or (code in "sN" and reply))
+            assert reply in (0, data, host.accepted(data), 1)
+            host.pins(gpi=HIGH)
+            host.wait_us(1_100)
+            assert host.out("gpo") == (code != "F")
+            host.ok(F=0, y=0)
+            assert host.ask("I") == 0
+            host.wait_us(100)
+
+
+@verifies("P006-PRG-31", "P006-PRG-15", "P006-PRG-16", "P006-PRG-32")
+def test_keys_in_every_clk_of_an_instruction() -> None:
+    """RESET cancels the instruction under way or comes behind it, PAUSE lets it end."""
+    host = quick(2500)
+    host.wait_us(1_010)
+    loop = (Op(0x13, 1, 5), Op(0x14, 1, 0), out(1, 1), out(1, 0), goto(2), goto(5))
+    download(host, loop)
+    for gpi in (KEY1, KEY2):
+        for _ in range(8):
+            host.ok(A=0)
+            assert host.ask("z") == 1
+            host.pause(7)
+            host.pins(gpi=gpi)
+            host.wait_us(1_010)
+            seen = host.out("gpo")
+            host.pause(300)
+            assert host.out("gpo") == seen
+            host.pins(gpi=HIGH)
+            host.wait_us(1_100)
+            host.ok(F=0, y=0)
+
+
+@verifies("P006-PRG-15", "P006-PRG-16", "P006-FRM-03", "P006-CMD-46")
+def test_frames_in_every_clk_of_the_program() -> None:
+    """y between two OUTs: the pins are what the last one of them said."""
+    host = Host006()
+    load(host, out(1, 1), out(2, 1), out(1, 0), out(2, 0), goto(0))
+    begin = host.t + frame_clk(host) + 100
+    for shift in range(0, 49, 2):
+        assert say_at(host, begin + shift, "y", 0xE0) == 0xE0
+        edges = host.edges("gpo", host.e)
+        assert edges and edges[0][0] - host.e <= EXECUTE + 1 and host.out("gpo") & 0b11100 == 0b11100
+        host.ok(y=0)
+        begin = host.t + frame_clk(host) + 100 + 48 - (host.t + frame_clk(host) + 100 - begin) % 48
+
+
+@verifies("P006-PRG-20", "P006-CMD-03", "P006-STA-14")
+def test_single_try_and_emergency_stop() -> None:
+    """ROT by E is executed some clk behind E; a stop before it refuses it, one behind it ends it."""
+    host = quick()
+    host.ok(f=1)
+    download(host, [Op(1, 0, 50)])
+    for shift in range(-1, 10):
+        assert meet(host, "E", 0, shift, ext1=0) == 1
+        assert not host.busy and host.status() == DECAY | EXT1 and not host.steps(0)
+        host.pins(ext1=1)
+        assert host.ask("b") == 0
+
+
+@verifies("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
+def test_restore_and_save() -> None:
+    """The event of FSET about the edge of t: one of them goes first, both are done or t is refused."""
+    host = Host006()
+    host.wait_us(100)
+    replies = []
+    for shift in range(-3, 4):
+        host.pins(fset_n=0)
+        first = -(-(host.t - 1 + 2 - 1) * 1_000_000 // host.clk_hz)
+        event = 1 - (-(first + 20_000) * host.clk_hz // 1_000_000)
+        replies.append(say_at(host, event + shift, "t"))
+        host.pins(fset_n=1)
+        host.ms(2)
+        assert host.ask("t") == 1
+        host.ms(1)
+    assert replies == sorted(replies, reverse=True) and set(replies) == {0, 1}
+
+
+@verifies("P006-FRM-07", "P006-BAD-06", "P006-FRM-10")
+def test_bytes_about_the_end_of_a_reply() -> None:
+    """A byte that begins before de has fallen is not heard, one behind it is; the line need not rest."""
+    host = Host006()
+    heard = []
+    for shift in range(-4, 9):
+        host.say("j")
+        fall = host.e + -(-(82 * host.clk_hz) // host.baud)
+        host.go(fall - 30)
+        host.back_to(fall + shift)
+        host.send(command(0xFF, "k"))
+        host.pause(int(host.bit * 90))
+        edges = [t for t, level in host.edges("de", host.e) if level]
+        heard.append(len(edges))
+        host.pause(int(host.bit * 220))
+        host.forget()
+        assert host.ask("k") == 16
+    assert set(heard) <= {0, 1} and heard[-1] == 1 and heard[0] == 0
+
+
+@verifies("P006-STA-10", "P006-MOT-05", "P006-EXT-02", "P006-STA-14")
+def test_emergency_stop_and_step() -> None:
+    """The edge falls some clk before or behind a step, the last of the move among them."""
+    host = Host006()
+    brisk(host, 3000, f=1)
+    for count in (1, 3):
+        for shift in NEAR:
+            start(host, count)
+            period = host.clk_hz // 3000
+            begin = host.edges("mon_busy")[-1][0]
+            tick = -(-(begin + 800 - 1) // 8) * 8 + 1
+            step = tick + -(-1_000_000 // 3000) * 8 + 2
+            assert step - period < host.t + 10**6
+            if host.t < step + shift - 2:
+                host.model.pins(step + shift - 2, ext1=0)
+                host.go(step + 100)
+            else:
+                host.pins(ext1=0)
+            host.wait_us(1_500)
+            assert not host.busy and host.position() == len(host.steps(0))
+            host.pins(ext1=1)
+            assert host.ask("b") == 0

@@ -1,0 +1,165 @@
+"""Scripts: the user program in time: slots, WAIT and CMP on every source, frames and motions beside it."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.verifies import verifies
+
+from .scenes import (
+    DECAY,
+    END,
+    FREE_RUN,
+    WAIT_REST,
+    Op,
+    after_steps,
+    goto,
+    load,
+    out,
+    quick,
+    rest,
+    rot,
+    start,
+    still,
+)
+from .script_host import Host006
+from .script_program import CMP, JEQ, JNE, SLOT, WAIT, go
+
+HIGH = 0x1F
+
+
+@verifies("P006-PRG-16", "P006-PRG-15", "P006-PRG-17")
+def test_time_of_instructions() -> None:
+    """64 clk at most; ROT sets BUSY before the next one, a second ROT is ignored."""
+    host = quick()
+    assert go(host, out(1, 1), out(2, 1), rot(5), rot(100), out(3, 1), WAIT_REST, out(4, 1)) == 0b111
+    times = [t for t, _ in host.edges("gpo")]
+    assert times[1] - times[0] <= SLOT and times[2] - times[1] <= 3 * SLOT
+    fall = rest(host)
+    host.pause(2 * SLOT)
+    assert host.edges("gpo")[-1][0] - fall <= 2 * SLOT and len(host.steps()) == 5
+
+
+SOURCES = ((1, 0x1E), (2, 0x1D), (3, 0x1B), (4, 0x17), (5, 0x0F))
+
+
+@verifies("P006-PRG-16", "P006-BAD-19", "P006-BAD-17", "P006-CMD-31", "P006-IO-01")
+def test_wait_for_pins() -> None:
+    """Each input, both levels; bit 0 of the operand counts; a bad option passes at once."""
+    host = Host006()
+    for option, low in SOURCES:
+        program = (
+            Op(WAIT, option, 0xFE),
+            out(1, 1),
+            Op(WAIT, option, 0xFF),
+            out(2, 1),
+            Op(WAIT, 0),
+            Op(WAIT, 10),
+        )
+        load(host, *program, Op(WAIT, 0x13, 0), out(3, 1))
+        assert host.status() == DECAY and not host.out("gpo")
+        for level, gpo in ((low, 0b001), (HIGH, 0b111)):
+            host.pins(gpi=level)
+            edge = host.t
+            host.pause(8 * SLOT)
+            assert host.out("gpo") == gpo and host.edges("gpo", edge)[0][0] - edge <= 2 * SLOT
+        host.ok(y=0)
+
+
+@verifies("P006-PRG-16", "P006-BAD-19", "P006-CMD-04")
+def test_wait_for_flags_and_the_motor() -> None:
+    host = quick()
+    host.ok(f=3)
+    for option, pin, clear in ((6, "ext1", "b"), (7, "ext2", "l")):
+        load(host, Op(WAIT, option, 1), out(1, 1), Op(WAIT, option, 0), out(2, 1))
+        host.pause(2 * SLOT)
+        host.pins(**{pin: 0})
+        host.pause(3 * SLOT)
+        assert host.out("gpo") == 0b01
+        assert host.ask(clear) == 0
+        assert host.out("gpo") == 0b11
+        host.ok(y=0)
+    load(host, Op(WAIT, 8, 1), out(1, 1), Op(WAIT, 8, 0), out(2, 1))
+    assert not host.out("gpo")
+    start(host, 2)
+    assert host.out("gpo") == 0b01
+    rest(host)
+    host.pause(2 * SLOT)
+    assert host.out("gpo") == 0b11
+    load(host, Op(WAIT, 8, 1), END)
+    host.ok(F=0)
+    assert host.ask("z") == 1
+
+
+@verifies("P006-PRG-16", "P006-STL-02", "P006-STL-04")
+def test_wait_for_a_stall() -> None:
+    host = quick()
+    host.ok(Y=1, Z=511, T=2)
+    load(host, rot(100_000), Op(WAIT, 9, 1), out(1, 1), Op(WAIT, 9, 0), out(2, 1))
+    after_steps(host, 5)
+    for _ in range(2):
+        assert not host.out("gpo")
+        host.strobe(bemf_level=3)
+        host.pause(20)
+    host.pause(2 * SLOT)
+    assert host.out("gpo") == 1 and host.ask("p") == 0 and host.out("gpo") == 3 and host.busy
+
+
+RIGHT = ((1, 0), (2, 1), (3, 1), (4, 0), (5, 1), (6, 1), (7, 0), (8, 0), (9, 0b10110))
+WRONG = ((1, 1), (2, 0), (2, 0x80000001), (6, 0), (7, 1), (8, 1), (9, 0b110), (9, 0x100 | 0b10110))
+BAD = ((0, 0), (10, 0), (0x18, 0), (0xFF, 1))
+
+
+@pytest.mark.parametrize(("rows", "expected"), [(RIGHT, 1), (WRONG, 0), (BAD, 0)])
+@verifies("P006-BAD-17", "P006-PRG-33", "P006-IO-01")
+def test_compare(rows: tuple[tuple[int, int], ...], expected: int) -> None:
+    """Every source; all 32 bits; a bad option clears FLAG. The program stops at the first surprise."""
+    host = Host006()
+    host.ok(f=3)
+    host.pins(gpi=0b10110, ext1=0)
+    host.pause(10)
+    program: list[Op] = []
+    for option, operand in rows:
+        before = [] if expected else [Op(CMP, 8, 0)]
+        program += [
+            *before,
+            Op(CMP, option, operand),
+            goto(len(program) + len(before) + 3, JEQ if expected else JNE),
+        ]
+        program += [END]
+    load(host, *program, out(1, 1))
+    host.pause(SLOT * (len(program) + 2))
+    assert host.out("gpo") == 1
+
+
+@verifies("P006-PRG-10", "P006-PRG-15", "P006-CMD-06", "P006-STA-10")
+def test_abort_beside_a_program() -> None:
+    """The motion ends, the program goes on behind its WAIT."""
+    host = quick()
+    load(host, rot(100_000), WAIT_REST, out(1, 1), rot(3), WAIT_REST, out(2, 1))
+    after_steps(host, 5)
+    assert host.ask("I") == 0
+    rest(host)
+    host.pause(3 * SLOT)
+    assert host.out("gpo") == 0b11 and len(host.steps(host.edges("gpo")[0][0])) == 3
+
+
+@verifies("P006-PRG-14", "P006-CMD-04", "P006-MOT-52", "P006-CMD-43")
+def test_offline_0_leaves_everything_else() -> None:
+    host = quick()
+    load(host, out(1, 1), Op(0x08, 1, 3000), Op(0x08, 0, 3000), rot(100_000), goto(4))
+    after_steps(host, 4)
+    host.ok(F=0)
+    assert not still(host, host.us(2_000)) and host.busy and host.out("gpo") == 1 and host.ask("q") == 3000
+    assert host.ask("z") == 1 and host.ask("F", 0) == 0 and host.ask("O") & FREE_RUN == 0
+
+
+@verifies("P006-PRG-15", "P006-PRG-16", "P006-CMD-52")
+def test_frames_at_any_time_of_an_instruction() -> None:
+    """A frame falls into each clk of the 64; both sources see whole instructions."""
+    host = Host006()
+    load(host, Op(0x0B), out(1, 1), out(1, 0), goto(0))
+    for shift in range(0, 40):
+        host.pause(1 + shift % 5)
+        assert host.ask("i", shift) == shift
+    assert host.ask("c") == 39

@@ -1,0 +1,10 @@
+"""Plays the scripts of each module on the RTL: one cocotb test a module (see `script_player`, `modules`)."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.part import PMC006
+from cocotb_tests.common.script_player import module_tests
+
+from .modules import MODULES
+
+globals().update(module_tests(PMC006, MODULES, __name__))

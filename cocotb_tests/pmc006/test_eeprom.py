@@ -1,0 +1,31 @@
+"""tb/pmc006/eeprom_24c32.sv against openppmc/model/eeprom24c32.py, and the Python device by itself."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.part import Part
+from cocotb_tests.common.paths import ROOT
+from cocotb_tests.common.runner import Design, SimOptions, run_item
+from openppmc.model.eeprom24c32 import Eeprom24C32
+
+from .tb_eeprom import WRITE_CLK
+
+TOP = "eeprom_24c32"
+ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_eeprom", part=Part(TOP, "P006", {}))
+ARGS = ("-Wno-fatal", "--public-flat-rw")
+
+
+@pytest.mark.parametrize("item", ITEMS)
+@pytest.mark.parametrize("stretch", [11])
+def test_both_devices(item: Item, stretch: int, sim_options: SimOptions) -> None:
+    """Random traffic: both pull the lines on the same clk, both hold the same bytes afterwards."""
+    params = {"WriteClk": WRITE_CLK, "StretchClk": stretch, "Device": 0x53}
+    source = ROOT / "tb" / "pmc006" / f"{TOP}.sv"
+    run_item(item, sim_options, design=Design(TOP, [source], params=params, args=ARGS))
+
+
+def test_too_much_content() -> None:
+    with pytest.raises(ValueError, match="do not fit"):
+        Eeprom24C32(8_000_000, bytes(4097))

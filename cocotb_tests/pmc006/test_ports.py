@@ -1,0 +1,31 @@
+"""Ports and parameters of the top module, read from its source and by elaborating it."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.elaborate import check_ranges, ports
+from cocotb_tests.common.part import PMC006
+from cocotb_tests.common.runner import part_design
+from cocotb_tests.common.verifies import verifies
+
+from .modules import F8B
+
+RANGES = {
+    "BAUD": (["1200", "115200"], ["1199", "115201"]),
+    "STEP_ACK": (['"ECHO"'], ['"OTHER"']),
+    "T_OFF_NS": (["100000"], ["999"]),
+}
+
+
+@verifies("P006-PORT-01", "P006-PORT-02", "P006-PORT-03", "P006-PORT-04")
+def test_p006_ports() -> None:
+    """Exactly the ports of chapter 1.1: none for supply or CAN, mon_* besides those of the original."""
+    found = ports(part_design("pmc006", F8B))
+    wanted = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
+    wanted |= {name: ("output", PMC006.width(name) - 1, 0) for name in PMC006.outputs}
+    assert found == wanted
+
+
+@verifies("P006-PAR-01")
+def test_p006_parameter_ranges() -> None:
+    """Values outside of the ranges of chapter 1.2 do not elaborate."""
+    check_ranges("P006-PAR-01", part_design("pmc006", F8B), RANGES)

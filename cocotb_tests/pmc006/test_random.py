@@ -1,0 +1,71 @@
+"""Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
+
+One simulation plays several seeds of one build after the other, each from a reset. `make soak PART=pmc006`
+plays as many others as you like.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from cocotb_tests.common.batches import batches
+from cocotb_tests.common.collect import Item, cocotb_items
+from cocotb_tests.common.part import PMC006
+from cocotb_tests.common.runner import SimOptions, run_item
+
+from .random_host import BUILDS, plan, play
+
+SEEDS = range(1, 151)
+BATCH = 25
+BASE = cocotb_items("cocotb_tests.pmc006", "tb_random", part=PMC006)[0].values[0]
+
+
+def random_item(seed: int) -> Item:
+    """The random host of one seed; the seed decides the build configuration, too."""
+    return replace(BASE, config=plan(seed), seed=seed, tag=f"r{seed:04d}")
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """One pytest item a batch."""
+    if "item" in metafunc.fixturenames:
+        chosen = metafunc.config.getoption("--seed")
+        sets = batches([random_item(seed) for seed in (SEEDS if chosen is None else [chosen])], BATCH)
+        metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
+
+
+def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """The hosts of some seeds: every output edge equals the golden model's."""
+    print(f"seeds {seeds}")
+    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+
+
+def test_scenarios_are_reproducible_and_varied() -> None:
+    """The fixed seeds use every build, each seed once; the same seed gives the same build."""
+    assert {plan(seed).name for seed in SEEDS} == {config.name for config, _ in BUILDS}
+    played = [
+        int(word)
+        for _, seeds in batches([random_item(seed) for seed in SEEDS], BATCH)
+        for word in seeds.split()
+    ]
+    assert sorted(played) == list(SEEDS) and len(SEEDS) >= 150
+
+
+LEAST = {
+    **{"reply": 300, "steps": 150, "halts": 12, "m11": 300, "phase_a_sign": 30, "gpo": 4, "ext1_pu": 5},
+    **{"mon_dir": 4, "code z": 4, "code E": 5, "code N": 12, "code s": 15, "code I": 1, "code v": 15},
+    **{"ext": 8, "stall": 3, "analog": 2, "keys": 1, "chopper": 4, "bad_frame": 5, "foreign": 2},
+    **{"talk_out_of_turn": 2, "noise": 2, "unknown": 2, "bridge_a_en": 25},
+}
+"""How often such things have to happen in every third host of `make test`."""
+
+
+def test_hosts_are_rich() -> None:
+    """Each kind of thing happens some times, and the part is at work."""
+    seen: Counter[str] = Counter()
+    for seed in SEEDS[::3]:
+        seen += play(seed, plan(seed)).seen
+    thin = {kind: (seen[kind], least) for kind, least in LEAST.items() if seen[kind] < least}
+    assert not thin, f"too rare (seen, needed): {thin}"

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// eeprom_24c32: serial EEPROM of the 24C32 class for benches: 4096 bytes, pages of 32, write time, acknowledge polling.
+// Rules:  the same device as openppmc/model/eeprom24c32.py; a test compares both.
+// Timing: both lines are looked at on every clk edge; what the device pulls changes on the same edge.
+`default_nettype none
+
+module eeprom_24c32 #(
+    parameter bit [6:0] Device = 7'h50,
+    parameter int unsigned WriteClk = 80_000,  // clk of a write cycle
+    parameter int unsigned StretchClk = 0,  // clk for which SCL is held low behind each acknowledge
+    parameter bit Missing = 1'b0
+) (
+    input  wire logic clk_i,
+    input  wire logic scl_i,     // levels of the lines, whoever pulls them
+    input  wire logic sda_i,
+    output logic      scl_oe_o,  // 1: the device pulls the line low
+    output logic      sda_oe_o
+);
+
+  typedef enum logic [2:0] {
+    StIdle,
+    StDevice,
+    StHigh,
+    StLow,
+    StData,
+    StSend,    // acknowledges a device byte with the read bit
+    StRead
+  } state_e;
+
+  logic [7:0] memory[4096]  /* verilator public_flat_rw */;
+  logic [7:0] page[32];
+  logic [31:0] filled;  // bytes of the page that have come
+  state_e state;
+  logic scl_was, sda_was;
+  logic [3:0] bits;
+  logic [7:0] shift, sent;
+  logic [11:0] address;
+  int unsigned count;  // bytes of this write
+  int unsigned writing, holding;
+
+  initial begin
+    foreach (memory[i]) memory[i] = 8'hFF;
+    state = StIdle;
+    {scl_was, sda_was} = 2'b11;
+    {scl_oe_o, sda_oe_o} = 2'b00;
+    bits = '0;
+    shift = '0;
+    sent = '0;
+    address = '0;
+    filled = '0;
+    count = 0;
+    writing = 0;
+    holding = 0;
+  end
+
+  function automatic void rest();
+    state = StIdle;
+    bits = '0;
+    shift = '0;
+    sda_oe_o = 1'b0;
+    count = 0;
+    filled = '0;
+  endfunction
+
+  // STOP: a write begins if whole bytes have come. The rise of SCL before it has looked like a bit.
+  function automatic void stop();
+    if (state == StData && count != 0 && bits <= 4'd1) begin
+      for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];
+      address = {address[11:5], 5'(32'(address[4:0]) + count)};
+      writing = WriteClk;
+    end
+    rest();
+  endfunction
+
+  // The eighth bit has gone: acknowledge until the next fall.
+  function automatic void take();
+    unique case (state)
+      StDevice: begin
+        if (shift[7:1] != Device || writing != 0) begin
+          rest();
+          return;
+        end
+        state = shift[0] ? StSend : StHigh;
+      end
+      StHigh: begin
+        address = {shift[3:0], 8'h00};
+        state   = StLow;
+      end
+      StLow: begin
+        address = address | 12'(shift);
+        state   = StData;
+      end
+      StData: begin
+        page[5'(32'(address[4:0])+count)]   = shift;
+        filled[5'(32'(address[4:0])+count)] = 1'b1;
+        count++;
+      end
+      default: begin
+        sda_oe_o = 1'b0;
+        return;
+      end
+    endcase
+    sda_oe_o = 1'b1;
+  endfunction
+
+  function automatic void fall();
+    if (bits == 4'd8) take();
+    else if (bits == 4'd9) begin
+      bits = '0;
+      sda_oe_o = 1'b0;
+      if (state == StSend) state = StRead;
+      if (StretchClk != 0) begin
+        scl_oe_o = 1'b1;
+        holding  = StretchClk;
+      end
+    end
+    if (state == StRead && bits < 4'd8) begin
+      if (bits == '0) begin
+        sent = memory[address];
+        address++;
+      end
+      sda_oe_o = !sent[3'(7-32'(bits))];
+    end
+  endfunction
+
+  // Blocking assignments: the order of the steps is that of the model, and nothing else looks inside.
+  /* verilator lint_off BLKSEQ */
+  always @(posedge clk_i) begin
+    if (holding != 0) begin
+      holding--;
+      if (holding == 0) scl_oe_o = 1'b0;
+    end
+    if (!Missing) begin
+      if (scl_was && scl_i && sda_was != sda_i) begin
+        if (sda_i) stop();
+        else begin
+          rest();
+          state = StDevice;
+        end
+      end else if (scl_i && !scl_was && state != StIdle) begin
+        bits++;
+        if (bits <= 4'd8) shift = {shift[6:0], sda_i};
+        else if (state == StRead && sda_i) rest();
+      end else if (scl_was && !scl_i && state != StIdle) fall();
+    end
+    if (writing != 0) writing--;
+    scl_was = scl_i;
+    sda_was = sda_i;
+  end
+  /* verilator lint_on BLKSEQ */
+
+endmodule
+
+`default_nettype wire
