@@ -77,14 +77,17 @@ def options(
     ] = "",
     baud: Annotated[
         int | None,
-        typer.Option(help=f"line rate to work with ({DEFAULT_BAUD}; ppmc312-serial: 19200, 38400 or 83333)"),
+        typer.Option(
+            help=f"line rate to work with ({DEFAULT_BAUD}; ppmc312-serial: 19200, 38400, 83333; pmc006: 9600)"
+        ),
     ] = None,
     part: Annotated[
         PartName | None,
         typer.Option(envvar="OPENPPMC_PART", help="the part (what the board has; virtual: ppmc104)"),
     ] = None,
     line: Annotated[
-        str, typer.Option(envvar="OPENPPMC_LINE", metavar="WORDS", help=f"ppmc312-serial: {LINE_WORDS}")
+        str,
+        typer.Option(envvar="OPENPPMC_LINE", metavar="WORDS", help=f"ppmc312-serial, pmc006: {LINE_WORDS}"),
     ] = "",
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="print it")

@@ -7,9 +7,8 @@ from typing import Annotated, Any
 import typer
 
 from ..host import PpmcError, Station312
-from ..host.motion import Progress
 from . import show, show_bus
-from .bus_session import BusSession, opened_bus
+from .bus_session import BusSession, check_seconds, ending_after, opened_bus
 from .options import Side, with_setup
 from .session import BOARD, setup_values
 from .state import lasting, remember
@@ -31,7 +30,7 @@ AnyAxis = Annotated[
 
 @bus.command()
 def scan(as_json: Json = False) -> None:
-    """ppmc312-serial: list the stations of the line; clears their error counters."""
+    """ppmc312-serial, pmc006: who is on the line; clears the error counters of ppmc312."""
     with opened_bus() as session:
         found = session.scan()
     if as_json:
@@ -176,24 +175,12 @@ def jog(
     """Run stations until Ctrl-C, a limit switch or the alarm."""
     if ramped and speed is not None:
         raise typer.BadParameter("either --speed or --ramped, not both")
-    if seconds is not None and not 0 <= seconds < float("inf"):
-        raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
+    check_seconds(seconds)
     with opened_bus() as session:
         axes = session.chosen(axis)
         _initialise(session, axes, typed)
-        clock = session.bus.line.clock
         motions = [one.jog(direction.code, speed, ramped) for one in axes]
-        end_at = None if seconds is None else clock() + seconds
-
-        def look(now: Progress) -> None:
-            nonlocal end_at
-            session.guard.progress(now)
-            if end_at is not None and clock() >= end_at:
-                end_at = None
-                for one in axes:
-                    one.brake()
-
-        ends = session.bus.wait(motions, progress=look)
+        ends = session.bus.wait(motions, progress=ending_after(seconds, session.bus, session.guard, axes))
         session.guard.bar_off()
         for end in ends:
             show.say(show.end_line(end))

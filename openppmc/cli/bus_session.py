@@ -2,43 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Container, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import typer
 from serial.rs485 import RS485Settings
 
 from ..host import Ppmc312Bus, Station312
 from ..host.ascii312 import STATIONS, SumMode
+from ..host.line_bus import LineBus
+from ..host.motion import Progress
 from . import show
 from .guard import Guard, Interrupted
 from .session import BOARD, INTERRUPTED
 
+Bus = TypeVar("Bus", bound=LineBus)
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
 
 
 def parse_stations(text: str) -> list[int]:
     """`3`, `0,2,5` or `0-7`, in the order given. BadParameter."""
+    last = STATIONS - 1
+    return parse_numbers("--axis", text, range(STATIONS), f"stations have numbers from 0 to {last}", "0-7")
+
+
+def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
+    """Numbers and ranges, in the order given. known: what they may be; span: the same in words, beginning
+    with what they number. BadParameter."""
     numbers: list[int] = []
     for piece in text.split(","):
         first, dash, last = piece.strip().partition("-")
         try:
             ends = int(first), int(last if dash else first)
         except ValueError:
-            raise typer.BadParameter(f"--axis {text!r}: stations are 3, 0,2,5 or 0-7") from None
-        if not 0 <= ends[0] <= ends[1] < STATIONS:
-            raise typer.BadParameter(f"--axis {text!r}: stations have numbers from 0 to {STATIONS - 1}")
+            what = span.partition(" ")[0]
+            raise typer.BadParameter(f"{option} {text!r}: {what} are 3, 0,2,5 or {example}") from None
+        if ends[0] not in known or ends[1] not in known or ends[0] > ends[1]:
+            raise typer.BadParameter(f"{option} {text!r}: {span}")
         numbers += [number for number in range(ends[0], ends[1] + 1) if number not in numbers]
     return numbers
 
 
-def line_options(text: str) -> dict[str, Any]:
-    """Arguments of `Ppmc312Bus.open` from the text of --line. BadParameter."""
+def line_options(text: str, known: str = LINE_WORDS) -> dict[str, Any]:
+    """Arguments of a bus's `open` from the text of --line. known: words that it may have. BadParameter."""
     options: dict[str, Any] = {}
     for item in filter(None, (piece.strip().lower() for piece in text.split(","))):
         word, _, value = item.partition("=")
+        if not re.search(rf"\b{re.escape(word)}\b", known):
+            raise typer.BadParameter(f"--line {item!r}: there are {known}")
         if item == "echo":
             options["echo"] = True
         elif item in ("rs485", "rts=high"):
@@ -50,7 +64,7 @@ def line_options(text: str) -> dict[str, Any]:
         elif word in ("patience", "xtal"):
             options["patience" if word == "patience" else "xtal_hz"] = _number(word, value)
         else:
-            raise typer.BadParameter(f"--line {item!r}: there are {LINE_WORDS}")
+            raise typer.BadParameter(f"--line {item!r}: there are {known}")
     return options
 
 
@@ -89,16 +103,47 @@ class BusSession:
         return found
 
 
+def check_seconds(seconds: float | None) -> None:
+    """BadParameter for a value of --seconds that is no time."""
+    if seconds is not None and not 0 <= seconds < float("inf"):
+        raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
+
+
+def ending_after(
+    seconds: float | None, bus: LineBus, guard: Guard, axes: Sequence[Any]
+) -> Callable[[Progress], None]:
+    """A progress callback that shows a bar and brakes after so many seconds of the line's time."""
+    clock = bus.line.clock
+    end_at = None if seconds is None else clock() + seconds
+
+    def look(now: Progress) -> None:
+        nonlocal end_at
+        guard.progress(now)
+        if end_at is not None and clock() >= end_at:
+            end_at = None
+            for axis in axes:
+                axis.brake()
+
+    return look
+
+
 @contextmanager
 def opened_bus() -> Iterator[BusSession]:
     """The line, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
     options = line_options(BOARD.line)
     if BOARD.baud is not None:
         options["speed"] = BOARD.baud
-    with Guard() as guard, Ppmc312Bus.open(BOARD.port, **options) as bus:
+    with guarded(lambda: Ppmc312Bus.open(BOARD.port, **options)) as (bus, guard):
+        yield BusSession(bus, guard)
+
+
+@contextmanager
+def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
+    """A line that `make` opens, and Ctrl-C under control."""
+    with Guard() as guard, make() as bus:
         try:
             guard.check()
-            yield BusSession(bus, guard)
+            yield bus, guard
         except Interrupted:
             show.note(guard.bring_to_rest(bus))
             raise typer.Exit(INTERRUPTED) from None

@@ -96,7 +96,7 @@ class Guard:
             self._bars = Bars(*columns, console=Console(stderr=True), transient=True)
             self._task = self._bars.add_task(what, total=of)
             self._bars.start()
-        self._bars.update(self._task, completed=done)
+        self._bars.update(self._task, total=of, completed=done)
 
     def bar_off(self) -> None:
         """The motion is over."""

@@ -30,6 +30,7 @@ class PartName(str, Enum):
     STMC = "stmc"
     PPMC312 = "ppmc312"
     PPMC312_SERIAL = "ppmc312-serial"
+    PMC006 = "pmc006"
 
     @property
     def kind(self) -> Kind:
@@ -40,7 +41,7 @@ class PartName(str, Enum):
 @dataclass
 class Board:
     """Which board, from the options in front of the command. baud: None: what is usual. part: None if the
-    user named none. line: options of a line of ppmc312-serial."""
+    user named none. line: options of a line (ppmc312-serial, pmc006)."""
 
     port: str = ""
     baud: int | None = None

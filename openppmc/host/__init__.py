@@ -11,6 +11,7 @@
 """
 
 from .axis import CCW, CW, Axis
+from .axis006 import BACKWARD, FORWARD
 from .axis2104 import Axis2104
 from .ending import Cause, End
 from .errors import (
@@ -47,6 +48,8 @@ from .kinds import BOARD_CLOCK
 from .link import Link
 from .motion import Motion, Progress
 from .parts import AnyPart, open_part
+from .pmc006 import Pmc006
+from .pmc006_bus import Pmc006Bus
 from .ppmc104 import Ppmc104
 from .ppmc312 import Ppmc312
 from .ppmc312_bus import Ppmc312Bus
@@ -56,6 +59,7 @@ from .stmc import Stmc
 from .transport import open_port, serial_ports
 
 __all__ = [
+    "BACKWARD",
     "BOARD_CLOCK",
     "CCW",
     "CW",
@@ -71,6 +75,7 @@ __all__ = [
     "CutCommand",
     "Disconnected",
     "End",
+    "FORWARD",
     "LimitReached",
     "Link",
     "LinkError",
@@ -82,6 +87,8 @@ __all__ = [
     "NothingToStop",
     "OriginNotFound",
     "OutOfRange",
+    "Pmc006",
+    "Pmc006Bus",
     "PortError",
     "Ppmc104",
     "Ppmc2104",

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from .errors import OutOfRange
+from .faults import Fault
 
 STATIONS = 16
 POLL, INSTRUCTION = 0x80, 0x90
@@ -69,15 +70,6 @@ class Reply(NamedTuple):
         return self.data[0] if self.kind == SPECIFIC else None
 
 
-class Fault(Enum):
-    """Why bytes were no reply. FOREIGN: a control code of another station; BROKEN: a wrong character or
-    checksum; NOISE: a byte where a control code was due."""
-
-    FOREIGN = "another station replied"
-    BROKEN = "a broken reply"
-    NOISE = "stray bytes"
-
-
 class Receiver:
     """Takes the bytes of one reply of a station.
 
@@ -90,7 +82,7 @@ class Receiver:
         self._digits = bytearray()
 
     def take(self, byte: int) -> Reply | Fault | None:
-        """The next byte; a reply when it is complete, a Fault when it cannot become one any more."""
+        """See `master.Listener`."""
         if byte & 0x80:
             # A control code always begins anew, as at the station.
             broken = self._control is not None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..model.codes312 import MOTION_STARTS, OV, Code
 from .errors import CommandRefused, NoAnswer
-from .errors_serial312 import LostReply
+from .errors_line import LostReply
 from .registers312 import Status312
 
 if TYPE_CHECKING:

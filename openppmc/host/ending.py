@@ -64,6 +64,7 @@ class End:
     finish: int
     who: str = field(default="", compare=False)
     alarm: tuple[str, str] = field(default=ALARM_INPUT, compare=False, repr=False)
+    unit = "pulses"
 
     @property
     def why(self) -> str:
@@ -81,19 +82,17 @@ class End:
             return self
         where = "" if self.position is None else f" at position {self.position}"
         of = "" if asked is None else f" of {asked}"
-        kind, advice = _trouble(self.cause, self.alarm[1])
-        raise kind(
-            f"{self.who}{self.why} ended the motion{where} after {abs(self.pulses)}{of} pulses: {advice}",
-            self,
-        )
+        kind, advice = self.trouble()
+        made = f"{abs(self.pulses)}{of} {self.unit}"
+        raise kind(f"{self.who}{self.why} ended the motion{where} after {made}: {advice}", self)
 
-
-def _trouble(cause: Cause, cure: str) -> tuple[type[MotionError], str]:
-    if Cause.ALARM in cause:
-        return AlarmStop, f"{cure}, then home again if steps may be lost"
-    if cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
-        return LimitReached, "move away from the switch in the other direction"
-    return StoppedEarly, "start again with the pulses that are left"
+    def trouble(self) -> tuple[type[MotionError], str]:
+        """What to raise if it is not complete, and what to do about it."""
+        if Cause.ALARM in self.cause:
+            return AlarmStop, f"{self.alarm[1]}, then home again if steps may be lost"
+        if self.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
+            return LimitReached, "move away from the switch in the other direction"
+        return StoppedEarly, "start again with the pulses that are left"
 
 
 def decode_end(finish: int, remaining: int, total: int | None, direction: int, position: int | None) -> End:

@@ -7,15 +7,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..errors import PpmcError
 from ..model.codes104 import Error
 from ..model.codes2104 import Error as Error2104
 
 if TYPE_CHECKING:
     from .ending import End
-
-
-class PpmcError(Exception):
-    """Base of all errors of this package."""
 
 
 class OutOfRange(PpmcError, ValueError):

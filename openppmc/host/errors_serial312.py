@@ -7,7 +7,7 @@ from __future__ import annotations
 from enum import IntEnum
 
 from ..model.codes312 import Code, Source, State
-from .errors import CommandRefused, LinkError, NoAnswer, NotWhileBusy, StartRefused, UnknownCode
+from .errors import CommandRefused, NotWhileBusy, StartRefused, UnknownCode
 from .errors312 import (
     LIMIT,
     STATES,
@@ -34,26 +34,6 @@ class Error(IntEnum):
     REGISTRATION = 0x49
     EVENT_FAILED = 0x4A
     OVERRIDE_FAILED = 0x4B
-
-
-class StationSilent(NoAnswer):
-    """No reply of a station came, however often it was asked."""
-
-
-class GarbledReply(NoAnswer):
-    """Bytes came, but never a whole reply: noise, a wrong speed, or two stations with one address."""
-
-
-class DuplicateAddress(LinkError):
-    """Two stations of a line seem to have the same address."""
-
-
-class LineEcho(LinkError):
-    """The line hears its own bytes, but was not told so."""
-
-
-class LostReply(LinkError):
-    """An instruction that may not be repeated was sent, and nobody knows whether it was carried out."""
 
 
 _SERIAL_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {

@@ -272,8 +272,9 @@ PPMC312_SERIAL = Kind312Line(
     origin_between=True,
     usual_ramp=PPMC312.usual_ramp,
 )
+PMC006 = Kind(6, "pmc006", "PMC006B4", outputs=31)
 KINDS = {kind.number: kind for kind in (PPMC104, PPMC2104, STMC, PPMC312)}
-BY_WORD = {kind.word: kind for kind in (*KINDS.values(), PPMC312_SERIAL)}
+BY_WORD = {kind.word: kind for kind in (*KINDS.values(), PPMC312_SERIAL, PMC006)}
 
 
 def name_of(number: int) -> str:

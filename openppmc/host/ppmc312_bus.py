@@ -9,23 +9,23 @@ with Ppmc312Bus.open("/dev/ttyUSB0", speed=38400) as bus:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from serial.rs485 import RS485Settings
 
 from .answers312 import Report
 from .ascii312 import SPEEDS, STATIONS, SumMode
-from .device import Device
-from .ending import End
-from .errors import CommandRefused, NothingToStop, NotInitialised, OutOfRange, PpmcError
-from .errors_serial312 import DuplicateAddress, GarbledReply, StationSilent
+from .errors import CommandRefused
+from .errors_line import DuplicateAddress, GarbledReply, StationSilent
+from .faults import Counters
 from .kinds import PPMC312_SERIAL
-from .line312 import PATIENCE, XTAL_HZ, Counters, Line
-from .motion import Progress
+from .line312 import XTAL_HZ, Line
+from .line_bus import LineBus
+from .master import PATIENCE
 from .registers312 import Status312
 from .serial312 import VERSION
-from .station312 import POLL_EVERY, ErrorCounts, SerialMotion, Station312, wait_all
+from .station312 import ErrorCounts, Station312
 from .transport import Port
 
 SCAN_ATTEMPTS = 2
@@ -49,17 +49,10 @@ class Found:
     trouble: str = ""
 
 
-class Ppmc312Bus(Device):
-    """A line (`line312.Line`) with its stations, which `axis` gives; see `device.Device`.
-
-    Leaving its `with` block by an exception decelerates motions that this object started.
-    """
+class Ppmc312Bus(LineBus):
+    """A line (`line312.Line`) with stations 0 to 15; see `line_bus.LineBus`."""
 
     kind = PPMC312_SERIAL
-
-    def __init__(self, line: Line) -> None:
-        self.line = self.link = line  # type: ignore[assignment]
-        self._stations: dict[int, Station312] = {}
 
     @classmethod
     def open(  # type: ignore[override]
@@ -75,16 +68,11 @@ class Ppmc312Bus(Device):
         """Open a port; arguments as those of `line312.Line`. Says nothing on the line."""
         return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
 
-    def axis(self, station: int) -> Station312:
-        """The station with this number, 0 to 15, whether it is there or not; always the same object."""
-        if station not in self._stations:
-            self._stations[station] = Station312(self.line, station)
-        return self._stations[station]
+    def make(self, station: int) -> Station312:
+        return Station312(self.line, station)
 
-    @property
-    def axes(self) -> tuple[Station312, ...]:  # type: ignore[override]
-        """The stations in use so far."""
-        return tuple(self._stations[number] for number in sorted(self._stations))
+    def look_at(self, axis: Station312) -> None:
+        axis.window.collect()
 
     # ------------------------------------------------------------------ who is there
 
@@ -141,51 +129,6 @@ class Ppmc312Bus(Device):
         """Poll stations (default: those in use) once; what they report, for those that report something."""
         polled = {axis.number: axis.poll() for axis in self._chosen(stations)}
         return {number: reports for number, reports in polled.items() if reports}
-
-    def wait(
-        self,
-        motions: Sequence[SerialMotion | Station312] | None = None,
-        timeout: float | None = None,
-        progress: Callable[[Progress], None] | None = None,
-    ) -> list[End]:
-        """Wait until motions, or the motions of stations (default: of all in use), are over; does not judge.
-
-        timeout: s, None for ever; Timeout leaves the rest running. progress: called about ten times a second.
-        """
-        wanted = self.axes if motions is None else motions
-        chosen = [one.motion if isinstance(one, Station312) else one for one in wanted]
-        if motions is not None and None in chosen:
-            raise OutOfRange("this station was started by nobody: start it first")
-        return wait_all([one for one in chosen if isinstance(one, SerialMotion)], timeout, progress)
-
-    def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[End]:
-        """Stop stations (default: those in use) and wait; all are told before an error is raised. Those at
-        rest are passed over."""
-        errors: list[PpmcError] = []
-        moving = []
-        for axis in self._chosen(stations):
-            try:
-                (axis.halt if now else axis.stop)(wait=False)
-                moving.append(axis)
-            except (NothingToStop, NotInitialised):
-                pass
-            except PpmcError as error:
-                errors.append(error)
-        ends = self.wait(moving)
-        if errors:
-            raise errors[0]
-        return ends
-
-    def attend(self, seconds: float) -> None:
-        """Let time pass, and poll the stations in use."""
-        end = self.line.clock() + seconds
-        while (left := end - self.line.clock()) > 0:
-            for axis in self.axes:
-                axis.window.collect()
-            self.line.pause(min(left, POLL_EVERY))
-
-    def _chosen(self, stations: Iterable[int] | None) -> list[Station312]:
-        return list(self.axes) if stations is None else [self.axis(number) for number in stations]
 
 
 _GARBLED = "only garbled replies: noise, another speed or checksum rule, or two stations with this address"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 from ..model.codes312 import Cause, Code, Source, State
@@ -10,17 +10,16 @@ from .answers312 import Executed, Report, Stopped, signed
 from .ascii312 import station_number
 from .axis312 import Axis312
 from .ending import End
-from .errors import ProtocolError, Timeout
-from .errors_serial312 import StationSilent
+from .errors import ProtocolError
+from .errors_line import StationSilent
+from .faults import Counters
 from .kinds import PPMC312_SERIAL
-from .line312 import Counters, Line
-from .motion import PROGRESS_POLL, Progress
+from .line312 import Line
+from .line_motion import POLL_EVERY, wait_all
+from .motion import Progress
 from .motion312 import Motion312
 from .serial312 import ERROR_CODE, ERROR_COUNTS
 from .talk312 import ATTEMPTS, Talk
-
-POLL_EVERY = 0.02
-"""Seconds between two rounds of polls."""
 
 
 class ErrorCounts(NamedTuple):
@@ -87,53 +86,6 @@ class SerialMotion(Motion312):
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
         return wait_all([self], timeout, progress)[0]
-
-
-def wait_all(
-    motions: Sequence[SerialMotion],
-    timeout: float | None = None,
-    progress: Callable[[Progress], None] | None = None,
-) -> list[End]:
-    """Poll the stations until their motions are over; ends in the same order, not judged.
-
-    timeout: s for all of them, None for ever; Timeout leaves the rest running. progress: called about ten
-    times a second, with pulses summed up if there are several motions.
-    """
-    if not motions:
-        return []
-    line = motions[0].line
-    limit = None if timeout is None else line.clock() + timeout
-    due = line.clock() + PROGRESS_POLL
-    while True:
-        for motion in motions:
-            if motion.end is None:
-                motion.look()
-        running = [motion for motion in motions if motion.end is None]
-        for motion in motions:
-            if motion.damaged:
-                raise ProtocolError(motion.damaged)
-        if not running:
-            return [motion.end for motion in motions if motion.end is not None]
-        if limit is not None and line.clock() >= limit:
-            who = ", ".join(str(motion.station) for motion in running)
-            raise Timeout(f"station {who}: not over after {timeout:g} s: wait longer or stop it")
-        if progress is not None and line.clock() >= due:
-            progress(_sum(motions))
-            due = line.clock() + PROGRESS_POLL
-        line.pause(POLL_EVERY)
-
-
-def _sum(motions: Sequence[SerialMotion]) -> Progress:
-    """Progress of several motions together; position is the first one's that still runs."""
-    known = [(motion, motion.now()) for motion in motions]
-    asked = [motion.asked for motion in motions]
-    first = next(now for motion, now in known if motion.end is None)
-    return Progress(
-        first.position,
-        sum(now.made for _, now in known),
-        None if None in asked else sum(filter(None, asked)),
-        max(now.seconds for _, now in known),
-    )
 
 
 class Station312(Axis312):

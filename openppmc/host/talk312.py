@@ -20,11 +20,13 @@ from .answers312 import (
     Response,
     Stopped,
 )
-from .ascii312 import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Fault, Reply
+from .ascii312 import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Reply
 from .doubt312 import Doubt
 from .errors import OutOfRange, ProtocolError
-from .errors_serial312 import Error, GarbledReply, StationSilent, failed_serial, refused_serial
-from .line312 import Line, Miss
+from .errors_line import unanswered
+from .errors_serial312 import Error, failed_serial, refused_serial
+from .faults import Fault, Miss
+from .line312 import Line
 from .registers312 import Status312
 from .serial312 import DATA_BYTES, END_STATUS, line_data, response
 from .window312 import ANSWER_MS, SHORTEST
@@ -47,6 +49,8 @@ END_CODES = {
 DAMAGED = (Error.CHECKSUM, Error.COMMAND)
 """What a station says of a frame that was damaged on its way: the driver sends no unknown codes."""
 _STOPPING = (Code.STOP, Code.SLOW_STOP)
+_CHECK = "is it there and powered, are speed (MOD), address and the two wires right?"
+_OTHERS = "noise, another speed or checksum rule, or two stations with this address"
 
 
 class Talk:
@@ -141,26 +145,7 @@ class Talk:
                 return got
         if refusal is not None and refusal.error == Error.COMMAND and not misses:
             return refusal
-        raise self._silence(misses, attempts)
-
-    def _silence(self, misses: list[Miss], attempts: int) -> StationSilent | GarbledReply:
-        """What to say when all attempts have failed."""
-        where = f"{self._line.name}: station {self._number}"
-        if not any(miss.heard for miss in misses):
-            if len(misses) < attempts:
-                return GarbledReply(f"{where} could not read {attempts} frames: check cable and termination")
-            return StationSilent(
-                f"{where}: no reply to {attempts} frames: is it there and powered, are speed (MOD), address "
-                "and the two wires right?"
-            )
-        if all(miss.fault is Fault.FOREIGN for miss in misses):
-            return GarbledReply(
-                f"{where}: another station replied, {attempts} times: does a second master talk?"
-            )
-        return GarbledReply(
-            f"{where}: only garbled replies, {attempts} times: noise, another speed or checksum rule, or two "
-            "stations with this address"
-        )
+        raise unanswered(f"{self._line.name}: station {self._number}", misses, attempts, _CHECK, _OTHERS)
 
     # ------------------------------------------------------------------ polls
 

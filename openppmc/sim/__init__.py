@@ -9,7 +9,7 @@ It is built from a checkout of the project; docs/virtual_board.md has the words 
 from .board import AxisStatus, SimBoard, Status, start
 from .build import SimError
 from .line_child import LineStatus, SimLine, start_line
-from .line_spec import is_line
+from .lines import part_of
 from .spec import KNOWN, Spec, SpecError, parse_spec
 
 __all__ = [
@@ -22,8 +22,8 @@ __all__ = [
     "Spec",
     "SpecError",
     "Status",
-    "is_line",
     "parse_spec",
+    "part_of",
     "start",
     "start_line",
 ]

@@ -11,13 +11,12 @@ from pathlib import Path
 from .board import AxisStatus, SimBoard, Status, start
 from .build import SimError
 from .line_child import SimLine, start_line
-from .line_spec import KNOWN as LINE_KNOWN
-from .line_spec import PART, is_line
+from .lines import LINES, part_of
 from .spec import KNOWN, SpecError
 
 USAGE = (
     f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md\n"
-    f"part={PART}: {LINE_KNOWN}"
+    + "\n".join(f"part={part}: {kind.known}" for part, kind in LINES.items())
 )
 LIVE, PLAIN = 0.2, 30.0
 SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp"))
@@ -75,13 +74,14 @@ def main(arguments: list[str]) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         text, link = split_link(",".join(arguments))
-        with start_line(text) if is_line(text) else start(text) as board:
+        part = part_of(text)
+        with start(text) if part is None else start_line(text) as board:
             name = board.port
             if link is not None:
                 link.unlink(missing_ok=True)
                 link.symlink_to(board.port)
                 name = str(link)
-            try_this = f"--part {PART} --port {name} scan" if is_line(text) else f"--port {name} info"
+            try_this = f"--port {name} info" if part is None else f"--part {part} --port {name} scan"
             print(f"virtual board at {name}; try: openppmc {try_this}")
             print("Ctrl-C ends it", flush=True)
             show(board)

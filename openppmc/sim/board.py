@@ -110,12 +110,12 @@ class Child:
         """False when the program has ended."""
         return self.process.poll() is None
 
-    def _ask_status(self) -> str:
-        """What the program answers to `status`. Raises SimError when it has ended."""
+    def _ask_status(self, word: str = "status") -> str:
+        """What the program answers to a word. Raises SimError when it has ended."""
         assert self.process.stdin is not None
         try:
             with self._lock:
-                self.process.stdin.write("status\n")
+                self.process.stdin.write(f"{word}\n")
                 self.process.stdin.flush()
                 line = self._line()
         except (OSError, ValueError):

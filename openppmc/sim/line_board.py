@@ -1,26 +1,20 @@
 """Sixteen modelled PPMC-312 with their motors on one line, character by character, in virtual time.
 
 Only stations that a control code names get the characters after it, as all others ignore them anyway; so idle
-stations cost nothing. Characters of several stations at the same time collide.
+stations cost nothing.
 """
 
 from __future__ import annotations
-
-import random
 
 from ..model.board import Board
 from ..model.board312 import Board312
 from ..model.plant import Plant
 from ..model.ppmc312 import Ppmc312
+from .char_line import CharLine, LineStation
 from .line_spec import SPEEDS, LineSpec
 
-BITS = 10
-_STOP_MIDDLE = 9.5
-_CLEAN = 0.25
-"""Bit times that two stations' equal characters may be apart without spoiling each other."""
 
-
-class StationBoard(Board312):
+class StationBoard(LineStation, Board312):
     """A station with motor and encoder; `straps` sets RUN and the event inputs."""
 
     def __init__(self, plant: Plant, number: int, spec: LineSpec) -> None:
@@ -34,118 +28,22 @@ class StationBoard(Board312):
     def shown(self) -> object:
         return None
 
-    @property
-    def moving(self) -> bool:
-        """Something happens by itself soon: time must pass in small steps."""
-        event = self.part.next_event
-        return event is not None and event < self.part.now + self.clk_hz // 50
-
-    def hear(self, t: int, byte: int) -> None:
-        """A character whose stop bit is sampled at edge t."""
-        self.part.hear(max(t, self.part.now + 1), byte)
-
-    def taken(self) -> list[tuple[int, int]]:
-        """Characters sent since the last call, with the edge in the middle of their stop bits."""
-        sent = self.part.sent[:]
-        self.part.sent.clear()
-        self.part.replies.clear()
-        return sent
+    def words(self) -> str:
+        """Number, position of the motor, state."""
+        return f"{self.number}:{self.position}:{self.part.state.name}"
 
 
-class LineBoard:
-    """The line. t: its time in clk. Stations that nobody has addressed may be behind it, up to `settle`: no
-    one can tell, as they have no wires in common but the line."""
+class LineBoard(CharLine):
+    """The line. Only the station that was addressed last runs with it."""
+
+    spec: LineSpec
 
     def __init__(self, spec: LineSpec) -> None:
-        self.spec = spec
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
-        self.boards = [StationBoard(plant, number, spec) for number, plant in numbered]
-        self.bit = spec.clk_hz * 16_000_000 / (spec.baud * spec.xtal_hz)
-        self.t = self.boards[0].t
-        self._addressed: list[StationBoard] = []
-        self._free = self.t
-        self._random = random.Random(spec.seed)
-        self._waiting = bytearray()
-        self._late: list[tuple[int, int]] = []
+        boards = [StationBoard(plant, number, spec) for number, plant in numbered]
+        super().__init__(spec, boards, spec.clk_hz * 16_000_000 / (spec.baud * spec.xtal_hz))
+        self.hearing = []
 
-    @property
-    def seconds(self) -> float:
-        """Virtual time in s."""
-        return self.t / self.spec.clk_hz
-
-    def board(self, number: int) -> StationBoard:
-        """The station with this number, at the time of the line."""
-        self.settle()
-        return next(board for board in self.boards if board.number == number)
-
-    # ------------------------------------------------------------------ time
-
-    def run(self, clk: int) -> None:
-        """Let time pass for the line and the stations that were addressed last."""
-        self.t += clk
-        for board in self._addressed:
-            board.run_until(self.t)
-        heard = [(t, byte) for board in self._addressed for t, byte in board.taken()]
-        if heard:
-            self._arrive(sorted(heard))
-
-    def settle(self) -> None:
-        """Let all stations come up to the time of the line."""
-        for board in self.boards:
-            board.run_until(self.t)
-
-    def run_seconds(self, seconds: float) -> None:
-        """The same in s; ends early, at a character's end, when one comes."""
-        end = self.t + max(1, round(seconds * self.spec.clk_hz))
-        step = round(BITS * self.bit)
-        while self.t < end and not self._waiting:
-            self.run(min(step, end - self.t))
-
-    # ------------------------------------------------------------------ bytes
-
-    def write(self, data: bytes) -> None:
-        """Characters of the master, back to back, from now on (or after those that are still going out)."""
-        begin = max(self.t, self._free)
-        for place, byte in enumerate(data):
-            if self.spec.echo:
-                self._late.append((begin, byte))
-            got = self._noisy(byte)
-            if got is None:
-                continue
-            if got & 0x80:
-                self._addressed = [board for board in self.boards if board.number == got & 15]
-            at = begin + round((place * BITS + _STOP_MIDDLE) * self.bit)
-            for board in self._addressed:
-                board.hear(at, got)
-        self._free = begin + round(len(data) * BITS * self.bit)
-        self.run(self._free - self.t)
-        self._waiting += bytes(byte for _, byte in self._late)
-        self._late.clear()
-
-    def read(self) -> bytes:
-        """What has come from the stations so far."""
-        data = bytes(self._waiting)
-        self._waiting.clear()
-        return data
-
-    def _arrive(self, heard: list[tuple[int, int]]) -> None:
-        """Characters on their way to the master; those at the same time spoil each other."""
-        last, value = -(1 << 62), 0
-        for t, byte in heard:
-            apart = (t - last) / self.bit
-            if apart < BITS - 1:
-                if apart > _CLEAN or byte != value:
-                    value &= byte >> round(apart) % 8
-                    self._waiting[-1:] = bytes([value])
-                continue
-            last, value = t, byte
-            got = self._noisy(byte)
-            if got is not None:
-                self._waiting.append(got)
-
-    def _noisy(self, byte: int) -> int | None:
-        """A character as it arrives: now and then with a wrong bit, or not at all."""
-        if not self.spec.noise or self._random.randrange(self.spec.noise):
-            return byte
-        bit = self._random.randrange(9)
-        return None if bit == 8 else byte ^ 1 << bit
+    def heard(self, byte: int) -> None:
+        if byte & 0x80:
+            self.hearing = [board for board in self.boards if board.number == byte & 15]

@@ -1,6 +1,6 @@
-"""The program of a virtual line: modelled PPMC-312 behind one pseudo-terminal, in a process of its own.
+"""The program of a virtual line: modelled stations behind one pseudo-terminal, in a process of its own.
 
-It prints `port PATH`, answers `status` on its standard input and ends with that.
+It prints `port PATH`, answers `status` and `inputs NUMBER LEVELS` on its standard input and ends with that.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import termios
 import time
 import tty
 
-from .line_board import LineBoard, StationBoard
-from .line_spec import LineSpec, parse_line
+from .line_spec import PART
+from .lines import LINES, part_of
 
 STEP = 0.005
 """Seconds of line time between two looks at the host."""
@@ -26,11 +26,12 @@ _RATES = {
 
 
 class LineServer:
-    """Runs a line between host and clock."""
+    """Runs a line between host and clock. text: its words. ValueError for a bad one."""
 
-    def __init__(self, spec: LineSpec) -> None:
-        self.spec = spec
-        self.line = LineBoard(spec)
+    def __init__(self, text: str) -> None:
+        kind = LINES[part_of(text) or PART]
+        self.spec = kind.parse(text)
+        self.line = kind.make(self.spec)
         self.master, self._slave = os.openpty()
         tty.setraw(self._slave)
         self.port = os.ttyname(self._slave)
@@ -54,7 +55,12 @@ class LineServer:
 
     def _obey(self, word: str) -> bool:
         """A line of standard input; False at its end."""
-        if word.strip() == "status":
+        words = word.split()
+        if words[:1] == ["inputs"]:
+            for board in self.line.boards:
+                if str(board.number) == words[1]:
+                    board.set_inputs(words[2])
+        if words:
             print("status", self.status(), flush=True)
         return bool(word)
 
@@ -70,7 +76,7 @@ class LineServer:
     def _fits(self) -> bool:
         """Whether the host sends at the speed of the line; odd speeds cannot be seen from here."""
         rate = _RATES.get(termios.tcgetattr(self._slave)[5])
-        return rate is None or abs(rate * 16_000_000 / self.spec.xtal_hz / self.spec.baud - 1) < 0.03
+        return rate is None or abs(rate / self.spec.rate - 1) < 0.03
 
     def _to_host(self) -> None:
         data = self.line.read()
@@ -115,18 +121,14 @@ class LineServer:
         began, then = self._marks[0]
         factor = (self.line.seconds - then) / max(now - began, 1e-3)
         self._marks.append((now, self.line.seconds))
-        stations = ",".join(_words(board) for board in self.line.boards)
+        stations = ",".join(board.words() for board in self.line.boards)
         return f"seconds={self.line.seconds:.3f} factor={factor:.3f} lost={self._lost} stations={stations}"
-
-
-def _words(board: StationBoard) -> str:
-    return f"{board.number}:{board.position}:{board.part.state.name}"
 
 
 def main(arguments: list[str]) -> int:
     """Serve until the end of standard input."""
     try:
-        server = LineServer(parse_line(",".join(arguments)))
+        server = LineServer(",".join(arguments))
     except (OSError, ValueError) as error:
         print(f"error {error}", flush=True)
         return 1

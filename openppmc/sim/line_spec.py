@@ -5,11 +5,11 @@ Words of the plant with a number at their end are those of that station, without
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..model.plant import PLANT_WORDS, Plant, parse_machine
+from .line_words import one_of, pace, positive, split_words, whole
 
 PART = "ppmc312-serial"
 STATIONS = 16
@@ -31,7 +31,6 @@ OPTIONS = (
 )
 LAST = ("unplug",)
 KNOWN = ", ".join((*(f"{word}[N]" for word in PLANT_WORDS), *OPTIONS, *LAST))
-_NUMBERED = re.compile(rf"({'|'.join(PLANT_WORDS)})(\d+)$")
 
 
 @dataclass(frozen=True)
@@ -57,10 +56,10 @@ class LineSpec:
     timing: str = "FAST"
     unplug: float = float("inf")
 
-
-def is_line(text: str) -> bool:
-    """Whether a board's text asks for a line."""
-    return f"part={PART}" in text.replace(" ", "").lower().split(",")
+    @property
+    def rate(self) -> float:
+        """Line rate in bit/s with this crystal."""
+        return self.baud * self.xtal_hz / 16_000_000
 
 
 def at_rate(text: str, rate: int) -> str:
@@ -79,53 +78,44 @@ def at_rate(text: str, rate: int) -> str:
 
 def parse_line(text: str) -> LineSpec:
     """From `word=value,word=value`. Raises ValueError with the offending word."""
-    shared: list[str] = []
-    own: dict[int, list[str]] = {}
-    options: dict[str, str] = {}
-    for item in filter(None, (piece.strip() for piece in text.split(","))):
-        word, equals, value = (piece.strip() for piece in item.partition("="))
-        if not equals or not value:
-            raise ValueError(f"{item!r} is not of the form word=value")
-        if match := _NUMBERED.match(word):
-            own.setdefault(_station(item, match[2]), []).append(f"{match[1]}={value}")
-        elif word in PLANT_WORDS:
-            shared.append(item)
-        elif word in OPTIONS or word in LAST:
-            options[word] = value
-        else:
-            raise ValueError(f"unknown word {word!r} (there are {KNOWN})")
+    words = split_words(text, PLANT_WORDS, (*OPTIONS, *LAST), _station)
+    options = words.options
     numbers = _numbers(options.get("stations", str(STATIONS)))
-    for number, words in own.items():
+    for number, own in words.own.items():
         if number not in numbers:
-            raise ValueError(f"{words[0]}: there is no station {number} (stations={options.get('stations')})")
+            word = "=".join(next(iter(own.items())))
+            raise ValueError(f"{word}: there is no station {number} (stations={options.get('stations')})")
     if options.get("part", PART) != PART:
         raise ValueError(f"part={options['part']}: a line has part={PART}")
-    plants = {number: _plant([*shared, *own.get(number, [])]) for number in numbers}
-    twin = _twin(options, numbers, shared)
+    plants = {number: _plant(words.shared | words.own.get(number, {})) for number in numbers}
+    twin = _twin(options, numbers, words.shared)
     return LineSpec(
         plants,
         twin,
-        int(_one_of("baud", options.get("baud", "19200"), [str(speed) for speed in SPEEDS])),
-        _one_of("sum", options.get("sum", "binary").upper(), ("BINARY", "CHARS")),
-        _one_of("echo", options.get("echo", "off"), ("on", "off")) == "on",
-        _whole("noise", options.get("noise", "0"), 0, 10**9),
-        _whole("seed", options.get("seed", "1"), 0, 1 << 32),
-        _speed(options.get("speed", "1")),
-        _whole("clk", options.get("clk", "16000000"), 8_000_000, 200_000_000),
-        _whole("xtal", options.get("xtal", "16000000"), 1_000_000, 16_000_000),
-        _one_of("timing", options.get("timing", "FAST").upper(), ("FAST", "DATASHEET")),
-        _positive("unplug", options.get("unplug", "inf")),
+        int(one_of("baud", options.get("baud", "19200"), [str(speed) for speed in SPEEDS])),
+        one_of("sum", options.get("sum", "binary").upper(), ("BINARY", "CHARS")),
+        one_of("echo", options.get("echo", "off"), ("on", "off")) == "on",
+        whole("noise", options.get("noise", "0"), 0, 10**9),
+        whole("seed", options.get("seed", "1"), 0, 1 << 32),
+        pace(options.get("speed", "1")),
+        whole("clk", options.get("clk", "16000000"), 8_000_000, 200_000_000),
+        whole("xtal", options.get("xtal", "16000000"), 1_000_000, 16_000_000),
+        one_of("timing", options.get("timing", "FAST").upper(), ("FAST", "DATASHEET")),
+        positive("unplug", options.get("unplug", "inf")),
     )
 
 
-def _plant(words: list[str]) -> Plant:
-    plant = parse_machine(",".join(["part=ppmc312", *words])).plants[0]
+def _plant(words: dict[str, str]) -> Plant:
+    text = ",".join(f"{word}={value}" for word, value in words.items())
+    plant = parse_machine(f"part=ppmc312,{text}").plants[0]
     if plant.ccw >= plant.cw:
         raise ValueError(f"cw={plant.cw},ccw={plant.ccw}: the CW limit must lie above the CCW limit")
     return plant
 
 
-def _twin(options: dict[str, str], numbers: Sequence[int], shared: list[str]) -> tuple[int, Plant] | None:
+def _twin(
+    options: dict[str, str], numbers: Sequence[int], shared: dict[str, str]
+) -> tuple[int, Plant] | None:
     if "twin" not in options:
         return None
     number = _station(f"twin={options['twin']}", options["twin"])
@@ -150,29 +140,3 @@ def _station(item: str, text: str) -> int:
     if not text.isdigit() or int(text) >= STATIONS:
         raise ValueError(f"{item}: stations have numbers from 0 to {STATIONS - 1}")
     return int(text)
-
-
-def _one_of(word: str, value: str, known: Sequence[str]) -> str:
-    if value not in known:
-        raise ValueError(f"{word}={value}: there are {', '.join(known)}")
-    return value
-
-
-def _whole(word: str, text: str, low: int, high: int) -> int:
-    if not text.isdigit() or not low <= int(text) <= high:
-        raise ValueError(f"{word}={text}: expected {low} to {high}")
-    return int(text)
-
-
-def _positive(word: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0
-    if not value > 0:
-        raise ValueError(f"{word}={text}: expected a positive number")
-    return value
-
-
-def _speed(text: str) -> float | None:
-    return None if text == "max" else _positive("speed", text)

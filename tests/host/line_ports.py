@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from openppmc.host import Ppmc312Bus
-from openppmc.host.line_loopback312 import ModelLine
+from openppmc.host.line_loopback import ModelLine
 
 LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "break reply", "break frame"
 BAUD = 38_400
@@ -14,8 +14,8 @@ BAUD = 38_400
 class Spoiled(ModelLine):
     """A modelled line. frames: all that was sent. plan: says what happens to a frame, or None."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text, BAUD)
+    def __init__(self, text: str, baud: int = BAUD, part: str = "ppmc312-serial") -> None:
+        super().__init__(text, baud, part)
         self.frames: list[bytes] = []
         self.plan: Callable[[bytes], str | None] = lambda frame: None
         self._fate: str | None = None
@@ -23,6 +23,10 @@ class Spoiled(ModelLine):
     def write(self, data: bytes) -> None:
         self.frames.append(data)
         self._fate = self.plan(data)
+        self.forward(data)
+
+    def forward(self, data: bytes) -> None:
+        """Give a frame to the line, or what is left of it."""
         if self._fate == LOSE_FRAME:
             self.line.run(round(len(data) * 10 * self.line.bit))
         elif self._fate == BREAK_FRAME:
@@ -37,7 +41,11 @@ class Spoiled(ModelLine):
             while (left := end - self.clock()) > 0:
                 super().read(left)
             return b""
-        if data and self._fate == BREAK_REPLY:
+        return self.spoil(data) if data else data
+
+    def spoil(self, data: bytes) -> bytes:
+        """What becomes of bytes of a reply."""
+        if self._fate == BREAK_REPLY:
             self._fate = None
             return bytes([data[0] ^ 8]) + data[1:]
         return data

@@ -20,7 +20,7 @@ from openppmc.host import (
 )
 from openppmc.host.answers312 import Alarm
 from openppmc.host.errors import LinkError, NothingToStop, UnknownCode
-from openppmc.host.errors_serial312 import (
+from openppmc.host.errors_line import (
     DuplicateAddress,
     GarbledReply,
     LineEcho,

@@ -8,7 +8,7 @@ import pytest
 
 from openppmc.host import ascii312, errors_serial312, serial312, talk312
 from openppmc.host.ascii312 import frame
-from openppmc.sim import is_line, line_child, line_spec
+from openppmc.sim import line_child, line_spec, lines, part_of
 from openppmc.sim.line_board import LineBoard
 from openppmc.sim.line_spec import parse_line
 
@@ -22,7 +22,7 @@ def test_words() -> None:
     assert len(parse_line("").plants) == 16 and len(parse_line("stations=3").plants) == 3
     twin = parse_line("stations=3,twin=1,start1=7").twin
     assert twin is not None and twin[0] == 1 and twin[1].start == 4000
-    assert is_line("start=3, part=ppmc312-serial") and not is_line("part=ppmc312") and not is_line("")
+    assert part_of("start=3, part=ppmc312-serial") == line_spec.PART and part_of("") is None
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,9 @@ def test_the_master_hears_itself_if_asked_for() -> None:
     assert heard("stations=1,echo=on", "80 7F").hex(" ").upper() == "80 7F 90 6F"
 
 
-@pytest.mark.parametrize("module", [ascii312, serial312, errors_serial312, talk312, line_child, line_spec])
+@pytest.mark.parametrize(
+    "module", [ascii312, serial312, errors_serial312, talk312, line_child, line_spec, lines]
+)
 def test_examples_in_the_code(module: object) -> None:
     failed, attempted = doctest.testmod(module)  # type: ignore[arg-type]
     assert attempted and not failed

@@ -13,8 +13,8 @@ from openppmc.host import errors
 PAGE = Path(__file__).parents[2] / "docs" / "host.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 PORT = "model:speed=max"
-LINE_PORT = "model:speed=max,stations=3"
-"""What the sessions with a line of PPMC-312 are played on."""
+LINE_PORTS = {"ppmc312-serial": "model:speed=max,stations=3", "pmc006": "model:speed=max,address=1..2"}
+"""What the sessions with lines are played on, by part."""
 
 
 def blocks(kind: str) -> list[str]:
@@ -41,7 +41,8 @@ def test_transcripts(
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
 ) -> None:
-    monkeypatch.setenv("OPENPPMC_PORT", LINE_PORT if "ppmc312-serial" in command else PORT)
+    part = command.removeprefix("--part ").partition(" ")[0]
+    monkeypatch.setenv("OPENPPMC_PORT", LINE_PORTS.get(part, PORT))
     monkeypatch.setenv("OPENPPMC_STATE", str(tmp_path))
     monkeypatch.setenv("COLUMNS", "120")
     monkeypatch.chdir(tmp_path)

@@ -1,5 +1,5 @@
-"""Ports of a line of PPMC-312: anything pyserial opens, the modelled line (`model:`), one in a process of its
-own (`sim:`)."""
+"""Ports of a line with several stations: anything pyserial opens, the modelled line (`model:`), one in a
+process of its own (`sim:`)."""
 
 from __future__ import annotations
 
@@ -41,26 +41,26 @@ class SimLinePort(SimPort):
 
     patience = SIM_PATIENCE
 
-    def __init__(self, text: str, baud: int) -> None:
-        self._rate = baud
+    def __init__(self, text: str, baud: int, part: str) -> None:
+        self._rate, self._part = baud, part
         super().__init__(text, baud)
 
     def _start(self, text: str) -> Any:
         from ..sim import start_line
-        from ..sim.line_spec import at_rate
+        from ..sim.lines import LINES
 
-        return start_line(at_rate(text, self._rate))
+        return start_line(LINES[self._part].at_rate(text, self._rate), self._part)
 
 
-def open_line(spec: str, baud: int, rs485: RS485Settings | None = None) -> Port:
-    """Open a port for a line. Raises PortError."""
+def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:
+    """Open a port for a line. part: of the stations, for virtual ones. Raises PortError."""
     if not spec:
         raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
     name = spec if ":" in spec else spec + ":"
     if name.startswith(MODEL):
-        from .line_loopback312 import ModelLine
+        from .line_loopback import ModelLine
 
-        return ModelLine(name.removeprefix(MODEL), baud)
+        return ModelLine(name.removeprefix(MODEL), baud, part)
     if name.startswith(SIM):
-        return SimLinePort(name.removeprefix(SIM), baud)
+        return SimLinePort(name.removeprefix(SIM), baud, part)
     return UrlPort(spec, baud, rs485)

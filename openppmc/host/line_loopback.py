@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from ..sim.line_board import LineBoard
-from ..sim.line_spec import at_rate, parse_line
+from ..sim.lines import LINES
 from .errors import Disconnected, PortError
 from .pacer import Pacer
 
 
 class ModelLine:
-    """A line that needs no hardware; words: `openppmc.sim.line_spec`. Raises PortError for a bad text."""
+    """A line that needs no hardware. text: words of `openppmc.sim.lines.LINES`. baud: line rate. part: of the
+    stations. Raises PortError for a bad text."""
 
-    def __init__(self, text: str, baud: int) -> None:
+    def __init__(self, text: str, baud: int, part: str = "ppmc312-serial") -> None:
         self.name = "model:" + text
+        kind = LINES[part]
         try:
-            self.spec = parse_line(at_rate(text, baud))
+            self.spec = kind.parse(kind.at_rate(text, baud))
+            self.line = kind.make(self.spec)
         except ValueError as error:
             raise PortError(f"{self.name}: {error}") from error
-        self.line = LineBoard(self.spec)
         self.set_baud(baud)
         self._closed = False
         self._pacer = Pacer(self.spec.speed)
@@ -40,7 +41,7 @@ class ModelLine:
         self.line.write(data if self._fits else bytes(len(data)))
 
     def set_baud(self, baud: int) -> None:
-        self._fits = abs(baud * 16_000_000 / self.spec.xtal_hz / self.spec.baud - 1) < 0.03
+        self._fits = abs(baud / self.spec.rate - 1) < 0.03
 
     def clock(self) -> float:
         return self.line.seconds

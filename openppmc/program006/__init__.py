@@ -1,0 +1,25 @@
+"""User programs of the PMC006B4: text with labels, instructions, 200 words, bytes in the EEPROM. Pure.
+
+    program = assemble(Path("shuttle.asm").read_text(), "shuttle.asm")
+    print(disassemble(program))
+    Path("shuttle.bin").write_bytes(program.image())
+
+`instructions` has the table of instructions, `assembler` and `disassembler` the text.
+"""
+
+from .assembler import AssemblyError, assemble
+from .disassembler import disassemble
+from .instructions import Instruction, harmless
+from .program import INSTRUCTIONS, WORDS, BadImage, Program
+
+__all__ = [
+    "INSTRUCTIONS",
+    "WORDS",
+    "AssemblyError",
+    "BadImage",
+    "Instruction",
+    "Program",
+    "assemble",
+    "disassemble",
+    "harmless",
+]
