@@ -14,10 +14,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from scripts.pictures import (  # noqa: E402
+    current_006,
     plots,
+    plots_006,
     plots_312,
     plots_stmc,
     tables,
+    tables_006,
     tables_312,
     tables_stmc,
     waves,
@@ -42,8 +45,13 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "moves-table": tables_312.moves_table,
         "times-table": tables_312.times_table,
     },
+    "pmc006.md": {
+        "moves-table": tables_006.moves_table,
+        "currents-table": current_006.currents_table,
+        "times-table": tables_006.times_table,
+    },
 }
-PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS}
+PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS, **plots_006.PLOTS, **current_006.PLOTS}
 DIAGRAMS = {**waves_stmc.DIAGRAMS, **waves_312.DIAGRAMS}
 
 

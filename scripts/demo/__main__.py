@@ -15,7 +15,6 @@ from rich.table import Table
 
 from cocotb_tests.common.collect import Item
 from cocotb_tests.common.compare import Comparison, compare_recording, write_report
-from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import SimError, build, part_design, run_sim
 from cocotb_tests.common.stimulus import Recording
 from scripts.demo import line312, waves
@@ -51,11 +50,11 @@ def repro(demo: Demo) -> str:
 
 def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
     """Build and run; the recording and the chapters."""
-    design = part_design(demo.part, F16)
+    design = part_design(demo.part, demo.config)
     steps.run("build the RTL with Verilator", lambda: build(design), lambda: newest_build(demo.part))
-    item = Item(demo.module, demo.test, F16, demo.part, ())
+    item = Item(demo.module, demo.test, demo.config, demo.part, ())
     steps.run(
-        "drive it over its bus",
+        "drive it as a host would",
         lambda: run_sim(design, item, seed=1, folder=RUN, repro=repro(demo)),
         lambda: last_line(RUN / "progress"),
     )

@@ -7,12 +7,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from cocotb_tests.common.config import F16, Config
+from cocotb_tests.demo.story_006 import BUILD
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
-from scripts.demo import picture104, picture312, picture2104, picture_stmc
-from scripts.demo.scenes import Changes, access_text, falls, register_text, rises
+from scripts.demo import picture006, picture104, picture312, picture2104, picture_stmc
+from scripts.demo.scenes import Changes, access_text, falls, frame_text, register_text, rises
 from scripts.demo.scenes import steps as phase_steps
 from scripts.demo.words import Words
+from scripts.demo.words006 import Words006
 from scripts.demo.words104 import Words104
 from scripts.demo.words312 import Words312
 from scripts.demo.words2104 import Words2104
@@ -37,8 +40,8 @@ class View:
 class Demo:
     """One demo of PART=`name`, which is played on `part`.
 
-    `picture` gives what the usual picture shows; `own` draws another one instead. `marks`: chapters marked in
-    the saved views; `motors`: names of axes in the list of moves.
+    `picture` gives what the usual picture shows; `own` draws another one instead. `config`: its build.
+    `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves.
     """
 
     name: str
@@ -51,6 +54,7 @@ class Demo:
     marks: Sequence[str]
     motors: Mapping[str, str] = field(default_factory=dict)
     own: Callable[[Any, Sequence[Mapping[str, Any]], Path], None] | None = None
+    config: Config = F16
 
     def draw(self, comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
         """Draw the picture of a run."""
@@ -199,6 +203,21 @@ VIEW_312 = View(
     access=register_text,
 )
 
+_BRIDGES = ("bridge_a_en", "m10", "m11", "cmp_a", "bridge_b_en", "m20", "m21", "cmp_b")
+VIEW_006 = View(
+    split={"gpo": [f"gpo{n}" for n in range(1, 6)], "gpi": [f"gpi{n}" for n in range(1, 6)]},
+    motors={"motor": "mon_step"},
+    groups=(
+        ("line", ("host.access", "pins.rxd", "pins.txd", "pins.de")),
+        ("motor", ("motor.speed_pps", "motor.pulses", "pins.mon_step", "pins.mon_dir", "pins.mon_busy")),
+        ("currents", tuple(f"pins.phase_{phase}_{what}" for phase in "ab" for what in ("ref", "sign"))),
+        ("bridges", tuple(f"pins.{pin}" for pin in _BRIDGES)),
+        ("ports", ("pins.ext1", "pins.gpo1", "pins.gpo2")),
+    ),
+    pulses=rises,
+    access=frame_text,
+)
+
 DEMOS = {
     demo.name: demo
     for demo in (
@@ -243,6 +262,18 @@ DEMOS = {
             VIEW_312,
             ("free", "sigmoid", "linear", "override", "return"),
             own=picture312.draw,
+        ),
+        Demo(
+            "pmc006",
+            "pmc006",
+            "cocotb_tests.demo.tb_demo_006",
+            "demo_program",
+            Words006(),
+            None,
+            VIEW_006,
+            ("move4", "move16", "move32", "program"),
+            own=picture006.draw,
+            config=BUILD,
         ),
     )
 }

@@ -39,6 +39,11 @@ def register_text(access: Any) -> str:
     return f"{access.kind.removesuffix(' read')} {access.byte:02X}"
 
 
+def frame_text(access: Any) -> str:
+    """A frame of a serial host, or its reply, with the data."""
+    return f"{access.kind} {access.byte:X}"
+
+
 def steps(changes: Changes) -> list[int]:
     """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
     found, last = [], 0
