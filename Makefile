@@ -1,6 +1,6 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc ppmc312 \
+PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc ppmc312 pmc006 \
          $(if $(filter demo board soak bench,$(MAKECMDGOALS)),ppmc312-serial)
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
@@ -93,7 +93,7 @@ bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine
 
 trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
-	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104 stmc ppmc312); do $(PY) -m scripts.trace $$part || exit 1; done
+	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104 stmc ppmc312 pmc006); do $(PY) -m scripts.trace $$part || exit 1; done
 
 test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
@@ -110,7 +110,7 @@ report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
 	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
 
-bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with HOST=uart or bus, in build/boards/
+bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with PART=… and HOST=uart or bus, in build/boards/
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED))
 
 flash: ## load that bitstream into the board with openFPGALoader
