@@ -70,9 +70,9 @@ module pmc006_rate (
       if (launch_o) run_q <= 1'b1;
       if (stop_o || load_i) run_q <= 1'b0;
       begun_q   <= tick;
-      updated_q <= {updated_q[0], launch_o || update_o};
+      updated_q <= stop_o ? '0 : {updated_q[0], launch_o || update_o};
       due_q     <= begun_q && sum[20] && busy_i;
-      advance_o <= updated_q[1];
+      advance_o <= updated_q[1] && !stop_o;
     end
   end
 
