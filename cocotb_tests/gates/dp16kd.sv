@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // DP16KD: simulation model of the ECP5's block RAM in the modes that synthesis of this project uses; the
 //         model library of yosys has only its ports. Anything else ends the elaboration with an error.
-// Rules:  two ports, 9 or 18 bits each, no output register, contents start as zeros. Word address from AD5
-//         (36 bits), AD4 (18 bits) or AD3 (9 bits) up; with 36 bits AD0 to AD3 enable the bytes of a write,
-//         with 18 bits AD0 and AD1. With 36 bits port A only writes DIB, DIA and port B only reads, 36 bits
-//         into DOB, DOA, fewer into DOB.
+// Rules:  two ports, 9 or 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of their
+//         addresses. Word address from AD5 (36 bits), AD4 (18 bits) or AD3 (9 bits) up; with 36 bits AD0 to
+//         AD3 enable the bytes of a write, with 18 bits AD0 and AD1. With 36 bits port A only writes DIB, DIA
+//         and port B only reads, 36 bits into DOB, DOA, fewer into DOB.
 // Timing: a read stands after the clk edge; a port that writes keeps its output (NORMAL), shows the new word
 //         (WRITETHROUGH) or the old one (READBEFOREWRITE).
 `default_nettype none
 
-// The parameters INITVAL_00 .. INITVAL_3F, and a term that is 1 if one of them is not zero.
+// The parameters INITVAL_00 .. INITVAL_3F, and sixteen of them as one number.
 `define INITVAL(name) parameter logic [319:0] INITVAL_``name = '0
 `define INITVALS(digit) `INITVAL(digit``0), `INITVAL(digit``1), `INITVAL(digit``2), `INITVAL(digit``3), \
     `INITVAL(digit``4), `INITVAL(digit``5), `INITVAL(digit``6), `INITVAL(digit``7), `INITVAL(digit``8), \
     `INITVAL(digit``9), `INITVAL(digit``A), `INITVAL(digit``B), `INITVAL(digit``C), `INITVAL(digit``D), \
     `INITVAL(digit``E), `INITVAL(digit``F)
-`define ANY(digit) (|INITVAL_``digit``0 || |INITVAL_``digit``1 || |INITVAL_``digit``2 || |INITVAL_``digit``3 \
-    || |INITVAL_``digit``4 || |INITVAL_``digit``5 || |INITVAL_``digit``6 || |INITVAL_``digit``7 \
-    || |INITVAL_``digit``8 || |INITVAL_``digit``9 || |INITVAL_``digit``A || |INITVAL_``digit``B \
-    || |INITVAL_``digit``C || |INITVAL_``digit``D || |INITVAL_``digit``E || |INITVAL_``digit``F)
+`define SIXTEEN(digit) INITVAL_``digit``F, INITVAL_``digit``E, INITVAL_``digit``D, INITVAL_``digit``C, \
+    INITVAL_``digit``B, INITVAL_``digit``A, INITVAL_``digit``9, INITVAL_``digit``8, INITVAL_``digit``7, \
+    INITVAL_``digit``6, INITVAL_``digit``5, INITVAL_``digit``4, INITVAL_``digit``3, INITVAL_``digit``2, \
+    INITVAL_``digit``1, INITVAL_``digit``0
 
 module DP16KD #(
     parameter int DATA_WIDTH_A = 18,
@@ -65,10 +65,7 @@ module DP16KD #(
   if (CSDECODE_A != "0b000" || CSDECODE_B != "0b000") begin : g_check_cs
     $fatal(1, "DP16KD model: CSDECODE must be 0b000");
   end
-  if (`ANY(0) || `ANY(1) || `ANY(2) || `ANY(3)) begin : g_check_init
-    $fatal(1, "DP16KD model: INITVAL must be zero");
-  end
-
+  localparam logic [64*320-1:0] Content = {`SIXTEEN(3), `SIXTEEN(2), `SIXTEEN(1), `SIXTEEN(0)};
   localparam bit Wide = DATA_WIDTH_A == 36;
 
   // Both ports can write.
@@ -80,7 +77,7 @@ module DP16KD #(
   logic [13:0] ad[2];
   logic [1:0] we, ce, clk, rst;
 
-  initial for (int i = 0; i < 512; i++) mem[i] = '0;
+  initial for (int i = 0; i < 512; i++) mem[i] = {Content[40*i+20+:18], Content[40*i+:18]};
 
   assign d[0] = {DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9,
                  DIA8, DIA7, DIA6, DIA5, DIA4, DIA3, DIA2, DIA1, DIA0};

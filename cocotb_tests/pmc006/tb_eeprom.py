@@ -89,7 +89,7 @@ async def p006_eeprom_device(dut: Any) -> None:
     t, before, pulls = 0, (1, 1), (0, 0)
     seen = {"sda": 0, "scl": 0}
     master = Master(rng, model.device)
-    for _ in range(60):
+    for _ in range(100):
         for clk, scl, sda in master.transfer():
             left = clk
             while left:
