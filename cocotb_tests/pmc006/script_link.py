@@ -219,6 +219,21 @@ def test_talking_while_the_reply_is_sent() -> None:
         assert len(host.edges("de")) == 4
 
 
+@verifies("P006-FRM-07", "P006-UART-02", "P006-BAD-06")
+def test_line_that_is_low_when_the_reply_ends() -> None:
+    """No byte begins before the line has been high; what follows soon afterwards is heard."""
+    for gap in (2, 4, 8):
+        host = Host006()
+        host.say("c")
+        host.go(host.e + ceil(81.5 * host.bit))
+        host.pins(rxd=0)
+        host.pause(ceil(3.5 * host.bit))
+        host.pins(rxd=1)
+        host.forget()
+        host.back_to(host.t + ceil(gap * host.bit))
+        assert host.ask("j") == DECAY
+
+
 @verifies("P006-FRM-07", "P006-UART-05")
 def test_line_that_echoes() -> None:
     """A transceiver that lets the node hear itself: the assembler is empty afterwards."""

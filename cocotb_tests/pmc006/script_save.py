@@ -42,19 +42,28 @@ def test_save() -> None:
 
 @verifies("P006-EEP-10", "P006-CMD-54")
 def test_registers_go_whole_into_a_save() -> None:
-    """Changed while it is being sent: old or new, never half, and the sum is right."""
+    """VSTART changes before, between and behind its two bytes: old or new, never half; the sum is right.
+
+    The device stretches the clock, so that a byte lasts longer than a frame.
+    """
     host = Host006(eeprom=device(write_us=100))
-    for wait in range(0, 2_000, 190):
-        host.ok(L=0x0201, S=0x0201, M=0x0201, P=0x0201, e=0x0201)
+    assert host.eeprom is not None
+    host.eeprom.stretch_clk = host.us(900)
+    old, seen = 600, []
+    for place, new in ((13.4, 0x0A0B), (14.3, 0x0201), (14.8, 0x0A0B), (15.6, 0x0201)):
         assert host.ask("t") == 1
-        assert host.eeprom is not None
-        host.pause(wait)
-        host.ok(e=0x0A0B)
-        host.ms(1)
+        # Three bytes come before those of the page; one lasts 22.5 us more than it is stretched, and is taken
+        # as soon as the one before has been acknowledged, before the stretch.
+        host.go(host.e + host.us(922.5 * place) - int(79.5 * host.bit))
+        assert host.ask("L", new) == new
+        host.ms(25)
         content = written(host)[-1][1]
         assert sum(content[:31]) & 0xFF == content[31] and len(content) == PAGE
-        assert content[0x0C:0x14] == b"\x01\x02" * 4 and content[0x14:0x16] in (b"\x01\x02", b"\x0b\x0a")
-        host.ms(1)
+        pair = int.from_bytes(content[0x0C:0x0E], "little")
+        assert pair in (old, new)
+        seen.append(pair == new)
+        old = new
+    assert seen == [True, False, False, False]
 
 
 @verifies("P006-EEP-11", "P006-CMD-02", "P006-BAD-12", "P006-BAD-11", "P006-PRG-02")
