@@ -19,17 +19,19 @@ PARTS_OF = {
     "ppmc2104": ["ppmc_board_host", "ppmc2104_board"],
     "stmc": ["ppmc_board_host", "ppmc_board_steps", "stmc_board"],
     "ppmc312": ["ppmc_board_host", "ppmc312_board"],
+    "pmc006": ["ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "pmc006_board"],
 }
 IN_USE = {name for names in PARTS_OF.values() for name in names}
 BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name[7:-3] in IN_USE]
 # What each part needs besides the blocks that all use.
 NEEDS = {
-    "ppmc104": ["single"],
-    "ppmc2104": [],
-    "isa_4axis": ["ppmc2104"],
-    "stmc": ["single"],
-    "j105_stmc": ["single", "stmc"],
-    "ppmc312": ["stage"],
+    "ppmc104": ["host", "single"],
+    "ppmc2104": ["host"],
+    "isa_4axis": ["host", "ppmc2104"],
+    "stmc": ["host", "single"],
+    "j105_stmc": ["host", "single", "stmc"],
+    "ppmc312": ["host", "stage"],
+    "pmc006": [],
 }
 
 
@@ -58,7 +60,7 @@ def test_list_is_complete_and_in_order(name):
 @pytest.mark.parametrize("part", NEEDS)
 def test_list_of_a_part(part):
     """Given a part's list, then it names the shared blocks, the part and its board module."""
-    groups = ["common", "motion", "host", *NEEDS[part], part]
+    groups = ["common", "motion", *NEEDS[part], part]
     own = [f"rtl/{name}" for group in groups for name in LISTED[group]]
     boards = [f"rtl/boards/{name}.sv" for name in PARTS_OF.get(part, [])]
     assert listed(f"{part}.f") == [*own, *boards]
