@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -20,6 +19,7 @@ from openppmc.program006 import assemble
 from openppmc.sim import SimError, SimLine, SpecError, start_line
 
 from .conftest import ROOT, CommandLine, Wait, one_line
+from .foreground import foreground
 
 PART = ("--part", "pmc006")
 SHUTTLE = """\
@@ -175,7 +175,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
     """`make board PART=pmc006`: a name for the port, an end with Ctrl-C."""
     link = tmp_path / "line"
     command_line = [sys.executable, "-m", "openppmc.sim", "part=pmc006", f"address=1..2,link={link}"]
-    with subprocess.Popen(command_line, cwd=ROOT, text=True, stdout=subprocess.PIPE) as process:
+    with foreground(command_line, cwd=ROOT) as process:
         until(link.is_symlink, "a link to the port")
         with Pmc006Bus.open(str(link)) as bus:
             assert bus.axis(2).version() == "V0.1.35"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 import time
 import tty
@@ -18,6 +17,7 @@ from openppmc.host.errors_line import LineEcho, StationSilent
 from openppmc.sim import SimError, SimLine, SpecError, start_line
 
 from .conftest import ROOT, CommandLine, Wait, one_line
+from .foreground import foreground
 
 QUICK = (4000, 8000, 600)
 PART = ("--part", "ppmc312-serial")
@@ -91,7 +91,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
     link = tmp_path / "line"
     command = [sys.executable, "-m", "openppmc.sim", "part=ppmc312-serial", f"stations=3,link={link}"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    with subprocess.Popen(command, env=environment, text=True, stdout=subprocess.PIPE) as process:
+    with foreground(command, env=environment) as process:
         until(link.is_symlink, "a link to the port")
         with Ppmc312Bus.open(str(link)) as bus:
             assert bus.axis(2).version() == 0x12
