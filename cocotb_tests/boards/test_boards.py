@@ -1,4 +1,4 @@
-"""rtl/boards in simulation: reset and lamp blocks, and a board top with either host."""
+"""rtl/boards in simulation: reset and lamps, a board top with either host, the board of the PMC006B4."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from .tb_blocks import BLOCKS
 PART = Part("boards", "BRD", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.boards", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.boards", "tb_bus", part=PART)
+ITEMS_006 = cocotb_items("cocotb_tests.boards", "tb_pmc006", part=PART)
+HERE = ROOT / "cocotb_tests" / "boards"
 RTL = ROOT / "rtl" / "boards"
 # One C++ file: the wheel's make file cannot use the header that several share. Start values 0, as in an FPGA:
 # the top's power-on reset is made of them, and no pin can give an edge of reset before the first clk.
@@ -35,8 +37,17 @@ def test_board_block(item, sim_options):
 def test_board_top(item, sim_options):
     """Run one simulation of a board top; the test's name says with which host."""
     part = part_design("ppmc104", item.config)
-    bench = ROOT / "cocotb_tests" / "boards" / "bus_bench.sv"
-    files = [*board_files("ppmc104"), *SHARED, RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv", bench]
+    tops = [RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv", HERE / "bus_bench.sv"]
+    files = [*board_files("ppmc104"), *SHARED, *tops]
     params = {"HOST": item.test.split("_")[0].upper()}
     design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS)
     run_item(item, sim_options, design=design)
+
+
+@pytest.mark.parametrize("item", ITEMS_006)
+def test_board_pmc006(item, sim_options):
+    """Run one simulation of the board with a PMC006B4 and its EEPROM."""
+    part = part_design("pmc006", item.config)
+    bench = [ROOT / "tb" / "pmc006" / "eeprom_24c32.sv", HERE / "board006_bench.sv"]
+    files = [*part.sources, *board_files("pmc006"), *bench]
+    run_item(item, sim_options, design=Design("board006_bench", files, part.includes, {}, ARGS))
