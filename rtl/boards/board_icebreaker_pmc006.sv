@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_icebreaker_pmc006: PMC006B4 on an iCEBreaker (iCE40UP5K-SG48), clk 24 MHz. Its pins have room for three of the
+// board_icebreaker_pmc006: PMC006B4 on an iCEBreaker (iCE40UP5K-SG48), clk 18 MHz. Its pins have room for three of the
 //                          five inputs and outputs each, and for no converter: no analog speed, no stall.
 // Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker-pmc006.pcf.
 // Timing: of pmc006_board.
@@ -45,14 +45,16 @@ module board_icebreaker_pmc006 #(
     output logic            ledr_n
 );
 
-  localparam int unsigned ClkHz = 24_000_000;
+  localparam int unsigned ClkHz = 18_000_000;
 
   logic clk, lock, scl_oe, sda_oe, moving, line;
   logic [4:0] gpo_all;
   logic unused;
   logic [1:0] unused_lamps;
 
-  ppmc_clock_icebreaker u_clock (
+  ppmc_clock_icebreaker #(
+      .Divf(7'd47)
+  ) u_clock (
       .clk_12m_i(clk_12m),
       .clk_o    (clk),
       .lock_o   (lock)

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_clock_icebreaker: 24 MHz from the 12 MHz oscillator of an iCEBreaker, by the PLL at its clock pad.
-// Rules:  settings of the PLL from icepll for 12 MHz in, 24 MHz out (VCO 768 MHz).
+// ppmc_clock_icebreaker: 24 MHz or less from the 12 MHz oscillator of an iCEBreaker, by the PLL at its clock pad.
+// Rules:  settings of the PLL as icepll has them for 12 MHz in; the VCO (32 times clk_o) runs at 533 .. 1066 MHz.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 
-module ppmc_clock_icebreaker (
+module ppmc_clock_icebreaker #(
+    parameter bit [6:0] Divf = 7'd63  // clk_o = 12 MHz * (Divf + 1) / 32; 44 .. 87
+) (
     input  wire logic clk_12m_i,  // the package pin itself
-    output logic      clk_o,      // 24 MHz, on a global net
+    output logic      clk_o,      // on a global net
     output logic      lock_o
 );
+
+  if (Divf < 44 || Divf > 87) begin : g_check
+    $fatal(1, "ppmc_clock_icebreaker: Divf must be 44 .. 87");
+  end
 
   logic unused_core, unused_sdo;
 
   SB_PLL40_PAD #(
       .FEEDBACK_PATH("SIMPLE"),
       .DIVR         (4'd0),
-      .DIVF         (7'd63),
+      .DIVF         (Divf),
       .DIVQ         (3'd5),
       .FILTER_RANGE (3'd1)
   ) u_pll (
