@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from rich import box
@@ -14,6 +14,7 @@ from .sizes import LIMIT
 
 HEADS = ("design", "device", "LUT", "FF", "block RAM", "of the device", "Fmax / MHz", "all seeds", "runs at")
 BRIDGE = "u_host.g_uart"
+KEYS = ("lut", "ff", "ram")
 INSIDE = {"ecp5": "ECP5", "ice40": "iCE40"}
 
 
@@ -77,38 +78,47 @@ def _sum(counts: Mapping[str, Count], below: str) -> Count:
     return total
 
 
-def bridge_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
-    """What the board top adds to the part, instance by instance; the part itself in one row."""
-    first = next(iter(split.values()))
-    inside = sorted(path for path in first.kept if path.startswith(f"{BRIDGE}."))
-    rows = [["u_part", f"{part}, all of it"]]
-    for result in split.values():
-        count = _sum(result.flat, "u_part")
-        rows[0] += [str(count.lut), str(count.ff), str(count.ram or "")]
-    for path in inside:
-        depth = path.count(".") - BRIDGE.count(".") - 1
-        row = ["&nbsp;&nbsp;" * depth + path.rsplit(".", 1)[-1], first.module[path]]
-        for result in split.values():
-            count = result.flat.get(path, Count())
-            row += [str(count.lut), str(count.ff), str(count.ram or "")]
-        rows.append(row)
-    rest, total = ["(top itself)", f"{part}_board"], ["total", ""]
-    for result in split.values():
-        shown = [_sum(result.flat, "u_part"), _sum(result.flat, BRIDGE)]
-        for key in ("lut", "ff", "ram"):
-            left = getattr(result.total, key) - sum(getattr(count, key) for count in shown)
-            rest.append(str(left) if left or key != "ram" else "")
-        total += [str(result.total.lut), str(result.total.ff), str(result.total.ram or "")]
-    return [*rows, rest, total]
+def _cells(counts: Iterable[Count]) -> list[str]:
+    """LUT, FF and RAM of each family."""
+    return [str(figure) for count in counts for figure in (count.lut, count.ff, count.ram or "")]
+
+
+def has_bridge(split: Mapping[str, Breakdown]) -> bool:
+    """Whether the board top has more to it than the part, reset and lamps."""
+    return any(path.startswith(f"{BRIDGE}.") for path in next(iter(split.values())).kept)
+
+
+def instance_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
+    """What the board top adds to the part, instance by instance; without a bridge, the part in this way."""
+    first, bridged = next(iter(split.values())), has_bridge(split)
+    whole = [_sum(result.flat, "u_part") for result in split.values()]
+    # The part by itself is in the row of its top, where its instances follow.
+    own = whole if bridged else [result.flat.get("u_part", Count()) for result in split.values()]
+    rows = [["u_part", f"{part}, all of it" if bridged else part, *_cells(own)]]
+    opened, margin = (BRIDGE, -1) if bridged else ("u_part", 0)
+    for path in sorted(path for path in first.kept if path.startswith(f"{opened}.")):
+        depth = path.count(".") - opened.count(".") + margin
+        name = "&nbsp;&nbsp;" * depth + path.rsplit(".", 1)[-1]
+        counts = [result.flat.get(path, Count()) for result in split.values()]
+        rows.append([name, first.module[path], *_cells(counts)])
+    rest = []
+    for result, inside in zip(split.values(), whole, strict=True):
+        bridge = _sum(result.flat, BRIDGE)
+        rest.append(
+            Count(*(getattr(result.total, key) - getattr(inside, key) - getattr(bridge, key) for key in KEYS))
+        )
+    total = [result.total for result in split.values()]
+    return [*rows, ["(top itself)", f"{part}_board", *_cells(rest)], ["total", "", *_cells(total)]]
 
 
 def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
     """The whole block between a part's markers; `split` is empty when the part has no board top."""
     few = ", or as many as stand in brackets" if any(len(row.fmax) < seeds for row in rows) else ""
+    top = "part and UART bridge" if not split or has_bridge(split) else "part, reset and lamps"
     parts = [
         f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (on ECP5 a carry cell "
         "counts as two LUT, on Gowin an adder bit as one); Fmax of `clk` after place and route, median of "
-        f"{seeds} seeds{few}. Part and board top (part and UART bridge, 24 MHz) with free pins, on UP5K "
+        f"{seeds} seeds{few}. Part and board top ({top}, 24 MHz) with free pins, on UP5K "
         "through shift registers; the bitstreams with their boards' constraints, *of the device* being the "
         "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
         f"fails when one has grown by more than {LIMIT} %.",
@@ -122,6 +132,6 @@ def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: 
         ]
         parts += [
             f"Where the cells of {part}_board are, flattened, a LUT credited to the instance it feeds:",
-            markdown_table(heads, bridge_rows(part, split), left=2),
+            markdown_table(heads, instance_rows(part, split), left=2),
         ]
     return "\n\n".join(parts)
