@@ -1,0 +1,105 @@
+"""What random hosts of the PMC006 say, and how they wait for the answer; registers and reads."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from math import ceil
+from typing import Any
+
+from cocotb_tests.common.background import Background
+
+from .frames import command
+from .random_program import SPEEDS
+from .script_host import Host006
+
+EDGES = (-1, 0x100, 0x10000, 0x7FFFFFFF, -0x80000000)
+DATA: dict[str, tuple[int, ...]] = {
+    "F": (0, 0, 1, 2),
+    "J": (0, 1, 2, 3, 4),
+    "L": (3000, 3000, 2500, 65, 64, 3001, 0),
+    "M": (100, 300, 1200, 1201, 0),
+    "P": (300, 1250, 2000, 0),
+    "Q": (1, 2, 3, 4, 0, 5),
+    "S": (3000, 3000, 2000, 65, 0),
+    "T": (0, 1, 2, 5, 63, 64),
+    "Y": (1, 3, 5, 7, 0, 8),
+    "Z": (200, 511, 100, 0, 512),
+    "a": (0, 1, 1),
+    "d": (0, 1, 2),
+    "e": (400, 800, 1075, 2000, 4000, 4001),
+    "f": (3, 3, 1, 2, 0, 4),
+    "g": (0, 0, 0, 1),
+    "i": (0, 5, -5, 0x7FFFFFFF, -0x80000000),
+    "m": (0, 2, 4, 8, 16, 32, 64, 128, 3),
+    "o": (5, 5, 4, 0, 6),
+    "u": (5, 5, 4, 0, 6),
+    "v": SPEEDS,
+    "y": (0x08, 0xF8, 0x50, 0, 7),
+}
+READS = "cjOxXKRknqrhU"
+
+
+class Frames:
+    """A random host's mouth. `seen` counts what it did and found, `left` is how much it has still to do."""
+
+    rng: random.Random
+    host: Host006
+    model: Any
+    background: Background
+    seen: Counter[str]
+    left: float
+    noisy: bool
+
+    def frame(self, code: str | int, data: int = 0) -> None:
+        """A good frame, in a noisy place with wrong levels somewhere; then its reply."""
+        rng, host = self.rng, self.host
+        self.left -= 1
+        if rng.random() < 0.5:
+            host.pause(rng.choice((1, 3, 20, 100, 700, 3_000)))
+        host.say(code, data) if not self.noisy else self.put(command(host.address, code, data))
+        self.seen[f"code {code}"] += 1
+        self.await_reply()
+
+    def put(self, line: bytes) -> None:
+        """Bytes, sometimes with spikes or gaps."""
+        rng, host = self.rng, self.host
+        for byte in line:
+            spikes = []
+            if self.noisy and rng.random() < 0.1:
+                spikes = [(rng.uniform(0, 9.4), rng.randint(1, int(host.bit * 0.9)))]
+            host.character(byte, spikes=spikes, stop=int(not self.noisy or rng.random() > 0.01))
+            if rng.random() < 0.04:
+                host.pause(rng.choice((5, 70, 900)))
+
+    def await_reply(self) -> None:
+        """Wait for the reply if one comes; now and then do not, but then know nothing of the line."""
+        host = self.host
+        host.go(max(host.t, host.e + ceil(host.bit) + 9))
+        if host.out("de"):
+            self.seen["reply"] += 1
+        if self.rng.random() < 0.97:
+            host.forget()
+        host.address = self.model.desk.settings.addr
+
+    def setting(self) -> None:
+        """A register, mostly with legal data."""
+        code = self.rng.choice(list(DATA))
+        data = self.rng.choice(DATA[code]) if self.rng.random() < 0.93 else self.rng.choice(EDGES)
+        self.frame(code, data)
+
+    def read(self) -> None:
+        """Something that has no effect."""
+        self.frame(self.rng.choice(READS), self.rng.choice((0, 0, -1)))
+
+    def unknown(self) -> None:
+        """Any code."""
+        self.frame(self.rng.choice((0, 0x40, 0x48, 0x5B, 0x7B, 0xA5, 0xFF, self.rng.randrange(256))), 1)
+
+    def outputs(self) -> None:
+        """GPO."""
+        self.frame("y", self.rng.choice((0x08, 0xF8, 0x50, 0x87, 0, -1)))
+
+    def save(self) -> None:
+        """t or B."""
+        self.frame(self.rng.choice("ttB"))
