@@ -16,7 +16,7 @@ from cocotb_tests.common.scripts import building
 
 from .modules import D8E, F8B, ODD
 from .random_faults import Faults
-from .random_motion import Motions
+from .random_meeting import Meetings
 from .random_pins import Pins
 from .random_program import some_program
 from .scenes import device, image, page
@@ -37,7 +37,7 @@ def play(seed: int, config: Config) -> Talker:
         return Talker(seed).play()
 
 
-class Talker(Motions, Pins, Faults):
+class Talker(Meetings, Pins, Faults):
     """One random host."""
 
     def __init__(self, seed: int) -> None:
@@ -82,6 +82,7 @@ class Talker(Motions, Pins, Faults):
         actions: tuple[tuple[Callable[[], None], float], ...] = (
             (self.setting, 12),
             (self.start, 22),
+            (self.meeting, 11),
             (self.meddle, 14),
             (self.read, 6),
             (self.ext, 8),
