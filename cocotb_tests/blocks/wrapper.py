@@ -69,4 +69,4 @@ def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = 
     with locked(path.with_suffix(".lock")):
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
-    return Design(top, [*files, path], [ROOT / "rtl" / "common"])
+    return Design(top, [*files, path], [ROOT / "rtl" / "common"], ports="*")

@@ -29,7 +29,7 @@ SHARED = [RTL / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
 def test_board_block(item, sim_options):
     """Run one simulation of the small blocks."""
     base = area_design("boards", BLOCKS)
-    design = Design(base.top, [*base.sources[:-1], *SHARED, base.sources[-1]], base.includes)
+    design = Design(base.top, [*base.sources[:-1], *SHARED, base.sources[-1]], base.includes, ports="*")
     run_item(item, sim_options, design=design)
 
 
@@ -40,7 +40,7 @@ def test_board_top(item, sim_options):
     tops = [RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv", HERE / "bus_bench.sv"]
     files = [*board_files("ppmc104"), *SHARED, *tops]
     params = {"HOST": item.test.split("_")[0].upper()}
-    design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS)
+    design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS, ports="*")
     run_item(item, sim_options, design=design)
 
 
@@ -50,4 +50,4 @@ def test_board_pmc006(item, sim_options):
     part = part_design("pmc006", item.config)
     bench = [ROOT / "tb" / "pmc006" / "eeprom_24c32.sv", HERE / "board006_bench.sv"]
     files = [*part.sources, *board_files("pmc006"), *bench]
-    run_item(item, sim_options, design=Design("board006_bench", files, part.includes, {}, ARGS))
+    run_item(item, sim_options, design=Design("board006_bench", files, part.includes, {}, ARGS, ports="*"))

@@ -29,7 +29,7 @@ def bridge_design(item) -> Design:
     """ppmc_uart_bridge alone."""
     part = part_design("ppmc104", item.config)
     sources = [path for path in part.sources if path.parent.name in ("common", "host")]
-    return Design("ppmc_uart_bridge", sources, part.includes, params_of(item.config))
+    return Design("ppmc_uart_bridge", sources, part.includes, params_of(item.config), ports="*")
 
 
 def board_design(item) -> Design:
@@ -58,7 +58,7 @@ def station_design(item) -> Design:
     boards = [*panel, *board_files("ppmc2104"), BOARDS / "ppmc2104_station.sv"]
     params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
     args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA
-    return Design("ppmc2104_station", [*part.sources, *boards], part.includes, params, args)
+    return Design("ppmc2104_station", [*part.sources, *boards], part.includes, params, args, "*")
 
 
 @pytest.mark.parametrize("item", STATION_ITEMS)

@@ -1,13 +1,19 @@
-"""Several seeds in one simulation: random tests of scripts, whose tapes each begin with a reset."""
+"""Several seeds in one simulation, each from a reset: a process takes as long to start as many a host."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+
+import pytest
 
 from .collect import Item
+from .runner import REPRO, SimOptions, run_item
+from .seeds import SEEDS
+
+BATCH = 25
 
 
-def batches(items: Sequence[Item], size: int) -> list[tuple[Item, str]]:
+def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
     """(first item, all seeds) of each simulation: at most `size` items of one build each."""
     builds: dict[str, list[Item]] = {}
     for item in items:
@@ -17,3 +23,25 @@ def batches(items: Sequence[Item], size: int) -> list[tuple[Item, str]]:
         for group in builds.values()
         for k in range(0, len(group), size)
     ]
+
+
+def parametrize(
+    metafunc: pytest.Metafunc, make: Callable[[int], Item], fixed: Iterable[int], size: int = BATCH
+) -> None:
+    """One pytest item (`item`, `seeds`) a batch of the fixed seeds; with --seed N that one alone."""
+    chosen = metafunc.config.getoption("--seed")
+    sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])], size)
+    metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
+
+
+def run_batch(item: Item, seeds: str, options: SimOptions) -> None:
+    """The seeds of a batch in one simulation, as a pytest test."""
+    __tracebackhide__ = True
+    print(f"seeds {seeds}")
+    whole = {REPRO: f"make {item.target} T={item.id}"} if " " in seeds else {}
+    run_item(item, options, {SEEDS: seeds, **whole})
+
+
+def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:
+    """All seeds of the batches, rising."""
+    return sorted(int(word) for _, seeds in batches([make(seed) for seed in fixed]) for word in seeds.split())

@@ -34,12 +34,12 @@ class Bench:
     (list[Change]), `accesses` (list[Access]).
     """
 
-    def __init__(self, dut: Any, part: Part = PPMC104) -> None:
+    def __init__(self, dut: Any, part: Part = PPMC104, seed: int | None = None) -> None:
         self.dut = dut
         self.part = part
         text = os.environ.get("OPENPPMC_CONFIG", "")
         self.config = Config.from_json(text) if text else F16
-        self.seed = int(os.environ.get("OPENPPMC_SEED", "1"))
+        self.seed = int(os.environ.get("OPENPPMC_SEED", "1")) if seed is None else seed
         self.rng = random.Random(self.seed)
         self.out = Path(os.environ.get("OPENPPMC_OUT", "."))
         self.repro = os.environ.get("OPENPPMC_REPRO", "")
@@ -59,16 +59,22 @@ class Bench:
 
     @classmethod
     async def start(
-        cls, dut: Any, part: Part = PPMC104, reset_clk: int = 4, settle: int = 4, **pins: int
+        cls,
+        dut: Any,
+        part: Part = PPMC104,
+        reset_clk: int = 4,
+        settle: int = 4,
+        seed: int | None = None,
+        **pins: int,
     ) -> Bench:
         """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
 
         The parts take bytes from edge 4 on (P104-PORT-03); settle = 0 returns before edge 0.
 
         `pins` override idle input levels; they are stamped with edge 0. `reset_clk` is the length of
-        the reset in clk (>= 2).
+        the reset in clk (>= 2). `seed` replaces the run's.
         """
-        bench = cls(dut, part)
+        bench = cls(dut, part, seed)
         bench._arm_wall_clock()
         native.collect_seldom()
         # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0.

@@ -23,6 +23,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import cocotb
+from cocotb.task import Task
+
 from .bench import Bench
 from .bus import DATA, IBF, OBF, HostBus
 
@@ -83,6 +86,7 @@ class Player:
         self.bench = bench
         self.rng = random.Random(f"player {seed}")
         self.host = HostBus(bench, pause=pauses(self.rng) if pausing else None, timeout=400_000)
+        self._clocks: list[Task[None]] = []
 
     async def play(self, actions: list[Action]) -> None:
         """All actions in order."""
@@ -90,9 +94,14 @@ class Player:
             await getattr(self, f"_{action[0]}")(*action[1:])
         await self.host.idle()
         await self.bench.clocks(20)
+        for clock in self._clocks:
+            clock.cancel()
 
-    async def run_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
-        """Drive a clock pin by its programme, beside everything else."""
+    def start_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
+        """Drive a clock pin by its programme until the actions end."""
+        self._clocks.append(cocotb.start_soon(self._run_clock(pin, clock, seed)))
+
+    async def _run_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
         await self.bench.align()
         for wait, level in clock.levels(random.Random(f"clock {seed}")):
             if wait:

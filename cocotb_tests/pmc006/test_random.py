@@ -11,15 +11,14 @@ from dataclasses import replace
 
 import pytest
 
-from cocotb_tests.common.batches import batches
+from cocotb_tests.common.batches import parametrize, played, run_batch
 from cocotb_tests.common.collect import Item, cocotb_items
 from cocotb_tests.common.part import PMC006
-from cocotb_tests.common.runner import SimOptions, run_item
+from cocotb_tests.common.runner import SimOptions
 
 from .random_host import BUILDS, plan, play
 
 SEEDS = range(1, 151)
-BATCH = 25
 BASE = cocotb_items("cocotb_tests.pmc006", "tb_random", part=PMC006)[0].values[0]
 
 
@@ -31,26 +30,18 @@ def random_item(seed: int) -> Item:
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """One pytest item a batch."""
     if "item" in metafunc.fixturenames:
-        chosen = metafunc.config.getoption("--seed")
-        sets = batches([random_item(seed) for seed in (SEEDS if chosen is None else [chosen])], BATCH)
-        metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
+        parametrize(metafunc, random_item, SEEDS)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The hosts of some seeds: every output edge equals the golden model's."""
-    print(f"seeds {seeds}")
-    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+    run_batch(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
     """The fixed seeds use every build, each seed once; the same seed gives the same build."""
     assert {plan(seed).name for seed in SEEDS} == {config.name for config, _ in BUILDS}
-    played = [
-        int(word)
-        for _, seeds in batches([random_item(seed) for seed in SEEDS], BATCH)
-        for word in seeds.split()
-    ]
-    assert sorted(played) == list(SEEDS) and len(SEEDS) >= 150
+    assert played(random_item, SEEDS) == list(SEEDS) and len(SEEDS) >= 150
 
 
 LEAST = {

@@ -10,6 +10,7 @@ from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.bus import BUSY, IBF, HostBus
 from cocotb_tests.common.compare import check_against_model
 from cocotb_tests.common.player import describe
+from cocotb_tests.common.seeds import each_seed
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
@@ -35,44 +36,52 @@ from cocotb_tests.ppmc104.random_player import Player104
 )
 async def random_host(dut: Any) -> None:
     """Given a random host, when it has played its list, then all outputs changed as in the golden model."""
-    plan = scenario(Bench(dut).seed)
-    bench = await Bench.start(dut, **plan.pins)
-    (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-    await Player104(bench, plan).run()
-    result = check_against_model(bench)
-    assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
+
+    async def play(seed: int) -> None:
+        plan = scenario(seed)
+        bench = await Bench.start(dut, seed=seed, **plan.pins)
+        (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
+        await Player104(bench, plan).run()
+        result = check_against_model(bench)
+        assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
+
+    await each_seed("random_host", play)
 
 
 @cocotb.test()
 @verifies("P104-BAD-09", "P104-BAD-14", "P104-BAD-20", "P104-BAD-23", "P104-BCK-05", "P104-TIM-06")
 async def random_chaos(dut: Any) -> None:
     """Given noise on all input pins, when it ends, then 0x40, 0xC0 and an initialisation recover the core."""
-    bench = await Bench.start(dut)
-    noise = make_noise(bench)
-    await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
-    await noise.stop()
-    host = HostBus(bench, timeout=bench.config.us(200_000))
-    for _ in range(4):
-        await host.poll(IBF, 0)
-        # In DATASHEET timing an operation taken just now raises BUSY up to 112 us later.
-        await bench.clocks(bench.config.us(300))
-        if not await host.poll(IBF, 0) & BUSY:
-            break
-        await host.command(0x40)
-    bench.check("P104-BAD-23", "BUSY after stop commands", await host.status() & BUSY, 0)
-    await host.command(0xC0)
-    await host.init(0x0A, 9, 4, 4)
-    await host.command(0x80)
-    bench.check("P104-BAD-23", "status after recovery", await host.status() & 0xFE, 0)
-    start = bench.now
-    await host.move(0x43, 14)
-    await bench.nth_fall(14, start)
-    await host.wait_idle()
-    rates = (9, 7, 5, 5, 4, 4, 4, 4, 4, 5, 5, 7, 9)
-    quanta = [sum(8 * (rate + 1) for rate in rates[:n]) for n in range(14)]
-    pulses = bench.pulses(start)
-    expected = [bench.config.quanta(q) for q in quanta]
-    bench.check("P104-BAD-23", "pulses after recovery", [t - pulses[0] for t in pulses], expected)
-    bench.check("P104-BAD-23", "finish status", await host.fetch(0x80), [0x83])
-    for t, _ in bench.edges("dir"):
-        bench.check("P104-TIM-06", f"hold when dir changed at {t}", bench.level_at("hold", t), 0)
+
+    async def play(seed: int) -> None:
+        bench = await Bench.start(dut, seed=seed)
+        noise = make_noise(bench)
+        await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
+        await noise.stop()
+        host = HostBus(bench, timeout=bench.config.us(200_000))
+        for _ in range(4):
+            await host.poll(IBF, 0)
+            # In DATASHEET timing an operation taken just now raises BUSY up to 112 us later.
+            await bench.clocks(bench.config.us(300))
+            if not await host.poll(IBF, 0) & BUSY:
+                break
+            await host.command(0x40)
+        bench.check("P104-BAD-23", "BUSY after stop commands", await host.status() & BUSY, 0)
+        await host.command(0xC0)
+        await host.init(0x0A, 9, 4, 4)
+        await host.command(0x80)
+        bench.check("P104-BAD-23", "status after recovery", await host.status() & 0xFE, 0)
+        start = bench.now
+        await host.move(0x43, 14)
+        await bench.nth_fall(14, start)
+        await host.wait_idle()
+        rates = (9, 7, 5, 5, 4, 4, 4, 4, 4, 5, 5, 7, 9)
+        quanta = [sum(8 * (rate + 1) for rate in rates[:n]) for n in range(14)]
+        pulses = bench.pulses(start)
+        expected = [bench.config.quanta(q) for q in quanta]
+        bench.check("P104-BAD-23", "pulses after recovery", [t - pulses[0] for t in pulses], expected)
+        bench.check("P104-BAD-23", "finish status", await host.fetch(0x80), [0x83])
+        for t, _ in bench.edges("dir"):
+            bench.check("P104-TIM-06", f"hold when dir changed at {t}", bench.level_at("hold", t), 0)
+
+    await each_seed("random_chaos", play)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.player import Player
 from cocotb_tests.ppmc2104.random_host import Scenario
@@ -25,7 +23,7 @@ class Player2104(Player):
         """All actions in order, the external clocks beside them."""
         for axis, clock in enumerate(self.scenario.clocks, 1):
             if clock.segments:
-                cocotb.start_soon(self.run_clock(f"extck[{axis}]", clock, (axis, self.scenario.seed)))
+                self.start_clock(f"extck[{axis}]", clock, (axis, self.scenario.seed))
         await self.play(self.scenario.actions)
 
     async def _finish(self, axes: list[int], clk: int) -> None:

@@ -12,6 +12,7 @@ from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.bus import HostBus
 from cocotb_tests.common.compare import check_against_model
 from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.seeds import each_seed
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 
@@ -79,14 +80,18 @@ class Run:
 @verifies("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05")
 async def p2104_axis_2_alone_and_beside_axis_1(dut: Any) -> None:
     """Given a host for axis 2, when axis 1 gets traffic between, then axis 2 shows the same edges."""
-    plan = pair(Bench(dut, PPMC2104).seed)
-    bench = await Bench.start(dut, PPMC2104, busc=plan.busc)
-    alone = await Run(bench, plan, iter(())).play()
-    before = len(bench.accesses)
-    things = traffic(bench.seed, 40 * len(plan.slots) * 5)
-    beside = await Run(bench, plan, iter(things)).play()
-    assert len(bench.accesses) > 4 * before, "hardly any traffic"
-    for name in WAVES:
-        bench.check("P2104-OPR-10", f"edges of {name} beside a working axis 1", beside[name], alone[name])
-    assert len(alone["pout_n[2]"]) > 3, "axis 2 did next to nothing"
-    check_against_model(bench)
+
+    async def play(seed: int) -> None:
+        plan = pair(seed)
+        bench = await Bench.start(dut, PPMC2104, seed=seed, busc=plan.busc)
+        alone = await Run(bench, plan, iter(())).play()
+        before = len(bench.accesses)
+        things = traffic(bench.seed, 40 * len(plan.slots) * 5)
+        beside = await Run(bench, plan, iter(things)).play()
+        assert len(bench.accesses) > 4 * before, "hardly any traffic"
+        for name in WAVES:
+            bench.check("P2104-OPR-10", f"edges of {name} beside a working axis 1", beside[name], alone[name])
+        assert len(alone["pout_n[2]"]) > 3, "axis 2 did next to nothing"
+        check_against_model(bench)
+
+    await each_seed("p2104_axis_2_alone_and_beside_axis_1", play)

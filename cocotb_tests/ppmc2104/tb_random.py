@@ -10,6 +10,7 @@ from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.compare import check_against_model
 from cocotb_tests.common.part import PPMC2104
 from cocotb_tests.common.player import describe
+from cocotb_tests.common.seeds import each_seed
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_player import Player2104
@@ -36,9 +37,13 @@ from cocotb_tests.ppmc2104.random_player import Player2104
 )
 async def p2104_random_host(dut: Any) -> None:
     """Given a random host, when it has played its list, then all outputs changed as in the golden model."""
-    plan = scenario(Bench(dut, PPMC2104).seed)
-    bench = await Bench.start(dut, PPMC2104, **plan.pins)
-    (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-    await Player2104(bench, plan).run()
-    result = check_against_model(bench)
-    assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
+
+    async def play(seed: int) -> None:
+        plan = scenario(seed)
+        bench = await Bench.start(dut, PPMC2104, seed=seed, **plan.pins)
+        (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
+        await Player2104(bench, plan).run()
+        result = check_against_model(bench)
+        assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
+
+    await each_seed("p2104_random_host", play)

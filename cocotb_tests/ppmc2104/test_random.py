@@ -9,10 +9,11 @@ from dataclasses import replace
 
 import pytest
 
+from cocotb_tests.common.batches import parametrize, played, run_batch
 from cocotb_tests.common.collect import Item, cocotb_items
 from cocotb_tests.common.config import D16, F11, F16, F100, Config
 from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.runner import SimOptions, run_item
+from cocotb_tests.common.runner import SimOptions
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_pairs import pair
 
@@ -53,33 +54,32 @@ _KINDS = {
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a seed."""
+    """One pytest item a batch."""
     if "item" in metafunc.fixturenames:
-        chosen = metafunc.config.getoption("--seed")
-        make, fixed = _KINDS[metafunc.function.__name__]
-        items = [make(seed) for seed in (fixed if chosen is None else [chosen])]
-        metafunc.parametrize("item", items, ids=[item.id for item in items])
+        parametrize(metafunc, *_KINDS[metafunc.function.__name__])
 
 
-def test_random(item: Item, sim_options: SimOptions) -> None:
-    """The scenario of a seed: every output edge equals the golden model's."""
-    run_item(item, sim_options)
+def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """The scenarios of some seeds: every output edge equals the golden model's."""
+    run_batch(item, seeds, sim_options)
 
 
-def test_independent_axes(item: Item, sim_options: SimOptions) -> None:
+def test_independent_axes(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Axis 2 shows the same edges whatever axis 1 is told."""
-    run_item(item, sim_options)
+    run_batch(item, seeds, sim_options)
 
 
-def test_chaos(item: Item, sim_options: SimOptions) -> None:
+def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery by the documented sequence."""
-    run_item(item, sim_options)
+    run_batch(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
     """Same seed, same list; the fixed seeds together use every action kind and every build."""
     assert scenario(5) == scenario(5) != scenario(6)
     assert pair(5) == pair(5) != pair(6)
+    for make, seeds in _KINDS.values():
+        assert played(make, seeds) == list(seeds)
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == set("write send status read fetch finish wait pins blip raw reset".split())

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import cocotb
 
 from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.part import PPMC312
+from cocotb_tests.common.seeds import each_seed
 from cocotb_tests.common.tape import play
 from cocotb_tests.common.verifies import verifies
 
 from . import random_host, random_noise, random_serial
-
-
-def _seeds(bench: Bench) -> list[int]:
-    """What this simulation plays, one after the other; its own seed if nothing else is said."""
-    return [int(word) for word in os.environ.get("OPENPPMC_SEEDS", str(bench.seed)).split()]
 
 
 @cocotb.test()
@@ -43,10 +38,13 @@ def _seeds(bench: Bench) -> list[int]:
 async def p312_random_host(dut: Any) -> None:
     """Given random hosts, when the RTL gets their pins, then all outputs change as in the golden model."""
     bench = await Bench.start(dut, PPMC312)
-    for seed in _seeds(bench):
+
+    async def one(seed: int) -> None:
         host = random_host.play(seed, bench.config)
-        result = await play(bench, host.tape, f"seed {seed} alone: make test T=p312_random_host SEED={seed}")
+        result = await play(bench, host.tape)
         assert result.edges_compared > 200, f"seed {seed} did next to nothing"
+
+    await each_seed("p312_random_host", one)
 
 
 @cocotb.test()
@@ -54,9 +52,12 @@ async def p312_random_host(dut: Any) -> None:
 async def p312_random_noise(dut: Any) -> None:
     """Given noise on all pins, when the RTL gets it, then all outputs change as in the golden model."""
     bench = await Bench.start(dut, PPMC312)
-    for seed in _seeds(bench):
+
+    async def one(seed: int) -> None:
         host = random_noise.play(seed, bench.config)
-        await play(bench, host.tape, f"seed {seed} alone: make test T=p312_random_noise SEED={seed}")
+        await play(bench, host.tape)
+
+    await each_seed("p312_random_noise", one)
 
 
 @cocotb.test()
@@ -79,8 +80,10 @@ async def p312_random_noise(dut: Any) -> None:
 async def p312_random_serial(dut: Any) -> None:
     """Given random hosts on the line, when the RTL gets their pins, then it does what the model does."""
     bench = await Bench.start(dut, PPMC312)
-    for seed in _seeds(bench):
+
+    async def one(seed: int) -> None:
         host = random_serial.play(seed, bench.config)
-        again = f"seed {seed} alone: make test T=p312_random_serial SEED={seed}"
-        result = await play(bench, host.tape, again)
+        result = await play(bench, host.tape)
         assert result.edges_compared > 200, f"seed {seed} did next to nothing"
+
+    await each_seed("p312_random_serial", one)

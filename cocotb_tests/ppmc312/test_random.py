@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import pytest
 
-from cocotb_tests.common.batches import batches
+from cocotb_tests.common.batches import parametrize, played, run_batch
 from cocotb_tests.common.collect import Item, cocotb_items
 from cocotb_tests.common.config import D16, F16, F50, Config
 from cocotb_tests.common.part import PPMC312
-from cocotb_tests.common.runner import SimOptions, run_item
+from cocotb_tests.common.runner import SimOptions
 
 from . import random_serial
 from .census import counting, thin
@@ -62,28 +62,22 @@ KINDS = {
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """One pytest item a batch."""
     if "item" in metafunc.fixturenames:
-        chosen = metafunc.config.getoption("--seed")
-        make, fixed = KINDS[metafunc.function.__name__]
-        sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])], BATCH)
-        metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
+        parametrize(metafunc, *KINDS[metafunc.function.__name__], BATCH)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The hosts of some seeds: every output edge equals the golden model's."""
-    print(f"seeds {seeds}")
-    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+    run_batch(item, seeds, sim_options)
 
 
 def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery."""
-    print(f"seeds {seeds}")
-    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+    run_batch(item, seeds, sim_options)
 
 
 def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Hosts on the line of the serial mode."""
-    print(f"seeds {seeds}")
-    run_item(item, sim_options, {"OPENPPMC_SEEDS": seeds})
+    run_batch(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
@@ -91,12 +85,7 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     configs = [plan(seed) for seed in SEEDS]
     assert configs == [plan(seed) for seed in SEEDS]
     assert {config.name for config in configs} == {config.name for config, _ in BUILDS}
-    played = [
-        int(word)
-        for _, seeds in batches([random_item(seed) for seed in SEEDS], BATCH)
-        for word in seeds.split()
-    ]
-    assert sorted(played) == list(SEEDS)
+    assert played(random_item, SEEDS) == list(SEEDS)
 
 
 def test_hosts_are_rich() -> None:

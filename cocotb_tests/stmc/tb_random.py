@@ -12,6 +12,7 @@ from cocotb_tests.common.compare import check_against_model
 from cocotb_tests.common.noise import Noise
 from cocotb_tests.common.part import STMC
 from cocotb_tests.common.player import describe
+from cocotb_tests.common.seeds import each_seed
 from cocotb_tests.common.single_player import SinglePlayer
 from cocotb_tests.common.verifies import verifies
 
@@ -43,44 +44,52 @@ CODES = (
 )
 async def stmc_random_host(dut: Any) -> None:
     """Given a random host, when it has played its list, then all outputs changed as in the golden model."""
-    plan = scenario(Bench(dut, STMC).seed)
-    bench = await Bench.start(dut, STMC, **plan.pins)
-    (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-    await SinglePlayer(bench, plan, "STMC-STP-01").run()
-    result = check_against_model(bench)
-    assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
+
+    async def play(seed: int) -> None:
+        plan = scenario(seed)
+        bench = await Bench.start(dut, STMC, seed=seed, **plan.pins)
+        (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
+        await SinglePlayer(bench, plan, "STMC-STP-01").run()
+        result = check_against_model(bench)
+        assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
+
+    await each_seed("stmc_random_host", play)
 
 
 @cocotb.test()
 @verifies("STMC-BAD-13", "STMC-BAD-14", "STMC-BAD-15", "STMC-CLK-04", "STMC-INI-04")
 async def stmc_random_chaos(dut: Any) -> None:
     """Given noise on all input pins, when it ends, then 40 and an initialisation recover the core."""
-    bench = await Bench.start(dut, STMC)
-    noise = Noise(bench, STROBES, CODES)
-    await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
-    await noise.stop()
-    host = HostBus(bench, timeout=bench.config.cyc(264_000 + 209 * 65_536))
-    for _ in range(4):
-        await host.poll(IBF, 0)
-        # In DATASHEET timing a motion taken just now raises BUSY up to 112 us later.
-        await bench.clocks(bench.config.us(300))
-        if not await host.poll(IBF, 0) & BUSY:
-            break
-        await host.command(0x40)
-        await bench.clocks(bench.config.us(300))
-    bench.check("STMC-BAD-14", "BUSY after stop commands", await host.poll(IBF, 0) & BUSY, 0)
-    await host.init(0x0A, 5, 2, 4)
-    bench.check("STMC-INI-04", "status after recovery", await host.command(0x80) & 0xFE, 0)
-    while await host.status() & OBF:
-        await host.read_data()
-        await bench.clocks(8)
-    start = bench.now
-    await host.move(0x43, 7)
-    await bench.edge("int_n", 0)
-    steps = [t for t, _ in bench.edges("s", start)]
-    if len({level for _, level in bench.edges("s", start)}) > 2:
-        steps = steps[-7:]
-    wanted = internal_offsets(bench.config, gaps(7, (5, 2, 4)))
-    got = [t - steps[-7] for t in steps[-7:]]
-    bench.check("STMC-INI-04", "steps after recovery", got, wanted)
-    bench.check("STMC-INI-04", "finish status", await host.fetch(0x80), [0x83])
+
+    async def play(seed: int) -> None:
+        bench = await Bench.start(dut, STMC, seed=seed)
+        noise = Noise(bench, STROBES, CODES)
+        await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
+        await noise.stop()
+        host = HostBus(bench, timeout=bench.config.cyc(264_000 + 209 * 65_536))
+        for _ in range(4):
+            await host.poll(IBF, 0)
+            # In DATASHEET timing a motion taken just now raises BUSY up to 112 us later.
+            await bench.clocks(bench.config.us(300))
+            if not await host.poll(IBF, 0) & BUSY:
+                break
+            await host.command(0x40)
+            await bench.clocks(bench.config.us(300))
+        bench.check("STMC-BAD-14", "BUSY after stop commands", await host.poll(IBF, 0) & BUSY, 0)
+        await host.init(0x0A, 5, 2, 4)
+        bench.check("STMC-INI-04", "status after recovery", await host.command(0x80) & 0xFE, 0)
+        while await host.status() & OBF:
+            await host.read_data()
+            await bench.clocks(8)
+        start = bench.now
+        await host.move(0x43, 7)
+        await bench.edge("int_n", 0)
+        steps = [t for t, _ in bench.edges("s", start)]
+        if len({level for _, level in bench.edges("s", start)}) > 2:
+            steps = steps[-7:]
+        wanted = internal_offsets(bench.config, gaps(7, (5, 2, 4)))
+        got = [t - steps[-7] for t in steps[-7:]]
+        bench.check("STMC-INI-04", "steps after recovery", got, wanted)
+        bench.check("STMC-INI-04", "finish status", await host.fetch(0x80), [0x83])
+
+    await each_seed("stmc_random_chaos", play)
