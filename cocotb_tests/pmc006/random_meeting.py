@@ -22,7 +22,9 @@ Course = tuple[tuple[str, int], ...]
 
 
 class Meetings(Motions):
-    """Two things at a time."""
+    """Two things at a time. `_frame_clk` is the time from the begin of a frame to its end."""
+
+    _frame_clk = 0
 
     def meeting(self) -> None:
         """A short motion, then the same where something comes about an edge that the first has shown."""
