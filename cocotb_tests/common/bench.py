@@ -405,7 +405,8 @@ class Bench:
 
     def context(self, last: int = 8) -> str:
         """The last output edges, pin changes and host accesses, for messages."""
-        pins = [c for c in self.stimulus if c.pin not in {*self.part.bus_pins, self.part.clock}]
+        usual = {*self.part.bus_pins, self.part.clock}
+        pins = [c for c in self.stimulus if c.pin not in usual]
         shown = [edge for edge in self._all_edges() if edge.signal not in ("d_o", "d_oe")]
         lines = [f"now: edge {self.now}, config {self.config.name}, seed {self.seed}", "last output edges:"]
         lines += [f"  {e.t:>9} {e.signal} = {e.value:#x}" for e in shown[-last:]]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -137,7 +138,7 @@ class Part:
         """Style of the host bus at these input levels."""
         return self.styles[pins[self.style_pin] if self.style_pin else 0]
 
-    @property
+    @cached_property
     def bus_pins(self) -> frozenset[str]:
         """Input pins of the host bus; on a part with none its serial line."""
         used = {pin for style in self.styles for pin in (*style.write_on, *style.read_on, style.address)}
