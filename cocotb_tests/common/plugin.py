@@ -33,9 +33,13 @@ def sim_options(pytestconfig: pytest.Config) -> SimOptions:
     return SimOptions(seed=pytestconfig.getoption("--seed"))
 
 
-def _item_of(test: pytest.Item) -> Any:
+def _params_of(test: pytest.Item) -> dict[str, Any]:
     callspec = getattr(test, "callspec", None)
-    return callspec.params.get("item") if callspec else None
+    return callspec.params if callspec else {}
+
+
+def _item_of(test: pytest.Item) -> Any:
+    return _params_of(test).get("item")
 
 
 def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
@@ -67,6 +71,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
     item.user_properties.append(("rules", list(rules)))
     item.user_properties.append(("part", part))
     item.user_properties.append(("config", sim.config.name if sim else ""))
+    item.user_properties.append(("runs", len(_params_of(item).get("seeds", "1").split())))
     item.user_properties.append(("name", sim.test if sim else getattr(item, "originalname", item.name)))
     if bad := unknown_rules(rules, part):
         pytest.fail(f"@verifies names rules that docs/ does not list: {', '.join(bad)}", pytrace=False)
@@ -94,6 +99,7 @@ class _Recorder:
                 "name": known["name"],
                 "part": known["part"],
                 "config": known["config"],
+                "runs": known["runs"],
                 "rules": known["rules"],
                 "outcome": "passed",
             },

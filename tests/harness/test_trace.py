@@ -10,16 +10,18 @@ from scripts.trace import join, page
 RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Reset levels"}
 
 
-def record(test: str, *rules: str, outcome: str = "passed", config: str = "f16") -> dict[str, object]:
+def record(
+    test: str, *rules: str, outcome: str = "passed", config: str = "f16", runs: int = 1
+) -> dict[str, object]:
     """A result line as the pytest plugin writes it."""
     return {"test": f"t.py::t[{test}-{config}]", "name": test, "part": "ppmc104", "config": config,
-            "rules": list(rules), "outcome": outcome}  # fmt: skip
+            "runs": runs, "rules": list(rules), "outcome": outcome}  # fmt: skip
 
 
 def test_all_covered_and_passing_has_no_problem() -> None:
-    trace = join(RULES, [record("a", *RULES), record("a", *RULES, config="f8m")], "ppmc104")
+    trace = join(RULES, [record("a", *RULES), record("a", *RULES, config="f8m", runs=25)], "ppmc104")
     assert trace.problems == []
-    assert "`a` ×2 (f16, f8m) | pass |" in page(trace, "ppmc104")
+    assert "`a` ×26 (f16, f8m) | pass |" in page(trace, "ppmc104")
     assert "2 of 2 rules and 1 of 1 acceptance checks" in page(trace, "ppmc104")
 
 
