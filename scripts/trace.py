@@ -93,8 +93,9 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
                 unknown.append(f"unknown rule {rule}: named by {record['test']}")
                 continue
             group = found[rule].setdefault(record["name"], Group(record["name"]))
-            group.runs += record.get("runs", 1)
-            group.passed += record.get("runs", 1) * (record["outcome"] == "passed")
+            runs = record.get("runs", 1)
+            group.runs += runs
+            group.passed += runs if record["outcome"] == "passed" else 0
             if record["config"]:
                 group.configs.add(record["config"])
     groups = {rule: [by_name[name] for name in sorted(by_name)] for rule, by_name in found.items()}

@@ -13,7 +13,8 @@ from cocotb_tests.blocks.unit import same
 from cocotb_tests.common.wire import Wire
 from cocotb_tests.pmc006.frames import command, of_reply
 
-CLK_HZ, BAUD, ADDRESS, MOVES = 8_000_000, 115_200, 255, 3
+BAUD, ADDRESS = 115_200, 255
+ACCEPTED = 3  # reply to s
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "cmp": 0, "ext1": 1, "ext2": 1, "gpi": 31}
 INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
 LINE, MOVING, SWITCH, RUNNING = range(4)  # lamps
@@ -22,13 +23,15 @@ LINE, MOVING, SWITCH, RUNNING = range(4)  # lamps
 class Host(Wire):
     """A PC on one of the two lines."""
 
-    def __init__(self, rxd: Any, txd: Any) -> None:
+    def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
         super().__init__(rxd, txd, BAUD)
+        self._de = de
         self.bytes = bytearray()
         self._whole = Event()
 
     def came(self, byte: int) -> None:
-        """Collect a reply."""
+        """Collect a reply; DE must be on."""
+        same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
         if len(self.bytes) == 8:
             self._whole.set()
@@ -53,8 +56,8 @@ class Board:
         for name, level in INPUTS.items():
             getattr(dut, name).value = level
         Clock(dut.clk, 125, "ns").start()
-        self.usb = Host(dut.uart_rxd, dut.uart_txd)
-        self.rs485 = Host(dut.rs485_rxd, dut.rs485_txd)
+        self.usb = Host(dut.uart_rxd, dut.uart_txd, dut.rs485_de)
+        self.rs485 = Host(dut.rs485_rxd, dut.rs485_txd, dut.rs485_de)
 
     def lamp(self, which: int) -> int:
         """A lamp, 1 = on."""
@@ -113,7 +116,7 @@ async def board006_motion_and_lamps(dut: Any) -> None:
         getattr(dut, name).value = 1
         await Timer(10, "us")
     same("lamp", board.lamp(MOVING), 0)
-    same("step", await usb.ask("s", 5), MOVES)
+    same("step", await usb.ask("s", 5), ACCEPTED)
     same("lamp", board.lamp(MOVING), 1)
     while board.lamp(MOVING):
         await with_timeout(FallingEdge(dut.mon_step), 10, "ms")
@@ -136,7 +139,7 @@ async def board006_converter(dut: Any) -> None:
         same(code, await usb.ask(code, data), data)
     await board.strobe("adc_stb", 512)
     await board.strobe("bemf_stb", 1000)
-    same("step", await usb.ask("s", 1000), MOVES)
+    same("step", await usb.ask("s", 1000), ACCEPTED)
     times = []
     for _ in range(4):
         await with_timeout(RisingEdge(dut.mon_step), 10, "ms")

@@ -3,14 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import cache
 
 import pytest
 
-from .collect import Item
+from .collect import Item, cocotb_items
+from .config import Config
+from .part import PARTS
 from .runner import REPRO, SimOptions, run_item
 from .seeds import SEEDS
 
 BATCH = 25
+
+
+@cache
+def _items(part: str, module: str) -> dict[str, Item]:
+    params = cocotb_items(f"cocotb_tests.{part}", module, part=PARTS[part])
+    return {param.values[0].test: param.values[0] for param in params}
+
+
+def seed_item(part: str, module: str, test: str, seed: int, config: Config) -> Item:
+    """A test of a part's random hosts in the build of a seed."""
+    return replace(_items(part, module)[test], config=config, seed=seed, tag=f"r{seed:04d}")
 
 
 def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:

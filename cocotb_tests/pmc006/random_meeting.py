@@ -6,7 +6,7 @@ from math import ceil, gcd
 
 from .random_frames import DATA
 from .random_motion import Motions
-from .script_meetings import ACT
+from .script_host import ACT
 
 LIMIT_US = 6_000
 """So long a motion is watched for something to meet."""
@@ -22,9 +22,7 @@ Course = tuple[tuple[str, int], ...]
 
 
 class Meetings(Motions):
-    """Two things at a time. `_frame_clk` is the time from the begin of a frame to its end."""
-
-    _frame_clk = 0
+    """Two things at a time."""
 
     def meeting(self) -> None:
         """A short motion, then the same where something comes about an edge that the first has shown."""
@@ -38,7 +36,7 @@ class Meetings(Motions):
         host.forget()
         begin, e = self._start(course)
         # Behind the reply a whole frame must have room.
-        least = e + ceil(82 * host.bit) + self._frame_clk + 2 * NEAR
+        least = e + ceil(82 * host.bit) + e - host.said + 2 * NEAR
         while host.busy and host.t < e + host.us(LIMIT_US):
             host.step()
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
@@ -54,10 +52,11 @@ class Meetings(Motions):
     def _meet(self, course: Course, after: int) -> None:
         """The motion again, and what comes so many clk after the end of its last frame, more or less."""
         rng, host = self.rng, self.host
-        at = self._start(course)[1] + after + rng.randint(-NEAR, NEAR)
+        _, e = self._start(course)
+        at = e + after + rng.randint(-NEAR, NEAR)
         if rng.random() < 0.3:
             self._pins(at - 2 + rng.randint(-NEAR, NEAR))
-        host.go(max(host.t, at - ACT - self._frame_clk))
+        host.go(max(host.t, at - ACT - (e - host.said)))
         code = rng.choice("ssssNNNvvIgdicjmufbp")
         host.say(code, 8 if code == "s" else rng.choice(DATA.get(code, (1, 1, 0))))
         self.await_reply()
@@ -74,10 +73,9 @@ class Meetings(Motions):
         for place, (code, data) in enumerate(course):
             host.go(begin + place * ceil(175 * host.bit))
             host.say(code, data)
-            self._frame_clk = host.e - host.said
             host.go(max(host.t, host.e + ceil(host.bit) + 9))
             host.forget()
-        return begin, host.said + self._frame_clk
+        return begin, host.e
 
     def _pins(self, t: int) -> None:
         """What comes from the machine at edge t."""

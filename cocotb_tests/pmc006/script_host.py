@@ -26,6 +26,8 @@ SYNC = 2
 STARTS = tuple(b"szN")
 NEAR = 8
 """Tolerance of chapter 2.4 in clk."""
+ACT = 4
+"""clk from e to the effect of a frame that finds nobody at work."""
 EXECUTE = 64
 """clk from the end of a frame to the effect."""
 START = 1024

@@ -8,12 +8,10 @@ from cocotb_tests.common.verifies import verifies
 
 from .frames import command
 from .scenes import DECAY, EXT1, Op, after_steps, brisk, download, goto, load, out, quick, run, start
-from .script_host import EXECUTE, Host006
+from .script_host import ACT, EXECUTE, Host006
 
 NEAR = range(-3, 4)
 """Distances in clk."""
-ACT = 4
-"""clk from e to the effect of a frame that finds nobody at work; the sweeps go over both sides of it."""
 TICKS = 1001
 """µs ticks of a filter."""
 HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D

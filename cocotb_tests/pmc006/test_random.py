@@ -7,24 +7,21 @@ plays as many others as you like.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.part import PMC006
+from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.common.collect import Item
 from cocotb_tests.common.runner import SimOptions
 
 from .random_host import BUILDS, plan, play
 
 SEEDS = range(1, 151)
-BASE = cocotb_items("cocotb_tests.pmc006", "tb_random", part=PMC006)[0].values[0]
 
 
 def random_item(seed: int) -> Item:
     """The random host of one seed; the seed decides the build configuration, too."""
-    return replace(BASE, config=plan(seed), seed=seed, tag=f"r{seed:04d}")
+    return seed_item("pmc006", "tb_random", "p006_random_host", seed, plan(seed))
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

@@ -5,13 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.config import D16, F11, F16, F100, Config
+from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.common.collect import Item
+from cocotb_tests.common.config import D16, F11, F16, F100
 from cocotb_tests.common.runner import SimOptions
 from cocotb_tests.ppmc104.random_host import scenario
 
@@ -19,23 +17,14 @@ SEEDS = range(1, 221)
 CHAOS_SEEDS = range(1, 41)
 
 
-def _item(test: str, seed: int, config: Config) -> Item:
-    base = next(
-        param.values[0]
-        for param in cocotb_items("cocotb_tests.ppmc104", "tb_random")
-        if param.values[0].test == test
-    )
-    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
-
-
 def random_item(seed: int) -> Item:
     """The random host of one seed; the seed decides the build configuration, too."""
-    return _item("random_host", seed, scenario(seed).config)
+    return seed_item("ppmc104", "tb_random", "random_host", seed, scenario(seed).config)
 
 
 def chaos_item(seed: int) -> Item:
     """The noise run of one seed."""
-    return _item("random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
+    return seed_item("ppmc104", "tb_random", "random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

@@ -5,14 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.config import D16, F11, F16, F100, Config
-from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.common.collect import Item
+from cocotb_tests.common.config import D16, F11, F16, F100
 from cocotb_tests.common.runner import SimOptions
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_pairs import pair
@@ -22,28 +19,21 @@ PAIR_SEEDS = range(1, 13)
 CHAOS_SEEDS = range(1, 25)
 
 
-def _item(module: str, test: str, seed: int, config: Config) -> Item:
-    base = next(
-        param.values[0]
-        for param in cocotb_items("cocotb_tests.ppmc2104", module, part=PPMC2104)
-        if param.values[0].test == test
-    )
-    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
-
-
 def random_item(seed: int) -> Item:
     """The random host of one seed; the seed decides the build configuration, too."""
-    return _item("tb_random", "p2104_random_host", seed, scenario(seed).config)
+    return seed_item("ppmc2104", "tb_random", "p2104_random_host", seed, scenario(seed).config)
 
 
 def pair_item(seed: int) -> Item:
     """Axis 2 alone and beside a working axis 1."""
-    return _item("tb_independent", "p2104_axis_2_alone_and_beside_axis_1", seed, pair(seed).config)
+    test = "p2104_axis_2_alone_and_beside_axis_1"
+    return seed_item("ppmc2104", "tb_independent", test, seed, pair(seed).config)
 
 
 def chaos_item(seed: int) -> Item:
     """The noise run of one seed."""
-    return _item("tb_chaos", "p2104_random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
+    config = (F16, F16, F11, F100, F16, D16)[seed % 6]
+    return seed_item("ppmc2104", "tb_chaos", "p2104_random_chaos", seed, config)
 
 
 _KINDS = {

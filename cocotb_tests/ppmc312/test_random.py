@@ -6,14 +6,11 @@ plays as many others as you like.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.config import D16, F16, F50, Config
-from cocotb_tests.common.part import PPMC312
+from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.common.collect import Item
+from cocotb_tests.common.config import D16, F16, F50
 from cocotb_tests.common.runner import SimOptions
 
 from . import random_serial
@@ -27,28 +24,20 @@ SERIAL_SEEDS = range(1, 41)
 BATCH = 14
 
 
-def _item(test: str, seed: int, config: Config) -> Item:
-    base = next(
-        param.values[0]
-        for param in cocotb_items("cocotb_tests.ppmc312", "tb_random", part=PPMC312)
-        if param.values[0].test == test
-    )
-    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
-
-
 def random_item(seed: int) -> Item:
     """The random host of one seed; the seed decides the build configuration, too."""
-    return _item("p312_random_host", seed, plan(seed))
+    return seed_item("ppmc312", "tb_random", "p312_random_host", seed, plan(seed))
 
 
 def noise_item(seed: int) -> Item:
     """The noise run of one seed."""
-    return _item("p312_random_noise", seed, (F16, F16, F50, ODD, F16, D16)[seed % 6])
+    config = (F16, F16, F50, ODD, F16, D16)[seed % 6]
+    return seed_item("ppmc312", "tb_random", "p312_random_noise", seed, config)
 
 
 def serial_item(seed: int) -> Item:
     """The random host on the line of one seed; the seed decides the build configuration, too."""
-    return _item("p312_random_serial", seed, random_serial.plan(seed))
+    return seed_item("ppmc312", "tb_random", "p312_random_serial", seed, random_serial.plan(seed))
 
 
 KINDS = {

@@ -5,14 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.config import D16, F16, Config
-from cocotb_tests.common.part import STMC
+from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.common.collect import Item
+from cocotb_tests.common.config import D16, F16
 from cocotb_tests.common.runner import SimOptions
 
 from .figures import F12, ODD
@@ -22,23 +19,14 @@ SEEDS = range(1, 151)
 CHAOS_SEEDS = range(1, 17)
 
 
-def _item(test: str, seed: int, config: Config) -> Item:
-    base = next(
-        param.values[0]
-        for param in cocotb_items("cocotb_tests.stmc", "tb_random", part=STMC)
-        if param.values[0].test == test
-    )
-    return replace(base, config=config, seed=seed, tag=f"r{seed:04d}")
-
-
 def random_item(seed: int) -> Item:
     """The random host of one seed; the seed decides the build configuration, too."""
-    return _item("stmc_random_host", seed, scenario(seed).config)
+    return seed_item("stmc", "tb_random", "stmc_random_host", seed, scenario(seed).config)
 
 
 def chaos_item(seed: int) -> Item:
     """The noise run of one seed."""
-    return _item("stmc_random_chaos", seed, (F16, F16, F12, ODD, F16, D16)[seed % 6])
+    return seed_item("stmc", "tb_random", "stmc_random_chaos", seed, (F16, F16, F12, ODD, F16, D16)[seed % 6])
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
