@@ -132,9 +132,7 @@ class Guard:
             assert axis.motion is not None
             axis.motion.wait(progress=look)
         try:
-            at = [str(axis.position) for axis in part.axes]
+            at = [f"{axis.who}position {axis.position}" for axis in part.axes]
         except PpmcError:
-            return f"interrupted: {how}"
-        if not at:
-            return f"interrupted: {how}"
-        return f"interrupted: {how}, position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
+            at = []
+        return ", ".join([f"interrupted: {how}", *at])

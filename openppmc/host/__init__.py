@@ -10,6 +10,7 @@
 `frames`, `script`, `session`, `units`, `ending`, `registers104` are pure; `transport` and `loopback` do I/O.
 """
 
+from .ascii312 import SumMode
 from .axis import CCW, CW, Axis
 from .axis006 import BACKWARD, FORWARD
 from .axis2104 import Axis2104
@@ -24,8 +25,10 @@ from .errors import (
     Disconnected,
     LimitReached,
     LinkError,
+    Misused,
     MotionError,
     NoAnswer,
+    NoSuchName,
     NothingToStop,
     NotInitialised,
     NotWhileBusy,
@@ -79,9 +82,11 @@ __all__ = [
     "LimitReached",
     "Link",
     "LinkError",
+    "Misused",
     "Motion",
     "MotionError",
     "NoAnswer",
+    "NoSuchName",
     "NotInitialised",
     "NotWhileBusy",
     "NothingToStop",
@@ -101,6 +106,7 @@ __all__ = [
     "StartRefused",
     "Station312",
     "Stmc",
+    "SumMode",
     "StoppedEarly",
     "Timeout",
     "TooFast",

@@ -12,6 +12,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import NamedTuple
 
+from .arguments import whole
 from .errors import OutOfRange
 from .faults import Fault
 
@@ -33,11 +34,19 @@ class SumMode(Enum):
     CHARS = "chars"
 
 
+def sum_mode_of(mode: SumMode) -> SumMode:
+    """The mode itself. OutOfRange for what is none: its name as a text, say."""
+    if not isinstance(mode, SumMode):
+        raise OutOfRange(f"sum_mode {mode!r}: there are {' and '.join(map(str, SumMode))}")
+    return mode
+
+
 def station_number(station: int) -> int:
     """The number itself if there can be such a station. OutOfRange."""
-    if station not in range(STATIONS):
-        raise OutOfRange(f"station {station}: a line has stations 0 to {STATIONS - 1}")
-    return station
+    number = whole(station, "station")
+    if number not in range(STATIONS):
+        raise OutOfRange(f"station {number}: a line has stations 0 to {STATIONS - 1}")
+    return number
 
 
 def checksum(control: int, data: bytes, mode: SumMode = SumMode.BINARY) -> int:
@@ -48,7 +57,7 @@ def checksum(control: int, data: bytes, mode: SumMode = SumMode.BINARY) -> int:
     >>> f"{checksum(0x91, bytes.fromhex('001011225566abcdef'), SumMode.CHARS):02X}"
     '4D'
     """
-    added = control + sum(data) if mode is SumMode.BINARY else sum(data.hex().encode())
+    added = control + sum(data) if sum_mode_of(mode) is SumMode.BINARY else sum(data.hex().encode())
     return ~added & 0x7F
 
 

@@ -15,6 +15,7 @@ from ..model.codes import (
     SINGLE_STEP,
 )
 from . import units
+from .arguments import side
 from .axis_core import AxisCore
 from .ending import Cause, End
 from .errors import AlreadyDecelerating, NothingToStop, OutOfRange
@@ -44,13 +45,8 @@ class Order:
     @property
     def code(self) -> int:
         """Command byte without an axis bit."""
-        if self.direction not in (CW, CCW):
-            raise OutOfRange(f"direction {self.direction!r} is neither 0 (CW) nor 1 (CCW)")
-        return (
-            (OPERATION_PULSES if self.pulse_only else OPERATION)
-            | self.direction << DIRECTION_BIT
-            | self.operation
-        )
+        group = OPERATION_PULSES if self.pulse_only else OPERATION
+        return group | side(self.direction) << DIRECTION_BIT | self.operation
 
     @property
     def ramped(self) -> bool:
@@ -160,14 +156,14 @@ class Axis(Moves, AxisCore):
 
     def move_order(self, pulses: int, pps: units.Number | None = None, pulse_only: bool = False) -> Order:
         """A move with ramps, or at a constant speed. OutOfRange for what the part cannot do."""
-        side = CCW if pulses < 0 else CW
+        direction = CCW if pulses < 0 else CW
         if not 1 <= abs(pulses) <= ENDLESS:
             raise OutOfRange(f"{pulses} pulses: a move has 1 to {ENDLESS} pulses either way")
         data = (abs(pulses) - 1).to_bytes(3, "little")
         if pps is None:
-            return Order(ACC_DEC, side, data, abs(pulses), pulse_only=pulse_only)
+            return Order(ACC_DEC, direction, data, abs(pulses), pulse_only=pulse_only)
         clock, rate = self._rate(pps)
-        return Order(CONSTANT, side, bytes([rate]) + data, abs(pulses), clock)
+        return Order(CONSTANT, direction, bytes([rate]) + data, abs(pulses), clock)
 
     def start(self, order: Order) -> Motion:
         """One frame: a pending interrupt away, straps, counter, the command."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from .arguments import whole, within
 from .codes006 import Code, Flags
 from .ending import Cause
 from .errors import CommandRefused, NoAnswer, NothingToStop, NotWhileBusy, OutOfRange, StartRefused
@@ -51,7 +52,7 @@ class Axis006(Settings006):
         """Run (speed mode) until a stop, EXT or a stall. direction: FORWARD or BACKWARD. speed: maximum from
         now on, in steps/s."""
         if direction not in (FORWARD, BACKWARD):
-            raise OutOfRange(f"direction {direction!r} is neither 1 (FORWARD) nor -1 (BACKWARD)")
+            raise OutOfRange(f"direction {direction} is neither 1 (FORWARD) nor -1 (BACKWARD)")
         return self._start(Code.RUN, 1, (_RUNNING,), direction, speed)
 
     def change_speed(self, speed: int) -> None:
@@ -107,8 +108,7 @@ class Axis006(Settings006):
 
     def set_position(self, position: int) -> None:
         """Here is this position, -2^31 to 2^31 - 1. Only at rest (NotWhileBusy)."""
-        if not -(1 << 31) <= position < 1 << 31:
-            raise OutOfRange(f"position {position} is outside -2147483648 to 2147483647")
+        within(position, "position", -(1 << 31), (1 << 31) - 1)
         self._at_rest(self.flags())
         self.ask(Code.SET_POSITION, position, good=lambda value: value == position)
 
@@ -211,6 +211,7 @@ def _side(steps: int) -> int:
 
 
 def _ext(number: int) -> int:
+    number = whole(number, "EXT")
     if number not in (1, 2):
         raise OutOfRange(f"EXT{number}: there are EXT1 and EXT2")
     return number

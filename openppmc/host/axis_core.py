@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from . import units
+from .arguments import Checked
 from .ending import End
 from .errors import NotWhileBusy, OutOfRange, ProtocolError
 from .kinds import COILS_OFF, Kind
@@ -16,7 +17,7 @@ from .script import Script
 EXCITATION_OFF = 0xC0
 
 
-class AxisCore:
+class AxisCore(Checked):
     """See `axis.Axis`. `setup`: the initialisation this object made, if any. number: of the axis; bit: what
     its command codes have set; busy: its bit in the status register.
     """

@@ -16,6 +16,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ..model.codes312 import Code
+from .arguments import side, whole, within
 from .errors import OutOfRange
 
 CW, CCW = 0, 1
@@ -65,9 +66,7 @@ def start_address(logical: bytes) -> int:
 def number(value: int, width: int, what: str, least: int = 0) -> bytes:
     """Big-endian bytes of an unsigned number. OutOfRange."""
     most = (1 << 8 * width) - 1
-    if not least <= value <= most:
-        raise OutOfRange(f"{what} {value} is outside {least} to {most}")
-    return value.to_bytes(width, "big")
+    return within(value, what, least, most).to_bytes(width, "big")
 
 
 def position_bytes(position: int) -> bytes:
@@ -76,15 +75,14 @@ def position_bytes(position: int) -> bytes:
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'
     """
+    position = whole(position, "position")
     if not -POSITIONS // 2 <= position < POSITIONS:
         raise OutOfRange(f"position {position} is outside {-POSITIONS // 2} to {POSITIONS // 2 - 1} pulses")
     return (position % POSITIONS).to_bytes(4, "big")
 
 
 def _side(direction: int) -> int:
-    if direction not in (CW, CCW):
-        raise OutOfRange(f"direction {direction!r} is neither 0 (CW) nor 1 (CCW)")
-    return direction * _DIRECTION
+    return side(direction) * _DIRECTION
 
 
 # ---------------------------------------------------------------------- settings
@@ -185,9 +183,7 @@ def input_mask(mask: int, auto: bool = True) -> bytes:
 
 def outputs(value: int) -> bytes:
     """26: six outputs, a 1 makes the pin low."""
-    if not 0 <= value <= 0x3F:
-        raise OutOfRange(f"outputs {value} is outside 0 to 63")
-    return block(Code.OUTPUT, bytes([value]))
+    return block(Code.OUTPUT, bytes([within(value, "outputs", 0, 63)]))
 
 
 def read_position(encoder: bool = False) -> bytes:
@@ -321,6 +317,7 @@ def event_read(buffer: int) -> bytes:
 
 def buffer_number(buffer: int) -> int:
     """Event 1 or 2 as the part counts them, 0 or 1. OutOfRange."""
+    buffer = whole(buffer, "event")
     if buffer not in (1, 2):
-        raise OutOfRange(f"event {buffer!r}: there are events 1 and 2")
+        raise OutOfRange(f"event {buffer}: there are events 1 and 2")
     return buffer - 1

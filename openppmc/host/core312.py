@@ -9,6 +9,7 @@ from typing import Protocol
 from ..model.codes312 import Code
 from . import blocks312
 from .answers312 import BadResponse, Executed, Report, Response, Stopped, signed
+from .arguments import Checked
 from .ending import End
 from .errors import ProtocolError
 from .kinds import Kind
@@ -41,7 +42,7 @@ class Instructions(Protocol):
         """Read what waits."""
 
 
-class Core312:
+class Core312(Checked):
     """See `ppmc312.Ppmc312`.
 
     setup: the table that this object made, if any. reports: what the part said by itself and nobody took yet,

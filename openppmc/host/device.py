@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import TracebackType
 from typing import TypeVar
 
+from .arguments import Checked
 from .axis import Axis
 from .errors import Disconnected, PpmcError
 from .kinds import Kind
@@ -14,7 +15,7 @@ from .transport import Port
 Self = TypeVar("Self", bound="Device")
 
 
-class Device:
+class Device(Checked):
     """A context manager: leaving the block by an exception decelerates motions that this object started;
     leaving it normally lets them go on. Both close the port."""
 

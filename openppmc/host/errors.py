@@ -19,6 +19,14 @@ class OutOfRange(PpmcError, ValueError):
     """An argument outside its range; the message gives range and unit."""
 
 
+class NoSuchName(PpmcError, AttributeError):
+    """A name was set that the object does not have: a mistyped setting, most likely."""
+
+
+class Misused(PpmcError, TypeError, AttributeError):
+    """A method without its parentheses was used as a value."""
+
+
 class Timeout(PpmcError, TimeoutError):
     """A wait with a time limit given by the caller ran out."""
 

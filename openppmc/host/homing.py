@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from .arguments import side, within
 from .ending import Cause, End
-from .errors import OriginNotFound, OutOfRange
+from .errors import OriginNotFound
 from .motion import Progress
 
 if TYPE_CHECKING:
@@ -28,10 +29,9 @@ class Homing:
         back_off: int,
         progress: Callable[[Progress], None] | None,
     ) -> None:
-        if not 1 <= back_off <= LONGEST_BACK_OFF:
-            raise OutOfRange(f"back_off {back_off} is outside 1 to {LONGEST_BACK_OFF} pulses")
+        within(back_off, "back_off", 1, LONGEST_BACK_OFF, "pulses")
         self._axis = axis
-        self._towards = direction
+        self._towards = side(direction)
         self._pps = search_pps
         self._back_off = back_off
         self._progress = progress

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from .arguments import within
 from .errors import OriginNotFound, OutOfRange
 from .motion import Progress
 
@@ -31,10 +32,8 @@ class Homing006:
         progress: Callable[[Progress], None] | None,
     ) -> None:
         for name, pps in (("speed", speed), ("slow", slow)):
-            if not SLOWEST <= pps <= FASTEST:
-                raise OutOfRange(f"{name} {pps} is outside {SLOWEST} to {FASTEST} steps/s")
-        if not 1 <= off <= LONGEST_WAY_OFF:
-            raise OutOfRange(f"off {off} is outside 1 to {LONGEST_WAY_OFF} steps")
+            within(pps, name, SLOWEST, FASTEST, "steps/s")
+        within(off, "off", 1, LONGEST_WAY_OFF, "steps")
         if switch not in (1, 2):
             raise OutOfRange(f"EXT{switch}: there are EXT1 and EXT2")
         self._axis, self._switch, self._direction = axis, switch, direction

@@ -220,7 +220,7 @@ class KindStmc(Kind):
         if base_clock is None:
             return board if board.slowest <= units.exact(start_pps, "start speed") else internal
         for clock in (internal, board):
-            if clock.hertz == units.exact(base_clock, "base clock", "Hz"):
+            if clock.hertz == units.exact(base_clock, "base clock"):
                 return clock
         raise OutOfRange(
             f"base clock {units.nearby(base_clock)} Hz: this board has {units.nearby(internal.hertz)} and "

@@ -14,6 +14,7 @@ from .ascii312 import (
     SumMode,
     frame,
     station_number,
+    sum_mode_of,
 )
 from .errors import OutOfRange, PortError
 from .errors_line import LineEcho
@@ -50,13 +51,14 @@ class Line(Master[Reply]):
             raise PortError(
                 f"{speed} bit/s is no speed of a line: there are {', '.join(map(str, SPEEDS))} (pins MOD)"
             )
+        known = sum_mode_of(sum_mode)
         self.check_patience(patience)
         if not 1_000_000 <= xtal_hz <= XTAL_HZ:
             raise OutOfRange(f"crystal {xtal_hz} Hz is outside 1000000 to {XTAL_HZ} Hz")
         baud = round(speed * xtal_hz / XTAL_HZ)
         port = open_line(spec, baud, "ppmc312-serial", rs485) if isinstance(spec, str) else spec
         super().__init__(port, baud, echo, patience)
-        self.sum_mode = sum_mode
+        self.sum_mode = known
         # Nobody says on the line what timing the stations have: time limits are those of the slower one.
         self.identity = Identity(1, 312, True, True, 0, xtal_hz, xtal_hz, STATIONS)
         self.counters = {number: Counters() for number in range(STATIONS)}

@@ -35,9 +35,11 @@ class LineBus(Device):
 
     def axis(self, station: int) -> Any:
         """The station with this number, whether it is there or not; always the same object."""
-        if station not in self._stations:
-            self._stations[station] = self.make(station)
-        return self._stations[station]
+        made = self._stations.get(station)
+        if made is None:
+            made = self.make(station)
+            self._stations[made.number] = made
+        return made
 
     @property
     def axes(self) -> tuple[Any, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, Protocol, TypeVar
 
+from .arguments import exact
 from .errors import Disconnected, OutOfRange
 from .errors_line import LineEcho
 from .faults import Counters, Fault, Miss
@@ -43,7 +44,7 @@ class Master(Generic[Answer]):
     @staticmethod
     def check_patience(patience: float) -> None:
         """OutOfRange for one that makes no sense."""
-        if not 0 < patience <= 60:
+        if not 0 < exact(patience, "patience") <= 60:
             raise OutOfRange(f"patience {patience:g} s is outside 0 to 60 s")
 
     @property

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..model.codes import ENDLESS
+from .arguments import Checked
 from .ending import End, decode_end
 from .errors import NotWhileBusy, Timeout
 from .script import Script
@@ -30,7 +31,7 @@ class Progress:
     seconds: float
 
 
-class Motion:
+class Motion(Checked):
     """Handle of an operation that was started; `end` is its End once it is known.
 
     asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. ramped: it has ramps. `begin`: pulse

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from .arguments import Checked
 from .codes006 import Code, Flags
 from .ending import Cause, End
 from .errors import AlarmStop, LimitReached, MotionError, StoppedEarly
@@ -42,7 +43,7 @@ class End006(End):
         return StoppedEarly, "start again with the steps that are left"
 
 
-class Motion006:
+class Motion006(Checked):
     """Handle of a motion that was started; `end` is its End once it is known.
 
     asked: steps, None for free runs. direction: 1 forward, -1 backward. begin: position before. stop_ordered:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..model.codes312 import Cause as Bit
 from .answers312 import Stopped, signed
+from .arguments import Checked
 from .ending import Cause, End
 from .errors import ProtocolError, Timeout
 from .motion import PROGRESS_POLL, SAFETY_POLL, Progress
@@ -27,7 +28,7 @@ _CAUSES = {
 SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
 
 
-class Motion312:
+class Motion312(Checked):
     """Handle of an operation that was started; `end` is its End once it is known.
 
     asked: pulses, None for endless ones. direction: 0 CW, 1 CCW. begin: position before, None if another

@@ -6,13 +6,14 @@ from collections.abc import Callable
 from typing import Any
 
 from . import units
+from .arguments import Checked
 from .ending import End
 from .motion import Progress
 
 OnProgress = Callable[[Progress], None]
 
 
-class Moves:
+class Moves(Checked):
     """For an axis that has these; `nothing_to_move` gives the End of a move of 0 pulses."""
 
     position: int

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from serial.rs485 import RS485Settings
 
+from .arguments import within
 from .axis006 import BACKWARD
 from .codes006 import Code
 from .device import Device
@@ -105,8 +106,7 @@ class Pmc006(Memory006, Device):
 
     @outputs.setter
     def outputs(self, levels: int) -> None:
-        if levels not in range(1 << OUTPUTS):
-            raise OutOfRange(f"outputs {levels}: there are 0 to {(1 << OUTPUTS) - 1}")
+        levels = within(levels, "outputs", 0, (1 << OUTPUTS) - 1)
         self.ask(Code.WRITE_IO, levels << 3, good=lambda value: value == levels << 3)
 
     def set_output(self, number: int, on: bool) -> None:
@@ -132,8 +132,7 @@ class Pmc006(Memory006, Device):
     def set_address(self, address: int) -> None:
         """Give it another address, 1 to 120, at once; `save` keeps it. Raises DuplicateAddress if somebody
         has that already."""
-        if address not in range(1, LAST + 1):
-            raise OutOfRange(f"address {address} is outside 1 to {LAST}")
+        within(address, "address", 1, LAST)
         if address == self.address:
             return
         if Pmc006(self.line, address).is_there():

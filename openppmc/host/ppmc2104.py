@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from ..model.codes2104 import CMND
 from . import units
+from .arguments import whole, within
 from .axis import Axis
 from .axis2104 import Axis2104
 from .device import Device
@@ -14,7 +15,6 @@ from .errors import (
     BY_NUMBER_2104,
     AlreadyDecelerating,
     CommandRefused,
-    OutOfRange,
     PpmcError,
     ProtocolError,
     refused2104,
@@ -33,6 +33,13 @@ CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
 """Bits of the straps: per axis csel and run; whose pins PINS shows."""
 
 
+class Axes(dict[int, Axis2104]):
+    """Axes by number."""
+
+    def __missing__(self, number: object) -> Axis2104:
+        return self[PPMC2104.check_axis(whole(number, "axis"))]
+
+
 class Ppmc2104(Device):
     """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `device.Device`.
 
@@ -46,7 +53,7 @@ class Ppmc2104(Device):
         self.link = link
         link.refusal = self._refusal
         self.x, self.y = Axis2104(self, 1), Axis2104(self, 2)
-        self.axis: Mapping[int, Axis2104] = {1: self.x, 2: self.y}
+        self.axis: Mapping[int, Axis2104] = Axes({1: self.x, 2: self.y})
         self._levels = ALL_HIGH
         self._clear_errors()
         busy = self.status().busy
@@ -202,9 +209,7 @@ class Ppmc2104(Device):
 
     def auxo(self, value: int) -> None:
         """The two auxiliary outputs, 0 to 3; a 1 makes a pin low. Allowed at any time."""
-        if not 0 <= value <= 3:
-            raise OutOfRange(f"auxiliary outputs {value} are outside 0 to 3")
-        self.link.execute(Script().call(AUX_OUTPUT | value << 4))
+        self.link.execute(Script().call(AUX_OUTPUT | within(value, "outputs", 0, 3) << 4))
 
     def auxi(self) -> int:
         """The two auxiliary inputs, pin levels; allowed at any time."""

@@ -6,7 +6,7 @@ A speed is base clock / rate with 16-bit rates; a table has 127 of them, or up t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, pairwise
@@ -54,7 +54,7 @@ def choose_clock(
     """The base clock of a table; frequencies in Hz, None to take the fastest one that reaches the slowest
     speed: its speeds lie closest together. external_clock: at the pin extck, up to 2 MHz. OutOfRange."""
     if external_clock is not None:
-        if not 0 < units.exact(external_clock, "external clock", "Hz") <= MOST_HZ:
+        if not 0 < units.exact(external_clock, "external clock") <= MOST_HZ:
             raise OutOfRange(f"external clock {units.nearby(external_clock)} Hz is outside 0 to {MOST_HZ} Hz")
         return _clock(1 / Fraction(external_clock), RISING, external=True)
     clocks = base_clocks(xtal_hz)
@@ -62,7 +62,7 @@ def choose_clock(
         slowest = units.exact(slowest_pps, "start speed")
         return next((clock for clock in clocks if clock.slowest <= slowest), clocks[-1])
     for clock in clocks:
-        if clock.hertz == units.exact(base_clock, "base clock", "Hz"):
+        if clock.hertz == units.exact(base_clock, "base clock"):
             return clock
     there = ", ".join(units.nearby(clock.hertz) for clock in clocks)
     raise OutOfRange(f"base clock {units.nearby(base_clock)} Hz: this part has {there} Hz")
@@ -72,12 +72,17 @@ def choose_clock(
 class Setup312:
     """A table and its instruction blocks. start, stop, high: its end speeds as asked for and as reached."""
 
-    clock: units.BaseClock
+    clock: units.BaseClock = field(repr=False)
     start: units.Speed
     stop: units.Speed
     high: units.Speed
-    table: Table
+    table: Table = field(repr=False)
     shape: str
+
+    def __str__(self) -> str:
+        stop = f", stop {self.stop}, down {self.table.nd} pulses" if self.table.separate else ""
+        ramp = f"{self.shape}{'' if self.shape == 'free curve' else ' ramp'} {self.ramp_pulses} pulses"
+        return f"start {self.start}, high {self.high}, {ramp}{stop}, {self.clock}"
 
     @cached_property
     def blocks(self) -> list[bytes]:

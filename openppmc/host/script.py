@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
+from .arguments import within
 from .frames import CRC_BYTES, REQUEST_LIMIT
 
 LONGEST_SCRIPT = REQUEST_LIMIT - CRC_BYTES - 1
@@ -39,9 +40,7 @@ class Op:
 
 
 def _within(name: str, value: int, low: int, high: int) -> int:
-    if not low <= value <= high:
-        raise ValueError(f"{name} {value} is outside {low} to {high}")
-    return value
+    return within(value, name, low, high)
 
 
 class Script:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container
 from dataclasses import dataclass
 
+from .arguments import whole
 from .codes006 import STATUS_1_BITS, STATUS_2_BITS, Code
 from .errors import OutOfRange
 from .errors006 import SettingRefused
@@ -70,9 +71,10 @@ class Setting:
         return self.known(got >> self.shift & (1 << self.bits) - 1)
 
     def __set__(self, node: Talk006, value: int) -> None:
-        if isinstance(value, bool):
+        if isinstance(value, bool) and self.accepts == range(2):
             value = int(value)
-        if not isinstance(value, int) or value not in self.accepts:
+        value = whole(value, self.name)
+        if value not in self.accepts:
             unit = self.unit and f" {self.unit}"
             raise OutOfRange(f"{self.name} {value}: there are {self.span}{unit}")
         data = self.data(value)

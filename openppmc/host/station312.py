@@ -149,7 +149,6 @@ class Station312(Axis312):
             self.window.collect()
             self.link.pause(min(left, POLL_EVERY))
 
-    @property
     def busy_now(self) -> bool:
         """A motion is under way, or held; polls the station."""
         self.window.collect()
@@ -181,7 +180,9 @@ class Station312(Axis312):
                 return
         raise StationSilent(f"{self.who}no reset in {ATTEMPTS} attempts: check the cable")
 
-    software_reset = reset
+    def software_reset(self) -> None:
+        """The same as `reset`: there is no other way on a line."""
+        self.reset()
 
     def forget(self) -> None:
         super().forget()

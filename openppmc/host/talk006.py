@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from .arguments import Checked
 from .codes006 import PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
 from .errors_line import LostReply, unanswered
 from .faults import Counters, Fault, Miss
@@ -16,7 +17,7 @@ _CHECK = "is it there and powered, are address, baud rate and wires right?"
 _OTHERS = "noise, another baud rate, or two controllers with this address"
 
 
-class Talk006:
+class Talk006(Checked):
     """See `pmc006.Pmc006`. address: 1 to 120, or 255. alone: the only controller that this program uses, so
     that messages need not name it."""
 

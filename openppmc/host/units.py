@@ -7,16 +7,14 @@ divisors up to 255, so a speed that was asked for is rounded to the nearest inte
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from math import isfinite
-from typing import TypeAlias
 
 from ..model.codes import ENDLESS, PA_MAX, PA_MIN
 from ..model.ramp import Ramp
+from .arguments import Number, exact
 from .errors import OutOfRange
 
-Number: TypeAlias = int | float | Fraction
 SLOWEST_RATE = 255
 LONGEST_MOVE = ENDLESS
 QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
@@ -27,13 +25,6 @@ LEAST_DIVISOR = 5
 def nearby(speed: Fraction | float | int) -> str:
     """A speed for messages: six digits at most, no needless zeros."""
     return f"{float(speed):.6g}"
-
-
-def exact(value: Number, what: str, unit: str = "pps") -> Fraction:
-    """The number as a fraction. OutOfRange for infinities and what is not a number."""
-    if isinstance(value, float) and not isfinite(value):
-        raise OutOfRange(f"{what} {value} {unit} is not a number that can be used")
-    return Fraction(value)
 
 
 @dataclass(frozen=True)
@@ -55,6 +46,9 @@ class BaseClock:
     beyond: int = 1
     slowest_rate: int = SLOWEST_RATE
     clk: int = 0
+
+    def __str__(self) -> str:
+        return f"base clock {nearby(self.hertz)} Hz"
 
     @classmethod
     def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1, least_rate: int = 0) -> BaseClock:
@@ -133,7 +127,7 @@ class BaseClock:
 
 def _pin_period(hertz: Number) -> Fraction:
     """Period of a clock that comes from outside in s. OutOfRange."""
-    if not 0 < exact(hertz, "external clock", "Hz") <= 1_000_000:
+    if not 0 < exact(hertz, "external clock") <= 1_000_000:
         raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")
     return 1 / Fraction(hertz)
 
@@ -145,7 +139,7 @@ class Speed:
     asked: Fraction
     rate: int
     reached: Fraction
-    clock: BaseClock
+    clock: BaseClock = field(repr=False)
 
     @property
     def error(self) -> float:
@@ -164,6 +158,9 @@ class Setup:
     high: Speed
     ramp_pulses: int
     code: int
+
+    def __str__(self) -> str:
+        return f"start {self.start}, high {self.high}, ramp {self.ramp_pulses} pulses, {self.clock}"
 
     @property
     def clock(self) -> BaseClock:
@@ -217,7 +214,7 @@ def choose_clock(
     if base_clock is None:
         return fast if fast.slowest <= exact(start_pps, "start speed") else slow
     for clock in (fast, slow):
-        if clock.hertz == exact(base_clock, "base clock", "Hz"):
+        if clock.hertz == exact(base_clock, "base clock"):
             return clock
     raise OutOfRange(
         f"base clock {nearby(base_clock)} Hz: this part has {nearby(fast.hertz)} and {nearby(slow.hertz)} Hz"
@@ -261,7 +258,7 @@ def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tupl
     offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
     unit = 12 * quantum
     low, high = offset, offset + 255 * unit
-    asked = exact(microseconds, f"{phase} time", "us")
+    asked = exact(microseconds, f"{phase} time")
     if not low <= asked <= high:
         raise OutOfRange(
             f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
@@ -274,7 +271,7 @@ def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, F
     """Parameter byte of the PPMC-2104's chopper nearest to a time, and the time it makes in us
     (P2104-AUX-04): 0.5 us a unit at 16 MHz, 64 to 255 units. Raises OutOfRange with the possible range."""
     unit = Fraction(8_000_000, xtal_hz)
-    asked = exact(microseconds, f"{phase} time", "us")
+    asked = exact(microseconds, f"{phase} time")
     low, high = 64 * unit, 255 * unit
     if not low <= asked <= high:
         raise OutOfRange(
@@ -288,7 +285,7 @@ def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
     """Parameter byte of the PPMC-2104's hold delay nearest to a time, and the time it makes in us
     (P2104-AUX-05): 128 to 32 768 us at 16 MHz. Raises OutOfRange with the possible range."""
     unit = Fraction(2048_000_000, xtal_hz)
-    asked = exact(microseconds, "hold delay", "us")
+    asked = exact(microseconds, "hold delay")
     if not unit <= asked <= 256 * unit:
         raise OutOfRange(
             f"hold delay {nearby(microseconds)} us is outside {nearby(unit)} to {nearby(256 * unit)} us"

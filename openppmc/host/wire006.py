@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from .arguments import whole
 from .errors import OutOfRange
 from .faults import Fault
 
@@ -29,9 +30,10 @@ class Reply(NamedTuple):
 
 def address_number(address: int) -> int:
     """The address itself if a controller can have it. OutOfRange."""
-    if address not in ADDRESSES:
-        raise OutOfRange(f"address {address}: controllers have 1 to {LAST}, factory-new ones {FACTORY}")
-    return address
+    number = whole(address, "address")
+    if number not in ADDRESSES:
+        raise OutOfRange(f"address {number}: controllers have 1 to {LAST}, factory-new ones {FACTORY}")
+    return number
 
 
 def command(address: int, code: int, data: int = 0) -> bytes:

@@ -266,4 +266,6 @@ def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, word
 
     monkeypatch.setattr(Motion006, "look", interrupt)
     outcome = run(*PART, *words, "--address", "1,2")
-    assert outcome.code == 130 and outcome.err.startswith("interrupted: stopped, positions ")
+    assert outcome.code == 130
+    at = r"controller 1: position -?\d+, controller 2: position -?\d+"
+    assert re.fullmatch(rf"interrupted: stopped, {at}\n", outcome.err)

@@ -188,7 +188,7 @@ def test_refusals_say_what_they_are() -> None:
             axis.step(CW)
         with pytest.raises(HeldByRun):
             axis.error_counts()
-        assert axis.busy_now and motion.end is None
+        assert axis.busy_now() and motion.end is None
         pins(bus, 0, run=1)
         assert motion.wait().complete and axis.poll() == [HoldExecuted()]
 
