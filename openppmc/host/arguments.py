@@ -43,6 +43,8 @@ def exact(value: Any, what: str) -> Fraction:
 
 def whole(value: Any, what: str) -> int:
     """An integer of any kind, also as a float without a fraction. OutOfRange, for text, bool, None, too."""
+    if type(value) is int:
+        return value
     try:
         number = exact(value, what)
     except OutOfRange:
@@ -143,12 +145,17 @@ class Entry:
 
 
 class Bound:
-    """A method of an object; it can be called, and nothing else."""
+    # A method of an object; it can be called, and nothing else. Help and names are those of the function.
 
     def __init__(self, entry: Entry, instance: object) -> None:
-        update_wrapper(self, entry)
         self._entry, self.__self__ = entry, instance
-        self.__signature__ = _without_self(entry)
+
+    __doc__ = property(lambda self: self._entry.__doc__)  # type: ignore[assignment]
+
+    @property
+    def __signature__(self) -> inspect.Signature:
+        first, *rest = inspect.signature(self._entry).parameters.values()
+        return inspect.Signature(rest)
 
     def __call__(self, *values: Any, **words: Any) -> Any:
         return self._entry(self.__self__, *values, **words)
@@ -157,7 +164,7 @@ class Bound:
         return self
 
     def _misused(self) -> Misused:
-        name = self._entry.__name__  # type: ignore[attr-defined]
+        name = self.__name__
         return Misused(f"'{name}' is a method: write {name}{inspect.signature(self)}")
 
     def __bool__(self) -> bool:
@@ -171,15 +178,12 @@ class Bound:
     __hash__ = None  # type: ignore[assignment]
 
     def __getattr__(self, name: str) -> Any:
-        raise AttributeError(name) if name.startswith("__") else self._misused()
+        if name.startswith("__"):
+            return getattr(self._entry, name)
+        raise self._misused()
 
     def __repr__(self) -> str:
-        return f"<method {self._entry.__qualname__}{inspect.signature(self)}>"  # type: ignore[attr-defined]
-
-
-def _without_self(entry: Entry) -> inspect.Signature:
-    first, *rest = inspect.signature(entry).parameters.values()
-    return inspect.Signature(rest)
+        return f"<method {self.__qualname__}{inspect.signature(self)}>"
 
 
 # ---------------------------------------------------------------------- classes
