@@ -95,7 +95,8 @@ def test_lengths_of_the_pulses() -> None:
         for fall in (1, times.blank + 3, times.fast - 6):
             on, fast = cycle(rise, fall)
             assert max(times.blank, rise + 2) <= on <= max(times.blank, rise + 2) + 2
-            assert max(times.blank, fall) <= fast <= max(times.blank, fall + 4)
+            assert min(max(times.blank, fall), times.fast) <= fast <= max(times.blank, fall + 4)
+            assert fast <= times.fast
     _, fast = cycle(3, times.fast + 5)
     assert fast == times.fast
 

@@ -253,6 +253,28 @@ def test_samples_off_constant_speed() -> None:
     host.ask("I")
 
 
+@verifies("P006-STL-04", "P006-STL-02", "P006-STL-01")
+def test_the_count_of_low_samples_begins_anew() -> None:
+    """With each start, though no sample came between; and with a sample at rest, low as it is."""
+    host = quick(2500)
+    host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
+    for between in ((), (1,)):
+        run(host)
+        cruise(host, 400)
+        samples(host, 1, 1)
+        assert host.ask("I") == 0
+        samples(host, *between)
+        run(host)
+        cruise(host, 400)
+        samples(host, 1, 1)
+        assert not host.status() & STALL
+        samples(host, 1)
+        assert host.status() & STALL and host.ask("I") == 0
+    stalled_at = host.ask("X")
+    run(host)
+    assert not host.status() & STALL and host.ask("I") == 0 and host.ask("X") == stalled_at
+
+
 @verifies("P006-STL-03", "P006-STL-04", "P006-STA-03", "P006-STA-10", "P006-CMD-37", "P006-IO-01")
 def test_what_a_stall_does() -> None:
     host = cruising(y=5, length=2)

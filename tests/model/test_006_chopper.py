@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from math import exp
 
 import pytest
 from bench006 import SETUP, Bench
@@ -205,6 +206,20 @@ def test_stream_has_as_many_ones_as_the_reference_says() -> None:
         t = until
     with pytest.raises(ValueError, match="has changed"):
         stream.level(t - 1)
+
+
+@pytest.mark.parametrize("tau", [64, 128, 256])
+@verifies("P006-EXC-40")
+def test_ripple_behind_a_low_pass(tau: int) -> None:
+    """Peak to peak at most 256 / tau codes, tau in clk: what the manual says about the filter."""
+    keep = exp(-1 / tau)
+    for ref in (1, 31, 85, 127, 128, 255):
+        stream, level, seen = Stream(0), float(ref), []
+        stream.change(1, ref)
+        for edge in range(2, 12 * tau + 512):
+            level = level * keep + 256 * stream.level(edge) * (1 - keep)
+            seen.append(level)
+        assert max(seen[-512:]) - min(seen[-512:]) < 256 / tau
 
 
 @verifies("P006-CHP-05", "P006-EXC-40", "P006-CHP-01")
