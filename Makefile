@@ -98,7 +98,7 @@ trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last 
 test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
 
-board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top, motor, switches; SIM='cw=20000,…'
+board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top (ppmc312-serial, pmc006: golden models), motor, switches; SIM='cw=20000,…'
 	@$(PY) -m openppmc.sim $(addprefix part=,$(GIVEN_PART)) $(if $(SIM),$(call quote,$(SIM)))
 
 test-board: $(ENVSIM) ## the host package on the virtual board, through pyserial, unplugging included

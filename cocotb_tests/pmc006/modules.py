@@ -16,9 +16,7 @@ ODD = Config(
     clk_hz=11_059_200,
     extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
 )
-LONG_BLANK = Config(
-    "blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 3_000), ("T_BLANK_NS", 2_000))
-)
+LONG_BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 3_000), ("T_BLANK_NS", 2_000)))
 """The blanking is longer than half the off time, and so the longest fast decay."""
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 

@@ -73,7 +73,12 @@ def _version(wanted: bool) -> None:
 def options(
     port: Annotated[
         str,
-        typer.Option("--port", "-p", envvar="OPENPPMC_PORT", help="/dev/ttyUSB0, COM3, sim:… or model:…"),
+        typer.Option(
+            "--port",
+            "-p",
+            envvar="OPENPPMC_PORT",
+            help="/dev/ttyUSB0, COM3, sim:… (the RTL; ppmc312-serial, pmc006: golden models) or model:…",
+        ),
     ] = "",
     baud: Annotated[
         int | None,

@@ -61,6 +61,7 @@ class Setting:
         object.__setattr__(self, "__doc__", f"{self.text}: {self.span}{self.unit and ' ' + self.unit}.")
 
     name = ""
+    hint = ""
 
     def __get__(self, node: Talk006 | None, owner: type) -> int:
         if node is None:
@@ -76,7 +77,7 @@ class Setting:
         value = whole(value, self.name)
         if value not in self.accepts:
             unit = self.unit and f" {self.unit}"
-            raise OutOfRange(f"{self.name} {value}: there are {self.span}{unit}")
+            raise OutOfRange(f"{self.name} {value}: there are {self.span}{unit}{self.hint}")
         data = self.data(value)
         got = node.ask(self.write, data, good=lambda reply: reply == data, sure=False)
         if got != data:
@@ -97,6 +98,8 @@ class Setting:
 
 class FullSteps(Setting):
     """Microstepping: the part calls full steps 0, people 1."""
+
+    hint = "; 1 is the full step"
 
     def data(self, value: int) -> int:
         return 0 if value == 1 else value

@@ -113,6 +113,14 @@ def test_what_is_out_of_range_is_not_sent(motor: tuple[Spoiled006, Pmc006], name
     assert port.frames == []
 
 
+def test_full_steps_are_called_1(motor: tuple[Spoiled006, Pmc006]) -> None:
+    _, part = motor
+    with pytest.raises(OutOfRange, match=r"^microsteps 0: there are 1, 2, 4, .*, 128; 1 is the full step$"):
+        part.microsteps = 0
+    part.microsteps = 1
+    assert part.microsteps == 1 and part.ask(codes006.Code.READ_MICROSTEPS) == 0
+
+
 def test_settings_explain_themselves() -> None:
     assert setting("Max-Speed").unit == "steps/s" and "1 to 16000 steps/s" in (
         SETTINGS["max_speed"].__doc__ or ""
