@@ -278,6 +278,35 @@ async def p104_lim_09_two_requests_on_one_edge(dut):
 
 
 @cocotb.test()
+@verifies("P104-LIM-09", "P104-END-04", "P104-STP-03")
+async def p104_lim_09_stop_command_and_hard_limit(dut):
+    """Given a stop command and L1 some clk apart in a ramped move, when both come on one edge,
+    then 0x40 sets its bit beside that of the limit, 0x41 comes too late for one.
+    """
+    lab = await Lab.start(dut, INIT_B)
+    kinds = {}
+    for code in (0x40, 0x41):
+        kinds[code] = []
+        for shift in range(-4, 14):
+            await lab.go(0x43, 200)
+            base = await lab.pulse(4) + 60
+            lab.bench.at(base + shift, l1_n=0)
+            await lab.bench.until(base - 2)
+            await lab.host.write(1, code)
+            await lab.bench.clocks(14)
+            await lab.idle()
+            lab.bench.set(l1_n=1)
+            kinds[code].append(await lab.finish())
+            await lab.host.write(1, 0x80)  # clears the error of a stop command at rest
+    both = [place for place, finish in enumerate(kinds[0x40]) if finish == 0xD3]
+    lab.check("P104-LIM-09", "0x40 and L1 meet on one edge", len(both), 1)
+    late = both[0]
+    lab.check("P104-LIM-09", "0x40", set(kinds[0x40][:late]) | set(kinds[0x40][late + 1 :]), {0x93, 0xC3})
+    lab.check("P104-LIM-09", "0x41 on that edge, or later", set(kinds[0x41][: late + 1]), {0x93})
+    lab.check("P104-LIM-09", "0x41 a clk before", set(kinds[0x41][late + 1 :]), {0xD3})
+
+
+@cocotb.test()
 @verifies("P104-LIM-10", "P104-RD-05")
 async def p104_lim_10_nothing_at_rest(dut):
     """Given a core at rest, when all inputs toggle,
