@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from . import units
-from .arguments import within
+from .errors import OutOfRange
 from .kinds import PPMC104
 from .one_axis import OneAxis
 from .registers104 import Inputs
@@ -40,7 +40,9 @@ class Ppmc104(OneAxis):
 
     def auxo(self, value: int) -> None:
         """The four auxiliary outputs, 0 to 15; a 1 makes a pin low."""
-        self.link.execute(Script().call(AUX_OUTPUT, within(value, "outputs", 0, 15)))
+        if not 0 <= value <= 15:
+            raise OutOfRange(f"auxiliary outputs {value} are outside 0 to 15")
+        self.link.execute(Script().call(AUX_OUTPUT, value))
 
     def auxi(self) -> int:
         """The four auxiliary inputs, pin levels; only at rest."""
