@@ -75,3 +75,11 @@ def test_lines_active_before_configuration(line: str) -> None:
     """Section 4 of boards.md says which way each is held."""
     section = (project.DOCS / "boards.md").read_text().split("\n## 4 ")[1].split("\n## 5 ")[0]
     assert f"`{line}`" in section
+
+
+def test_readme_says_what_was_not_done() -> None:
+    """Below the table that says "complete": no board, no motor, no living chip, and what was done instead."""
+    parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
+    text = " ".join(parts.split("|")[-1].split())
+    for words in ("No board has been driven", "no motor has turned", "no living chip", "What was done:"):
+        assert words in text
