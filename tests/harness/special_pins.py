@@ -98,6 +98,7 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
         ),
         Special(pins("80-85"), Kind.SOCKET, "card socket", LITEX + "sipeed_tang_nano_20k.py"),
         Special(pins("51 54-56"), Kind.LOADED, "audio amplifier", SIPEED + "audio/src/audio.cst"),
+        Special(pins("15-18"), Kind.LOADED, "lamps 1 to 4", LITEX + "sipeed_tang_nano_20k.py"),
         Special(pins("19 20"), Kind.LOADED, "lamps 5 and 6", LITEX + "sipeed_tang_nano_20k.py"),
         Special(pins("79"), Kind.LOADED, "coloured lamp", SIPEED + "ws2812/src/ws2812.cst"),
         Special(pins("87"), Kind.NEVER, "MODE1", APICULA),
