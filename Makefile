@@ -19,6 +19,7 @@ VARS_trace := PART
 VARS_bench := PART
 VARS_report := PART
 VARS_size  := PART
+VARS_yardsticks := PEERS
 VARS_test-gates := T SEED J
 VARS_test-board := T J
 VARS_board := SIM PART
@@ -36,7 +37,7 @@ endif
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
 comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
 quote = '$(subst ','\'',$1)'
-NEED_ENV := setup demo test soak lint format synth bench trace docs report size test-gates board test-board bitstream packages
+NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages
 CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J,$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
@@ -55,7 +56,7 @@ unexport VERILATOR_ROOT
 export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup demo test test-gates test-board soak lint format synth report size bench trace waves docs board \
+.PHONY: help setup demo test test-gates test-board soak lint format synth report size yardsticks bench trace waves docs board \
         bitstream flash packages clean distclean
 .DEFAULT_GOAL := help
 
@@ -109,6 +110,9 @@ report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each
 
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
 	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
+
+yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose clones lie in PEERS=folder, into docs/benchmarks.md
+	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
 bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with PART=… and HOST=uart or bus, in build/boards/
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED))

@@ -25,7 +25,7 @@ BRIDGES = {
 FOLDER = project.BUILD / "report" / "bridges"
 TEXT = (
     "The host bridges with their default parameters (one address line), as synthesized: written by"
-    " `make report`. On ECP5 a carry cell counts as two LUT."
+    " `make report`. On ECP5, LUT is LUT4 + 2 · CCU2C, the carry cells."
 )
 
 

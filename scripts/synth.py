@@ -75,40 +75,34 @@ def full(folder: Path, base: dict, recipes: dict[str, str], seeds: int) -> None:
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        task = progress.add_task("synthesis", total=4 + (len(pnr.DEVICES) + 1) * seeds)
+        task = progress.add_task("synthesis", total=3 + len(pnr.DEVICES) * seeds)
         results, netlists = synthesize_all(folder, base, recipes)
         progress.update(task, advance=1, description="synthesis with other parameters")
         others = variants(folder, base, recipes)
         progress.update(task, advance=1, description="synthesis of the wrapped part")
         wrapped = wrapped_netlist(folder, base, netlists["ice40"], recipes["ice40"])
-        progress.update(task, advance=1, description="synthesis with yosys' own defaults")
-        plain = run_yosys(folder / "plain", {**base, "family": "ecp5", "recipe": "default", "keep": False})
         progress.advance(task)
 
-        def routed(device: pnr.Device, netlist: Path, label: str, where: str) -> list[pnr.Run]:
+        def routed(device: pnr.Device, netlist: Path) -> list[pnr.Run]:
             def done(run: pnr.Run) -> None:
                 progress.advance(task)
                 if not console.is_terminal:
-                    console.print(f"{label} seed {run.seed}: {run.fmax} MHz")
+                    console.print(f"{device.name} seed {run.seed}: {run.fmax} MHz")
 
-            progress.update(task, description=f"place and route {label}")
-            return all_seeds(device, netlist, folder / where, seeds, done)
+            progress.update(task, description=f"place and route {device.name}")
+            return all_seeds(device, netlist, folder / "pnr", seeds, done)
 
         devices = []
         for device in pnr.DEVICES:
             netlist = wrapped if device.wrapped else netlists[device.family]
-            runs = routed(device, netlist, device.name, "pnr")
+            runs = routed(device, netlist)
             devices.append(device_entry(device, results[device.family].total, runs))
-        ecp5 = pnr.DEVICES[0]
-        plain_total = flat_counts(plain, base["top"], set())[0]
-        plain_runs = routed(ecp5, plain, f"{ecp5.name}, yosys' defaults", "plain")
     report = {
         "part": base["top"],
         "params": base["params"],
         "recipes": recipes,
         "seed_count": seeds,
         "devices": devices,
-        "plain": device_entry(ecp5, plain_total, plain_runs),
         "variants": others,
         "breakdown": {family: result.as_dict() for family, result in results.items()},
     }

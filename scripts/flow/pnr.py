@@ -77,6 +77,36 @@ def slowest_path(report: dict) -> str:
     )
 
 
+def run(device: Device, folder: Path, log: Path, options: tuple[str, ...]) -> None:
+    """Run nextpnr in `folder`, its words into `log`; ProjectError with its error lines when it fails."""
+    program = f"yowasp-nextpnr-{device.family}"
+    command = [program, "--quiet", "--log", log.name, *options, *device.arguments]
+    try:
+        done = subprocess.run(
+            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+        )
+    except FileNotFoundError:
+        raise ProjectError(f"{program} is not installed: run `make setup`") from None
+    if done.returncode:
+        text = done.stderr + done.stdout
+        lines = [line for line in text.splitlines() if "ERROR" in line][:4] or text.splitlines()[-4:]
+        raise ProjectError(
+            "\n".join([f"{program} failed for {device.name} ({relative(log)} below {ROOT.name})", *lines])
+        )
+
+
+def packed(device: Device, netlist: Path, folder: Path) -> dict[str, int]:
+    """Cells by type as nextpnr packs the netlist, placed or not: also one with more pins than the device."""
+    local = folder / "pack-netlist.json"
+    shutil.copyfile(netlist, local)
+    log = folder / "pack.log"
+    run(device, folder, log, ("--json", local.name, "--pack-only"))
+    return {
+        kind: int(used)
+        for kind, used in re.findall(r"^Info:\s+(\w+):\s+(\d+)/", log.read_text(), re.MULTILINE)
+    }
+
+
 def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> Run:
     """Run nextpnr with one seed; ProjectError with its error lines when it fails.
 
@@ -88,11 +118,7 @@ def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> R
     shutil.copyfile(netlist, local)
     report, log = folder / f"{stem}.json", folder / f"{stem}.log"
     report.unlink(missing_ok=True)
-    command = [
-        f"yowasp-nextpnr-{device.family}",
-        "--quiet",
-        "--json",
-        local.name,
+    options = (
         "--seed",
         str(seed),
         "--freq",
@@ -100,22 +126,10 @@ def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> R
         "--timing-allow-fail",
         "--report",
         report.name,
-        "--log",
-        log.name,
-        *device.arguments,
-    ]
-    try:
-        done = subprocess.run(
-            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
-        )
-    except FileNotFoundError:
-        raise ProjectError(f"{command[0]} is not installed: run `make setup`") from None
-    if done.returncode or not report.is_file():
-        text = done.stderr + done.stdout
-        lines = [line for line in text.splitlines() if "ERROR" in line][:4] or text.splitlines()[-4:]
-        raise ProjectError(
-            "\n".join([f"{command[0]} failed for {device.name} ({relative(log)} below {ROOT.name})", *lines])
-        )
+    )
+    run(device, folder, log, ("--json", local.name, *options))
+    if not report.is_file():
+        raise ProjectError(f"nextpnr wrote no report for {device.name} ({relative(log)} below {ROOT.name})")
     data = json.loads(report.read_text())
     clocks = {name: entry["achieved"] for name, entry in data["fmax"].items()}
     ours = [mhz for name, mhz in clocks.items() if CLOCK in name] or list(clocks.values())

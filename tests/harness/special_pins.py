@@ -1,0 +1,136 @@
+"""Pins of the boards in constraints/ that something else on the board uses, too, and where that is told.
+
+Facts only, from public files: constraint files and schematics of the makers and of other open projects.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, auto
+
+
+class Kind(Enum):
+    """What a second job forbids."""
+
+    NEVER = auto()  # configuration, flash, JTAG, a monitor's control lines: no use at all
+    DRIVEN = auto()  # another chip on the board can drive it: no output, no limit or alarm
+    SOCKET = auto()  # a socket or a section that can be left empty
+    LOADED = auto()  # lamp, converter, amplifier, other bank voltage, a function during configuration
+    NEAR_5V = auto()  # beside a header pin of 5 V
+
+
+@dataclass(frozen=True)
+class Special:
+    """Some pins of a board: what else they are, and the source of that."""
+
+    pins: tuple[str, ...]
+    kind: Kind
+    job: str
+    source: str
+
+
+def pins(text: str) -> tuple[str, ...]:
+    """Names between blanks; 36-39 is four of them."""
+    names = []
+    for word in text.split():
+        first, _, last = word.partition("-")
+        names += [str(number) for number in range(int(first), int(last) + 1)] if last else [word]
+    return tuple(names)
+
+
+LITEX = "https://github.com/litex-hub/litex-boards/tree/master/litex_boards/platforms/"
+SIPEED9 = "https://github.com/sipeed/TangNano-9K-example/tree/main/spi_lcd/src/lcd114_test.cst"
+SIPEED = "https://github.com/sipeed/TangNano-20K-example/tree/main/"
+MISTERY = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20k/"
+ULX3S = "https://github.com/emard/ulx3s/tree/master/"
+APICULA = "https://github.com/YosysHQ/apicula (pin functions of the package in its chip database)"
+DIGILENT = "https://digilent.com/reference/programmable-logic/arty-a7/reference-manual"
+TERASIC = "DE10-Nano User Manual, Terasic: figure of the two 40-pin expansion headers"
+
+SPECIAL: dict[str, tuple[Special, ...]] = {
+    "icebreaker": (
+        Special(pins("12-17"), Kind.NEVER, "configuration flash", LITEX + "icebreaker.py"),
+        Special(
+            pins("18 19 20 21 23 25 26 27"), Kind.SOCKET, "break-off section, PMOD 2", LITEX + "icebreaker.py"
+        ),
+    ),
+    "ulx3s": (
+        Special(
+            pins("R2 U3 W2 V2 W1 Y2"),
+            Kind.NEVER,
+            "configuration flash",
+            ULX3S + "doc/constraints/ulx3s_v20.lpf",
+        ),
+        Special(pins("T5 R5 U5 V4"), Kind.NEVER, "JTAG", ULX3S + "doc/constraints/ulx3s_v20.lpf"),
+        Special(pins("L2"), Kind.LOADED, "ESP32 GPIO0, GPIO22 on v3.1", ULX3S + "doc/constraints/prototype"),
+        Special(pins("F4 E3 G3 F3"), Kind.DRIVEN, "ESP32", ULX3S + "doc/constraints/ulx3s_v20.lpf"),
+        Special(
+            pins("H4 G5"),
+            Kind.LOADED,
+            "ESP32, inputs of it",
+            ULX3S + "doc/constraints/ulx3s_v20.lpf",
+        ),
+        Special(
+            pins("U18 U17 N17 P16 N16 M17 L16 L17"),
+            Kind.LOADED,
+            "inputs of the converter",
+            ULX3S + "doc/constraints/ulx3s_v20.lpf",
+        ),
+        Special(
+            pins("B11 C11 A10 A11 A9 B10 B9 C10 A7 A8 C8 B8 C6 C7 A6 B6 A4 A5 A2 B1 C4 B4"),
+            Kind.LOADED,
+            "bank voltage of J5",
+            ULX3S + "gpio.sch",
+        ),
+        Special(pins("D13 E13"), Kind.NEAR_5V, "near 5 V", ULX3S + "gpio.sch"),
+    ),
+    "tangnano20k": (
+        Special(pins("25 26"), Kind.NEVER, "HDMI CEC and hot plug; LCD", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("57 59-63"), Kind.NEVER, "configuration flash", MISTERY + "atarist.cst"),
+        Special(pins("5-9"), Kind.NEVER, "JTAG, RECONFIG_N", APICULA),
+        Special(pins("52 53"), Kind.DRIVEN, "HDMI DDC", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("75 76 86 13"), Kind.DRIVEN, "BL616", MISTERY + "atarist.cst"),
+        Special(
+            pins("27-42 48 49 77"),
+            Kind.SOCKET,
+            "LCD",
+            SIPEED + "rgb_lcd, " + MISTERY + "atarist_lcd.cst",
+        ),
+        Special(pins("80-85"), Kind.SOCKET, "card socket", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("51 54-56"), Kind.LOADED, "audio amplifier", SIPEED + "audio/src/audio.cst"),
+        Special(pins("15-18"), Kind.LOADED, "lamps 1 to 4", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("19 20"), Kind.LOADED, "lamps 5 and 6", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("79"), Kind.LOADED, "coloured lamp", SIPEED + "ws2812/src/ws2812.cst"),
+        Special(pins("87"), Kind.NEVER, "MODE1", APICULA),
+        Special(pins("88"), Kind.LOADED, "MODE0", APICULA),
+    ),
+    "tangnano9k": (
+        Special(pins("59-62"), Kind.NEVER, "configuration flash", LITEX + "sipeed_tang_nano_9k.py"),
+        Special(pins("5-9 87 88"), Kind.NEVER, "JTAG, RECONFIG_N, MODE", APICULA),
+        Special(pins("86"), Kind.NEVER, "LCD backlight", LITEX + "sipeed_tang_nano_9k.py"),
+        Special(pins("4"), Kind.LOADED, "JTAGSEL_N", APICULA),
+        Special(pins("79-85"), Kind.LOADED, "1.8 V", LITEX + "sipeed_tang_nano_9k.py"),
+        Special(pins("36-39"), Kind.SOCKET, "card socket", LITEX + "sipeed_tang_nano_9k.py"),
+        Special(pins("68-75"), Kind.SOCKET, "HDMI and LCD", LITEX + "sipeed_tang_nano_9k.py"),
+        Special(
+            pins("33-35 40-42 48 49 51 76 77"),
+            Kind.SOCKET,
+            "LCD connectors",
+            LITEX + "sipeed_tang_nano_9k.py, " + SIPEED9,
+        ),
+        Special(pins("53-57"), Kind.SOCKET, "LCD, configuration", APICULA),
+    ),
+    "arty_a7": (
+        Special(pins("C2"), Kind.LOADED, "USB-UART through JP2", DIGILENT),
+        Special(
+            pins("G13 B11 A11 D12 D13 B18 A18 K16 D4 D3 F4 F3 E2 D2 H2 G2"),
+            Kind.LOADED,
+            "200 Ω in series",
+            DIGILENT,
+        ),
+    ),
+    "de10nano": (
+        Special(pins("AF4 AD5"), Kind.NEAR_5V, "beside 5 V", TERASIC),
+        Special(pins("AG26 AG25"), Kind.NEAR_5V, "beside 5 V", TERASIC),
+    ),
+}

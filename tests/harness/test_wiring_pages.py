@@ -1,0 +1,85 @@
+"""Advice about wiring that would break hardware must not come back into the pages."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from scripts import project
+
+PAGES = sorted(
+    [*project.DOCS.glob("*_replace.md"), *(project.DOCS / name for name in ("boards.md", "isa_4axis.md"))]
+)
+NAMES = [page.name for page in PAGES]
+
+
+def sentences(text: str) -> list[str]:
+    """Sentences, bullets and cells of a page."""
+    return re.split(r"(?<=[.;:])\s+(?=[A-Z*`0-9])|\n(?=[-|#]|\n)|\|", text)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_transceiver(page: object) -> None:
+    """The 74LVC4245 has 5 V at its A side and DIR the other way round: named only in a warning."""
+    text = page.read_text()  # type: ignore[attr-defined]
+    wrong = [part for part in sentences(text) if "4245" in part and "Not the 74LVC4245" not in part]
+    assert not wrong
+    assert "74LVC8T245" in text
+    assert "VCCA" in text
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_resistors_before_configuration(page: object) -> None:
+    """2.2 kΩ or 1 kΩ; a pull-up of an FPGA pin goes to 3.3 V."""
+    text = page.read_text()  # type: ignore[attr-defined]
+    assert not re.findall(r"^.*(?:4\.7 kΩ|4\.7 … 10 kΩ) to.*$", text, re.MULTILINE)
+    assert not re.findall(r"^.*kΩ to the supply.*$", text, re.MULTILINE)
+    held = [
+        part for part in sentences(text) if re.search(r"pull-(?:down|up) at (?:its|the|each) (?:d|D)", part)
+    ]
+    assert not [part for part in held if "kΩ" not in part]
+    assert "2.2 kΩ" in text
+
+
+def test_drivers_that_do_not_fit() -> None:
+    """A bootstrap runs empty at rest; a ULN2004 wants 5 V inputs."""
+    page = (project.DOCS / "boards.md").read_text()
+    assert not [row for row in page.splitlines() if row.startswith("|") and "ULN2004" in row]
+    assert [part for part in page.split("\n\n") if "IR2104" in part and "bootstrap" in part]
+    assert not [part for part in page.split("\n\n") if "IR2104" in part and "bootstrap" not in part]
+
+
+def test_optocoupler_of_a_limit_is_fail_safe() -> None:
+    """Dark is L, which is active: collector to 3.3 V, emitter to the pin, resistor to GND."""
+    page = (project.DOCS / "boards.md").read_text()
+    row = next(line for line in page.splitlines() if line.startswith("|") and "PC817" in line)
+    for words in (
+        "collector to 3.3 V",
+        "emitter to the pin",
+        "1 kΩ from the pin to GND",
+        "dark = L = active",
+    ):
+        assert words in row
+
+
+@pytest.mark.parametrize("family", ["iCE40", "ECP5", "GW1NR", "GW2AR", "Artix-7", "Cyclone V"])
+def test_state_before_configuration_is_told(family: str) -> None:
+    page = (project.DOCS / "boards.md").read_text()
+    table = page.split("pins before configuration")[1].split("\n\n")[0]
+    assert family in table
+
+
+@pytest.mark.parametrize("line", ["exon_n", "int_n", "irq_n", "rs485_de", "d_oe", "sd_oe"])
+def test_lines_active_before_configuration(line: str) -> None:
+    """Section 4 of boards.md says which way each is held."""
+    section = (project.DOCS / "boards.md").read_text().split("\n## 4 ")[1].split("\n## 5 ")[0]
+    assert f"`{line}`" in section
+
+
+def test_readme_says_what_was_not_done() -> None:
+    """Below the table that says "complete": no board, no motor, no living chip, and what was done instead."""
+    parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
+    text = " ".join(parts.split("|")[-1].split())
+    for words in ("No board has been driven", "no motor has turned", "no living chip", "What was done:"):
+        assert words in text
