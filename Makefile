@@ -122,7 +122,7 @@ packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from r
 waves: ## open the demo's waveforms in GTKWave or Surfer
 	@./scripts/waves.sh
 
-docs: $(ENVDEV) ## redraw the pictures of the manual
+docs: $(ENVSIM) ## redraw the pictures of the manual
 	@$(PY) -m scripts.docs
 
 clean: ## remove what was built, keep the environment
