@@ -101,7 +101,7 @@ def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str,
         done = folder / "netlist.vlt"
         if not done.is_file():
             _forget_old()
-            job["verilog"] = str(folder / "netlist.v")
+            job["verilog"] = project.relative(folder / "netlist.v")
             made = run_yosys(folder, job)
             ports = list(json.loads(made.read_text())["modules"][top]["ports"])
             done.write_text(control_file(top, ports, family))
