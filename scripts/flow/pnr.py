@@ -9,7 +9,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.project import ROOT, ProjectError, relative
+from scripts.project import ROOT, ProjectError, relative, tool
 
 CLOCK = "clk"
 
@@ -106,7 +106,12 @@ def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> R
     ]
     try:
         done = subprocess.run(
-            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+            [tool(command[0]), *command[1:]],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
         )
     except FileNotFoundError:
         raise ProjectError(f"{command[0]} is not installed: run `make setup`") from None
