@@ -1,6 +1,8 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc ppmc312 pmc006 \
+# Two parts are other parts in a frame: they have no demo, no virtual board and no bitstream of their own.
+FRAMES := $(if $(filter demo board soak bench bitstream flash trace,$(MAKECMDGOALS)),,isa_4axis j105_stmc)
+PARTS := ppmc104 ppmc2104 $(FRAMES) stmc ppmc312 pmc006 \
          $(if $(filter demo board soak bench,$(MAKECMDGOALS)),ppmc312-serial)
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
@@ -23,9 +25,11 @@ VARS_yardsticks := PEERS
 VARS_test-gates := T SEED J
 VARS_test-board := T J
 VARS_board := SIM PART
-VARS_bitstream := BOARD HOST PART SEED
+TOP_VARS := XTAL_HZ TIMING PHASE_IDLE PHASE_ON READ_MAP BAUD# parameters of a board's top
+VARS_bitstream := BOARD HOST PART SEED $(TOP_VARS)
 VARS_flash := BOARD HOST PART
 VARS_demo  := PART
+GIVEN_TOP := $(foreach v,$(TOP_VARS),$(if $(findstring command line,$(origin $v)),$v))
 SETTABLE := PYTHON $(foreach goal,$(GOALS),$(VARS_$(goal)))
 GIVEN    := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)),$v))
 UNKNOWN  := $(filter-out MAKEFLAGS MAKEOVERRIDES MAKELEVEL $(SETTABLE),$(GIVEN))
@@ -38,7 +42,7 @@ endif
 comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
 quote = '$(subst ','\'',$1)'
 NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages
-CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J,$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
+CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))
@@ -65,7 +69,7 @@ help: ## this list
 	@echo
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "  %-11s %s\n", $$1, $$2 }'
 	@echo
-	@echo '  PYTHON=… names the Python (3.10 or newer) to make the environment with. Parts: $(PARTS). Boards: $(BOARDS)'
+	@echo '  PYTHON=… names the Python (3.10 or newer) to make the environment with. Parts: $(strip $(PARTS)). Boards: $(BOARDS)'
 
 setup: $(ENVDEV) ## make the whole environment in .venv (other targets do it when they need it)
 
@@ -114,8 +118,9 @@ size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth 
 yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose clones lie in PEERS=folder, into docs/benchmarks.md
 	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
-bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with PART=… and HOST=uart or bus, in build/boards/
-	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED))
+bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
+	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \
+	  $(foreach v,$(GIVEN_TOP),-G $v=$($v))
 
 flash: ## load that bitstream into the board with openFPGALoader
 	@$(PY) -m scripts.flash $(BOARD) --host $(HOST) --part $(PART)
@@ -126,7 +131,7 @@ packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from r
 waves: ## open the demo's waveforms in GTKWave or Surfer
 	@./scripts/waves.sh
 
-docs: $(ENVDEV) ## redraw the pictures of the manual
+docs: $(ENVSIM) ## redraw the pictures of the manual
 	@$(PY) -m scripts.docs
 
 clean: ## remove what was built, keep the environment

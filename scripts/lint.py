@@ -20,6 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.markup import escape
 
+from openppmc.sim import verilator as start
 from scripts import project
 from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources
@@ -41,9 +42,8 @@ class Check:
     run: Callable[[], str]
 
 
-def tool(*command: str, ok_output: bool = False) -> str:
+def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
     """Run a tool from the project's root; its output when it failed or, unless `ok_output`, said anything."""
-    env = {key: value for key, value in os.environ.items() if key != "VERILATOR_ROOT"}
     try:
         done = subprocess.run(
             command,
@@ -100,11 +100,12 @@ def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
     """
     folder = project.BUILD / "lint" / "-".join([top, *map(str, params.values())])
     folder.mkdir(parents=True, exist_ok=True)
-    command = ["verilator", "--cc", "--assert", "-Wall", "--timing", "--Mdir", relative(folder)]
-    command += ["--top-module", top, *(f"-I{relative(path)}" for path in project.include_dirs())]
+    words = ["--cc", "--assert", "-Wall", "--timing", "--Mdir", relative(folder)]
+    words += ["--top-module", top, *(f"-I{relative(path)}" for path in project.include_dirs())]
     for name, value in params.items():
-        command.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
-    text = tool(*command, "lint/verilator.vlt", *(relative(path) for path in files))
+        words.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
+    words += ["lint/verilator.vlt", *(relative(path) for path in files)]
+    text = tool(*start.command(words, project.ROOT), env=start.environment(project.ROOT))
     # What begins with a dash is statistics.
     return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
 

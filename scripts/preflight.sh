@@ -17,6 +17,8 @@ need_env=''
 python=''
 parts=''
 boards=''
+most_xtal=16000000
+most_baud=3000000
 for word in "$@"; do
     name=${word%%=*}
     value=${word#*=}
@@ -25,9 +27,16 @@ for word in "$@"; do
         parts=*) parts=${value%,} ;;
         boards=*) boards=${value%,} ;;
         python=*) python=$value ;;
-        PART=*) case ",$parts," in *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac ;;
+        PART=*)
+            case ",$parts," in *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac
+            case $value in stmc) most_xtal=20000000 ;; pmc006) most_baud=115200 ;; esac ;;
         BOARD=*) case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
         HOST=*) case $value in uart | bus) ;; *) problem "HOST=$value: expected uart or bus" ;; esac ;;
+        TIMING=*) case $value in FAST | DATASHEET) ;; *) problem "TIMING=$value: expected FAST or DATASHEET" ;; esac ;;
+        READ_MAP=*) case $value in SHEET | FAMILY) ;; *) problem "READ_MAP=$value: expected SHEET or FAMILY" ;; esac ;;
+        PHASE_IDLE=* | PHASE_ON=*) number "$name" "$value" 0 1 ;;
+        XTAL_HZ=*) number "$name" "$value" 1000000 "$most_xtal" ;;
+        BAUD=*) number "$name" "$value" 1200 "$most_baud" ;;
         T=*)
             case $value in
                 and | or | not | '' | *[!A-Za-z0-9_.:-]*)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -110,6 +111,11 @@ def relative(path: Path) -> str:
     """`path` as seen from the project's root, for messages and for tools that start there."""
     resolved = path.resolve()
     return resolved.relative_to(ROOT).as_posix() if resolved.is_relative_to(ROOT) else str(path)
+
+
+def tool(name: str) -> str:
+    """Path of a program of this Python environment, which PATH may lack; the name if it has none such."""
+    return shutil.which(name, path=str(Path(sys.executable).parent)) or name
 
 
 def fail(message: str) -> int:

@@ -117,7 +117,7 @@ async def _build(u: Unit, slow: int, fast: int, steps: int) -> tuple[dict[int, i
 @cocotb.parametrize(bits=[14, 16])
 async def ramp_builder_exact(dut, bits):
     """Given corner and random ramps, then every threshold is exact and no build is too long."""
-    u = Unit(dut, f"build{bits}", BLOCKS, "busy_o")
+    u = Unit(dut, f"build{bits}", BLOCKS, "busy_o", Unit.FREE)
     await u.reset()
     longest = 0
     for triple in triples(rng(), bits, 30):

@@ -5,9 +5,6 @@ from __future__ import annotations
 from math import ceil
 
 import cocotb
-from cocotb.clock import Clock
-from cocotb.triggers import FallingEdge, RisingEdge, Timer
-from cocotb.utils import get_sim_time
 
 from .unit import Unit, rng, same
 from .wrapper import Block
@@ -237,18 +234,15 @@ async def finish_answers(dut, fresh):
             unread, pending = 0, 0
 
 
-async def clk_until(u: Unit, port: str, level: int) -> int:
-    """Clk edges, at least one, until an output has this level."""
-    await u.settle()  # the clk of before has gone low
-    clock = Clock(u.pins["clk_i"], 2, "step", impl="gpi")
-    clock.start()
-    since = get_sim_time("step")
-    await (RisingEdge if level else FallingEdge)(u.pins[port])
-    took = (get_sim_time("step") - since) // 2 + 1
-    clock.stop()
-    await Timer(1, "step")
-    await u.settle(clk_i=0)
-    return took
+async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
+    """Clk edges until act_o says what takes effect; closed: the mailbox is until then."""
+    for took in range(5_000):
+        if (await u.settle())[0]:
+            return took
+        if closed:
+            same(f"{where}: closed before it", u.get("open_o"), 0)
+        await u.clk()
+    raise AssertionError(f"{where}: no action within {took + 1} clk")
 
 
 @cocotb.test()
@@ -273,7 +267,7 @@ async def pace_fast(dut):
 async def pace_datasheet(dut, name):
     """Given DATASHEET, then start, first pulse, end and opening of the mailbox come at their times."""
     clk, xtal, bits, low, high, timed = PACES[name]
-    u = Unit(dut, f"pace_{name}", BLOCKS, "act_o open_o go_o linger_o home_o ready_o")
+    u = Unit(dut, f"pace_{name}", BLOCKS, "act_o open_o go_o linger_o home_o ready_o", Unit.FREE)
     await u.reset()
 
     def cyc(microseconds: float) -> int:
@@ -283,9 +277,9 @@ async def pace_datasheet(dut, name):
     steps = low + 3
     await u.clk(act_i=action("init"), params_i=steps << 16, initialised_i=0)
     await u.settle(act_i=0, params_i=0)
-    same("phases", await clk_until(u, "home_o", 1), cyc(44))
+    same("phases", await u.run_until("home_o", 1), cyc(44))
     whole = ceil((264_000 + 209 * (steps - low)) * clk / xtal)
-    same("initialisation", await clk_until(u, "ready_o", 1), whole - cyc(44))
+    same("initialisation", await u.run_until("ready_o", 1), whole - cyc(44))
     same("closed", u.get("open_o"), 0)
     await u.clk(initialised_i=1)
     same("open", u.get("open_o"), 1)
@@ -310,25 +304,20 @@ async def pace_datasheet(dut, name):
             )
             u.put(act_i=0, code_i=0, ramp_i=ramp, single_i=single, params_i=0)
             where = f"{name}, operation {op}, {end}"
-            took = 0
-            while not (await u.settle())[0]:
-                same(f"{where}: closed before the start", u.get("open_o"), 0)
-                await u.clk()
-                took += 1
-            same(f"{where}: start", took, cyc(begin))
+            same(f"{where}: start", await clk_to_action(u, where, True), cyc(begin))
             same(f"{where}: what starts", (u.get("act_o"), u.get("code_o")), (action("start"), 0x40 | op))
             if end == "stop":
                 await u.clk(stop_i=1)
                 same(f"{where}: lingers, closed", (await u.settle(stop_i=0))[1:4], (0, 0, 1))
             else:
-                same(f"{where}: pulse 1", await clk_until(u, "go_o", 1), cyc(first) - cyc(begin))
+                same(f"{where}: pulse 1", await u.run_until("go_o", 1), cyc(first) - cyc(begin))
                 await u.clk(pulse_i=1, last_i=1, final_i=end == "normal")
                 same(f"{where}: lingers, closed", (await u.settle(pulse_i=0, last_i=0))[1::2][:2], (0, 1))
                 await u.clk()
             slow = ramp and end != "normal"
-            same(f"{where}: end", await clk_until(u, "linger_o", 0), cyc(200 if slow else 26))
+            same(f"{where}: end", await u.run_until("linger_o", 0), cyc(200 if slow else 26))
             opens = 200 if slow else 26 if single and end == "normal" else 156
-            rest = await clk_until(u, "open_o", 1)
+            rest = await u.run_until("open_o", 1)
             same(f"{where}: open", rest, cyc(opens) - cyc(200 if slow else 26) + 1)
     for what in ("halt", "read", "switching"):
         same(f"{what} at once", (await u.clk(act_i=action(what)))[0], action(what))
@@ -337,8 +326,4 @@ async def pace_datasheet(dut, name):
     u.put(act_i=0)
     same("decelerating stop of a ramp", got, 0 if timed else action("decel"))
     if timed:
-        took = 0
-        while not (await u.settle())[0]:
-            await u.clk()
-            took += 1
-        same("takes its time", took, cyc(17))
+        same("takes its time", await clk_to_action(u, "decelerating stop", False), cyc(17))

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import linecache
 import os
 import random
+import sys
 from collections.abc import Mapping
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
-from cocotb.triggers import Timer
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import FallingEdge, RisingEdge, Timer
+from cocotb.utils import get_sim_time
 
 from .wrapper import Block, is_input
+
+FOLDER = Path(__file__).resolve().parents[1]
 
 
 def rng() -> random.Random:
@@ -22,17 +31,46 @@ def same(what: str, got: object, want: object) -> None:
     assert got == want, f"{what}: got {got}, want {want}"
 
 
-class Unit:
-    """One instance. `edges` counts the rising clk edges since reset."""
+def _test_frame() -> FrameType:
+    """Frame of the running test: the outermost one of this project's tests."""
+    frame = sys._getframe(1)
+    while frame.f_back is not None and FOLDER in Path(frame.f_back.f_code.co_filename).parents:
+        frame = frame.f_back
+    return frame
 
-    def __init__(self, dut: Any, name: str, blocks: Mapping[str, Block], watch: str = "") -> None:
-        """watch: outputs that `clk` returns, in this order."""
+
+async def _end(test: FrameType, clk: int) -> None:
+    """Fails the running test after so many clk, a clk being two steps; names the line that it waits in."""
+    await Timer(2 * clk, "step")
+    file, line = test.f_code.co_filename, test.f_lineno
+    waiting = linecache.getline(file, line).strip()
+    raise AssertionError(f"no end within {clk} clk, the test waits in {Path(file).name}:{line}: {waiting}")
+
+
+class Unit:
+    """One instance. `edges` counts the rising clk edges since reset.
+
+    The first one of a simulation limits the whole test, for a block that does not answer would hold it up for
+    minutes: to LIMIT clk, or to FREE if it has a clock that runs by itself, which is thirty times as fast.
+    """
+
+    LIMIT, FREE = 250_000, 1_500_000
+    """About twice what the longest tests take, or 30 s."""
+    _limited = False
+
+    def __init__(
+        self, dut: Any, name: str, blocks: Mapping[str, Block], watch: str = "", limit: int = LIMIT
+    ) -> None:
+        """watch: outputs that `clk` returns, in this order. limit: of the test, in clk of all its units."""
         block = blocks[name]
         self.chosen, self.number = dut.chosen, list(blocks).index(name) + 1
         self.pins = {port: getattr(dut, f"{name}_{port}") for port, _, _ in block.ports}
         self.inputs = [port for port, _, _ in block.ports if is_input(port)]
         self.watch = [self.pins[port] for port in watch.split()]
         self.edges = 0
+        if not Unit._limited:
+            Unit._limited = True
+            cocotb.start_soon(_end(_test_frame(), limit))
 
     def get(self, port: str) -> int:
         """Level of a port now."""
@@ -74,3 +112,19 @@ class Unit:
         self.pins["clk_i"].value = 0
         self.edges += 1
         return values
+
+    async def run_until(self, port: str, level: int) -> int:
+        """Let the clock run by itself until an output gets this level; returns its edges, at least one.
+
+        For long waits: thirty times as fast as `clk`.
+        """
+        await self.settle()  # the clk of before has gone low
+        clock = Clock(self.pins["clk_i"], 2, "step", impl="gpi")
+        clock.start()
+        since = get_sim_time("step")
+        await (RisingEdge if level else FallingEdge)(self.pins[port])
+        took = int(get_sim_time("step") - since) // 2 + 1
+        clock.stop()
+        await Timer(1, "step")
+        await self.settle(clk_i=0)
+        return took

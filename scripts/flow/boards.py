@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -194,15 +194,17 @@ BY_PART = {
 
 
 def board(name: str, part: str = "ppmc104") -> Board:
-    """The board called `name` with a part; ProjectError lists the known ones when there is none."""
+    """The board called `name` with a part; ProjectError says which boards or parts there are otherwise."""
     if part not in BY_PART:
         raise ProjectError(f"PART={part}: no board carries it (known: {', '.join(BY_PART)})")
-    try:
-        return BY_PART[part][name]
-    except KeyError:
-        known = ", ".join(BY_PART[part])
-        where = "" if part == "ppmc104" else f" with {part}"
-        raise ProjectError(f"BOARD={name}: no such board{where} (known: {known})") from None
+    known = BY_PART[part]
+    if name in known:
+        return known[name]
+    carries = [other for other, boards in BY_PART.items() if name in boards]
+    if carries:
+        raise ProjectError(f"BOARD={name}: not with {part}, give PART={' or '.join(carries)}")
+    where = "" if part == "ppmc104" else f" with {part}"
+    raise ProjectError(f"BOARD={name}: no such board{where} (known: {', '.join(known)})")
 
 
 def check_host(on: Board, host: str) -> str:
@@ -234,13 +236,20 @@ def parameters(top: str) -> set[str]:
     return set(re.findall(r"^ *parameter +[^=]*?(\w+) *=", text, re.MULTILINE))
 
 
+def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:
+    """ProjectError if the top of a board has not all parameters of these names."""
+    known = parameters(on.top[host]) - {"HOST"}
+    for name in names:
+        if name not in known:
+            raise ProjectError(
+                f"{name}: {on.name} with {on.part} has no such parameter (it has {', '.join(sorted(known))})"
+            )
+
+
 def synthesize_board(on: Board, host: str, params: dict[str, int | str] | None = None) -> Path:
     """Mapped netlist of a board's top with `params` as its parameters; ProjectError with yosys' errors."""
     top = on.top[host]
     given = dict(params or {})
-    known = parameters(top) - {"HOST"}
-    for name in given.keys() - known:
-        raise ProjectError(f"{on.name} has no parameter {name} (it has: {', '.join(sorted(known))})")
     if "HOST" in parameters(top):
         given["HOST"] = host.upper()
     job = {
@@ -300,6 +309,7 @@ def build_board(
     """
     on = board(name, part)
     check_host(on, host)
+    check_parameters(on, host, params or {})
     folder = on.folder(host)
     folder.mkdir(parents=True, exist_ok=True)
     on.file(host).unlink(missing_ok=True)

@@ -56,14 +56,15 @@ def models(family: str) -> Path:
     return Path(spec.origin).parent / "share" / family
 
 
-def _digest(job: Mapping[str, Any]) -> str:
+def _digest(job: Mapping[str, Any], yosys: str) -> str:
+    """Name of a netlist: what it is made from, and the version of the yosys package that makes it."""
     sha = hashlib.sha256()
     headers = [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
     for path in [*(project.ROOT / name for name in job["sources"]), *headers]:
         sha.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     recipe = RECIPES[job["family"]][job["recipe"]]
     rest = (job["top"], sorted(job["params"].items()), job["family"], recipe, WAIVED[job["family"]])
-    sha.update(repr((*rest, importlib.metadata.version("pyosys"))).encode())
+    sha.update(repr((*rest, yosys)).encode())
     return sha.hexdigest()[:16]
 
 
@@ -95,12 +96,12 @@ def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str,
         "recipe": BEST[family],
         "keep": False,
     }
-    folder = NETLISTS / f"{top}-{family}-{_digest(job)}"
+    folder = NETLISTS / f"{top}-{family}-{_digest(job, importlib.metadata.version('pyosys'))}"
     with locked(NETLISTS / f"{folder.name}.lock"):
         done = folder / "netlist.vlt"
         if not done.is_file():
             _forget_old()
-            job["verilog"] = str(folder / "netlist.v")
+            job["verilog"] = project.relative(folder / "netlist.v")
             made = run_yosys(folder, job)
             ports = list(json.loads(made.read_text())["modules"][top]["ports"])
             done.write_text(control_file(top, ports, family))

@@ -9,7 +9,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.project import ROOT, ProjectError, relative
+from scripts.project import ROOT, ProjectError, relative, tool
 
 CLOCK = "clk"
 
@@ -80,7 +80,7 @@ def slowest_path(report: dict) -> str:
 def run(device: Device, folder: Path, log: Path, options: tuple[str, ...]) -> None:
     """Run nextpnr in `folder`, its words into `log`; ProjectError with its error lines when it fails."""
     program = f"yowasp-nextpnr-{device.family}"
-    command = [program, "--quiet", "--log", log.name, *options, *device.arguments]
+    command = [tool(program), "--quiet", "--log", log.name, *options, *device.arguments]
     try:
         done = subprocess.run(
             command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False

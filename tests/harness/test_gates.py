@@ -82,7 +82,7 @@ def test_the_control_file_shows_the_ports_and_nothing_else() -> None:
     ]
 
 
-def test_another_parameter_or_source_is_another_netlist() -> None:
+def test_another_parameter_source_or_yosys_is_another_netlist() -> None:
     job = {
         **{"top": "t", "include": [], "sources": ["rtl/common/ppmc_sync.sv"], "params": {"N": 1}},
         **{"family": "ice40", "recipe": "flow2"},
@@ -93,7 +93,8 @@ def test_another_parameter_or_source_is_another_netlist() -> None:
         {**job, "recipe": "default"},
         {**job, "family": "ecp5", "recipe": "flow2-soft"},
     ]
-    assert len({gates._digest(each) for each in (job, *others)}) == 5
+    assert len({gates._digest(each, "0.70") for each in (job, *others)}) == 5
+    assert gates._digest(job, "0.71") != gates._digest(job, "0.70") == gates._digest(dict(job), "0.70")
 
 
 def double(number: int) -> int:
