@@ -4,6 +4,7 @@ A chapter is "## <number> title"; its code blocks hold one access a line:
 
     c 43    st 10    code byte, then the status register
     d E7    st 10    data byte, then the status register
+    w 42    st 1A    code byte written without waiting for IBF = 0, then the status register
     r 83             data read after OBF = 1
             st 00    status register
     p       st 00    poll until the status register is this
@@ -19,12 +20,12 @@ from .bench import Bench
 from .bus import HostBus
 from .paths import ROOT
 
-LINE = re.compile(r"^(?:(c|d) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|(p?) +st ([0-9A-F]{2}))\b")
+LINE = re.compile(r"^(?:(c|d|w) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|(p?) +st ([0-9A-F]{2}))\b")
 
 
 @dataclass(frozen=True)
 class Step:
-    """One line: c/d byte with status, r with its byte, s a status alone, p one that is waited for."""
+    """One line: c/d/w byte with status, r with its byte, s a status alone, p one that is waited for."""
 
     kind: str
     byte: int
@@ -73,6 +74,8 @@ class Sessions:
                 await host.command(step.byte)
             elif step.kind == "d":
                 await host.data(step.byte)
+            elif step.kind == "w":
+                await host.command(step.byte, poll=False)
             status = await host.status()
             if step.kind == "c" and step.byte in self.brief and status == 0x00:
                 continue

@@ -9,7 +9,7 @@ from cocotb_tests.common.compare import Comparison, compare_recording, write_rep
 from cocotb_tests.common.part import PPMC2104
 from cocotb_tests.common.stimulus import Change, Edge, Recording
 
-from .setting import AXIS_INPUTS, AXIS_OUTPUTS, BASE, ISA_4AXIS, PARTS
+from .setting import AXIS_INPUTS, AXIS_OUTPUTS, BASE, ISA_4AXIS, PARTS, SOURCE
 
 
 def part_pins(pins: dict[str, int], number: int) -> dict[str, int]:
@@ -86,13 +86,28 @@ def check_both(bench: Bench, at_least: int = 0) -> None:
     check_irq(bench)
 
 
+def arming_writes(bench: Bench) -> list[tuple[int, int]]:
+    """(edge, level): 1 from the edge on that sees a write of the source register, any byte (ISA-11)."""
+    pins, found = {**ISA_4AXIS.inputs}, [(0, 0)]
+    for t, group in groupby(bench.stimulus, key=lambda change: change.t):
+        pins.update({change.pin: change.value for change in group})
+        writes = int(pins["sa"] == SOURCE and not pins["aen"] and not pins["iow_n"] and bool(pins["ior_n"]))
+        if writes != found[-1][1]:
+            found.append((t, writes))
+    return found[1:]
+
+
 def check_irq(bench: Bench) -> None:
-    """irq is the registered OR of both interrupts (ISA-06)."""
-    level, wanted = 0, []
-    for t, value in bench.edges("int_n"):
-        if (value != 0b11) != level:
-            level = int(value != 0b11)
-            wanted.append((t + 1, level))
+    """irq is the registered OR of both interrupts, low while a write re-arms it (ISA-06, ISA-11)."""
+    # When a level begins to count: that of int_n with the next edge, that of the pins with the edge itself.
+    calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
+    events = sorted(calls + [(t, "write", level) for t, level in arming_writes(bench)])
+    now, level, wanted = {"call": 0, "write": 0}, 0, []
+    for t, group in groupby(events, key=lambda event: event[0]):
+        now.update({name: value for _, name, value in group})
+        if (new := now["call"] & ~now["write"] & 1) != level:
+            level = new
+            wanted.append((t, level))
     end = bench.now - 1
     got = [edge for edge in bench.edges("irq") if edge[0] <= end]
     bench.check("ISA-06", "edges of irq", got, [edge for edge in wanted if edge[0] <= end])

@@ -210,3 +210,38 @@ async def manual_2104_examples_13(dut: Any) -> None:
     await bench.until(await bench.nth_fall(20, start, "pout_n[1]") + 400)
     await play(bench, host, b, "example 13b")
     check_against_model(bench)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_14(dut: Any) -> None:
+    bench, host = await begin(dut)
+    start = bench.now
+    await play(bench, host, blocks(14)[0][:-1], "example 14")
+    bench.check("example 14", "pulses of axis 1", bench.pulses(start, "pout_n[1]"), [])
+    await play(bench, host, blocks(14)[0][-1:], "example 14, sent again")
+    await bench.clocks(200)
+    bench.check("example 14", "pulses of axis 1", len(bench.pulses(start, "pout_n[1]")), 1)
+    check_against_model(bench)
+
+
+@cocotb.test()
+@configs(F16)
+async def manual_2104_examples_15(dut: Any) -> None:
+    bench, host = await begin(dut)
+    start = bench.now
+    a, b, c = blocks(15)
+    await play(bench, host, a[:1], "example 15")
+    await bench.clocks(200)
+    await play(bench, host, a[1:], "example 15")
+    await bench.clocks(200)
+    bench.check("example 15", "int_n before the handler", [v for _, v in bench.edges("int_n", start)], [0])
+    await play(bench, host, b, "example 15b")
+    await bench.clocks(200)
+    edges = bench.edges("int_n", start)[1:]
+    bench.check("example 15", "int_n by A0", [v for _, v in edges], [1, 0])
+    bench.check_window("example 15", "int_n H", edges[1][0] - edges[0][0], 80, 82)
+    await play(bench, host, c, "example 15c")
+    await bench.clocks(200)
+    bench.check("example 15", "int_n for good", [v for _, v in bench.edges("int_n", start)], [0, 1, 0, 1])
+    check_against_model(bench)

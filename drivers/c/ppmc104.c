@@ -21,6 +21,7 @@
 #define CODE_INPUTS 0x81u
 #define CODE_OUTPUTS 0x82u
 #define CODE_REMAINING 0x83u
+#define CODE_UNKNOWN 0x87u /* of no command of this part or its sisters: refused, without any other effect */
 #define CODE_SWITCHING 0x84u
 #define CODE_AUX_INPUTS 0x85u
 #define CODE_AUX_OUTPUTS 0x86u
@@ -127,6 +128,7 @@ void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
     dev->read = read;
     dev->write = write;
     dev->ctx = ctx;
+    dev->starting = false;
     dev->limit = PPMC104_DEFAULT_LIMIT;
     dev->give_up = NULL;
 }
@@ -136,20 +138,15 @@ uint8_t ppmc104_status(ppmc104_t *dev)
     return dev->read(dev->ctx, PPMC104_REG_STATUS);
 }
 
-bool ppmc104_busy(ppmc104_t *dev)
-{
-    return (ppmc104_status(dev) & PPMC104_STATUS_BUSY) != 0u;
-}
-
-/* Poll until status & mask == value; `status` gets the last one read. */
-static ppmc104_result_t wait_for(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t *status)
+/* Poll until status & mask == value, or a bit of `or_set` is 1; `status` gets the last one read. */
+static ppmc104_result_t wait_for(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status)
 {
     unsigned long polls = 0;
 
     for (;;) {
         bool over;
         *status = ppmc104_status(dev);
-        if ((*status & mask) == value && (*status & STATUS_ZERO) == 0u) {
+        if (((*status & mask) == value || (*status & or_set) != 0u) && (*status & STATUS_ZERO) == 0u) {
             return PPMC104_OK;
         }
         ++polls;
@@ -160,17 +157,44 @@ static ppmc104_result_t wait_for(ppmc104_t *dev, uint8_t mask, uint8_t value, ui
     }
 }
 
-/* One byte: room for it, the write, and what the part made of it. */
+/* Status once a motion whose last byte was taken has begun. With DATASHEET timing BUSY rises 27 .. 112 us after that
+ * byte, and bytes wait for it (P104-DS-03, STMC-BUS-13): so one that does nothing is sent if BUSY is 0. It may stay in
+ * the buffer when BUSY rises: the old chip takes only stops during a fast motion (P104-DS-12). */
+static ppmc104_result_t settle(ppmc104_t *dev, uint8_t *status)
+{
+    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
+
+    if (result == PPMC104_OK && (*status & PPMC104_STATUS_BUSY) == 0u) {
+        dev->write(dev->ctx, PPMC104_REG_STATUS, CODE_UNKNOWN);
+        result = wait_for(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
+    }
+    dev->starting = dev->starting && result != PPMC104_OK;
+    return result;
+}
+
+bool ppmc104_busy(ppmc104_t *dev)
+{
+    uint8_t status = ppmc104_status(dev);
+
+    if (dev->starting && settle(dev, &status) != PPMC104_OK) {
+        return true; /* not known to be at rest */
+    }
+    return (status & PPMC104_STATUS_BUSY) != 0u;
+}
+
+/* One byte: room for it, the write, and what the part made of it. A stop does not wait for room during a motion: what
+ * it may replace is a byte whose own call did not wait for it any longer. */
 static ppmc104_result_t put(ppmc104_t *dev, unsigned reg, uint8_t value)
 {
+    const bool stop = reg == PPMC104_REG_STATUS && (value == CODE_STOP || value == CODE_STOP_SLOWLY);
     uint8_t status;
-    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_IBF, 0u, &status);
+    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_IBF, 0u, stop ? PPMC104_STATUS_BUSY : 0u, &status);
 
     if (result != PPMC104_OK) {
         return result;
     }
     dev->write(dev->ctx, reg, value);
-    result = wait_for(dev, PPMC104_STATUS_IBF, 0u, &status);
+    result = wait_for(dev, PPMC104_STATUS_IBF, 0u, 0u, &status);
     if (result == PPMC104_OK && (status & PPMC104_STATUS_ERR) != 0u) {
         return (ppmc104_result_t)(PPMC104_ERR_UNKNOWN + ((status >> 4) & 7));
     }
@@ -207,7 +231,7 @@ ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value)
     }
     for (n = 0; n < count; ++n) {
         uint8_t status;
-        ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_OBF, PPMC104_STATUS_OBF, &status);
+        ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_OBF, PPMC104_STATUS_OBF, 0u, &status);
         if (result != PPMC104_OK) {
             return result;
         }
@@ -268,6 +292,7 @@ static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint
                                 uint32_t pulses, unsigned skip, unsigned count)
 {
     uint8_t data[4];
+    ppmc104_result_t result;
 
     if ((flags & (uint8_t)~allowed) != 0u || pulses < 1u || pulses > PULSES_MAX) {
         return PPMC104_BAD_ARGUMENT;
@@ -277,7 +302,9 @@ static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint
     data[1] = (uint8_t)(pulses & 0xFFu);
     data[2] = (uint8_t)(pulses >> 8 & 0xFFu);
     data[3] = (uint8_t)(pulses >> 16 & 0xFFu);
-    return ppmc104_command(dev, (uint8_t)(op | flags), data + skip, count);
+    result = ppmc104_command(dev, (uint8_t)(op | flags), data + skip, count);
+    dev->starting = result == PPMC104_OK;
+    return result;
 }
 
 #define PLAIN (PPMC104_CCW | PPMC104_NO_INT)
@@ -326,7 +353,11 @@ ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish)
 {
     uint8_t status;
     ppmc104_finish_t unused;
-    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_BUSY, 0u, &status);
+    ppmc104_result_t result = settle(dev, &status);
+
+    if (result == PPMC104_OK) {
+        result = wait_for(dev, PPMC104_STATUS_BUSY, 0u, 0u, &status);
+    }
     return result == PPMC104_OK ? ppmc104_finish(dev, finish != NULL ? finish : &unused) : result;
 }
 
@@ -400,8 +431,12 @@ ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on)
 
 ppmc104_result_t ppmc104_excitation_off(ppmc104_t *dev)
 {
-    if (ppmc104_busy(dev)) {
-        return PPMC104_ERR_BUSY;
+    uint8_t status;
+    ppmc104_result_t result = settle(dev, &status);
+
+    if (result != PPMC104_OK) {
+        return result;
     }
-    return ppmc104_command(dev, CODE_EXCITATION_OFF, NULL, 0u);
+    return (status & PPMC104_STATUS_BUSY) != 0u ? PPMC104_ERR_BUSY
+                                                : ppmc104_command(dev, CODE_EXCITATION_OFF, NULL, 0u);
 }

@@ -60,6 +60,7 @@ typedef struct {
     /** If not null: called after each unsuccessful poll with the number of polls so far in this wait (from 1);
      *  true ends the wait with a time-out. It may look at a clock, feed a watchdog or sleep. */
     bool (*give_up)(void *ctx, unsigned long polls);
+    bool starting; /**< of the driver: an operation was accepted and has not been seen running */
 } ppmc104_t;
 
 /** Base clock of the speeds. */
@@ -156,14 +157,18 @@ ppmc104_result_t ppmc104_run(ppmc104_t *dev, uint8_t flags);
 ppmc104_result_t ppmc104_home(ppmc104_t *dev, uint8_t flags, uint8_t rate);
 /** @} */
 
-/** No further pulse. PPMC104_ERR_UNKNOWN if nothing runs. */
+/** No further pulse. PPMC104_ERR_UNKNOWN if nothing runs. During a motion a stop replaces a byte that still waits. */
 ppmc104_result_t ppmc104_stop(ppmc104_t *dev);
 /** Decelerate, then end. PPMC104_ERR_DECELERATING if it does already, PPMC104_ERR_UNKNOWN if nothing runs. */
 ppmc104_result_t ppmc104_stop_slowly(ppmc104_t *dev);
 
 /** Status register; needs no handshake. */
 uint8_t ppmc104_status(ppmc104_t *dev);
-/** True while an operation runs. */
+/**
+ * True while an operation runs, from the return of the function that started it on. A part with DATASHEET timing shows
+ * BUSY up to 112 us later (rule P104-DS-03); the first call after a start may wait for that with an unknown command,
+ * which leaves error 0 in the status register. True as well if that wait ends with a time-out.
+ */
 bool ppmc104_busy(ppmc104_t *dev);
 /**
  * Wait for the end of the operation, then read the finish status (which lifts the interrupt).
@@ -193,7 +198,11 @@ ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off);
 ppmc104_result_t ppmc104_aux_outputs(ppmc104_t *dev, uint8_t bits);
 /** Pin AUX: true puts L on it. Always allowed. */
 ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on);
-/** All coils off, initialisation void. PPMC104_ERR_BUSY during an operation (the part would take it for AUX ON). */
+/**
+ * All coils off, initialisation void. PPMC104_ERR_BUSY during an operation: the part would take it for AUX ON. At rest
+ * it is sent behind a command that the part does not know, which comes through only once a motion that was just sent
+ * has begun (see ppmc104_busy()).
+ */
 ppmc104_result_t ppmc104_excitation_off(ppmc104_t *dev);
 
 /** @name Bytes

@@ -102,7 +102,7 @@ ppmc104_result_t stmc_stop(stmc_t *dev);
 /** Decelerate, then end. PPMC104_ERR_DECELERATING if it does already, PPMC104_ERR_UNKNOWN if nothing runs. */
 ppmc104_result_t stmc_stop_slowly(stmc_t *dev);
 
-/** True while a motion runs; needs no handshake. */
+/** True while a motion runs, from the return of the function that started it on; see ppmc104_busy(). */
 bool stmc_busy(stmc_t *dev);
 /**
  * Wait for the end of the motion, then read the finish status (which lifts the interrupt).

@@ -5,14 +5,16 @@ from __future__ import annotations
 from fractions import Fraction
 
 from . import units
-from .errors import OutOfRange
+from .errors import NotWhileBusy, OutOfRange
 from .kinds import PPMC104
 from .one_axis import OneAxis
 from .registers104 import Inputs
-from .script import Script
+from .script import Result, Script
 
 SWITCHING, READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x84, 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
+_START_XT = 1792
+"""Crystal cycles until BUSY rises after the last byte of an operation, at most (P104-DS-03: 112 us)."""
 
 
 class Ppmc104(OneAxis):
@@ -31,6 +33,16 @@ class Ppmc104(OneAxis):
 
     def inputs(self) -> Inputs:
         return Inputs.of_pins(self.pins())
+
+    def _at_rest(self, script: Script) -> None:
+        identity = self.link.identity
+        if identity.datasheet:
+            # A motion that was just sent may be about to begin. The bridge's limit may be 1 ms short.
+            limit = 2 + _START_XT * 1000 // identity.xtal_hz
+            answer = self.link.attempt(Script().timeout(limit).wait(1, self.busy, self.busy))
+            if answer.result is not Result.TIMED_OUT:
+                raise NotWhileBusy(self.link.judge(answer).byte(0))
+        super()._at_rest(script)
 
     # ------------------------------------------------------------------ auxiliary
 

@@ -5,7 +5,8 @@
 
 module ppmc104_example_wishbone #(
     parameter int unsigned CLK_HZ  = 16_000_000,  // frequency of clk, 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ = 16_000_000   // all speeds of the part follow it
+    parameter int unsigned XTAL_HZ = 16_000_000,  // all speeds of the part follow it
+    parameter string       TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
 ) (
     input  wire logic        clk,
     input  wire logic        rst_n,     // may assert at any time
@@ -72,7 +73,7 @@ module ppmc104_example_wishbone #(
   ppmc104 #(
       .CLK_HZ    (CLK_HZ),
       .XTAL_HZ   (XTAL_HZ),
-      .TIMING    ("FAST"),
+      .TIMING    (TIMING),
       .PHASE_IDLE(1'b1)      // 0 if the drivers switch a coil on with H
   ) u_part (
       .clk,

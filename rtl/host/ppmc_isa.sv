@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_isa: 8-bit ISA or PC/104 slave for parts with two registers each: decodes, drives the bus, merges
 // interrupts.
-// Rules:  ISA-01..07 (docs/isa_4axis.md); J105-01..03 and J105-05 with Parts = 1.
+// Rules:  ISA-01..07, ISA-11 (docs/isa_4axis.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the parts sample them (ppmc_strobe_bus). irq_o
-//         follows int_ni by one clk.
+//         follows int_ni by one clk; a write to the source register holds it low from the first clk edge that
+//         samples the write to the first that does not.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_isa #(
     parameter int unsigned Parts  = 1,     // part p: data at Base + 2p, status and command at Base + 2p + 1
-    parameter bit          Source = 1'b0,  // 1: one more register behind them, bit p = part p interrupts
+    parameter bit          Source = 1'b0,  // 1: one more register behind them, bit p = part p interrupts; a
+                                           // write to it makes a new edge of irq_o if one still does
     parameter int unsigned Base   = 'h3B0  // a multiple of the window's length
 ) (
     input  wire logic                  clk_i,
@@ -41,13 +43,14 @@ module ppmc_isa #(
 
   // ---- whose cycle is it -----------------------------------------------------------------------------
 
-  logic here, hit_source, read;
+  logic here, hit_source, read, write;
   logic [ Bits-1:0] pair;  // which pair of registers
   logic [Parts-1:0] hit;
 
   assign here       = !aen_i && (sa_i >> Bits) == 10'(Base >> Bits);
   assign pair       = Bits'({1'b0, sa_i[Bits-1:0]} >> 1);
   assign read       = !ior_ni && iow_ni;
+  assign write      = !iow_ni && ior_ni;
   assign a0_o       = sa_i[0];
   assign cs_no      = ~hit;
   assign hit_source = Source && here && sa_i[Bits-1:0] == Bits'(2 * Parts);
@@ -63,7 +66,7 @@ module ppmc_isa #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) irq_o <= 1'b0;
-    else irq_o <= |(~int_ni);
+    else irq_o <= |(~int_ni) && !(hit_source && write);
   end
 
   if (Source) begin : g_source

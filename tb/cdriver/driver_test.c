@@ -5,7 +5,9 @@
 #include "../../drivers/c/ppmc104.h"
 #include "sim_bus.h"
 
-static const ppmc104_config_t CONFIG = {4, false, true, false, false, 19, 9, 6};
+/* Slow enough for the old chip, which is deaf during a faster motion (P104-DS-12). */
+static const ppmc104_config_t CONFIG = {4, false, true, false, false, 59, 39, 6};
+#define FAST_RATE 9 /* too fast for it */
 
 /* A print of its own, so that arguments are evaluated one after the other. */
 static void show(const char *name, ppmc104_result_t result)
@@ -37,7 +39,7 @@ static void moves(ppmc104_t *dev)
     printf("irq running=%lu ended=%lu pin=%d\n", (unsigned long)during, (unsigned long)before, sim_irq());
     ending(dev, "move");
     printf("irq read=%lu pin=%d\n", (unsigned long)sim_bridge(), sim_irq());
-    show("constant", ppmc104_move_constant(dev, PPMC104_CCW, 14, 300));
+    show("constant", ppmc104_move_constant(dev, PPMC104_CCW, 24, 300));
     ending(dev, "constant");
     show("quiet", ppmc104_move(dev, PPMC104_CW | PPMC104_NO_INT | PPMC104_POUT_ONLY, 12));
     while (ppmc104_busy(dev)) {}
@@ -123,8 +125,38 @@ static void errors(ppmc104_t *dev)
     bad.ramp = 11221;
     show("E ramp", ppmc104_init(dev, &bad));
     bad = CONFIG;
-    bad.rate_high = 20;
+    bad.rate_high = 60;
     show("E rates", ppmc104_init(dev, &bad));
+}
+
+/* Looks and commands right behind the last byte of an operation: with DATASHEET timing BUSY is still 0. */
+static void gap(ppmc104_t *dev)
+{
+    uint8_t levels = 0;
+
+    sim_reset(false);
+    show("G init", ppmc104_init(dev, &CONFIG));
+    show("G look", ppmc104_move(dev, PPMC104_CW, 12));
+    printf("G look bare=%d", ppmc104_status(dev) >> 2 & 1);
+    printf(" busy=%d", ppmc104_busy(dev));
+    printf(" again=%d\n", ppmc104_busy(dev));
+    ending(dev, "G look");
+    printf("G look rest=%d\n", ppmc104_busy(dev));
+    show("G off", ppmc104_move(dev, PPMC104_CW, 12));
+    show("G off refused", ppmc104_excitation_off(dev));
+    ending(dev, "G off");
+    show("G now", ppmc104_excitation_off(dev));
+    show("G init", ppmc104_init(dev, &CONFIG));
+    show("G fast", ppmc104_jog(dev, PPMC104_CW, FAST_RATE));
+    show("G fast refused", ppmc104_excitation_off(dev));
+    sim_run_pulses(3);
+    dev->limit = 20;
+    show("G fast read", ppmc104_inputs(dev, &levels));
+    dev->limit = PPMC104_DEFAULT_LIMIT;
+    show("G fast stop", ppmc104_stop(dev));
+    ending(dev, "G fast");
+    show("G wait", ppmc104_step(dev, PPMC104_CW));
+    ending(dev, "G wait");
 }
 
 static void pins(ppmc104_t *dev)
@@ -224,7 +256,7 @@ static void dead(ppmc104_t *dev)
     show("zero probe", ppmc104_probe(&other));
     sim_reset(false);
     dev->limit = 3;
-    (void)ppmc104_command(dev, 0x0A, (const uint8_t *)"\023\011\006", 4);
+    (void)ppmc104_command(dev, 0x0A, (const uint8_t *)"\073\047\006", 4);
     show("short wait", ppmc104_probe(dev));
     dev->limit = PPMC104_DEFAULT_LIMIT;
     show("alive", ppmc104_probe(dev));
@@ -266,6 +298,7 @@ int main(void)
     errors(&dev);
     motors(&dev);
     external(&dev);
+    gap(&dev);
     dead(&dev);
     rates();
     printf("done cycles=%u\n", sim_cycles());

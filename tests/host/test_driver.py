@@ -34,11 +34,19 @@ from openppmc.host.errors import BY_NUMBER, CommandRefused
 from openppmc.host.loopback import ModelPort
 from openppmc.host.script import Script
 
+timing = "FAST"
+
+
+@pytest.fixture(autouse=True, params=["FAST", "DATASHEET"])
+def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every test runs in both timings."""
+    monkeypatch.setitem(globals(), "timing", request.param)
+
 
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Ppmc104]:
     """An initialised axis; `setup={}` as keyword arguments of initialise."""
-    with Ppmc104.open(f"model:speed=max,{plant}") as axis:
+    with Ppmc104.open(f"model:speed=max,timing={timing},{plant}") as axis:
         axis.initialise(**setup)  # type: ignore[arg-type]
         yield axis
 
@@ -474,6 +482,21 @@ def test_a_look_before_busy_rises() -> None:
             assert motion.poll() is not None
             assert axis.status().busy
             assert motion.wait().pulses == pulses
+
+
+def test_excitation_off_right_after_a_start() -> None:
+    """Refused, although the part with DATASHEET timing is not BUSY yet and would take the code for AUX ON."""
+    with Ppmc104.open(f"model:speed=max,timing={timing}", baud=3_000_000) as axis:
+        axis.initialise(start_pps=5000, high_pps=9000)
+        axis.move(1)
+        motion = axis.start_move(300)
+        with pytest.raises(NotWhileBusy):
+            axis.excitation_off()
+        assert isinstance(axis.link.port, ModelPort)
+        assert axis.link.port.board.part.outputs["aux_n"] == 1
+        assert motion.wait().pulses == 300
+        axis.excitation_off()
+        assert axis.outputs().phases == (0, 0, 0, 0, 0)
 
 
 def test_external_clock_that_does_not_run() -> None:

@@ -43,10 +43,19 @@ W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 """Gaps of 20 steps with divisors 20 and 5 and a ramp of 8 (example W1 of the rules)."""
 
 
+timing = "FAST"
+
+
+@pytest.fixture(autouse=True, params=["FAST", "DATASHEET"])
+def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every test runs in both timings."""
+    monkeypatch.setitem(globals(), "timing", request.param)
+
+
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Stmc]:
     """An initialised part; `setup` as keyword arguments of initialise."""
-    with Stmc.open(f"model:speed=max,part=stmc,{plant}") as axis:
+    with Stmc.open(f"model:speed=max,part=stmc,timing={timing},{plant}") as axis:
         axis.initialise(**setup)  # type: ignore[arg-type]
         yield axis
 
@@ -139,10 +148,9 @@ def test_impossible_setups_are_refused_before_the_part_hears_of_them(
     assert axis.move(5).complete
 
 
-@pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
-def test_steps_with_the_internal_clock(timing: str) -> None:
+def test_steps_with_the_internal_clock() -> None:
     """Exactly 1280 clk a tick at 16 MHz."""
-    with board(f"timing={timing}", start_pps=625, high_pps=2500, ramp_pulses=8, base_clock=12_500) as axis:
+    with board(start_pps=625, high_pps=2500, ramp_pulses=8, base_clock=12_500) as axis:
         assert gaps(axis, 20) == [1280 * ticks for ticks in W1]
         assert gaps(axis, -4, 1250) == [12_800] * 3
 

@@ -56,6 +56,14 @@ def compilations() -> list:
     ]
 
 
+TIMINGS = ("FAST", "DATASHEET")
+
+
+def timed(timing: str) -> str:
+    """Verilator's word for the parameter TIMING."""
+    return f'-GTIMING="{timing}"'
+
+
 def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
     """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
 

@@ -11,6 +11,7 @@ from c_programs import (
     BENCH,
     C99,
     DRIVER,
+    TIMINGS,
     WARNINGS,
     Lines,
     compilations,
@@ -19,6 +20,7 @@ from c_programs import (
     result,
     run,
     simulate,
+    timed,
 )
 
 from cocotb_tests.common.config import F16
@@ -28,7 +30,7 @@ from openppmc.model.codes104 import Error
 from openppmc.model.predict import predict_move
 
 TOP = "ppmc104_example_wishbone"
-INIT = bytes([19, 9, 6, 0])
+INIT = bytes([59, 39, 6, 0])
 
 
 @pytest.mark.parametrize(("compiler", "source"), compilations())
@@ -47,18 +49,18 @@ def test_example_of_the_manual_compiles(tmp_path):
     assert run(*C99, "-Wall", "-Werror", f"-I{DRIVER}", source, driver, "-o", tmp_path / "example") == ""
 
 
-@pytest.fixture(scope="module")
-def lines() -> Lines:
+@pytest.fixture(scope="module", params=TIMINGS)
+def lines(request) -> Lines:
     """What tb/cdriver/driver_test.c printed: first word(s) -> its lines, each as name -> value."""
     design = part_design("ppmc104", F16)
     design = replace(design, sources=[*design.sources, ROOT / "packages" / "templates" / f"{TOP}.sv"])
     sources = [DRIVER / "ppmc104.c", BENCH / "driver_test.c", BENCH / "sim_bus.cpp"]
-    return simulate("cdriver", TOP, design, sources)
+    return simulate(f"cdriver_{request.param.lower()}", TOP, design, sources, (timed(request.param),))
 
 
 @pytest.mark.parametrize(
     ("name", "count", "rate", "ccw", "op"),
-    [("move", 30, None, 0, 3), ("constant", 300, 14, 1, 4), ("quiet", 12, None, 0, 3), ("step", 1, 0, 1, 2)],
+    [("move", 30, None, 0, 3), ("constant", 300, 24, 1, 4), ("quiet", 12, None, 0, 3), ("step", 1, 0, 1, 2)],
 )
 def test_operation_gives_the_pulses_of_the_model(lines, name, count, rate, ccw, op):
     """Given an operation by the driver, then count, direction and every interval are the predicted ones."""
@@ -209,6 +211,37 @@ def test_external_clock(lines):
     """Given an initialisation for the clock pin, which stands still, then a move waits for it."""
     assert [line.get("result", "0") for line in lines["external"]] == ["0"] * 4
     assert (lines["external"][2]["busy"], lines["external"][2]["pulses"]) == ("1", "0")
+
+
+def test_busy_right_behind_the_last_byte(lines):
+    """Given a move just sent, BUSY 112 us later (P104-DS-03), then the driver says busy until its end."""
+    look = next(line for line in lines["G look"] if "busy" in line)
+    assert (look["busy"], look["again"]) == ("1", "1")
+    assert next(line["rest"] for line in lines["G look"] if "rest" in line) == "0"
+    assert (ending(lines, "G look")["raw"], pulses(lines, "G look")[0]) == (0x83, 12)
+    assert (ending(lines, "G wait")["raw"], pulses(lines, "G wait")[0]) == (0x82, 1)
+
+
+def test_the_gap_before_busy_is_met(lines, request):
+    """Given the old chip's times, then the look above comes in the gap; FAST has none."""
+    gap = request.node.callspec.params["lines"] == "DATASHEET"
+    assert next(line["bare"] for line in lines["G look"] if "bare" in line) == str(int(not gap))
+
+
+def test_excitation_off_right_behind_the_last_byte(lines):
+    """Given a move just sent, then excitation off is refused, not taken for AUX ON; at rest it works."""
+    assert result(lines, "G off refused")[0] == Error.NOT_WHILE_BUSY + 1
+    assert (ending(lines, "G off")["raw"], pulses(lines, "G off")[0]) == (0x83, 12)
+    assert result(lines, "G now") == (0, "ok")
+
+
+def test_stop_of_a_motion_that_lets_no_byte_in(lines, request):
+    """Given a read in a motion that lets only stops in (P104-DS-12), then a stop replaces it."""
+    deaf = request.node.callspec.params["lines"] == "DATASHEET"
+    assert result(lines, "G fast refused")[0] == Error.NOT_WHILE_BUSY + 1
+    assert result(lines, "G fast read")[0] == (16 if deaf else Error.NOT_WHILE_BUSY + 1)
+    assert result(lines, "G fast stop") == (0, "ok")
+    assert ending(lines, "G fast")["raw"] == 0xC5
 
 
 def test_time_out(lines):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from c_programs import BENCH, DRIVER, Lines, ending, pulses, result, simulate
+from c_programs import BENCH, DRIVER, TIMINGS, Lines, ending, pulses, result, simulate, timed
 
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import part_design
@@ -21,13 +21,14 @@ def gaps(steps: int, divisor: int | None = None, init: bytes = INIT) -> list[int
     return [TICK * rate for rate in predict_move(init, steps, divisor, part="stmc").rates]
 
 
-@pytest.fixture(scope="module")
-def lines() -> Lines:
+@pytest.fixture(scope="module", params=TIMINGS)
+def lines(request) -> Lines:
     """What tb/cdriver/stmc_test.c printed: first word(s) -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "stmc.c", BENCH / "stmc_test.c", BENCH / "isa_bus.cpp"]
     # A fast "external" clock, because every clk is computed.
     design = part_design("j105_stmc", F16)
-    return simulate("cdriver_stmc", "j105_stmc", design, sources, ("-GEXT_HZ=1000000",))
+    params = ("-GEXT_HZ=1000000", timed(request.param))
+    return simulate(f"cdriver_stmc_{request.param.lower()}", "j105_stmc", design, sources, params)
 
 
 @pytest.mark.parametrize(
