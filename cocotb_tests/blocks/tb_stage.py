@@ -135,8 +135,7 @@ async def _check(u: Unit, table: Table, what: str, clk: int, pulses: tuple[int, 
     )
     want = want << 80 | pack((table.rates[table.sd], 16), (table.high, 16), (pulses[0], 24), (pulses[1], 24))
     same(f"{what}: description", f"{u.get('table_o'):x}", f"{want:x}")
-    for port, first in (("home_o", table.sa), ("rest_o", table.sd)):
-        same(f"{what}: {port}", Target.split(u.get(port)), Target.of(table, table.rates[first]))
+    same(f"{what}: home_o", Target.split(u.get("home_o")), Target.of(table, table.rates[table.sa]))
     for port, got in zip(("planner", "motion"), await _read(u), strict=True):
         for i in range(table.first, STAGES):
             # Below the first stage of a side its pulses mean nothing.

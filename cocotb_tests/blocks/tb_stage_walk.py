@@ -22,14 +22,20 @@ LEADS = {"slow": 2, "jump": 5, "ramp": 9}
 """How many clk before a boundary a request must come at least to count for it."""
 SHORTEST, TARGET_CLK = 4, 2
 """Clk of an interval; clk after change_i in which target_i is taken."""
+FLAT, SEARCH, FOUND = 7, 129, 3
+"""Clk of constant rate before a ramp begins; clk of a search, and after it before a walk begins."""
 WATCH = "next_end_o next_low_o next_count_o next_rate_o"
 
 
 def small_curve(rand: random.Random) -> Table:
-    """A curve of a few stages with a few pulses each, mostly falling; the sides may differ."""
+    """A curve of a few stages with a few pulses each, mostly falling, half with equal neighbours; the sides
+    may differ."""
     counts = [rand.choice((2, 3, 5)), rand.choice((2, 3, 4))]
     split = rand.random() < 0.7
-    rates = sorted(rand.sample(range(2, 400), max(counts) if split else counts[0]))
+    most = max(counts) if split else counts[0]
+    rates = sorted(rand.sample(range(2, 400), most))
+    if rand.random() < 0.5:
+        rates = sorted(rand.choices(rates, k=most))
     if rand.random() < 0.25:
         rand.shuffle(rates)
     pulses = [[rand.randint(2, 6) for _ in range(count)] for count in counts]
@@ -51,6 +57,8 @@ class Walker:
         self.asked = deque([(0, 0), (0, 0)])
         self.sequence = Sequence(plan)
         self.story: list[str] = []
+        self.busy = rand.choice((0.1, 0.4))
+        self.flat_for, self.slow, self.searched = SEARCH, 0, 0
         self.what = f"{brief(table)}: {plan.n} pulses at {plan.rate}, {plan.up} up, {plan.down} down"
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
@@ -73,7 +81,7 @@ class Walker:
         """Begin the operation."""
         table, plan = self.table, self.plan
         self.u.put(first_acc_i=table.sa, first_dec_i=table.sd, rate_dec_i=table.rates[table.sd])
-        self.u.put(rest_i=Target.of(table, table.rates[table.sd]).packed, slow_i=0, change_i=0)
+        self.u.put(slow_i=0, change_i=0)
         stage, left = walk_start(table, plan.down) if plan.down else (0, 0)
         part = int(plan.down > 0 and left != table.pd[stage])
         self.u.put(dec_from_i=pack((stage, 7), (part, 1), (left * part, 24)), dec_i=plan.down)
@@ -88,17 +96,27 @@ class Walker:
         rand, found = self.rand, {}
         if rand.random() < 0.08:
             found[LEADS["slow"] + rand.choice((0, 0, 1, 7))] = "slow"
-        if rand.random() < 0.1:
-            what = rand.choice(["jump"] + ["ramp"] * (self.sequence.present.stage is None))
+        if rand.random() < self.busy:
+            flat = self.sequence.present.stage is None
+            what = rand.choice(["jump"] + ["ramp"] * (flat or self.sequence.running is not None))
             lead = LEADS[what] + rand.choice((0, 0, 1, 6))
             found[lead if lead not in found else lead + 1] = what
         return found
+
+    def aim(self) -> int:
+        """Rate of a change."""
+        return some_rate(self.rand, self.table)
 
     async def interval(self) -> None:
         """All clk of an interval but the last one."""
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
-        slow, target = 0, {}
+        if self.sequence.sought and self.rand.random() < 0.3:
+            # A boundary where what the search finds just counts, or just not yet.
+            wanted = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
+            longest = max(longest, wanted - self.flat_for)
+        self.flat_for += longest
+        slow, target = self.slow, {}
         for left in range(longest - 1, 0, -1):
             what = requests.get(left)
             if what:
@@ -107,7 +125,7 @@ class Walker:
                 slow = 1
                 self.sequence.request(Cause.SLOW)
             elif what:
-                rate = some_rate(self.rand, self.table)
+                rate = self.aim()
                 self.story[-1] += f" to {rate}"
                 self.sequence.change(Change(rate, what == "ramp"))
                 packed = Target.of(self.table, rate).packed
@@ -122,12 +140,18 @@ class Walker:
             await self.interval()
             where = f"{self.what}, {self.story}, boundary {self.sequence.done + 1}"
             end, low, count, rate = await self.look()
-            want = self.sequence.boundary()
+            self.slow = self.u.get("slow_i") and not self.u.get("next_slow_o")
+            flat_for = self.flat_for - SEARCH * self.sequence.sought
+            was_stage = self.sequence.in_table
+            want = self.sequence.boundary(flat_for >= FLAT, flat_for >= FOUND)
             if isinstance(want, Cause):
                 why = (1, want is Cause.LOW, want is Cause.NORMAL)
                 same(f"{where}: end, low, count", (end, low, count), why)
                 return want.name
             same(f"{where}: end, rate", (end, rate), (0, want.rate))
+            if was_stage and want.stage is None:
+                self.flat_for = 0
+            self.searched += self.sequence.sought
             await self.clk(step_i=1)
             self.u.put(step_i=0, slow_i=0)
             await self.u.settle()
@@ -158,3 +182,52 @@ async def stage_seq_walks(dut):
         end = await walker.run(60)
         ends[end] = ends.get(end, 0) + 1
     same("ends that occurred", sorted(ends), ["LOW", "NORMAL", "SLOW", "endless"])
+
+
+class Meeting(Walker):
+    """A ramp of 87 is sent to meet the deceleration point; what comes after it is random."""
+
+    def plan_requests(self) -> dict[int, str]:
+        """88 some pulses before that point, 87 closer to it."""
+        plan, rand = self.plan, self.rand
+        before = (plan.n or 0) - plan.down - self.sequence.done
+        if before in (self.jump, self.ramp):
+            return {LEADS["ramp"]: "jump" if before == self.jump else "ramp"}
+        return {} if 0 < before else super().plan_requests()
+
+    def aim(self) -> int:
+        """Down to where a ramp has stages, then up."""
+        before = (self.plan.n or 0) - self.plan.down - self.sequence.done
+        if self.rand.random() < 0.2 or before < 1:
+            return super().aim()
+        return self.table.high if before == self.ramp else self.table.rates[self.table.first]
+
+    @classmethod
+    def some(cls, u: Unit, rand: random.Random) -> Meeting:
+        """A table and an operation with so many pulses of deceleration that much can happen in them."""
+        while True:
+            table = small_curve(rand)
+            rate = some_rate(rand, table)
+            plan = ramped(table, rate, None)
+            n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
+            plan = ramped(table, rate, n)
+            if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
+                break  # often with stages that only the acceleration has, where there is no walk
+        walker = cls(u, table, plan, rand)
+        walker.jump, walker.ramp, walker.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
+        return walker
+
+
+@cocotb.test()
+async def stage_seq_searches(dut):
+    """Given a stage that becomes a constant rate, then t(rate) is found for what comes after it."""
+    rand = rng()
+    u = Unit(dut, "seq", BLOCKS, WATCH)
+    await u.reset()
+    searched = 0
+    for _ in range(240):
+        walker = Meeting.some(u, rand)
+        await walker.load()
+        await walker.run(120)
+        searched += walker.searched
+    assert searched > 100, f"a search ran in {searched} intervals only"

@@ -12,6 +12,33 @@ ALWAYS = "03 04 86 00"
 # Not monotonic, sides of their own: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
 ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
 
+# Equal neighbours: R[122..126] = 400 400 200 200 100, pa = pd = 2 2 3 4 5.
+EQUAL = (
+    "02 03 01 01 05",
+    "00 0A 0064 00C8 00C8 0190 0190",
+    "01 0F 000005 000004 000003 000002 000002",
+)
+# R[122..126] = 500 400 400 200 100, pa = 3 3 3 4 5, pd = - - - 30 6: the equal ones are slower than R[sd].
+SLOW_EQUAL = (
+    "02 04 01 11 05 02",
+    "00 0A 0064 00C8 0190 0190 01F4",
+    "00 0F 000005 000004 000003 000003 000003",
+    "01 06 000006 00001E",
+)
+# R[122..126] = 400 400 400 200 100, pa = pd = 3 3 3 4 5.
+LAST_EQUAL = (
+    "02 03 01 01 05",
+    "00 0A 0064 00C8 0190 0190 0190",
+    "01 0F 000005 000004 000003 000003 000003",
+)
+# R[122..126] = 500 400 200 450 100, pa = 3 3 3 4 5, pd = - - 4 2 30.
+UNEVEN = (
+    "02 04 01 11 05 03",
+    "00 0A 0064 01C2 00C8 0190 01F4",
+    "00 0F 000005 000004 000003 000003 000003",
+    "01 09 00001E 000002 000004",
+)
+
 
 def stopped(cause: int, position: int) -> str:
     return clean(f"23 06 E0 {cause:02X} {position & 0xFFFFFFFF:08X}")
@@ -215,6 +242,60 @@ WALKS = [
         "100x4 300x2 250x4",
         0x40,
     ),
+    # Equal neighbouring rates: the last of them counts for a constant rate, its own stage for a stage.
+    (EQUAL, "03 08 82 00 0000 00000028", [], "400x4 200x7 100x18 200x7 400x4", 0x40),
+    (EQUAL, "03 08 82 00 0190 00000006", [(5, SLOW_STOP)], "400x5", 0x10),
+    (EQUAL, "03 04 85 00 0000", [(1, SLOW_STOP)], "400x1", 0x10),
+    (EQUAL, "03 04 85 00 0000", [(4, SLOW_STOP)], "400x4", 0x10),
+    (EQUAL, "03 04 85 00 0000", [(5, SLOW_STOP)], "400x4 200x1 200x3 400x4", 0x08),
+    (EQUAL, "03 04 85 00 0000", [(8, SLOW_STOP)], "400x4 200x4 200x7 400x4", 0x08),
+    (EQUAL, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x5 200x7 400x4", 0x08),
+    (EQUAL, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4 200x7 400x4", 0x08),
+    (EQUAL, f"{ALWAYS} 00C9", [(4, SLOW_STOP)], "201x4 400x4", 0x08),
+    (EQUAL, f"{ALWAYS} 0190", [(4, SLOW_STOP)], "400x4", 0x10),
+    (EQUAL, "03 08 83 00 0190 00000014", [(3, change(0x87, 100))], "400x3 200x7 100x10", 0x40),
+    (EQUAL, "03 08 83 00 0064 00000014", [(3, change(0x87, 400))], "100x3 200x7 400x10", 0x40),
+    (EQUAL, "03 08 83 00 0064 00000014", [(3, change(0x87, 200))], "100x3 200x17", 0x40),
+    (EQUAL, "03 08 82 00 00C8 00000028", [(14, change(0x88, 100))], "400x4 200x10 100x20 200x6", 0x40),
+    (EQUAL, "03 08 82 00 0000 00000028", [(18, change(0x88, 200))], "400x4 200x7 100x7 200x13 400x9", 0x40),
+    (
+        EQUAL,
+        "03 08 82 00 0000 00000028",
+        [(18, change(0x88, 200)), (37, change(0x87, 100))],
+        "400x4 200x7 100x7 200x13 400x6 200x3",
+        0x40,
+    ),
+    # A ramp that ends at the deceleration point without a walk: the next 87 starts from t(R_c), not from the
+    # stage in which it ended.
+    (
+        SLOW_EQUAL,
+        "03 08 82 00 0096 0000003C",
+        [(20, change(0x88, 500)), (27, change(0x87, 100)), (33, change(0x87, 200))],
+        "500x3 400x6 200x4 150x7 500x7 400x6 200x27",
+        0x40,
+    ),
+    (
+        LAST_EQUAL,
+        "03 08 82 00 00C8 00000028",
+        [(22, change(0x87, 400)), (29, change(0x87, 200))],
+        "400x9 200x13 400x7 200x11",
+        0x40,
+    ),
+    # The same where rates do not fall: t(400) = t(401) = 125, so that 87 finds stages to slow down with.
+    (
+        UNEVEN,
+        "03 08 82 00 0064 00000050",
+        [(20, change(0x88, 500)), (41, change(0x87, 100)), (50, change(0x87, 500))],
+        "500x3 400x3 200x3 450x4 100x7 500x21 400x9 450x2 200x4 500x24",
+        0x40,
+    ),
+    (
+        UNEVEN,
+        "03 08 82 00 0064 00000050",
+        [(20, change(0x88, 500)), (41, change(0x87, 100)), (50, change(0x87, 100))],
+        "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
+        0x40,
+    ),
     # Two held for one boundary: the newer one counts.
     (TF, "03 08 83 00 0190 0000000A", [(4, change(0x88, 300)), (4, change(0x87, 400))], "400x10", 0x40),
     (TF, "03 08 83 00 0190 0000000A", [(4, change(0x87, 100)), (4, change(0x88, 350))], "400x4 350x6", 0x40),
@@ -234,6 +315,28 @@ def test_walks_and_changes(table: tuple[str, ...], start: str, acts: list, pulse
         host.pulse(number, 20)
         assert host.ask(block) == f"03 01 {block[6:8]}"
     run_out(host, mark, cause, pulses)
+
+
+@verifies("P312-MOT-33", "P312-MOT-32", "P312-OVR-11", "P312-STA-01")
+def test_two_87_across_the_deceleration_point() -> None:
+    """The second one is accepted before the ramp of the first begins, and comes too late for its boundary.
+
+    It is held in the ramp, and dropped where that ends: the rest is not sped up.
+    """
+    for ahead in (30, 60, 100, 140):
+        host = Host312(*TF)
+        host.ask("03 08 82 00 0064 00000028")
+        mark = host.mark
+        host.pulse(20, 20)
+        assert host.ask(change(0x88, 400)) == "03 01 88"
+        host.mark = mark
+        edge = host.pulse(25, 20)
+        assert host.ask(change(0x87, 100)) == "03 01 87"
+        host.go(edge + 400 * TICK - ahead - 45)
+        host.put(change(0x87, 200))
+        assert host.header == edge + 400 * TICK - ahead
+        assert host.response() == "03 01 87"
+        run_out(host, mark, 0x40, "400x3 200x4 100x13 400x5 200x7 400x8")
 
 
 @verifies("P312-MOT-34", "P312-MOT-06", "P312-MOT-03", "P312-INP-12")

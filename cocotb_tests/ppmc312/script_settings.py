@@ -71,6 +71,26 @@ def test_tables_with_two_sides_read_back() -> None:
     assert up[::-1] == list(table.pa[table.sa :]) and down[::-1] == list(table.pd[table.sd :])
 
 
+@verifies("P312-TBL-02", "P312-TBL-03", "P312-CMD-41")
+def test_sigmoid_tables_keep_stages_that_rounding_makes_equal() -> None:
+    head, (rates, up, _) = read_table(Host312("03 09 00 08 01 2C 00 64 00 0B B8"))
+    assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
+    assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
+    # Both sides: the slower one has all stages, the other one starts at the last stage that is slow enough.
+    for rs, rp, counts in (
+        (300, 300, [127, 127, 127]),
+        (300, 299, [127, 127, 123]),
+        (299, 300, [127, 123, 127]),
+        (298, 300, [127, 122, 127]),
+    ):
+        host = Host312(f"03 0E 00 18 {rs:04X} {rp:04X} 0064 000BB8 000FA0")
+        head, (rates, up, down) = read_table(host)
+        assert head[:3] == counts and (sum(up), sum(down)) == (3000, 4000)
+    for rs, second in ((624, 624), (625, 624), (626, 625)):
+        head, (rates, *_) = read_table(Host312(f"03 09 00 08 {rs:04X} 0064 001770"))
+        assert head[:2] == [127, 127] and rates[:-3:-1] == [rs, second]
+
+
 @verifies("P312-CMD-00", "P312-GEN-05", "P312-TBL-05")
 def test_initial_setting_layouts_and_order_of_checks() -> None:
     host = Host312()

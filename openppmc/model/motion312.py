@@ -138,8 +138,10 @@ class Motion:
             sequence, lead = self.sequence, self._pace.ramp_lead if change.ramp else self._pace.change_lead
             # The one that it replaces is gone before it counts itself.
             self._flag(t + self._pace.drop_lead, lambda at: sequence.drop_change())
-            event = self._flag(t + lead, lambda at: sequence.change(change))
-            self._changes.append((t, event))
+            self._changes.append((t, self._flag(t + lead, lambda at: sequence.change(change))))
+            if change.ramp:
+                held = self._flag(t + self._pace.change_lead, lambda at: sequence.hold())
+                self._changes.append((t, held))
 
     def _flag(self, t: int, action: Callable[[int], None]) -> Event:
         return self._context.queue.at(t, Phase.FLAG, action)
@@ -227,14 +229,16 @@ class Motion:
         if not self.active:
             return
         sequence, constant = self.sequence, not self.sequence.in_table
-        step = sequence.boundary(t >= self._flat_from + self._pace.flat_lead)
+        flat_for = t - self._flat_from - self._pace.search * sequence.sought
+        step = sequence.boundary(flat_for >= self._pace.flat_lead, flat_for >= self._pace.slow_lead)
         if isinstance(step, Cause):
             self._end(t, step)
             return
-        if sequence.walk_begins:
-            # A change that was asked for in time for this boundary is forgotten with it.
+        # A change that was asked for in time for this boundary is forgotten with the walk, or dropped.
+        lead = 1 if sequence.walk_begins else self._pace.change_lead
+        if sequence.walk_begins or sequence.drops:
             for since, event in self._changes:
-                if since < t:
+                if since + lead <= t:
                     event.cancel()
         if step.stage is None and not constant:
             self._flat_from = t

@@ -32,7 +32,8 @@ class Pace:
     to what the position triggers (P312-MOT-05, P312-OVR-12), unlock: to E1. lead, slow_lead, change_lead,
     ramp_lead, origin_lead: the high-speed limit, 81, 88, 87, the level of the origin counts for a boundary
     that comes at least this much later; drop_lead: the same for what a newer 87 or 88 replaces; flat_lead: 87
-    needs a constant rate for so long. scan: one pass over the table. young: t0 to the first look at the
+    needs a constant rate for so long. search: so much longer after a stage has become the constant rate, whose
+    t(x) must be found first. scan: one pass over the table. young: t0 to the first look at the
     high-speed limit. least: shortest interval (P312-MOT-04). armed: a new head of
     the command FIFO to its trigger (P312-OVR-02, <= 4).
 
@@ -77,6 +78,7 @@ class Pace:
     drop_lead: int = 3
     ramp_lead: int = 9
     flat_lead: int = 7
+    search: int = 129
     origin_lead: int = 2
     scan: int = 131
     young: int = 6
@@ -133,8 +135,8 @@ class Pace:
         return 3 + 28 + 28 + stages * rates + stages * (speed + 1) + shares + 1
 
     def looking_up(self) -> int:
-        """clk from the last word of a table to the valid one: the rates of both ends are looked up."""
-        return 2 * (self.scan + 2) + 1
+        """clk from the last word of a table to the valid one: the start-up rate is looked up."""
+        return self.scan + 3
 
     def reading(self, block: bytes) -> int:
         """clk from a read block of a table read to the next one in its store."""

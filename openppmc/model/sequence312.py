@@ -31,7 +31,10 @@ class _Mode(Enum):
 
 
 class Sequence:
-    """One operation. done: pulses out. running: the pulse and interval that run, None before pulse 1."""
+    """One operation. done: pulses out. running: the pulse and interval that run, None before pulse 1.
+
+    Of the last boundary: walk_begins: the walk to the end. drops: an 87 that waited is gone. sought: the
+    constant rate that runs was a stage's, so t(x) had to be found for it."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
@@ -43,9 +46,9 @@ class Sequence:
         self._walk_cause = Cause.SLOW
         self._requests: set[Cause] = set()
         self._limit = False
-        self.walk_begins = False
+        self.walk_begins = self.drops = self.sought = False
         self._change: Change | None = None
-        self._changed = False
+        self._held = self._changed = self._from_stage = False
 
     @property
     def complete(self) -> bool:
@@ -80,28 +83,37 @@ class Sequence:
             self._requests.discard(Cause.LIMIT_SLOW)
         self._limit = active
 
+    def hold(self) -> None:
+        """An 87 waits; soon it may take effect."""
+        self._held = True
+
     def change(self, change: Change) -> None:
         """87 or 88 for the next boundary; it replaces one that waits."""
         self._change = change
+        self._held = change.ramp
 
     def drop_change(self) -> None:
-        """A newer 87 or 88 is on its way."""
+        """A newer 87 or 88 is on its way, or none counts any more."""
         self._change = None
+        self._held = False
 
     # ------------------------------------------------------------------ boundary
 
-    def boundary(self, ramps: bool = True) -> Step | Cause:
+    def boundary(self, ramps: bool = True, found: bool = True) -> Step | Cause:
         """The next pulse, or why there is none (Cause.RETURN: phase 1 of a zero return is over).
 
-        ramps: 87 may take effect here.
+        ramps: 87 may take effect here. found: t(x) is known where it had to be `sought`.
         """
-        self.walk_begins = False
+        self.walk_begins = self.drops = False
         if self.complete:
             return Cause.NORMAL
         if self._mode is _Mode.WALK and not self._stages_left():
             return self._walk_cause
-        wanted = self._requests
-        self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
+        if found or not self.sought or not self._walk_from(self.present):
+            wanted = self._requests
+            self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
+        else:
+            wanted = set()  # the walk waits until it is known where it begins
         if wanted and self._mode is not _Mode.WALK:
             end = self._decelerate(next(cause for cause in _ORDER if cause in wanted))
             if end is not None:
@@ -109,15 +121,16 @@ class Sequence:
         self._ramps = ramps
         self._take_change()
         plan = self.plan
-        if (
-            self._changed
-            and self._mode is not _Mode.WALK
-            and plan.n is not None
-            and plan.n - self.done == plan.down
-        ):
-            self._final()
+        if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.WALK:
+            if self._held:
+                # It could only speed up the rest.
+                self.drop_change()
+                self.drops = self._changed = True
+            if self._changed:
+                self._final()
         self.running = self._next()
         self.done += 1
+        self.sought = self._mode is _Mode.FINAL and self._from_stage and self.running.stage is None
         return self.running
 
     def _walk_from(self, step: Step) -> list[list[int]]:
@@ -134,7 +147,7 @@ class Sequence:
             return Cause.RETURN if request is Cause.RETURN else Cause.LOW
         if not self.running.planned:
             self._mode, self._stages, self._walk_cause = _Mode.WALK, walk, request
-            self._change = None
+            self.drop_change()
             self.walk_begins = True
         return None
 
@@ -145,7 +158,7 @@ class Sequence:
             return
         if change.ramp and self.running is not None and self.running.stage is not None:
             return
-        self._change = None
+        self.drop_change()
         self._changed = True
         self._rate = change.rate
         if not change.ramp:
@@ -170,6 +183,7 @@ class Sequence:
         start = Step(self._rate) if self._mode is _Mode.CONSTANT else self.present
         self._stages = self._walk_from(start)
         self._rate = table.rates[table.sd] if self._stages else start.rate
+        self._from_stage = bool(self._stages) or start.stage is not None
         self._mode = _Mode.FINAL
 
     def _stages_left(self) -> bool:

@@ -143,6 +143,13 @@ def side(total: int, speed: Sequence[Fraction], first: int) -> tuple[int, ...]:
     return (0,) * first + tuple(b - a for a, b in zip([0, *sums], sums, strict=False))
 
 
+def first_stage(rates: Sequence[int], ordered: int) -> int:
+    """Where the side begins whose slowest rate was ordered so (P312-TBL-03)."""
+    if ordered == rates[0]:
+        return 0  # the slower side has all stages, whatever rounding makes of R[1]
+    return max(i for i in range(STAGES) if rates[i] >= ordered)
+
+
 def build(
     start: int,
     stop: int,
@@ -169,7 +176,7 @@ def build(
         raise SettingError(0x04)
     speed = speeds(max(start, stop), high, sigmoid)
     rates = tuple(floor(1 / v + Fraction(1, 2)) for v in speed)
-    sa, sd = (max(i for i in range(STAGES) if rates[i] >= slow) for slow in (start, stop))
+    sa, sd = (first_stage(rates, slow) for slow in (start, stop))
     pa, pd = side(na, speed, sa), side(nd, speed, sd)
     table = Table(rates, pa, pd, sa, sd, clk, separate)
     if min(*pa[sa:], *pd[sd:]) <= LEAST_PULSES:

@@ -99,7 +99,8 @@ module ppmc_stage_builder (
   assign weight = cosine_i ? cosine : 17'(addr_o);
   assign rate = lo_i[15:0];
   assign limit = side_q ? stop_rate_i : start_rate_i;
-  assign hit = rate >= limit;
+  // The slower side has all stages, whatever rounding makes of R[1].
+  assign hit = (limit == slow_q) ? addr_o == '0 : rate >= limit;
   assign begins = addr_o == first_q[side_q];
   assign last_side = side_q || !split_i;
 

@@ -2,7 +2,9 @@
 // ppmc_stage_seq: what the next pulse does in a motion along a stage table: its rate, or the end of the motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
 // Timing: the decision (next_*) is right from 4 clk after a pulse on. slow_i acts if it stands 2 clk before the
-//         boundary, a constant change if change_i comes 5 clk before it, a ramp to a rate 9 clk.
+//         boundary, a constant change if change_i comes 5 clk before it, a ramp to a rate 9 clk. When a stage
+//         becomes a constant rate, a search for t(rate) takes 129 clk: a ramp begins 136 clk after that
+//         boundary at the earliest, and a walk to the end (only where rates do not fall) 132 clk.
 // How:    the running interval is a stage, going up or down, or a constant rate. Flags are compared in the first
 //         clk, then it is decided, and the decision goes along with the table's answer: the stage that it needs
 //         is read while the decision waits two clk.
@@ -19,7 +21,6 @@ module ppmc_stage_seq
     input wire logic [6:0] first_acc_i,
     input wire logic [6:0] first_dec_i,
     input wire logic [15:0] rate_dec_i,  // R[first_dec_i]
-    input wire target_t rest_i,  // what the look-up of R[first_dec_i] has found
     output logic side_o,  // 1 = pulses of the deceleration side
     output logic [6:0] addr_o,
     input wire logic [15:0] table_rate_i,
@@ -64,7 +65,6 @@ module ppmc_stage_seq
     logic used;   // what is held is done with
     logic take;   // it becomes the constant rate
     logic own;    // the rate of this stage does
-    logic rest;   // this stage is the last one of the deceleration side
   } choice_t;
 
   typedef struct packed {
@@ -93,6 +93,9 @@ module ppmc_stage_seq
   logic zero_q, point_q, walk_ok_q, spent_q, edge_q;
   logic [6:0] beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, back, forget;
+  logic seek_q, look, in_use_q, in_use;  // search
+  logic [1:0] look_q;
+  logic [6:0] seek_at_q;
   logic [3:0] ramp_ready_q;
 
   assign rate_o = rate_q;
@@ -115,7 +118,8 @@ module ppmc_stage_seq
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
     point_q <= left_q == 32'(dec_q) && !endless_q;
-    walk_ok_q <= rate_q < rate_dec_i && here >= first_dec_i;
+    // A constant rate faster than R[first_dec] has a stage there or above.
+    walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || stage_q >= first_dec_i);
     spent_q <= more_q == '0;
     edge_q <= stage_q == edge_at_q;
     // The stage beside this one, or beside the constant rate; for pulse 1 this one.
@@ -130,7 +134,7 @@ module ppmc_stage_seq
 
   always_comb begin
     choice       = '0;
-    choice.slow  = slow_i;
+    choice.slow  = slow_i && !(seek_q && walk_ok_q);
     choice.fixed = !now_q.flat;
     next         = now_q;
     low_end      = 1'b0;
@@ -145,7 +149,7 @@ module ppmc_stage_seq
     end else if (slow_i && !now_q.walk && (first_q || !walk_ok_q)) begin
       choice.ends = 1'b1;
       choice.low  = 1'b1;
-    end else if (slow_i && !now_q.walk && !now_q.last) begin
+    end else if (choice.slow && !now_q.walk && !now_q.last) begin
       choice.drop = 1'b1;
       next.walk   = 1'b1;
       low_end     = 1'b1;
@@ -193,7 +197,6 @@ module ppmc_stage_seq
       end else begin
         choice.fixed = now_q.last;
         choice.own   = now_q.last;
-        choice.rest  = now_q.last;
         next.flat    = 1'b1;
         next.last    = 1'b0;
       end
@@ -206,6 +209,8 @@ module ppmc_stage_seq
       choice.fixed = 1'b1;
       choice.enter = 1'b1;
     end
+    look = seek_q && now_q.flat && !low_end && !ramp_end;
+    if (look) addr_o = seek_at_q;
   end
 
   assign side_o = next.down;
@@ -235,6 +240,29 @@ module ppmc_stage_seq
   assign next_walk_o = do_q.drop;
   assign next_rate_o = do_q.fixed ? table_rate_i : do_q.take ? held_q.rate : target_q.rate;
 
+  // ---- search ----------------------------------------------------------------------------------------------------
+
+  // What a look-up finds for a rate that was a stage's: all stages pass, upward, while no decision needs the
+  // table. What is held waits for the end.
+  assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      seek_q <= 1'b0;
+      look_q <= '0;
+    end else begin
+      look_q <= {look_q[0], look};
+      if (load_i || (step_i && do_q.take)) seek_q <= 1'b0;
+      else if (step_i && do_q.own) seek_q <= 1'b1;
+      else if (look_q[1] && addr_q[1] == 7'd126) seek_q <= 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    seek_at_q <= !seek_q ? '0 : seek_at_q + {6'd0, look};
+    in_use_q  <= seek_q && (look_q[1] ? in_use : in_use_q);
+  end
+
   // ---- state -----------------------------------------------------------------------------------------------------
 
   // A change is taken over when nothing that has been decided needs the one before it any more. The walk to the
@@ -255,7 +283,7 @@ module ppmc_stage_seq
       else if (forget || change_i || (step_i && do_q.used)) held_valid_q <= 1'b0;
       if (load_i) first_q <= 1'b1;
       else if (step_i) first_q <= 1'b0;
-      ramp_ready_q <= (!held_valid_q || !now_q.flat) ? '0 : {ramp_ready_q[2:0], 1'b1};
+      ramp_ready_q <= (!held_valid_q || !now_q.flat || seek_q) ? '0 : {ramp_ready_q[2:0], 1'b1};
     end
   end
 
@@ -267,8 +295,10 @@ module ppmc_stage_seq
       target_q <= held_q;
     end else if (step_i && do_q.own) begin
       target_q.rate <= rate_q;
-      target_q.ge   <= do_q.rest ? rest_i.ge : stage_q;
-      target_q.gt1  <= do_q.rest ? rest_i.gt1 : stage_q;
+    end else if (seek_q && look_q[1] && in_use) begin
+      if (table_rate_i >= rate_q) target_q.ge <= addr_q[1];
+      if (table_rate_i > rate_q) target_q.gt1 <= addr_q[0];
+      else if (!in_use_q) target_q.gt1 <= addr_q[1];
     end
     if (load_i) begin
       now_q     <= '{flat: !climb_i, default: 1'b0};
@@ -292,10 +322,11 @@ module ppmc_stage_seq
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, rest_i, target_q, held_q};
+  assign unused_bits = &{1'b0, target_q, held_q};
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p312_mot_07, !(step_i && next_end_o))
+  `PPMC_ASSERT(p312_mot_32_search, !(seek_q && look_q[1]) || addr_q[0] == addr_q[1] + 1'b1)
   `PPMC_ASSERT(p312_mot_12_count, !(step_i && !endless_q && !first_q) || left_q != '0)
 `endif
 

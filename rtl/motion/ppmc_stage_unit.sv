@@ -27,7 +27,6 @@ module ppmc_stage_unit
     // table in force
     output table_t             table_o,
     output target_t            home_o,          // what the look-up of rate_acc has found
-    output target_t            rest_o,          // of rate_dec
     input  wire logic          read_side_i,     // 1 = pulses of the deceleration side
     input  wire logic   [ 6:0] read_addr_i,
     output logic        [15:0] read_rate_o,
@@ -51,8 +50,7 @@ module ppmc_stage_unit
   typedef enum logic [1:0] {
     StIdle,
     StBuild,
-    StHome,   // look R[first_acc] up
-    StRest    // and R[first_dec]
+    StHome    // look R[first_acc] up
   } state_e;
 
   state_e state_q;
@@ -158,16 +156,9 @@ module ppmc_stage_unit
 
   // ---- who plans -------------------------------------------------------------------------------------------------
 
-  always_comb begin
-    unique case (state_q)
-      StHome:  find_rate = table_o.rate_acc;
-      StRest:  find_rate = table_o.rate_dec;
-      default: find_rate = plan_rate_i;
-    endcase
-  end
-
+  assign find_rate = (state_q == StHome) ? table_o.rate_acc : plan_rate_i;
   assign plan_start = (plan_start_i && state_q == StIdle) || begin_q;
-  assign found = state_q inside {StHome, StRest} && !begin_q && !plan_busy;
+  assign found = state_q == StHome && !begin_q && !plan_busy;
 
   ppmc_stage_plan u_plan (
       .clk_i,
@@ -242,11 +233,6 @@ module ppmc_stage_unit
         end
         StHome:
         if (found) begin
-          state_q <= StRest;
-          begin_q <= 1'b1;
-        end
-        StRest:
-        if (found) begin
           state_q       <= StIdle;
           table_o.valid <= 1'b1;
         end
@@ -279,11 +265,8 @@ module ppmc_stage_unit
     end
   end
 
-  // No reset: table_o.valid tells whether they mean anything.
-  always_ff @(posedge clk_i) begin
-    if (found && state_q == StHome) home_o <= target;
-    if (found && state_q == StRest) rest_o <= target;
-  end
+  // No reset: table_o.valid tells whether it means anything.
+  always_ff @(posedge clk_i) if (found) home_o <= target;
 
 endmodule
 

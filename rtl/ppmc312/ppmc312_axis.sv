@@ -18,7 +18,6 @@ module ppmc312_axis
     input  wire logic           built_i,         // a new table is in force
     input  wire table_t         table_i,
     input  wire target_t        home_i,
-    input  wire target_t        rest_i,
     output logic                side_o,          // into the table
     output logic         [ 6:0] addr_o,
     input  wire logic    [15:0] table_rate_i,
@@ -106,7 +105,6 @@ module ppmc312_axis
       .rst_ni,
       .table_i,
       .home_i,
-      .rest_i,
       .side_o,
       .addr_o,
       .table_rate_i,

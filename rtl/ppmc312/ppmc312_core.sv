@@ -62,7 +62,7 @@ module ppmc312_core
   stored_t stored;
   status_e status;
   table_t  curve;
-  target_t home, rest;
+  target_t home;
   op_t op;
   plan_t plan;
   cause_t cause;
@@ -149,7 +149,6 @@ module ppmc312_core
       .built_o      (built),
       .table_o      (curve),
       .home_o       (home),
-      .rest_o       (rest),
       .side_i       (stage_side),
       .addr_i       (stage),
       .rate_o       (stage_rate),
@@ -201,7 +200,6 @@ module ppmc312_core
       .built_i       (built),
       .table_i       (curve),
       .home_i        (home),
-      .rest_i        (rest),
       .side_o        (stage_side),
       .addr_o        (stage),
       .table_rate_i  (stage_rate),

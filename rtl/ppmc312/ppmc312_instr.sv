@@ -50,7 +50,6 @@ module ppmc312_instr
     // the motion's port into the table
     output table_t                             table_o,
     output target_t                            home_o,
-    output target_t                            rest_o,
     input  wire logic                          side_i,
     input  wire logic    [           6:0]      addr_i,
     output logic         [          15:0]      rate_o,
@@ -256,7 +255,6 @@ module ppmc312_instr
       .close_i       (close),
       .table_o,
       .home_o,
-      .rest_o,
       .read_side_i   (read_side),
       .read_addr_i   (read_addr),
       .read_rate_o   (read_rate),

@@ -20,7 +20,6 @@ module ppmc312_motion
     // table in force
     input  wire table_t         table_i,
     input  wire target_t        home_i,
-    input  wire target_t        rest_i,
     output logic                side_o,
     output logic         [ 6:0] addr_o,
     input  wire logic    [15:0] table_rate_i,
@@ -81,13 +80,13 @@ module ppmc312_motion
   logic why_slow_q;  // what the decision in next_* was made of
   logic [1:0] why_decel_q, why_near_q;
   logic [5:0] young_q;  // the rate of pulse 1 is not known yet
-  logic next_end, next_low, next_count, next_walk, flat, walking, first, complete;
+  logic next_end, next_low, next_count, next_slow, next_walk, flat, walking, first, complete;
   logic [15:0] next_rate, rate;
   plan_t plan;
 
   // ---- pins ------------------------------------------------------------------------------------------------------
 
-  logic unused_table, unused_slow;
+  logic unused_table;
   assign unused_table = &{1'b0, table_i};
 
   assign limit = dir_o ? !levels_i.bl_n : !levels_i.fl_n;
@@ -224,8 +223,8 @@ module ppmc312_motion
         end
       end else begin
         // Requests that have been judged at a boundary are gone.
-        decel_q <= (decel_i && state_q == StGo) || (decel_q && !(fire && why_decel_q[1]));
-        org_q   <= near && !(fire && why_near_q[1]);
+        decel_q <= (decel_i && state_q == StGo) || (decel_q && !(fire && next_slow && why_decel_q[1]));
+        org_q   <= near && !(fire && next_slow && why_near_q[1]);
         if (fire && next_walk)
           walk_q <= '{
               del: why_slow_q,
@@ -266,7 +265,6 @@ module ppmc312_motion
       .first_acc_i (table_i.first_acc),
       .first_dec_i (table_i.first_dec),
       .rate_dec_i  (table_i.rate_dec),
-      .rest_i,
       .side_o,
       .addr_o,
       .table_rate_i,
@@ -284,7 +282,7 @@ module ppmc312_motion
       .next_end_o  (next_end),
       .next_low_o  (next_low),
       .next_count_o(next_count),
-      .next_slow_o (unused_slow),
+      .next_slow_o (next_slow),
       .next_walk_o (next_walk),
       .next_rate_o (next_rate),
       .step_i      (fire),

@@ -71,6 +71,20 @@ def test_sides_start_at_their_own_rates() -> None:
     assert (T4.sa, T4.sd, T4.pa, T4.pd) == (31, 0, T3.pd, T3.pa)
 
 
+@verifies("P312-TBL-02", "P312-TBL-03")
+def test_equal_first_rates_belong_to_the_slower_side() -> None:
+    """Rounding makes R[1] = R[0]: the slower side starts at stage 0 all the same, the other at its last."""
+    table = build(300, 300, 100, 3000, 0, sigmoid=True, separate=False)
+    assert table.rates[:8] == (300, 300, 300, 299, 299, 298, 297, 296)
+    assert (table.sa, table.sd, table.slowest, table.na) == (0, 0, 300, 3000) and min(table.pa) > 2
+    for start, stop, sa, sd in ((300, 299, 0, 4), (299, 300, 4, 0), (300, 300, 0, 0), (300, 298, 0, 5)):
+        table = build(start, stop, 100, 3000, 4000, sigmoid=True)
+        assert (table.sa, table.sd, table.na, table.nd) == (sa, sd, 3000, 4000), (start, stop)
+    # R[1] = R[0] up to 624, RS (RS - RH) / RH below 65536 / 20.
+    heads = [build(rs, rs, 100, 6000, 0, sigmoid=True, separate=False).rates[:3] for rs in (624, 625, 626)]
+    assert heads == [(624, 624, 622), (625, 624, 623), (626, 625, 624)]
+
+
 @verifies("P312-TBL-05", "P312-CHK-07", "P312-CHK-08")
 def test_error_boundaries() -> None:
     for sigmoid in (False, True):
@@ -110,7 +124,10 @@ def test_any_table(start: int, stop: int, high: int, total: int, sigmoid: bool) 
     assert table.rates == tuple((2 * scale * slow * high + d) // (2 * d) for d in speed)
     assert table.rates[0] == slow and table.rates[126] == high
     for pulses, first, rate in ((table.pa, table.sa, start), (table.pd, table.sd, stop)):
-        assert table.rates[first] >= rate and (first == 126 or table.rates[first + 1] < rate)
+        if rate == slow:
+            assert first == 0
+        else:
+            assert table.rates[first] >= rate and (first == 126 or table.rates[first + 1] < rate)
         rest, whole = 0, sum(speed[first:])
         for i in range(first, 127):
             share, rest = divmod(rest + total * speed[i], whole)
