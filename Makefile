@@ -1,7 +1,7 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
 PARTS := ppmc104 ppmc2104 isa_4axis stmc j105_stmc ppmc312 pmc006 \
-         $(if $(filter demo board soak bench,$(MAKECMDGOALS)),ppmc312-serial)
+         $(if $(filter demo board soak bench bitstream flash,$(MAKECMDGOALS)),ppmc312-serial)
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
@@ -110,7 +110,7 @@ report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
 	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
 
-bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with PART=… and HOST=uart or bus, in build/boards/
+bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312, ppmc312-serial) tangnano20k with PART=… and HOST=uart or bus, in build/boards/
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED))
 
 flash: ## load that bitstream into the board with openFPGALoader

@@ -38,7 +38,8 @@ def test_bit_times_that_are_no_whole_clk(mod: int, clk: dict[str, int]) -> None:
     echo(host, 0x5AC30FF1)
 
 
-REPLIES = {"81 7E": "90", "91 34 31 2D": "A0 12", "91 32 30 4E": "90", "91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
+REPLIES = {"81 7E": "90", "91 34 31 2D": "A0 12", "91 32 30 4E": "90"}
+REPLIES |= {"91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
 """Frames by who answers them: the poll, the core with and without data, the station for both of its own."""
 
 

@@ -219,7 +219,7 @@ def test_hsp_has_no_function(hsp: int) -> None:
 
 @verifies("P312-PRT-02", "P312-SER-15")
 def test_frames_before_out_oe() -> None:
-    """A poll, a framing error, most of an instruction: no reply, no effect, no count, nothing left for later."""
+    """A poll, a framing error, most of an instruction: no reply, effect or count, nothing left for later."""
     host = Serial312(timing="DATASHEET")
     host.pins(rst_n=0)
     host.pause(12)
