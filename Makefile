@@ -3,7 +3,7 @@
 # Two parts are other parts in a frame: they have no demo, no virtual board and no bitstream of their own.
 FRAMES := $(if $(filter demo board soak bench bitstream flash trace,$(MAKECMDGOALS)),,isa_4axis j105_stmc)
 PARTS := ppmc104 ppmc2104 $(FRAMES) stmc ppmc312 pmc006 \
-         $(if $(filter demo board soak bench,$(MAKECMDGOALS)),ppmc312-serial)
+         $(if $(filter demo board soak bench bitstream flash,$(MAKECMDGOALS)),ppmc312-serial)
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
@@ -118,7 +118,7 @@ size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth 
 yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose clones lie in PEERS=folder, into docs/benchmarks.md
 	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
-bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312) tangnano20k with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
+bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312, also in serial mode) tangnano20k with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \
 	  $(foreach v,$(GIVEN_TOP),-G $v=$($v))
 

@@ -1,4 +1,4 @@
-"""rtl/boards in simulation: reset and lamps, a board top with either host, the board of the PMC006B4."""
+"""rtl/boards in simulation: reset and lamps, a top with either host, a PPMC-312 on its line, the PMC006B4."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from .tb_blocks import BLOCKS
 PART = Part("boards", "BRD", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.boards", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.boards", "tb_bus", part=PART)
+ITEMS_312 = cocotb_items("cocotb_tests.boards", "tb_ppmc312_serial", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.boards", "tb_pmc006", part=PART)
 HERE = ROOT / "cocotb_tests" / "boards"
 RTL = ROOT / "rtl" / "boards"
@@ -42,6 +43,17 @@ def test_board_top(item, sim_options):
     params = {"HOST": item.test.split("_")[0].upper()}
     design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS, ports="*")
     run_item(item, sim_options, design=design)
+
+
+@pytest.mark.parametrize("item", ITEMS_312)
+def test_board_ppmc312_serial(item, sim_options):
+    """Run one simulation of what the board tops with a PPMC-312 share, with its serial line as host."""
+    part = part_design("ppmc312", item.config)
+    bench = [RTL / "ppmc312_station.sv", HERE / "board312_serial_bench.sv"]
+    files = [*part.sources, *board_files("ppmc312"), *SHARED, *bench]
+    run_item(
+        item, sim_options, design=Design("board312_serial_bench", files, part.includes, {}, ARGS, ports="*")
+    )
 
 
 @pytest.mark.parametrize("item", ITEMS_006)

@@ -236,8 +236,7 @@ def test_a_station_that_hears_itself() -> None:
     host = Serial312()
     for line, echo in (("81 7E", "91 6E"), ("91 34 31 2D", "A1 31 32 4C"), ("81 00", "B1 34 31 0D")):
         host.raw(line)
-        rise = host.rise()
-        assert rise is not None
+        rise = host.begin()
         host.back_to(rise + 192)
         host.raw(echo)
         assert host.hear(timed=False) in ("90", "A0 12", "B0 41")
@@ -250,8 +249,7 @@ def test_the_end_of_a_turn(clk: int) -> None:
     """The stop bit of a control code is looked at around the fall of snd."""
     host = Serial312()
     host.raw("81 7E")
-    rise = host.rise()
-    assert rise is not None
+    rise = host.begin()
     # snd falls 21 bits after its rise; the middle of the next stop bit is 9.5 bits after its start.
     host.back_to(rise + 21 * 192 - 19 * 96 - 2 + clk)
     host.raw("81 7E")

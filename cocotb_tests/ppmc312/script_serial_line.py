@@ -9,7 +9,7 @@ import pytest
 
 from cocotb_tests.common.verifies import verifies
 
-from .serial312 import Serial312, summed
+from .serial312 import TS, Serial312, summed
 
 PATTERNS = (0x00, 0x55, 0xAA, 0x7F, 0x80, 0xFF, 0x01, 0xFE)
 
@@ -36,6 +36,42 @@ def test_speeds(mod: int) -> None:
 def test_bit_times_that_are_no_whole_clk(mod: int, clk: dict[str, int]) -> None:
     host = Serial312(mod=mod, **clk)
     echo(host, 0x5AC30FF1)
+
+
+REPLIES = {"81 7E": "90", "91 34 31 2D": "A0 12", "91 32 30 4E": "90"}
+REPLIES |= {"91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
+"""Frames by who answers them: the poll, the core with and without data, the station for both of its own."""
+
+
+@pytest.mark.parametrize("mod", [5, 6, 7])
+@pytest.mark.parametrize("clk", [{}, {"clk_hz": 27_000_000, "xtal_hz": 12_000_000}])
+@verifies("P312-SER-18")
+def test_a_reply_leaves_one_pair_of_wires_to_its_master(mod: int, clk: dict[str, int]) -> None:
+    """snd rises half a bit after the end of the master's stop bit, and not more than a few clk later."""
+    host = Serial312(mod=mod, **clk)
+    for line, answer in REPLIES.items():
+        host.raw(line)
+        assert host.hear() == answer
+        assert 0 <= host.waited - host.bit / 2 <= 6
+
+
+@verifies("P312-SER-18", "P312-OVR-10")
+def test_a_reply_that_is_ready_about_half_a_bit_after_the_frame() -> None:
+    """An event is processed before the frame, a clk later each time: snd waits for whatever is over last."""
+    host = Serial312(TS, "49 03 08 82 00 01 EE 00 00 00 28")
+    waited = []
+    for clk in range(14, 2, -1):
+        host.raw("91 32 35")
+        host.character(0x49)
+        middle = ceil(host.middle)
+        host.model.pins(middle - clk, evt0_n=0)
+        assert host.hear() == "A0 00"
+        waited.append(host.waited)
+        host.pins(evt0_n=1)
+        assert host.settle()[0] == "B0 29"
+    still = [clk for clk in waited if clk == waited[0]]
+    assert 1 < len(still) < 8 and 0 <= waited[0] - host.bit / 2 <= 6
+    assert waited[len(still) :] == [waited[0] + clk for clk in range(1, len(waited) - len(still) + 1)]
 
 
 @pytest.mark.parametrize(("mod", "error"), [(7, 0.02), (7, -0.02), (7, 0.03), (7, -0.03)])

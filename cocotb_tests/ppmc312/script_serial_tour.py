@@ -40,8 +40,7 @@ def test_bad_frames_and_resets() -> None:
     host.raw("91 33 33 30 92 32 35 48 A1 7E")
     assert host.quiet(3_000)
     host.say("42")
-    rise = host.rise()
-    assert rise is not None
+    rise = host.begin()
     host.go(rise + 3_000)
     host.pins(rst_n=0)
     host.pause(12)

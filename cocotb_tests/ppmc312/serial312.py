@@ -20,8 +20,8 @@ SPEEDS = {5: Fraction(19_200), 6: Fraction(38_400), 7: Fraction(250_000, 3)}
 T_EXEC, T_INIT = 4_096, 65_536
 SILENCE = 320_000
 """20 ms in clk at 16 MHz."""
-SYNC = 3
-"""clk from a level of rxd to what the part makes of it."""
+SLACK = 64
+"""clk that a reply may be later."""
 
 T1 = "00 01 03E8 00C8 0007D0"
 """1 MHz, linear, 1000 to 200, 2000 pulses."""
@@ -40,7 +40,8 @@ class Serial312(SerialLine, Script):
     """mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
 
     Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the
-    address, and data: "90", "A0 38", "B0 42"; `wire` is the last one as it was on the line.
+    address, and data: "90", "A0 38", "B0 42"; `wire` is the last one as it was on the line,
+    `waited` how many clk after the end of the master's last stop bit snd has risen.
     """
 
     def __init__(
@@ -53,7 +54,7 @@ class Serial312(SerialLine, Script):
         self.pause(12)
         self.open_line(Fraction(0), error)
         self.speed(mod)
-        self.wire = ""
+        self.wire, self.waited = "", Fraction(0)
         self._heard = 0
         self.pins(rst_n=1)
         self.pause(12)
@@ -84,18 +85,25 @@ class Serial312(SerialLine, Script):
         self.sync()
         return next((t for t, level in self.model.log.of("snd", self._heard) if level), None)
 
-    def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
-        """The next reply, which starts at most `within` clk after the middle of the last stop bit.
-
-        timed: that was the end of the frame that is answered.
-        """
-        end = ceil(self.middle) + within + SYNC
+    def begin(self, within: int = T_EXEC) -> int:
+        """Edge of the next rise of snd, at most `within` clk after the middle of the last stop bit."""
+        end = ceil(self.middle + max(Fraction(within), self.bit)) + SLACK
         while (rise := self.rise()) is None:
             assert self.model.next_event is not None and self.model.next_event <= end, (
                 "no reply comes any more"
             )
             self.step()
-        assert not timed or self.middle <= rise <= end
+        assert rise <= end, f"snd rises {rise - end} clk too late"
+        return rise
+
+    def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
+        """The next reply, which starts as `begin` says, but not before half a bit after the end of the frame.
+
+        timed: the last stop bit was the end of the frame that is answered (P312-SER-18).
+        """
+        rise = self.begin(within)
+        self.waited = rise - self.middle - self.bit / 2
+        assert not timed or self.waited >= self.bit / 2, f"snd rises {self.waited} clk after the frame"
         while (fall := next((t for t, level in self.model.log.of("snd", rise) if not level), None)) is None:
             self.step()
         self._heard = fall

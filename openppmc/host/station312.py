@@ -18,8 +18,13 @@ from .line312 import Line
 from .line_motion import POLL_EVERY, wait_all
 from .motion import Progress
 from .motion312 import Motion312
+from .registers312 import Status312
 from .serial312 import ERROR_CODE, ERROR_COUNTS
 from .talk312 import ATTEMPTS, Talk
+
+_MOST_PPS = 4_000_000
+_ENCODER_SLACK = 64
+"""Counts between two readings that say nothing: half of what the lowest bit 7 is worth."""
 
 
 class ErrorCounts(NamedTuple):
@@ -189,6 +194,28 @@ class Station312(Axis312):
         self._slow_override = False
 
     # ------------------------------------------------------------------ inside
+
+    def status(self) -> Status312:
+        """As on the bus, but read until two readings in a row are the same."""
+        return self.window.twice(super().status)
+
+    def _position(self, encoder: bool) -> int:
+        """Read until two readings in a row are the same, or as far apart as the motor can have come."""
+        times: list[float] = []
+
+        def read() -> int:
+            times.append(self.link.clock())
+            return super(Station312, self)._position(encoder)
+
+        def agree(last: int, now: int) -> bool:
+            way = abs(signed((now - last) % (1 << 32)))
+            if not way or (encoder and way <= _ENCODER_SLACK):
+                return True
+            clock = self.setup.clock if self.setup else None
+            fastest = float(clock.speed(self.setup.table.high)) if clock else _MOST_PPS
+            return way <= 1 + fastest * (self.link.clock() - times[-2]) and self.window.status().busy
+
+        return self.window.twice(read, agree)
 
     def _register(self, block: bytes) -> None:
         """The line says only that an override was taken."""

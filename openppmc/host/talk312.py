@@ -4,7 +4,8 @@ no harm. `Window` of `window312` is the same for the parallel bus."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from operator import eq
+from typing import TYPE_CHECKING, TypeVar
 
 from ..model.codes312 import Cause, Code, Source, State
 from .answers312 import (
@@ -23,7 +24,7 @@ from .answers312 import (
 from .ascii312 import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Reply
 from .doubt312 import Doubt
 from .errors import OutOfRange, ProtocolError
-from .errors_line import unanswered
+from .errors_line import GarbledReply, unanswered
 from .errors_serial312 import Error, failed_serial, refused_serial
 from .faults import Fault, Miss
 from .line312 import Line
@@ -34,6 +35,7 @@ from .window312 import ANSWER_MS, SHORTEST
 if TYPE_CHECKING:
     from .station312 import Station312
 
+T = TypeVar("T")
 ATTEMPTS = 5
 MOST_REPORTS = 32
 END_CODES = {
@@ -147,6 +149,19 @@ class Talk:
             return refusal
         raise unanswered(f"{self._line.name}: station {self._number}", misses, attempts, _CHECK, _OTHERS)
 
+    def twice(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
+        """What two readings in a row agree on, since a damaged reply may look good: the checksum has seven
+        bits, and none of them sees the highest bit of a byte. Raises GarbledReply."""
+        last = read()
+        for _ in range(ATTEMPTS):
+            now = read()
+            if agree(last, now):
+                return now
+            self._line.counters[self._number].garbled += 1
+            last = now
+        where = f"{self._line.name}: station {self._number}"
+        raise GarbledReply(f"{where}: {ATTEMPTS} pairs of replies that do not agree: {_OTHERS}")
+
     # ------------------------------------------------------------------ polls
 
     def collect(self) -> None:
@@ -196,7 +211,7 @@ class Talk:
 
     def status(self) -> Status312:
         """Without the counting of `ask`: for looks in between."""
-        return Status312.parse(self.request(bytes([Code.STATUS])).data)
+        return self.twice(lambda: Status312.parse(self.request(bytes([Code.STATUS])).data))
 
 
 _REPORTS: dict[int, Report] = {

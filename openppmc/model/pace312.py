@@ -41,8 +41,9 @@ class Pace:
     quiet: rest to the first look at the in-position monitor.
 
     Serial mode. heard: middle of the stop bit to the character. frame: last character to what is a header
-    write in parallel mode. look: the same to the look at reports, state and counters, with which snd rises.
-    reply: stored answer to the rise of snd. silence: clk beyond the 20 ms.
+    write in parallel mode. look: the same to the look at reports, state and counters. reply: that look, or
+    the stored answer, to the rise of snd, which clear, clk beyond a bit from the middle of the stop bit, may
+    put off. silence: clk beyond the 20 ms.
 
     DATASHEET. early: XTAL cycles that a time is shortened by, for what has passed on the way; paced: its end
     to the effect.
@@ -89,7 +90,8 @@ class Pace:
     heard: int = 1
     frame: int = 1
     look: int = 1
-    reply: int = 0
+    reply: int = 1
+    clear: int = 2
     silence: int = 1
     early: int = 8
     paced: int = 3

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 from .codes312 import Answer, Source, State
@@ -46,6 +47,7 @@ class Station:
         self._receiver = Receiver(core.context, bit, self.hear) if bit else None
         self._transmitter = Transmitter(core.context, bit, log.sent) if bit else None
         self._silence: Event | None = None
+        self._bit, self._clear = bit, 0
         self._busy = self._asked = False
         self._code = 0
         self._news: Note | None = None
@@ -89,6 +91,8 @@ class Station:
 
     def hear(self, t: int, byte: int | None) -> None:
         """A character whose stop bit was sampled at edge t; None for one without a stop bit."""
+        if self._bit:
+            self._clear = t + ceil(self._bit) + self._pace.clear
         self._queue.at(t + self._pace.heard, Phase.BUS, lambda now: self._character(now, byte))
 
     def _character(self, t: int, byte: int | None) -> None:
@@ -129,7 +133,7 @@ class Station:
             self._queue.at(t + self._pace.frame, Phase.BUS, lambda now: self._ask(now, code, data))
             return
         self._queue.at(
-            t + self._pace.look, Phase.BUS, lambda now: self._reply(now, now, *self._answer(now, finished))
+            t + self._pace.look, Phase.BUS, lambda now: self._reply(now, *self._answer(now, finished))
         )
 
     def _ask(self, t: int, code: int, data: bytes) -> None:
@@ -144,7 +148,7 @@ class Station:
             self._news = Note.OVERRIDE_FAILED if block[2] == Answer.OVERRIDE_FAILED else Note.OVERRIDE_DONE
         elif self._asked:
             self._asked = False
-            self._reply(t, t + self._pace.reply, *reply_of(block))
+            self._reply(t, *reply_of(block))
 
     def _answer(self, t: int, finished: Frame) -> tuple[int, bytes]:
         """Kind and data of what the station replies by itself."""
@@ -179,11 +183,12 @@ class Station:
         moving = self._core.state in (State.ACC, State.FIX, State.WRN)
         return (BUSY if moving else READY), b""
 
-    def _reply(self, t: int, at: int, kind: int, data: bytes) -> None:
-        """At edge t it is known what to send: snd rises at edge `at`."""
+    def _reply(self, t: int, kind: int, data: bytes) -> None:
+        """At edge t it is known what to send; snd does not rise before the line is free (P312-SER-18)."""
         if kind == SPECIFIC and data[0] in _KEPT:
             self._error = data[0]
         message = frame(kind | self._address, data, self._mode)
+        at = max(t + self._pace.reply, self._clear)
         self._queue.at(at, Phase.PIN, lambda now: self._send(now, message))
 
     def _send(self, t: int, message: bytes) -> None:

@@ -51,7 +51,7 @@ module board_tangnano20k_ppmc312 #(
   logic [3:0] lamps;
   logic [5:0] outputs_n;
   logic [7:0] part_d;
-  logic part_oe, wrq_n, irq_n;
+  logic line, line_de, part_oe, wrq_n, irq_n;
 
   ppmc_clock_tangnano #(
       .Device("GW2A-18C"),
@@ -71,16 +71,22 @@ module board_tangnano20k_ppmc312 #(
   ) u_station (
       .clk,
       .lock,
-      .req_n (!btn),
+      .req_n    (!btn),
       .uart_rxd,
       .uart_txd,
-      .rs    ('0),
-      .cs_n  (1'b1),
-      .oe_n  (1'b1),
-      .we_n  (1'b1),
-      .d_i   ('0),
-      .d_o   (part_d),
-      .d_oe  (part_oe),
+      .rs485_rxd(1'b1),
+      .rs485_txd(line),
+      .rs485_de (line_de),
+      .hsp      (1'b1),
+      .mod      ('1),
+      .adr      ('1),
+      .rs       ('0),
+      .cs_n     (1'b1),
+      .oe_n     (1'b1),
+      .we_n     (1'b1),
+      .d_i      ('0),
+      .d_o      (part_d),
+      .d_oe     (part_oe),
       .wrq_n,
       .irq_n,
       .fl_n,
@@ -97,7 +103,7 @@ module board_tangnano20k_ppmc312 #(
       .evt0_n,
       .evt1_n,
       .extck,
-      .auxi  ({6'h3F, auxi}),
+      .auxi     ({6'h3F, auxi}),
       .pout,
       .dir,
       .exon_n,
@@ -106,14 +112,14 @@ module board_tangnano20k_ppmc312 #(
       .aclr_n,
       .zclmp_n,
       .intlk_n,
-      .auxo_n(outputs_n),
+      .auxo_n   (outputs_n),
       .lamps
   );
 
   assign auxo_n = outputs_n[1:0];
   assign led_n  = ~lamps;
 
-  assign unused = ^{part_d, part_oe, wrq_n, irq_n, outputs_n[5:2]};
+  assign unused = ^{line, line_de, part_d, part_oe, wrq_n, irq_n, outputs_n[5:2]};
 
 endmodule
 

@@ -58,7 +58,7 @@ module board_ulx3s_ppmc312 #(
 
   localparam int unsigned ClkHz = 50_000_000;
 
-  logic clk, lock;
+  logic clk, lock, line, line_de, unused;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s #(
@@ -81,12 +81,18 @@ module board_ulx3s_ppmc312 #(
       .req_n(host_rst_n && !btn_f1),
       .uart_rxd,
       .uart_txd,
+      .rs485_rxd(1'b1),
+      .rs485_txd(line),
+      .rs485_de(line_de),
+      .hsp(1'b1),
+      .mod('1),
+      .adr('1),
       .rs,
       .cs_n,
       .oe_n,
       .we_n,
-      .d_i  (d),
-      .d_o  (part_d),
+      .d_i(d),
+      .d_o(part_d),
       .d_oe,
       .wrq_n,
       .irq_n,
@@ -118,6 +124,8 @@ module board_ulx3s_ppmc312 #(
   );
 
   assign d = d_oe ? part_d : 'z;
+
+  assign unused = ^{line, line_de};
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_board: everything of a board with a PPMC-312 but its clock generator and pads: the part, and as its host
-//                either the UART bridge or the pins of its parallel bus.
+//                the UART bridge, the pins of its parallel bus, or the part's own serial line.
 // Rules:  HOST = "UART": docs/uart_bridge.md; straps bit 0 is RUN, bits 1 and 2 the event inputs 1 and 2, each ANDed
-//         with its pin. HOST = "BUS": section 1.3 of the PPMC-312 rules. Wiring: docs/boards.md.
+//         with its pin. HOST = "BUS": section 1.3 of the PPMC-312 rules. HOST = "SERIAL": section 2.4; frames come from
+//         either line (one master at a time), replies go to both. Wiring: docs/boards.md.
 // Timing: of ppmc312; the inputs need no synchroniser outside.
 `default_nettype none
 
 module ppmc312_board #(
-    parameter int unsigned CLK_HZ  = 24_000_000,  // 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ = 16_000_000,
-    parameter string       TIMING  = "FAST",
-    parameter string       HOST    = "UART",      // or "BUS"
-    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
+    parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ  = 16_000_000,
+    parameter string       TIMING   = "FAST",
+    parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter string       HOST     = "UART",      // or "BUS", "SERIAL"
+    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
-    // UART host
-    input  wire logic       uart_rxd,  // from the PC
-    output logic            uart_txd,  // to the PC
+    // UART host, or a master of the part itself
+    input  wire logic       uart_rxd,   // from the PC
+    output logic            uart_txd,   // to the PC
+    // serial line and its straps; it rests with another host
+    input  wire logic       rs485_rxd,
+    output logic            rs485_txd,
+    output logic            rs485_de,
+    input  wire logic       hsp,
+    input  wire logic [2:0] mod,
+    input  wire logic [3:0] adr,
     // bus host
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
@@ -55,23 +64,24 @@ module ppmc312_board #(
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
     // lamps
-    output logic            hold,      // 1: at rest for 100 ms, or since the reset
-    output logic            led_link   // 1: a script is running or an answer is on its way
+    output logic            hold,       // 1: at rest for 100 ms, or since the reset
+    output logic            led_link    // 1: a script is running or an answer is on its way; rs485_de
 );
 
   logic part_rst_n, part_cs_n, part_oe_n, part_we_n, moved_q, unused;
   logic [2:0] part_rs;
   logic [7:0] part_d, straps;
-  logic txd, snd, out_oe;
+  logic rxd, out_oe;
 
   ppmc312 #(
-      .CLK_HZ (CLK_HZ),
-      .XTAL_HZ(XTAL_HZ),
-      .TIMING (TIMING)
+      .CLK_HZ  (CLK_HZ),
+      .XTAL_HZ (XTAL_HZ),
+      .TIMING  (TIMING),
+      .SUM_MODE(SUM_MODE)
   ) u_part (
       .clk,
       .rst_n (part_rst_n),
-      .mode  (1'b1),
+      .mode  (HOST != "SERIAL"),
       .d_i   (part_d),
       .d_o,
       .d_oe,
@@ -81,12 +91,12 @@ module ppmc312_board #(
       .oe_n  (part_oe_n),
       .wrq_n,
       .irq_n,
-      .rxd   (1'b1),
-      .txd,
-      .snd,
-      .hsp   (1'b0),
-      .mod   ('0),
-      .adr   ('0),
+      .rxd,
+      .txd   (rs485_txd),
+      .snd   (rs485_de),
+      .hsp,
+      .mod,
+      .adr,
       .evt0_n(evt0_n && straps[1]),
       .evt1_n(evt1_n && straps[2]),
       .auxi,
@@ -122,41 +132,60 @@ module ppmc312_board #(
 
   assign hold = !moved_q || !cd_n;
 
-  ppmc_board_host #(
-      .ClkHz    (CLK_HZ),
-      .XtalHz   (XTAL_HZ),
-      .Datasheet(TIMING == "DATASHEET"),
-      .Host     (HOST),
-      .Baud     (BAUD),
-      .Part     (312),
-      .AddrBits (3)
-  ) u_host (
-      .clk_i      (clk),
-      .rst_ni     (rst_n),
-      .rxd_i      (uart_rxd),
-      .txd_o      (uart_txd),
-      .cs_ni      (cs_n),
-      .rd_ni      (oe_n),
-      .wr_ni      (we_n),
-      .a_i        (rs),
-      .d_i,
-      .part_rst_no(part_rst_n),
-      .part_cs_no (part_cs_n),
-      .part_rd_no (part_oe_n),
-      .part_wr_no (part_we_n),
-      .part_a_o   (part_rs),
-      .part_d_o   (part_d),
-      .part_d_i   (d_o),
-      .int_ni     (irq_n),
-      .straps_o   (straps),
-      .switches_ni({alm_n, org_n, bhl_n, fhl_n, bl_n, fl_n}),
-      .hold_i     (hold),
-      .pout_ni    (!pout),
-      .dir_i      (dir),
-      .link_o     (led_link)
-  );
+  if (HOST == "SERIAL") begin : g_serial
+    // Both lines rest at 1.
+    assign rxd = uart_rxd && rs485_rxd;
+    assign uart_txd = rs485_txd;
+    assign led_link = rs485_de;
 
-  assign unused = &{1'b0, straps[7:3], txd, snd, out_oe};
+    assign part_rst_n = rst_n;
+    assign {part_cs_n, part_oe_n, part_we_n} = '1;
+    assign {part_rs, part_d, straps} = '1;
+
+    logic unused_bus;
+    assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
+  end else begin : g_host
+    assign rxd = 1'b1;
+
+    logic unused_line;
+    assign unused_line = rs485_rxd;
+
+    ppmc_board_host #(
+        .ClkHz    (CLK_HZ),
+        .XtalHz   (XTAL_HZ),
+        .Datasheet(TIMING == "DATASHEET"),
+        .Host     (HOST),
+        .Baud     (BAUD),
+        .Part     (312),
+        .AddrBits (3)
+    ) u_host (
+        .clk_i      (clk),
+        .rst_ni     (rst_n),
+        .rxd_i      (uart_rxd),
+        .txd_o      (uart_txd),
+        .cs_ni      (cs_n),
+        .rd_ni      (oe_n),
+        .wr_ni      (we_n),
+        .a_i        (rs),
+        .d_i,
+        .part_rst_no(part_rst_n),
+        .part_cs_no (part_cs_n),
+        .part_rd_no (part_oe_n),
+        .part_wr_no (part_we_n),
+        .part_a_o   (part_rs),
+        .part_d_o   (part_d),
+        .part_d_i   (d_o),
+        .int_ni     (irq_n),
+        .straps_o   (straps),
+        .switches_ni({alm_n, org_n, bhl_n, fhl_n, bl_n, fl_n}),
+        .hold_i     (hold),
+        .pout_ni    (!pout),
+        .dir_i      (dir),
+        .link_o     (led_link)
+    );
+  end
+
+  assign unused = &{1'b0, straps[7:3], out_oe};
 
 endmodule
 

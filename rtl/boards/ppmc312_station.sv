@@ -5,18 +5,26 @@
 `default_nettype none
 
 module ppmc312_station #(
-    parameter int unsigned CLK_HZ  = 24_000_000,
-    parameter int unsigned XTAL_HZ = 16_000_000,
-    parameter string       TIMING  = "FAST",
-    parameter string       HOST    = "UART",      // or "BUS"
-    parameter int unsigned BAUD    = 115_200
+    parameter int unsigned CLK_HZ   = 24_000_000,
+    parameter int unsigned XTAL_HZ  = 16_000_000,
+    parameter string       TIMING   = "FAST",
+    parameter string       SUM_MODE = "BINARY",    // or "CHARS"
+    parameter string       HOST     = "UART",      // or "BUS", "SERIAL"
+    parameter int unsigned BAUD     = 115_200
 ) (
     input  wire logic       clk,
-    input  wire logic       lock,      // 1: clk is good; 1 without a PLL
-    input  wire logic       req_n,     // 0: reset wanted
-    // UART host
+    input  wire logic       lock,       // 1: clk is good; 1 without a PLL
+    input  wire logic       req_n,      // 0: reset wanted
+    // UART host, or a master of the part itself
     input  wire logic       uart_rxd,
     output logic            uart_txd,
+    // serial line and its straps; it rests with another host
+    input  wire logic       rs485_rxd,
+    output logic            rs485_txd,
+    output logic            rs485_de,
+    input  wire logic       hsp,
+    input  wire logic [2:0] mod,
+    input  wire logic [3:0] adr,
     // bus host
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
@@ -24,7 +32,7 @@ module ppmc312_station #(
     input  wire logic       we_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
-    output logic            d_oe,      // with the UART host always 0: the part's reads stay inside
+    output logic            d_oe,       // with another host always 0: the part's reads stay inside
     output logic            wrq_n,
     output logic            irq_n,
     // switches, drive and encoder, 0 = active but for epin, epdir and run
@@ -73,16 +81,23 @@ module ppmc312_station #(
   );
 
   ppmc312_board #(
-      .CLK_HZ (CLK_HZ),
-      .XTAL_HZ(XTAL_HZ),
-      .TIMING (TIMING),
-      .HOST   (HOST),
-      .BAUD   (BAUD)
+      .CLK_HZ  (CLK_HZ),
+      .XTAL_HZ (XTAL_HZ),
+      .TIMING  (TIMING),
+      .SUM_MODE(SUM_MODE),
+      .HOST    (HOST),
+      .BAUD    (BAUD)
   ) u_board (
       .clk,
       .rst_n,
       .uart_rxd,
       .uart_txd,
+      .rs485_rxd,
+      .rs485_txd,
+      .rs485_de,
+      .hsp,
+      .mod,
+      .adr,
       .rs,
       .cs_n,
       .oe_n,

@@ -31,7 +31,7 @@ module ppmc312_replies
     input  wire logic         [7:0] answer_code_i,   // one clk later: what it has come to
     input  wire logic         [2:0] answer_first_i,
     // sender
-    output logic                    send_o,
+    output logic                    send_o,          // until sent_i
     output reply_t                  reply_o,
     input  wire logic               sent_i
 );
@@ -118,7 +118,7 @@ module ppmc312_replies
 
   assign busy_o = state_q != StIdle || run_q || poll_q || fault_q || strange_q;
   assign blk_valid_o = state_q == StRun && !done_q;
-  assign send_o = reply_we;
+  assign send_o = state_q == StSend;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

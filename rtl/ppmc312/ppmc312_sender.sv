@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_sender: sends a reply: gate, control code, hexadecimal data, checksum.
+// ppmc312_sender: sends a reply: gate, control code, hexadecimal data, checksum; not before the line is free.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
-// Timing: snd_o rises with the clk after send_i. Edge n of the frame, the first start bit being number 1 and the
-//         fall of snd_o the last, comes ceil(n * bit time) after it.
+// Timing: snd_o rises with the clk after send_i, but at least ceil(bit time) + 2 clk after heard_i, the middle of a
+//         stop bit: half a bit after its end. Edge n of the frame, the first start bit being number 1 and the fall of
+//         snd_o the last, comes ceil(n * bit time) after the rise.
 // Rate:   the phase counts up by step_i a clk and has run through a bit when it passes 2**Width; wrap_i is then
 //         added instead: step_i less the modulus.
 `include "ppmc_assert.svh"
@@ -19,8 +20,9 @@ module ppmc312_sender
     input  wire logic   [      3:0] adr_i,
     input  wire logic   [Width-1:0] step_i,
     input  wire logic   [Width-1:0] wrap_i,
-    input  wire logic               send_i,
-    input  wire reply_t             reply_i,   // holds from the clk after send_i on
+    input  wire logic               heard_i,   // a character has come
+    input  wire logic               send_i,    // until sent_o
+    input  wire reply_t             reply_i,   // holds with send_i
     output logic        [      1:0] index_o,   // data byte
     input  wire logic   [      7:0] stored_i,  // this one, if it stands in the store; two clk later
     output logic                    sent_o,
@@ -36,7 +38,7 @@ module ppmc312_sender
   } state_e;
 
   state_e state_q;
-  logic over, last_q;
+  logic over, last_q, gap_q;
   logic [Width-1:0] phase_q;
   logic [2:0] at_q;  // data bytes sent
   logic [3:0] left_q;  // bits of the character to come
@@ -69,9 +71,9 @@ module ppmc312_sender
 
   assign sent_o = snd_o && over && left_q == '0 && last_q;
 
-  // The phase is one step ahead, which makes room for the registers of the pins.
+  // The phase is one step ahead, which makes room for the registers of the pins. A gap uses it, too.
   always_ff @(posedge clk_i) begin
-    if (!snd_o) {over, phase_q} <= {1'b0, wrap_i};
+    if (!snd_o && (heard_i || !gap_q)) {over, phase_q} <= {1'b0, wrap_i};
     else {over, phase_q} <= {1'b0, phase_q} + {1'b0, over ? wrap_i : step_i};
   end
 
@@ -79,9 +81,12 @@ module ppmc312_sender
     if (!rst_ni) begin
       snd_o <= 1'b0;
       txd_o <= 1'b1;
+      gap_q <= 1'b0;
     end else begin
-      if (send_i) snd_o <= 1'b1;
-      else if (sent_o) snd_o <= 1'b0;
+      if (sent_o) snd_o <= 1'b0;
+      else if (send_i && !gap_q) snd_o <= 1'b1;
+      if (heard_i) gap_q <= 1'b1;
+      else if (over) gap_q <= 1'b0;
       if (snd_o && over) txd_o <= (left_q == '0) ? last_q : bits_q[0];
     end
   end

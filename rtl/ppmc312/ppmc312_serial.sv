@@ -175,6 +175,7 @@ module ppmc312_serial
       .adr_i,
       .step_i  (step),
       .wrap_i  (wrap),
+      .heard_i (take_valid || framing),
       .send_i  (send),
       .reply_i (reply),
       .index_o (index),

@@ -45,6 +45,7 @@ class Board:
     part: str = "ppmc104"
     chip: str = ""  # Gowin's family, as nextpnr and the packer call it
     seeds: int = 5  # `make report` places it with at most so many; one takes minutes on some
+    recipe: str = ""  # of yosys_job; none: the family's best
 
     def folder(self, host: str) -> Path:
         """build/boards/<board> for the UART host, build/boards/<board>-bus for the other."""
@@ -128,7 +129,7 @@ def carrying(part: str, on: str, hosts: tuple[str, ...] = HOSTS) -> Board:
     suffix = Path(ppmc104.constraints["uart"]).suffix
     return replace(
         ppmc104,
-        top=dict.fromkeys(hosts, f"board_{family}_{part}"),
+        top=dict.fromkeys(hosts, f"board_{family}_{part.replace('-', '_')}"),
         constraints=dict.fromkeys(hosts, f"{family}-{part}{suffix}"),
         part=part,
     )
@@ -172,6 +173,24 @@ def with_ppmc312() -> dict[str, Board]:
     return {board.name: board for board in (*boards, TANGNANO20K)}
 
 
+def with_ppmc312_serial() -> dict[str, Board]:
+    """The boards that carry a PPMC-312 in serial mode. Its host is a serial line: there is no bus."""
+    part, hosts = "ppmc312-serial", ("uart",)
+    larger = (
+        replace(carrying(part, on.name, hosts), clk_hz=on.clk_hz, goal_mhz=on.goal_mhz, seeds=on.seeds)
+        for on in with_ppmc312().values()
+        if on.name in BOARDS
+    )
+    nano = replace(
+        TANGNANO20K,
+        top={"uart": "board_tangnano20k_ppmc312_serial"},
+        constraints={"uart": "tangnano20k-ppmc312-serial.cst"},
+        part=part,
+        recipe="default",  # abc9 fails with flow2: "Boxes are not in a topological order"
+    )
+    return {board.name: board for board in (*larger, nano)}
+
+
 def with_pmc006() -> dict[str, Board]:
     """The boards that carry a PMC006B4. Its host is a serial line: there is no bus."""
     larger = (
@@ -189,6 +208,7 @@ BY_PART = {
     "ppmc2104": with_part("ppmc2104"),
     "stmc": with_part("stmc"),
     "ppmc312": with_ppmc312(),
+    "ppmc312-serial": with_ppmc312_serial(),
     "pmc006": with_pmc006(),
 }
 
@@ -217,13 +237,13 @@ def check_host(on: Board, host: str) -> str:
 
 
 def part_of(top: str) -> str:
-    """The part of a top in rtl/boards: the one that its name has, else ppmc104."""
-    return next((part for part in BY_PART if part in top), "ppmc104")
+    """The part of a top in rtl/boards: the longest one that its name has, else ppmc104."""
+    return max((part for part in BY_PART if part.replace("-", "_") in top), key=len, default="ppmc104")
 
 
 def sources(top: str) -> list[Path]:
     """The sources of a board top in compile order, the declarations of the vendors' cells first."""
-    part = part_of(top)
+    part = part_of(top).split("-")[0]  # its RTL; what follows is a mode of it
     shared = project.file_groups().get("boards", [])
     other = tuple(f"{name}_" for name in BY_PART if name != part)
     files = [path for path in shared if not path.stem.startswith(("board_", *other)) or path.stem == top]
@@ -258,7 +278,7 @@ def synthesize_board(on: Board, host: str, params: dict[str, int | str] | None =
         "sources": [project.relative(path) for path in sources(top)],
         "params": given,
         "family": on.family,
-        "recipe": BEST[on.family],
+        "recipe": on.recipe or BEST[on.family],
         "keep": False,
     }
     return run_yosys(on.folder(host), job)

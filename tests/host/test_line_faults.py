@@ -231,6 +231,71 @@ def test_a_damaged_order_that_looks_good_is_noticed() -> None:
             axis.move(4)
 
 
+HERE, BLIND = "A1 30 30 30 30 30 30 32 34 3A", "A1 30 30 30 30 30 30 61 34 3A"
+"""Position 24h, and the same frame with bit 7 of the byte turned over: the checksum fits as well."""
+REST, MOVES = "A1 30 30 30 32 30 30 5C", "A1 30 30 30 34 30 30 5A"
+
+
+def test_a_damaged_position_that_looks_good_is_read_again() -> None:
+    for replies in ([BLIND, HERE, HERE], [HERE, BLIND, HERE, HERE]):
+        port, axis = station(*replies)
+        assert axis.position == 0x24 and not port.replies
+        assert axis.counters.garbled == len(replies) - 2
+
+
+def test_a_motion_explains_two_positions() -> None:
+    """Without a table of its own the master knows no speed, but that there is one at all."""
+    further = "A1 30 30 30 30 30 30 32 35 39"
+    port, axis = station(HERE, further, MOVES, MOVES)
+    assert axis.position == 0x25 and axis.counters.garbled == 0
+    port, axis = station(HERE, further, REST, REST, further)
+    assert axis.position == 0x25 and axis.counters.garbled == 1
+
+
+class Blind:
+    """Turns bit 7 of the last byte of the next `left` replies with a position."""
+
+    def __init__(self, left: int) -> None:
+        self._left, self._place = left, 0
+
+    def __call__(self, data: bytes) -> bytes:
+        spoiled = bytearray()
+        for character in data:
+            self._place = 0 if character & 0x80 else self._place + 1
+            if self._place == 7 and self._left:
+                self._left -= 1
+                character = ord(f"{int(chr(character), 16) ^ 8:x}")
+            spoiled.append(character)
+        return bytes(spoiled)
+
+
+def test_a_jump_is_no_motion() -> None:
+    """At 8000 pulses/s nobody goes 128 pulses in the time of a frame."""
+    port, bus = spoiled()
+    with bus:
+        axis = bus.axis(1)
+        axis.initialise(*FAST)
+        axis.jog(CW)
+        bus.line.pause(0.2)
+        port.spoil = Blind(1)  # type: ignore[method-assign]
+        before = axis.position
+        assert 0 < before < 8000 and axis.counters.garbled == 1
+        assert 0 <= axis.position - before < 2000
+        axis.halt()
+
+
+def test_positions_that_never_agree() -> None:
+    port, axis = station(*[HERE, BLIND] * 3)
+    with pytest.raises(GarbledReply, match="station 1: 5 pairs of replies that do not agree"):
+        axis.position  # noqa: B018
+
+
+def test_a_damaged_status_is_read_again() -> None:
+    """Bit 7 of the first byte: RUN monitored or not."""
+    port, axis = station("A1 38 30 30 32 30 30 5C", REST, REST)
+    assert axis.status().run_monitored and axis.counters.garbled == 1
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_noisy_line(seed: int) -> None:
     """One character in 150 damaged: repeats, but every move is the right one."""
@@ -347,7 +412,7 @@ def test_only_noise() -> None:
     ],
 )
 def test_replies_that_cannot_be(reply: str) -> None:
-    port, axis = station(reply, "A1 30 30 30 32 30 30 5C")
+    port, axis = station(reply, *["A1 30 30 30 32 30 30 5C"] * 2)
     assert axis.status().raw == 2 and axis.counters.garbled == 1
 
 

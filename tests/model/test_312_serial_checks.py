@@ -22,10 +22,10 @@ def exchange(host: Serial312, text: str, within: int = 4_096) -> str:
 def test_poll_at_19200() -> None:
     host = Serial312(mod=5)
     host.raw("81 7E")
-    rise = host.rise()
+    rise = host.begin()
     assert host.hear() == "90" and host.wire == "91 6E"
     bit = Fraction(16_000_000, 19_200)
-    assert rise is not None and host.middle <= rise <= host.middle + 4_096
+    assert host.middle + bit <= rise <= host.middle + bit + 64
     assert [t for t, level in host.model.log.of("snd", rise) if not level] == [rise + ceil(21 * bit)]
     assert host.model.log.of("txd", rise)[0] == (rise + ceil(bit), 0)
 
