@@ -22,6 +22,7 @@ ITEMS = cocotb_items(
     "tb_stage",
     "tb_stage_walk",
     "tb_interval",
+    "tb_i2c",
     part=Part("blocks", "BLK", {}),
 )
 

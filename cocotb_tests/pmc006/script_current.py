@@ -62,6 +62,19 @@ def test_regulated_in_motion() -> None:
     assert off_by(host, plant, host.t - 2000) < 0.1
 
 
+@verifies("P006-CHP-04", "P006-CHP-03")
+def test_nothing_is_left_at_a_reference_of_0() -> None:
+    """Half steps: phase B from 71 % to 0, where no sign changes; fast decay takes the current away."""
+    host, plant = ready(e=2000, m=2, P=300)
+    brisk(host, 1000)
+    start(host, 3)
+    host.until("mon_busy", 0)
+    host.ms(0.7)
+    winding = plant.windings["b"]
+    assert not host.out("phase_b_ref") and not host.out("phase_b_sign")
+    assert max(abs(winding.current(t / host.clk_hz)) for t in range(host.t - 2000, host.t, 40)) < 0.05
+
+
 @verifies("P006-CHP-01", "P006-STA-12")
 def test_released_and_taken_back() -> None:
     """Without bridges the current dies in the diodes; it comes back in the next cycle."""

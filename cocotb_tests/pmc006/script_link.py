@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import ceil
 
 import pytest
@@ -225,13 +226,32 @@ def test_line_that_is_low_when_the_reply_ends() -> None:
     for gap in (2, 4, 8):
         host = Host006()
         host.say("c")
-        host.go(host.e + ceil(81.5 * host.bit))
+        host.go(host.e + ceil(81 * host.bit))
         host.pins(rxd=0)
         host.pause(ceil(3.5 * host.bit))
         host.pins(rxd=1)
         host.forget()
         host.back_to(host.t + ceil(gap * host.bit))
         assert host.ask("j") == DECAY
+
+
+@verifies("P006-FRM-07", "P006-BAD-06")
+def test_frame_in_the_last_half_of_the_stop_bit() -> None:
+    """A host has a reply in the middle of its last stop bit; a frame that begins there or later is heard."""
+    for late in (-1, 0, 1, 9, 25, 33):
+        host = Host006()
+        host.say("c")
+        host.pause(ceil(3 * host.bit))
+        rise = host.rise()
+        assert rise is not None
+        middle = rise - ceil(host.bit) + ceil(Fraction(163, 2) * host.bit)
+        host.go(middle + late)
+        assert host.out("de")
+        host.say("y", 0xF8)
+        host.pause(ceil(90 * host.bit))
+        heard = late >= 0
+        assert host.out("gpo") == (0x1F if heard else 0), f"{late} clk after the middle"
+        assert len(host.edges("de", rise)) == (4 if heard else 2)
 
 
 @verifies("P006-FRM-07", "P006-UART-05")

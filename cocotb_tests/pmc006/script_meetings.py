@@ -224,14 +224,15 @@ def test_restore_and_save() -> None:
 
 @verifies("P006-FRM-07", "P006-BAD-06", "P006-FRM-10")
 def test_bytes_about_the_end_of_a_reply() -> None:
-    """A byte that begins before de has fallen is not heard, one behind it is; the line need not rest."""
+    """A byte that begins before the middle of its last stop bit is not heard, one behind it is; the line need
+    not rest."""
     host = Host006()
     heard = []
     for shift in range(-4, 9):
         host.say("j")
-        fall = host.e + -(-(82 * host.clk_hz) // host.baud)
-        host.go(fall - 30)
-        host.back_to(fall + shift)
+        middle = host.e + -(-(163 * host.clk_hz) // (2 * host.baud))
+        host.go(middle - 30)
+        host.back_to(middle + shift)
         host.send(command(0xFF, "k"))
         host.pause(int(host.bit * 90))
         edges = [t for t, level in host.edges("de", host.e) if level]

@@ -24,7 +24,7 @@ class State(Enum):
 
 @dataclass(frozen=True)
 class Times:
-    """clk: off time, blanking, longest fast decay, change of a reference to OFF."""
+    """clk: off time, blanking, longest fast decay, change of a sign to OFF."""
 
     off: int
     blank: int
@@ -61,16 +61,11 @@ class Chopper:
 
     def reference(self, t: int, ref: int, sign: int) -> None:
         """The reference outputs change at edge t."""
-        began, turned = not self._ref and ref, sign != self._sign
-        ended = self._ref and not ref
+        turned = sign != self._sign
         self._ref, self._sign = ref, sign
-        if not self._on:
-            return
-        if turned or ended:
+        if turned and self._on:
             self._forget()
             self._at(t + self._times.force, self._forced)
-        elif began:
-            self._rest(t)
 
     def compare(self, t: int, level: int) -> None:
         """Level of the synchronised comparator as decisions from edge t on see it."""
@@ -99,11 +94,15 @@ class Chopper:
     def _rest(self, t: int) -> None:
         """The off time counts from edge t on, if it may count."""
         self._forget()
-        if self._on and self._ref:
+        if self._on:
             self._at(t + self._times.off, self._decide)
 
     def _decide(self, t: int) -> None:
-        self._enter(t, State.FAST if self._cmp else State.ON)
+        """No current is wanted with a reference of 0: what is there may only fall."""
+        if self._cmp:
+            self._enter(t, State.FAST)
+        else:
+            self._enter(t, State.ON if self._ref else State.OFF)
 
     def _arm(self, t: int) -> None:
         """Blanking is over."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -19,8 +20,8 @@ MS = CLK_HZ // 1000
 
 @dataclass(frozen=True)
 class Case:
-    """cur: mA asked for. mstep and full steps/s, whose product is at most 16000. emf: V, 90 degrees ahead of
-    the reference. periods: of the electrical cycle that are measured."""
+    """cur: mA asked for. mstep (0: full steps) and full steps/s, whose product is at most 16000. emf: V, 90
+    degrees ahead of the reference. scomp: P. periods: of the electrical cycle that are measured."""
 
     cur: int = 1000
     mstep: int = 16
@@ -28,6 +29,7 @@ class Case:
     emf: float = 0.0
     motor: Motor = Motor()
     tau: float = 0.0
+    scomp: int = 1250
     periods: int = 2
 
     @property
@@ -63,7 +65,7 @@ class Rig:
         self.case = case
         self.part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
         self._go(MS)
-        for code, data in (("e", case.cur), ("m", case.mstep), ("M", 100), ("a", 0)):
+        for code, data in (("e", case.cur), ("m", case.mstep), ("M", 100), ("P", case.scomp), ("a", 0)):
             self.tell(code, data)
 
     def _go(self, clk: int) -> None:
@@ -88,7 +90,7 @@ class Rig:
 
     def cruise(self) -> Plant:
         """At constant speed, settled."""
-        speed = self.case.full * self.case.mstep
+        speed = self.case.full * max(1, self.case.mstep)
         slow = min(3000, speed)
         for code, data in (("u", 5), ("v", speed), ("L", slow), ("S", slow), ("N", 1)):
             self.tell(code, data)
@@ -171,6 +173,18 @@ def figures(found: Waves, periods: int) -> Figures:
         hypot(*lines[1:]) / lines[0],
         sqrt(max(0.0, rest) * 2) / lines[0],
     )
+
+
+def left_at_zero(found: Waves) -> tuple[float, float]:
+    """Largest and smallest mean current of a step whose reference is 0, over its second half, A; 0 if there
+    is none."""
+    means = [0.0]
+    for zero, span in groupby(zip(found.reference, found.current, strict=True), lambda one: not one[0]):
+        currents = [current for _, current in span]
+        if zero:
+            late = currents[len(currents) // 2 :]
+            means.append(sum(late) / len(late))
+    return max(means), min(means)
 
 
 def ripple(found: Waves) -> tuple[float, float]:

@@ -7,12 +7,16 @@ happens on that tick's edge.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
+from fractions import Fraction
+from math import ceil
 from typing import Any
 
 from .parts import Phase
 from .parts006 import Shared, Ticks
 
 Course = Generator[None, None, Any]
+LOW = Fraction(55, 100)
+"""Part of a period for which SCL is low: two quarters and a little."""
 
 
 class BusError(Exception):
@@ -28,6 +32,7 @@ class Bus:
     def __init__(self, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
         self._shared, self._levels = shared, levels
         self._ticks = Ticks(shared.clk_hz, 4 * hz, shared.us.origin)
+        self._late = ceil(Fraction(LOW * shared.clk_hz, hz)) - shared.clk_hz // (2 * hz)
         self.hz = hz
         self.tick = 0
 
@@ -70,6 +75,11 @@ class Bus:
     def _drive(self, line: str, level: int) -> None:
         self._shared.log.set(self._now, f"{line}_oe", int(not level))
 
+    def _release(self) -> None:
+        """SCL may go high, once it was low for long enough."""
+        at = self._now + self._late
+        self._shared.queue.at(at, Phase.PIN, lambda now: self._shared.log.set(now, "scl_oe", 0))
+
     def _rise(self) -> Course:
         """Wait until SCL is high; it may be held low for a millisecond."""
         for _ in range(self.per_ms + 1):
@@ -85,7 +95,7 @@ class Bus:
         yield
         self._drive("sda", 1)
         yield
-        self._drive("scl", 1)
+        self._release()
         yield from self._rise()
         yield
         self._drive("sda", 0)
@@ -99,7 +109,7 @@ class Bus:
         self._drive("scl", 0)
         self._drive("sda", 0)
         yield
-        self._drive("scl", 1)
+        self._release()
         yield from self._rise()
         yield
         self._drive("sda", 1)
@@ -119,7 +129,7 @@ class Bus:
         self._drive("scl", 0)
         self._drive("sda", level)
         yield
-        self._drive("scl", 1)
+        self._release()
         yield from self._rise()
         return self._levels["sda_i"]
 

@@ -12,6 +12,8 @@ from .line312 import Receiver
 from .parts import Phase
 from .parts006 import Shared
 
+STOP = Fraction(163, 2)
+"""Bit times from e to the middle of a reply's last stop bit: a host may speak from there on."""
 SYNC = 2
 """clk from a sampled level to its effect."""
 SILENCE = 192
@@ -112,6 +114,8 @@ class Line:
         origin = self._e + self._shared.pace.answer
         timed = [(origin + ceil(bits * self._bit), pin, level) for bits, pin, level in changes_of(frame)]
         self._replies.append((timed[0][0], frame))
+        over = origin + ceil(STOP * self._bit)
+        self._shared.queue.at(over, Phase.PIN, lambda now: self.listen(now, True))
         self._next([list(group) for _, group in groupby(timed, key=lambda change: change[0])])
         self._count(origin, frame)
 
@@ -132,6 +136,4 @@ class Line:
     def _do(self, t: int, changes: list[list[tuple[int, str, int]]]) -> None:
         for _, pin, level in changes[0]:
             self._shared.log.set(t, pin, level)
-            if pin == "de" and not level:
-                self.listen(t, True)
         self._next(changes[1:])

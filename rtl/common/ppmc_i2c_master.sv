@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_i2c_master: moves the two lines of an I2C bus: START, STOP, bytes, freeing of a stuck bus. One master.
 // Rules:  P006 section 13.1, P006-BAD-13 (clock held low).
-// Timing: everything moves on tick_i, four a bit. A bit: SDA, SCL up, look, SCL down; START and STOP take six
+// Timing: everything moves on tick_o, four a bit. A bit: SDA, SCL up, look, SCL down; START and STOP take six
 //         ticks. cmd_i stands until done_o or fail_o, one clk after the last tick; a new one that stands before the
-//         next tick follows without a gap. While the clock is held low the look is repeated, StretchTicks times.
+//         next tick follows without a gap. While the clock is held low the look is repeated, for 1 ms.
+//         SCL goes up RiseClk after its tick: it is low for 55 % of the period, up to the next clk.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_i2c_master
   import ppmc_i2c_pkg::*;
 #(
-    parameter int unsigned StretchTicks = 1601
+    parameter int unsigned ClkHz = 16_000_000,
+    parameter int unsigned SclHz = 400_000      // at most ClkHz / 20
 ) (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    input  wire logic           tick_i,
+    output logic                tick_o,    // a quarter of a bit
     input  wire i2c_cmd_e       cmd_i,
     input  wire logic     [7:0] byte_i,    // to send; 8'hff to receive
     input  wire logic           ack_i,     // ninth bit to send: 1 leaves it to the other side
@@ -29,14 +31,32 @@ module ppmc_i2c_master
     output logic                sda_oe_o
 );
 
+  localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;
+  // 0.55 of a bit, less the two ticks of a low clock where they are shortest. 24C32: >= 1.3 us of low at 400 kHz.
+  localparam int unsigned RiseClk = 32'((64'(ClkHz) * 64'd55 + 64'(SclHz) * 64'd100 - 64'd1) / (64'(SclHz) * 64'd100))
+      - ClkHz / (2 * SclHz);
+  localparam int unsigned RiseBits = ppmc_pkg::cnt_width(RiseClk - 1);
   localparam int unsigned StretchBits = ppmc_pkg::cnt_width(StretchTicks - 1);
 
   logic [2:0] step_q;
   logic [3:0] bit_q;
   logic [8:0] shift_q;
   logic [StretchBits-1:0] stretch_q;
-  logic frame, ends, last, held, stuck, first, low;
+  logic [RiseBits-1:0] rise_q;
+  logic tick, frame, ends, last, held, stuck, first, low;
 
+  ppmc_tick_gen #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (4 * SclHz),
+      .TickXtal(1)
+  ) u_tick (
+      .clk_i,
+      .rst_ni,
+      .restart_i(1'b0),
+      .tick_o   (tick)
+  );
+
+  assign tick_o = tick;
   assign frame = cmd_i == CmdStart || cmd_i == CmdStop;
   assign first = step_q == 3'd0 && bit_q == 4'd0 && !frame;
   assign low = first ? !byte_i[7] : !shift_q[8];
@@ -45,7 +65,7 @@ module ppmc_i2c_master
   assign ends = bit_q == 4'd8 || (cmd_i == CmdFree && shift_q[0]);
   assign last = frame ? step_q == 3'd5 : step_q == 3'd3 && ends;
 
-  assign first_o = tick_i && cmd_i == CmdByte && first;
+  assign first_o = tick && cmd_i == CmdByte && first;
   assign byte_o = shift_q[8:1];
   assign nack_o = shift_q[0];
 
@@ -60,14 +80,14 @@ module ppmc_i2c_master
     end else begin
       done_o <= 1'b0;
       fail_o <= 1'b0;
-      if (tick_i && cmd_i != CmdNone) begin
+      if (step_q == 3'd2 && rise_q == '0) scl_oe_o <= 1'b0;
+      if (tick && cmd_i != CmdNone) begin
         if (!held) step_q <= last ? 3'd0 : step_q + 1'b1;
         unique case (step_q)
           3'd0: begin
             if (cmd_i != CmdStart) scl_oe_o <= 1'b1;
             sda_oe_o <= (cmd_i == CmdStop) || (cmd_i == CmdByte && low);
           end
-          3'd1:    scl_oe_o <= 1'b0;
           3'd3: begin
             if (frame) sda_oe_o <= cmd_i == CmdStart;
             else begin
@@ -96,10 +116,12 @@ module ppmc_i2c_master
   end
 
   always_ff @(posedge clk_i) begin
+    if (step_q != 3'd2) rise_q <= RiseBits'(RiseClk - 1);
+    else if (rise_q != '0) rise_q <= rise_q - 1'b1;
     if (step_q != 3'd2) stretch_q <= '0;
-    else if (tick_i && held) stretch_q <= stretch_q + 1'b1;
-    if (tick_i && first) shift_q <= {byte_i, ack_i};
-    else if (tick_i && step_q == 3'd2 && scl_i) shift_q <= {shift_q[7:0], sda_i};
+    else if (tick && held) stretch_q <= stretch_q + 1'b1;
+    if (tick && first) shift_q <= {byte_i, ack_i};
+    else if (tick && step_q == 3'd2 && scl_i) shift_q <= {shift_q[7:0], sda_i};
   end
 
 `ifndef SYNTHESIS

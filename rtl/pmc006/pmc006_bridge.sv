@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_bridge: one motor phase: reference bit stream and chopper with fixed off time, slow and fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
-// Timing: en_o and the half bridges change at the edge after on_i; a reference of 0 or a change of the sign puts the
-//         bridge into OFF at the next edge; a comparator level sampled at edge t decides at t + 2.
+// Timing: en_o and the half bridges change at the edge after on_i; a change of the sign puts the bridge into OFF at the
+//         next edge; a comparator level sampled at edge t decides at t + 2. With a reference of 0 OFF follows OFF.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -48,7 +48,7 @@ module pmc006_bridge #(
       .q2_o(cmp)
   );
 
-  assign rest    = !on_i || !en_o || ref_i == '0 || sign_i != sign_q;
+  assign rest    = !on_i || !en_o || sign_i != sign_q;
   assign blanked = left_q <= Width'(FastClk - BlankClk);
 
   always_comb begin
@@ -73,7 +73,7 @@ module pmc006_bridge #(
       sign_q <= sign_i;
       en_o <= on_i;
       {pwm_o, stream_q} <= {1'b0, stream_q} + {1'b0, ref_i};
-      if (rest || (over && state_q != StOff)) begin
+      if (rest || (over && (state_q != StOff || (!cmp && ref_i == '0)))) begin
         state_q <= StOff;
         left_q  <= Width'(OffClk - 1);
         high0_o <= 1'b0;

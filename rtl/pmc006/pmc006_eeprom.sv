@@ -47,7 +47,6 @@ module pmc006_eeprom
     output logic                 sda_oe_o
 );
 
-  localparam int unsigned StretchTicks = 4 * I2cHz / 1000 + 1;
   localparam int unsigned PollTicks = 4 * I2cHz / 100;
   localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollTicks);
   localparam logic [9:0] Program = 10'h020;
@@ -85,17 +84,6 @@ module pmc006_eeprom
 
   // ---- bus -------------------------------------------------------------------------------------------------------
 
-  ppmc_tick_gen #(
-      .ClkHz   (ClkHz),
-      .XtalHz  (4 * I2cHz),
-      .TickXtal(1)
-  ) u_tick (
-      .clk_i,
-      .rst_ni,
-      .restart_i(1'b0),
-      .tick_o   (tick)
-  );
-
   always_comb begin
     out = 8'hff;
     unique case (state_q)
@@ -127,11 +115,12 @@ module pmc006_eeprom
   end
 
   ppmc_i2c_master #(
-      .StretchTicks(StretchTicks)
+      .ClkHz(ClkHz),
+      .SclHz(I2cHz)
   ) u_master (
       .clk_i,
       .rst_ni,
-      .tick_i (tick),
+      .tick_o (tick),
       .cmd_i  (cmd),
       .byte_i (out),
       .ack_i  (!(state_q == StData && read_q && !last)),

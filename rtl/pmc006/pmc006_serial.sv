@@ -2,7 +2,8 @@
 // pmc006_serial: the line to the host: frames in, one reply out for each that is executed.
 // Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
 // Timing: with e = the edge of the last stop-bit sample: go_o in the clk after e, de_o rises ceil(1 bit) after e, bit
-//         edge n comes ceil((2 + n) bits) after e, de_o falls ceil(82 bits) after e. Deaf from e + 1 until then.
+//         edge n comes ceil((2 + n) bits) after e, de_o falls ceil(82 bits) after e. Deaf from e + 1 until
+//         ceil(81.5 bits) after e, the middle of the last stop bit: there a host has the whole reply.
 // Rate:   bits last whole phases of an accumulator with an exact modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -33,6 +34,7 @@ module pmc006_serial #(
   localparam longint unsigned Rest = (64'd1 << Width) - Modulus;
   localparam logic [Width-1:0] Step = Width'(Unit);
   localparam logic [Width-1:0] Wrap = Width'(Unit + Rest);
+  localparam logic [Width-1:0] WrapHalf = Width'(Unit + Rest + Modulus / 64'd2);
   // Bits are counted from the sample on, which is two clk old when its result stands in the registers.
   localparam logic [Width-1:0] Zero = Width'(Rest + 64'd2 * Unit);
   localparam logic [Width-1:0] Half = Width'(Rest + 64'd2 * Unit + Modulus / 64'd2);
@@ -40,7 +42,7 @@ module pmc006_serial #(
 
   logic [7:0] char, next, sum_q, bits_q;
   logic valid, error, unused_break, line, unused_meta;
-  logic listen, open_q, deaf_q, late_q, over_q;
+  logic listen, open_q, deaf_q, late_q, over_q, stop;
   logic [Width-1:0] phase_q;
   logic [7:0] count_q;
   logic [3:0] left_q, at_q;
@@ -95,7 +97,7 @@ module pmc006_serial #(
 
   always_ff @(posedge clk_i) begin
     if (valid) {over_q, phase_q} <= {1'b0, go_o ? Zero : Half};
-    else {over_q, phase_q} <= {1'b0, phase_q} + {1'b0, over_q ? Wrap : Step};
+    else {over_q, phase_q} <= {1'b0, phase_q} + {1'b0, !over_q ? Step : stop ? WrapHalf : Wrap};
     if (valid) count_q <= '0;
     else if (over_q) count_q <= count_q + 1'b1;
   end
@@ -107,6 +109,9 @@ module pmc006_serial #(
   end
 
   // ---- reply -----------------------------------------------------------------------------------------------------
+
+  // The last stop bit is two halves: the receiver opens between them.
+  assign stop = de_o && at_q[3] && left_q <= 4'd1;
 
   always_comb begin
     unique case (at_q[2:0])
@@ -127,10 +132,10 @@ module pmc006_serial #(
       de_o   <= 1'b0;
       txd_o  <= 1'b1;
     end else if (go_o) deaf_q <= 1'b1;
-    else if (deaf_q && over_q) begin
-      de_o <= 1'b1;
+    else if (over_q && (deaf_q || de_o)) begin
+      de_o <= deaf_q;
       if (de_o && left_q != '0) txd_o <= bits_q[0];
-      else if (de_o && at_q[3]) {deaf_q, de_o} <= 2'b00;
+      else if (de_o && at_q[3]) deaf_q <= 1'b0;
       else if (de_o) txd_o <= 1'b0;
     end
   end
@@ -144,7 +149,7 @@ module pmc006_serial #(
       if (left_q != '0) begin
         left_q <= left_q - 1'b1;
         bits_q <= {1'b1, bits_q[7:1]};
-      end else begin
+      end else if (!at_q[3]) begin
         left_q <= 4'd9;
         bits_q <= next;
         at_q   <= at_q + 1'b1;
@@ -154,7 +159,7 @@ module pmc006_serial #(
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p006_frm_07, !de_o || deaf_q)
+  `PPMC_ASSERT(p006_frm_07, !de_o || deaf_q || stop)
   `PPMC_ASSERT(p006_frm_03, de_o || txd_o)
 `endif
 

@@ -7,13 +7,26 @@ from functools import cache
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from openppmc.model.current006 import Case, Waves, cruising, figures, holding, ripple, spectrum
+from openppmc.model.current006 import (
+    Case,
+    Waves,
+    cruising,
+    figures,
+    holding,
+    left_at_zero,
+    ripple,
+    spectrum,
+)
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 SHOWN = Case(cur=1000, mstep=16, full=1000, periods=1)
 AGAINST = Case(cur=1000, mstep=16, full=1000, emf=6.0, periods=1)
 REST_STEPS, REST_US = 4, 250
 CURRENTS = (400, 1000, 1900)
+SLOW = tuple(
+    Case(mstep=mstep, full=full, scomp=300, periods=1) for mstep in (16, 2, 0) for full in (40, 100, 200)
+)
+"""P 300 leads by no unit here, so that the angle meets the zeros of both references."""
 RUNS = (
     *(Case(cur=cur, full=full, periods=1) for full in (500, 800, 1000) for cur in CURRENTS),
     *(Case(cur=cur, full=1000, emf=6.0, periods=1) for cur in CURRENTS),
@@ -76,17 +89,27 @@ def _percent(share: float) -> str:
     return f"{100 * share:.1f}"
 
 
+def _left(both: tuple[Waves, Waves]) -> str:
+    """What is left where a reference is 0: reached from above, and from below."""
+    if not any(0 in found.reference for found in both):
+        return ""
+    above, below = zip(*(left_at_zero(found) for found in both), strict=True)
+    return f"{max(above):.2f}, {abs(min(below)):.2f}"
+
+
 def currents_table() -> str:
-    """Markdown table: error and distortion in motion, then ripple at rest."""
+    """Markdown table: error and distortion in motion, what is left at 0, then ripple at rest."""
     lines = [
-        "| Current / A | Full steps/s | Back EMF / V | Error / % | THD / % |",
-        "|---|---|---|---|---|",
+        "| Microsteps | Current / A | Full steps/s | Back EMF / V | Error / % | Beside / % | THD / % |"
+        " Left at 0 / A |",
+        "|---|---|---|---|---|---|---|---|",
     ]
-    for case in RUNS:
-        both = [figures(found, case.periods) for found in _cruise(case)]
-        error, thd = max(found.error for found in both), max(found.thd for found in both)
-        asked = f"{both[0].amplitude:.2f} | {case.full} | {case.emf:.0f}"
-        lines.append(f"| {asked} | {_percent(error)} | {_percent(thd)} |")
+    for case in (*SLOW, *RUNS):
+        both = _cruise(case)
+        found = [figures(waves, case.periods) for waves in both]
+        asked = f"{case.mstep or 1} | {found[0].amplitude:.2f} | {case.full} | {case.emf:.0f}"
+        worst = [_percent(max(one[place] for one in found)) for place in (1, 2, 3)]
+        lines.append(f"| {asked} | {' | '.join(worst)} | {_left(both)} |")
     words = []
     for cur in CURRENTS:
         found = holding(Case(cur=cur))[0]

@@ -100,22 +100,39 @@ def test_changes_of_the_reference() -> None:
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(10, "reference", 100, 0)
-    assert phases.run(400) == [(330, 1, 0)]
+    assert phases.run(400) == [(320, 1, 0)]
     # Another height does not disturb, another sign turns off and counts anew.
     phases.at(401, "reference", 101, 0)
     phases.at(500, "reference", 101, 1)
     assert phases.run(900) == [(501, 0, 0), (821, 0, 1)]
-    # 0 holds the count at its start.
-    phases.at(1000, "reference", 0, 0)
-    phases.at(9000, "reference", 5, 0)
-    assert phases.run(9319) == [(1001, 0, 0)]
-    assert phases.run(9320) == [(9320, 1, 0)]
     # In OFF as well: a new sign restarts the time.
-    phases.at(9400, "compare", 1)
-    phases.at(9500, "reference", 5, 1)
-    phases.at(9501, "compare", 0)
-    assert phases.run(9820) == [(9400, 0, 0)]
-    assert phases.run(9821) == [(9821, 0, 1)]
+    phases.at(1000, "compare", 1)
+    phases.at(1100, "reference", 5, 0)
+    phases.at(1101, "compare", 0)
+    assert phases.run(1420) == [(1000, 0, 0)]
+    assert phases.run(1421) == [(1421, 1, 0)]
+
+
+@verifies("P006-CHP-04", "P006-CHP-03")
+def test_a_reference_of_0_lets_the_current_fall() -> None:
+    """It ends nothing; the comparator goes on deciding, but OFF follows OFF instead of ON."""
+    phases = Phases()
+    phases.at(0, "enable", True)
+    phases.at(10, "reference", 100, 0)
+    phases.at(400, "reference", 0, 0)
+    phases.at(500, "compare", 1)
+    assert phases.run(819) == [(320, 1, 0), (500, 0, 0)]
+    phases.at(900, "compare", 0)
+    assert phases.run(900) == [(820, 0, 1), (900, 0, 0)]
+    # 1220, 1540, 1860: nothing to do; then a current once more.
+    phases.at(2000, "compare", 1)
+    assert phases.run(2179) == []
+    assert phases.run(2340) == [(2180, 0, 1), (2340, 0, 0)]
+    phases.at(2341, "compare", 0)
+    # A reference that comes back on the edge of a decision is late for it by one clk.
+    phases.at(2660, "reference", 7, 0)
+    assert phases.run(2979) == []
+    assert phases.run(2980) == [(2980, 1, 0)]
 
 
 @verifies("P006-CHP-01", "P006-CHP-04")
@@ -161,10 +178,10 @@ def test_against_a_chopper_that_looks_at_every_clk(seed: int) -> None:
         for what, levels in causes.get(edge, ()):
             level = levels[0] if what == "compare" else level
         count += 1
-        if not enabled or not reference or sign_now != sign_before:
+        if not enabled or sign_now != sign_before:
             state, count = "OFF", 0
         elif state == "OFF" and count == 40:
-            state, count = ("FAST" if level else "ON"), 0
+            state, count = ("FAST" if level else "ON" if reference else "OFF"), 0
         elif state == "ON" and count >= 5 and level:
             state, count = "OFF", 0
         elif state == "FAST" and ((count >= 5 and not level) or count == 20):

@@ -10,7 +10,18 @@ import pytest
 
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.pmc006.script_host import Host006
-from openppmc.model.current006 import CLK_HZ, MS, Case, Figures, Rig, cruising, figures, holding, ripple
+from openppmc.model.current006 import (
+    CLK_HZ,
+    MS,
+    Case,
+    Figures,
+    Rig,
+    cruising,
+    figures,
+    holding,
+    left_at_zero,
+    ripple,
+)
 from openppmc.model.plant006 import Arc, Emf, Motor, Plant
 
 T_OFF, T_BLANK, LATE = 20e-6, 1e-6, 3 / CLK_HZ
@@ -119,6 +130,18 @@ def test_the_current_follows_a_sine(cur: int, full: int, error: float, thd: floa
     found = measured(cur, full, 0.0)
     print(found)
     assert found.error <= error and found.thd < thd
+
+
+@pytest.mark.parametrize(("mstep", "thd"), [(16, 0.015), (2, 0.25)])
+@verifies("P006-CHP-04", "P006-CHP-03")
+def test_no_current_hangs_at_a_reference_of_0(mstep: int, thd: float) -> None:
+    """200 full steps/s without a lead. FAST takes away what is left of a positive half wave: with the bridge
+    held off it was 0.28 A of a half step, and a THD of 1.9 % in 1/16 steps. From below there is no pulse."""
+    both = cruising(Case(1000, mstep, 200, scomp=300, periods=1))
+    above = max(left_at_zero(found)[0] for found in both)
+    harmonics = max(figures(found, 1).thd for found in both)
+    print(above, harmonics)
+    assert above < 0.03 and harmonics < thd
 
 
 @pytest.mark.parametrize(("cur", "limit"), [(400, 0.12), (1000, 0.12), (1900, 0.145)])
