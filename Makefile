@@ -147,4 +147,4 @@ $(ENVSIM): requirements-sim.txt scripts/bootstrap.py
 $(ENVDEV): requirements-dev.txt $(ENVSIM)
 	@$(call bootstrap,$(notdir $<))
 
-bootstrap = python=$(PY); [ -x $$python ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); $$python scripts/bootstrap.py $1
+bootstrap = python=$(PY); [ -x "$$python" ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); "$$python" scripts/bootstrap.py $1

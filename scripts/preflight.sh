@@ -50,6 +50,11 @@ for word in "$@"; do
 done
 [ -n "$need_env" ] || exit 0
 
+# Spaces and letters of any language do; these end a name in PATH, or in the scripts that pip writes.
+case $PWD in
+    *[:\"\$\`\\]* | *[[:cntrl:]]*)
+        problem "the project's folder must not have : \" \$ \` or \\ in its path: $(printf %s "$PWD" | tr '[:cntrl:]' '?')" ;;
+esac
 for tool in git g++ perl; do
     command -v "$tool" >/dev/null 2>&1 || problem "$tool is not installed: install it with the package manager (Debian: apt install $tool)"
 done
