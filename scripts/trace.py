@@ -107,11 +107,21 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
     return Trace(rules, groups, [*bare, *unknown, *failed])
 
 
-def _table(trace: Trace, rules: Sequence[str]) -> list[str]:
+def at_home(statement: str, part_name: str) -> str:
+    """A statement of docs/<part>.md with its links as seen from docs/traceability/."""
+
+    def moved(link: re.Match[str]) -> str:
+        return f"](../{part_name}.md{link[1]}" if link[1].startswith("#") else f"](../{link[1]}"
+
+    return re.sub(r"\]\((?![a-z]+:)([^)]+)", moved, statement)
+
+
+def _table(trace: Trace, rules: Sequence[str], part_name: str) -> list[str]:
     rows = ["| Rule | Statement | Tests | Result |", "|---|---|---|---|"]
     for rule in rules:
         tests = "<br>".join(str(group) for group in trace.groups.get(rule, [])) or "none"
-        rows.append(f"| {rule} | {trace.rules[rule]} | {tests} | {trace.result(rule)} |")
+        statement = at_home(trace.rules[rule], part_name)
+        rows.append(f"| {rule} | {statement} | {tests} | {trace.result(rule)} |")
     return rows
 
 
@@ -133,10 +143,10 @@ def page(trace: Trace, part_name: str) -> str:
         "",
         "## Rules",
         "",
-        *_table(trace, rules),
+        *_table(trace, rules, part_name),
     ]
     if checks:
-        lines += ["", "## Acceptance checks", "", *_table(trace, checks)]
+        lines += ["", "## Acceptance checks", "", *_table(trace, checks, part_name)]
     return "\n".join(lines) + "\n"
 
 

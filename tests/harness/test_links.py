@@ -1,0 +1,68 @@
+"""Every link inside the pages leads somewhere: the file exists, and the heading too."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from scripts.project import DOCS, ROOT
+from scripts.trace import at_home
+
+PAGES = sorted([*DOCS.rglob("*.md"), *ROOT.glob("*.md"), *(ROOT / "drivers").rglob("*.md")])
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
+
+
+def prose(page: Path) -> str:
+    """Text of a page without blocks of code."""
+    return FENCE.sub("", page.read_text(encoding="utf-8"))
+
+
+@cache
+def anchors(page: Path) -> frozenset[str]:
+    """What GitHub makes of the headings: small letters, no punctuation, dashes; a number behind repeated ones."""
+    found: set[str] = set()
+    for heading in re.findall(r"^#{1,6} +(.+?) *#*$", prose(page), re.MULTILINE):
+        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").lower()
+        base = slug = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+        number = 0
+        while slug in found:
+            number += 1
+            slug = f"{base}-{number}"
+        found.add(slug)
+    return frozenset(found | set(re.findall(r'<a (?:id|name)="([^"]+)"', prose(page))))
+
+
+def dead(page: Path, text: str) -> list[str]:
+    """Targets of a page's links that are not there."""
+    wrong = []
+    for target in LINK.findall(text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        name, _, anchor = target.partition("#")
+        file = (page.parent / name).resolve() if name else page
+        if not file.exists() or (anchor and file.suffix == ".md" and anchor not in anchors(file)):
+            wrong.append(target)
+    return wrong
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_links(page: Path) -> None:
+    assert not dead(page, prose(page))
+
+
+def test_a_dead_link_is_found() -> None:
+    text = "[a](ppmc312.md#7-states) [b](#7-states) [c](ppmc312.md#8-states) [d](no.md) [e](https://example.org/#x)"
+    assert dead(DOCS / "testing.md", text) == ["#7-states", "ppmc312.md#8-states", "no.md"]
+
+
+def test_links_of_a_rule_move_with_it() -> None:
+    """`make trace` copies statements into a folder below docs."""
+    text = "[a](#7-states), [b](boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
+    moved = (
+        "[a](../ppmc312.md#7-states), [b](../boards.md#3-pins), [c](../img/x.svg), [d](https://example.org)"
+    )
+    assert at_home(text, "ppmc312") == moved
