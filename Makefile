@@ -115,7 +115,7 @@ report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
 	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
 
-yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose clones lie in PEERS=folder, into docs/benchmarks.md
+yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose sources and peers.json lie in PEERS=folder, into docs/benchmarks.md
 	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
 bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312, also in serial mode) tangnano20k with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says

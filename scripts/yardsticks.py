@@ -1,7 +1,7 @@
 """`make yardsticks PEERS=folder`: a part beside open designs, with the same recipes, into docs/benchmarks.md.
 
 Two columns for every design: plain `synth_ecp5`, and the recipe that this project tuned. PEERS is a folder
-of clones of the designs in scripts/flow/peers.py; the message on a missing one says where to get it.
+of the user's with the designs' sources and a peers.json that describes them (scripts/flow/peers.py).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rich.table import Table
 from scripts import project
 from scripts.flow import pnr
 from scripts.flow.netlist import flat_counts
-from scripts.flow.peers import OLDER, PEERS
+from scripts.flow.peers import OLDER, WHERE, read
 from scripts.flow.report import markdown_table, recipe_words
 from scripts.flow.synthesis import SEEDS, run_yosys, wrapped_netlist
 from scripts.flow.yosys_job import BEST
@@ -57,7 +57,7 @@ def rows(part: str, peers: Path) -> list[Row]:
         "params": {},
     }
     found = [Row(f"**this {part}**", OWN[part], own, {})]
-    for peer in PEERS:
+    for peer in read(peers):
         job = {"top": peer.top, "include": [], "sources": peer.files(peers), "params": peer.params}
         found.append(
             Row(f"[{peer.title}]({peer.url})", peer.what, job, {"reset": peer.reset, "pins_like": peer.pins})
@@ -92,7 +92,8 @@ def table(measured: list[tuple[Row, dict[str, dict]]]) -> list[list[str]]:
         ]
         cells.append([row.title, row.what, *shared, *figures])
     for title, what, comb, ff, ram, mhz in OLDER:
-        cells.append([f"{title} ¹", what, str(ff), str(ram), str(comb), str(mhz), "–", "–"])
+        linked = f"[{title}]({WHERE[title]})" if title in WHERE else title
+        cells.append([f"{linked} ¹", what, str(ff), str(ram), str(comb), str(mhz), "–", "–"])
     return cells
 
 
@@ -113,7 +114,7 @@ def text(seeds: int) -> str:
 def main() -> int:
     """Measure, print, write docs/benchmarks.md."""
     parser = argparse.ArgumentParser(prog="yardsticks.py", description=__doc__)
-    parser.add_argument("peers", type=Path, help="folder of clones")
+    parser.add_argument("peers", type=Path, help="folder with peers.json")
     parser.add_argument("--part", default="ppmc104", choices=list(OWN))
     parser.add_argument("--seeds", type=int, default=SEEDS)
     args = parser.parse_args()

@@ -10,23 +10,28 @@ import pytest
 from cocotb_tests.common.stimulus import Edge, Recording
 from scripts import project, yardsticks
 from scripts.flow import plain_sim, scan_wrapper
-from scripts.flow.peers import PEERS
 from scripts.project import ProjectError
 
 
-def clones(folder: Path) -> Path:
-    """Empty files where the peers' sources would be."""
-    for peer in PEERS:
-        for source in peer.sources:
-            file = folder / peer.name / source
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.touch()
+def designs(folder: Path) -> Path:
+    """A folder as a user would have it, with two designs."""
+    entry = {
+        "what": "…",
+        "url": "https://example.org/it",
+        "top": "step",
+        "params": {"AXES": 1},
+        "pins": "m0_",
+    }
+    for name in ("one", "two"):
+        (folder / f"{name}.v").touch()
+    described = [{**entry, "title": name, "sources": [f"{name}.v"]} for name in ("one", "two")]
+    (folder / "peers.json").write_text(json.dumps(described))
     return folder
 
 
 def test_each_measured_design_has_both_recipes(tmp_path: Path) -> None:
-    rows = yardsticks.rows("ppmc104", clones(tmp_path))
-    assert len(rows) == 1 + len(PEERS)
+    rows = yardsticks.rows("ppmc104", designs(tmp_path))
+    assert len(rows) == 3
     by = {name: {"comb": at, "ff": 3, "ram": 4, "mhz": at + 0.4} for at, name in ((1, "plain"), (2, "tuned"))}
     cells = yardsticks.table([(row, by) for row in rows])
     assert all(len(line) == len(yardsticks.HEADS) for line in cells)
@@ -44,8 +49,27 @@ def test_page_sets_no_tuned_figure_against_a_plain_one() -> None:
     assert "Yardsticks" not in page.split("<!-- yardsticks -->")[0]
 
 
-def test_missing_clone_says_where_to_get_it(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match=r"is not there: git clone https://github\.com/\S+ .*, commit \w+"):
+def test_missing_source_says_where_the_design_is(tmp_path: Path) -> None:
+    (designs(tmp_path) / "two.v").unlink()
+    with pytest.raises(ProjectError, match=r"two\.v is not there; two is at https://example\.org/it"):
+        yardsticks.rows("ppmc104", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            None,
+            r"peers\.json is not there: PEERS is a folder with open designs \(https://github\.com/walkthetalk/fsref",
+        ),
+        ("[{]", "expected a list of objects with params, pins, reset"),
+        ('[{"title": "x"}]', "expected a list of objects"),
+    ],
+)
+def test_bad_description_is_one_line(text: str | None, said: str, tmp_path: Path) -> None:
+    if text is not None:
+        (tmp_path / "peers.json").write_text(text)
+    with pytest.raises(ProjectError, match=said):
         yardsticks.rows("ppmc104", tmp_path)
 
 
