@@ -16,13 +16,8 @@ ODD = Config(
     clk_hz=11_059_200,
     extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
 )
-<<<<<<< HEAD
-LONG_BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 3_000), ("T_BLANK_NS", 2_000)))
-"""The blanking is longer than half the off time, and so the longest fast decay."""
-=======
 BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900), ("T_BLANK_NS", 3_600)))
 """The blanking is longer than half the off time: so long is FAST at most (P006-CHP-03)."""
->>>>>>> h/rtl006
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 
 MODULES: dict[str, tuple[Config, ...]] = {
@@ -36,11 +31,7 @@ MODULES: dict[str, tuple[Config, ...]] = {
     "cocotb_tests/pmc006/script_codes.py": (F8B,),
     "cocotb_tests/pmc006/script_motion.py": (F8B,),
     "cocotb_tests/pmc006/script_angle.py": (F8B,),
-<<<<<<< HEAD
-    "cocotb_tests/pmc006/script_bridge.py": (F8B, ODD, LONG_BLANK),
-=======
     "cocotb_tests/pmc006/script_bridge.py": (F8B, ODD, BLANK),
->>>>>>> h/rtl006
     "cocotb_tests/pmc006/script_current.py": (F8B,),
     "cocotb_tests/pmc006/script_guard.py": (F8B,),
     "cocotb_tests/pmc006/script_analog.py": (F8B,),
