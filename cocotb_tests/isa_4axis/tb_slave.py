@@ -59,3 +59,34 @@ async def isa_slave_three_parts(dut: Any) -> None:
         elif address == 0x2FE:
             same("source", got[2], 7 & ~interrupts)
         await unit.clk(ior_ni=1, d_oe_i=0)
+
+
+@cocotb.test()
+async def isa_slave_write_of_the_source(dut: Any) -> None:
+    """Given an interrupt, then only a write of the source register takes irq away, as long as it lasts."""
+    unit = Unit(dut, "three", BLOCKS, "irq_o")
+    await unit.reset(int_ni=5, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0)
+    await unit.clk()
+    for address in (*range(0x2F8, 0x300), 0x3FE, 0x2EE, 0x0FE):
+        for aen in (0, 1):
+            for ior in (0, 1):
+                arms = address == 0x2FE and not aen and ior
+                await unit.clk(sa_i=address, aen_i=aen, ior_ni=1, iow_ni=1)
+                same("irq before", await unit.settle(), 1)
+                for _ in range(3):
+                    await unit.clk(ior_ni=ior, iow_ni=0)
+                    what = f"irq in a write of {address:03X}h, aen {aen}, ior {ior}"
+                    same(what, await unit.settle(), int(not arms))
+                await unit.clk(ior_ni=1, iow_ni=1)
+                same("irq after", await unit.settle(), 1)
+    await unit.clk(int_ni=7)
+    await unit.clk(sa_i=0x2FE, iow_ni=0)
+    await unit.clk(iow_ni=1)
+    same("irq without a cause", await unit.settle(), 0)
+    other = Unit(dut, "one", BLOCKS, "irq_o")
+    await other.reset(int_ni=0, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0x3B2)
+    for address in range(0x3B0, 0x3B8):
+        await other.clk(sa_i=address, iow_ni=0)
+        await other.clk()
+        same(f"irq of a slave without source, write of {address:03X}h", await other.settle(), 1)
+        await other.clk(iow_ni=1)

@@ -179,7 +179,12 @@ ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish);
 
 /** @name Reads
  * Not during an operation (PPMC104_ERR_BUSY). @{ */
-ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish); /**< lifts the interrupt */
+/**
+ * Lifts the interrupt. Call it before the next operation of an interrupt-driven program: once that runs, the part
+ * refuses, the interrupt stays, and the end makes no new edge. So a routine for a late interrupt takes PPMC104_ERR_BUSY
+ * as "not now" and returns.
+ */
+ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish);
 ppmc104_result_t ppmc104_inputs(ppmc104_t *dev, uint8_t *levels);          /**< PPMC104_IN_..., 0 = active */
 ppmc104_result_t ppmc104_outputs(ppmc104_t *dev, uint8_t *levels);         /**< S1..S5, hold, dir: bits 7..3, 2, 1 */
 ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< AUXI3..0 in bits 3..0 */

@@ -113,7 +113,8 @@ ppmc104_result_t stmc_wait(stmc_t *dev, ppmc104_finish_t *finish);
 
 /** @name Reads
  * Not during a motion (PPMC104_ERR_BUSY). @{ */
-/** Lifts the interrupt: for an interrupt routine. `ended` is always true, `alarm` means that MON was low. */
+/** Lifts the interrupt; what an interrupt routine does with PPMC104_ERR_BUSY says ppmc104_finish(). `ended` is always
+ * true, `alarm` means that MON was low. */
 ppmc104_result_t stmc_finish(stmc_t *dev, ppmc104_finish_t *finish);
 ppmc104_result_t stmc_inputs(stmc_t *dev, uint8_t *levels);  /**< STMC_IN_... */
 ppmc104_result_t stmc_outputs(stmc_t *dev, uint8_t *levels); /**< S1..S5, HOLD, direction: bits 7..3, 2, 1 */
