@@ -67,9 +67,7 @@ async def p104_int_03_long_threshold(dut):
         for rate in (0, 2):
             clock = lab.bench.external_clock(gaps, high=9)
             await lab.move(0x44, 6, rate)
-            clock.cancel()
-            await lab.bench.align()
-            lab.bench.set(clock=0)
+            await clock
             edges = lab.clock_edges(lab.since)
             first = max(i for i, t in enumerate(edges) if t < lab.pulses[0] - 1)
             expected = carried(lab.cfg, edges, first, [rate] * 5)
