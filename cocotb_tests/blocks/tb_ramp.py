@@ -220,7 +220,7 @@ class Walker:
         self.u.put(slow_i=slow, fast_i=fast, steps_i=steps, ramp_i=1, forced_i=0)
         await self.clk(load_i=1, count_i=n - 1, single_i=0, rate_i=rand.getrandbits(8))
         self.u.put(load_i=0)
-        kp, dec = -1, False
+        kp, dec, turned = -1, False, False
         for j in range(1, n + 1):
             early = j == forced_at and rand.random() < 0.5
             if early or forced_at == 0:
@@ -251,7 +251,13 @@ class Walker:
             same(f"{at}: left after it", left, max(n - j - 1, 0))
             if k is None:
                 return
-            if k >= kp:
+            first_down = k < kp and not turned
+            turned = turned or k < kp
+            if first_down:
+                same(f"{at}: the rate of index {k} is on its way", rising, 1)
+                await self.clk()
+                rate, *_, rising = await self.u.settle()
+            if k >= kp or first_down:
                 want = (ramp_rate(slow, fast, steps, k), 0)
                 same(f"{at}: rate of index {k} at once, rising", (rate, rising), want)
             dec = dec or natural_deceleration(kp, n - j, steps)

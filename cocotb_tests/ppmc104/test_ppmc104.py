@@ -31,6 +31,7 @@ ITEMS = cocotb_items(
     "tb_datasheet",
     "tb_datasheet_2",
     "tb_lookup",
+    "tb_ext_clock",
     "tb_manual",
 )
 

@@ -23,6 +23,7 @@ ITEMS = cocotb_items(
     "tb_status",
     "tb_init",
     "tb_motion",
+    "tb_ext_clock",
     "tb_ends",
     "tb_ramp",
     "tb_limits",

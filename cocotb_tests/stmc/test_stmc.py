@@ -19,6 +19,7 @@ ITEMS = cocotb_items(
     "tb_status",
     "tb_init",
     "tb_motion",
+    "tb_ext_clock",
     "tb_stops",
     "tb_chopper",
     "tb_datasheet",

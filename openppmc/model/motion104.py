@@ -78,9 +78,9 @@ class Motion104(TimedMotion):
             passed += 1
         if not passed:
             return latency.ds12_lag
-        turned = len(self.intervals) > 2 and self.intervals[-2].index <= self.intervals[-3].index
-        start = latency.seek_start if turned else latency.seek_turn
-        return latency.ds12_lag + start + latency.seek_per_rate * passed
+        slower = len(self.intervals) > 2 and self.intervals[-2].index < self.intervals[-3].index
+        look_up = latency.seek_start + latency.seek_per_rate * passed if slower else latency.seek_turn
+        return latency.ds12_lag + look_up
 
     # ------------------------------------------------------------------ end
 

@@ -35,9 +35,8 @@ class Latency:
     from a pulse, a deciding edge or an input level (section 8, -0/+16).
     ds_window: added to the windows of P2104-DS-01..14, which count from the C-event.
     ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12. Where an interval is
-    slower than the one before, the core looks its rate up while it runs, seek_per_rate clk a rate, and the
-    mailbox opens when the look-up has passed the limit; seek_start is added, after an acceleration step
-    (whose look-up went the other way) seek_turn instead.
+    slower than the one before, the core looks its rate up while it runs, seek_start and seek_per_rate clk a
+    rate, and the mailbox opens when the look-up has passed the limit. The first one is known: seek_turn.
     """
 
     c_event: int = 2

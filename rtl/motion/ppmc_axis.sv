@@ -7,8 +7,16 @@
 //         or after the end of the RUN gate where run_i was low (external clock: first edge at or after). A
 //         motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
 //         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
-// Proof:  never a pulse at or after an immediate cause; exactly count_i + 1 pulses unless stopped (assertions
-//         below).
+// Edges:  with the external clock all of this happens in the clk of an effective edge, for the clk after it:
+//         - the (rate + 1)-th one after a pulse is the next pulse (u_rate: hit, or u_ext's lag after it). Not one
+//           with which low_o still stands: it stays due. That takes a pulse of rate 0 that was not brisk.
+//         - number floor((rate + 1) / 2) is the half (u_rate): it cuts low_o, unless the pulse is a full one, and
+//           so does the falling edge at rate 0 (u_shaper, P104-TIM-05).
+//         Both count to the rate of the running interval. u_seq gives it with the pulse; only from the second
+//         step down the ramp on it may still rise for some clk (rising), in which neither happens: the half is
+//         made up for, the pulse cannot be due yet (times in ppmc_ramp_seq).
+// Checked by assertions: no pulse at or after an immediate cause; a motion that no cause ends has completed its
+//         count; no pulse is lost to a low time that should have been cut.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -290,6 +298,7 @@ module ppmc_axis
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop_o))
+  `PPMC_ASSERT(p104_tim_05_cut, !(running_o && due && low_o && base_o.external && rate_o != '0))
   `PPMC_ASSERT(p2104_opr_02, !(fire && gated_o))
   `PPMC_ASSERT(p104_opr_12, !(start_i && busy_o))
   logic final_seen_q;

@@ -65,7 +65,6 @@ module ppmc_ramp_builder
       .pass_i (pass_q),
       .mul_i  (mul_bit),
       .steps_i,
-      .lead_i (pass_q == PassRead),
       .valid_o(valid),
       .num_o  (num),
       .den_o  (den),

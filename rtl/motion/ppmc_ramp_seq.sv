@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_seq: pulse count and place on the ramp: how many pulses are left and at which rate the next
 // interval runs.
-// Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07.
-// Timing: all that pulse_i changes stands after its edge, but rate_o may still rise while seek_o is set: a
-//         deceleration step looks its rate up while its interval already runs. An acceleration step is looked
-//         up one interval ahead.
+// Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
+// Timing: pulses are at least 3 clk apart. What pulse_i changes stands after its edge, but for rate_o, which is
+//         the rate of the new interval
+//         - speeding up or holding: at once. The look-up of the next rate follows; for its 3 n + 1 clk, n = rates that
+//           the ramp skips, seek_o keeps a pulse back.
+//         - first step down: one clk later (rising_o). It is the rate of the interval before the last step up.
+//         - further steps down: when rising_o falls. The look-up runs in the new interval, 3 n + 1 clk, too; rate_o rises
+//           from the rate before it.
+//         Base clocks 4 clk apart never come to the end of an interval before its look-up does: either way n is at
+//         most the interval's rate. Those 6 clk apart do not come to its middle.
 // How:    climb_q is the number of acceleration pulses made and not yet walked back (index of the running
 //         interval + 1).
 `include "ppmc_assert.svh"
@@ -35,7 +41,7 @@ module ppmc_ramp_seq #(
     // state
     output logic      [ RateBits-1:0] rate_o,      // rate of the running interval
     output logic                      seek_o,      // a look-up runs: no pulse may come
-    output logic                      rising_o,    // and rate_o is not final yet
+    output logic                      rising_o,    // and rate_o may still rise
     output logic                      last_o,      // a pulse now would be the last one
     output logic                      final_o,     // and would complete the count
     output logic                      top_o,       // running interval is on the plateau
@@ -44,9 +50,8 @@ module ppmc_ramp_seq #(
     output logic      [CountBits-1:0] left_o       // pulses left minus 1, but at least 0
 );
 
-  typedef enum logic [2:0] {
-    StRest,
-    StTurn,  // from the running rate to the next slower one
+  typedef enum logic [1:0] {
+    StRest,  // the threshold of probe_q stands
     StRead,  // table access
     StWait,
     StTest
@@ -55,16 +60,19 @@ module ppmc_ramp_seq #(
   state_e state_q;
   logic [StepBits-1:0] climb_q;
   logic [RateBits-1:0] probe_q;  // rate under test
+  logic [RateBits-1:0] back_q;  // rate of the interval before the last step up
   logic near_q, full_q, zero_q, low_q;  // comparisons, a clk after the counters
-  logic load_q, slower_q, down_q;
+  logic load_q;  // probe_q is the rate of the running interval
+  logic slower_q;  // the way down has begun
   logic probe_slow_q;  // probe_q is the start-up rate; it stands still long before it is used
-  logic up, down, odd, high, reached, more;
+  logic up, down, turn, odd, high, step, reached, more;
 
   // Where the walk goes at a pulse event. left_o is the number of pulses that follow this one.
   always_comb begin
     odd     = left_o[0] ^ climb_q[0];  // with near_q: the way down is as long as the way left
     down    = ramp_i && (forced_i || dec_o || (near_q && odd));
     up      = ramp_i && !down && !near_q && !top_o;
+    turn    = down && !slower_q;
     final_o = zero_q;
     last_o  = zero_q || (forced_i && low_q);
   end
@@ -114,14 +122,14 @@ module ppmc_ramp_seq #(
     else if (pulse_i && (up || down)) climb_q <= climb_q + {{(StepBits - 1) {down}}, 1'b1};
   end
 
-  // Rate look-up. Downhill in rate (acceleration): probe_q goes down while climb_q has reached its
-  // threshold, and becomes the
-  // rate at the next step up. Uphill: the rate follows probe_q while the index, climb_q - 1, is below its
-  // threshold.
-  assign reached = {climb_q, !slower_q} >= {StepBits'(lut_data_i), slower_q};  // > where slower, else >=
-  assign more = slower_q ? (rate_o != slow_i && !reached) : (probe_q != fast_i && reached);
-  assign seek_o = state_q != StRest;
-  assign rising_o = seek_o && down_q;
+  // Rate look-up. Going up the ramp, probe_q sinks while climb_q has reached its threshold; at rest it is the rate of
+  // the next step up. Going down, rate_o follows probe_q while the index, climb_q - 1, is below its threshold; at
+  // rest probe_q is the next slower rate. At rest its threshold stands, too, so that a look-up begins with a test.
+  assign reached    = {climb_q, !slower_q} >= {StepBits'(lut_data_i), 1'b1};  // > where slower, else >=
+  assign more       = slower_q ? (rate_o != slow_i && !reached) : (probe_q != fast_i && reached);
+  assign step       = (load_q && slower_q) || (state_q == StTest && more);
+  assign seek_o     = state_q != StRest || load_q;
+  assign rising_o   = seek_o && slower_q;
   assign lut_addr_o = probe_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -131,47 +139,35 @@ module ppmc_ramp_seq #(
       rate_o   <= '0;
       load_q   <= 1'b0;
       slower_q <= 1'b0;
-      down_q   <= 1'b0;
     end else begin
-      load_q <= load_i;
-      if (load_q) rate_o <= probe_q;
-      if (load_i) begin
-        probe_q  <= ramp_i ? slow_i : rate_i;
-        slower_q <= 1'b0;
-        state_q  <= StRest;
-      end else if (pulse_i && ramp_i) begin
-        // Once turned, the next slower rate and its threshold already wait.
-        slower_q <= !up;
-        down_q   <= down;
-        if (up) rate_o <= probe_q;
-        if (up) state_q <= StRead;
-        else if (slower_q) state_q <= StTest;
-        else begin
-          probe_q <= rate_o;
-          state_q <= StTurn;
-        end
-      end else begin
-        unique case (state_q)
-          StTurn: begin
-            probe_q <= probe_q + 1'b1;
-            state_q <= StRead;
-          end
-          StRead:  state_q <= StWait;
-          StWait:  state_q <= StTest;
-          StTest: begin
-            state_q <= more ? StRead : StRest;
-            if (more) begin
-              probe_q <= slower_q ? probe_q + 1'b1 : probe_q - 1'b1;
-              if (slower_q) rate_o <= probe_q;
-            end
-          end
-          default: ;
-        endcase
-      end
+      load_q <= load_i || (pulse_i && turn);
+      if (load_q || (pulse_i && up) || (step && slower_q)) rate_o <= probe_q;
+
+      if (load_i) probe_q <= ramp_i ? slow_i : rate_i;
+      else if (pulse_i && turn) probe_q <= back_q;
+      else if (step) probe_q <= slower_q ? probe_q + 1'b1 : probe_q - 1'b1;
+
+      if (load_i) slower_q <= 1'b0;
+      else if (pulse_i && down) slower_q <= 1'b1;
+
+      unique case (state_q)
+        StRest: if (pulse_i && (up || (down && slower_q))) state_q <= StTest;
+        StRead: state_q <= StWait;
+        StWait: state_q <= StTest;
+        default: state_q <= more ? StRead : StRest;
+      endcase
+      if (load_i) state_q <= StRest;
     end
   end
 
+  // No reset: the first step up loads it.
+  always_ff @(posedge clk_i) begin
+    if (pulse_i && up) back_q <= rate_o;
+  end
+
 `ifndef SYNTHESIS
+  `PPMC_ASSERT(p104_rmp_02_answer, state_q != StTest || probe_q == $past(probe_q, 2))
+  `PPMC_ASSERT(p104_bck_05_known, !(pulse_i && ramp_i && seek_o))
   `PPMC_ASSERT(p104_rmp_rate_range, !(pulse_i && ramp_i) || (rate_o <= slow_i && rate_o >= fast_i))
   `PPMC_ASSERT(p104_pro_index, !(pulse_i && ramp_i) || 32'(climb_q) <= 32'(steps_i) + 1)
 `endif

@@ -22,7 +22,6 @@ module ppmc_ramp_serial
     input  wire pass_e                pass_i,   // which; steady during the pass
     input  wire logic                 mul_i,    // multiplier bit of a PassMulBit; steady during the pass
     input  wire logic  [StepBits-1:0] steps_i,  // PA
-    input  wire logic                 lead_i,   // with start_i: StepBits - 1 zeros come before the bits
     output logic                      valid_o,  // bit_o is a bit of the result, LSB first
     output logic                      num_o,    // bit of the new -num
     output logic                      den_o,    // bit of den
@@ -52,7 +51,7 @@ module ppmc_ramp_serial
       .rdata_o(rd)
   );
 
-  // den comes out behind leading zeros, that is shifted to the left; its own top bits are zeros and stay
+  // den comes out behind StepBits - 1 leading zeros, that is shifted to the left; its own top bits are zeros and stay
   // behind.
   assign last_bit = (pass_i == PassRead) ? CountBits'(Bits - StepBits) : CountBits'(Bits - 1);
 
@@ -70,7 +69,7 @@ module ppmc_ramp_serial
     end else begin
       if (start_i) begin
         run_q <= 1'b1;
-        bit_q <= lead_i ? CountBits'(0) - CountBits'(StepBits - 1) : '0;
+        bit_q <= (pass_i == PassRead) ? CountBits'(0) - CountBits'(StepBits - 1) : '0;
       end else begin
         if (bit_q == last_bit) run_q <= 1'b0;
         bit_q <= bit_q + 1'b1;
@@ -85,7 +84,7 @@ module ppmc_ramp_serial
 
   assign last_o  = use_q && !read_q;
   assign valid_o = use_q;
-  assign we      = use_q && !lead_q && pass_i != PassRead;
+  assign we      = use_q && pass_i != PassRead;
 
   // Serial adders: sum and carry a bit; the carry starts as 1 where the second operand is inverted.
   logic cn_q, cv_q, cu_q, cd_q, ce_q;  // carries
@@ -160,7 +159,7 @@ module ppmc_ramp_serial
   end
 
   assign num_o = sum_n;
-  assign den_o = rd.d && !lead_q;
+  assign den_o = rd.d && !lead_q;  // no pass writes what the zeros' addresses hold
 
   // Delay lines are emptied between passes, when use_q is low.
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_rate_counter: counts the base clocks of an interval; the (rate + 1)-th one ends it.
-// Rules:  P104-INT-01, P104-BCK-05 (base clocks are passed over while the rate is still being looked up).
-// Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. A part whose
-//         hosts give divisors (J105 STMC) passes divisor - 1.
+// Rules:  P104-INT-01, P104-TIM-05 (b), P104-BCK-05 (base clocks are passed over while the rate is still being
+//         looked up).
+// Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. half_o stands from
+//         its base clock on, or, if the rate rises longer than that, from 2 clk after its end: it comes late
+//         rather than never. A part whose hosts give divisors (J105 STMC) passes divisor - 1.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -18,24 +20,26 @@ module ppmc_rate_counter #(
     input  wire logic                wait_i,     // the interval must not end yet
     input  wire logic                rising_i,   // rate_i is not final yet
     output logic                     hit_o,      // this base clock ends the interval
-    output logic                     half_o      // this base clock is number floor((rate + 1) / 2)
+    output logic                     half_o      // number floor((rate + 1) / 2) is this base clock or has been
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse
-  logic equal, match_q, half_q;
+  logic equal, match_q, half_q, past_q;
 
   assign equal  = count_q == rate_i;
   assign hit_o  = tick_i && match_q;
-  assign half_o = tick_i && half_q;
+  assign half_o = (tick_i && half_q) || past_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       match_q <= 1'b0;
       half_q  <= 1'b0;
+      past_q  <= 1'b0;
     end else begin
       match_q <= !restart_i && !wait_i && equal;
       // the coming base clock has number count_q + 1
       half_q  <= !restart_i && !rising_i && count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
+      past_q  <= !restart_i && !rising_i && {count_q, 1'b0} >= {1'b0, rate_i};
     end
   end
 

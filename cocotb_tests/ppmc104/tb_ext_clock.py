@@ -1,0 +1,76 @@
+"""Fast external clocks against the formula, thresholds of their period (P104-BCK-05, -TIM-05, -INT-03)."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.common.config import F8, F16, F25, configs
+from cocotb_tests.common.ext_moves import BRISK, ExtMoves, Move, sweep
+from cocotb_tests.common.figures import differences
+from cocotb_tests.common.verifies import verifies
+
+from .figures import INIT_A
+from .lab import Lab
+from .tb_baseclock import EXTERNAL, carried
+
+
+@cocotb.test()
+@verifies("P104-BCK-05", "P104-TIM-05", "P104-BAD-14")
+@configs(F16, F8)
+async def p104_bck_05_first_deceleration_interval(dut):
+    """Given edges 8 clk apart, when a move turns round, then the pulse is cut, the interval exact."""
+    ramp = (255, 1, 4)
+    lab = await Lab.start(dut, (0x1A, *ramp))
+    moves = await ExtMoves.of(lab, ramp, "l3_n")
+    for n in range(2, 14):
+        await moves.check(Move(n, (8,), 4, ramp))
+
+
+@cocotb.test()
+@verifies("P104-BCK-05", "P104-TIM-05", "P104-INT-01", "P104-INT-05", "P104-FDC-02", "P104-BAD-14")
+@configs(F16, F8)
+async def p104_bck_05_sweep(dut):
+    """Given edges 4 to 17 clk apart and RH 0 to 4,
+    when moves turn round anywhere, then all is as the formula says.
+    """
+    lab = await Lab.start(dut, EXTERNAL)
+    moves = await ExtMoves.of(lab, INIT_A[1:], "l3_n")
+    rng = lab.bench.rng
+    for rh in range(5):
+        for ramp in ((rng.randint(rh, 40), rh, 4), (rh + rng.randint(0, 9), rh, rng.randint(5, 9))):
+            await lab.init(0x1A, *ramp)
+            for move in sweep(ramp, rng):
+                await moves.check(move)
+
+
+@cocotb.test()
+@verifies("P104-TIM-05")
+@configs(F16, F8, F25)
+async def p104_tim_05_brisk_threshold(dut):
+    """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
+    lab = await Lab.start(dut, EXTERNAL)
+    moves = await ExtMoves.of(lab, INIT_A[1:], "l3_n")
+    brisk = lab.cfg.cyc(BRISK)
+    for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
+        await moves.check(Move(9, gaps, 9, rate=0))
+        await moves.check(Move(9, gaps, 9, rate=1))
+
+
+@cocotb.test()
+@verifies("P104-INT-03")
+@configs(F16, F8, F25)
+async def p104_int_03_long_threshold(dut):
+    """Given vsel = L and periods of H - 1, 0, + 1 clk, then only above it the extra time is left away."""
+    lab = await Lab.start(dut, EXTERNAL, vsel=0)
+    h = (272 * lab.cfg.clk_hz // lab.cfg.xtal_hz + 1) // 2
+    for gaps in ([h - 1] * 40, [h] * 40, [h + 1] * 40, [h, h + 1, h - 1, h] * 10):
+        for rate in (0, 2):
+            clock = lab.bench.external_clock(gaps, high=9)
+            await lab.move(0x44, 6, rate)
+            await clock
+            edges = lab.clock_edges(lab.since)
+            first = max(i for i, t in enumerate(edges) if t < lab.pulses[0] - 1)
+            expected = carried(lab.cfg, edges, first, [rate] * 5)
+            same = f"intervals at {gaps[:4]} clk, rate {rate}"
+            lab.check("P104-INT-03", same, lab.intervals, differences(expected))
+            await lab.bench.clocks(20)

@@ -1,0 +1,38 @@
+"""Fast external clocks against the formula, the threshold of their period (P2104-BCK-04, P2104-TIM-05)."""
+
+from __future__ import annotations
+
+from cocotb_tests.common.config import F8, F16, F48
+from cocotb_tests.common.ext_moves import BRISK, ExtMoves, Move, sweep
+
+from .lab import Lab, part_test
+
+# EXTCK, otherwise the ramp of INIT_A.
+EXTERNAL = (0x0A, 9, 4, 4)
+
+
+@part_test("P2104-BCK-04", "P2104-TIM-05", "P2104-FDC-01", "P2104-BAD-19", on=(F16, F8), compared=False)
+async def p2104_bck_04_sweep(lab: Lab) -> None:
+    """Given edges 4 to 17 clk apart and RH 0 to 4,
+    when axes turn round anywhere, then all is as the formula says.
+    """
+    rng = lab.bench.rng
+    axes = await lab.both(EXTERNAL)
+    tries = [await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n")) for axis in axes]
+    for rh in range(5):
+        ramp = (rng.randint(rh + 2, 40), rh, rng.randint(4, 6))
+        moves = tries[rh % 2]
+        await moves.axis.init(EXTERNAL[0], *ramp)
+        for move in sweep(ramp, rng):
+            await moves.check(move)
+
+
+@part_test("P2104-TIM-05", on=(F16, F8, F48), compared=False)
+async def p2104_tim_05_brisk_threshold(lab: Lab) -> None:
+    """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
+    brisk = lab.cfg.cyc(BRISK)
+    for axis in await lab.both(EXTERNAL):
+        moves = await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n"))
+        for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
+            await moves.check(Move(9, gaps, 9, rate=0))
+            await moves.check(Move(9, gaps, 9, rate=1))

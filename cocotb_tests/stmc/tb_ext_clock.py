@@ -1,0 +1,33 @@
+"""Fast step clocks against the formula (STMC-CLK-04)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cocotb_tests.common.config import F16
+from cocotb_tests.common.ext_moves import ExtMoves, sweep
+
+from .figures import F8X20, Ramp, divisor
+from .lab import Lab, part_test
+
+
+def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:
+    """Divisors - 1 of ramp (D1 - 1, D2 - 1, PA) at the given levels."""
+    slow, fast, pa = ramp
+    return [divisor((slow + 1, fast + 1, pa), v) - 1 for v in which]
+
+
+@part_test("STMC-CLK-02", "STMC-CLK-04", on=(F16, F8X20), init=None, clock=0, compared=False)
+async def stmc_clk_04_sweep(lab: Lab) -> None:
+    """Given edges 4 to 17 clk apart and D2 1 to 5, when moves turn round anywhere, then gaps are exact."""
+    rng = lab.bench.rng
+    await lab.init(0x1A, 10, 5, 4)
+    moves = await ExtMoves.of(lab, (9, 4, 4), "l3_n", lows=False, rate_of=rates)
+    for fast in range(5):
+        for ramp in (
+            (rng.randint(fast + 1, 40), fast, 4),
+            (fast + rng.randint(1, 9), fast, rng.randint(1, 9)),
+        ):
+            await lab.init(0x1A, ramp[0] + 1, fast + 1, ramp[2])
+            for move in sweep(ramp, rng, rates):
+                await moves.check(move)
