@@ -189,7 +189,7 @@ class Meeting(Walker):
 
     def plan_requests(self) -> dict[int, str]:
         """88 some pulses before that point, 87 closer to it."""
-        plan, rand = self.plan, self.rand
+        plan = self.plan
         before = (plan.n or 0) - plan.down - self.sequence.done
         if before in (self.jump, self.ramp):
             return {LEADS["ramp"]: "jump" if before == self.jump else "ramp"}
