@@ -151,17 +151,27 @@ class Player:
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
         if rng.random() < 0.08 and not self.slow:
-            self.rates = [40, 120, 400]
-            numbers = rng.choice(
-                ("0190 0028 000480", "0190 0028 000100", "0190 0190 000480", "0FA0 0005 001000")
+            # With the last two R[1] = R[0] if the curve is a sigmoid.
+            self.rates, tail = rng.choice(
+                (
+                    ([40, 120, 400], "09 00 {} 0190 0028 000480"),
+                    ([40, 120, 400], "09 00 {} 0190 0028 000100"),
+                    ([40, 120, 400], "09 00 {} 0190 0190 000480"),
+                    ([40, 120, 400], "09 00 {} 0FA0 0005 001000"),
+                    ([100, 200, 300], "09 00 {} 012C 0064 000480"),
+                    ([100, 250, 300], "0E 00 1{} 012C 00FA 0064 000480 000500"),
+                )
             )
-            self.send(f"03 09 00 {rng.choice((0, 8)):02X} {numbers}")
+            flags = rng.choice("08")
+            self.send("03 " + tail.format(flags if "1{}" in tail else f"0{flags}"))
             self.host.pause(21_000)
             self.fetch()
             return
         count = rng.choice((2, 3, 3, 3, 4, 7))
         least = rng.choice((2, 4, 12, 40, 40)) if clk == 0 else rng.choice((4, 10))
         self.rates = sorted(rng.randint(least, least * 6 + 40) for _ in range(count))
+        if rng.random() < 0.2:
+            self.rates = sorted(rng.choices(self.rates, k=count))  # equal neighbours
         if rng.random() < 0.05:
             rng.shuffle(self.rates)
         separate = rng.random() < 0.5

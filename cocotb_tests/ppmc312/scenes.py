@@ -76,6 +76,8 @@ class Scenes(Player):
         count = rng.choice((2, 3, 3, 4, 4, 5, 7))
         least, most = {0: (22, 130), 1: (12, 60), 2: (8, 30)}.get(clk, (3, 14))
         self.rates = sorted(rng.randint(least, most) for _ in range(count))
+        if rng.random() < 0.3:
+            self.rates = sorted(rng.choices(self.rates, k=count))  # equal neighbours
         separate = rng.random() < 0.55
         up = down = count
         if separate and rng.random() < 0.6:

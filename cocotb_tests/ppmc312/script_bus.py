@@ -73,6 +73,62 @@ def test_one_value_a_strobe() -> None:
     assert host.read(RAR) == 0x40 and host.read(DRR) == 0
 
 
+@verifies("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
+def test_a_read_that_meets_the_software_reset() -> None:
+    """Strobes that begin up to 40 clk after the header of FF: driven in time, one value, to their end."""
+    for reg, most in ((CSR, 40), (DRR, 34)):  # later the answer is there, and it would be read
+        seen = []
+        for after in range(1, most + 1):
+            host = Host312()
+            if reg == DRR:
+                host.ask("03 01 20")
+                host.issue("03 01 40")
+                host.wait()
+            host.put("03 01 FF")
+            host.go(host.header + after)
+            mark = host.t
+            strobe(host, 12, 6, cs_n=0, oe_n=0, rs=reg)
+            host.sync()
+            (rise,), (fall,) = host.model.log.rises("d_oe", mark), host.model.log.falls("d_oe", mark)
+            assert rise - mark in range(0, 5) and fall - mark - 12 in range(0, 5), after
+            assert not [edge for edge in host.model.log.of("d_o", mark) if edge[0] > rise], after
+            seen.append(host.out("d_o"))
+            host.pause(40)
+            # Nothing of the strobe outlives the reset.
+            assert host.response() == "03 01 FF" and host.read(CSR) == MREF
+        if reg == CSR:
+            # Busy also where the strobe begins during the reset, then ready.
+            assert seen[:24] == [MWEF | MREF] * 24 and MREF in seen and seen == sorted(seen, reverse=True)
+        else:
+            # The byte of the old response as long as there is one, then nothing.
+            assert seen[:18] == [0x12] * 18 and seen[-1] == 0 and seen == sorted(seen, reverse=True)
+
+
+@verifies("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
+def test_a_write_that_meets_the_software_reset() -> None:
+    """CSR may be written at any time: before the reset it is cleared, after it it stands."""
+    seen = []
+    for after in range(1, 41):
+        host = Host312()
+        host.put("03 01 FF")
+        host.go(host.header + after)
+        host.write(CSR, 0x70)
+        assert host.response() == "03 01 FF"
+        seen.append(host.read(CSR) >> 4)
+    assert seen[0] == 0 and seen[-1] == 7 and seen == sorted(seen)
+    # The wait request of an access during the reset goes with EWRQ.
+    for after in range(8, 32):
+        host = Host312()
+        host.write(CSR, 0x40)
+        host.put("03 01 FF")
+        host.go(host.header + after)
+        strobe(host, 4, 3, cs_n=0, we_n=0, rs=DWR)
+        strobe(host, 4, 3, cs_n=0, we_n=0, rs=DWR)
+        host.write(CSR, 0x40)
+        strobe(host, 12, 6, cs_n=0, we_n=0, rs=DWR)
+        assert host.response() == "03 01 FF" and host.out("wrq_n") == 1
+
+
 @verifies("P312-PAR-09", "P312-BAD-01", "P312-BAD-10")
 def test_no_access() -> None:
     host = Host312()

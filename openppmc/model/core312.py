@@ -6,7 +6,7 @@ another in.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Protocol
 
 from . import responses312
@@ -26,9 +26,6 @@ from .unit312 import Unit
 
 class HostSide(Protocol):
     """What the part needs of the side that the host sees."""
-
-    def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins."""
 
     def levels(self) -> dict[str, int]:
         """Internal levels behind the pins of this side."""
@@ -78,6 +75,7 @@ class Core:
             self.overrun,
             self._rested,
             lambda: self.unit.settled or self._abnormal,
+            lambda: self._abnormal,
         )
         self.watch = Watch(
             context,

@@ -1,11 +1,11 @@
-"""Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..12).
+"""Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..08, -12).
 
-Another host side has the same members: `sample`, `offer`, `done`, `levels`, `ready`, `answer`.
+Their strobes: `bus312`. Another host side has the same members: `offer`, `done`, `levels`, `ready`, `answer`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 from .codes312 import Source
 from .pace312 import Pace
@@ -16,9 +16,6 @@ from .scheduler import Event
 CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
 EWRQ, EWIRQ, ERIRQ, MWEF, MREF = 0x40, 0x20, 0x10, 0x08, 0x04
 WINDOW = 0x20
-SYNC = 2
-"""Pin to decision."""
-_IDLE = {"cs_n": 1, "we_n": 1, "oe_n": 1, "rs": 0, "d_i": 0}
 
 
 class Mailbox:
@@ -29,9 +26,6 @@ class Mailbox:
     ) -> None:
         self._context, self._pace = context, pace
         self._responses, self._take = responses, take
-        self._pins: Mapping[str, int] = _IDLE
-        self._writing = self._reading = False
-        self._showing: int | None = None
         self._enables = 0
         self._armed = False
         self._pointer = WINDOW
@@ -99,36 +93,14 @@ class Mailbox:
 
     # ------------------------------------------------------------------ strobes
 
-    def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins (P312-PAR-10, -11)."""
-        levels = {pin: pins[pin] for pin in _IDLE}
-        self._context.queue.at(t + SYNC, Phase.BUS, lambda at: self._see(at, levels))
+    def show(self, t: int, reg: int) -> int:
+        """The value that a read strobe shows from edge t on."""
+        self._taken = bool(self._window)
+        return self._register(reg)
 
-    def _see(self, t: int, pins: Mapping[str, int]) -> None:
-        """Decisions at edge t use these levels first."""
-        chosen = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
-        writing, reading = bool(chosen and not pins["we_n"]), bool(chosen and not pins["oe_n"])
-        queue, old = self._context.queue, self._pins
-        if self._writing and not writing:
-            self._store(t, old["rs"], old["d_i"])
-        self._watch_access(t, writing and pins["rs"] == WRITE or reading and pins["rs"] == READ)
-        if reading and not self._reading:
-            queue.at(t + 1, Phase.CHOPPER, self._show)
-        elif self._showing is not None and not reading:
-            reg, self._showing = self._showing, None
-            self._context.log.set(t, "d_oe", 0)
-            queue.at(t, Phase.QUEUE, lambda at: self._after_read(at, reg))
-        self._writing, self._reading, self._pins = writing, reading, pins
-
-    def _show(self, t: int) -> None:
-        """d_o takes the register once a strobe, on the second edge that has seen it."""
-        if self._reading and self._showing is None:
-            self._showing, self._taken = self._pins["rs"], bool(self._window)
-            self._context.log.set(t, "d_oe", 1)
-            self._context.log.set(t, "d_o", self._register(self._showing))
-
-    def _watch_access(self, t: int, accessing: bool) -> None:
+    def access(self, t: int, reg: int | None, write: bool) -> None:
         """A DWR or DRR strobe begins or ends (P312-PAR-12)."""
+        accessing = reg == (WRITE if write else READ)
         timebase = self._context.timebase
         if self._accessing and not accessing:
             self._access_end = t
@@ -157,7 +129,7 @@ class Mailbox:
             return self._window[self._at]
         return 0
 
-    def _after_read(self, t: int, reg: int) -> None:
+    def after_read(self, t: int, reg: int) -> None:
         """A read strobe has ended; one that began before there was a response has shown none of its bytes."""
         if not self._taken:
             return
@@ -172,7 +144,8 @@ class Mailbox:
 
     # ------------------------------------------------------------------ write window
 
-    def _store(self, t: int, reg: int, byte: int) -> None:
+    def store(self, t: int, reg: int, byte: int) -> None:
+        """A write strobe has ended."""
         if reg == CSR:
             self._enables = byte & (EWRQ | EWIRQ | ERIRQ)
         elif self.mwef:

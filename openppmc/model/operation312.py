@@ -22,7 +22,8 @@ from .sequence312 import Change
 class Operation:
     """pins: input levels as decisions see them. alarm(t, status): multiple occurrence. rested(t): something
     has moved, or pulse output has ended. settled(): nothing that a position has stopped for waits.
-    end_monitored, run_ignored (CWS), speed_limit (HSL) are settings; last_cause: of the last stop report."""
+    abnormal(): state ABN. end_monitored, run_ignored (CWS), speed_limit (HSL) are settings; last_cause: of
+    the last stop report."""
 
     def __init__(
         self,
@@ -36,10 +37,11 @@ class Operation:
         alarm: Callable[[int, Alarm], None],
         rested: Callable[[int], None],
         settled: Callable[[], bool],
+        abnormal: Callable[[], bool],
     ) -> None:
         self._context, self._pace, self._pins = context, pace, pins
         self._outputs, self._counters, self._responses = outputs, counters, responses
-        self._alarm, self._rested = alarm, rested
+        self._alarm, self._rested, self._abnormal = alarm, rested, abnormal
         self.motion = Motion(
             context, pace, pins, lambda: self.speed_limit, self._count, on_pulse, settled, self._pulses_ended
         )
@@ -48,6 +50,7 @@ class Operation:
         self.end_monitored = self.run_ignored = False
         self._held: Order | None = None
         self._end_wait: Cause | None = None
+        self._alarm_at = -1
         self.last_cause: Cause | None = None
 
     # ------------------------------------------------------------------ state
@@ -118,6 +121,8 @@ class Operation:
 
     def stop(self, t: int, cause: Cause = Cause.STOP) -> None:
         """80, or the alarm of a multiple occurrence or of alm_n."""
+        if cause is Cause.ALARM:
+            self._alarm_at = t
         if self._held:
             self._held = None
             self._report(t, cause)
@@ -141,8 +146,12 @@ class Operation:
             self._turn_back(t)
             return
         self._outputs.pulses_ended(t)
-        if self.end_monitored and cause is not Cause.ALARM and self._pins["end_n"]:
+        # In ABN nothing waits for END, whatever the cause; entered just now, it is left at once.
+        waits = self.end_monitored and cause is not Cause.ALARM and self._pins["end_n"]
+        if waits and not (self._abnormal() and self._alarm_at < t):
             self._end_wait = cause
+            if self._abnormal():
+                self._context.queue.at(t + 1, Phase.QUEUE, self._leave_end_wait)
         else:
             self._report(t, cause)
         self._rested(t)

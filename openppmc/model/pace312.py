@@ -20,21 +20,22 @@ class Pace:
     block is fetched at one byte a clk and judged). judge, effect: from there to the checks, and to the effect
     of anything short. copy: more for what is registered. limits: effect to the limit check of a start.
     answer: effect to the stored answer, without its bytes (one clk each). done: stored to MWEF = 0. reset:
-    begin of processing to the reset by FF, reboot: from there to its effect. found: further block of a table
-    read after the one before has been read, without its bytes, and one_stage: for each of its stages.
+    begin of processing to the reset by FF, reboot: from there to its effect, reopen: to MWEF = 0. found:
+    further block of a table read after the one before has been read, without its bytes, and one_stage: for
+    each of its stages.
     lookup(low), climb, triangle, split: see `starting`. build: 00 to the valid table, without look-ups.
 
     Responses. late: an earlier answer read to the one that waited for it (P312-RSP-20, <= 4). load: store to
     load; show: load to MREF = 0; reload: MREF = 1 to the next load (P312-PAR-08).
 
-    Motion. report: rest to E0 (<= 64). rest: end of pulses, or fall of pout, to rest. turn_back: phase 1 of a
-    zero return to t0 of phase 2 (<= 64). held: RUN to t0 of a held operation. count: pulse to POS, compare:
-    to what the position triggers (P312-MOT-05, P312-OVR-12), unlock: to E1. lead, slow_lead, change_lead,
-    ramp_lead, origin_lead: the high-speed limit, 81, 88, 87, the level of the origin counts for a boundary
-    that comes at least this much later; drop_lead: the same for what a newer 87 or 88 replaces; flat_lead: 87
-    needs a constant rate for so long. search: so much longer after a stage has become the constant rate, whose
-    t(x) must be found first. scan: one pass over the table. young: t0 to the first look at the
-    high-speed limit. least: shortest interval (P312-MOT-04). armed: a new head of
+    Motion. report: rest to E0 (<= 64). rest: end of pulses, or fall of pout, to rest. turn_back: phase 1
+    of a zero return to t0 of phase 2 (<= 64). held: RUN to t0 of a held operation. count: pulse to POS,
+    compare: to what the position triggers (P312-MOT-05, P312-OVR-12), unlock: to E1. lead, slow_lead,
+    change_lead, ramp_lead, origin_lead: the high-speed limit, 81, 88, 87, the level of the origin counts
+    for a boundary that comes at least this much later; drop_lead: the same for what a newer 87 or 88
+    replaces; flat_lead: 87 needs a constant rate for so long. search: so much longer after a stage has
+    become the constant rate, whose t(x) must be found first. scan: one pass over the table. young: t0 to
+    the first look at the high-speed limit. least: shortest interval (P312-MOT-04). armed: a new head of
     the command FIFO to its trigger (P312-OVR-02, <= 4).
 
     Monitors. compare_lag: POS or ENC to inside or outside, one clk more to the status bit, two to the report.
@@ -62,6 +63,7 @@ class Pace:
     done: int = 1
     reset: int = 20
     reboot: int = 2
+    reopen: int = 4
     late: int = 1
     load: int = 1
     show: int = 6

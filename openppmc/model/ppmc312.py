@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from .bus312 import IDLE, Strobes
 from .chip import Chip
 from .codes312 import Source, State
 from .core312 import Core, HostSide
@@ -90,7 +91,7 @@ class Ppmc312(Chip):
         self.sent: list[tuple[int, int]] = []
         self._latched: dict[str, int] = dict(INPUTS)
         self._counter = QuantumCounter(self.timebase, 0)
-        self._build()
+        self._restart()
         self._released(0)
         self._sample(0, self.INPUTS)
 
@@ -127,6 +128,7 @@ class Ppmc312(Chip):
 
     def _restart(self) -> None:
         self._build()
+        self._strobes = Strobes(self._queue, self.log, self._mailbox)
         self._out_oe = 0
 
     def _released(self, t: int) -> None:
@@ -137,7 +139,9 @@ class Ppmc312(Chip):
         self._registers = self._make_registers()
         self._seen: object = None
         ready = t + (self.timebase.cyc(READY) + self.pace.start if self.datasheet else self.pace.ready)
-        self._bus_from, self._pins_from = t + self.pace.ready, ready + 1
+        self._parallel = bool(self._latched["mode"])
+        self._bus_from = self._line_from = t + self.pace.ready
+        self._pins_from = ready + 1
         self._queue.at(ready, Phase.END, self._ready)
 
     def _make_registers(self) -> list[tuple[tuple[str, ...], PinRegister]]:
@@ -162,20 +166,38 @@ class Ppmc312(Chip):
             super()._sample(max(t, self._pins_from), others)
 
     def _software_reset(self, t: int, source: Source) -> None:
-        """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer."""
+        """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer.
+
+        A strobe on the bus goes on (P312-PAR-11), unless the pins say now that there is none.
+        """
         self._scope.close()
         self._queue.at(t, Phase.PIN, self._reset_outputs)
         self._build()
         self._connect()
-        self._bus_from = self._pins_from = t + self.pace.reboot
-        self._sample(t, self.INPUTS)
+        # What a read shows at this very edge comes from the old registers.
+        self._queue.at(t, Phase.COMMAND, lambda now: self._strobes.replaced(now, self._mailbox))
+        self._line_from = self._pins_from = t + self.pace.reboot
+        self._queue.at(t + self.pace.reboot, Phase.PINS, self._switch)
+        super()._sample(self._pins_from, {*self.INPUTS}.difference(self.HOST_PINS, SERIAL_PINS))
         self._queue.at(t + 1, Phase.PINS, self._latch_mode)
-        self._queue.at(t + 1, Phase.END, lambda now: self._host.ready(now))
+        self._queue.at(t + 1, Phase.END, lambda now: self._reopen(now, Station))
+        self._queue.at(t + self.pace.reopen, Phase.END, lambda now: self._reopen(now, Mailbox))
         self._queue.at(t + self.pace.reboot, Phase.BUS, self.core.unit.answer_reset)
+
+    def _switch(self, t: int) -> None:
+        """Edge t is the first one that samples the pins of the host side by the mode of a software reset."""
+        self._parallel = bool(self._latched["mode"])
+        if not self._parallel:
+            self._strobes.sample(t, IDLE)
+        self._sample_bus(t, self._pins)
+
+    def _reopen(self, t: int, kind: type[Mailbox | Station]) -> None:
+        if isinstance(self._host, kind):
+            self._host.ready(t)
 
     def _reset_outputs(self, t: int) -> None:
         """The pins that follow no internal level, and those that do so a clk later."""
-        for pin in ("d_oe", "d_o", "wrq_n", "txd", "snd", *_LATE):
+        for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 
     def hear(self, t: int, byte: int | None) -> None:
@@ -206,7 +228,10 @@ class Ppmc312(Chip):
             register.latch(t, {name: levels[name] for name in names})
 
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
-        self._host.sample(t, pins)
+        if self._parallel:
+            self._strobes.sample(t, pins)
+        elif isinstance(self._host, Station) and t >= self._line_from:
+            self._host.sample(t, pins)
 
     def _see(self, t: int, levels: Mapping[str, int]) -> None:
         if t < self._pins_from + self.latency.input_sync:

@@ -90,7 +90,7 @@ module ppmc312
   localparam int unsigned WaitClk = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
   // ---- reset -----------------------------------------------------------------------------------------------------
 
-  logic rst_core, rst_host, boot, reset, serial, talks;
+  logic rst_core, rst_host, rst_bus, boot, reset, serial, talks, open;
   logic [2:0] speed;
   logic [3:0] number;
 
@@ -107,8 +107,10 @@ module ppmc312
       .adr_i      (adr),
       .rst_core_no(rst_core),
       .rst_host_no(rst_host),
+      .rst_bus_no (rst_bus),
       .boot_o     (boot),
       .ready_o    (out_oe),
+      .open_o     (open),
       .serial_o   (serial),
       .mod_o      (speed),
       .adr_o      (number)
@@ -174,9 +176,11 @@ module ppmc312
   ) u_mailbox (
       .clk_i      (clk),
       .rst_ni     (rst_host),
-      .ready_i    (out_oe),
+      .rst_bus_ni (rst_bus),
+      .ready_i    (open),
+      .off_i      (serial),
       .rs_i       (rs),
-      .cs_ni      (cs_n || serial),
+      .cs_ni      (cs_n),
       .we_ni      (we_n),
       .oe_ni      (oe_n),
       .d_i,

@@ -12,6 +12,8 @@ module ppmc312_bus #(
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
+    input  wire logic       rst_wait_ni,  // of the wait request alone: a strobe goes on
+    input  wire logic       off_i,        // nobody may access
     // pins
     input  wire logic [2:0] rs_i,
     input  wire logic       cs_ni,
@@ -46,14 +48,14 @@ module ppmc312_bus #(
   ) u_sync (
       .clk_i,
       .rst_ni,
-      .d_i ({cs_ni, we_ni, oe_ni, rs_i, d_i}),
+      .d_i ({cs_ni || off_i, we_ni, oe_ni, rs_i, d_i}),
       .q1_o(unused_meta),
       .q2_o({cs_n, we_n, oe_n, rs2, d2})
   );
 
   assign wr2 = !cs_n && !we_n && oe_n;
   assign rd2 = !cs_n && we_n && !oe_n;
-  assign wr_o = wr3_q && !wr2;
+  assign wr_o = wr3_q && !wr2 && !off_i;
   assign rd_show_o = rd2 && rd3_q && !d_oe_o;
   assign rd_done_o = d_oe_o && !rd2;
   assign rd_rs_o = d_oe_o ? rs_q : rs2;
@@ -91,8 +93,8 @@ module ppmc312_bus #(
   assign busy2 = (wr2 && rs2 == RegDwr) || (rd2 && rs2 == RegDrr);
   assign early = busy2 && !busy3_q && wait_i && age_q != Width'(WaitClk);
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
+  always_ff @(posedge clk_i or negedge rst_wait_ni) begin
+    if (!rst_wait_ni) begin
       busy3_q <= 1'b0;
       age_q   <= Width'(WaitClk);
       wait_q  <= '0;

@@ -16,7 +16,9 @@ module ppmc312_mailbox
 ) (
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
+    input  wire logic                  rst_bus_ni,   // of the strobes
     input  wire logic                  ready_i,      // 0: no instruction may be written yet
+    input  wire logic                  off_i,        // serial mode
     // pins
     input  wire logic [           2:0] rs_i,
     input  wire logic                  cs_ni,
@@ -64,7 +66,9 @@ module ppmc312_mailbox
       .WaitClk(WaitClk)
   ) u_bus (
       .clk_i,
-      .rst_ni,
+      .rst_ni   (rst_bus_ni),
+      .rst_wait_ni(rst_ni),
+      .off_i,
       .rs_i,
       .cs_ni,
       .we_ni,

@@ -17,9 +17,11 @@ module ppmc312_reset #(
     input  wire logic [2:0] mod_i,
     input  wire logic [3:0] adr_i,
     output logic            rst_core_no,
-    output logic            rst_host_no,
+    output logic            rst_host_no,  // registers of the host's side
+    output logic            rst_bus_no,   // its strobes, which an instruction does not interrupt
     output logic            boot_o,       // the core comes back from an instruction
     output logic            ready_o,
+    output logic            open_o,       // the parallel host may write: not within 3 clk of an instruction's reset
     output logic            serial_o,
     output logic      [2:0] mod_o,
     output logic      [3:0] adr_o
@@ -29,6 +31,7 @@ module ppmc312_reset #(
   localparam int unsigned StartBits = 16;
 
   logic rst_pin, rst_q, rst_host_q, started;
+  logic [1:0] boot_q;
   logic [7:0] pins, unused_meta;
 
   ppmc_reset u_reset (
@@ -76,6 +79,7 @@ module ppmc312_reset #(
       rst_q                    <= 1'b0;
       rst_host_q               <= 1'b0;
       boot_o                   <= 1'b0;
+      boot_q                   <= '0;
       ready_o                  <= 1'b0;
       {serial_o, mod_o, adr_o} <= {1'b1, 7'd0};  // nobody may talk
     end else begin
@@ -83,6 +87,7 @@ module ppmc312_reset #(
       rst_q      <= started && !reset_i;
       rst_host_q <= !reset_i;
       boot_o     <= reset_i || (boot_o && !rst_q);
+      boot_q     <= {boot_q[0], boot_o};
       if (!rst_host_q) {serial_o, mod_o, adr_o} <= {!pins[7], pins[6:0]};
     end
   end
@@ -90,6 +95,9 @@ module ppmc312_reset #(
   // The pin resets all at once, whatever the registers of the resets hold.
   assign rst_core_no = rst_q && rst_pin;
   assign rst_host_no = rst_host_q && rst_pin;
+  assign rst_bus_no  = rst_pin;
+  // A strobe that begins during the reset still reads "busy".
+  assign open_o      = ready_o && !boot_o && boot_q == '0;
 
 endmodule
 

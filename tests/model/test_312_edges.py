@@ -145,6 +145,29 @@ def test_an_alarm_does_not_wait_for_the_positioning_end() -> None:
     assert [host.response(), host.response()] == ["23 02 F4 00", stopped(0x80, 3)]
 
 
+@verifies("P312-MOT-35", "P312-INP-30", "P312-MOT-34", "P312-MOT-06")
+def test_an_alarm_after_the_last_pulse_does_not_wait_for_end() -> None:
+    """In the last interval, and around its end, where the END wait begins: E0 at once, cause NOS."""
+    for after in (20, 79, 80, 81, 2000, *range(6392, 6408)):
+        host = Host312(*TF, "03 02 06 01")
+        host.ask("03 08 83 00 0190 00000003")
+        host.pulse(3, after)
+        since = host.t
+        host.pins(alm_n=0)
+        assert host.response() == "23 02 F4 00"
+        host.wait(2000)
+        assert host.t - since < 300 and host.response() == stopped(0x40, 3)
+        assert host.condition == 0x10 and host.quiet()
+    # A multiple occurrence is an alarm, too.
+    host = Host312(*TF, "03 02 06 01")
+    host.ask("03 08 83 00 0190 00000003")
+    host.pulse(3, 200)
+    host.put("03 01 40")
+    host.pause(100)
+    host.put("03 01 40")
+    assert [host.response() for _ in range(3)] == ["03 02 40 12", "23 02 F4 01", stopped(0x40, 3)]
+
+
 @verifies("P312-PAR-06")
 def test_writes_while_an_instruction_is_processed_are_ignored() -> None:
     host = Host312(timing="DATASHEET")
