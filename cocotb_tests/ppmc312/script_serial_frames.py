@@ -107,6 +107,19 @@ def test_sum_of_characters() -> None:
     assert host.hear() == "90" and host.wire == "91 7F"
 
 
+@verifies("P312-SER-13")
+def test_the_blind_bit() -> None:
+    """Bit 7 of a byte is not in the sum: what one wrong bit makes of it is executed. The manual warns."""
+    host = Serial312()
+    good = summed(0x91, b"\x43\x00\x00\x00\x14")
+    wrong = bytearray(good)
+    wrong[-3] ^= 0x08
+    assert (good[-3:-1], wrong[-3:-1]) == (b"14", b"94")
+    host.send(wrong)
+    assert host.hear() == "90" and host.ask("42") == "A0 00 00 00 94"
+    assert host.ask("4F") == NONE
+
+
 BAD_DIGITS = (0x00, 0x2F, 0x3A, 0x3F, 0x40, 0x41, 0x46, 0x60, 0x67, 0x7F, 0x20, 0x0A)
 
 

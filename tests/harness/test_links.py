@@ -23,7 +23,7 @@ def prose(page: Path) -> str:
 
 @cache
 def anchors(page: Path) -> frozenset[str]:
-    """What GitHub makes of the headings: small letters, no punctuation, dashes; a number behind repeated ones."""
+    """What GitHub makes of headings: small letters, no punctuation, dashes, a number behind repeated ones."""
     found: set[str] = set()
     for heading in re.findall(r"^#{1,6} +(.+?) *#*$", prose(page), re.MULTILINE):
         text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").lower()
