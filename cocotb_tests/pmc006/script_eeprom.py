@@ -67,6 +67,36 @@ def test_sum_and_unused_bytes_of_the_block() -> None:
         assert unread(booted(image(bytes(content))))
 
 
+@verifies("P006-BAD-14", "P006-EEP-10", "P006-EEP-01", "P006-PRG-11")
+def test_a_copy_stands_in_for_a_bad_block() -> None:
+    """Sum, head or field: the copy is judged likewise, and nothing is written. A good block leaves it alone.
+    The program counts by itself."""
+    old, new = page(a04=4, a03=7), page(a04=32, a03=9, a0B=1)
+    torn, wild, short = bytearray(old), page(a04=6), page(a02=2)
+    torn[3] ^= 1
+    for number, (first, copy, wanted) in enumerate(
+        (
+            (old, new, (4, 7)),
+            (bytes(torn), new, (32, 9)),
+            (wild, new, (32, 9)),
+            (short, new, (32, 9)),
+            (b"\xff" * 32, old, (4, 7)),
+            (old, bytes(torn), (4, 7)),
+            (bytes(torn), bytes(torn), (16, 255)),
+            (bytes(torn), wild, (16, 255)),
+            (wild, short, (16, 255)),
+        )
+    ):
+        good = number % 3 != 1
+        content = image(first, BLINK, 0x5A if good else 0) + bytes(0x1D) + copy
+        host = booted(content, wanted[1])
+        assert host.t < host.us(60_000) and host.ask("k") == wanted[0], number
+        assert host.replied == wanted[1] and host.ask("V") == 0
+        assert host.ask("G") == (words(BLINK)[0] if good else 0)
+        runs = good and copy == new and wanted[1] == 9
+        assert host.out("gpo") == runs and host.eeprom is not None and not host.eeprom.writes
+
+
 @verifies("P006-BAD-15", "P006-PRG-11", "P006-PRG-01", "P006-EEP-11")
 def test_which_programs_count() -> None:
     """Sum over the program alone, end mark; a bad one leaves 200 words of zero and starts nothing."""
@@ -112,10 +142,12 @@ def test_without_a_device(fault: str) -> None:
     host = Host006(eeprom=chip)
     assert host.us(1_000 if fault == "scl" else 10_000) <= host.t <= host.us(15_000)
     assert values(host) == FACTORY and host.ask("W", 5) == 5
+    assert host.ask("V") == 0
     for job in "tBt":
         assert host.ask(job) == 1
         assert host.ask("W", 5) == 5 or job == "B"
         host.ms(12)
+        assert host.ask("V") == 2
     assert not chip.writes and host.status() == DECAY
     assert (host.out("scl_oe"), host.out("sda_oe")) == (0, 0)
 

@@ -10,7 +10,7 @@ import pytest
 from cocotb_tests.common.verifies import verifies
 
 from .frames import checked, command, reply
-from .scenes import DECAY, quick
+from .scenes import DECAY, device, image, quick
 from .script_host import Host006
 
 PATTERNS = (0x00000000, 0xFFFFFFFF, 0x55AA33CC, 0x80000001, 0x7F7FFEFE)
@@ -252,6 +252,22 @@ def test_frame_in_the_last_half_of_the_stop_bit() -> None:
         heard = late >= 0
         assert host.out("gpo") == (0x1F if heard else 0), f"{late} clk after the middle"
         assert len(host.edges("de", rise)) == (4 if heard else 2)
+
+
+@verifies("P006-FRM-07", "P006-EEP-01", "P006-BAD-06")
+def test_frames_before_the_end_of_the_boot() -> None:
+    """Deaf until then, with an EEPROM or without one: such a frame is lost, and so is one that ends later."""
+    for chip, longest in ((device(image(), write_us=500), 60_000), (device(missing=True), 15_000)):
+        up = Host006(eeprom=chip).t
+        chip = device(image(), missing=chip.missing)
+        host = Host006(eeprom=chip, boot=False)
+        for begin in (host.us(500), up // 2, up - ceil(40 * host.bit)):
+            host.go(begin)
+            host.say("y", 0xF8)
+        assert host.t > host.boot() and up <= host.us(longest)
+        assert host.silent(ceil(30 * host.bit)) and not host.out("gpo") and not host.edges("de")
+        host.pause(ceil(200 * host.bit))
+        assert host.ask("y", 0x08) == 0x08 and host.ask("j") == DECAY
 
 
 @verifies("P006-FRM-07", "P006-UART-05")

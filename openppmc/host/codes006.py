@@ -27,6 +27,7 @@ class Code(IntEnum):
     STOP_SPEED = ord("S")
     STALL_LENGTH = ord("T")
     READ_ATTENUATION = ord("U")
+    STORED = ord("V")
     WRITE_WORD = ord("W")
     STALL_POSITION = ord("X")
     STALL_CONFIG = ord("Y")
@@ -124,6 +125,15 @@ class Ports:
     def level(self, ext: int) -> bool:
         """Level of EXT1 or EXT2."""
         return self.ext2 if ext == 2 else self.ext1
+
+
+class Storage(IntEnum):
+    """What `V` replies about the EEPROM: the last save, burn or restore. Of this part only: the original
+    does not know V."""
+
+    KEPT = 0
+    WORKING = 1
+    FAILED = 2
 
 
 STATUS_1_BITS, STATUS_2_BITS, PORT_BITS = 5, 6, 12

@@ -31,6 +31,12 @@ class StorageBusy(CommandRefused):
     text = "the EEPROM is still being written: try again in half a second"
 
 
+class StorageFailed(CommandRefused):
+    """The EEPROM has not answered."""
+
+    text = "the EEPROM did not answer, what was to be kept is not: is there one, are its wires right?"
+
+
 class ProgramRuns(CommandRefused):
     """A user program runs."""
 

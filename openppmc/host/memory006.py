@@ -7,14 +7,16 @@ from functools import partial
 
 from ..program006 import WORDS, Program, harmless
 from .axis006 import Axis006
-from .codes006 import Code
+from .codes006 import Code, Storage
 from .errors import NoAnswer, OutOfRange
-from .errors006 import ProgramDiffers, ProgramRuns, StorageBusy
+from .errors006 import ProgramDiffers, ProgramRuns, StorageBusy, StorageFailed
 
 OnCount = Callable[[int, int], None]
 """Called with how many words are done, and of how many."""
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
-"""How long the EEPROM is busy at most, with some reserve."""
+"""How long the EEPROM is busy, with some reserve."""
+_LOOKS = 10
+"""So often as much, for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -65,11 +67,13 @@ class Memory006(Axis006):
     # ------------------------------------------------------------------ EEPROM
 
     def save(self) -> None:
-        """Keep the settings for the next power-up, and wait until that is done. Raises StorageBusy."""
+        """Keep the settings for the next power-up, and wait until that is done. Raises StorageBusy, and
+        StorageFailed if the EEPROM did not answer."""
         self._store(Code.SAVE, SAVE_SECONDS)
 
     def burn_program(self) -> None:
-        """Keep the program for the next power-up, and wait until that is done. Raises StorageBusy."""
+        """Keep the program for the next power-up, and wait until that is done. Raises StorageBusy, and
+        StorageFailed if the EEPROM did not answer."""
         self._store(Code.BURN, BURN_SECONDS)
 
     def _store(self, code: Code, seconds: float) -> None:
@@ -78,7 +82,14 @@ class Memory006(Axis006):
         if not got and self.counters.repeated == repeated:
             raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
         # Refused after a lost reply: the first one is at work.
-        self.line.pause(seconds)
+        for _ in range(_LOOKS):
+            self.line.pause(seconds)
+            state = self.ask(Code.STORED, good=lambda value: value in set(Storage))
+            if state == Storage.KEPT:
+                return
+            if state == Storage.FAILED:
+                raise StorageFailed(state, f"{self.who}{StorageFailed.text}")
+        raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
 
     # ------------------------------------------------------------------ running
 

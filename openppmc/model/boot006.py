@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from .eeprom006 import COMPLETE, MARK, PROGRAM, SIZE, Engine
+from .eeprom006 import COMPLETE, COPY, MARK, PROGRAM, SIZE, Engine
 from .i2c006 import Bus, Course
 from .parts import Phase
 from .settings006 import PAGE, Settings, framed, values_of
@@ -36,6 +36,7 @@ class Boot:
         self._desk, self._engine, self._bus = desk, engine, bus
         self._ended, self._stored = ended, stored
         self._restoring = self._owed = self._whole = False
+        self._loaded = self._copied = False
         self._page, self._rest = bytearray(PAGE), bytearray(MARK + 1 - PROGRAM)
 
     def begin(self, t: int) -> None:
@@ -58,14 +59,18 @@ class Boot:
         yield from self._engine.fetch(PROGRAM, len(self._rest), self._rest.__setitem__)
         self._whole = True
 
+    def _course_of_copy(self) -> Course:
+        """Over what was read from page 0, which is no good."""
+        yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
+        self._whole = True
+
     # ------------------------------------------------------------------ what has been read
 
     def _read(self, t: int) -> None:
         """The bus is at rest since one clk."""
         words = program_of(bytes(self._rest)) if self._whole else None
         self._valid = words is not None
-        if words is not None:
-            self._desk.program.words[:] = words
+        self._desk.program.words[:] = words or [0] * (SIZE // 4)
         pace = self._desk.shared.pace
         self._at(t + (pace.kept if self._valid else pace.wiped), self._judge)
 
@@ -82,6 +87,7 @@ class Boot:
         if values is None or self._restoring:
             self._settle(t)
             return
+        self._loaded = True
         pace = self._desk.shared.pace
         self._at(t + pace.trigm, lambda now: self._store(now, values))
         self._at(t + pace.fields, self._settle)
@@ -98,10 +104,13 @@ class Boot:
         self._at(t + 1, self._finish)
 
     def _finish(self, t: int) -> None:
-        """The end, or a restore before it."""
+        """The end, or a restore before it, or the copy's turn."""
         if self._owed:
             self._owed = False
             self._engine.run(t + 1, "fact", self._engine.fact(), self._settle)
+        elif self._whole and not (self._loaded or self._copied or self._restoring):
+            self._copied, self._whole = True, False
+            self._engine.run(t + 1, "boot", self._course_of_copy(), self._read)
         else:
             self._ended(t, self._valid)
 

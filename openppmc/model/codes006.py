@@ -232,6 +232,7 @@ LETTERS: dict[str, Instruction] = {
     "S": Setting("vstop"),
     "T": Setting("stlen"),
     "U": value("att"),
+    "V": Read(lambda desk: desk.eeprom.state),
     "W": Deed(write_word),
     "X": Read(lambda desk: desk.guard.stpos),
     "Y": Setting("stcfg"),

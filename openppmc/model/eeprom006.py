@@ -13,18 +13,27 @@ if TYPE_CHECKING:
     from .desk006 import Desk
 
 PROGRAM, SUM, MARK = 0x0020, 0x0340, 0x0342
+COPY = 0x0360
+"""Of the parameter page; written first, so that a cut leaves one of the two whole."""
 SIZE = SUM - PROGRAM
 COMPLETE = 0x5A
 POLL_MS = 10
 
 
 class Engine:
-    """One job at a time; a FACT that meets another job waits for its end. device: its address."""
+    """One job at a time; a FACT that meets another job waits for its end. device: its address. failed: the
+    last job but BOOT ended without an answer of the device."""
 
     def __init__(self, desk: Desk, bus: Bus, device: int) -> None:
         self._desk, self._bus, self._device = desk, bus, device
         self._kind: str | None = None
         self._restore = False
+        self.failed = False
+
+    @property
+    def state(self) -> int:
+        """What V answers: 1 a job is under way, else 2 the last one has failed."""
+        return 1 if self.busy else 2 * self.failed
 
     @property
     def busy(self) -> bool:
@@ -53,12 +62,14 @@ class Engine:
         ended(t): the bus is at rest since one clk; the engine stays busy.
         """
         self._kind = kind
+        self.failed = False
 
         def guarded() -> Course:
             try:
                 yield from course
             except BusError:
                 self._bus.let_go()
+                self.failed = kind != "boot"
 
         def last(now: int) -> None:
             at = now + 1 if ended else now + self._desk.shared.pace.job
@@ -80,11 +91,14 @@ class Engine:
             self._restore = True
 
     def _save(self) -> Course:
-        yield from self._page(0, PAGE, sent(self._desk.settings).__next__)
+        """Each of the two as the registers are when it is sent (P006-EEP-10)."""
+        for place in (COPY, 0):
+            yield from self._page(place, PAGE, sent(self._desk.settings).__next__)
 
     def fact(self) -> Course:
         """The factory page (P006-EEP-22)."""
-        yield from self._page(0, PAGE, iter(FACTORY_PAGE).__next__)
+        for place in (COPY, 0):
+            yield from self._page(place, PAGE, iter(FACTORY_PAGE).__next__)
 
     def _burn(self) -> Course:
         """A program counts only from its last byte on (P006-EEP-11)."""

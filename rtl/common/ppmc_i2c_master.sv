@@ -32,9 +32,10 @@ module ppmc_i2c_master
 );
 
   localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;
-  // 0.55 of a bit, less the two ticks of a low clock where they are shortest. 24C32: >= 1.3 us of low at 400 kHz.
-  localparam int unsigned RiseClk = 32'((64'(ClkHz) * 64'd55 + 64'(SclHz) * 64'd100 - 64'd1) / (64'(SclHz) * 64'd100))
-      - ClkHz / (2 * SclHz);
+  // 0.55 of a bit in clk, less the two ticks of a low clock where they are shortest. 24C32: >= 1.3 us at 400 kHz.
+  localparam longint unsigned Scl20 = 64'd20 * 64'(SclHz);
+  localparam int unsigned LowClk = 32'((64'd11 * 64'(ClkHz) + Scl20 - 64'd1) / Scl20);
+  localparam int unsigned RiseClk = LowClk - ClkHz / (2 * SclHz);
   localparam int unsigned RiseBits = ppmc_pkg::cnt_width(RiseClk - 1);
   localparam int unsigned StretchBits = ppmc_pkg::cnt_width(StretchTicks - 1);
 

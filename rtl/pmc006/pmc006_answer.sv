@@ -28,6 +28,8 @@ module pmc006_answer
     input  wire logic      [31:0] pos_i,
     input  wire logic      [31:0] stpos_i,
     input  wire logic      [31:0] word_i,      // of the program
+    input  wire logic             free_i,      // EEPROM: nothing is under way
+    input  wire logic             failed_i,    // its last work
     output logic           [31:0] reply_o
 );
 
@@ -55,6 +57,7 @@ module pmc006_answer
     unique case (order_i.op)
       I_POINTER: part = 14'(pp_i);
       I_BURN, I_TRY, I_SAVE, I_START: part = 14'(took_i);
+      I_STORED: part = 14'({failed_i && free_i, !free_i});
       I_OFFLINE: part = 14'(control_i.offline);
       I_TRIGGER, I_TRIGGER_READ: part = 14'(control_i.trigm);
       I_VSTART: part = 14'(settings_i.vstart);

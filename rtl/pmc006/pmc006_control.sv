@@ -54,7 +54,7 @@ module pmc006_control
   logic next, cancel, begins, claim, second, trial, tries;
   logic load, load_wide, store, legal, act, place, take, write, took, took_q;
   logic put, program_took, burning, autostart, byte_we, key_stop;
-  logic free, save, burn, mode, stall, ext_event, stall_stop, stall_mark;
+  logic free, failed, save, burn, mode, stall, ext_event, stall_stop, stall_mark;
   logic rst_set, restore, unused_armed;
   logic [1:0] flags;
   logic [4:0] out;
@@ -174,6 +174,7 @@ module pmc006_control
       .save_i     (save),
       .burn_i     (burn),
       .free_o     (free),
+      .failed_o   (failed),
       .burning_o  (burning),
       .boot_o,
       .autostart_o(autostart),
@@ -293,6 +294,8 @@ module pmc006_control
       .pos_i     (position),
       .stpos_i   (stall_position),
       .word_i    (word),
+      .free_i    (free),
+      .failed_i  (failed),
       .reply_o
   );
 

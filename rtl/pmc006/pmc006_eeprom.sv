@@ -2,7 +2,7 @@
 // pmc006_eeprom: boot, save, burn and factory restore: what goes over the bus of the EEPROM, and into the registers.
 // Rules:  section 13, P006-CMD-02/41, P006-BAD-12..15/22/24.
 // Timing: bus on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte is taken on the tick that begins its first bit. At
-//         boot the page is looked through, then carried out, eight clk a byte.
+//         boot the page is looked through, then carried out, eight clk a byte; a bad one makes way for its copy.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -22,6 +22,7 @@ module pmc006_eeprom
     input  wire logic            save_i,
     input  wire logic            burn_i,
     output logic                 free_o,       // one can be taken
+    output logic                 failed_o,     // the last one has, or a restore; while free_o
     output logic                 burning_o,
     output logic                 boot_o,
     output logic                 autostart_o,
@@ -73,8 +74,9 @@ module pmc006_eeprom
 
   state_e state_q;
   logic tick, first, done, fail, nack;
-  logic boot_q, restore_q, poll_q, read_q, burn_q, mark_q, factory_q, fail_q, again_q, last_q, store_q;
-  logic page_bad_q, program_bad_q, last, over, sent, got, wrong, clear_sum, give_up;
+  logic
+      boot_q, restore_q, poll_q, read_q, burn_q, mark_q, copy_q, factory_q, fail_q, again_q, last_q, store_q;
+  logic page_bad_q, program_bad_q, last, over, sent, got, wrong, clear_sum, give_up, second;
   logic [1:0] fresh_q;
   logic [2:0] phase_q;
   logic [9:0] at_q;
@@ -85,31 +87,17 @@ module pmc006_eeprom
   // ---- bus -------------------------------------------------------------------------------------------------------
 
   always_comb begin
+    cmd = CmdByte;
     out = 8'hff;
     unique case (state_q)
       StFree:           cmd = CmdFree;
       StStart, StAgain: cmd = CmdStart;
       StStop:           cmd = CmdStop;
-      StDevice: begin
-        cmd = CmdByte;
-        out = {Device, 1'b0};
-      end
-      StHigh: begin
-        cmd = CmdByte;
-        out = {6'd0, at_q[9:8]};
-      end
-      StLow: begin
-        cmd = CmdByte;
-        out = at_q[7:0];
-      end
-      StSource: begin
-        cmd = CmdByte;
-        out = {Device, 1'b1};
-      end
-      StData: begin
-        cmd = CmdByte;
-        if (!read_q) out = data;
-      end
+      StDevice:         out = {Device, 1'b0};
+      StHigh:           out = {6'd0, at_q[9:8] | {2{copy_q}}};
+      StLow:            out = at_q[7:0] | {1'b0, {2{copy_q}}, 5'd0};
+      StSource:         out = {Device, 1'b1};
+      StData:           if (!read_q) out = data;
       default:          cmd = CmdNone;
     endcase
   end
@@ -162,7 +150,7 @@ module pmc006_eeprom
   );
 
   assign clear_sum = state_q == StSettle || state_q == StIdle ||
-      (done && state_q == StStop && !again_q && (read_q || (poll_q && mark_q)));
+      (done && state_q == StStop && !again_q && (read_q || (poll_q && (mark_q || copy_q))));
 
   assign byte_at_o = at_q;
   assign we_o = got || (state_q == StWipe && program_bad_q);
@@ -185,7 +173,10 @@ module pmc006_eeprom
 
   // ---- sequence --------------------------------------------------------------------------------------------------
 
+  // A boot that finds no good page tries the copy, once.
+  assign second = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
   assign free_o = state_q == StIdle && !restore_q;
+  assign failed_o = fail_q;
   assign burning_o = burn_q;
   assign boot_o = boot_q;
   assign load_o = state_q == StLoad && phase_q == 3'd3;
@@ -209,6 +200,7 @@ module pmc006_eeprom
       read_q        <= 1'b0;
       burn_q        <= 1'b0;
       mark_q        <= 1'b0;
+      copy_q        <= 1'b0;
       factory_q     <= 1'b0;
       fail_q        <= 1'b0;
       again_q       <= 1'b0;
@@ -262,12 +254,13 @@ module pmc006_eeprom
             poll_q <= !poll_q && !read_q;
             if (poll_q) begin
               if (boot_q && !factory_q) read_q <= 1'b1;
-              else if (mark_q) begin
+              else if (mark_q || copy_q) begin
                 mark_q <= 1'b0;
-                at_q   <= Program;
+                copy_q <= 1'b0;
+                at_q   <= mark_q ? Program : '0;
               end else if (!burn_q || at_q > Mark) state_q <= StSettle;
             end
-            if (read_q && at_q > Mark) begin
+            if (read_q && (at_q > Mark || copy_q)) begin
               state_q <= StWipe;
               read_q  <= 1'b0;
               at_q    <= Program;
@@ -297,17 +290,27 @@ module pmc006_eeprom
           burn_q    <= 1'b0;
           factory_q <= 1'b0;
           at_q      <= '0;
-          fail_q    <= 1'b0;
           again_q   <= 1'b0;
           poll_q    <= 1'b0;
           mark_q    <= 1'b0;
-          if (restore_q || (state_q == StIdle && (save_i || burn_i))) begin
+          copy_q    <= 1'b0;
+          store_q   <= 1'b0;
+          if (boot_q && !factory_q) fail_q <= 1'b0;
+          if (second) begin
+            state_q    <= StStart;
+            boot_q     <= 1'b1;
+            read_q     <= 1'b1;
+            copy_q     <= 1'b1;
+            page_bad_q <= 1'b0;
+          end else if (restore_q || (state_q == StIdle && (save_i || burn_i))) begin
             state_q   <= StStart;
             boot_q    <= boot_q;
             restore_q <= 1'b0;
             factory_q <= restore_q;
             burn_q    <= burn_i && !restore_q;
             mark_q    <= burn_i && !restore_q;
+            copy_q    <= !burn_i || restore_q;
+            fail_q    <= 1'b0;
             if (burn_i && !restore_q) at_q <= Mark;
           end
         end
@@ -315,12 +318,14 @@ module pmc006_eeprom
 
       if (give_up) begin
         state_q <= StSettle;
+        fail_q  <= 1'b1;
         if (boot_q && !factory_q) begin
           state_q       <= StWipe;
           at_q          <= Program;
           page_bad_q    <= 1'b1;
           program_bad_q <= 1'b1;
           read_q        <= 1'b0;
+          copy_q        <= 1'b1;
         end
       end
       if (restore_i) restore_q <= 1'b1;

@@ -26,6 +26,7 @@ package pmc006_pkg;
   localparam logic [7:0] I_VSTOP = 8'h53;  // S
   localparam logic [7:0] I_STLEN = 8'h54;  // T
   localparam logic [7:0] I_ATT_READ = 8'h55;  // U
+  localparam logic [7:0] I_STORED = 8'h56;  // V, not in the original
   localparam logic [7:0] I_PUT = 8'h57;  // W
   localparam logic [7:0] I_STPOS = 8'h58;  // X
   localparam logic [7:0] I_STCFG = 8'h59;  // Y

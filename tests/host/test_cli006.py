@@ -145,6 +145,8 @@ def test_settings_address_save(run: Run, tmp_path: Path) -> None:
     port = ("--port", f"model:speed=max,eeprom={tmp_path / 'ee.bin'}")
     assert run(*PART, *port, "address", "44").out == "controller 255 has address 44 now\n"
     assert run(*PART, *port, "save").out == "saved\n"
+    none = ("--port", "model:speed=max,eeprom=none")
+    assert "the EEPROM did not answer" in run(*PART, *none, "save").only_line
     assert run(*PART, *port, "scan").out.splitlines()[1].split()[0] == "255"  # it was not saved then
     assert "address 2 is taken" in run(*PART, "address", "2", *ONE).only_line
 
@@ -179,7 +181,7 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
     assert Program.from_image(image.read_bytes()) == assemble(SHUTTLE)
     assert run(*PART, "program", "try", "--at", "5", *ONE).out == "instruction 5 carried out\n"
     assert run(*PART, "program", "run", "--at", "5", *ONE).out == "running\n"
-    port = ("--port", "model:speed=max,eeprom=none")
+    port = ("--port", "model:speed=max")
     assert run(*PART, *port, "program", "burn", "--address", "255").out == "burned\n"
 
 

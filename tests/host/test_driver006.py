@@ -29,7 +29,7 @@ from openppmc.host import (
     settings006,
     wire006,
 )
-from openppmc.host.errors006 import LockedByExt, MotorFree, SettingRefused, SpeedRefused
+from openppmc.host.errors006 import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
 from openppmc.host.errors_line import DuplicateAddress, StationSilent
 from openppmc.host.settings006 import SETTINGS, drive_current, setting
 from openppmc.model.settings006 import LEGAL, PLACES
@@ -363,6 +363,18 @@ def test_what_is_saved_comes_back(tmp_path: Path) -> None:
         part.current = 400
     with one(text, address=7)[1] as part:
         assert (part.current, part.start_speed, part.max_speed, part.position) == (1750, 700, 1000, 0)
+
+
+def test_a_save_that_fails_is_an_error() -> None:
+    """V tells it; an EEPROM that is there again is not held against it."""
+    port, part = one("eeprom=none")
+    with part:
+        for call in (part.save, part.burn_program):
+            with pytest.raises(StorageFailed, match="the EEPROM did not answer, what was to be kept is not"):
+                call()
+        port.node().eeprom.missing = False
+        part.save()
+        part.burn_program()
 
 
 def test_the_example_program_of_the_rules() -> None:

@@ -122,7 +122,7 @@ def test_an_implausible_reply_to_a_start_is_looked_into() -> None:
 
 @pytest.mark.parametrize("fate", FATES)
 def test_what_may_be_repeated_is(fate: str) -> None:
-    port, part = quick()
+    port, part = quick("eeprom=new")
     steps: dict[str, Callable[[], object]] = {
         "e": lambda: setattr(part, "current", 1200),
         "v": lambda: setattr(part, "max_speed", 2400),
@@ -243,6 +243,9 @@ def test_the_eeprom_takes_its_time() -> None:
     with Pmc006(Line006(Played(reply(5, 0).hex())), 5) as part:
         with pytest.raises(StorageBusy, match="the EEPROM is still being written"):
             part.burn_program()
+    with Pmc006(Line006(Played(*[reply(5, 1).hex()] * 11)), 5) as part:
+        with pytest.raises(StorageBusy, match="the EEPROM is still being written"):
+            part.save()
 
 
 # ---------------------------------------------------------------------- who is to blame

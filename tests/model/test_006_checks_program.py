@@ -43,10 +43,14 @@ def test_ac_35() -> None:
     assert host.ask("w", 1) == 1 and host.ask("m", 4) == 4 and host.ask("t") == 1
     host.ms(20)
     assert host.eeprom is not None
-    assert host.eeprom.memory[:32] == bytes.fromhex(
-        "50 36 01 01 04 00 00 00 01 01 00 00 58 02 58 02 2C 01 E2 04 20 03" + " 00" * 9 + " 78"
+    assert (
+        host.eeprom.memory[:32]
+        == host.eeprom.memory[0x360:0x380]
+        == bytes.fromhex(
+            "50 36 01 01 04 00 00 00 01 01 00 00 58 02 58 02 2C 01 E2 04 20 03" + " 00" * 9 + " 78"
+        )
     )
-    assert len(host.eeprom.writes) == 1
+    assert [write.address for write in host.eeprom.writes] == [0x360, 0]
     host.reset()
     host.boot()
     assert host.ask("k") == 4 and host.ask("n") == 800 and host.replied == 1
@@ -56,10 +60,13 @@ def test_ac_35() -> None:
 def test_ac_36() -> None:
     bad = bytearray(SAVED)
     bad[0x0D] ^= 0x04
-    host = with_eeprom(bytes(bad))
-    assert host.ask("k") == 16 and host.replied == 0xFF
-    host.ms(10)
-    assert host.eeprom is not None and not host.eeprom.writes and host.eeprom.memory[:32] == bad
+    for copy, address, microsteps in ((SAVED, 1, 4), (bytes(bad), 0xFF, 16)):
+        content = bytes(bad).ljust(0x360, b"\xff") + copy
+        host = with_eeprom(content, address)
+        assert host.ask("k") == microsteps and host.replied == address
+        host.ms(10)
+        assert host.eeprom is not None and not host.eeprom.writes
+        assert host.eeprom.memory[: len(content)] == content
 
 
 @verifies("P006-AC-37", "P006-EEP-20", "P006-EEP-21", "P006-EEP-22")
@@ -72,7 +79,8 @@ def test_ac_37() -> None:
     host.ms(10)
     assert host.ask("k") == 16 and host.replied == 0xFF
     assert host.eeprom is not None
-    assert host.eeprom.memory[:32] == FACTORY_PAGE and host.eeprom.memory[32:0x343] == content[32:]
+    assert host.eeprom.memory[:32] == host.eeprom.memory[0x360:0x380] == FACTORY_PAGE
+    assert host.eeprom.memory[32:0x343] == content[32:]
 
 
 @verifies("P006-AC-38", "P006-EEP-20", "P006-EEP-21")

@@ -1,0 +1,111 @@
+"""A save of the PMC006B4 cut off at any edge of the EEPROM's lines: old or new settings, never neither."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from copy import copy
+from functools import cache
+
+import pytest
+
+from cocotb_tests.common.verifies import verifies
+from openppmc.model.eeprom24c32 import Eeprom24C32
+from openppmc.model.frames006 import command
+from openppmc.model.pmc006 import Pmc006
+from openppmc.model.settings006 import LEGAL, PLACES, Settings, page_of, values_of
+
+CLK_HZ, BAUD, COPY = 8_000_000, 115_200, 0x360
+RELEASES = {"together": ((1, 1),), "scl first": ((1, 0), (1, 1)), "sda first": ((0, 1), (1, 1))}
+"""Levels of SCL and SDA as a reset lets both go; the pull-ups may be unequal."""
+
+
+@cache
+def lines(page: bytes) -> tuple[tuple[int, int], ...]:
+    """What the part makes of both lines while it saves the settings of `page`, change by change."""
+    part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
+    part.run_until(CLK_HZ // 500)
+    values = values_of(page)
+    assert values is not None
+    part.desk.settings.load(values)
+    since, bit = part.now, CLK_HZ / BAUD
+    for number, byte in enumerate(command(values["addr"], "t")):
+        part.hear(since + 1 + round((10 * number + 9.5) * bit), byte)
+    # SDA is held low from outside: each byte is acknowledged.
+    part.run_until(since + CLK_HZ // 200)
+    levels, found = {"scl_oe": 0, "sda_oe": 0}, []
+    edges = sorted((t, pin, level) for pin in levels for t, level in part.log.of(pin, since))
+    for place, (t, pin, level) in enumerate(edges):
+        levels[pin] = level
+        if place + 1 == len(edges) or edges[place + 1][0] != t:
+            found.append((1 - levels["scl_oe"], 1 - levels["sda_oe"]))
+    return tuple(found)
+
+
+def cuts(content: bytes, changes: tuple[tuple[int, int], ...], release: str) -> Iterator[bytes]:
+    """Content of the EEPROM when none, one, two .. of these changes have been made, and then both lines are
+    let go."""
+    chip = Eeprom24C32(CLK_HZ, content, write_us=0)
+    for t, levels in enumerate(((1, 1), *changes)):
+        _look(chip, t, *levels)
+        cut = copy(chip)
+        cut.memory, cut.writes = bytearray(chip.memory), []
+        for later, end in enumerate(RELEASES[release], 1):
+            _look(cut, t + later, *end)
+        yield bytes(cut.memory)
+
+
+def _look(chip: Eeprom24C32, t: int, scl: int, sda: int) -> None:
+    chip.look(t, scl, sda and not chip.sda)
+
+
+def judged(memory: bytes) -> dict[str, int] | None:
+    """What a boot makes of it (13.2, step 5): the block, else its copy."""
+    return values_of(memory[:32]) or values_of(memory[COPY : COPY + 32])
+
+
+def some(rng: random.Random) -> bytes:
+    """A page of any legal settings."""
+    return page_of(Settings(**{name: rng.choice(list(LEGAL[name])) for name in PLACES}))  # type: ignore[call-overload]
+
+
+def mixes(old: bytes, new: bytes) -> bool:
+    """Whether a page of bytes from both has a right sum by chance: nobody could tell (one change in 256)."""
+    torn = [new[:place] + old[place:] for place in range(1, 32)]
+    return any(values_of(page) is not None for page in torn if page not in (old, new))
+
+
+@pytest.mark.parametrize("release", list(RELEASES))
+@pytest.mark.parametrize("seed", range(2))
+@verifies("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
+def test_a_cut_at_any_edge_of_the_lines(seed: int, release: str) -> None:
+    """Over EEPROMs that have a copy, that have none yet, and one whose copy is torn already."""
+    rng = random.Random(seed)
+    old = new = some(rng)
+    while old == new or mixes(old, new):
+        new = some(rng)
+    changes = lines(new)
+    assert len(changes) > 1200
+    starts = {
+        "copy": old.ljust(COPY, b"\xff") + old,
+        "no copy": old,
+        "torn copy": old.ljust(COPY, b"\xff") + new[:9] + old[9:],
+    }
+    for name, content in starts.items():
+        seen = []
+        for cut, memory in enumerate(cuts(content, changes, release)):
+            values = judged(memory)
+            assert values in (values_of(old), values_of(new)), f"{name}, {cut} changes: {values}"
+            seen.append(values == values_of(new))
+        assert not seen[0] and seen[-1]
+
+
+@verifies("P006-EEP-10")
+def test_the_copy_goes_first() -> None:
+    """The order is what keeps one of the two whole."""
+    new = page_of(Settings(addr=9, mstep=64))
+    changes = lines(new)
+    halves = list(cuts(b"", changes, "together"))
+    copied = next(place for place, memory in enumerate(halves) if memory[COPY : COPY + 32] == new)
+    written = next(place for place, memory in enumerate(halves) if memory[:32] == new)
+    assert copied < written
