@@ -43,7 +43,7 @@ module pmc006_stall (
 
   always_ff @(posedge clk_i) begin
     if (valid_i) low_q <= level_i < {1'b0, limit_i};
-    if (1'b0) count_q <= '0;
+    if (start_i) count_q <= '0;
     else if (sample_q) count_q <= counts ? up[6:0] : '0;
   end
 
