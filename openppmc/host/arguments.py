@@ -173,13 +173,16 @@ class Bound:
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Bound):
             return self._entry is other._entry and self.__self__ is other.__self__
+        if other is None or callable(other):  # who keeps callbacks may compare them
+            return False
         raise self._misused()
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        return hash((id(self._entry), id(self.__self__)))
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
-            return getattr(self._entry, name)
+        if name.startswith("_"):
+            return getattr(vars(self).get("_entry"), name)
         raise self._misused()
 
     def __repr__(self) -> str:

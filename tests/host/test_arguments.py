@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import pydoc
+import threading
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
@@ -228,11 +230,22 @@ def test_a_method_without_parentheses_is_never_a_value(axis: Any) -> None:
 def test_motions_are_alike(axis: Any) -> None:
     motion = axis.start_move(40)
     with pytest.raises(TypeError, match=r"'poll' is a method: write poll\("):
-        while motion.poll:
-            pass
+        bool(motion.poll)
     with pytest.raises(OutOfRange, match="timeout 'soon' is not a number"):
         motion.wait(timeout="soon")
     assert motion.wait(timeout=5).complete
+
+
+def test_methods_are_good_callbacks() -> None:
+    with Ppmc104.open(FAST) as axis:
+        axis.initialise(1000, 2000, 100)
+        thread = threading.Thread(target=axis.move, args=(30.0,))
+        thread.start()
+        thread.join()
+        assert axis.position == 30 and callable(axis.move)
+        assert axis.move == axis.move and axis.move not in (None, print, axis.stop)
+        assert {axis.move, axis.move} == {axis.move}
+        assert copy.copy(axis.move) == axis.move
 
 
 def test_help_still_shows_what_a_method_takes() -> None:
