@@ -58,11 +58,12 @@ def test_session(title):
 
 
 def test_reply_times():
-    """Half a bit to snd, one and a half to the start bit, one between, rounded down to 0.1 µs."""
+    """Half a bit to snd, one and a half to the start bit, rounded down to 0.1 µs; one between."""
     rows = re.findall(r"^\| ([\d ]+) \| ([\d.]+) µs \| ([\d.]+) µs \| ([\d.]+) µs \|$", TEXT, re.M)
     assert [row[0].replace(" ", "") for row in rows] == [str(int(speed)) for speed in SPEEDS.values()]
     for row, speed in zip(rows, SPEEDS.values(), strict=True):
-        tenths = [int(bits * 10_000_000 / speed) for bits in (Fraction(1, 2), Fraction(3, 2), Fraction(1))]
+        bit = 10_000_000 / speed
+        tenths = [int(bit / 2), int(bit * Fraction(3, 2)), round(bit)]
         assert [float(text) for text in row[1:]] == [number / 10 for number in tenths]
 
 
