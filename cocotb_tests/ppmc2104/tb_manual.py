@@ -217,9 +217,12 @@ async def manual_2104_examples_13(dut: Any) -> None:
 async def manual_2104_examples_14(dut: Any) -> None:
     bench, host = await begin(dut)
     start = bench.now
-    await play(bench, host, blocks(14)[0][:-1], "example 14")
+    a, b = blocks(14)
+    await play(bench, host, a[:-1], "example 14")
     bench.check("example 14", "pulses of axis 1", bench.pulses(start, "pout_n[1]"), [])
-    await play(bench, host, blocks(14)[0][-1:], "example 14, sent again")
+    await play(bench, host, a[-1:], "example 14, sent again")
+    await bench.clocks(200)
+    await play(bench, host, b, "example 14b")
     await bench.clocks(200)
     bench.check("example 14", "pulses of axis 1", len(bench.pulses(start, "pout_n[1]")), 1)
     check_against_model(bench)

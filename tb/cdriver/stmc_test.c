@@ -71,6 +71,15 @@ static void interrupt(stmc_t *dev)
     show("service", stmc_finish(dev, &f));
     printf("irq running=%u steps=%u raw=%02x lifted=%d\n", before, after, f.raw, !isa_irq());
     isa_print_steps("loud");
+    /* A routine that comes when the next motion runs already: refused, and served at the end of that. */
+    show("late", stmc_move(dev, PPMC104_CW, 6));
+    while (!isa_irq()) isa_run(1);
+    show("late again", stmc_move(dev, PPMC104_CCW, 4));
+    show("late service", stmc_finish(dev, &f));
+    before = isa_irq();
+    show("late wait", stmc_wait(dev, &f));
+    printf("irq late=%u raw=%02x lifted=%d\n", before, f.raw, !isa_irq());
+    isa_print_steps("late");
 }
 
 static void ends(stmc_t *dev)

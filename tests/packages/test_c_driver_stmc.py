@@ -79,6 +79,16 @@ def test_interrupt(lines):
     assert result(lines, "service") == (0, "ok")
 
 
+def test_interrupt_served_after_the_restart(lines):
+    """Given a routine that comes when the next motion runs, then it is refused; the end of that lifts IRQ."""
+    assert result(lines, "late") == result(lines, "late again") == (0, "ok")
+    assert result(lines, "late service")[0] == Error.NOT_WHILE_BUSY + 1
+    assert result(lines, "late wait") == (0, "ok")
+    values = lines["irq"][2]
+    assert (values["late"], values["raw"], values["lifted"]) == ("1", "83", "1")
+    assert pulses(lines, "late")[:2] == (6, 4)
+
+
 @pytest.mark.parametrize(
     ("name", "cause", "bit", "ccw", "inputs"),
     [
