@@ -23,6 +23,7 @@ from .serial312 import ERROR_CODE, ERROR_COUNTS
 from .talk312 import ATTEMPTS, Talk
 
 _MOST_PPS = 4_000_000
+"""Pulses/s that no table exceeds: rate 2 of 8 MHz."""
 _ENCODER_SLACK = 64
 """Counts between two readings that say nothing: half of what the lowest bit 7 is worth."""
 
@@ -159,6 +160,10 @@ class Station312(Axis312):
         self.window.collect()
         return self.window.busy
 
+    def status(self) -> Status312:
+        """As on the bus, but read until two readings in a row are the same."""
+        return self.window.twice(super().status)
+
     # ------------------------------------------------------------------ what only the line has
 
     def error_code(self) -> int:
@@ -194,10 +199,6 @@ class Station312(Axis312):
         self._slow_override = False
 
     # ------------------------------------------------------------------ inside
-
-    def status(self) -> Status312:
-        """As on the bus, but read until two readings in a row are the same."""
-        return self.window.twice(super().status)
 
     def _position(self, encoder: bool) -> int:
         """Read until two readings in a row are the same, or as far apart as the motor can have come."""

@@ -47,7 +47,8 @@ class Station:
         self._receiver = Receiver(core.context, bit, self.hear) if bit else None
         self._transmitter = Transmitter(core.context, bit, log.sent) if bit else None
         self._silence: Event | None = None
-        self._bit, self._clear = bit, 0
+        self._bit = bit
+        self._heard: int | None = None
         self._busy = self._asked = False
         self._code = 0
         self._news: Note | None = None
@@ -91,8 +92,7 @@ class Station:
 
     def hear(self, t: int, byte: int | None) -> None:
         """A character whose stop bit was sampled at edge t; None for one without a stop bit."""
-        if self._bit:
-            self._clear = t + ceil(self._bit) + self._pace.clear
+        self._heard = t
         self._queue.at(t + self._pace.heard, Phase.BUS, lambda now: self._character(now, byte))
 
     def _character(self, t: int, byte: int | None) -> None:
@@ -188,7 +188,9 @@ class Station:
         if kind == SPECIFIC and data[0] in _KEPT:
             self._error = data[0]
         message = frame(kind | self._address, data, self._mode)
-        at = max(t + self._pace.reply, self._clear)
+        at = t + self._pace.reply
+        if self._bit and self._heard is not None and self._heard < t:
+            at = max(at, self._heard + ceil(self._bit) + self._pace.clear)
         self._queue.at(at, Phase.PIN, lambda now: self._send(now, message))
 
     def _send(self, t: int, message: bytes) -> None:

@@ -71,9 +71,9 @@ module ppmc312_sender
 
   assign sent_o = snd_o && over && left_q == '0 && last_q;
 
-  // The phase is one step ahead, which makes room for the registers of the pins. A gap uses it, too.
+  // It waits one step ahead, which makes room for the registers of the pins; a gap is one bit of it.
   always_ff @(posedge clk_i) begin
-    if (!snd_o && (heard_i || !gap_q)) {over, phase_q} <= {1'b0, wrap_i};
+    if (!snd_o && !gap_q) {over, phase_q} <= {1'b0, wrap_i};
     else {over, phase_q} <= {1'b0, phase_q} + {1'b0, over ? wrap_i : step_i};
   end
 
