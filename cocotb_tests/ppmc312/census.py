@@ -26,6 +26,9 @@ SLICE = 500
 LEAST: dict[str, int] = {
     "pulses": 5_000,
     "pulses in table": 1_200,
+    "equal neighbours in table": 200,
+    "searched pulses": 20,
+    "87 dropped at the point": 1,
     "start finite table": 80,
     "start endless table": 35,
     "start constant": 50,
@@ -125,12 +128,14 @@ def counting() -> Iterator[Counter[str]]:
         counts[f"start {kind} {'table' if plan.up or plan.down else 'flat'}"] += 1
         begin(self, t, order)
 
-    def counted_boundary(self: Sequence, ramps: bool = True) -> Any:
+    def counted_boundary(self: Sequence, ramps: bool = True, found: bool = True) -> Any:
         changed, mode = self._change, self._mode
-        step = boundary(self, ramps)
+        step = boundary(self, ramps, found)
+        counts["87 dropped at the point"] += self.drops
+        counts["searched pulses"] += self.sought
         if self.walk_begins:
             counts[f"walk {self._walk_cause.name}"] += 1
-        if changed is not None and self._change is None and not self.walk_begins:
+        if changed is not None and self._change is None and not (self.walk_begins or self.drops):
             counts["change 87" if changed.ramp else "change 88"] += 1
             if mode.name in ("WALK", "RAMP", "FINAL") or (mode.name == "PLAN" and self.done > 1):
                 counts[f"change in {mode.name}"] += 1
@@ -138,6 +143,9 @@ def counting() -> Iterator[Counter[str]]:
             return step
         counts["pulses"] += 1
         counts["pulses in table"] += step.stage is not None
+        if step.stage is not None:
+            around = self.plan.table.rates[max(step.stage - 1, self.plan.table.first) : step.stage + 2]
+            counts["equal neighbours in table"] += around.count(step.rate) > 1
         return step
 
     def counted_final(self: Sequence) -> None:

@@ -31,6 +31,9 @@ class Lively(Scenes):
         scenes = (
             (self.finite, 26),
             (self.endless, 14),
+            (self.meeting_point, 6),
+            (self.walk_change, 3),
+            (self.start_on_a_limit, 3),
             (self.overrides, 16),
             (self.events, 12),
             (self.meeting, 8),

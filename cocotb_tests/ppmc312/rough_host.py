@@ -26,6 +26,12 @@ def host_of(config: Config) -> Host312:
     return Host312(clk_hz=config.clk_hz, xtal_hz=config.xtal_hz, timing=config.timing)
 
 
+def some_equal(rates: list[int], share: float) -> list[int]:
+    """The rates, in this share of cases with equal neighbours; they decide themselves, no draw is taken."""
+    rng = random.Random(f"equal {rates}")
+    return sorted(rng.choices(rates, k=len(rates))) if rng.random() < share else rates
+
+
 class Player:
     """One random host."""
 
@@ -170,8 +176,7 @@ class Player:
         count = rng.choice((2, 3, 3, 3, 4, 7))
         least = rng.choice((2, 4, 12, 40, 40)) if clk == 0 else rng.choice((4, 10))
         self.rates = sorted(rng.randint(least, least * 6 + 40) for _ in range(count))
-        if rng.random() < 0.2:
-            self.rates = sorted(rng.choices(self.rates, k=count))  # equal neighbours
+        self.rates = some_equal(self.rates, 0.2)
         if rng.random() < 0.05:
             rng.shuffle(self.rates)
         separate = rng.random() < 0.5

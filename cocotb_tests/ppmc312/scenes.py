@@ -6,7 +6,7 @@ from openppmc.model.codes312 import State
 from openppmc.model.plan312 import ramped
 
 from .host312 import CSR, DRR, MREF, MWEF, RAR
-from .rough_host import Player
+from .rough_host import Player, some_equal
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 ASKED = ("03 01 25", "03 02 26 15", "03 02 42 00", "03 02 42 01", "03 01 4D", "03 01 27", "03 01 40")
@@ -76,8 +76,7 @@ class Scenes(Player):
         count = rng.choice((2, 3, 3, 4, 4, 5, 7))
         least, most = {0: (22, 130), 1: (12, 60), 2: (8, 30)}.get(clk, (3, 14))
         self.rates = sorted(rng.randint(least, most) for _ in range(count))
-        if rng.random() < 0.3:
-            self.rates = sorted(rng.choices(self.rates, k=count))  # equal neighbours
+        self.rates = some_equal(self.rates, 0.3)
         separate = rng.random() < 0.55
         up = down = count
         if separate and rng.random() < 0.6:
@@ -187,6 +186,43 @@ class Scenes(Player):
                 self.aligned()
                 self.attend(120)
         self.attend(6_000)
+
+    def meeting_point(self) -> None:
+        """Two 87 shortly before the deceleration point, after an 88 to where a ramp has many stages."""
+        host, rng, motion, table = self.host, self.rng, self.model.motion, self.model.core.table
+        if table is None:
+            return
+        rate = rng.choice(self.rates)
+        full = ramped(table, rate, None).up + sum(table.pd[table.sd : table.stage(rate) + 1])
+        count = full + rng.randint(16, 24)
+        self.tell(f"03 08 82 00 {rate:04X} {count:08X}")
+        before = rng.randint(6, 12)
+        while motion.active and count - motion.sequence.done > motion.sequence.plan.down + before:
+            self.attend(30)
+        self.tell(f"03 04 88 00 {max(self.rates):04X}")
+        self.attend(rng.choice((30, 200)))
+        self.tell(f"03 04 87 00 {min(self.rates):04X}")
+        if motion.active and motion.due and rng.random() < 0.8:
+            host.go(max(host.t, motion.due - rng.randint(70, 150)))
+        self.tell(f"03 04 87 00 {self.speed():04X}")
+        self.attend(3_000)
+
+    def walk_change(self) -> None:
+        """88 in the walk of an 81."""
+        self.tell(f"03 04 85 00 {min(self.rates):04X}")
+        self.attend(self.rng.choice((1_000, 2_500)))
+        self.tell("03 02 81 00")
+        self.tell(f"03 04 88 00 {self.speed():04X}")
+        self.attend(800)
+        self.tell("03 02 80 00")
+
+    def start_on_a_limit(self) -> None:
+        """A limit of the same or the other direction is low when a motion starts."""
+        pin = self.rng.choice((*LIMITS, *SLOW_LIMITS))
+        self.host.pins(**{pin: 0})
+        self.tell(self.finite_block().hex())
+        self.attend(300)
+        self.host.pins(**{pin: 1})
 
     def endless(self) -> None:
         """85 or 86 with changes, then a stop."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import T3, TF, Host312
+from cocotb_tests.ppmc312.host312 import T3, TF, Host312, clean
 from openppmc.model.parts312 import INPUTS, OUTPUTS, WIDTHS
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
@@ -77,6 +77,39 @@ def test_stops_come_in_time() -> None:
     host.pins(evt1_n=0)
     host.pause(400)
     assert low - 16 < host.pulses()[-1] <= low + T_STOP
+
+
+@verifies("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
+def test_a_stop_by_an_event_during_an_88() -> None:
+    """The 88 is finished first, which takes the stop beyond 64 clk; whatever the host reads, it stops."""
+    longest = 0
+    for after in range(1, 260, 6):
+        host = Host312(*BRISK, "03 02 80 07")
+        host.ask("03 04 86 00 0004")
+        host.put("03 04 88 00 0005")
+        host.go(host.header + after)
+        low = host.t
+        host.pins(evt1_n=0)
+        host.pause(1000)
+        took = host.pulses()[-1] - low
+        longest = max(longest, took)
+        assert took <= T_TRIG, after
+        answers = [host.response() for _ in range(3)]
+        position = f"{host.model.position:08X}"
+        if answers[0] == "1B 01 80":  # it came first; then there is nothing to change
+            assert answers[1:] == ["03 03 F1 00 02", clean(f"23 06 E0 04 {position}")] and took <= T_STOP
+        else:
+            # The answer of the 88 waits to be read: the stop becomes an alarm, at once.
+            assert sorted(answers) == ["03 01 88", "23 02 F4 01", clean(f"23 06 E0 80 {position}")]
+    assert T_STOP < longest <= 200
+    # A host that reads the answer in time gets its stop.
+    host = Host312(*BRISK, "03 02 80 07")
+    host.ask("03 04 86 00 0004")
+    assert host.ask("03 04 88 00 0005") == "03 01 88"
+    low = host.t
+    host.pins(evt1_n=0)
+    assert host.response() == "1B 01 80" and host.response()[:11] == "23 06 E0 04"
+    assert host.pulses()[-1] <= low + T_STOP
 
 
 @verifies("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")

@@ -339,6 +339,45 @@ def test_two_87_across_the_deceleration_point() -> None:
         run_out(host, mark, 0x40, "400x3 200x4 100x13 400x5 200x7 400x8")
 
 
+@verifies("P312-MOT-32", "P312-OVR-03", "P312-OVR-11", "P312-STA-01")
+def test_an_override_with_a_ramp_waits_for_the_end_of_another_ramp() -> None:
+    """Accepted before the ramp of a direct 87 begins, it is held over all steps of that ramp."""
+    for ahead in (40, 60, 100, 140):
+        host = Host312(*TF, "03 04 87 05 0190")
+        host.ask(f"{ALWAYS} 0190")
+        mark = host.mark
+        edge = host.pulse(4, 20)
+        assert host.ask(change(0x87, 100)) == "03 01 87"
+        host.go(edge + 400 * TICK - ahead)
+        host.pins(evt0_n=0)
+        assert host.response() == "1B 01 87"
+        host.mark = mark
+        host.pulse(22, 20)
+        assert host.gaps() == rates("400x4 200x4 100x6 200x4 400x3")
+        assert host.ask(STOP) == "03 01 80"
+        assert host.response() == stopped(0x04, 22)
+
+
+@verifies("P312-MOT-12", "P312-MOT-31", "P312-OVR-11", "P312-CMD-88")
+def test_stages_go_on_while_an_88_is_looked_up() -> None:
+    """The look-up of its rate takes longer than a stage here, and the motion needs the table meanwhile."""
+    steps = range(10, 34, 2)  # 2 clk each: stages of 40 .. 130 clk
+    curve = ("02 04 01 10 0C 02", f"00 18 {''.join(f'{rate:04X}' for rate in steps)}")
+    pulses = ("00 1E " + "000002" * 10, "00 06 000002 000003", "01 06 000009 000009")
+    climb = [rate for rate in reversed(steps) for _ in range(3 if rate == 32 else 2)]
+    for after in range(10, 130, 20):
+        host = Host312(*curve, *pulses)
+        host.ask("03 04 85 00 0000")
+        mark = host.mark
+        host.pulse(1, after)
+        host.put(change(0x88, 31))
+        host.mark = mark
+        host.pulse(30)
+        gaps = host.gaps(2)
+        begun = gaps.index(31)
+        assert gaps[:begun] == climb[:begun] and 3 < begun < 15 and gaps[begun:] == [31] * (29 - begun)
+
+
 @verifies("P312-MOT-34", "P312-MOT-06", "P312-MOT-03", "P312-INP-12")
 def test_causes_that_come_together() -> None:
     for start, levels, cause in (

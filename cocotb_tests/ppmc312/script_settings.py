@@ -91,6 +91,51 @@ def test_sigmoid_tables_keep_stages_that_rounding_makes_equal() -> None:
         assert head[:2] == [127, 127] and rates[:-3:-1] == [rs, second]
 
 
+@verifies("P312-OVR-10", "P312-EVT-01", "P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9")
+def test_an_event_edge_during_00_and_01_is_dropped() -> None:
+    """It is remembered, and goes when the buffers are emptied: also with what is registered afterwards."""
+    filled = (*TF, "03 06 49 00 03 02 26 01", "03 02 80 07")
+    for block, answer, cond, most in (
+        (T1, "03 01 00", 0x02, 24_000),
+        ("03 09 00 01 03E8 03E8 0007D0", "03 0B F0 03 00 01 03 E8 03 E8 00 07 D0", 0x01, 40),
+        (TF[0], "03 03 01 00 03", 0x01, 40),
+        ("03 03 01 01 03", "03 05 F0 10 01 01 03", 0x01, 40),
+    ):
+        for after in (30, 36, most // 2 + 16, most):
+            host = Host312(*filled)
+            host.put(block)
+            host.go(host.header + after)
+            host.pins(evt0_n=0, evt1_n=0)
+            assert host.response() == clean(answer), (block, after)
+            assert host.quiet(2000) and host.condition == cond and host.out("auxo_n") == 0x3F
+            host.pins(evt0_n=1, evt1_n=1)
+            if block == TF[0]:
+                for rest in TF[1:]:
+                    host.ask(rest)
+            elif cond == 0x01:
+                host = Host312.on(host)
+                for block_ in TF:
+                    host.ask(block_)
+            assert host.ask("03 01 4D") == "03 04 4D 00 02 00"
+            assert host.ask("03 06 49 00 03 02 26 02") == "03 02 49 00" and host.quiet(2000)
+            host.pins(evt0_n=0)
+            assert host.response() == "0B 01 26" and host.out("auxo_n") == 0x3D
+
+
+@verifies("P312-CMD-01", "P312-CMD-FC-1", "P312-CMD-FC-10", "P312-CMD-41")
+def test_a_combined_curve_may_be_announced_with_four_bytes() -> None:
+    """LE = 0 with L = 04: the last byte means nothing, whatever it is; 03 and 04 are the only lengths."""
+    for last in ("00", "01", "02", "7F", "80", "FF"):
+        host = Host312()
+        assert host.ask(f"02 04 01 01 03 {last}") == "03 03 01 00 03"
+        assert [host.ask(block) for block in TF[1:]] == ["03 03 01 01 03", "03 08 01 0F 00 00 0C 00 00 0C"]
+        head, (rates, up, down) = read_table(host)
+        assert head == [3, 3, 0, 0, 0, 12, 0, 0, 12]
+        assert (rates, up, down) == ([100, 200, 400], [5, 4, 3], [])
+    for block in ("02 02 01 01", "02 05 01 01 03 03 00"):
+        assert Host312().ask(block)[6:11] == "F0 11"
+
+
 @verifies("P312-CMD-00", "P312-GEN-05", "P312-TBL-05")
 def test_initial_setting_layouts_and_order_of_checks() -> None:
     host = Host312()

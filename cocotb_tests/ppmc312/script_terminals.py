@@ -431,3 +431,31 @@ def test_datasheet_triggered_stop() -> None:
     assert 400_000 + 5600 - 1700 <= host.pulses()[-1] - low <= 400_000 + 5620
     assert host.response() == stopped(0x04, len(host.pulses()))
     assert host.ask(T1)[:5] == "03 01"
+
+
+@verifies("P312-CMD-25", "P312-CMD-27", "P312-INP-01", "P312-EVT-01")
+def test_25_and_27_show_all_pins_at_one_clk() -> None:
+    """Pins that change together are seen together, whoever asks, up to one clk and not after it."""
+    names = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n", "evt1_n", "run")
+    pins = dict.fromkeys(names, 0)
+    for code, levels, shown in (
+        ("27", pins, {"03": ("FF E0", "00 40"), "0B": ("FF A0", "00 00")}),
+        ("25", {"auxi": 0x5A}, {"03": ("FF", "5A"), "0B": ("FF", "5A")}),
+    ):
+        for source, (before, after) in shown.items():
+            seen = []
+            for clk in range(14, 34):
+                host = Host312(*TF, f"03 05 49 00 03 01 {code}")
+                host.pins(auxi=0xFF)
+                host.pause(800)
+                if source == "03":
+                    host.put(f"03 01 {code}")
+                    host.go(host.header + clk)
+                else:
+                    host.pins(evt0_n=0)
+                    host.pause(clk - 1)
+                host.pins(**levels)
+                answer = next(text for text in iter(host.response, "") if text.startswith(source))
+                assert answer[6:8] == code and answer[9:] in (before, after), clk
+                seen.append(answer[9:] == after)
+            assert seen == sorted(seen, reverse=True) and len(set(seen)) == 2, source

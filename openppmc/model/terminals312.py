@@ -128,10 +128,14 @@ def _counter_clear(core: Core, t: int, data: bytes) -> bytes:
     return b""
 
 
+# What they tell of the pins, with the levels of the edge at which they are checked: what is done a clk later
+# comes before that clk's levels.
+_PINS: dict[int, Callable[[Core], bytes]] = {
+    Code.INPUT: lambda core: bytes([core.context.levels["auxi"]]),
+    Code.TERMINALS: terminals,
+}
 # What they tell of the part, as it is when they are checked.
 _READS: dict[int, Callable[[Core, bytes], bytes]] = {
-    Code.INPUT: lambda core, data: bytes([core.context.levels["auxi"]]),
-    Code.TERMINALS: lambda core, data: terminals(core),
     Code.VERSION: lambda core, data: bytes([core.version]),
     Code.POSITION_READ: _position_read,
     Code.EVENT_READ: _event_read,
@@ -175,6 +179,8 @@ def act(core: Core, code: int, data: bytes) -> Work:
     if code == Code.EVENT_SET:
         _check_event(data)
         return _event_set(core, data)
+    if code in _PINS:
+        return Work(lambda t: bytes([code]) + _PINS[code](core))
     if code in _READS:
         told = bytes([code]) + _READS[code](core, data)
         return Work(lambda t: told)

@@ -134,7 +134,8 @@ module ppmc_stage_unit
 
   assign entry = build_busy ? built : entry_i;
 
-  // A plan is made at rest: the motion does not need its port.
+  // A plan is made at rest: the motion does not need its port. It keeps it while 87 or 88 look a rate up
+  // (plan_both low), and after the plan (plan_busy low).
   assign takes = plan_busy && plan_both;
 
   ppmc_stage_table u_table (

@@ -29,6 +29,43 @@ def test_datasheet_setting_times(setting: str, ms: int) -> None:
     assert not host.read(CSR) & MREF and host.condition == 0x02
 
 
+@verifies("P312-INP-01", "P312-INP-20", "P312-TIM-14", "P312-CMD-27")
+def test_datasheet_run_is_the_plain_pin() -> None:
+    """RUN starts and holds an operation without the 200 us of the other pins; 27 shows these plain."""
+    host = Host312(*TF, timing="DATASHEET")
+    for low in (1, 2, 100, 5000):
+        host.pins(run=0)
+        host.ask("03 04 86 00 0190")
+        assert host.condition == 0x20
+        mark = host.mark = host.t
+        host.pins(run=1)
+        host.pause(low - 1)
+        host.pins(run=0)  # one clk of RUN is enough
+        assert host.response() == "23 01 E2" and host.condition == 0x08
+        host.mark = mark
+        assert host.pulse(1) - mark in range(80, 80 + 8)
+        host.ask(STOP)
+        host.response()
+    # Low for one clk: it counts on the one clk in which it is tested, directly before t0.
+    host = Host312(*TF, timing="DATASHEET")
+    host.issue("03 02 84 00")
+    delay = host.pulse(1) - 80 - host.header
+    held = []
+    for before in range(7):
+        host = Host312(*TF, timing="DATASHEET")
+        host.issue("03 02 84 00")
+        host.go(host.header + delay - before)
+        host.pins(run=0)
+        host.pins(run=1)
+        assert host.response() == "03 01 84"
+        held.append(host.response() == "23 01 E2")
+    assert held == [before == 3 for before in range(7)]
+    host = Host312(*TF, timing="DATASHEET")
+    host.pins(fl_n=0, alm_n=0, org_n=0)
+    assert host.ask("03 01 27") == "03 03 27 6D E0" and host.condition == 0x02
+    host.pins(fl_n=1, alm_n=1, org_n=1)
+
+
 @verifies("P312-TIM-13", "P312-TIM-20")
 def test_datasheet_output_time_and_ready_time() -> None:
     host = Host312(timing="DATASHEET")
