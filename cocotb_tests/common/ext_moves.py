@@ -120,7 +120,6 @@ class ExtMoves:
         train = await self._train(move)
         found = list(faults(train, move.rates(self.rate_of), axis.cfg.w, axis.cfg.cyc(BRISK)))
         axis.check("BCK-05", f"{move}: intervals {differences(train.pulses)}", found, [])
-        axis.bench.forget()
 
     async def _train(self, move: Move) -> Train:
         axis, bench = self.axis, self.axis.bench

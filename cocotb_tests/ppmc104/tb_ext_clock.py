@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cocotb
 
+from cocotb_tests.common.compare import check_against_model
 from cocotb_tests.common.config import F8, F16, F25, configs
 from cocotb_tests.common.ext_moves import BRISK, ExtMoves, Move, sweep
 from cocotb_tests.common.figures import differences
@@ -24,6 +25,7 @@ async def p104_bck_05_first_deceleration_interval(dut):
     moves = await ExtMoves.of(lab, ramp, "l3_n")
     for n in range(2, 14):
         await moves.check(Move(n, (8,), 4, ramp))
+    check_against_model(lab.bench)
 
 
 @cocotb.test()
@@ -41,6 +43,7 @@ async def p104_bck_05_sweep(dut):
             await lab.init(0x1A, *ramp)
             for move in sweep(ramp, rng):
                 await moves.check(move)
+                lab.bench.forget()
 
 
 @cocotb.test()
@@ -54,6 +57,7 @@ async def p104_tim_05_brisk_threshold(dut):
     for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
         await moves.check(Move(9, gaps, 9, rate=0))
         await moves.check(Move(9, gaps, 9, rate=1))
+    check_against_model(lab.bench)
 
 
 @cocotb.test()
@@ -74,3 +78,4 @@ async def p104_int_03_long_threshold(dut):
             same = f"intervals at {gaps[:4]} clk, rate {rate}"
             lab.check("P104-INT-03", same, lab.intervals, differences(expected))
             await lab.bench.clocks(20)
+    check_against_model(lab.bench)

@@ -25,9 +25,10 @@ async def p2104_bck_04_sweep(lab: Lab) -> None:
         await moves.axis.init(EXTERNAL[0], *ramp)
         for move in sweep(ramp, rng):
             await moves.check(move)
+            lab.bench.forget()
 
 
-@part_test("P2104-TIM-05", on=(F16, F8, F48), compared=False)
+@part_test("P2104-TIM-05", on=(F16, F8, F48))
 async def p2104_tim_05_brisk_threshold(lab: Lab) -> None:
     """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
     brisk = lab.cfg.cyc(BRISK)

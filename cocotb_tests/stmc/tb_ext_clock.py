@@ -31,3 +31,4 @@ async def stmc_clk_04_sweep(lab: Lab) -> None:
             await lab.init(0x1A, ramp[0] + 1, fast + 1, ramp[2])
             for move in sweep(ramp, rng, rates):
                 await moves.check(move)
+                lab.bench.forget()

@@ -8,8 +8,8 @@
 //         motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
 //         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
 // Edges:  with the external clock all of this happens in the clk of an effective edge, for the clk after it:
-//         - the (rate + 1)-th one after a pulse is the next pulse (u_rate: hit, or u_ext's lag after it). Not one
-//           with which low_o still stands: it stays due. That takes a pulse of rate 0 that was not brisk.
+//         - the (rate + 1)-th one after a pulse is the next pulse (u_rate: hit), or the lag after it. Not one that
+//           finds low_o standing; the next one is due then. That takes a pulse of rate 0 that was not brisk.
 //         - number floor((rate + 1) / 2) is the half (u_rate): it cuts low_o, unless the pulse is a full one, and
 //           so does the falling edge at rate 0 (u_shaper, P104-TIM-05).
 //         Both count to the rate of the running interval. u_seq gives it with the pulse; only from the second

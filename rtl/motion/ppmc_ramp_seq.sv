@@ -4,13 +4,13 @@
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
 // Timing: pulses are at least 3 clk apart. What pulse_i changes stands after its edge, but for rate_o, which is
 //         the rate of the new interval
-//         - speeding up or holding: at once. The look-up of the next rate follows; for its 3 n + 1 clk, n = rates that
-//           the ramp skips, seek_o keeps a pulse back.
+//         - speeding up or holding: at once. The look-up of the next rate follows; for its 3 n + 1 clk, n = rates
+//           that the ramp skips, seek_o keeps a pulse back.
 //         - first step down: one clk later (rising_o). It is the rate of the interval before the last step up.
-//         - further steps down: when rising_o falls. The look-up runs in the new interval, 3 n + 1 clk, too; rate_o rises
-//           from the rate before it.
-//         Base clocks 4 clk apart never come to the end of an interval before its look-up does: either way n is at
-//         most the interval's rate. Those 6 clk apart do not come to its middle.
+//         - further steps down: when rising_o falls. The look-up runs in the new interval, 3 n + 1 clk, too, and
+//           rate_o rises from the rate before.
+//         Base clocks 4 clk apart never come to the end of an interval before its look-up does: n is at most its
+//         rate. Those 6 clk apart do not come to its middle: on ramps of 4 steps and more n is smaller, or 1.
 // How:    climb_q is the number of acceleration pulses made and not yet walked back (index of the running
 //         interval + 1).
 `include "ppmc_assert.svh"
@@ -64,6 +64,7 @@ module ppmc_ramp_seq #(
   logic near_q, full_q, zero_q, low_q;  // comparisons, a clk after the counters
   logic load_q;  // probe_q is the rate of the running interval
   logic slower_q;  // the way down has begun
+  logic end_q;  // the look-up has come to the end of the ramp; what it compares stands still before a test
   logic probe_slow_q;  // probe_q is the start-up rate; it stands still long before it is used
   logic up, down, turn, odd, high, step, reached, more;
 
@@ -110,6 +111,7 @@ module ppmc_ramp_seq #(
   // No reset: every motion begins with a load.
   always_ff @(posedge clk_i) begin
     probe_slow_q <= probe_q == slow_i;
+    end_q <= slower_q ? rate_o == slow_i : probe_q == fast_i;
     if (load_i) crawl_o <= 1'b1;
     else if (pulse_i && up) crawl_o <= probe_slow_q;
   end
@@ -122,11 +124,11 @@ module ppmc_ramp_seq #(
     else if (pulse_i && (up || down)) climb_q <= climb_q + {{(StepBits - 1) {down}}, 1'b1};
   end
 
-  // Rate look-up. Going up the ramp, probe_q sinks while climb_q has reached its threshold; at rest it is the rate of
-  // the next step up. Going down, rate_o follows probe_q while the index, climb_q - 1, is below its threshold; at
-  // rest probe_q is the next slower rate. At rest its threshold stands, too, so that a look-up begins with a test.
+  // Rate look-up. Going up the ramp, probe_q sinks while climb_q has reached its threshold; at rest it is the rate
+  // of the next step up. Going down, rate_o follows probe_q while the index, climb_q - 1, is below its threshold;
+  // at rest probe_q is the next slower rate. The threshold stands then, so that a look-up begins with a test.
   assign reached    = {climb_q, !slower_q} >= {StepBits'(lut_data_i), 1'b1};  // > where slower, else >=
-  assign more       = slower_q ? (rate_o != slow_i && !reached) : (probe_q != fast_i && reached);
+  assign more       = !end_q && reached != slower_q;
   assign step       = (load_q && slower_q) || (state_q == StTest && more);
   assign seek_o     = state_q != StRest || load_q;
   assign rising_o   = seek_o && slower_q;

@@ -51,8 +51,8 @@ module ppmc_ramp_serial
       .rdata_o(rd)
   );
 
-  // den comes out behind StepBits - 1 leading zeros, that is shifted to the left; its own top bits are zeros and stay
-  // behind.
+  // den comes out behind StepBits - 1 leading zeros, that is shifted to the left; its own top bits are zeros and
+  // stay behind.
   assign last_bit = (pass_i == PassRead) ? CountBits'(Bits - StepBits) : CountBits'(Bits - 1);
 
   // Address, RAM, use: three stages.
