@@ -153,9 +153,9 @@ module ppmc_ramp_seq #(
       else if (pulse_i && down) slower_q <= 1'b1;
 
       unique case (state_q)
-        StRest: if (pulse_i && (up || (down && slower_q))) state_q <= StTest;
-        StRead: state_q <= StWait;
-        StWait: state_q <= StTest;
+        StRest:  if (pulse_i && (up || (down && slower_q))) state_q <= StTest;
+        StRead:  state_q <= StWait;
+        StWait:  state_q <= StTest;
         default: state_q <= more ? StRead : StRest;
       endcase
       if (load_i) state_q <= StRest;

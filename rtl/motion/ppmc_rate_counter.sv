@@ -20,7 +20,7 @@ module ppmc_rate_counter #(
     input  wire logic                wait_i,     // the interval must not end yet
     input  wire logic                rising_i,   // rate_i is not final yet
     output logic                     hit_o,      // this base clock ends the interval
-    output logic                     half_o      // number floor((rate + 1) / 2) is this base clock or has been
+    output logic                     half_o      // number floor((rate + 1) / 2) is this base clock or was
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse
