@@ -24,14 +24,14 @@ module ppmc312_bus #(
     output logic            d_oe_o,
     output logic            wrq_no,
     // registers
-    input  wire logic       wait_i,     // EWRQ: the wait request is used
-    output logic            wr_o,       // a write is complete
+    input  wire logic       wait_i,       // EWRQ: the wait request is used
+    output logic            wr_o,         // a write is complete
     output logic      [2:0] wr_rs_o,
     output logic      [7:0] wr_data_o,
-    output logic      [2:0] rd_rs_o,    // register that is being read
-    input  wire logic [7:0] rd_data_i,  // its value
-    output logic            rd_show_o,  // its value is taken
-    output logic            rd_done_o   // the read has ended
+    output logic      [2:0] rd_rs_o,      // register that is being read
+    input  wire logic [7:0] rd_data_i,    // its value
+    output logic            rd_show_o,    // its value is taken
+    output logic            rd_done_o     // the read has ended
 );
 
   localparam logic [2:0] RegDwr = 3'b101;

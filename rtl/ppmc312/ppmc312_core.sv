@@ -58,10 +58,10 @@ module ppmc312_core
     output logic         [           5:0] auxo_no
 );
 
-  block_t  block;
+  block_t block;
   stored_t stored;
   status_e status;
-  table_t  curve;
+  table_t curve;
   target_t home;
   op_t op;
   plan_t plan;

@@ -66,7 +66,7 @@ module ppmc312_mailbox
       .WaitClk(WaitClk)
   ) u_bus (
       .clk_i,
-      .rst_ni   (rst_bus_ni),
+      .rst_ni     (rst_bus_ni),
       .rst_wait_ni(rst_ni),
       .off_i,
       .rs_i,
@@ -77,14 +77,14 @@ module ppmc312_mailbox
       .d_o,
       .d_oe_o,
       .wrq_no,
-      .wait_i   (enable_wrq_q),
-      .wr_o     (wr),
-      .wr_rs_o  (wr_rs),
-      .wr_data_o(wr_data),
-      .rd_rs_o  (rd_rs),
-      .rd_data_i(rd_data),
-      .rd_show_o(rd_show),
-      .rd_done_o(rd_done)
+      .wait_i     (enable_wrq_q),
+      .wr_o       (wr),
+      .wr_rs_o    (wr_rs),
+      .wr_data_o  (wr_data),
+      .rd_rs_o    (rd_rs),
+      .rd_data_i  (rd_data),
+      .rd_show_o  (rd_show),
+      .rd_done_o  (rd_done)
   );
 
   assign mwef = blk_valid_o || !ready_i;

@@ -86,7 +86,7 @@ module ppmc312_motion
 
   // ---- pins ------------------------------------------------------------------------------------------------------
 
-  logic unused_table;
+  logic  unused_table;
   assign unused_table = &{1'b0, table_i};
 
   assign limit = dir_o ? !levels_i.bl_n : !levels_i.fl_n;
