@@ -22,8 +22,8 @@ from .sequence312 import Change
 class Operation:
     """pins: input levels as decisions see them. alarm(t, status): multiple occurrence. rested(t): something
     has moved, or pulse output has ended. settled(): nothing that a position has stopped for waits.
-    abnormal(): state ABN. end_monitored, run_ignored (CWS), speed_limit (HSL) are settings; last_cause: of
-    the last stop report."""
+    abnormal(): state ABN. run_level: RUN as decisions at this edge use it. end_monitored, run_ignored (CWS),
+    speed_limit (HSL) are settings; last_cause: of the last stop report."""
 
     def __init__(
         self,
@@ -48,6 +48,7 @@ class Operation:
         self._looked_at: Callable[[int], None] = rested
         self.speed_limit = 0xFFFF
         self.end_monitored = self.run_ignored = False
+        self.run_level = context.levels["run"]
         self._held: Order | None = None
         self._end_wait: Cause | None = None
         self._alarm_at = -1
@@ -89,7 +90,7 @@ class Operation:
     @property
     def may_run(self) -> bool:
         """RUN is high or not monitored."""
-        return bool(self._context.levels["run"]) or self.run_ignored
+        return bool(self.run_level) or self.run_ignored
 
     def start(self, t: int, order: Order) -> bool:
         """t0, or state WRN; True if the operation is held."""

@@ -165,6 +165,16 @@ class Ppmc312(Chip):
         if others := names.difference(self.HOST_PINS, SERIAL_PINS):
             super()._sample(max(t, self._pins_from), others)
 
+    def _sample_levels(self, t: int) -> None:
+        super()._sample_levels(t)
+        level = self._pins["run"]
+        self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._see_run(now, level))
+
+    def _see_run(self, t: int, level: int) -> None:
+        """RUN is a gate: a start sees its level of the same edge, not what there was before (P312-INP-20)."""
+        if t >= self._pins_from + self.latency.input_sync:
+            self.core.operation.run_level = level
+
     def _software_reset(self, t: int, source: Source) -> None:
         """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer.
 

@@ -272,3 +272,25 @@ def test_parameters_of_the_model() -> None:
         with pytest.raises(ValueError):
             Host312(**bad)
     assert Host312(version=0x34, clk_hz=8_000_000).ask("03 01 40") == "03 02 40 34"
+
+
+@verifies("P312-INP-20", "P312-TIM-12")
+@pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
+@pytest.mark.parametrize("form", ["03 02 84 00", "03 08 82 00 0000 00000003"])
+def test_run_is_judged_on_one_clk(form: str, timing: str) -> None:
+    """Low for a single clk: one clk before t0, and no other, makes the operation a held one."""
+    host = Host312(*TF, timing=timing)
+    host.issue(form)
+    start = host.pulse(1) - 80
+    later = {}
+    for edge in range(start - 8, start + 4):
+        host = Host312(*TF, timing=timing)
+        host.issue(form)
+        host.go(edge)
+        host.pins(run=0)
+        host.pins(run=1)
+        reports = [host.response()]
+        later[edge] = host.pulse(1) - 80 - start
+        reports.append(host.response())
+        assert ("23 01 E2" in reports) == bool(later[edge])
+    assert [edge for edge, clk in later.items() if clk] == [start - 2] and later[start - 2] == 1
