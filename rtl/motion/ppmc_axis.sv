@@ -298,7 +298,18 @@ module ppmc_axis
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop_o))
-  `PPMC_ASSERT(p104_tim_05_cut, !(running_o && due && low_o && base_o.external && rate_o != '0))
+  // External clocks less than 4 clk apart are too fast (P104-BAD-14, P2104-BAD-19): their cut may come too late.
+  logic [2:0] ticked_q;
+  logic too_fast, too_fast_q;
+  assign too_fast = too_fast_q || (tick && ticked_q != '0);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {ticked_q, too_fast_q} <= '0;
+    else begin
+      ticked_q   <= {ticked_q[1:0], tick};
+      too_fast_q <= too_fast && !start_i;
+    end
+  end
+  `PPMC_ASSERT(p104_tim_05_cut, !(running_o && due && low_o && base_o.external && rate_o != '0 && !too_fast))
   `PPMC_ASSERT(p2104_opr_02, !(fire && gated_o))
   `PPMC_ASSERT(p104_opr_12, !(start_i && busy_o))
   logic final_seen_q;
