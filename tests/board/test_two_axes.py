@@ -230,7 +230,7 @@ def test_ctrl_c_stops_with_ramps(
     after = pulses()
     assert all(b >= a + 300 for a, b in zip(before, after, strict=True)), "stopped without a ramp"
     x, y = positions(board)
-    assert f"positions {x - 4000} and {y - 4000}" in err
+    assert f"axis 1: position {x - 4000}, axis 2: position {y - 4000}" in err
     assert axes_at_rest(board.port) == [x - 4000, y - 4000]
 
 
