@@ -17,7 +17,7 @@ from rich.table import Table
 
 from openppmc import sim
 from openppmc.host import Ppmc104, PpmcError
-from openppmc.host.script import Script
+from openppmc.host.bridge.script import Script
 from scripts import project
 from scripts.bench import machine
 from scripts.flow.report import markdown_table

@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from scripts.pictures import (  # noqa: E402
+from scripts.pictures import (
     current_006,
     plots,
     plots_006,

@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.markup import escape
 
-from openppmc.sim import verilator as start
+from openppmc.sim.common import verilator as start
 from scripts import project
 from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources

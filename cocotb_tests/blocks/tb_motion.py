@@ -7,7 +7,7 @@ from math import ceil
 
 import cocotb
 
-from openppmc.model.excitation import step_list
+from openppmc.model.motion.excitation import step_list
 
 from .unit import Unit, rng, same
 from .wrapper import Block

@@ -10,7 +10,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, First, ReadOnly, RisingEdge, Timer
 from cocotb.utils import get_sim_time
 
-from openppmc.model.ramp import natural_deceleration, next_index, ramp_rate
+from openppmc.model.motion.ramp import natural_deceleration, next_index, ramp_rate
 
 from .unit import Unit, rng, same
 from .wrapper import Block

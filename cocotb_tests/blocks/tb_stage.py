@@ -6,9 +6,9 @@ import random
 
 import cocotb
 
-from openppmc.model.curve312 import curve
-from openppmc.model.plan312 import ramped
-from openppmc.model.tables312 import LAST, STAGES, SettingError, Table, build, sigmoid_weights
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import ramped
+from openppmc.model.ppmc312.stages.tables import LAST, STAGES, SettingError, Table, build, sigmoid_weights
 
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start

@@ -7,11 +7,11 @@ from collections import deque
 
 import cocotb
 
-from openppmc.model.codes312 import Cause
-from openppmc.model.curve312 import curve
-from openppmc.model.plan312 import Plan, constant, ramped
-from openppmc.model.sequence312 import Change, Sequence
-from openppmc.model.tables312 import STAGES, Table
+from openppmc.model.ppmc312.codes import Cause
+from openppmc.model.ppmc312.motion.sequence import Change, Sequence
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import Plan, constant, ramped
+from openppmc.model.ppmc312.stages.tables import STAGES, Table
 
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start

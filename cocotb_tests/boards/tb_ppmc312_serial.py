@@ -12,7 +12,7 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.blocks.unit import same
 from cocotb_tests.common.wire import Wire
 from cocotb_tests.ppmc312.serial312 import SPEEDS, summed
-from openppmc.model.frames312 import INSTRUCTION, POLL
+from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL
 
 OPEN = {"mod": 7, "adr": 15}
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "fl_n": 1, "alm_n": 1, "auxi": 0xA5} | OPEN

@@ -14,7 +14,7 @@ from cocotb.utils import get_sim_time
 
 from cocotb_tests.common import native
 from cocotb_tests.common.config import Config
-from openppmc.host.frames import Broken, Deframer, encode
+from openppmc.host.bridge.frames import Broken, Deframer, encode
 
 from .settings import baud_of
 from .slave import Toy

@@ -8,8 +8,8 @@ import cocotb
 from cocotb.triggers import Timer
 
 from cocotb_tests.common.config import configs
-from openppmc.host.frames import encode
-from openppmc.model.bridge import Bridge
+from openppmc.host.bridge.frames import encode
+from openppmc.model.carrier.bridge import Bridge
 
 from .bench import Bench, same
 from .settings import FAST, TWO, axes_of, params_of

@@ -9,7 +9,7 @@ import cocotb
 from cocotb.triggers import RisingEdge
 
 from openppmc.model import Ppmc104
-from openppmc.model.predict import predict_move
+from openppmc.model.single.predict import predict_move
 
 DATA, STATUS, BRIDGE = 0x0, 0x4, 0x8
 OBF, IBF, BUSY = 1, 2, 4

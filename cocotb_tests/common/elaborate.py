@@ -6,7 +6,7 @@ import re
 import subprocess
 from collections.abc import Mapping, Sequence
 
-from openppmc.sim import verilator
+from openppmc.sim.common import verilator
 
 from .paths import ROOT
 from .runner import Design

@@ -31,9 +31,9 @@ import cocotb_tools.config
 import pytest
 from cocotb_tools.runner import Verilator, as_sv_literal
 
-from openppmc.sim import verilator
-from openppmc.sim.build import copy_runtime
-from openppmc.sim.verilator import seen_from
+from openppmc.sim.common import verilator
+from openppmc.sim.common.build import copy_runtime
+from openppmc.sim.common.verilator import seen_from
 from scripts.project import ProjectError, include_dirs, sources
 from scripts.project import part as rtl_part
 

@@ -13,8 +13,8 @@ from typing import Any
 
 from cocotb_tests.common.config import Config
 from cocotb_tests.pmc006.script_host import Host006
-from openppmc.model.plant006 import Motor, Plant
-from openppmc.program006 import assemble
+from openppmc.model.pmc006.bench.motor import Motor, Plant
+from openppmc.model.pmc006.program import assemble
 
 BUILD = Config("demo8m", clk_hz=8_000_000, extra=(("BAUD", 115_200), ("T_OFF_NS", 40_000)))
 MOTOR = Motor(ohm=1.0, henry=4e-3, volt=24.0)

@@ -12,9 +12,9 @@ from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.config import configs
 from cocotb_tests.gates.board import B24
 from cocotb_tests.gates.uart import Uart
-from openppmc.host.frames import encode
-from openppmc.host.script import RATES, Identity, Result, Script
-from openppmc.model.ppmc104 import Ppmc104
+from openppmc.host.bridge.frames import encode
+from openppmc.host.bridge.script import RATES, Identity, Result, Script
+from openppmc.model.ppmc104.part import Ppmc104
 
 INIT = (0x0A, 9, 4, 4, 0)
 CW, CCW = 0x43, 0x4B

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pytest
 
 from cocotb_tests.common.paths import ROOT
-from openppmc.model.ppmc2104 import Ppmc2104
+from openppmc.model.ppmc2104.part import Ppmc2104
 
 from .setting import BASE, SOURCE
 

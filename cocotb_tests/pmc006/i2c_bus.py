@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from openppmc.model.eeprom24c32 import Eeprom24C32
+from openppmc.model.carrier.eeprom import Eeprom24C32
 
 
 class I2cBus:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from cocotb_tests.common.part import PMC006
 from cocotb_tests.common.scripts import parameters
-from openppmc.model.eeprom24c32 import Eeprom24C32
+from openppmc.model.carrier.eeprom import Eeprom24C32
 
 from .script_host import Host006
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.plant006 import Motor, Plant
+from openppmc.model.pmc006.bench.motor import Motor, Plant
 
 from .scenes import brisk, run, start
 from .script_host import Host006

@@ -14,8 +14,8 @@ from cocotb_tests.common.script import Script
 from cocotb_tests.common.scripts import parameters, simulating
 from cocotb_tests.common.serial_line import SerialLine, characters
 from cocotb_tests.common.stimulus import Access
-from openppmc.model.eeprom24c32 import Eeprom24C32
-from openppmc.model.pmc006 import Pmc006
+from openppmc.model.carrier.eeprom import Eeprom24C32
+from openppmc.model.pmc006.part import Pmc006
 
 from .frames import command, number, of_reply
 from .i2c_bus import I2cBus

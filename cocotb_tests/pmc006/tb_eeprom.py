@@ -10,7 +10,7 @@ from typing import Any
 import cocotb
 from cocotb.triggers import Timer
 
-from openppmc.model.eeprom24c32 import Eeprom24C32
+from openppmc.model.carrier.eeprom import Eeprom24C32
 
 WRITE_CLK, CLK_HZ = 900, 1_000_000
 Levels = tuple[int, int]

@@ -1,4 +1,4 @@
-"""tb/pmc006/eeprom_24c32.sv against openppmc/model/eeprom24c32.py, and the Python device by itself."""
+"""tb/pmc006/eeprom_24c32.sv against openppmc/model/carrier/eeprom.py, and the Python device by itself."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from cocotb_tests.common.collect import Item, cocotb_items
 from cocotb_tests.common.part import Part
 from cocotb_tests.common.paths import ROOT
 from cocotb_tests.common.runner import Design, SimOptions, run_item
-from openppmc.model.eeprom24c32 import Eeprom24C32
+from openppmc.model.carrier.eeprom import Eeprom24C32
 
 from .tb_eeprom import WRITE_CLK
 

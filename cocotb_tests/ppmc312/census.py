@@ -12,13 +12,13 @@ from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
-from openppmc.model.codes312 import Answer, Cause, Source
-from openppmc.model.motion312 import Order
-from openppmc.model.operation312 import Operation
-from openppmc.model.overrides312 import Fifo, Triggered
-from openppmc.model.ppmc312 import Ppmc312
-from openppmc.model.responses312 import ENCODE, POSITION, Responses
-from openppmc.model.sequence312 import Sequence
+from openppmc.model.ppmc312.codes import Answer, Cause, Source
+from openppmc.model.ppmc312.front.responses import ENCODE, POSITION, Responses
+from openppmc.model.ppmc312.instructions.overrides import Fifo, Triggered
+from openppmc.model.ppmc312.motion.motion import Order
+from openppmc.model.ppmc312.motion.operation import Operation
+from openppmc.model.ppmc312.motion.sequence import Sequence
+from openppmc.model.ppmc312.part import Ppmc312
 
 SLICE = 500
 """clk between two looks at the state."""

@@ -11,10 +11,10 @@ from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
-from openppmc.model.codes312 import Source
-from openppmc.model.frames312 import SPECIFIC, Frame
-from openppmc.model.ppmc312 import Ppmc312
-from openppmc.model.station312 import Station
+from openppmc.model.ppmc312.codes import Source
+from openppmc.model.ppmc312.front.frames import SPECIFIC, Frame
+from openppmc.model.ppmc312.front.station import Station
+from openppmc.model.ppmc312.part import Ppmc312
 
 LEAST: dict[str, int] = {
     "FF HOST": 40,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import random
 
 from cocotb_tests.common.config import Config
-from openppmc.model.codes312 import State
-from openppmc.model.parts312 import HOST_PINS, INPUTS, WIDTHS
+from openppmc.model.ppmc312.codes import State
+from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
 from .host312 import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host312
 from .random_host import host_of

@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from cocotb_tests.common.background import Background
 from cocotb_tests.common.config import D16, F16, Config
-from openppmc.model.codes312 import State
-from openppmc.model.serial312 import LENGTHS
+from openppmc.model.ppmc312.codes import State
+from openppmc.model.ppmc312.front.serial import LENGTHS
 
 from .modules import CHARS, F8V, F27X12
 from .serial312 import SILENCE, Serial312, summed

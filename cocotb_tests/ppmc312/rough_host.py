@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from cocotb_tests.common.background import Background
 from cocotb_tests.common.config import Config
-from openppmc.model.codes312 import LENGTHS, State
+from openppmc.model.ppmc312.codes import LENGTHS, State
 
 from .host312 import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host312
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from openppmc.model.codes312 import State
-from openppmc.model.plan312 import ramped
+from openppmc.model.ppmc312.codes import State
+from openppmc.model.ppmc312.stages.plan import ramped
 
 from .host312 import CSR, DRR, MREF, MWEF, RAR
 from .rough_host import Player, some_equal

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc312.host312 import T3, TF, Host312, clean
-from openppmc.model.parts312 import INPUTS, OUTPUTS, WIDTHS
+from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
 """Rates 4, 400 and 800 at 8 MHz: 8, 800 and 1600 clk."""

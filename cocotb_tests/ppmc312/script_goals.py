@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import ceil
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.tables312 import build
+from openppmc.model.ppmc312.stages.tables import build
 
 from .host312 import T1, Host312
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.common import script
-from openppmc.model.ppmc312 import Ppmc312
+from openppmc.model.ppmc312.part import Ppmc312
 
 TICK = 16
 """clk of a tick at F = 1 MHz and a clock of 16 MHz."""

@@ -9,9 +9,9 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable
 
-from openppmc.model.codes312 import State
-from openppmc.model.ppmc312 import Ppmc312
-from openppmc.model.serial312 import LENGTHS
+from openppmc.model.ppmc312.codes import State
+from openppmc.model.ppmc312.front.serial import LENGTHS
+from openppmc.model.ppmc312.part import Ppmc312
 
 from .serial312 import SILENCE, summed
 

@@ -9,7 +9,7 @@ from cocotb_tests.common.bench import Bench
 from cocotb_tests.common.compare import Comparison, compare_recording, write_report
 from cocotb_tests.common.part import PPMC312
 from cocotb_tests.common.stimulus import Change, Edge, Recording, by_signal
-from openppmc.model.ppmc312 import Ppmc312
+from openppmc.model.ppmc312.part import Ppmc312
 
 from .models import heard, straps
 from .setting import ALL, LINE, OUTPUTS, SINGLE, STATIONS

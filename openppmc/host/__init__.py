@@ -10,12 +10,10 @@
 `frames`, `script`, `session`, `units`, `ending`, `registers104` are pure; `transport` and `loopback` do I/O.
 """
 
-from .ascii312 import SumMode
-from .axis import CCW, CW, Axis
-from .axis006 import BACKWARD, FORWARD
-from .axis2104 import Axis2104
-from .ending import Cause, End
-from .errors import (
+from .axis.axis import CCW, CW, Axis
+from .axis.motion import Motion, Progress
+from .basis.ending import Cause, End
+from .basis.errors import (
     AlarmStop,
     AlreadyDecelerating,
     BadRamp,
@@ -47,19 +45,21 @@ from .errors import (
     UnknownCode,
     WrongDevice,
 )
-from .kinds import BOARD_CLOCK
-from .link import Link
-from .motion import Motion, Progress
-from .parts import AnyPart, open_part
-from .pmc006 import Pmc006
-from .pmc006_bus import Pmc006Bus
-from .ppmc104 import Ppmc104
-from .ppmc312 import Ppmc312
-from .ppmc312_bus import Ppmc312Bus
-from .ppmc2104 import Ppmc2104
-from .station312 import Station312
-from .stmc import Stmc
-from .transport import open_port, serial_ports
+from .basis.kind import BOARD_CLOCK
+from .bridge.link import Link
+from .opening import AnyPart, open_part
+from .pmc006.axis import BACKWARD, FORWARD
+from .pmc006.bus import Pmc006Bus
+from .pmc006.driver import Pmc006
+from .ports.transport import open_port, serial_ports
+from .ppmc104.driver import Ppmc104
+from .ppmc312.driver import Ppmc312
+from .ppmc312.line.ascii import SumMode
+from .ppmc312.line.bus import Ppmc312Bus
+from .ppmc312.line.station import Station312
+from .ppmc2104.axis import Axis2104
+from .ppmc2104.driver import Ppmc2104
+from .stmc.driver import Stmc
 
 __all__ = [
     "BACKWARD",

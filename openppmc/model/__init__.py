@@ -6,15 +6,15 @@ plots. Modules with a part's number or "stmc" in their name hold what is special
 part of the family.
 """
 
-from .edges import Edge
-from .j105_stmc import J105Stmc
-from .pmc006 import Pmc006
-from .ppmc104 import Ppmc104
-from .ppmc312 import Ppmc312
-from .ppmc2104 import Ppmc2104
-from .predict import Move, predict_move
-from .stmc import Stmc
-from .timebase import Latency, Timebase
+from .common.edges import Edge
+from .common.timebase import Latency, Timebase
+from .pmc006.part import Pmc006
+from .ppmc104.part import Ppmc104
+from .ppmc312.part import Ppmc312
+from .ppmc2104.part import Ppmc2104
+from .single.predict import Move, predict_move
+from .stmc.part import Stmc
+from .stmc.pc104_board import J105Stmc
 
 __all__ = [
     "Edge",

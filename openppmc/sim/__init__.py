@@ -6,11 +6,11 @@
 It is built from a checkout of the project; docs/virtual_board.md has the words of the text.
 """
 
-from .board import AxisStatus, SimBoard, Status, start
-from .build import SimError
-from .line_child import LineStatus, SimLine, start_line
-from .lines import part_of
-from .spec import KNOWN, Spec, SpecError, parse_spec
+from .common.board import AxisStatus, SimBoard, Status, start
+from .common.build import SimError
+from .common.line_child import LineStatus, SimLine, start_line
+from .common.lines import part_of
+from .common.spec import KNOWN, Spec, SpecError, parse_spec
 
 __all__ = [
     "KNOWN",

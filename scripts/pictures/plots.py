@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from openppmc.model.ramp import Ramp, index_profile
+from openppmc.model.motion.ramp import Ramp, index_profile
 
 # Everything that would make two runs differ is fixed: ids, date, fonts as outlines.
 STYLE = {

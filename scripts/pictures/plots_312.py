@@ -9,9 +9,9 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
 from cocotb_tests.ppmc312.host312 import TF, Host312
-from openppmc.model.curve312 import curve
-from openppmc.model.plan312 import ramped
-from openppmc.model.tables312 import LAST, Table, build
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import ramped
+from openppmc.model.ppmc312.stages.tables import LAST, Table, build
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 F_HZ = 1_000_000

@@ -9,7 +9,7 @@ from itertools import accumulate
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from openppmc.model.commands_stmc import profile
+from openppmc.model.stmc.commands import profile
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, exact_period, svg
 from scripts.pictures.stmc_bench import little
 from scripts.pictures.tables_stmc import BOARD_HZ, CASES, INTERNAL_HZ, LONG_RAMP, STANDARD, Case, play

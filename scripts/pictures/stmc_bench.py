@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from openppmc.model.stmc import Stmc
+from openppmc.model.stmc.part import Stmc
 
 CLK_HZ = 16_000_000
 TICK = 1280  # clk of a tick of the internal 12.5 kHz

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from cocotb_tests.ppmc312.host312 import CSR, T1, T2, T3, Host312
-from openppmc.model.curve312 import curve
-from openppmc.model.plan312 import Step, constant, ramped
-from openppmc.model.tables312 import Table, build
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import Step, constant, ramped
+from openppmc.model.ppmc312.stages.tables import Table, build
 
 F_HZ = 1_000_000
 HEAD, TAIL = 6, 6

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
 
-from openppmc.model.commands_stmc import profile
+from openppmc.model.stmc.commands import profile
 from scripts.pictures.stmc_bench import CLK_HZ, Bench, Outcome, little
 
 INTERNAL_HZ, BOARD_HZ = 12_500, 48_675

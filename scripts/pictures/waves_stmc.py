@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from openppmc.model import j105_stmc
-from openppmc.model.j105_stmc import J105Stmc
+from openppmc.model.stmc import pc104_board
+from openppmc.model.stmc.pc104_board import J105Stmc
 from scripts.pictures.recorded import (
     Levels,
     Row,
@@ -264,7 +264,7 @@ def isa() -> Drawing:
         (first + 25, {"sa": 0x155}),
     ]
     columns = [first - 1 + n for n in range(29)]
-    samples = record(board, j105_stmc.INPUTS, schedule, columns)
+    samples = record(board, pc104_board.INPUTS, schedule, columns)
     rows = (
         Row("sa, aen = 0", addressed, "{:X}h".format, host=True),
         Row("iow_n", "iow_n", host=True),

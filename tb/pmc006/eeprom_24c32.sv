@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // eeprom_24c32: serial EEPROM of the 24C32 class for benches: 4096 bytes, pages of 32, write time, acknowledge polling.
-// Rules:  the same device as openppmc/model/eeprom24c32.py; a test compares both.
+// Rules:  the same device as openppmc/model/carrier/eeprom.py; a test compares both.
 // Timing: both lines are looked at on every clk edge; what the device pulls changes on the same edge.
 `default_nettype none
 

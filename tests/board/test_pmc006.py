@@ -13,9 +13,9 @@ import pytest
 import serial
 
 from openppmc.host import BACKWARD, FORWARD, Disconnected, LimitReached, Pmc006, Pmc006Bus, PortError
-from openppmc.host.errors_line import StationSilent
-from openppmc.host.wire006 import command, reply
-from openppmc.program006 import assemble
+from openppmc.host.line.errors import StationSilent
+from openppmc.host.pmc006.wire import command, reply
+from openppmc.model.pmc006.program import assemble
 from openppmc.sim import SimError, SimLine, SpecError, start_line
 
 from .conftest import ROOT, CommandLine, Wait, one_line

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.host import CCW, CW, Cause, LimitReached, Ppmc312, StoppedEarly, blocks312
-from openppmc.host.answers312 import EncoderChange, Executed, InPositionChange
-from openppmc.model.codes312 import Code, Source
-from openppmc.model.predict312 import predict_table
-from openppmc.model.timebase import Timebase
+from openppmc.host import CCW, CW, Cause, LimitReached, Ppmc312, StoppedEarly
+from openppmc.host.ppmc312 import blocks
+from openppmc.host.ppmc312.answers import EncoderChange, Executed, InPositionChange
+from openppmc.model.common.timebase import Timebase
+from openppmc.model.ppmc312.codes import Code, Source
+from openppmc.model.ppmc312.predict import predict_table
 
 from .conftest import CommandLine, StartBoard
 
@@ -85,7 +86,7 @@ def test_overrides_and_events(start_board: StartBoard) -> None:
         assert part.position == 8000 and board.status().position == 12_000
         done = [part.next_report(), part.next_report()]
         assert done == [Executed(Source.OVERRIDE, code) for code in (Code.RAMP_CHANGE, Code.STOP)]
-        part.event_add(2, blocks312.single_step(CW))
+        part.event_add(2, blocks.single_step(CW))
         part.pulse_event(2)
         assert part.next_report(1) == Executed(Source.EVENT, Code.STEP)
         part.allow_run(False)

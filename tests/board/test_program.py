@@ -14,7 +14,7 @@ import pytest
 
 from openppmc import sim
 from openppmc.host import Ppmc104
-from openppmc.sim.build import find_root
+from openppmc.sim.common.build import find_root
 
 from .conftest import PATIENCE, ROOT, SETUP, StartBoard, Wait
 

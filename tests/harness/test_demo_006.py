@@ -8,8 +8,8 @@ import pytest
 
 from cocotb_tests.common.stimulus import Access
 from cocotb_tests.demo.story_006 import FINE, MOVES, PROGRAM
-from openppmc.model.frames006 import command, reply
-from openppmc.program006 import assemble
+from openppmc.model.pmc006.front.frames import command, reply
+from openppmc.model.pmc006.program import assemble
 from scripts.demo.__main__ import chosen
 from scripts.demo.picture006 import way
 from scripts.demo.words006 import Words006

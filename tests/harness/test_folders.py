@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.sim import verilator
+from openppmc.sim.common import verilator
 from scripts import bootstrap
 from scripts.project import ROOT
 

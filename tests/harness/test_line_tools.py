@@ -10,7 +10,7 @@ from cocotb_tests.ppmc312_line.master import Master, NoFrameError, Reply, at_onc
 from cocotb_tests.ppmc312_line.models import ModelLine, heard
 from cocotb_tests.ppmc312_line.setting import ALL, LINE, STATIONS
 from cocotb_tests.ppmc312_line.wave import merged, wave
-from openppmc.model.frames312 import frame
+from openppmc.model.ppmc312.front.frames import frame
 from scripts import bench_line, soak_line
 from scripts.demo.__main__ import chosen, part_of
 from scripts.demo.talk312 import exchanges

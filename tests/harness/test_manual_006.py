@@ -7,9 +7,9 @@ import re
 import pytest
 
 from cocotb_tests.pmc006.script_host import Host006
-from openppmc.model.codes006 import LETTERS
-from openppmc.model.frames006 import command, reply
-from openppmc.program006 import assemble
+from openppmc.model.pmc006.codes import LETTERS
+from openppmc.model.pmc006.front.frames import command, reply
+from openppmc.model.pmc006.program import assemble
 from tests.harness.test_manual_312 import DOCS, chapters
 
 TEXT = (DOCS / "pmc006.md").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ import pytest
 
 from cocotb_tests.common.paths import ROOT
 from cocotb_tests.ppmc312.host312 import Host312, clean
-from openppmc.model.codes312 import LENGTHS, OVERRIDABLE, Code, State, accepts
+from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 
 DOCS = ROOT / "docs"
 PAGE = DOCS / "ppmc312_examples.md"

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from cocotb_tests.ppmc312.serial312 import SPEEDS, Serial312, clean, summed
-from openppmc.model.serial312 import END_CODES, LENGTHS
+from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.harness.test_manual_312 import DOCS, Player, chapters
 
 PAGE = DOCS / "ppmc312_serial.md"

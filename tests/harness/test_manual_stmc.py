@@ -12,7 +12,7 @@ import pytest
 
 from cocotb_tests.common.paths import ROOT
 from cocotb_tests.common.sessions import Sessions, Step
-from openppmc.model.j105_stmc import J105Stmc
+from openppmc.model.stmc.pc104_board import J105Stmc
 
 EXAMPLES = Sessions("stmc", brief=())
 REPLACE = ROOT / "docs" / "stmc_replace.md"

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
 
 from openppmc.host import Pmc006, Pmc006Bus
-from openppmc.host.wire006 import reply
-from openppmc.sim.node006 import Node006
+from openppmc.host.pmc006.wire import reply
+from openppmc.sim.pmc006.node import Node006
 
 CUT_FRAME, CUT_REPLY, DOUBLE_REPLY = "cut frame", "cut reply", "double reply"
 MERGED_REPLY, CHANGED_REPLY, LATE_REPLY = "merged reply", "changed reply", "late reply"

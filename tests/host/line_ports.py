@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from openppmc.host import Ppmc312Bus
-from openppmc.host.line_loopback import ModelLine
+from openppmc.host.line.loopback import ModelLine
 
 LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "break reply", "break frame"
 BAUD = 38_400

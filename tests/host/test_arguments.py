@@ -23,9 +23,9 @@ from openppmc.host import (
     Ppmc2104,
     PpmcError,
     Stmc,
-    arguments,
 )
-from openppmc.host.arguments import exact, flag, whole, within
+from openppmc.host.basis import arguments
+from openppmc.host.basis.arguments import exact, flag, whole, within
 
 FAST = "model:speed=max"
 BRIDGED = {"ppmc104": Ppmc104, "ppmc2104": Ppmc2104, "stmc": Stmc, "ppmc312": Ppmc312}

@@ -8,27 +8,19 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.host import (
-    CCW,
-    CW,
-    OutOfRange,
-    answers312,
-    blocks312,
-    errors312,
-    free312,
-    profile312,
-    registers312,
-)
-from openppmc.host.answers312 import BadResponse, Response
-from openppmc.host.blocks312 import Trigger
-from openppmc.host.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
-from openppmc.host.free312 import plan_curve, read_stages
-from openppmc.host.kinds import PPMC312
-from openppmc.host.profile312 import base_clocks, plan_setup
-from openppmc.host.registers312 import EventBuffer, Inputs312, Status312
+from openppmc.host import CCW, CW, OutOfRange
+from openppmc.host.basis.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
+from openppmc.host.basis.kind import PPMC312
+from openppmc.host.ppmc312 import answers, errors, free, profile, registers
+from openppmc.host.ppmc312 import blocks as blocks312
+from openppmc.host.ppmc312.answers import BadResponse, Response
+from openppmc.host.ppmc312.blocks import Trigger
+from openppmc.host.ppmc312.free import plan_curve, read_stages
+from openppmc.host.ppmc312.profile import base_clocks, plan_setup
+from openppmc.host.ppmc312.registers import EventBuffer, Inputs312, Status312
 from openppmc.model import Timebase, predict_move
-from openppmc.model.codes312 import Cause, State
-from openppmc.model.predict312 import Move312
+from openppmc.model.ppmc312.codes import Cause, State
+from openppmc.model.ppmc312.predict import Move312
 
 XTAL = 16_000_000
 MEGAHERTZ = base_clocks(XTAL)[1]
@@ -37,11 +29,11 @@ MEGAHERTZ = base_clocks(XTAL)[1]
 def test_examples_in_the_docstrings() -> None:
     for module, least in (
         (blocks312, 20),
-        (answers312, 4),
-        (errors312, 3),
-        (profile312, 4),
-        (free312, 2),
-        (registers312, 2),
+        (answers, 4),
+        (errors, 3),
+        (profile, 4),
+        (free, 2),
+        (registers, 2),
     ):
         failed, attempted = doctest.testmod(module)
         assert not failed and attempted >= least, module
@@ -146,22 +138,22 @@ REFUSALS = [
     ("03 03 F1 00 01", NotInitialised, "no table"),
     ("03 03 F1 00 04", NotWhileBusy, "busy"),
     ("03 03 F1 00 08", NotWhileBusy, "busy"),
-    ("03 03 F1 00 10", errors312.InAlarm, "in alarm"),
-    ("03 03 F1 00 20", errors312.HeldByRun, "RUN"),
-    ("03 03 F1 01 02", errors312.OutOfTurn, "did not expect"),
-    ("03 03 F1 02 01", errors312.OutOfTurn, "did not expect"),
+    ("03 03 F1 00 10", errors.InAlarm, "in alarm"),
+    ("03 03 F1 00 20", errors.HeldByRun, "RUN"),
+    ("03 03 F1 01 02", errors.OutOfTurn, "did not expect"),
+    ("03 03 F1 02 01", errors.OutOfTurn, "did not expect"),
     ("03 01 F2", StartRefused, "limit switch"),
     ("03 02 F5 46", UnknownCode, "does not know"),
-    ("03 02 F6 09", errors312.BadBlock, "length"),
-    ("03 02 F7 00", errors312.RegistrationRefused, "eight"),
-    ("03 02 F7 01", errors312.RegistrationRefused, "in use"),
-    ("0B 02 F8 02", errors312.EventFailed, "limit switch"),
-    ("1B 02 F9 00", errors312.OverrideFailed, "parameter"),
-    ("1B 02 F9 01", errors312.OverrideFailed, "state"),
-    ("23 02 F4 00", errors312.AlarmRaised, "alarm input"),
-    ("23 02 F4 01", errors312.AlarmRaised, "unread answer"),
-    ("23 02 F4 02", errors312.AlarmRaised, "interlock or RUN"),
-    ("23 02 F4 03", errors312.AlarmRaised, "stop report"),
+    ("03 02 F6 09", errors.BadBlock, "length"),
+    ("03 02 F7 00", errors.RegistrationRefused, "eight"),
+    ("03 02 F7 01", errors.RegistrationRefused, "in use"),
+    ("0B 02 F8 02", errors.EventFailed, "limit switch"),
+    ("1B 02 F9 00", errors.OverrideFailed, "parameter"),
+    ("1B 02 F9 01", errors.OverrideFailed, "state"),
+    ("23 02 F4 00", errors.AlarmRaised, "alarm input"),
+    ("23 02 F4 01", errors.AlarmRaised, "unread answer"),
+    ("23 02 F4 02", errors.AlarmRaised, "interlock or RUN"),
+    ("23 02 F4 03", errors.AlarmRaised, "stop report"),
 ]
 NUMBERS = [
     *(0x00, 0x01, 0x02, 0x03, 0x04, 0x05),
@@ -181,20 +173,20 @@ def test_parameter_refusals_have_names_and_lines_of_their_own() -> None:
     texts = set()
     for number in NUMBERS:
         error = Response(bytes([3, 10, 0xF0, number, 0x82, 0, 0, 0, 0, 0, 0, 0])).error
-        assert isinstance(error, errors312.ParameterRefused)
+        assert isinstance(error, errors.ParameterRefused)
         assert error.number == number and error.echo == bytes([0x82, 0, 0, 0, 0, 0, 0, 0])
         assert "error " not in str(error)
         texts.add(str(error))
         wanted = {
-            0x00: errors312.ParameterRefused,
-            0x01: errors312.RateRefused,
-            0x20: errors312.RateRefused,
+            0x00: errors.ParameterRefused,
+            0x01: errors.RateRefused,
+            0x20: errors.RateRefused,
         }.get(number)
         if 0x02 <= number <= 0x05:
-            wanted = errors312.TableRefused
+            wanted = errors.TableRefused
         elif 0x10 <= number <= 0x1A:
-            wanted = errors312.CurveRefused
-        assert type(error) is (wanted or errors312.ParameterRefused)
+            wanted = errors.CurveRefused
+        assert type(error) is (wanted or errors.ParameterRefused)
     assert len(texts) == len(NUMBERS)
     assert "error 55" in str(Response(bytes([3, 3, 0xF0, 0x55, 0x40])).error)
 
@@ -202,15 +194,15 @@ def test_parameter_refusals_have_names_and_lines_of_their_own() -> None:
 @pytest.mark.parametrize(
     ("response", "wanted"),
     [
-        ("23 06 E0 08 FF FF FF F9", answers312.Stopped(Cause.SLOW, -7)),
-        ("23 01 E1", answers312.InterlockEnded()),
-        ("23 01 E2", answers312.HoldExecuted()),
-        ("23 02 E3 01", answers312.EncoderChange(True)),
-        ("23 02 E4 00", answers312.InPositionChange(False)),
-        ("23 03 E9 01 24", answers312.InputChange(0x24, True)),
-        ("23 02 F4 03", answers312.Alarm(3)),
-        ("0B 02 25 FF", answers312.Executed(answers312.Source.EVENT, 0x25, b"\xff")),
-        ("1B 01 88", answers312.Executed(answers312.Source.OVERRIDE, 0x88)),
+        ("23 06 E0 08 FF FF FF F9", answers.Stopped(Cause.SLOW, -7)),
+        ("23 01 E1", answers.InterlockEnded()),
+        ("23 01 E2", answers.HoldExecuted()),
+        ("23 02 E3 01", answers.EncoderChange(True)),
+        ("23 02 E4 00", answers.InPositionChange(False)),
+        ("23 03 E9 01 24", answers.InputChange(0x24, True)),
+        ("23 02 F4 03", answers.Alarm(3)),
+        ("0B 02 25 FF", answers.Executed(answers.Source.EVENT, 0x25, b"\xff")),
+        ("1B 01 88", answers.Executed(answers.Source.OVERRIDE, 0x88)),
     ],
 )
 def test_reports(response: str, wanted: object) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from openppmc.model.board104 import Board104
-from openppmc.model.bridge import Bridge
-from openppmc.model.bridge_line import frame
-from openppmc.model.plant import Plant
+from openppmc.model.carrier.bridge import Bridge
+from openppmc.model.carrier.bridge_line import frame
+from openppmc.model.carrier.plant import Plant
+from openppmc.model.ppmc104.carrier import Board104
 
 NAK = {code: frame(bytes([0x81, code])) for code in range(1, 9)}
 

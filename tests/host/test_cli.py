@@ -14,10 +14,10 @@ import pytest
 from command_line import Run
 
 from openppmc.cli import main
-from openppmc.cli.guard import Guard
-from openppmc.cli.options import SetupValues
-from openppmc.cli.program import ScriptError, read_program
-from openppmc.cli.state import recall, remember, state_folder
+from openppmc.cli.common.guard import Guard
+from openppmc.cli.common.options import SetupValues
+from openppmc.cli.common.program import ScriptError, read_program
+from openppmc.cli.common.state import recall, remember, state_folder
 from openppmc.host import Ppmc104, PpmcError
 
 FAST = PORT = "model:speed=max"
@@ -152,7 +152,7 @@ def test_a_fault_of_the_program_is_one_line_too(run: Run, monkeypatch: pytest.Mo
     def broken(*_: object) -> None:
         raise ZeroDivisionError("oops")
 
-    monkeypatch.setattr("openppmc.cli.app.serial_ports", broken)
+    monkeypatch.setattr("openppmc.cli.common.app.serial_ports", broken)
     outcome = run("ports")
     assert outcome.code == 1
     assert outcome.err == (

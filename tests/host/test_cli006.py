@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from command_line import Run
 
-from openppmc.host.motion006 import Motion006
-from openppmc.program006 import Program, assemble
+from openppmc.host.pmc006.motion import Motion006
+from openppmc.model.pmc006.program import Program, assemble
 
 PORT = "model:speed=max,address=1..2,low=3900,high=4300"
 PART = ("--part", "pmc006")
@@ -94,10 +94,11 @@ def test_motions(run: Run) -> None:
 
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """All commands talk to the same line, as with a real one."""
-    from openppmc.host import Pmc006Bus, line_loopback
-    from openppmc.host.line006 import Line006
+    from openppmc.host import Pmc006Bus
+    from openppmc.host.line import loopback
+    from openppmc.host.pmc006.line import Line006
 
-    port = line_loopback.ModelLine("speed=max,address=1", 9600, "pmc006")
+    port = loopback.ModelLine("speed=max,address=1", 9600, "pmc006")
     port.close = lambda: None  # type: ignore[method-assign]
     monkeypatch.setattr(Pmc006Bus, "open", lambda spec, **options: Pmc006Bus(Line006(port)))
     part = port.line.boards[0].part

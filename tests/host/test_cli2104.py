@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from command_line import Run
 
-from openppmc.cli.guard import Guard
-from openppmc.cli.state import recall, remember
+from openppmc.cli.common.guard import Guard
+from openppmc.cli.common.state import recall, remember
 from openppmc.host import CW, Ppmc2104
 
 TWO = PORT = "model:speed=max,part=ppmc2104"
@@ -243,7 +243,7 @@ def test_stop_what_another_program_left(run: Run, monkeypatch: pytest.MonkeyPatc
         part.x.jog(CW, high=True)
         part.y.jog(CW, 1000)
         again = Ppmc2104.on(part.link)
-        monkeypatch.setattr("openppmc.cli.session.open_part", lambda *words: again)
+        monkeypatch.setattr("openppmc.cli.common.session.open_part", lambda *words: again)
         monkeypatch.setattr(again.link, "close", lambda: None)
         outcome = run("stop")
         assert (

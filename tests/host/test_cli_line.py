@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 from command_line import Run
 
-from openppmc.cli.bus_session import line_options, parse_stations
-from openppmc.cli.state import lasting, recall
-from openppmc.host.ascii312 import SumMode
+from openppmc.cli.common.state import lasting, recall
+from openppmc.cli.ppmc312.line.session import line_options, parse_stations
+from openppmc.host.ppmc312.line.ascii import SumMode
 
 PORT = "model:speed=max,stations=3"
 PART = ("--part", "ppmc312-serial")

@@ -24,16 +24,13 @@ from openppmc.host import (
     PortError,
     StoppedEarly,
     Timeout,
-    codes006,
-    errors006,
-    settings006,
-    wire006,
 )
-from openppmc.host.errors006 import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
-from openppmc.host.errors_line import DuplicateAddress, StationSilent
-from openppmc.host.settings006 import SETTINGS, drive_current, setting
-from openppmc.model.settings006 import LEGAL, PLACES
-from openppmc.program006 import Instruction, Program, assemble
+from openppmc.host.line.errors import DuplicateAddress, StationSilent
+from openppmc.host.pmc006 import codes, errors, settings, wire
+from openppmc.host.pmc006.errors import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
+from openppmc.host.pmc006.settings import SETTINGS, drive_current, setting
+from openppmc.model.pmc006.program import Instruction, Program, assemble
+from openppmc.model.pmc006.settings import LEGAL, PLACES
 
 FACTORY = {
     "microsteps": 16,
@@ -118,7 +115,7 @@ def test_full_steps_are_called_1(motor: tuple[Spoiled006, Pmc006]) -> None:
     with pytest.raises(OutOfRange, match=r"^microsteps 0: there are 1, 2, 4, .*, 128; 1 is the full step$"):
         part.microsteps = 0
     part.microsteps = 1
-    assert part.microsteps == 1 and part.ask(codes006.Code.READ_MICROSTEPS) == 0
+    assert part.microsteps == 1 and part.ask(codes.Code.READ_MICROSTEPS) == 0
 
 
 def test_settings_explain_themselves() -> None:
@@ -140,8 +137,8 @@ def test_settings_explain_themselves() -> None:
 def test_a_value_that_the_part_refuses_is_told(motor: tuple[Spoiled006, Pmc006]) -> None:
     """Other builds may have other ranges: the reply decides."""
     _, part = motor
-    node = settings006.SETTINGS["current"]
-    odd = settings006.Setting(node.write, node.read, range(10_000), "0 to 9999", "")
+    node = settings.SETTINGS["current"]
+    odd = settings.Setting(node.write, node.read, range(10_000), "0 to 9999", "")
     object.__setattr__(odd, "name", "current")
     with pytest.raises(SettingRefused, match="current 4321 was refused: it is 800"):
         odd.__set__(part, 4321)
@@ -150,10 +147,10 @@ def test_a_value_that_the_part_refuses_is_told(motor: tuple[Spoiled006, Pmc006])
 def test_read_outs(motor: tuple[Spoiled006, Pmc006]) -> None:
     port, part = motor
     assert part.version() == "V0.1.35" and part.where.endswith("controller 255") and part.who == ""
-    assert part.flags() == codes006.Flags(False, False, False, True, False)
-    assert part.modes() == codes006.Modes(False, False, False, False, True, False)
+    assert part.flags() == codes.Flags(False, False, False, True, False)
+    assert part.modes() == codes.Modes(False, False, False, False, True, False)
     port.node().set_pins(gpi=0b10001)
-    assert part.ports() == codes006.Ports(0b10001, 0, True, True)
+    assert part.ports() == codes.Ports(0b10001, 0, True, True)
     part.outputs = 0b01010
     part.set_output(1, True)
     part.set_output(4, False)
@@ -348,7 +345,7 @@ def test_homing_on_ext2_and_wrong_ways(motor: tuple[Spoiled006, Pmc006]) -> None
 
 def test_homing_with_a_dead_switch(motor: tuple[Spoiled006, Pmc006], monkeypatch: pytest.MonkeyPatch) -> None:
     _, part = motor
-    monkeypatch.setattr("openppmc.host.homing006.LONGEST_WAY_OFF", 200)
+    monkeypatch.setattr("openppmc.host.pmc006.homing.LONGEST_WAY_OFF", 200)
     monkeypatch.setattr(Pmc006, "on_switch", lambda self, number: True)
     with pytest.raises(OriginNotFound, match="EXT1 is still active 300 steps away"):
         part.home(1, off=100, slow=2000)
@@ -510,7 +507,7 @@ def test_wrong_options(options: dict[str, object], error: type[Exception], text:
         Pmc006Bus.open(**{"spec": "model:", **options})  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("module", [codes006, errors006, settings006, wire006])
+@pytest.mark.parametrize("module", [codes, errors, settings, wire])
 def test_examples_in_the_code(module: object) -> None:
     failed, attempted = doctest.testmod(module)  # type: ignore[arg-type]
     assert attempted and not failed

@@ -24,9 +24,10 @@ from openppmc.host import (
     Ppmc312Bus,
     StoppedEarly,
     Timeout,
-    blocks312,
 )
-from openppmc.host.answers312 import (
+from openppmc.host.basis.errors import StartRefused
+from openppmc.host.ppmc312 import blocks
+from openppmc.host.ppmc312.answers import (
     Alarm,
     EncoderChange,
     Executed,
@@ -37,9 +38,7 @@ from openppmc.host.answers312 import (
     InterlockEnded,
     Stopped,
 )
-from openppmc.host.ascii312 import SumMode
-from openppmc.host.errors import StartRefused
-from openppmc.host.errors312 import (
+from openppmc.host.ppmc312.errors import (
     BadBlock,
     HeldByRun,
     InAlarm,
@@ -47,8 +46,9 @@ from openppmc.host.errors312 import (
     RateRefused,
     RegistrationRefused,
 )
-from openppmc.model.codes312 import Cause as Bit
-from openppmc.model.codes312 import Source, State
+from openppmc.host.ppmc312.line.ascii import SumMode
+from openppmc.model.ppmc312.codes import Cause as Bit
+from openppmc.model.ppmc312.codes import Source, State
 
 FAST = (4000, 8000, 600)
 """Start speed, high speed, ramp: a table whose motions cost the model little."""
@@ -173,14 +173,14 @@ def test_refusals_say_what_they_are() -> None:
     with line(initialised=None) as bus:
         axis = bus.axis(0)
         with pytest.raises(NotInitialised, match="station 0: the part has no table"):
-            axis.instruct(blocks312.single_step(CW))
+            axis.instruct(blocks.single_step(CW))
         axis.initialise(*FAST)
         with pytest.raises(RateRefused, match="station 0: the speed is outside"):
-            axis.instruct(blocks312.run(CW, 20))
+            axis.instruct(blocks.run(CW, 20))
         with pytest.raises(ParameterRefused, match="station 0: the part refuses a value"):
-            axis.instruct(blocks312.block(0x06, b"\x02"))
+            axis.instruct(blocks.block(0x06, b"\x02"))
         with pytest.raises(BadBlock, match="up to 10 bytes"):
-            axis.instruct(blocks312.event_register(1, bytes.fromhex("030984000000000000")))
+            axis.instruct(blocks.event_register(1, bytes.fromhex("030984000000000000")))
         assert axis.error_code() == 0x48 and axis.error_code() == 0
         pins(bus, 0, run=0)
         motion = axis.start_move(5)
@@ -238,7 +238,7 @@ def test_events() -> None:
         axis = bus.axis(1)
         assert axis.event_delete(2) is False
         axis.event_add(2, axis.move_block(7))
-        axis.event_add(2, blocks312.single_step(CCW))
+        axis.event_add(2, blocks.single_step(CCW))
         assert axis.status().events == (2,)
         for wanted in (7, 6):
             pins(bus, 1, evt1_n=0)
@@ -247,7 +247,7 @@ def test_events() -> None:
             assert axis.position == wanted
             assert axis.poll() == [Executed(Source.EVENT, None), Stopped(Bit.NORMAL, wanted)]
         assert axis.event_delete(2) and axis.event_delete(2) and not axis.event_delete(2)
-        axis.event_add(1, blocks312.run(CW, 20))
+        axis.event_add(1, blocks.run(CW, 20))
         pins(bus, 1, evt0_n=0)
         (failed,) = axis.poll()
         assert isinstance(failed, Failed) and "station 1: an event's instruction was not" in str(failed.error)

@@ -27,10 +27,13 @@ from openppmc.host import (
     Timeout,
     UnknownCode,
     WrongDevice,
-    blocks312,
     open_part,
 )
-from openppmc.host.answers312 import (
+from openppmc.host.basis.errors import StartRefused
+from openppmc.host.bridge.loopback import ModelPort
+from openppmc.host.bridge.script import Script
+from openppmc.host.ppmc312 import blocks
+from openppmc.host.ppmc312.answers import (
     Alarm,
     EncoderChange,
     Executed,
@@ -41,8 +44,7 @@ from openppmc.host.answers312 import (
     InterlockEnded,
     Stopped,
 )
-from openppmc.host.errors import StartRefused
-from openppmc.host.errors312 import (
+from openppmc.host.ppmc312.errors import (
     BadBlock,
     CurveRefused,
     EventFailed,
@@ -55,13 +57,11 @@ from openppmc.host.errors312 import (
     RegistrationRefused,
     TableRefused,
 )
-from openppmc.host.loopback import ModelPort
-from openppmc.host.registers312 import EventBuffer
-from openppmc.host.script import Script
-from openppmc.model.board312 import Board312
-from openppmc.model.codes312 import Cause as Bit
-from openppmc.model.codes312 import Code, Source, State
-from openppmc.model.plant import parse_machine
+from openppmc.host.ppmc312.registers import EventBuffer
+from openppmc.model.carrier.plant import parse_machine
+from openppmc.model.ppmc312.carrier import Board312
+from openppmc.model.ppmc312.codes import Cause as Bit
+from openppmc.model.ppmc312.codes import Code, Source, State
 
 TF = ((2500, 3), (5000, 4), (10_000, 5))
 """Rates 400, 200, 100 with 3, 4, 5 pulses at 1 MHz (table TF of the rules)."""
@@ -127,7 +127,7 @@ def test_opening_clears_what_others_left() -> None:
     """A read answer, half of it read, and a report; without that the next instruction would be an alarm."""
     port = ModelPort("speed=max,part=ppmc312")
     link = Link(port)
-    block = blocks312.bus_order(blocks312.block(Code.STATUS))
+    block = blocks.bus_order(blocks.block(Code.STATUS))
     script = Script().write(2, 0x20).write(3, 0x20 - len(block)).write_many(5, block)
     link.execute(script.wait(0, 0x04, 0).read_many(7, 2))
     port.board.set_pins(alm_n=0)
@@ -214,14 +214,14 @@ def test_without_a_table() -> None:
 def test_what_the_part_itself_refuses(part: Ppmc312) -> None:
     """Blocks that the driver's own checks would never let out."""
     for block, kind, text in (
-        (blocks312.initial_setting(1, 1000, 1, 2000), RateRefused, "high rate 2 to 65519"),
-        (blocks312.initial_setting(1, 1000, 200, 1142), TableRefused, "3 pulses"),
-        (blocks312.initial_setting(1, 1000, 873, 2000), TableRefused, "too close"),
-        (blocks312.free_curve(1, [100, 200], [5, 4])[0][:3] + b"\x09\x00", CurveRefused, "2 to 127 stages"),
-        (blocks312.block(0x46), UnknownCode, "does not know"),
+        (blocks.initial_setting(1, 1000, 1, 2000), RateRefused, "high rate 2 to 65519"),
+        (blocks.initial_setting(1, 1000, 200, 1142), TableRefused, "3 pulses"),
+        (blocks.initial_setting(1, 1000, 873, 2000), TableRefused, "too close"),
+        (blocks.free_curve(1, [100, 200], [5, 4])[0][:3] + b"\x09\x00", CurveRefused, "2 to 127 stages"),
+        (blocks.block(0x46), UnknownCode, "does not know"),
         (b"\x03\x09\x40", BadBlock, "length"),
         (b"\x07\x01\x40", OutOfTurn, "did not expect"),
-        (blocks312.block(Code.POSITION_READ, b"\x07"), ParameterRefused, "operand"),
+        (blocks.block(Code.POSITION_READ, b"\x07"), ParameterRefused, "operand"),
     ):
         with pytest.raises(kind, match=text):
             part.instruct(block)
@@ -312,7 +312,7 @@ def test_stops_and_changes_of_speed(part: Ppmc312) -> None:
 
 
 def test_a_motion_of_another_program_is_stopped(part: Ppmc312) -> None:
-    part.instruct(blocks312.run(CW, 400), 4)
+    part.instruct(blocks.run(CW, 400), 4)
     end = part.stop()
     assert end is not None and end.pulses is None and end.cause is Cause.STOP
 
@@ -462,7 +462,7 @@ def test_what_an_override_waits_for(part: Ppmc312, how: dict[str, int]) -> None:
 
 
 def test_event_buffers(part: Ppmc312) -> None:
-    part.event_add(1, blocks312.outputs(5))
+    part.event_add(1, blocks.outputs(5))
     part.event_add(1, part.move_block(-30))
     assert part.event_buffer(1) == EventBuffer(0, (Code.OUTPUT, Code.RAMP))
     assert part.status().events == (1,)
@@ -475,19 +475,19 @@ def test_event_buffers(part: Ppmc312) -> None:
     assert part.position == -30
     assert part.event_delete(1) and part.event_delete(1) and not part.event_delete(1)
     for _ in range(4):
-        part.event_add(2, blocks312.single_step(CW))
+        part.event_add(2, blocks.single_step(CW))
     with pytest.raises(RegistrationRefused, match="event buffer 2 is full"):
-        part.event_add(2, blocks312.single_step(CW))
+        part.event_add(2, blocks.single_step(CW))
     with pytest.raises(RegistrationRefused, match="in use by its buffer"):
         part.override_stop(event=2)
     part.override_stop(event=1)
     with pytest.raises(RegistrationRefused, match="event 1 is in use by an override"):
-        part.event_add(1, blocks312.single_step(CW))
+        part.event_add(1, blocks.single_step(CW))
 
 
 def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch: pytest.MonkeyPatch) -> None:
     """An event's step begins and ends just before the start; its answer and its stop report come first."""
-    part.event_add(1, blocks312.single_step(CW))
+    part.event_add(1, blocks.single_step(CW))
     monkeypatch.setattr(part.link, "forget_events", lambda: part.pulse_event(1))
     motion = part.start_constant(200, 2500)
     assert motion.end is None
@@ -497,7 +497,7 @@ def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch:
 
 
 def test_an_event_that_fails(part: Ppmc312) -> None:
-    part.event_add(2, blocks312.single_step(CW))
+    part.event_add(2, blocks.single_step(CW))
     model(part).set_pins(fl_n=0)
     part.pulse_event(2)
     report = part.next_report(0.1)
@@ -623,7 +623,7 @@ def test_datasheet_timing() -> None:
         assert part.move(300).complete
         part.reset()
         part.initialise(sigmoid=True, stop_pps=900)
-        part.event_add(1, blocks312.single_step(CW))
+        part.event_add(1, blocks.single_step(CW))
         part.pulse_event(1)
         part.attend(0.05)
         assert part.position == 1

@@ -29,14 +29,14 @@ from openppmc.host import (
     UnexpectedDataBusy,
     WrongDevice,
     open_part,
-    units,
 )
-from openppmc.host.errors import CommandRefused, refused_stmc
-from openppmc.host.kinds import STMC
-from openppmc.host.loopback import ModelPort
-from openppmc.host.script import Script
-from openppmc.model.board_stmc import BoardStmc
-from openppmc.model.plant import Plant
+from openppmc.host.basis import units
+from openppmc.host.basis.errors import CommandRefused, refused_stmc
+from openppmc.host.basis.kind import STMC
+from openppmc.host.bridge.loopback import ModelPort
+from openppmc.host.bridge.script import Script
+from openppmc.model.carrier.plant import Plant
+from openppmc.model.stmc.carrier import BoardStmc
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]

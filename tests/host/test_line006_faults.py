@@ -25,12 +25,12 @@ from line006_ports import (
 from line_ports import Played
 
 from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc006, Pmc006Bus, PpmcError
-from openppmc.host.codes006 import Flags
-from openppmc.host.errors006 import LockedByExt, ProgramDiffers, ProgramRuns, StorageBusy
-from openppmc.host.errors_line import GarbledReply, LostReply, StationSilent
-from openppmc.host.line006 import Line006
-from openppmc.host.wire006 import Receiver, Reply, command, reply
-from openppmc.program006 import Program, assemble
+from openppmc.host.line.errors import GarbledReply, LostReply, StationSilent
+from openppmc.host.pmc006.codes import Flags
+from openppmc.host.pmc006.errors import LockedByExt, ProgramDiffers, ProgramRuns, StorageBusy
+from openppmc.host.pmc006.line import Line006
+from openppmc.host.pmc006.wire import Receiver, Reply, command, reply
+from openppmc.model.pmc006.program import Program, assemble
 
 
 def quick(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pmc006]:

@@ -7,26 +7,11 @@ from collections.abc import Callable
 import pytest
 from line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Played, once, spoiled
 
-from openppmc.host import (
-    CCW,
-    CW,
-    Cause,
-    Disconnected,
-    Ppmc312Bus,
-    PpmcError,
-    ProtocolError,
-    Station312,
-    blocks312,
-)
-from openppmc.host.answers312 import Alarm
-from openppmc.host.errors import LinkError, NothingToStop, UnknownCode
-from openppmc.host.errors_line import (
-    DuplicateAddress,
-    GarbledReply,
-    LineEcho,
-    LostReply,
-    StationSilent,
-)
+from openppmc.host import CCW, CW, Cause, Disconnected, Ppmc312Bus, PpmcError, ProtocolError, Station312
+from openppmc.host.basis.errors import LinkError, NothingToStop, UnknownCode
+from openppmc.host.line.errors import DuplicateAddress, GarbledReply, LineEcho, LostReply, StationSilent
+from openppmc.host.ppmc312 import blocks
+from openppmc.host.ppmc312.answers import Alarm
 
 FAST = (4000, 8000, 600)
 ANY_FATE = (LOSE_FRAME, LOSE_REPLY, BREAK_FRAME, BREAK_REPLY)
@@ -105,7 +90,7 @@ def test_a_lost_stop_of_a_motion_that_others_started() -> None:
     with bus:
         axis = bus.axis(1)
         axis.initialise(*FAST)
-        axis.instruct(blocks312.run(CW, axis.rate_of(5000)))
+        axis.instruct(blocks.run(CW, axis.rate_of(5000)))
         port.plan = once(0x80, LOSE_REPLY)
         end = axis.halt()
         assert end is not None and end.cause is Cause.STOP and end.position == axis.position > 0
@@ -144,7 +129,7 @@ def test_toggles_and_registrations_happen_once(fate: str) -> None:
         port.plan = once(0x90, fate)
         axis.override_stop(at=500, slow=False)
         port.plan = once(0x49, fate)
-        axis.event_add(1, blocks312.single_step(CW))
+        axis.event_add(1, blocks.single_step(CW))
         status = axis.status()
         assert (status.run_monitored, status.interlock, status.overrides, status.events) == (
             False,
@@ -162,11 +147,11 @@ def test_what_nobody_can_know_is_told() -> None:
     with bus:
         axis = bus.axis(1)
         axis.initialise(*FAST)
-        axis.event_add(1, blocks312.single_step(CW))
+        axis.event_add(1, blocks.single_step(CW))
         port.plan = once(0x49, LOSE_REPLY)
         with pytest.raises(LostReply, match="station 1: the reply .* was lost.*held something before"):
-            axis.event_add(1, blocks312.single_step(CW))
-        axis.event_add(1, blocks312.single_step(CW))
+            axis.event_add(1, blocks.single_step(CW))
+        axis.event_add(1, blocks.single_step(CW))
         port.plan = once(0x69, LOSE_REPLY)
         with pytest.raises(LostReply, match="still holds something"):
             axis.event_delete(1)

@@ -6,8 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host import CCW, CW, OutOfRange, blocks312
-from openppmc.host.ascii312 import (
+from openppmc.host import CCW, CW, OutOfRange
+from openppmc.host.ppmc312 import blocks
+from openppmc.host.ppmc312.blocks import Trigger
+from openppmc.host.ppmc312.line.ascii import (
     DATA,
     INSTRUCTION,
     POLL,
@@ -21,66 +23,72 @@ from openppmc.host.ascii312 import (
     frame,
     station_number,
 )
-from openppmc.host.blocks312 import Trigger
-from openppmc.host.serial312 import DATA_BYTES, END_STATUS, ERROR_CODE, ERROR_COUNTS, line_data, response
-from openppmc.model.codes312 import Code
+from openppmc.host.ppmc312.line.serial import (
+    DATA_BYTES,
+    END_STATUS,
+    ERROR_CODE,
+    ERROR_COUNTS,
+    line_data,
+    response,
+)
+from openppmc.model.ppmc312.codes import Code
 
 # Station 1; the numbers are those of chapter 12, where the first block has its flags from the sheet's T1.
 INSTRUCTIONS = {
     "1 initial T1": (
-        blocks312.initial_setting(1, 1000, 200, 2000),
+        blocks.initial_setting(1, 1000, 200, 2000),
         "91 30 30 30 31 30 33 65 38 30 30 63 38 30 30 30 37 64 30 63",
     ),
-    "3 in-position": (blocks312.in_position(True, 10), "91 30 32 30 31 30 30 30 61 61"),
-    "4 encode": (blocks312.encoder_watch(True, 20), "91 30 33 30 31 30 30 31 34 56"),
-    "5 interlock": (blocks312.interlock_position(5000), "91 30 34 30 30 30 30 31 33 38 38 4F"),
-    "6 speed limit": (blocks312.speed_limit(300), "91 30 35 30 31 32 63 3C"),
-    "7 END": (blocks312.end_terminal(True), "91 30 36 30 31 67"),
-    "8 stop": (blocks312.immediate_stop(), "91 38 30 6E"),
+    "3 in-position": (blocks.in_position(True, 10), "91 30 32 30 31 30 30 30 61 61"),
+    "4 encode": (blocks.encoder_watch(True, 20), "91 30 33 30 31 30 30 31 34 56"),
+    "5 interlock": (blocks.interlock_position(5000), "91 30 34 30 30 30 30 31 33 38 38 4F"),
+    "6 speed limit": (blocks.speed_limit(300), "91 30 35 30 31 32 63 3C"),
+    "7 END": (blocks.end_terminal(True), "91 30 36 30 31 67"),
+    "8 stop": (blocks.immediate_stop(), "91 38 30 6E"),
     "9 stop at": (
-        blocks312.immediate_stop(Trigger.POSITION, 0x1000),
+        blocks.immediate_stop(Trigger.POSITION, 0x1000),
         "91 39 30 30 30 30 30 31 30 30 30 4E",
     ),
-    "10 slow stop on EVT0": (blocks312.slow_stop(Trigger.EVENT1), "91 61 31 4D"),
+    "10 slow stop on EVT0": (blocks.slow_stop(Trigger.EVENT1), "91 61 31 4D"),
     "11 ramp": (
-        blocks312.acceleration(CW, 5000),
+        blocks.acceleration(CW, 5000),
         "91 38 33 30 30 30 30 30 30 30 30 31 33 38 38 50",
     ),
     "12 constant": (
-        blocks312.constant(CCW, 100, 500),
+        blocks.constant(CCW, 100, 500),
         "91 61 34 30 31 66 34 30 30 30 30 30 30 36 34 71",
     ),
-    "13 step": (blocks312.single_step(CCW), "91 61 32 4C"),
-    "14 run": (blocks312.run(CW, ramped=True), "91 38 36 30 30 30 30 68"),
-    "15 run constant": (blocks312.run(CCW, 400), "91 61 35 30 31 39 30 38"),
-    "16 change": (blocks312.change(400), "91 38 39 30 31 39 30 54"),
+    "13 step": (blocks.single_step(CCW), "91 61 32 4C"),
+    "14 run": (blocks.run(CW, ramped=True), "91 38 36 30 30 30 30 68"),
+    "15 run constant": (blocks.run(CCW, 400), "91 61 35 30 31 39 30 38"),
+    "16 change": (blocks.change(400), "91 38 39 30 31 39 30 54"),
     "17 change at": (
-        blocks312.change(300, False, Trigger.POSITION, 0x800),
+        blocks.change(300, False, Trigger.POSITION, 0x800),
         "91 39 61 30 31 32 63 30 30 30 30 30 38 30 30 1F",
     ),
-    "18 search": (blocks312.origin_search(CCW, 500, index=True), "91 62 37 30 31 66 34 42"),
-    "19 zero return": (blocks312.zero_return(CW), "91 38 38 30 30 30 30 66"),
-    "20 input": (blocks312.block(Code.INPUT), "91 32 35 49"),
-    "21 output": (blocks312.outputs(0x15), "91 32 36 31 35 33"),
-    "22 terminals": (blocks312.block(Code.TERMINALS), "91 32 37 47"),
-    "23 mask": (blocks312.input_mask(0x24), "91 32 38 32 34 22"),
-    "24 position": (blocks312.read_position(), "91 34 32 2C"),
+    "18 search": (blocks.origin_search(CCW, 500, index=True), "91 62 37 30 31 66 34 42"),
+    "19 zero return": (blocks.zero_return(CW), "91 38 38 30 30 30 30 66"),
+    "20 input": (blocks.block(Code.INPUT), "91 32 35 49"),
+    "21 output": (blocks.outputs(0x15), "91 32 36 31 35 33"),
+    "22 terminals": (blocks.block(Code.TERMINALS), "91 32 37 47"),
+    "23 mask": (blocks.input_mask(0x24), "91 32 38 32 34 22"),
+    "24 position": (blocks.read_position(), "91 34 32 2C"),
     "25 set encoder": (
-        blocks312.set_position(-1, encoder=True),
+        blocks.set_position(-1, encoder=True),
         "91 36 33 66 66 66 66 66 66 66 66 0F",
     ),
-    "26 interlock": (blocks312.block(Code.INTERLOCK), "91 34 34 2A"),
-    "27 monitor": (blocks312.block(Code.RUN_MONITOR), "91 34 35 29"),
-    "28 version": (blocks312.block(Code.VERSION), "91 34 31 2D"),
+    "26 interlock": (blocks.block(Code.INTERLOCK), "91 34 34 2A"),
+    "27 monitor": (blocks.block(Code.RUN_MONITOR), "91 34 35 29"),
+    "28 version": (blocks.block(Code.VERSION), "91 34 31 2D"),
     "29 event": (
-        blocks312.event_register(2, blocks312.acceleration(CW, 100)),
+        blocks.event_register(2, blocks.acceleration(CW, 100)),
         "91 35 39 30 33 30 38 38 32 30 30 30 30 30 30 30 30 30 30 30 30 36 34 24",
     ),
-    "30 event delete": (blocks312.event_delete(2), "91 37 39 75"),
-    "32 status": (blocks312.block(Code.STATUS), "91 34 64 21"),
-    "40 excitation": (blocks312.block(Code.EXCITATION_ON), "91 32 30 4E"),
-    "40 alarm clear": (blocks312.block(Code.ALARM_CLEAR), "91 32 34 4A"),
-    "41 reset": (blocks312.block(Code.RESET), "91 66 66 6F"),
+    "30 event delete": (blocks.event_delete(2), "91 37 39 75"),
+    "32 status": (blocks.block(Code.STATUS), "91 34 64 21"),
+    "40 excitation": (blocks.block(Code.EXCITATION_ON), "91 32 30 4E"),
+    "40 alarm clear": (blocks.block(Code.ALARM_CLEAR), "91 32 34 4A"),
+    "41 reset": (blocks.block(Code.RESET), "91 66 66 6F"),
 }
 REPLIES = {
     "91 6E": (0, Reply(1, READY, b"")),
@@ -185,15 +193,15 @@ def test_noise_never_raises(noise: bytes, gives: int) -> None:
 @pytest.mark.parametrize(
     ("block", "text"),
     [
-        (blocks312.free_curve(1, [100, 200], [5, 4])[0], "free curves"),
-        (blocks312.block(Code.TABLE_READ), "reading the table"),
-        (blocks312.event_read(1), "event buffer"),
-        (blocks312.initial_setting(1, 1000, 200, 2000, 500, 1500), "one ramp for both"),
-        (blocks312.in_position(True, 5, auto=False), "single report"),
-        (blocks312.encoder_watch(True, 5, auto=False), "single report"),
-        (blocks312.input_mask(1, auto=False), "single report"),
-        (blocks312.acceleration(CW, 5, trigger=Trigger.EVENT1), "event buffer"),
-        (blocks312.event_register(1, bytes(11)), "serial events take 10"),
+        (blocks.free_curve(1, [100, 200], [5, 4])[0], "free curves"),
+        (blocks.block(Code.TABLE_READ), "reading the table"),
+        (blocks.event_read(1), "event buffer"),
+        (blocks.initial_setting(1, 1000, 200, 2000, 500, 1500), "one ramp for both"),
+        (blocks.in_position(True, 5, auto=False), "single report"),
+        (blocks.encoder_watch(True, 5, auto=False), "single report"),
+        (blocks.input_mask(1, auto=False), "single report"),
+        (blocks.acceleration(CW, 5, trigger=Trigger.EVENT1), "event buffer"),
+        (blocks.event_register(1, bytes(11)), "serial events take 10"),
     ],
 )
 def test_what_the_line_cannot_do(block: bytes, text: str) -> None:
@@ -210,9 +218,9 @@ def test_stations_have_numbers() -> None:
 
 def test_replies_read_as_the_bus_answers() -> None:
     """What the parallel driver expects, chapter 12 again: 24, 28, 29, 30."""
-    position = response(blocks312.read_position(True), Reply(1, DATA, bytes.fromhex("12345678")))
+    position = response(blocks.read_position(True), Reply(1, DATA, bytes.fromhex("12345678")))
     assert position.raw.hex(" ") == "03 06 42 01 12 34 56 78"
-    assert response(blocks312.block(Code.VERSION), Reply(1, DATA, b"\x12")).raw.hex(" ") == "03 02 40 12"
-    assert response(blocks312.event_delete(2), Reply(1, READY, b"")).raw.hex(" ") == "03 02 49 03"
-    assert response(blocks312.single_step(CW), Reply(1, READY, b"")).raw.hex(" ") == "03 01 84"
+    assert response(blocks.block(Code.VERSION), Reply(1, DATA, b"\x12")).raw.hex(" ") == "03 02 40 12"
+    assert response(blocks.event_delete(2), Reply(1, READY, b"")).raw.hex(" ") == "03 02 49 03"
+    assert response(blocks.single_step(CW), Reply(1, READY, b"")).raw.hex(" ") == "03 01 84"
     assert DATA_BYTES[0x62] == 4

@@ -6,11 +6,13 @@ import doctest
 
 import pytest
 
-from openppmc.host import ascii312, errors_serial312, serial312, talk312
-from openppmc.host.ascii312 import frame
-from openppmc.sim import line_child, line_spec, lines, part_of
-from openppmc.sim.line_board import LineBoard
-from openppmc.sim.line_spec import parse_line
+from openppmc.host.ppmc312.line import ascii, errors, serial, talk
+from openppmc.host.ppmc312.line.ascii import frame
+from openppmc.sim import part_of
+from openppmc.sim.common import line_child, lines
+from openppmc.sim.ppmc312 import line_spec
+from openppmc.sim.ppmc312.line_board import LineBoard
+from openppmc.sim.ppmc312.line_spec import parse_line
 
 
 def test_words() -> None:
@@ -98,9 +100,7 @@ def test_the_master_hears_itself_if_asked_for() -> None:
     assert heard("stations=1,echo=on", "80 7F").hex(" ").upper() == "80 7F 90 6F"
 
 
-@pytest.mark.parametrize(
-    "module", [ascii312, serial312, errors_serial312, talk312, line_child, line_spec, lines]
-)
+@pytest.mark.parametrize("module", [ascii, serial, errors, talk, line_child, line_spec, lines])
 def test_examples_in_the_code(module: object) -> None:
     failed, attempted = doctest.testmod(module)  # type: ignore[arg-type]
     assert attempted and not failed

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from openppmc.program006 import (
+from openppmc.model.pmc006.program import (
     INSTRUCTIONS,
     WORDS,
     AssemblyError,
@@ -22,7 +22,7 @@ from openppmc.program006 import (
     instructions,
     program,
 )
-from openppmc.program006.instructions import BY_OPCODE, KINDS, MASK, Place
+from openppmc.model.pmc006.program.instructions import BY_OPCODE, KINDS, MASK, Place
 
 P1 = """\
 ; moves 200 steps three times, then raises GPO1

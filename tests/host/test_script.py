@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.frames import Deframer, Frame, encode
-from openppmc.host.script import BadAnswer, Identity, Result, Script, parse_answer
-from openppmc.model.bridge import Bridge
+from openppmc.host.bridge.frames import Deframer, Frame, encode
+from openppmc.host.bridge.script import BadAnswer, Identity, Result, Script, parse_answer
+from openppmc.model.carrier.bridge import Bridge
 
 
 class Memory:

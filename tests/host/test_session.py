@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.frames import Deframer, Frame, encode
-from openppmc.host.session import GaveUp, Session
-from openppmc.model.bridge import Bridge
+from openppmc.host.bridge.frames import Deframer, Frame, encode
+from openppmc.host.bridge.session import GaveUp, Session
+from openppmc.model.carrier.bridge import Bridge
 
 
 def answer(seq: int, body: bytes = b"\x00") -> bytes:

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import Disconnected, Link, NoAnswer, PortError, WrongDevice, open_port
-from openppmc.host.frames import Deframer, Frame, encode
-from openppmc.host.script import Script
-from openppmc.model.plant import Plant, parse_machine
+from openppmc.host.bridge.frames import Deframer, Frame, encode
+from openppmc.host.bridge.script import Script
+from openppmc.model.carrier.plant import Plant, parse_machine
 
 
 def test_no_port_named() -> None:

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.cli.forecast import Course, key_figures
-from openppmc.host import units
-from openppmc.host.errors import OutOfRange, PpmcError
-from openppmc.host.kinds import PPMC104, PPMC2104, STMC
-from openppmc.model.predict import predict_move
+from openppmc.cli.common.forecast import Course, key_figures
+from openppmc.host.basis import units
+from openppmc.host.basis.errors import OutOfRange, PpmcError
+from openppmc.host.basis.kind import PPMC104, PPMC2104, STMC
+from openppmc.model.single.predict import predict_move
 
 XTAL = 16_000_000
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from openppmc.model.drive006 import Drive
-from openppmc.model.edges import EdgeLog
-from openppmc.model.engine006 import UPDATE, Engine, Live, Order, Stage
-from openppmc.model.motion006 import Motion
-from openppmc.model.pace006 import Pace006
-from openppmc.model.parts import Phase
-from openppmc.model.parts006 import OUTPUTS, Shared, Ticks
-from openppmc.model.scheduler import Scheduler
-from openppmc.model.settings006 import Settings
+from openppmc.model.common.blocks import Phase
+from openppmc.model.common.edges import EdgeLog
+from openppmc.model.common.scheduler import Scheduler
+from openppmc.model.pmc006.drive.drive import Drive
+from openppmc.model.pmc006.motion.engine import UPDATE, Engine, Live, Order, Stage
+from openppmc.model.pmc006.motion.motion import Motion
+from openppmc.model.pmc006.pace import Pace006
+from openppmc.model.pmc006.pins import OUTPUTS, Shared, Ticks
+from openppmc.model.pmc006.settings import Settings
 
 SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}
 

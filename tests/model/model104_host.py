@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from openppmc.model import Latency, Ppmc104
-from openppmc.model.codes104 import BUSY, IBF, OBF
-from openppmc.model.edges import low_times
+from openppmc.model.common.edges import low_times
+from openppmc.model.single.codes import BUSY, IBF, OBF
 
 # A core of its own, so that tests of single edges do not move with the constants of the RTL.
 NOMINAL = Latency(

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from model104_host import ModelHost
 
-from openppmc.model.codes2104 import BUSY, CMND
-from openppmc.model.edges import low_times
-from openppmc.model.ppmc2104 import Ppmc2104
+from openppmc.model.common.edges import low_times
+from openppmc.model.ppmc2104.codes import BUSY, CMND
+from openppmc.model.ppmc2104.part import Ppmc2104
 
 B1 = "c 02 d 63 d 13 d 0A d 00"
 B2 = "c 22 d 63 d 13 d 0A d 00"

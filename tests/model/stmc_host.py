@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from model104_host import ModelHost
 
-from openppmc.model.square import Square
-from openppmc.model.stmc import Stmc
+from openppmc.model.common.square import Square
+from openppmc.model.stmc.part import Stmc
 
 # Period of the external clock of the acceptance checks, in clk.
 EXT16 = 16

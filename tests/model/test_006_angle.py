@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.angle006 import WAVE, peak_code, references
+from openppmc.model.pmc006.drive.angle import WAVE, peak_code, references
 
 TABLE = """
   0   3   6   9  13  16  19  22  25  28  31  34  38  41  44  47

@@ -9,10 +9,10 @@ import pytest
 from bench006 import SETUP, Bench
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.chopper006 import Chopper, Times
-from openppmc.model.drive006 import Stream
-from openppmc.model.parts import Phase
-from openppmc.model.scheduler import Scheduler
+from openppmc.model.common.blocks import Phase
+from openppmc.model.common.scheduler import Scheduler
+from openppmc.model.pmc006.drive.chopper import Chopper, Times
+from openppmc.model.pmc006.drive.drive import Stream
 
 
 class Phases:

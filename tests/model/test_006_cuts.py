@@ -10,10 +10,10 @@ from functools import cache
 import pytest
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.eeprom24c32 import Eeprom24C32
-from openppmc.model.frames006 import command
-from openppmc.model.pmc006 import Pmc006
-from openppmc.model.settings006 import LEGAL, PLACES, Settings, page_of, values_of
+from openppmc.model.carrier.eeprom import Eeprom24C32
+from openppmc.model.pmc006.front.frames import command
+from openppmc.model.pmc006.part import Pmc006
+from openppmc.model.pmc006.settings import LEGAL, PLACES, Settings, page_of, values_of
 
 CLK_HZ, BAUD, COPY = 8_000_000, 115_200, 0x360
 RELEASES = {"together": ((1, 1),), "scl first": ((1, 0), (1, 1)), "sda first": ((0, 1), (1, 1))}

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from reference006 import Reference
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.engine006 import Live, Order, Stage
-from openppmc.model.plan006 import Plan, acceleration, plan
+from openppmc.model.pmc006.motion.engine import Live, Order, Stage
+from openppmc.model.pmc006.motion.plan import Plan, acceleration, plan
 
 ENDLESS_US = 250_000
 SPEED_RANGE = st.integers(65, 3000)

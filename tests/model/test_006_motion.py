@@ -9,9 +9,9 @@ import pytest
 from bench006 import SETUP, Bench, make
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.engine006 import Live, Order
-from openppmc.model.motion006 import base_code, compensation, drive_index
-from openppmc.model.parts import Phase
+from openppmc.model.common.blocks import Phase
+from openppmc.model.pmc006.motion.engine import Live, Order
+from openppmc.model.pmc006.motion.motion import base_code, compensation, drive_index
 
 
 @pytest.mark.parametrize("clk_hz", [8_000_000, 12_345_678, 16_000_000, 25_000_000])

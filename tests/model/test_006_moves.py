@@ -6,8 +6,8 @@ import pytest
 from bench006 import Made, make
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.engine006 import Live, Order, Stage
-from openppmc.model.plan006 import by_coefficient, by_distance, plan, reach, way
+from openppmc.model.pmc006.motion.engine import Live, Order, Stage
+from openppmc.model.pmc006.motion.plan import by_coefficient, by_distance, plan, reach, way
 
 # N, VSTART, VSTOP, VMAX, coefficients set and in force, goal, highest speed, us and steps left at the final
 # deceleration, steps in creep, end, last speed, first and last intervals.

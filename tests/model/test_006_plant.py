@@ -10,7 +10,7 @@ import pytest
 
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.pmc006.script_host import Host006
-from openppmc.model.current006 import (
+from openppmc.model.pmc006.bench.currents import (
     CLK_HZ,
     MS,
     Case,
@@ -22,7 +22,7 @@ from openppmc.model.current006 import (
     left_at_zero,
     ripple,
 )
-from openppmc.model.plant006 import Arc, Emf, Motor, Plant
+from openppmc.model.pmc006.bench.motor import Arc, Emf, Motor, Plant
 
 T_OFF, T_BLANK, LATE = 20e-6, 1e-6, 3 / CLK_HZ
 

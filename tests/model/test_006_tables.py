@@ -7,14 +7,14 @@ import random
 import pytest
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.boot006 import program_of
-from openppmc.model.codes006 import LETTERS, TABLE, UNKNOWN
-from openppmc.model.eeprom006 import sent
-from openppmc.model.frames006 import Assembler, Command, command, reply
-from openppmc.model.line006 import changes_of
-from openppmc.model.program006 import END, decode
-from openppmc.model.program006 import TABLE as OPERATIONS
-from openppmc.model.settings006 import FACTORY_PAGE, Settings, page_of, values_of
+from openppmc.model.pmc006.codes import LETTERS, TABLE, UNKNOWN
+from openppmc.model.pmc006.front.frames import Assembler, Command, command, reply
+from openppmc.model.pmc006.front.line import changes_of
+from openppmc.model.pmc006.instructions.operations import END, decode
+from openppmc.model.pmc006.instructions.operations import TABLE as OPERATIONS
+from openppmc.model.pmc006.memory.boot import program_of
+from openppmc.model.pmc006.memory.eeprom import sent
+from openppmc.model.pmc006.settings import FACTORY_PAGE, Settings, page_of, values_of
 
 FRAMES = {
     "A5 01 73 1F 01 00 00 39": command(1, "s", 287),

@@ -21,7 +21,7 @@ from cocotb_tests.ppmc312.host312 import (
     WCR,
     Host312,
 )
-from openppmc.model.parts312 import OUTPUTS
+from openppmc.model.ppmc312.pins import OUTPUTS
 
 
 @verifies("P312-CHK-01", "P312-PAR-01", "P312-PRT-02")

@@ -6,9 +6,9 @@ import pytest
 from reference312 import T1, T2, T3, T4, T5, TF, TG, TH
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.pace312 import Pace
-from openppmc.model.plan312 import constant, ramped
-from openppmc.model.tables312 import Table
+from openppmc.model.ppmc312.pace import Pace
+from openppmc.model.ppmc312.stages.plan import constant, ramped
+from openppmc.model.ppmc312.stages.tables import Table
 
 PACE = Pace()
 TABLES = (T1, T2, T3, T4, T5, TF, TG, TH)

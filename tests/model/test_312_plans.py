@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from reference312 import T1, T2, T3, T4, TF, TG, TH, runs, ticks
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.codes312 import Cause
-from openppmc.model.curve312 import curve
-from openppmc.model.plan312 import Plan, Step, constant, ramped
-from openppmc.model.sequence312 import Change, Sequence
-from openppmc.model.tables312 import Table
+from openppmc.model.ppmc312.codes import Cause
+from openppmc.model.ppmc312.motion.sequence import Change, Sequence
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import Plan, Step, constant, ramped
+from openppmc.model.ppmc312.stages.tables import Table
 
 PLANS = [
     ("E1", TF, 30, 0, (0x00, 12, 6, 12), "400x3 200x4 100x16 200x4 400x3", 5600),

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc312.host312 import Host312
-from openppmc.model.curve312 import curve
-from openppmc.model.plan312 import constant, ramped
-from openppmc.model.tables312 import DIVIDERS
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import constant, ramped
+from openppmc.model.ppmc312.stages.tables import DIVIDERS
 
 
 def free_curve(clk: int, rates: list[int], pa: list[int], pd: list[int]) -> list[str]:

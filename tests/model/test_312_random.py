@@ -8,7 +8,7 @@ import random
 import pytest
 
 from cocotb_tests.ppmc312.host312 import CSR, MREF, MWEF, TF, TG, TH, Host312
-from openppmc.model.codes312 import LENGTHS, State
+from openppmc.model.ppmc312.codes import LENGTHS, State
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
 SEEDS = range(FIRST, FIRST + 40)

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from cocotb_tests.common.verifies import verifies
 from cocotb_tests.ppmc312.serial312 import summed
 from cocotb_tests.ppmc312.serial_streams import Line, campaign
-from openppmc.model.frames312 import Outcome, Parser
-from openppmc.model.serial312 import LENGTHS
+from openppmc.model.ppmc312.front.frames import Outcome, Parser
+from openppmc.model.ppmc312.front.serial import LENGTHS
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
 RESET = summed(0x91, b"\xff")

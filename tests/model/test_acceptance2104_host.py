@@ -6,9 +6,9 @@ import pytest
 from model2104_host import B1, B2, LONG, Host2104
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.codes import Kind
-from openppmc.model.codes2104 import decode
-from openppmc.model.edges import Edge
+from openppmc.model.common.edges import Edge
+from openppmc.model.motion.codes import Kind
+from openppmc.model.ppmc2104.codes import decode
 
 HIGH = range(80, 83)
 

@@ -6,7 +6,7 @@ import pytest
 from model2104_host import B1, B2, LONG, Host2104
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.excitation import step_list
+from openppmc.model.motion.excitation import step_list
 
 
 def ready(script: str = B1) -> Host2104:

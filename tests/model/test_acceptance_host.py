@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from model104_host import INIT_A, ModelHost
 
-from openppmc.model.codes104 import Kind, decode
-from openppmc.model.excitation import step_list
+from openppmc.model.motion.excitation import step_list
+from openppmc.model.single.codes import Kind, decode
 
 
 def test_ac_01_reset_levels():

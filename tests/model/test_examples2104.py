@@ -9,7 +9,7 @@ from model2104_host import B1, LONG, RAMP, Host2104, clk
 
 from cocotb_tests.common.verifies import verifies
 from openppmc.model import predict_move
-from openppmc.model.ramp import Ramp
+from openppmc.model.motion.ramp import Ramp
 
 EX_02 = {
     1: [],

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from model104_host import INIT_A, ModelHost
 
 from openppmc.model import Ppmc104
-from openppmc.model.excitation import step_list
-from openppmc.model.ramp import index_profile
+from openppmc.model.motion.excitation import step_list
+from openppmc.model.motion.ramp import index_profile
 
 GUARD_PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "alm_n", "cnp_n")
 ENDS = {

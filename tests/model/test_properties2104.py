@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from model2104_host import B1, Host2104
 
-from openppmc.model.codes import Kind
-from openppmc.model.codes2104 import decode
-from openppmc.model.ppmc2104 import Ppmc2104
+from openppmc.model.motion.codes import Kind
+from openppmc.model.ppmc2104.codes import decode
+from openppmc.model.ppmc2104.part import Ppmc2104
 
 SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n")
 AXIS_2_OUTPUTS = ("pout_n", "dir", "hold")

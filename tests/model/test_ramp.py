@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.ramp import (
+from openppmc.model.motion.ramp import (
     BaseClock,
     Ramp,
     index_profile,

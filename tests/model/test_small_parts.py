@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from cocotb_tests.common.verifies import verifies
 from openppmc.model import Ppmc104, predict_move
-from openppmc.model.codes104 import Kind, decode
-from openppmc.model.edges import Edge, EdgeLog, low_times
-from openppmc.model.excitation import Excitation, step_list
-from openppmc.model.scheduler import Scheduler
-from openppmc.model.timebase import Latency, QuantumCounter, Timebase
+from openppmc.model.common.edges import Edge, EdgeLog, low_times
+from openppmc.model.common.scheduler import Scheduler
+from openppmc.model.common.timebase import Latency, QuantumCounter, Timebase
+from openppmc.model.motion.excitation import Excitation, step_list
+from openppmc.model.single.codes import Kind, decode
 
 TABLES = {
     (3, False): "00011 00110 00101",

@@ -6,9 +6,9 @@ import pytest
 from stmc_host import INTERNAL, STANDARD, SWITCHES, HostStmc, count, init
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.codes import Kind
-from openppmc.model.codes_stmc import decode
-from openppmc.model.stmc import Stmc
+from openppmc.model.motion.codes import Kind
+from openppmc.model.stmc.codes import decode
+from openppmc.model.stmc.part import Stmc
 
 
 @verifies("AC-01", "STMC-ST-01", "STMC-FIN-01", "STMC-INP-01", "STMC-OUT-01", "STMC-REM-02")

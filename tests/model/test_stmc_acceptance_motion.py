@@ -6,7 +6,7 @@ import pytest
 from stmc_host import EXT16, INTERNAL, STANDARD, HostStmc, count, init
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.excitation import step_list
+from openppmc.model.motion.excitation import step_list
 
 ALL = 0xFFFFFF
 TICK = 1280

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from stmc_host import HostStmc, count, init
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.commands_stmc import profile
+from openppmc.model.stmc.commands import profile
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from stmc_host import EXT16, INTERNAL, SWITCHES, HostStmc, count, init
 
 from cocotb_tests.common.verifies import verifies
-from openppmc.model.j105_stmc import J105Stmc
-from openppmc.model.ramp import profile_index
-from openppmc.model.square import Square
-from openppmc.model.stmc import Stmc
+from openppmc.model.common.square import Square
+from openppmc.model.motion.ramp import profile_index
+from openppmc.model.stmc.part import Stmc
+from openppmc.model.stmc.pc104_board import J105Stmc
 
 gap = st.one_of(st.integers(1, 12), st.integers(1, 400), st.integers(1, 5000))
 byte = st.one_of(

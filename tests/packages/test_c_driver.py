@@ -26,8 +26,8 @@ from c_programs import (
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.paths import ROOT, relative
 from cocotb_tests.common.runner import part_design
-from openppmc.model.codes104 import Error
-from openppmc.model.predict import predict_move
+from openppmc.model.single.codes import Error
+from openppmc.model.single.predict import predict_move
 
 TOP = "ppmc104_example_wishbone"
 INIT = bytes([59, 39, 6, 0])

@@ -9,8 +9,8 @@ from c_programs import BENCH, DRIVER, TIMINGS, Lines, ending, pulses, result, si
 
 from cocotb_tests.common.config import F16
 from cocotb_tests.common.runner import part_design
-from openppmc.model.codes104 import Error
-from openppmc.model.predict import predict_move
+from openppmc.model.single.codes import Error
+from openppmc.model.single.predict import predict_move
 
 INIT = bytes([20, 5, 8, 0])
 TICK = 16  # clk of the external clock here

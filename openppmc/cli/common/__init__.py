@@ -1,0 +1,1 @@
+"""Commands that all parts share, and what commands are made of."""

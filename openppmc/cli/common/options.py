@@ -1,0 +1,170 @@
+"""The set-up options that several commands share: declared once, remembered by `init`."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import os
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, fields, replace
+from enum import Enum
+from typing import Annotated, Any, get_type_hints
+
+import typer
+
+from ...host.basis.errors import PpmcError
+from ...host.basis.kind import PPMC104, AnySetup, Kind
+
+_PANEL = "Set-up (remembered by init)"
+
+
+class Logic(str, Enum):
+    """Level that switches a coil on."""
+
+    POSITIVE = "positive"
+    NEGATIVE = "negative"
+
+
+class Side(str, Enum):
+    """Directions as users type them."""
+
+    CW = "cw"
+    CCW = "ccw"
+
+    @property
+    def code(self) -> int:
+        """0 or 1."""
+        return int(self is Side.CCW)
+
+
+@dataclass(frozen=True)
+class SetupValues:
+    """Values of the options; speeds in pps, clocks in Hz. ramp None: as usual for the part."""
+
+    start: float = 1000
+    high: float = 5000
+    ramp: int | None = None
+    phases: int = 4
+    half_step: bool = False
+    logic: str | None = None
+    chop: bool = False
+    base_clock: float | None = None
+    external_clock: float | None = None
+    long_intervals: bool = False
+    stop: float | None = None
+    down: int | None = None
+    sigmoid: bool = False
+    curve: str | None = None
+
+    def merged(self, changes: dict[str, Any]) -> SetupValues:
+        """With other values where they are given. PpmcError for names that do not exist."""
+        known = {field.name for field in fields(self)}
+        if unknown := set(changes) - known:
+            raise PpmcError(
+                f"unknown set-up value {sorted(unknown)[0]!r} (there are {', '.join(sorted(known))})"
+            )
+        return replace(self, **{name: value for name, value in changes.items() if value is not None})
+
+    def table(self) -> dict[str, Any]:
+        """For the state file."""
+        return asdict(self)
+
+    def plan(self, xtal_hz: int, kind: Kind = PPMC104, axis: int = 1) -> AnySetup:
+        """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
+        return kind.plan(
+            xtal_hz,
+            self.start,
+            self.high,
+            kind.usual_ramp if self.ramp is None else self.ramp,
+            self.phases,
+            self.half_step,
+            None if self.logic is None else Logic(self.logic) is Logic.POSITIVE,
+            self.chop,
+            self.base_clock,
+            self.external_clock,
+            self.long_intervals,
+            axis,
+            self.stop,
+            self.down,
+            self.sigmoid,
+            self.curve,
+        )
+
+
+def _option(*names: str, text: str, metavar: str | None = None) -> Any:
+    return typer.Option(*names, help=text, rich_help_panel=_PANEL, metavar=metavar, show_default=False)
+
+
+_OPTIONS: dict[str, Any] = {
+    "start": Annotated[float | None, _option("--start", text="start-up speed (1000)", metavar="PPS")],
+    "high": Annotated[float | None, _option("--high", text="high speed (5000)", metavar="PPS")],
+    "ramp": Annotated[
+        int | None,
+        _option("--ramp", text="pulses from start to high speed (200; ppmc312: 2000)", metavar="PULSES"),
+    ],
+    "phases": Annotated[
+        int | None, _option("--phases", text="phases of the motor: 3, 4, 5 (4)", metavar="N")
+    ],
+    "half_step": Annotated[bool | None, _option("--half-step/--full-step", text="excitation (full step)")],
+    "logic": Annotated[
+        Logic | None,
+        _option("--logic", text="level that switches a coil on (positive; a PPMC-2104 has no choice)"),
+    ],
+    "chop": Annotated[bool | None, _option("--chop/--no-chop", text="switch the coils at rest (no)")],
+    "base_clock": Annotated[
+        float | None,
+        _option(
+            "--base-clock",
+            text="500000 or 125000, stmc: 48675 or 12500, ppmc312: 8e6 … 15625 "
+            "(the one that reaches the start speed)",
+            metavar="HZ",
+        ),
+    ],
+    "external_clock": Annotated[
+        float | None, _option("--external-clock", text="frequency at the clock pin (not used)", metavar="HZ")
+    ],
+    "long_intervals": Annotated[
+        bool | None,
+        _option("--long-intervals/--plain-intervals", text="7.5 us more an interval (vsel low) (plain)"),
+    ],
+    "stop": Annotated[
+        float | None, _option("--stop", text="ppmc312: stop speed (the start speed)", metavar="PPS")
+    ],
+    "down": Annotated[
+        int | None, _option("--down", text="ppmc312: pulses of the deceleration (--ramp)", metavar="PULSES")
+    ],
+    "sigmoid": Annotated[bool | None, _option("--sigmoid/--linear", text="ppmc312: shape (linear)")],
+    "curve": Annotated[
+        str | None,
+        _option("--curve", text="ppmc312: free curve, a CSV of pps,up[,down], slowest first", metavar="FILE"),
+    ],
+}
+
+
+def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the set-up options; it gets those that were typed as a dict named `typed`."""
+
+    @functools.wraps(command)
+    def wrapper(**arguments: Any) -> Any:
+        typed = {name: arguments.pop(name) for name in _OPTIONS}
+        typed = {name: value for name, value in typed.items() if value is not None}
+        if "logic" in typed:
+            typed["logic"] = typed["logic"].value
+        if "curve" in typed:
+            typed["curve"] = os.path.abspath(typed["curve"])  # init remembers it
+        return command(**arguments, typed=typed)
+
+    hints = get_type_hints(command, include_extras=True)
+    own = [
+        parameter.replace(annotation=hints[name], kind=inspect.Parameter.KEYWORD_ONLY)
+        for name, parameter in inspect.signature(command).parameters.items()
+        if name != "typed"
+    ]
+    added = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+        for name, annotation in _OPTIONS.items()
+    ]
+    del wrapper.__wrapped__  # type: ignore[attr-defined]
+    wrapper.__signature__ = inspect.Signature([*own, *added])  # type: ignore[attr-defined]
+    wrapper.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}
+    return wrapper

@@ -1,0 +1,134 @@
+"""Which board a command talks to, and the board while it does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import typer
+
+from ...host import AnyPart, Axis, open_part
+from ...host.basis.kind import BY_WORD, PPMC104, Kind
+from ...host.bridge.link import DEFAULT_BAUD
+from ...host.ports.transport import MODEL, SIM
+from . import show
+from .guard import Guard, Interrupted
+from .options import SetupValues
+from .state import recall
+
+INTERRUPTED = 130
+
+
+class PartName(str, Enum):
+    """Parts as users name them."""
+
+    PPMC104 = "ppmc104"
+    PPMC2104 = "ppmc2104"
+    STMC = "stmc"
+    PPMC312 = "ppmc312"
+    PPMC312_SERIAL = "ppmc312-serial"
+    PMC006 = "pmc006"
+
+    @property
+    def kind(self) -> Kind:
+        """What it can do."""
+        return BY_WORD[self.value]
+
+
+@dataclass
+class Board:
+    """Which board, from the options in front of the command. baud: None: what is usual. part: None if the
+    user named none. line: options of a line (ppmc312-serial, pmc006)."""
+
+    port: str = ""
+    baud: int | None = None
+    part: PartName | None = None
+    line: str = ""
+
+    @property
+    def spec(self) -> str:
+        """The port with its part: a virtual board is built with the one that was named."""
+        if self.part is None or not self.port.startswith((MODEL, SIM)):
+            return self.port
+        comma = "" if self.port.endswith(":") else ","
+        return f"{self.port}{comma}part={self.part.value}"
+
+    @property
+    def planned(self) -> Kind:
+        """The part for plans, which open no board: the one that was named, in the port's text if need be."""
+        if self.part is not None:
+            return self.part.kind
+        if not self.port.startswith((MODEL, SIM)):
+            return PPMC104
+        words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
+        named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
+        return BY_WORD.get(named[-1], PPMC104) if named else PPMC104
+
+
+BOARD = Board()
+
+
+@dataclass
+class Session:
+    """An open board."""
+
+    part: AnyPart
+    guard: Guard
+
+    @property
+    def kind(self) -> Kind:
+        """What part it is."""
+        return self.part.kind
+
+    @property
+    def xtal_hz(self) -> int:
+        """Its crystal."""
+        return self.part.link.identity.xtal_hz
+
+    def axis(self, number: int = 1) -> Axis:
+        """One axis; OutOfRange if the part does not have it."""
+        return self.part.axes[self.kind.check_axis(number) - 1]
+
+    def chosen(self, number: int | None) -> tuple[Axis, ...]:
+        """That axis, or all."""
+        return self.part.axes if number is None else (self.axis(number),)
+
+
+def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
+    """Defaults, then what `init` remembered for this port and axis, then what was typed."""
+    return SetupValues().merged(recall(BOARD.port, axis)).merged(typed)
+
+
+@contextmanager
+def opened() -> Iterator[Session]:
+    """The board, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
+    number = None if BOARD.part is None else BOARD.part.kind.number
+    with Guard() as guard, open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part:
+        try:
+            guard.check()
+            yield Session(part, guard)
+        except Interrupted:
+            show.note(guard.bring_to_rest(part))
+            raise typer.Exit(INTERRUPTED) from None
+        finally:
+            guard.bar_off()
+
+
+@contextmanager
+def ready(typed: dict[str, Any], axes: Iterable[int]) -> Iterator[Session]:
+    """The board with these axes initialised."""
+    with opened() as session:
+        initialise(session, {axis: setup_values(typed, axis) for axis in axes})
+        yield session
+
+
+def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
+    """Initialise axes, all plans made before the first; returns what is reached."""
+    plans = {
+        axis: table.plan(session.xtal_hz, session.kind, session.kind.check_axis(axis))
+        for axis, table in values.items()
+    }
+    return [session.part.axes[axis - 1].apply(plan) for axis, plan in plans.items()]

@@ -1,0 +1,144 @@
+"""What commands print about PMC006B4."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import Any
+
+from rich.table import Table
+
+from ...host import Pmc006
+from ...host.pmc006.bus import Found006
+from ...host.pmc006.codes import Flags, Modes
+from ...host.pmc006.motion import End006
+from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
+
+_HEADS = ("address", "version", "state", "position", "line faults")
+
+
+def state(flags: Flags | None, modes: Modes | None) -> str:
+    """One phrase: what the motor does, and what keeps it from starting."""
+    if flags is None or modes is None:
+        return "-"
+    words = ["running" if modes.running else "moving"] if flags.busy else []
+    words += [f"stopped by EXT{number}" for number in flags.stops]
+    words += ["off-line"] if modes.free else []
+    words += ["stalled"] if flags.stall else []
+    return ", ".join(words) or "at rest"
+
+
+def found_table(found: Iterable[Found006]) -> Table:
+    """A line a controller."""
+    grid = Table(box=None, pad_edge=False)
+    for head in _HEADS:
+        grid.add_column(head, justify="left" if head == "state" else "right")
+    for one in found:
+        grid.add_row(
+            str(one.address),
+            one.version or "-",
+            state(one.flags, one.modes),
+            "-" if one.position is None else str(one.position),
+            str(one.counters.faults),
+        )
+    return grid
+
+
+def found_values(found: Iterable[Found006]) -> list[dict[str, Any]]:
+    """For JSON."""
+    return [
+        {
+            "address": one.address,
+            "version": one.version,
+            "state": state(one.flags, one.modes),
+            "position": one.position,
+            "line": asdict(one.counters),
+            "trouble": one.trouble,
+        }
+        for one in found
+    ]
+
+
+def end_line(end: End006) -> str:
+    """Where the motor stands, and why."""
+    steps = ""
+    if end.pulses is not None:
+        steps = f", {abs(end.pulses)} steps {'backward' if end.pulses < 0 else 'forward'}"
+    return f"{end.who}position {end.position}{steps}: {end.why}"
+
+
+# ---------------------------------------------------------------------- one controller
+
+
+def status_values(part: Pmc006) -> dict[str, Any]:
+    """All that changes by itself."""
+    flags, modes, ports = part.flags(), part.modes(), part.ports()
+    return {
+        "address": part.address,
+        "position": part.position,
+        "state": state(flags, modes),
+        "flags": {"ext1": flags.ext1, "ext2": flags.ext2, "stall": flags.stall},
+        "enabled": {"ext1": modes.ext1_enabled, "ext2": modes.ext2_enabled},
+        "levels": {"ext1": ports.ext1, "ext2": ports.ext2},
+        "inputs": ports.inputs,
+        "outputs": ports.outputs,
+        "line": asdict(part.counters),
+    }
+
+
+def status_rows(values: dict[str, Any]) -> dict[str, str]:
+    """The same for people."""
+    stops = [
+        f"{name.upper()} {'on' if on else 'off'}, level {int(values['levels'][name])}"
+        for name, on in values["enabled"].items()
+    ]
+    return {
+        "address": str(values["address"]),
+        "position": str(values["position"]),
+        "motor": values["state"],
+        "stops": "; ".join(stops),
+        "GPI5…GPI1": f"{values['inputs']:05b}",
+        "GPO5…GPO1": f"{values['outputs']:05b}",
+    }
+
+
+def io_values(part: Pmc006) -> dict[str, Any]:
+    """Port word, bit by bit."""
+    ports = part.ports()
+    return {
+        **{f"gpi{n + 1}": ports.inputs >> n & 1 for n in range(5)},
+        **{f"gpo{n + 1}": ports.outputs >> n & 1 for n in range(5)},
+        "ext1": int(ports.ext1),
+        "ext2": int(ports.ext2),
+    }
+
+
+def settings_values(part: Pmc006, names: Iterable[str] = tuple(SETTINGS)) -> dict[str, int]:
+    """Settings in force."""
+    return {name: getattr(part, name) for name in names}
+
+
+def settings_lines(values: dict[str, int]) -> list[str]:
+    """Values with units, ranges and what they mean; those with a star are kept by `save`."""
+    rows = [("setting", "value", "unit", "", "range", "meaning")]
+    for name, value in values.items():
+        one: Setting = SETTINGS[name]
+        star = "*" if one.saved else ""
+        rows.append((name, str(value), one.unit, star, one.span, _meaning(name, value, one.text)))
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    sides = "<><<<<"
+    return [
+        " ".join(f"{cell:{side}{width}}" for cell, side, width in zip(row, sides, wide, strict=True)).rstrip()
+        for row in rows
+    ]
+
+
+def _meaning(name: str, value: int, text: str) -> str:
+    """What a value comes to."""
+    if name == "current":
+        return f"{text}: drives {drive_current(value)} mA"
+    if name in ("acceleration", "deceleration"):
+        return f"{mean_acceleration(value)} steps/s² in the mean"
+    if name == "attenuation":
+        return f"current at rest {100 / 2**value:g} % of the peak"
+    return text

@@ -1,0 +1,1 @@
+"""What the command line shows, forecasts and reads for a PPMC-312."""

@@ -1,0 +1,1 @@
+"""Commands for a line of PPMC-312."""

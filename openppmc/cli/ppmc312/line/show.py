@@ -1,0 +1,96 @@
+"""What commands print about a line of PPMC-312."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import asdict
+from typing import Any
+
+from rich import box
+from rich.table import Table
+
+from ....host import PpmcError, Station312
+from ....host.ppmc312.answers import Alarm, Failed, Report
+from ....host.ppmc312.line.bus import Found
+from ...common import show
+from .. import show as show312
+
+_HEADS = ("station", "version", "state", "position", "framing", "overrun", "checksum", "line faults")
+
+
+def found_table(found: Iterable[Found]) -> Table:
+    """Stations with their own error counters and those of the master."""
+    grid = Table(box=None, pad_edge=False)
+    for head in _HEADS:
+        grid.add_column(head, justify="right")
+    for one in found:
+        counts = ("-", "-", "-") if one.errors is None else tuple(map(str, one.errors))
+        grid.add_row(
+            str(one.station),
+            "-" if one.version is None else f"{one.version:02X}",
+            "-" if one.status is None else one.status.state.name,
+            "-" if one.position is None else str(one.position),
+            *counts,
+            str(one.counters.faults),
+        )
+    return grid
+
+
+def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
+    """For JSON."""
+    return [
+        {
+            "station": one.station,
+            "version": one.version,
+            "state": None if one.status is None else one.status.state.name,
+            "position": one.position,
+            "errors": None if one.errors is None else one.errors._asdict(),
+            "line": asdict(one.counters),
+            "trouble": one.trouble,
+        }
+        for one in found
+    ]
+
+
+def status_values(axis: Station312) -> dict[str, Any]:
+    """Everything that may be read at any time, and what went wrong on the line."""
+    return {**show312.status_values(axis), "line": asdict(axis.counters)}
+
+
+def status_table(axes: Iterable[Station312]) -> Table:
+    """A line a station."""
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for head in ("station", "state", "position", "encoder", "overrides", "switches", "line faults"):
+        grid.add_column(head, justify="left" if head in ("state", "switches") else "right")
+    for axis in axes:
+        values = show312.status_values(axis)
+        active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
+        grid.add_row(
+            str(axis.number),
+            values["state"],
+            str(values["position"]),
+            str(values["encoder"]),
+            str(values["overrides"]),
+            ", ".join(active) or "none active",
+            str(axis.counters.faults),
+        )
+    return grid
+
+
+def report_line(number: int, report: Report) -> str:
+    """One line for a report of a station."""
+    text = show312.report_line(report)
+    who = f"station {number}: "
+    return text if text.startswith(who) else who + text
+
+
+def reports(axes: Iterable[Station312], tell: Callable[[str], None] = show.say) -> None:
+    """What stations said meanwhile. Raises what went wrong, after all of it."""
+    trouble: PpmcError | None = None
+    for axis in axes:
+        for report in axis.poll():
+            tell(report_line(axis.number, report))
+            if isinstance(report, (Failed, Alarm)):
+                trouble = trouble or report.error
+    if trouble is not None:
+        raise trouble

@@ -1,0 +1,1 @@
+"""An axis of any part: set-up, motions, homing, registers."""

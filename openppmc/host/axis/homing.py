@@ -1,0 +1,86 @@
+"""Finding the origin: the same edge from the same side, wherever the search begins."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..basis.arguments import side, within
+from ..basis.ending import Cause, End
+from ..basis.errors import OriginNotFound
+from .motion import Progress
+
+if TYPE_CHECKING:
+    from ..basis.units import Number
+    from .axis import Axis
+
+LONGEST_BACK_OFF = 200_000
+
+
+class Homing:
+    """One homing run of an axis; see `Axis.home`."""
+
+    def __init__(
+        self,
+        axis: Axis,
+        direction: int,
+        search_pps: Number | None,
+        back_off: int,
+        progress: Callable[[Progress], None] | None,
+    ) -> None:
+        within(back_off, "back_off", 1, LONGEST_BACK_OFF, "pulses")
+        self._axis = axis
+        self._towards = side(direction)
+        self._pps = search_pps
+        self._back_off = back_off
+        self._progress = progress
+
+    def run(self, fast: bool, to_limit: bool) -> End:
+        """Approach, leave the switch if it is active, search, zero."""
+        if (fast or to_limit) and not self._axis.inputs().origin:
+            self._approach(to_limit)
+            if self._axis.kind.origin_between and not self._axis.inputs().origin:
+                self._search(1 - self._towards)
+        if self._axis.inputs().origin:
+            self._leave()
+        end = self._search(self._towards)
+        self._axis.zero()
+        return replace(end, position=self._axis.counted(0))
+
+    def _search(self, direction: int) -> End:
+        """Search at constant speed."""
+        end = self._axis.search(direction, self._pps).wait(progress=self._progress)
+        if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
+            raise OriginNotFound(
+                f"{end.who}a limit switch came before the origin: home in the other direction, or check the "
+                "switch",
+                end,
+            )
+        return end if end.cause is Cause.ORIGIN else end.check()
+
+    def _approach(self, to_limit: bool) -> None:
+        """High speed up to the slow-down limit, or on to the hard limit."""
+        end = self._axis.jog(self._towards, high=True).wait(progress=self._progress)
+        if to_limit and end.cause == Cause.SLOW_LIMIT:
+            end = self._axis.jog(self._towards, speed=self._pps).wait(progress=self._progress)
+        if to_limit and end.cause & Cause.LIMIT and not end.cause & (Cause.ALARM | Cause.STOP):
+            return
+        if end.cause != Cause.SLOW_LIMIT:
+            end.check()
+
+    def _leave(self) -> None:
+        """Away from the switch in small moves until it is released."""
+        gone = 0
+        step = -self._back_off if not self._towards else self._back_off
+        while self._axis.inputs().origin:
+            if gone > LONGEST_BACK_OFF:
+                end = End(Cause.COMPLETE, gone, 0, self._axis.position, 0)
+                raise OriginNotFound(
+                    f"{self._axis.who}the origin switch is still active {gone} pulses away from where it "
+                    "was: check it",
+                    end,
+                )
+            pps = self._pps if self._pps is not None else self._axis.search_speed
+            self._axis.move_constant(step, pps, self._progress)
+            gone += self._back_off

@@ -1,0 +1,109 @@
+"""A motion under way: progress, waiting for its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...model.motion.codes import ENDLESS
+from ..basis.arguments import Checked
+from ..basis.ending import End, decode_end
+from ..basis.errors import NotWhileBusy, Timeout
+from ..bridge.script import Script
+
+if TYPE_CHECKING:
+    from .axis import Axis, Order
+
+READ_FINISH = 0x80
+SAFETY_POLL = 0.5
+"""Seconds between looks at BUSY while waiting for the interrupt message, which noise may eat."""
+PROGRESS_POLL = 0.1
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What a progress callback gets. asked: pulses of the move, None if it is endless. Times in s."""
+
+    position: int
+    made: int
+    asked: int | None
+    seconds: float
+
+
+class Motion(Checked):
+    """Handle of an operation that was started; `end` is its End once it is known.
+
+    asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. ramped: it has ramps. `begin`: pulse
+    counter before. ours: False for one that another program started.
+    """
+
+    def __init__(self, axis: Axis, order: Order, begin: int, ours: bool = True) -> None:
+        self._axis = axis
+        self._link = axis.link
+        self._ours = ours
+        self.asked = order.asked
+        self.direction = order.direction
+        self.ramped = order.ramped
+        self.begin = begin
+        self.end: End | None = None
+        self._started = self._link.clock()
+
+    def poll(self) -> Progress | None:
+        """Where the motor is now; None when it has come to rest (then `end` is set)."""
+        answer = self._link.execute(Script().read(1).count(self._axis.number))
+        self.look(answer.byte(0))
+        self._axis.look(answer.byte(0))
+        if self.end is not None:
+            return None
+        position = answer.number(1, signed=True)
+        made = abs(position - self.begin)
+        return Progress(position, made, self.asked, self._link.clock() - self._started)
+
+    def look(self, status: int) -> None:
+        """The status register was read: fetch the end if there is one."""
+        if self.end is None and not status & self._axis.busy:
+            self._finish()
+
+    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+        """Wait for the end, without judging it.
+
+        timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
+        second; what it raises ends the wait, and the motion goes on.
+        """
+        limit = None if timeout is None else self._link.clock() + timeout
+        pause = PROGRESS_POLL if progress else SAFETY_POLL
+        while self.end is None:
+            left = pause if limit is None else min(pause, limit - self._link.clock())
+            self._link.wait_event(max(0.0, left))
+            now = self.poll()
+            if now is None:
+                break
+            if progress:
+                progress(now)
+            if limit is not None and self._link.clock() >= limit:
+                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+        assert self.end is not None
+        return self.end
+
+    def _finish(self) -> None:
+        """Fetch the finish status; this also releases int_n (P104-RD-04).
+
+        With DATASHEET timing BUSY rises up to 112 us after the command, and bytes wait for that (P104-DS-03):
+        then it was no end.
+        """
+        bit, remaining = self._axis.bit, self._axis.codes.remaining
+        script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
+        try:
+            answer = self._link.execute(script.count(self._axis.number))
+        except NotWhileBusy:
+            return  # a part with DATASHEET timing was about to begin
+        total = self.asked or ENDLESS
+        end = decode_end(
+            answer.byte(1),
+            answer.number(3),
+            total if self._ours else None,
+            self.direction,
+            self._axis.counted(answer.number(4, signed=True)),
+        )
+        self.end = self._axis.told(end)

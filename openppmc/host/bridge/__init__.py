@@ -1,0 +1,1 @@
+"""The UART bridge from the PC's side: frames, scripts, session, link."""

@@ -1,0 +1,145 @@
+"""The port `model:`: golden bridge, golden part and plant instead of a board, in virtual time.
+
+The line is modelled byte-wise: bytes take their time; bytes at a wrong rate arrive as framing errors or
+breaks.
+"""
+
+from __future__ import annotations
+
+from ...model.carrier.bridge import Bridge
+from ...model.carrier.bridge_ops import RATES
+from ...model.carrier.carrier import Board
+from ...model.carrier.plant import PLANT_WORDS, parse_machine, stmc_read_map
+from ...model.ppmc104.carrier import Board104
+from ...model.ppmc312.carrier import Board312
+from ...model.ppmc2104.carrier import Board2104
+from ...model.stmc.carrier import BoardStmc
+from ..basis.errors import Disconnected, PortError
+from ..ports.pacer import Pacer
+
+BITS_PER_BYTE = 10
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "unplug")
+
+
+class ModelPort:
+    """A board that needs no hardware.
+
+    text: words of the machine (`openppmc.model.carrier.plant`) and `speed` (1: real time, 10: ten times as fast,
+    max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (of an stmc)
+    SHEET or FAMILY, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
+    anything else.
+    """
+
+    def __init__(self, text: str = "", baud: int = 115_200) -> None:
+        self.name = "model:" + text
+        self._baud = baud
+        self._waiting = bytearray()
+        self._closed = False
+        try:
+            machine = parse_machine(text)
+            options = dict(machine.others)
+            self._pacer = Pacer(_speed(options.pop("speed", "1")))
+            clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
+            timing = options.pop("timing", "FAST").upper()
+            self._unplug = float(options.pop("unplug", "inf"))
+            read_map = stmc_read_map(machine.part, options.pop("read_map", None))
+            if options:
+                known = ", ".join((*PLANT_WORDS, *OPTIONS))
+                raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
+            board: Board
+            settings = (clk_hz, xtal_hz, timing, self._interrupt)
+            if machine.part == "ppmc104":
+                board = Board104(machine.plants[0], *settings)
+            elif machine.part == "ppmc312":
+                board = Board312(machine.plants[0], *settings)
+            elif machine.part == "stmc":
+                board = BoardStmc(machine.plants[0], *settings, read_map)
+            else:
+                board = Board2104(machine.plants, *settings)
+        except ValueError as error:
+            raise PortError(f"{self.name}: {error}") from error
+        self.board: Board = board
+        axes = len(machine.plants)
+        self.bridge = Bridge(board, board.NUMBER, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes)
+
+    # ------------------------------------------------------------------ port
+
+    def read(self, timeout: float) -> bytes:
+        self._check()
+        self._catch_up()
+        end = self.board.seconds + timeout
+        while not self._waiting and (left := end - self.board.seconds) > 0:
+            self._pass_time(self._pacer.step(left))
+            self._pacer.wait(self.board.seconds)
+            self._check()
+        data = bytes(self._waiting)
+        self._waiting.clear()
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._check()
+        self._catch_up()
+        self._line_time(len(data))
+        for start, byte in enumerate(data):
+            if self._baud == RATES[self.bridge.rate]:
+                self._arrives(self.bridge.receive(data[start:]))
+                return
+            slower = self._baud < RATES[self.bridge.rate]
+            self._arrives(self.bridge.receive_bad(0 if slower and byte == 0 else 0xFF))
+
+    def set_baud(self, baud: int) -> None:
+        self._baud = baud
+
+    def clock(self) -> float:
+        return self.board.seconds
+
+    def close(self) -> None:
+        self._closed = True
+
+    # ------------------------------------------------------------------ time
+
+    def _check(self) -> None:
+        if self._closed or self.board.seconds >= self._unplug:
+            raise Disconnected(
+                f"{self.name}: the port went away: plug the board in and run the command again"
+            )
+
+    def _pass_time(self, seconds: float) -> None:
+        """Silence on the line; ends early when a message comes."""
+        begin = self.board.seconds
+        self.board.run_until(
+            self.board.t + max(1, round(seconds * self.board.clk_hz)), stop=lambda: bool(self._waiting)
+        )
+        self._arrives(self.bridge.idle(1000 * (self.board.seconds - begin)))
+
+    def _line_time(self, count: int) -> None:
+        clk = count * BITS_PER_BYTE * self.board.clk_hz // self._baud
+        self.board.run_until(self.board.t + clk)
+
+    def _catch_up(self) -> None:
+        """The board went on while the program did something else."""
+        end = self.board.seconds + self._pacer.behind(self.board.seconds)
+        while (left := end - self.board.seconds) > 0:
+            self._pass_time(left)
+
+    # ------------------------------------------------------------------ bytes from the bridge
+
+    def _arrives(self, data: bytes) -> None:
+        self._line_time(len(data))
+        self._waiting += data
+
+    def _interrupt(self) -> None:
+        self._waiting += self.bridge.interrupt()
+
+
+def _speed(text: str) -> float | None:
+    """Times real time, None for as fast as it goes."""
+    if text == "max":
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0
+    if not 0 < speed < float("inf"):
+        raise ValueError(f"speed={text} is neither a positive number nor max")
+    return speed

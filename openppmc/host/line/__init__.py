@@ -1,0 +1,1 @@
+"""A line with several stations, whatever part they are."""

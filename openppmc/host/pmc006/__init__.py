@@ -1,0 +1,1 @@
+"""Driver of the PMC006B4, alone and with others on a line."""

@@ -1,0 +1,170 @@
+"""Driver of the PMC006B4.
+
+with Pmc006.open("/dev/ttyUSB0") as motor:
+    motor.microsteps, motor.current = 32, 1500
+    motor.home(switch=1, direction=BACKWARD)
+    motor.move(6400, speed=8000)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from serial.rs485 import RS485Settings
+
+from ..axis.device import Device
+from ..axis.moves import OnProgress
+from ..basis.arguments import within
+from ..basis.errors import OutOfRange
+from ..basis.kind import PMC006
+from ..line.errors import DuplicateAddress, GarbledReply, StationSilent
+from ..line.faults import Miss
+from ..line.master import PATIENCE
+from ..ports.transport import Port
+from .axis import BACKWARD
+from .codes import Code
+from .homing import Homing006
+from .line import BAUD, Line006
+from .memory import Memory006
+from .motion import End006
+from .talk import ATTEMPTS, Talk006
+from .wire import ADDRESSES, LAST
+
+OUTPUTS = 5
+
+
+class Pmc006(Memory006, Device):
+    """One controller. `open` takes a line for it alone; `pmc006_bus.Pmc006Bus` gives several.
+
+    Settings are properties (`settings006.SETTINGS` lists them). Instructions whose reply is lost are repeated
+    only where that does no harm: a start is looked for in status and position first, so nothing moves twice;
+    LostReply where nobody can know. Leaving a `with` block by an exception stops a motion that this object
+    started.
+    """
+
+    kind = PMC006
+
+    @classmethod
+    def open(  # type: ignore[override]
+        cls,
+        spec: str | Port,
+        address: int | None = None,
+        baud: int = BAUD,
+        rs485: RS485Settings | None = None,
+        patience: float = PATIENCE,
+    ) -> Pmc006:
+        """Open a port; arguments as those of `line006.Line006`. address: None looks for a controller: 255,
+        then 1 to 120. Raises StationSilent if there is none."""
+        line = Line006(spec, baud, rs485, patience)
+        try:
+            return cls(line, find(line) if address is None else address)
+        except BaseException:
+            line.close()
+            raise
+
+    @property
+    def link(self) -> Line006:  # type: ignore[override]
+        """Where it is."""
+        return self.line
+
+    @property
+    def number(self) -> int:
+        """Its address."""
+        return self.address
+
+    @property
+    def axes(self) -> tuple[Pmc006, ...]:  # type: ignore[override]
+        """Itself."""
+        return (self,)
+
+    # ------------------------------------------------------------------ reference point
+
+    def home(
+        self,
+        switch: int = 1,
+        direction: int = BACKWARD,
+        speed: int = 1000,
+        slow: int = 200,
+        off: int = 100,
+        progress: OnProgress | None = None,
+    ) -> End006:
+        """Find the edge of EXT1 or EXT2 and make the place `off` steps away from it position 0.
+
+        direction: towards the switch. speed: until it stops the motor, slow: for the second, exact approach,
+        both 65 to 3000 steps/s and so low that the motor may stop at once. Works from the switch too. Both
+        stops are enabled meanwhile; EXT flags are cleared; speeds, direction and enabled stops are as before
+        afterwards. Raises OriginNotFound, also if the other switch comes first.
+        """
+        return Homing006(self, switch, direction, speed, slow, off, progress).run()
+
+    # ------------------------------------------------------------------ outputs, stall
+
+    @property
+    def outputs(self) -> int:
+        """Levels of GPO5 to GPO1 (bit 4 to 0), with the pull of a stall; assigned as a whole."""
+        return self.ports().outputs
+
+    @outputs.setter
+    def outputs(self, levels: int) -> None:
+        levels = within(levels, "outputs", 0, (1 << OUTPUTS) - 1)
+        self.ask(Code.WRITE_IO, levels << 3, good=lambda value: value == levels << 3)
+
+    def set_output(self, number: int, on: bool) -> None:
+        """One of GPO1 to GPO5; the others stay."""
+        if number not in range(1, OUTPUTS + 1):
+            raise OutOfRange(f"GPO{number}: there are GPO1 to GPO{OUTPUTS}")
+        bit = 1 << number - 1
+        self.outputs = self.outputs | bit if on else self.outputs & ~bit
+
+    def watch_stall(self, level: int, length: int, stop: bool = True, output: bool = False) -> None:
+        """Detect stalls: back-EMF below `level` (0 to 511) in so many samples (0 to 63) at constant speed.
+        stop: the motor stops; output: GPO5 is raised."""
+        self.stall_level, self.stall_length = level, length
+        self.stall_config = 1 | stop << 1 | output << 2
+
+    @property
+    def stall_position(self) -> int:
+        """Where the last stall was; 0 if there was none."""
+        return self.ask(Code.STALL_POSITION)
+
+    # ------------------------------------------------------------------ address
+
+    def set_address(self, address: int) -> None:
+        """Give it another address, 1 to 120, at once; `save` keeps it. Raises DuplicateAddress if somebody
+        has that already."""
+        within(address, "address", 1, LAST)
+        if address == self.address:
+            return
+        if Pmc006(self.line, address).is_there():
+            raise DuplicateAddress(f"{self.line.name}: address {address} is taken: choose another one")
+        # The reply comes from the new address already.
+        for _ in range(ATTEMPTS):
+            got = self.line.exchange(self.address, Code.ADDRESS, address, answers=address)
+            if not isinstance(got, Miss) or Pmc006(self.line, address).is_there():
+                self.address = address
+                return
+            self.line.settle()
+        raise StationSilent(f"{self.where}: no reply to {ATTEMPTS} frames: is it there and powered?")
+
+
+def find(line: Line006, progress: Callable[[int], None] | None = None) -> int:
+    """The first address that answers: 255, then 1 to 120. StationSilent if none does."""
+    for found in scan(line, progress=progress):
+        return found
+    raise StationSilent(
+        f"{line.name}: no controller replies: are they powered, are baud rate and the wires right?"
+    )
+
+
+def scan(
+    line: Line006, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
+) -> Iterator[int]:
+    """Addresses that answer, as they are found. progress: called with each before it is asked."""
+    for address in addresses:
+        if progress is not None:
+            progress(address)
+        try:
+            if Talk006(line, address).is_there():
+                yield address
+        except GarbledReply:
+            yield address

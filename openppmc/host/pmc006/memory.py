@@ -1,0 +1,175 @@
+"""The user program of a PMC006B4: download, read-back, burn, run, halt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from functools import partial
+
+from ...model.pmc006.program import WORDS, Program, harmless
+from ..basis.errors import NoAnswer, OutOfRange
+from .axis import Axis006
+from .codes import Code, Storage
+from .errors import ProgramDiffers, ProgramRuns, StorageBusy, StorageFailed
+
+OnCount = Callable[[int, int], None]
+"""Called with how many words are done, and of how many."""
+SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
+"""How long the EEPROM is busy, with some reserve."""
+_LOOKS = 10
+"""So often as much, for a slow I2C clock."""
+_MASK = 0xFFFFFFFF
+
+
+class Memory006(Axis006):
+    """See `pmc006.Pmc006`."""
+
+    _here: int | None = None
+    """Where the part's word pointer is, as far as it is known."""
+
+    # ------------------------------------------------------------------ the program in its buffer
+
+    def load_program(self, program: Program, progress: OnCount | None = None) -> None:
+        """Write a program into the buffer: words that differ from what is there, which are then read back.
+        Raises ProgramRuns, ProgramDiffers."""
+        if self.program_runs():
+            raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
+        found = self._read_words(range(WORDS), progress, WORDS)
+        places = [place for place, word in enumerate(program.words) if word != found[place]]
+        total = WORDS + 2 * len(places)
+        for done, place in enumerate(places, WORDS + 1):
+            self._seek(place)
+            self._write(place, program.words[place])
+            if progress is not None:
+                progress(done, total)
+        self._here = None
+        for place, got in self._read_words(places, progress, total).items():
+            if got != (want := program.words[place]):
+                raise ProgramDiffers(
+                    got & _MASK,
+                    f"{self.who}word {place} of the program reads {got:08X}, not {want:08X}: load it again",
+                )
+
+    def read_program(self, progress: OnCount | None = None) -> Program:
+        """The program in the buffer; at any time."""
+        return Program(tuple(self._read_words(range(WORDS), progress, WORDS).values()))
+
+    def _read_words(self, places: Collection[int], progress: OnCount | None, total: int) -> dict[int, int]:
+        """Words of the buffer. total: of all that the user sees."""
+        words: dict[int, int] = {}
+        self._here = None
+        for place in places:
+            self._seek(place)
+            words[place] = self._read(place)
+            if progress is not None:
+                progress(total - len(places) + len(words), total)
+        return words
+
+    # ------------------------------------------------------------------ EEPROM
+
+    def save(self) -> None:
+        """Keep the settings for the next power-up, and wait until that is done. Raises StorageBusy, and
+        StorageFailed if the EEPROM did not answer."""
+        self._store(Code.SAVE, SAVE_SECONDS)
+
+    def burn_program(self) -> None:
+        """Keep the program for the next power-up, and wait until that is done. Raises StorageBusy, and
+        StorageFailed if the EEPROM did not answer."""
+        self._store(Code.BURN, BURN_SECONDS)
+
+    def _store(self, code: Code, seconds: float) -> None:
+        repeated = self.counters.repeated
+        got = self.ask(code, good=_yes_or_no)
+        if not got and self.counters.repeated == repeated:
+            raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
+        # Refused after a lost reply: the first one is at work.
+        for _ in range(_LOOKS):
+            self.line.pause(seconds)
+            state = self.ask(Code.STORED, good=lambda value: value in set(Storage))
+            if state == Storage.KEPT:
+                return
+            if state == Storage.FAILED:
+                raise StorageFailed(state, f"{self.who}{StorageFailed.text}")
+        raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
+
+    # ------------------------------------------------------------------ running
+
+    def run_program(self, begin: int = 0) -> None:
+        """Start the program at an instruction, 0 to 99. Raises ProgramRuns; LostReply if nobody knows."""
+        self._point(2 * _instruction(begin))
+        if not self._ask_risky(Code.RUN_PROGRAM, self._started):
+            raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
+
+    def _started(self) -> int | None:
+        try:
+            if self.program_runs():
+                return 1
+        except NoAnswer as error:
+            raise self.lost(str(error)) from error
+        raise self.lost("no program runs now, but a short one may have run")
+
+    def halt_program(self) -> None:
+        """Halt the program; a motion goes on. The key functions are off afterwards, `offline` stays."""
+        offline = self.offline
+        self.offline = 0
+        if offline:
+            self.offline = 1
+
+    def try_instruction(self, place: int) -> None:
+        """Carry out one instruction of the buffer, 0 to 99; jumps and the like do nothing. Raises
+        ProgramRuns; LostReply if nobody knows."""
+        self._point(2 * _instruction(place))
+        if not self._ask_risky(Code.TRY, self._perhaps_tried):
+            raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
+
+    def _perhaps_tried(self) -> int | None:
+        raise self.lost("it cannot be seen whether the instruction was carried out")
+
+    def program_runs(self) -> bool:
+        """Whether a program runs, waits or is paused. No read-out tells, so an instruction of the buffer that
+        does nothing is tried: that is refused while a program runs."""
+        for place in range(WORDS // 2 - 1, -1, -1):
+            self._point(2 * place)
+            if harmless(self._read(2 * place)):
+                self._point(2 * place)
+                again = partial(self._point, 2 * place)
+                return not self.ask(Code.TRY, good=_yes_or_no, settle=again)
+        raise ProgramRuns(0, f"{self.who}the buffer holds no END: halt the program first")
+
+    # ------------------------------------------------------------------ inside
+
+    def _ask_risky(self, code: Code, settle: Callable[[], int | None]) -> int:
+        return self.ask(code, good=_yes_or_no, settle=settle, risky=True)
+
+    def _point(self, word: int) -> None:
+        """Set the part's word pointer."""
+        self._here = None
+        self.ask(Code.POINTER, word, good=lambda value: value == word)
+
+    def _seek(self, word: int) -> None:
+        """The same, unless it is there already."""
+        if self._here != word:
+            self._point(word)
+
+    def _write(self, place: int, word: int) -> None:
+        wanted = word - (word >> 31 << 32)
+        got = self.ask(
+            Code.WRITE_WORD, word, good=lambda value: value in (0, wanted), settle=lambda: self._point(place)
+        )
+        if got != wanted:
+            raise ProgramRuns(0, f"{self.who}word {place} was not written: {ProgramRuns.text}")
+        self._here = place + 1
+
+    def _read(self, place: int) -> int:
+        word = self.ask(Code.READ_WORD, settle=lambda: self._point(place)) & _MASK
+        self._here = place + 1
+        return word
+
+
+def _yes_or_no(value: int) -> bool:
+    return value in (0, 1)
+
+
+def _instruction(place: int) -> int:
+    if place not in range(WORDS // 2):
+        raise OutOfRange(f"instruction {place}: there are 0 to {WORDS // 2 - 1}")
+    return place

@@ -1,0 +1,125 @@
+"""A motion of a PMC006B4 under way: its status tells the end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..axis.motion import Progress
+from ..basis.arguments import Checked
+from ..basis.ending import Cause, End
+from ..basis.errors import AlarmStop, LimitReached, MotionError, StoppedEarly
+from ..line.motion import wait_all
+from .codes import Code, Flags
+from .line import Line006
+
+if TYPE_CHECKING:
+    from .axis import Axis006
+
+
+class End006(End):
+    """LIMIT stands for EXT1 and EXT2, ALARM for a stall. `finish` is status 1 at the end."""
+
+    unit = "steps"
+
+    def at(self, position: int) -> End006:
+        """The same end, with this position."""
+        return replace(self, position=position)
+
+    @property
+    def why(self) -> str:
+        flags = Flags.parse(self.finish)
+        words = [f"EXT{number}" for number in flags.stops] if Cause.LIMIT in self.cause else []
+        words += ["stall"] if Cause.ALARM in self.cause else []
+        words += ["stop command"] if Cause.STOP in self.cause else []
+        return " and ".join(words) or "complete"
+
+    def trouble(self) -> tuple[type[MotionError], str]:
+        if Cause.LIMIT in self.cause:
+            return LimitReached, "clear the flag (clear_stops, reset-flags), then move off the switch"
+        if Cause.ALARM in self.cause:
+            return AlarmStop, "remove what blocks the motor, then home again: steps are lost"
+        return StoppedEarly, "start again with the steps that are left"
+
+
+class Motion006(Checked):
+    """Handle of a motion that was started; `end` is its End once it is known.
+
+    asked: steps, None for free runs. direction: 1 forward, -1 backward. begin: position before. stop_ordered:
+    a stop was sent.
+    """
+
+    damaged = ""
+
+    def __init__(self, part: Axis006, asked: int | None, direction: int, begin: int | None) -> None:
+        self._part = part
+        self.asked, self.direction, self.begin = asked, direction, begin
+        self.stop_ordered = False
+        self.end: End006 | None = None
+        self._started = part.line.clock()
+        self._abort: tuple[float, int] | None = None
+
+    @property
+    def line(self) -> Line006:
+        """Where its controller is."""
+        return self._part.line
+
+    @property
+    def station(self) -> int:
+        """Address of its controller."""
+        return self._part.address
+
+    def slow_down(self, seconds: float, top: int) -> None:
+        """The maximum speed was lowered: stop at once in so many seconds, then restore it to `top`."""
+        self._abort = self.line.clock() + seconds, top
+
+    def look(self) -> None:
+        """Ask the controller; sets `end` when the motion is over."""
+        flags = self._part.flags()
+        if flags.busy and self._abort is not None and self.line.clock() >= self._abort[0]:
+            self._part.ask(Code.ABORT, good=lambda value: value == 0)
+            flags = self._part.flags()
+        if not flags.busy:
+            self._over(flags)
+
+    def _over(self, flags: Flags) -> None:
+        if self._abort is not None:
+            self._part.max_speed = self._abort[1]
+            self._abort = None
+        position = self._part.position
+        made = None if self.begin is None else _signed(position - self.begin)
+        whole = self.asked is not None and made == _signed(self.direction * self.asked)
+        cause = Cause.COMPLETE if whole else self._cause(flags)
+        left = 0 if self.asked is None or made is None else self.asked - abs(made)
+        raw = flags.ext1 << 1 | flags.ext2 << 2 | flags.auto_decay << 3 | flags.stall << 4
+        self.end = End006(cause, made, left, position, raw, self._part.who)
+
+    def _cause(self, flags: Flags) -> Cause:
+        if flags.stops:
+            return Cause.LIMIT
+        return Cause.ALARM if flags.stall and not self.stop_ordered else Cause.STOP
+
+    def now(self) -> Progress:
+        """Where the motor is, or where the motion has ended."""
+        position = self._part.position if self.end is None else self.end.position or 0
+        made = 0 if self.begin is None else abs(_signed(position - self.begin))
+        return Progress(position, made, self.asked, self.line.clock() - self._started)
+
+    def poll(self) -> Progress | None:
+        """Where the motor is now; None when it has come to rest (then `end` is set)."""
+        self.look()
+        return self.now() if self.end is None else None
+
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> End006:
+        """Wait for the end, without judging it; see `line_motion.wait_all`."""
+        wait_all([self], timeout, progress)
+        assert self.end is not None
+        return self.end
+
+
+def _signed(steps: int) -> int:
+    """A difference of positions, which wrap at 32 bits."""
+    return (steps + (1 << 31)) % (1 << 32) - (1 << 31)

@@ -1,0 +1,231 @@
+"""Settings of a PMC006B4: codes, ranges, units, what is saved. Each is a property of `Settings006`."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from dataclasses import dataclass
+
+from ..basis.arguments import whole
+from ..basis.errors import OutOfRange
+from .codes import STATUS_1_BITS, STATUS_2_BITS, Code
+from .errors import SettingRefused
+from .talk import Talk006
+
+MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
+DRIVE_FIRST, DRIVE_STEP = 400, 150
+LEAST_ACCELERATION = 1700
+NO_WRITE = 1 << 30
+"""No setting takes this value, so that an instruction with it only tells what is in force."""
+
+
+def mean_acceleration(coefficient: int) -> int:
+    """Steps/s² of a coefficient 0 to 5.
+
+    >>> mean_acceleration(3)
+    13600
+    """
+    return LEAST_ACCELERATION << coefficient
+
+
+def drive_current(milliamperes: int) -> int:
+    """What the drive makes of a setting, in mA: the nearest of 400, 550, …, 4000.
+
+    >>> drive_current(800), drive_current(1500)
+    (850, 1450)
+    """
+    return DRIVE_FIRST + (milliamperes - DRIVE_FIRST + DRIVE_STEP // 2) // DRIVE_STEP * DRIVE_STEP
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A register, and the property that reads and writes it.
+
+    write: instruction; read: instruction that reads it, None where a refused write does. shift: place of its
+    bits in the word that is read; bits: how many. accepts: legal values, as users give them; span: the same
+    in words. text: what it is for. unit: of the value. saved: kept by `save`.
+    """
+
+    write: Code
+    read: Code | None
+    accepts: Container[int]
+    span: str
+    text: str
+    unit: str = ""
+    saved: bool = True
+    shift: int = 0
+    bits: int = 32
+    word: int = 32
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "__doc__", f"{self.text}: {self.span}{self.unit and ' ' + self.unit}.")
+
+    name = ""
+    hint = ""
+
+    def __get__(self, node: Talk006 | None, owner: type) -> int:
+        if node is None:
+            return self  # type: ignore[return-value]
+        if self.read is None:
+            return self.known(node.ask(self.write, NO_WRITE))
+        got = node.ask(self.read, good=self._plausible)
+        return self.known(got >> self.shift & (1 << self.bits) - 1)
+
+    def __set__(self, node: Talk006, value: int) -> None:
+        if isinstance(value, bool) and self.accepts == range(2):
+            value = int(value)
+        value = whole(value, self.name)
+        if value not in self.accepts:
+            unit = self.unit and f" {self.unit}"
+            raise OutOfRange(f"{self.name} {value}: there are {self.span}{unit}{self.hint}")
+        data = self.data(value)
+        got = node.ask(self.write, data, good=lambda reply: reply == data, sure=False)
+        if got != data:
+            raise SettingRefused(got, f"{node.who}{self.name} {value} was refused: it is {self.known(got)}")
+
+    def _plausible(self, data: int) -> bool:
+        """Whether a reply can be this setting, or the word that it is part of."""
+        return data == 0 or (data in self.accepts if self.word == 32 else 0 < data < 1 << self.word)
+
+    def data(self, value: int) -> int:
+        """What is sent for a value."""
+        return value
+
+    def known(self, data: int) -> int:
+        """The value for data that were read."""
+        return data
+
+
+class FullSteps(Setting):
+    """Microstepping: the part calls full steps 0, people 1."""
+
+    hint = "; 1 is the full step"
+
+    def data(self, value: int) -> int:
+        return 0 if value == 1 else value
+
+    def known(self, data: int) -> int:
+        return data or 1
+
+
+_STATUS_1 = {"word": STATUS_1_BITS, "bits": 1}
+_STATUS_2 = {"word": STATUS_2_BITS, "saved": False}
+_SPEED = (range(65, 3001), "65 to 3000")
+
+
+class Settings006(Talk006):
+    """Each assignment is checked against the reply. Values that are out of range raise OutOfRange before they
+    are sent; what the part refuses raises SettingRefused."""
+
+    microsteps = FullSteps(
+        Code.MICROSTEPS,
+        Code.READ_MICROSTEPS,
+        MICROSTEPS,
+        "1, 2, 4, 8, 16, 32, 64, 128",
+        "steps that a full step is divided into, from the next motion on",
+    )
+    current = Setting(
+        Code.CURRENT, Code.READ_CURRENT, range(400, 4001), "400 to 4000", "peak phase current", "mA"
+    )
+    max_speed = Setting(
+        Code.MAX_SPEED,
+        Code.READ_MAX_SPEED,
+        range(1, 16_001),
+        "1 to 16000",
+        "top speed of moves and speed of free runs, at once",
+        "steps/s",
+        saved=False,
+    )
+    start_speed = Setting(Code.START_SPEED, None, *_SPEED, "speed of the first step", "steps/s")
+    stop_speed = Setting(Code.STOP_SPEED, None, *_SPEED, "speed of the last step", "steps/s")
+    acceleration = Setting(
+        Code.ACCELERATION, Code.READ_ACCELERATION, range(6), "0 to 5", "coefficient n: 1700 x 2^n steps/s²"
+    )
+    deceleration = Setting(
+        Code.DECELERATION, Code.READ_DECELERATION, range(6), "0 to 5", "the same for slowing down"
+    )
+    auto_decay = Setting(
+        Code.AUTO_DECAY,
+        Code.STATUS_1,
+        range(2),
+        "0 or 1",
+        "less current 100 ms after each motion",
+        shift=3,
+        **_STATUS_1,
+    )
+    attenuation = Setting(
+        Code.ATTENUATION,
+        Code.READ_ATTENUATION,
+        range(1, 5),
+        "1 to 4",
+        "n: current at rest is 1/2^n of the peak",
+    )
+    current_compensation = Setting(
+        Code.CURRENT_COMPENSATION, None, range(100, 1201), "100 to 1200", "more current at speed"
+    )
+    speed_compensation = Setting(
+        Code.SPEED_COMPENSATION, None, range(300, 2001), "300 to 2000", "phase lead at speed"
+    )
+    trigger = Setting(
+        Code.TRIGGER,
+        Code.READ_TRIGGER,
+        range(4),
+        "0 to 3",
+        "edge that stops, bit 0 EXT1, bit 1 EXT2: 0 falling, 1 rising",
+    )
+    offline = Setting(
+        Code.OFFLINE,
+        Code.STATUS_2,
+        range(2),
+        "0 or 1",
+        "the program starts by itself after power-up; 0 also halts it",
+        word=STATUS_2_BITS,
+        shift=5,
+        bits=1,
+    )
+    stops = Setting(
+        Code.EXT_ENABLE,
+        Code.STATUS_2,
+        range(4),
+        "0 to 3",
+        "emergency stops that work, bit 0 EXT1, bit 1 EXT2",
+        shift=1,
+        bits=2,
+        **_STATUS_2,
+    )
+    direction = Setting(
+        Code.DIRECTION,
+        Code.STATUS_2,
+        range(2),
+        "0 or 1",
+        "of the next motion: 1 forward, 0 backward",
+        shift=4,
+        bits=1,
+        **_STATUS_2,
+    )
+    free = Setting(
+        Code.FREE, Code.STATUS_2, range(2), "0 or 1", "motor off-line, without current", bits=1, **_STATUS_2
+    )
+    stall_length = Setting(
+        Code.STALL_LENGTH, None, range(64), "0 to 63", "samples in a row that mean a stall", saved=False
+    )
+    stall_config = Setting(
+        Code.STALL_CONFIG, None, range(8), "0 to 7", "bit 0 detect, 1 stop, 2 raise GPO5", saved=False
+    )
+    stall_level = Setting(
+        Code.STALL_LEVEL, None, range(512), "0 to 511", "back-EMF below which a sample counts", saved=False
+    )
+
+
+SETTINGS: dict[str, Setting] = {
+    name: value for name, value in vars(Settings006).items() if isinstance(value, Setting)
+}
+"""All of them by name."""
+
+
+def setting(name: str) -> Setting:
+    """By name. OutOfRange for one that does not exist."""
+    try:
+        return SETTINGS[name.replace("-", "_").lower()]
+    except KeyError:
+        raise OutOfRange(f"no setting {name!r}: there are {', '.join(SETTINGS)}") from None

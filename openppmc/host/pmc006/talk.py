@@ -1,0 +1,149 @@
+"""One PMC006B4 on its line: instructions and replies, repeated where that does no harm."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..basis.arguments import Checked
+from ..line.errors import LostReply, unanswered
+from ..line.faults import Counters, Fault, Miss
+from .codes import PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
+from .line import Line006
+from .wire import FACTORY, address_number
+
+ATTEMPTS = 5
+_TRIES, _MARKS = 4, 199
+_CHECK = "is it there and powered, are address, baud rate and wires right?"
+_OTHERS = "noise, another baud rate, or two controllers with this address"
+
+
+class Talk006(Checked):
+    """See `pmc006.Pmc006`. address: 1 to 120, or 255. alone: the only controller that this program uses, so
+    that messages need not name it."""
+
+    def __init__(self, line: Line006, address: int = FACTORY, alone: bool = True) -> None:
+        self.line = line
+        self.address = address_number(address)
+        self.alone = alone
+        self._mark = 0
+
+    @property
+    def who(self) -> str:
+        """Begins a message about this controller, if there are several."""
+        return "" if self.alone else f"controller {self.address}: "
+
+    @property
+    def where(self) -> str:
+        """Line and address, for messages."""
+        return f"{self.line.name}: controller {self.address}"
+
+    @property
+    def counters(self) -> Counters:
+        """What went wrong between the master and this controller."""
+        return self.line.counters.setdefault(self.address, Counters())
+
+    # ------------------------------------------------------------------ instructions
+
+    def ask(
+        self,
+        code: int,
+        data: int = 0,
+        good: Callable[[int], bool] = lambda value: True,
+        settle: Callable[[], int | None] = lambda: None,
+        sure: bool = True,
+        risky: bool = False,
+    ) -> int:
+        """Send an instruction; returns the data of its reply, signed.
+
+        good: what a reply can be; another one is a damaged one or that of something else, unless sure is
+        False: then it is the part's last word after it has come twice. settle: called after each attempt
+        without a reply; what it returns is the reply if the instruction was carried out, None if it was not
+        and may be repeated; it may raise. Raises StationSilent, GarbledReply, and LostReply instead of the
+        former if the instruction is risky: if it matters whether it was carried out.
+        """
+        misses: list[Miss] = []
+        odd: list[int] = []
+        if not self._in_step(misses):
+            raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)
+        for attempt in range(ATTEMPTS):
+            self.counters.repeated += attempt > 0
+            got = self.line.exchange(self.address, code, data)
+            if not isinstance(got, Miss):
+                if good(got.value) or (not sure and got.value in odd):
+                    return got.value
+                odd.append(got.value)
+                if not sure:
+                    continue
+                self.counters.garbled += 1
+                got = Miss(Fault.BROKEN, b"?")
+            misses.append(got)
+            self.line.settle()
+            if not self._in_step(misses):
+                if risky:
+                    raise self.lost("the controller has been silent since")
+                break
+            if (done := settle()) is not None:
+                return done
+        raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)
+
+    def _in_step(self, misses: list[Miss]) -> bool:
+        """After a silence: replies do not say what they answer, so one that comes late would answer the next
+        question. Set the word pointer, which nobody relies on, until that very value comes back. False if it
+        does not; silences are added to `misses`."""
+        if self.address not in self.line.doubtful:
+            return True
+        for _ in range(_TRIES):
+            self._mark = self._mark % _MARKS + 1
+            got = self.line.exchange(self.address, Code.POINTER, self._mark)
+            if isinstance(got, Miss):
+                misses.append(got)
+                self.line.settle()
+            elif got.value == self._mark:
+                self.line.doubtful.discard(self.address)
+                return True
+        return False
+
+    def _bits(self, code: Code, bits: int) -> int:
+        return self.ask(code, good=lambda value: 0 <= value < 1 << bits)
+
+    def lost(self, why: str) -> LostReply:
+        """For instructions of which nobody knows whether they were carried out."""
+        return LostReply(
+            f"{self.who}the reply to an instruction was lost, it may have been carried out; {why}: look at "
+            "the controller (status) before you repeat it"
+        )
+
+    # ------------------------------------------------------------------ read-outs
+
+    def flags(self) -> Flags:
+        """Status 1; at any time."""
+        return Flags.parse(self._bits(Code.STATUS_1, STATUS_1_BITS))
+
+    def modes(self) -> Modes:
+        """Status 2; at any time."""
+        return Modes.parse(self._bits(Code.STATUS_2, STATUS_2_BITS))
+
+    def ports(self) -> Ports:
+        """Inputs, outputs and the levels of EXT1 and EXT2; at any time."""
+        return Ports.parse(self._bits(Code.READ_IO, PORT_BITS))
+
+    @property
+    def position(self) -> int:
+        """Steps from where it was 0, forward positive; at any time."""
+        return self.ask(Code.POSITION)
+
+    def version(self) -> str:
+        """Firmware line, as V0.1.35."""
+        value = self.ask(Code.VERSION) & 0xFFFFFFFF
+        return f"V{value >> 16}.{value >> 8 & 0xFF}.{value & 0xFF}"
+
+    def is_there(self) -> bool:
+        """Whether it answers, asked once or, if noise comes, twice. Raises GarbledReply."""
+        for _ in range(2):
+            got = self.line.exchange(self.address, Code.STATUS_1)
+            if not isinstance(got, Miss):
+                return True
+            if not got.heard:
+                return False
+            self.line.settle()
+        raise unanswered(self.where, [got, got], 2, _CHECK, _OTHERS)

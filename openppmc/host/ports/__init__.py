@@ -1,0 +1,1 @@
+"""Ports: a serial device, the virtual board (`sim:`), the model (`model:`)."""

@@ -1,0 +1,148 @@
+"""One axis of a PPMC-2104."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from ...model.motion.codes import ORIGIN
+from ...model.ppmc2104.codes import BUSY, CMND
+from ..axis.axis import CCW, Axis, Order
+from ..axis.motion import Motion
+from ..axis.registers import Inputs
+from ..basis import units
+from ..basis.ending import Cause, End
+from ..basis.errors import (
+    AlreadyDecelerating,
+    CutCommand,
+    NothingToStop,
+    NotInitialised,
+    StartRefused,
+    Timeout,
+)
+from ..basis.kind import AXIS_BIT, PPMC2104
+from ..bridge.script import Script
+
+if TYPE_CHECKING:
+    from .driver import Ppmc2104
+
+SWITCHING, HOLD_DELAY = 0x84, 0x85
+_SETUP_SECONDS = 10.0
+"""Limit for the end of an initialisation at a 16 MHz crystal: a part needs 0.15 s for both axes, but a
+virtual board may be slow."""
+
+
+class Axis2104(Axis):
+    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions. `part` has what belongs to both.
+
+    `initialise`, figures for a 16 MHz crystal: start_pps from 488.3, high_pps up to 250 000, its rate at
+    least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz; no choice of
+    logic, no long_intervals. phases, half_step, chop and the choice of an external clock stay as they are
+    until `excitation_off` or `reset` (P2104-INI-05).
+    """
+
+    kind = PPMC2104
+
+    def __init__(self, part: Ppmc2104, number: int) -> None:
+        super().__init__(part.link)
+        self.part = part
+        self.number = self.kind.check_axis(number)
+        self.bit = (number - 1) * AXIS_BIT
+        self.busy = BUSY[number - 1]
+
+    def apply(self, setup: units.Setup) -> units.Setup:
+        """Initialise with a setup that was planned before for this axis; waits until its ramp is ready."""
+        self.link.execute(Script().call(setup.code, *setup.data))
+        clock = self.link.clock
+        end = clock() + _SETUP_SECONDS * 16e6 / self.link.identity.xtal_hz
+        while self.part.status().raw & CMND[self.number - 1]:
+            if clock() >= end:
+                raise Timeout(f"{self.link.name}: {self.who}the initialisation does not end: reset the part")
+            self.link.pause(0.002)
+        self.setup = setup
+        return setup
+
+    # ------------------------------------------------------------------ what differs from other parts
+
+    def straps(self, clock: units.BaseClock | None) -> Script:
+        return self.part.straps(self.number, clock)
+
+    def started(self, order: Order, begin: int) -> Motion:
+        self.part.rests(self.number)
+        return super().started(order, begin)
+
+    def look(self, status: int) -> None:
+        # The end of the other axis's motion would keep int_n low, and this one's would send no message.
+        self.part.other(self.number).settle(status)
+
+    def settle(self, status: int) -> None:
+        """The status register was read: fetch the end of a motion that is over."""
+        if self._motion is not None and self._motion.end is None:
+            self._motion.look(status)
+        elif not status & self.busy:
+            self.part.settle_foreign(self.number)
+
+    def start(self, order: Order) -> Motion:
+        """As on other parts; what the part refuses because of a switch ends as a motion without pulses."""
+        try:
+            return super().start(order)
+        except StartRefused as refused:
+            return self.refused_start(order, refused)
+
+    def refused_start(self, order: Order, refused: StartRefused) -> Motion:
+        """A motion that ended where it began. Raises the refusal itself if no switch is active any more."""
+        inputs = self.inputs()
+        cause = Cause.COMPLETE
+        if inputs.alarm:
+            cause |= Cause.ALARM
+        if inputs.limit_ccw if order.direction == CCW else inputs.limit_cw:
+            cause |= Cause.LIMIT
+        if not cause and order.operation == ORIGIN and inputs.origin:
+            cause = Cause.ORIGIN
+        if not cause:
+            raise refused
+        position = self._count()
+        motion = self.started(order, position)
+        left = order.asked or units.LONGEST_MOVE
+        motion.end = self.told(End(cause, 0, left, self.counted(position), 0))
+        return motion
+
+    def order_stop(self, now: bool) -> None:
+        try:
+            super().order_stop(now)
+        except NotInitialised as error:
+            raise NothingToStop(error.status, f"{self.who}nothing to stop: it is not initialised") from None
+        except CutCommand:
+            pass  # an abandoned command's wait for data ended, and the stop acts all the same (P2104-STP-07)
+
+    def brake(self, now: bool = False) -> None:
+        """A stop with a ramp is refused at constant speed and while the part waits for RUN (P2104-STP-03);
+        both can stop at once."""
+        motion = self._motion
+        try:
+            self.order_stop(now or (motion is not None and not motion.ramped))
+        except NothingToStop:
+            pass
+        except AlreadyDecelerating:
+            if motion is not None and motion.begin == self._count():
+                self.brake(now=True)
+
+    # ------------------------------------------------------------------ registers and settings
+
+    def inputs(self) -> Inputs:
+        return Inputs.of_pins(self.link.execute(self.part.show(self.number).pins()).byte(0))
+
+    def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
+        """Times of the chopper at rest in us (16 MHz: 32 to 127.5 each); returns those reached.
+        Only at rest."""
+        on = units.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = units.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
+        return on[1], off[1]
+
+    def hold_delay(self, microseconds: units.Number) -> Fraction:
+        """Time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); returns the one reached. Only
+        at rest."""
+        byte, reached = units.hold_byte(self.link.identity.xtal_hz, microseconds)
+        self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
+        return reached

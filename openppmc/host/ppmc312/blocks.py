@@ -1,0 +1,323 @@
+"""Instruction blocks of the PPMC-312 in logical order: header, length, code, parameters. Pure.
+
+Numbers are big-endian. Every function raises OutOfRange for what does not fit its field; whether the part
+takes the values depends on its table and state.
+
+>>> acceleration(CW, 5000).hex(" ")
+'03 08 82 00 00 00 00 00 13 88'
+>>> immediate_stop(Trigger.POSITION, 0x1000).hex(" ")
+'03 06 80 04 00 00 10 00'
+>>> bus_order(immediate_stop(Trigger.POSITION, 0x1000)).hex(" ")
+'00 10 00 00 04 80 06 03'
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from ...model.ppmc312.codes import Code
+from ..basis.arguments import side, whole, within
+from ..basis.errors import OutOfRange
+
+CW, CCW = 0, 1
+WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
+"""Headers: complete instruction, last data block, data block before others, code block with data to come."""
+LONGEST = 32
+WINDOW = 0x20
+POSITIONS = 1 << 32
+_DIRECTION, _OVERRIDE, _INDEX, _SEPARATE, _SIGMOID = 0x40, 0x04, 0x10, 0x10, 0x08
+
+
+class Trigger(Enum):
+    """What makes a registered instruction run. The value is OV with TRG in the flag byte."""
+
+    NOW = 0x00
+    POSITION = _OVERRIDE
+    EVENT1 = _OVERRIDE | 1
+    EVENT2 = _OVERRIDE | 3
+
+
+def block(code: int, parameters: bytes = b"", header: int = WHOLE) -> bytes:
+    """A block of code and parameters. OutOfRange beyond 32 bytes.
+
+    >>> block(Code.VERSION).hex(" ")
+    '03 01 40'
+    """
+    length = 1 + len(parameters)
+    if length + 2 > LONGEST:
+        raise OutOfRange(f"{len(parameters)} parameter bytes: a block has up to {LONGEST - 3}")
+    return bytes([header, length, code]) + parameters
+
+
+def bus_order(logical: bytes) -> bytes:
+    """Bytes as they go over the bus, the header last."""
+    return logical[::-1]
+
+
+def start_address(logical: bytes) -> int:
+    """What WAR is set to for a block.
+
+    >>> f"{start_address(acceleration(CW, 5000)):02X}"
+    '16'
+    """
+    return WINDOW - len(logical)
+
+
+def number(value: int, width: int, what: str, least: int = 0) -> bytes:
+    """Big-endian bytes of an unsigned number. OutOfRange."""
+    most = (1 << 8 * width) - 1
+    return within(value, what, least, most).to_bytes(width, "big")
+
+
+def position_bytes(position: int) -> bytes:
+    """A position, -2^31 to 2^31 - 1, or up to 2^32 - 1 as the part counts.
+
+    >>> position_bytes(-7).hex(" ")
+    'ff ff ff f9'
+    """
+    position = whole(position, "position")
+    if not -POSITIONS // 2 <= position < POSITIONS:
+        raise OutOfRange(f"position {position} is outside {-POSITIONS // 2} to {POSITIONS // 2 - 1} pulses")
+    return (position % POSITIONS).to_bytes(4, "big")
+
+
+def _side(direction: int) -> int:
+    return side(direction) * _DIRECTION
+
+
+# ---------------------------------------------------------------------- settings
+
+
+def initial_setting(
+    clk: int, start: int, high: int, up: int, stop: int | None = None, down: int = 0, sigmoid: bool = False
+) -> bytes:
+    """00: clk = base clock 0 to 7, rates, pulses of the ramps; with `stop` a deceleration of its own.
+
+    >>> initial_setting(1, 1000, 200, 2000).hex(" ")
+    '03 09 00 01 03 e8 00 c8 00 07 d0'
+    >>> initial_setting(1, 1000, 200, 2000, 500, 1500).hex(" ")
+    '03 0e 00 11 03 e8 01 f4 00 c8 00 07 d0 00 05 dc'
+    """
+    separate = stop is not None
+    flags = number(clk, 1, "base clock")[0] | separate * _SEPARATE | sigmoid * _SIGMOID
+    data = bytes([flags]) + number(start, 2, "start rate")
+    if stop is not None:
+        data += number(stop, 2, "stop rate")
+    data += number(high, 2, "high rate") + number(up, 3, "acceleration pulses")
+    if separate:
+        data += number(down, 3, "deceleration pulses")
+    return block(Code.INITIAL, data)
+
+
+def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None = None) -> list[bytes]:
+    """01: the blocks of a free curve, lists fastest stage first; `down` only if it is not as `up`.
+
+    >>> for part in free_curve(1, [100, 200, 400], [5, 4, 3]):
+    ...     print(part.hex(" "))
+    02 03 01 01 03
+    00 06 00 64 00 c8 01 90
+    01 09 00 00 05 00 00 04 00 00 03
+    """
+    stages = bytes([len(up), *([] if down is None else [len(down)])])
+    flags = number(clk, 1, "base clock")[0] | (_SEPARATE if down is not None else 0)
+    blocks = [block(Code.FREE_CURVE, bytes([flags]) + stages, OPENING)]
+    for values, width, what in ((rates, 2, "rate"), (up, 3, "pulses"), (down or [], 3, "pulses")):
+        for k in range(0, len(values), 10):
+            data = b"".join(number(value, width, what) for value in values[k : k + 10])
+            blocks.append(bytes([MORE_DATA, len(data)]) + data)
+    blocks[-1] = bytes([LAST_DATA]) + blocks[-1][1:]
+    return blocks
+
+
+def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = False) -> bytes:
+    """02: report when the encoder comes within `distance` (1 to 65 535) of the pulses, and when it leaves.
+
+    >>> in_position(True, 10).hex(" ")
+    '03 04 02 03 00 0a'
+    """
+    flags = bytes([enabled | auto << 1 | clamp << 2])
+    return block(Code.IN_POSITION, flags + number(distance, 2, "range", int(enabled)))
+
+
+def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
+    """03: the same, during motions too.
+
+    >>> encoder_watch(True, 20).hex(" ")
+    '03 04 03 03 00 14'
+    """
+    flags = bytes([enabled | auto << 1])
+    return block(Code.ENCODE, flags + number(distance, 2, "range", int(enabled)))
+
+
+def interlock_position(position: int) -> bytes:
+    """04.
+
+    >>> interlock_position(5000).hex(" ")
+    '03 05 04 00 00 13 88'
+    """
+    return block(Code.INTERLOCK_POSITION, position_bytes(position))
+
+
+def speed_limit(rate: int) -> bytes:
+    """05: at the slow-down limits nothing as fast as this rate, or faster.
+
+    >>> speed_limit(300).hex(" ")
+    '03 03 05 01 2c'
+    """
+    return block(Code.SPEED_LIMIT, number(rate, 2, "rate", 2))
+
+
+def end_terminal(monitored: bool) -> bytes:
+    """06."""
+    return block(Code.END_TERMINAL, bytes([monitored]))
+
+
+def input_mask(mask: int, auto: bool = True) -> bytes:
+    """28.
+
+    >>> input_mask(0x24).hex(" ")
+    '03 03 28 01 24'
+    """
+    return block(Code.MASK, bytes([auto]) + number(mask, 1, "mask"))
+
+
+def outputs(value: int) -> bytes:
+    """26: six outputs, a 1 makes the pin low."""
+    return block(Code.OUTPUT, bytes([within(value, "outputs", 0, 63)]))
+
+
+def read_position(encoder: bool = False) -> bytes:
+    """42."""
+    return block(Code.POSITION_READ, bytes([encoder]))
+
+
+def set_position(position: int, encoder: bool = False) -> bytes:
+    """43.
+
+    >>> set_position(-1, encoder=True).hex(" ")
+    '03 06 43 01 ff ff ff ff'
+    """
+    return block(Code.POSITION_SET, bytes([encoder]) + position_bytes(position))
+
+
+# ---------------------------------------------------------------------- motions
+
+
+def _flags(direction: int, trigger: Trigger) -> bytes:
+    if trigger is Trigger.POSITION:
+        raise OutOfRange("a start cannot wait for a position: use an event, or start it yourself")
+    return bytes([_side(direction) | trigger.value])
+
+
+def acceleration(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
+    """82: so many pulses with ramps up to `rate`, 0 = the high speed."""
+    data = number(rate, 2, "rate") + number(pulses, 4, "pulses", 1)
+    return block(Code.RAMP, _flags(direction, trigger) + data)
+
+
+def constant(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
+    """83: the same at constant speed.
+
+    >>> constant(CCW, 100, 500).hex(" ")
+    '03 08 83 40 01 f4 00 00 00 64'
+    """
+    data = number(rate, 2, "rate") + number(pulses, 4, "pulses", 1)
+    return block(Code.CONSTANT, _flags(direction, trigger) + data)
+
+
+def single_step(direction: int) -> bytes:
+    """84."""
+    return block(Code.STEP, bytes([_side(direction)]))
+
+
+def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = Trigger.NOW) -> bytes:
+    """86, or 85 with a ramp: until something stops it.
+
+    >>> run(CW, ramped=True).hex(" "), run(CCW, 400).hex(" ")
+    ('03 04 85 00 00 00', '03 04 86 40 01 90')
+    """
+    code = Code.FOREVER_RAMP if ramped else Code.FOREVER_CONSTANT
+    return block(code, _flags(direction, trigger) + number(rate, 2, "rate"))
+
+
+def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
+    """10: constant speed up to the origin, or to the first index on it.
+
+    >>> origin_search(CCW, 500, index=True).hex(" ")
+    '03 04 10 50 01 f4'
+    """
+    return block(Code.ORIGIN_SEARCH, bytes([_side(direction) | index * _INDEX]) + number(rate, 2, "rate"))
+
+
+def zero_return(direction: int, rate: int = 0, index: bool = False) -> bytes:
+    """11: at high speed past the origin, then back to it at the start speed."""
+    return block(Code.ZERO_RETURN, bytes([_side(direction) | index * _INDEX]) + number(rate, 2, "rate"))
+
+
+# ---------------------------------------------------------------------- stops and changes
+
+
+def _place(trigger: Trigger, position: int | None) -> bytes:
+    if (trigger is Trigger.POSITION) != (position is not None):
+        raise OutOfRange("a position belongs to the trigger POSITION, and to no other")
+    return b"" if position is None else position_bytes(position)
+
+
+def immediate_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> bytes:
+    """80."""
+    return block(Code.STOP, bytes([trigger.value]) + _place(trigger, position))
+
+
+def slow_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> bytes:
+    """81.
+
+    >>> slow_stop(Trigger.EVENT1).hex(" ")
+    '03 02 81 05'
+    """
+    return block(Code.SLOW_STOP, bytes([trigger.value]) + _place(trigger, position))
+
+
+def change(
+    rate: int, ramped: bool = True, trigger: Trigger = Trigger.NOW, position: int | None = None
+) -> bytes:
+    """87 with a ramp, 88 at once: another speed while the motor runs.
+
+    >>> change(400).hex(" "), change(300, False, Trigger.POSITION, 0x800).hex(" ")
+    ('03 04 87 00 01 90', '03 08 88 04 01 2c 00 00 08 00')
+    """
+    code = Code.RAMP_CHANGE if ramped else Code.CHANGE
+    return block(code, bytes([trigger.value]) + number(rate, 2, "rate") + _place(trigger, position))
+
+
+# ---------------------------------------------------------------------- event buffers
+
+
+def event_register(buffer: int, instruction: bytes) -> bytes:
+    """49: put an instruction into event buffer 1 or 2.
+
+    >>> event_register(2, acceleration(CW, 100)).hex(" ")
+    '03 0c 49 01 03 08 82 00 00 00 00 00 00 64'
+    """
+    return block(Code.EVENT_SET, bytes([buffer_number(buffer)]) + instruction)
+
+
+def event_delete(buffer: int) -> bytes:
+    """49: take the last one out again.
+
+    >>> event_delete(2).hex(" ")
+    '03 02 49 03'
+    """
+    return block(Code.EVENT_SET, bytes([buffer_number(buffer) | 2]))
+
+
+def event_read(buffer: int) -> bytes:
+    """47."""
+    return block(Code.EVENT_READ, bytes([buffer_number(buffer)]))
+
+
+def buffer_number(buffer: int) -> int:
+    """Event 1 or 2 as the part counts them, 0 or 1. OutOfRange."""
+    buffer = whole(buffer, "event")
+    if buffer not in (1, 2):
+        raise OutOfRange(f"event {buffer}: there are events 1 and 2")
+    return buffer - 1

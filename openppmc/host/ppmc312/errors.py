@@ -1,0 +1,170 @@
+"""What the PPMC-312 refuses and reports as exceptions, one class a reason. See `errors` for the common base.
+
+`CommandRefused.status` is the byte of the answer that gives the reason.
+"""
+
+# ruff: noqa: N818
+
+from __future__ import annotations
+
+from ...model.ppmc312.codes import Answer, State
+from ..basis.errors import (
+    CommandRefused,
+    NothingToStop,
+    NotInitialised,
+    NotWhileBusy,
+    StartRefused,
+    UnknownCode,
+)
+
+
+class ParameterRefused(CommandRefused):
+    """F0: a value that the part does not take; `number` tells which, `echo` is the instruction as it came."""
+
+    echo = b""
+
+
+class RateRefused(ParameterRefused):
+    """F0 01, 20: a rate outside what is possible."""
+
+
+class TableRefused(ParameterRefused):
+    """F0 02 to 05: speeds too close together, or too few pulses for 127 stages."""
+
+
+class CurveRefused(ParameterRefused):
+    """F0 10 to 1A: a free curve with a mistake. The part has no table now."""
+
+
+class OutOfTurn(CommandRefused):
+    """F1 01, 02: a data block without its free curve, or an instruction in the middle of one."""
+
+    text = "the part did not expect this block: another program may be using it; send the command again"
+
+
+class InAlarm(CommandRefused):
+    """F1 in state ABN."""
+
+    text = "the part is in alarm: remove the cause, then clear the alarm (or reset)"
+
+
+class HeldByRun(CommandRefused):
+    """F1 in state WRN."""
+
+    text = "a start waits for RUN: give RUN, switch its monitor off, or reset the part"
+
+
+class BadBlock(CommandRefused):
+    """F6: the length byte does not fit the block."""
+
+    text = "the part could not make sense of the block (its length): send the command again"
+
+
+class RegistrationRefused(CommandRefused):
+    """F7: an override could not be registered."""
+
+
+class OverrideFailed(CommandRefused):
+    """F9: a registered override was not carried out, and the others are dropped."""
+
+
+class EventFailed(CommandRefused):
+    """F8: an instruction of an event buffer was not carried out, and the buffer is empty now."""
+
+
+class AlarmRaised(CommandRefused):
+    """F4: the part stopped the pulses and went into alarm."""
+
+
+_PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
+    0x00: (ParameterRefused, "the part refuses the length of this setting: renew the package"),
+    0x01: (
+        RateRefused,
+        "a rate of the setting is out of range: high rate 2 to 65519, start and stop from 17",
+    ),
+    0x02: (TableRefused, "start (or stop) and high speed are too close: more than 127 rate steps between"),
+    0x03: (TableRefused, "the high speed must be above start and stop speed"),
+    0x04: (TableRefused, "one of start and stop speed is too close to the high speed: 127 rate steps"),
+    0x05: (TableRefused, "the ramp is too short: each of its stages needs 3 pulses"),
+    0x10: (CurveRefused, "a free curve begins with its number of stages"),
+    0x11: (CurveRefused, "a free curve has 2 to 127 stages a side"),
+    0x15: (CurveRefused, "a block of the free curve is too long"),
+    0x16: (CurveRefused, "a block of the free curve holds the wrong number of values"),
+    0x17: (CurveRefused, "the free curve ended too early or too late"),
+    0x18: (CurveRefused, "the free curve has a rate below 2"),
+    0x19: (CurveRefused, "the free curve has a stage with fewer than 2 pulses"),
+    0x1A: (CurveRefused, "the free curve has more than 16777215 pulses on a side"),
+    0x20: (RateRefused, "the speed is outside those of the table"),
+    0x21: (ParameterRefused, "a start cannot wait for a position: use an event"),
+    0x23: (ParameterRefused, "an operand is wrong: a number of pulses, or which position"),
+    0x24: (ParameterRefused, "there are event buffers 1 and 2"),
+    0x25: (ParameterRefused, "an event buffer takes one instruction of up to 14 bytes"),
+    0x26: (ParameterRefused, "the in-position range must be 1 to 65535"),
+    0x27: (ParameterRefused, "the encoder range must be 1 to 65535"),
+}
+STATES: dict[int, tuple[type[CommandRefused], str]] = {
+    State.INI: (NotInitialised, "the part has no table (power-up, reset, refused setting): initialise it"),
+    State.NOR: (NothingToStop, "nothing to stop or to change: the motor is at rest"),
+    State.ACC: (NotWhileBusy, "the part is busy with a motion (speed changing): wait, or stop it first"),
+    State.FIX: (NotWhileBusy, "the part is busy with a motion: wait for its end or stop it first"),
+    State.ABN: (InAlarm, ""),
+    State.WRN: (HeldByRun, ""),
+}
+LIMIT = "it may not start: a limit switch of this direction is active: move the other way"
+_ALARMS = {
+    0: "the alarm input is active: clear the drive's alarm, then clear the part's",
+    1: "an instruction, override or event met an unread answer: read the part's reports more often, clear "
+    "the alarm",
+    2: "two reports of interlock or RUN met: read the part's reports more often, clear the alarm",
+    3: "a stop report met an unread one: read the part's reports more often, clear the alarm",
+}
+_FAILURES = {
+    0: "a parameter was refused",
+    1: "the state did not allow it",
+    2: "a limit switch was active",
+    5: "its code is not known",
+}
+
+
+def refused312(code: int, parameters: bytes) -> CommandRefused | None:
+    """The exception for an answer, None if it is none. parameters: of the response.
+
+    >>> str(refused312(0xF1, bytes([0, 0x10])))
+    'the part is in alarm: remove the cause, then clear the alarm (or reset)'
+    >>> type(refused312(0xF0, bytes([0x18]))).__name__
+    'CurveRefused'
+    >>> refused312(0x40, bytes([0x12])) is None
+    True
+    """
+    first = parameters[0] if parameters else 0
+    if code == Answer.PARAMETER:
+        kind, text = _PARAMETERS.get(first, (ParameterRefused, f"the part refuses this (error {first:02X})"))
+        error = kind(first, text)
+        error.number, error.echo = first, parameters[1:]
+        return error
+    if code == Answer.STATUS:
+        if first:
+            return OutOfTurn(first)
+        state, text = STATES.get(parameters[1], (NotWhileBusy, ""))
+        return state(parameters[1], text)
+    if code == Answer.LIMIT:
+        return StartRefused(first, LIMIT)
+    if code == Answer.COMMAND:
+        return UnknownCode(first)
+    if code == Answer.SIZE:
+        return BadBlock(first)
+    if code == Answer.REGISTRATION:
+        return RegistrationRefused(
+            first,
+            "this event is in use by its buffer: delete the buffer's instructions first"
+            if first
+            else "eight overrides wait already: let some of them happen first",
+        )
+    if code in (Answer.OVERRIDE_FAILED, Answer.EVENT_FAILED):
+        why = _FAILURES.get(first, f"reason {first:02X}")
+        if code == Answer.OVERRIDE_FAILED:
+            return OverrideFailed(first, f"an override was not carried out ({why}); the others are dropped")
+        return EventFailed(first, f"an event's instruction was not carried out ({why}); its buffer is empty")
+    if code == Answer.ALARM:
+        return AlarmRaised(first, _ALARMS.get(first, f"alarm {first:02X}"))
+    return None

@@ -1,0 +1,229 @@
+"""One PPMC-312 in serial mode: an axis of a `Ppmc312Bus`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from ....model.ppmc312.codes import Cause, Code, Source, State
+from ...axis.motion import Progress
+from ...basis.ending import End
+from ...basis.errors import ProtocolError
+from ...basis.kind import PPMC312_SERIAL
+from ...line.errors import StationSilent
+from ...line.faults import Counters
+from ...line.motion import POLL_EVERY, wait_all
+from ..answers import Executed, Report, Stopped, signed
+from ..axis import Axis312
+from ..motion import Motion312
+from ..registers import Status312
+from .ascii import station_number
+from .line import Line
+from .serial import ERROR_CODE, ERROR_COUNTS
+from .talk import ATTEMPTS, Talk
+
+_MOST_PPS = 4_000_000
+"""Pulses/s that no table exceeds: rate 2 of 8 MHz."""
+_ENCODER_SLACK = 64
+"""Counts between two readings that say nothing: half of what the lowest bit 7 is worth."""
+
+
+class ErrorCounts(NamedTuple):
+    """What a station has counted since they were read last, each up to 255."""
+
+    framing: int
+    overrun: int
+    checksum: int
+
+
+class SerialMotion(Motion312):
+    """A motion whose end shows when its station is polled. damaged: what is wrong with a complete one."""
+
+    _part: Station312  # type: ignore[assignment]
+    damaged = ""
+
+    @property
+    def line(self) -> Line:
+        """Where its station is."""
+        return self._part.link
+
+    @property
+    def station(self) -> int:
+        """Its number."""
+        return self._part.number
+
+    def poll(self) -> Progress | None:
+        self.look()
+        return super().poll() if self.end is None else None
+
+    def now(self) -> Progress:
+        """Where the motor is, or where the motion has ended."""
+        position = self._part.position if self.end is None else self.end.position or 0
+        made = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
+        return Progress(position, made, self.asked, self._link.clock() - self._started)
+
+    def stopped(self, report: Stopped) -> None:
+        """The end, compared with what was ordered: a damaged order may look good, or a position."""
+        if self._short(report) and self._short(again := Stopped(report.cause, self._part.position)):
+            report = again
+            self.damaged = (
+                f"{self._part.who}the motor stands {self._short(report)} pulses from where this move should "
+                "have ended: the instruction was damaged on the line, or something else moved it"
+            )
+        super().stopped(report)
+
+    def _short(self, report: Stopped) -> int:
+        """Pulses between the end that was ordered and the real one, of a complete move."""
+        if report.cause is not Cause.NORMAL or self.asked is None or self.begin is None:
+            return 0
+        wanted = self.begin + (-self.asked if self.direction else self.asked)
+        return signed((report.position - wanted) % (1 << 32))
+
+    def look(self) -> None:
+        """Poll the station; sets `end` when the motion is over."""
+        window = self._part.window
+        window.collect()
+        if self.end is None and not window.busy:
+            # At rest, but the report was lost on the line.
+            cause = window.end_status()
+            if cause is None:
+                raise ProtocolError(f"{self._part.who}the motion is gone: the station was reset")
+            self.stopped(window.stopped(cause))
+
+    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+        return wait_all([self], timeout, progress)[0]
+
+
+class Station312(Axis312):
+    """See `ppmc312.Ppmc312`, whose methods it has; free curves, tables and event buffers cannot be read or
+    written on the line (OutOfRange), and reports come when the station is polled. number: 0 to 15.
+
+    Instructions whose reply is lost are repeated only where that does no harm (`doubt312`); LostReply where
+    nobody can know.
+    """
+
+    kind = PPMC312_SERIAL
+    make_motion = SerialMotion  # type: ignore[assignment]
+    link: Line  # type: ignore[assignment]
+    window: Talk  # type: ignore[assignment]
+
+    def __init__(self, line: Line, number: int) -> None:
+        self.number = station_number(number)
+        self.who = f"station {number}: "
+        self._slow_override = False
+        super().__init__(line)  # type: ignore[arg-type]
+
+    def _make_window(self) -> Talk:
+        return Talk(self.link, self)
+
+    @property
+    def counters(self) -> Counters:
+        """What went wrong between the master and this station."""
+        return self.link.counters[self.number]
+
+    # ------------------------------------------------------------------ reports
+
+    def hear(self, report: Report) -> None:
+        """A report came with a poll."""
+        if isinstance(report, Executed) and report.by is Source.OVERRIDE and self._slow_override:
+            if self._motion is not None:
+                self._motion.stop_ordered = True
+        self._heard(report)
+
+    def poll(self) -> list[Report]:
+        """Poll it until nothing waits; all reports that nobody took yet, oldest first. Ends of motions that
+        this object started are in their `end`."""
+        self.window.collect()
+        taken = list(self.reports)
+        self.reports.clear()
+        return taken
+
+    def next_report(self, timeout: float = 0) -> Report | None:
+        end = self.link.clock() + timeout
+        while True:
+            if not self.reports:
+                self.window.collect()
+            if self.reports:
+                return self.reports.popleft()
+            if self.link.clock() >= end:
+                return None
+            self.link.pause(POLL_EVERY)
+
+    def attend(self, seconds: float) -> None:
+        end = self.link.clock() + seconds
+        while (left := end - self.link.clock()) > 0:
+            self.window.collect()
+            self.link.pause(min(left, POLL_EVERY))
+
+    def busy_now(self) -> bool:
+        """A motion is under way, or held; polls the station."""
+        self.window.collect()
+        return self.window.busy
+
+    def status(self) -> Status312:
+        """As on the bus, but read until two readings in a row are the same."""
+        return self.window.twice(super().status)
+
+    # ------------------------------------------------------------------ what only the line has
+
+    def error_code(self) -> int:
+        """The last error code that the station has replied (42 to 49), 0 for none; reading clears it. Only at
+        rest (NotWhileBusy)."""
+        return self.window.read(ERROR_CODE)[0]
+
+    def error_counts(self) -> ErrorCounts:
+        """Framing errors, overruns and checksum errors that the station has seen; reading clears them. Only
+        at rest (NotWhileBusy)."""
+        return ErrorCounts(*self.window.read(ERROR_COUNTS))
+
+    def end_status(self) -> Cause | None:
+        """Why the last motion ended, None if there was none since the reset; allowed at any time."""
+        return self.window.end_status()
+
+    def reset(self) -> None:
+        """Reset of the station by its instruction, in any state: pulses end at once, no table, position 0."""
+        for _ in range(ATTEMPTS):
+            sent = self.link.tell(self.number, bytes([Code.RESET]))
+            self.link.pause(self.link.seconds(len(sent)) + self.link.patience / 4)
+            if self.window.status().state is State.INI:
+                self.forget()
+                return
+        raise StationSilent(f"{self.who}no reset in {ATTEMPTS} attempts: check the cable")
+
+    def software_reset(self) -> None:
+        """The same as `reset`: there is no other way on a line."""
+        self.reset()
+
+    def forget(self) -> None:
+        super().forget()
+        self._slow_override = False
+
+    # ------------------------------------------------------------------ inside
+
+    def _position(self, encoder: bool) -> int:
+        """Read until two readings in a row are the same, or as far apart as the motor can have come."""
+        times: list[float] = []
+
+        def read() -> int:
+            times.append(self.link.clock())
+            return super(Station312, self)._position(encoder)
+
+        def agree(last: int, now: int) -> bool:
+            way = abs(signed((now - last) % (1 << 32)))
+            if not way or (encoder and way <= _ENCODER_SLACK):
+                return True
+            clock = self.setup.clock if self.setup else None
+            fastest = float(clock.speed(self.setup.table.high)) if clock else _MOST_PPS
+            return way <= 1 + fastest * (self.link.clock() - times[-2]) and self.window.status().busy
+
+        return self.window.twice(read, agree)
+
+    def _register(self, block: bytes) -> None:
+        """The line says only that an override was taken."""
+        self.instruct(block)
+        self._slow_override |= block[2] == Code.SLOW_STOP
+
+    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion312:
+        # What waits is older than this motion.
+        self.window.collect()
+        return super()._start(block, direction, asked)

@@ -1,0 +1,250 @@
+"""Instructions to one station of a line: replies to responses, refusals to exceptions, repeats where they do
+no harm. `Window` of `window312` is the same for the parallel bus."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from operator import eq
+from typing import TYPE_CHECKING, TypeVar
+
+from ....model.ppmc312.codes import Cause, Code, Source, State
+from ...basis.errors import OutOfRange, ProtocolError
+from ...line.errors import GarbledReply, unanswered
+from ...line.faults import Fault, Miss
+from ..answers import (
+    Alarm,
+    EncoderChange,
+    Executed,
+    Failed,
+    HoldExecuted,
+    InPositionChange,
+    InputChange,
+    InterlockEnded,
+    Report,
+    Response,
+    Stopped,
+)
+from ..registers import Status312
+from ..window import ANSWER_MS, SHORTEST
+from .ascii import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Reply
+from .doubt import Doubt
+from .errors import Error, failed_serial, refused_serial
+from .line import Line
+from .serial import DATA_BYTES, END_STATUS, line_data, response
+
+if TYPE_CHECKING:
+    from .station import Station312
+
+T = TypeVar("T")
+ATTEMPTS = 5
+MOST_REPORTS = 32
+END_CODES = {
+    0x31: Cause.ALARM,
+    0x32: Cause.ORIGIN,
+    0x33: Cause.LIMIT,
+    0x34: Cause.LIMIT_SLOW,
+    0x36: Cause.SLOW,
+    0x37: Cause.STOP,
+    0x38: Cause.NORMAL,
+    0x39: Cause.LOW,
+}
+DAMAGED = (Error.CHECKSUM, Error.COMMAND)
+"""What a station says of a frame that was damaged on its way: the driver sends no unknown codes."""
+_STOPPING = (Code.STOP, Code.SLOW_STOP)
+_CHECK = "is it there and powered, are speed (MOD), address and the two wires right?"
+_OTHERS = "noise, another speed or checksum rule, or two stations with this address"
+
+
+class Talk:
+    """See `core312.Instructions`. answers: of the station so far. busy: a motion, says the last poll."""
+
+    def __init__(self, line: Line, station: Station312) -> None:
+        self._line = line
+        self._station = station
+        self._alarmed = False
+        self.answers = 0
+        self.busy = False
+
+    @property
+    def _number(self) -> int:
+        return self._station.number
+
+    def open(self) -> None:
+        """Nothing to prepare: a station that was reset answers as any other."""
+        self._alarmed = False
+
+    def more(self) -> Response:
+        """No answer has a second block here."""
+        raise OutOfRange("answers of several blocks: only on the parallel bus")
+
+    # ------------------------------------------------------------------ instructions
+
+    def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
+        """Carry out an instruction; returns the answer as the bus would have given it.
+
+        milliseconds: how long the part may take on the bus. Raises its refusal, LostReply, StationSilent,
+        GarbledReply and the errors of the line.
+        """
+        data = line_data(block)
+        doubt = Doubt(self._station, block)
+        reply = self.request(data, max(0, milliseconds - ANSWER_MS) / 1000, doubt.settle)
+        self.answers += 1
+        error = reply.error
+        if error is None:
+            return response(block, reply)
+        if doubt.repeated and block[2] in _STOPPING and error == Error.STATUS and self._ended():
+            return response(block, reply)
+        if block[2] == Code.EVENT_SET and block[3] & 2 and error == Error.REGISTRATION:
+            return Response(bytes([3, 2, Code.EVENT_SET, 5]))
+        state = self._station.status().raw if error == Error.STATUS else None
+        raise doubt.explain(refused_serial(self._station.who, block[2], error, state))
+
+    def read(self, code: int) -> bytes:
+        """An instruction that only the line has, and that reads. Raises its refusal."""
+        reply = self.request(bytes([code]))
+        if reply.error is None:
+            return reply.data
+        state = self.status().raw if reply.error == Error.STATUS else None
+        raise refused_serial(self._station.who, code, reply.error, state)
+
+    def _ended(self) -> bool:
+        """Whether the motion of this object is over."""
+        self.collect()
+        motion = self._station.motion
+        return motion is not None and motion.end is not None
+
+    def request(
+        self,
+        data: bytes | None,
+        extra: float = 0.0,
+        settle: Callable[[], bool] = lambda: False,
+        attempts: int = ATTEMPTS,
+    ) -> Reply:
+        """A frame and its reply, repeated as often as it takes.
+
+        data: None for a poll. settle: called when a reply was lost; True: it was carried out, so it is not
+        repeated; it may raise. Raises StationSilent, GarbledReply.
+        """
+        counters = self._line.counters[self._number]
+        misses: list[Miss] = []
+        refusal: Reply | None = None
+        gives = 1 if data is None else DATA_BYTES.get(data[0], 0)
+        for attempt in range(attempts):
+            counters.repeated += attempt > 0
+            got = self._line.exchange(self._number, data, gives, extra)
+            if not isinstance(got, Miss) and not plausible(data, got):
+                # The checksum does not see the highest bit of a byte.
+                counters.garbled += 1
+                got = Miss(Fault.BROKEN, got.data or b"?")
+            if isinstance(got, Miss):
+                misses.append(got)
+                if settle():
+                    return Reply(self._number, READY, b"")
+            elif got.error in DAMAGED:
+                counters.refused += 1  # nothing was carried out
+                refusal = got
+            else:
+                return got
+        if refusal is not None and refusal.error == Error.COMMAND and not misses:
+            return refusal
+        raise unanswered(f"{self._line.name}: station {self._number}", misses, attempts, _CHECK, _OTHERS)
+
+    def twice(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
+        """What two readings in a row agree on, since a damaged reply may look good: the checksum has seven
+        bits, and none of them sees the highest bit of a byte. Raises GarbledReply."""
+        last = read()
+        for _ in range(ATTEMPTS):
+            now = read()
+            if agree(last, now):
+                return now
+            self._line.counters[self._number].garbled += 1
+            last = now
+        where = f"{self._line.name}: station {self._number}"
+        raise GarbledReply(f"{where}: {ATTEMPTS} pairs of replies that do not agree: {_OTHERS}")
+
+    # ------------------------------------------------------------------ polls
+
+    def collect(self) -> None:
+        """Poll until nothing waits; reports go to the station."""
+        counters = self._line.counters[self._number]
+        before = counters.faults
+        for _ in range(MOST_REPORTS):
+            reply = self.request(None)
+            if reply.kind in (BUSY, READY):
+                self.busy = reply.kind == BUSY
+                break
+            self._station.hear(self._report(reply))
+        else:
+            raise ProtocolError(f"{self._line.name}: station {self._number} reports without end: reset it")
+        if counters.faults != before:
+            counters.lost_reports += 1
+            self._look_for_alarm()
+
+    def _look_for_alarm(self) -> None:
+        """The report of an alarm may have been in a reply that was lost."""
+        alarmed = self._station.status().state is State.ABN
+        if alarmed and not self._alarmed:
+            self._station.hear(Alarm(0))
+        self._alarmed = alarmed
+
+    def end_status(self) -> Cause | None:
+        """Why the last motion ended, None if there was none since the reset."""
+        return END_CODES.get(self.request(bytes([END_STATUS])).data[0])
+
+    def stopped(self, cause: Cause) -> Stopped:
+        """The end of a motion, with the position that the line does not tell."""
+        return Stopped(cause, self._station.position)
+
+    def _report(self, reply: Reply) -> Report:
+        """What a reply to a poll says."""
+        code = reply.data[0]
+        if reply.kind == DATA:
+            return self.stopped(END_CODES[code])
+        if code == INPUTS_CHANGED:
+            return InputChange(reply.data[2], bool(reply.data[1]))
+        if code in _FAILED:
+            by = _FAILED[Error(code)]
+            return Failed(by, failed_serial(self._station.who, by))
+        report = _REPORTS[code]
+        self._alarmed |= isinstance(report, Alarm)
+        return report
+
+    def status(self) -> Status312:
+        """Without the counting of `ask`: for looks in between."""
+        return self.twice(lambda: Status312.parse(self.request(bytes([Code.STATUS])).data))
+
+
+_REPORTS: dict[int, Report] = {
+    0x46: Alarm(0),
+    0x28: Executed(Source.OVERRIDE, None),
+    0x29: Executed(Source.EVENT, None),
+    0x22: InterlockEnded(),
+    0x23: HoldExecuted(),
+    0x26: InPositionChange(False),
+    0x27: InPositionChange(True),
+    0x24: EncoderChange(False),
+    0x25: EncoderChange(True),
+}
+_FAILED = {Error.EVENT_FAILED: Source.EVENT, Error.OVERRIDE_FAILED: Source.OVERRIDE}
+_SPECIFIC = {*_REPORTS, *_FAILED, INPUTS_CHANGED, Error.CHECKSUM}
+
+
+def plausible(data: bytes | None, reply: Reply) -> bool:
+    """Whether a station can reply this to a poll (None) or an instruction.
+
+    >>> plausible(bytes([Code.STATUS]), Reply(1, DATA, bytes([0, 0x82, 0])))
+    False
+    >>> plausible(None, Reply(1, BUSY, b""))
+    True
+    """
+    code = reply.data[0] if reply.data else 0
+    if data is None:
+        known = {DATA: END_CODES, BUSY: {0}, READY: {0}}.get(reply.kind, _SPECIFIC)
+        return code in known
+    if reply.kind == SPECIFIC:
+        return Error.CHECKSUM <= code <= Error.REGISTRATION
+    if reply.kind != (DATA if data[0] in DATA_BYTES else READY):
+        return False
+    if data[0] == END_STATUS:
+        return code == 0 or code in END_CODES
+    return data[0] != Code.STATUS or reply.data[1] in set(State)

@@ -1,0 +1,54 @@
+"""Driver of an STMC, the controller of the J105 board, behind a UART bridge."""
+
+from __future__ import annotations
+
+from ..axis.registers import InputsStmc, ReadCodes
+from ..axis.single import OneAxis
+from ..basis.errors import refused_stmc
+from ..basis.kind import STMC
+from ..bridge.link import Link
+from ..bridge.script import Result, Script
+
+READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": ReadCodes()}
+"""What the codes of its read commands may be (ruling R-01)."""
+
+
+class Stmc(OneAxis):
+    """One STMC; see `one_axis.OneAxis`. It has no pulse output: the board counts the steps of the phases.
+
+    `initialise`: a speed is step clock / divisor, divisors 5 to 255. base_clock: 12 500 Hz (internal, at a
+    16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s), None to take
+    the second one if it reaches start_pps. external_clock: frequency in Hz if another clock is wired.
+    ramp_pulses: steps from start to high speed, 0 to 65 535; with 0 there is no ramp, and high_pps at once.
+    No long_intervals. phases, half_step and positive_logic stay as they are until `reset` (STMC-INI-04); the
+    step clock is that of the last initialisation for constant speeds, too.
+
+    A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
+    """
+
+    kind = STMC
+
+    def __init__(self, link: Link) -> None:
+        super().__init__(link)
+        link.refusal = lambda answer: refused_stmc(answer.last)
+        self._read_map = ""
+
+    @property
+    def read_map(self) -> str:
+        """Which read codes the part knows, a key of READ_MAPS. It is asked the first time, in any state."""
+        if not self._read_map:
+            # 84h reads the remaining steps or is not known; during a motion its refusal tells the same.
+            answer = self.link.attempt(Script().call(READ_MAPS["SHEET"].remaining).get(3))
+            if answer.result is Result.REFUSED:
+                self._read_map = "SHEET" if answer.last >> 4 & 7 else "FAMILY"
+            else:
+                self.link.judge(answer)
+                self._read_map = "SHEET"
+        return self._read_map
+
+    @property
+    def codes(self) -> ReadCodes:  # type: ignore[override]
+        return READ_MAPS[self.read_map]
+
+    def inputs(self) -> InputsStmc:
+        return InputsStmc.of_pins(self.pins())

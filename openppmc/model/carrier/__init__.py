@@ -1,0 +1,1 @@
+"""What stands around a part: the UART bridge, the modelled board, plant, EEPROM."""

@@ -1,0 +1,186 @@
+"""A board in Python: golden part, pulse counters and plants, in virtual time. The bridge's `Bus`."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ..common.edges import Edge
+from .plant import SWITCHES, Plant
+
+WRITE_STROBE, READ_STROBE, PAUSE = 4, 6, 4
+RESET_CLK = 16
+
+
+class Board(ABC):
+    """A part whose motors follow `pout_n` and `dir`, one plant an axis.
+
+    part: `Ppmc104`, `Ppmc2104` or `Stmc`. `t` is the next free clk edge. `positions` are the motors',
+    `counts` the pulse counters'. on_interrupt: called when the pin INTERRUPT falls. ADDRESS_BITS: lines of
+    the bridge's address that are wired.
+    """
+
+    ADDRESS_BITS = 1
+    INTERRUPT = "int_n"
+
+    def __init__(self, part: Any, plants: Sequence[Plant], on_interrupt: Callable[[], None]) -> None:
+        self.part = part
+        self.clk_hz = part.timebase.clk_hz
+        self.plants = tuple(plants)
+        self.positions = [plant.start for plant in plants]
+        self.counts = [0 for _ in plants]
+        self.on_interrupt = on_interrupt
+        self.t = 8
+        self._seen: object = None
+        self._directions = [0 for _ in plants]
+        self._pulse_pins = [1 for _ in plants]
+        self._switches = self._levels()
+        part.pins(self.t - 4, **self.switch_pins(self._switches))
+
+    @abstractmethod
+    def switch_pins(self, levels: Sequence[dict[str, int]]) -> dict[str, int]:
+        """Input pins of the part from the switch levels of each axis."""
+
+    @abstractmethod
+    def straps(self, levels: int) -> None:
+        """Levels of `straps_o`."""
+
+    @abstractmethod
+    def pins(self) -> int:
+        """Levels of `pins_i`."""
+
+    @property
+    def position(self) -> int:
+        """Motor of axis 1."""
+        return self.positions[0]
+
+    @property
+    def seconds(self) -> float:
+        """Virtual time in s."""
+        return self.t / self.clk_hz
+
+    def shown(self) -> object:
+        """What the register that waits look at would show now."""
+        return self.part.status
+
+    def _levels(self) -> list[dict[str, int]]:
+        return [plant.levels(at) for plant, at in zip(self.plants, self.positions, strict=True)]
+
+    # ------------------------------------------------------------------ time
+
+    def run_until(self, t: int, stop: Callable[[], bool] = lambda: False) -> None:
+        """Let time pass up to edge t, or less far if `stop()` becomes true at an event."""
+        part = self.part
+        while (edge := self._next_event()) is not None and edge < t:
+            part.run_until(edge)
+            self._watch()
+            self.t = max(self.t, edge + 1)
+            if stop():
+                return
+        self.t = max(self.t, t)
+
+    def _next_event(self) -> int | None:
+        """Edge of the next event of part or board."""
+        event: int | None = self.part.next_event
+        return event
+
+    def _watch(self) -> None:
+        """Follow the outputs: motors, counters, switches, interrupt."""
+        log = self.part.log
+        if not log.edges:
+            return
+        edges = log.edges[:]
+        # The log begins anew here: with its levels, or a change that two axes make together gets lost.
+        log.edges.clear()
+        log.initial.update(log.levels)
+        before = self.positions[:]
+        for edge in edges:
+            self._follow(edge)
+        if self.positions != before:
+            levels = self._levels()
+            if levels != self._switches:
+                self._switches = levels
+                self.part.pins(self.part.now + 1, **self.switch_pins(levels))
+
+    def _follow(self, edge: Edge) -> None:
+        """One output edge; bit n of `dir` and `pout_n` belongs to axis n + 1."""
+        if edge.signal == self.INTERRUPT and not edge.value:
+            self.on_interrupt()
+        elif edge.signal == "dir":
+            self._directions = [edge.value >> n & 1 for n in range(len(self.plants))]
+        elif edge.signal == "pout_n":
+            for n, was in enumerate(self._pulse_pins):
+                self._pulse_pins[n] = now = edge.value >> n & 1
+                if was and not now:
+                    self._step(n, -1 if self._directions[n] else 1)
+
+    def _step(self, n: int, step: int) -> None:
+        """Motor n goes one step, 1 CW or -1 CCW."""
+        self.positions[n] += step
+        self.counts[n] += step
+
+    def _settle(self) -> None:
+        """Everything before the next access has happened."""
+        self.run_until(self.t)
+        self.t = max(self.t, self.part.now + 1)
+
+    # ------------------------------------------------------------------ as the bridge sees it
+
+    def read(self, a: int) -> int:
+        """One read cycle."""
+        self._settle()
+        self._seen = self.shown()
+        value = self.part.read(self.t, a % (1 << self.ADDRESS_BITS), READ_STROBE)
+        self._watch()
+        self.t += READ_STROBE + PAUSE
+        return value
+
+    def write(self, a: int, byte: int) -> None:
+        """One write cycle."""
+        self._settle()
+        self.part.write(self.t, a % (1 << self.ADDRESS_BITS), byte, WRITE_STROBE)
+        self._watch()
+        self.t += WRITE_STROBE + PAUSE
+
+    def reset(self) -> None:
+        """Reset of the part; motors and counters stay."""
+        self._settle()
+        self.part.pins(self.t, rst_n=0)
+        self._watch()
+        self.t += RESET_CLK
+        self.part.pins(self.t, rst_n=1)
+        self.t += RESET_CLK
+        self._directions = [0 for _ in self.plants]
+
+    def set_pins(self, **levels: int) -> None:
+        """Input pins of the part, from the next edge on."""
+        self._settle()
+        self.part.pins(self.t, **levels)
+        self.t += 1
+
+    def pin_byte(self, hold: int, axis: int) -> int:
+        """int_n, hold and the six switches of an axis (0 = axis 1), from bit 0 up."""
+        switches = sum(self._switches[axis][name] << place for place, name in enumerate(SWITCHES))
+        return self.part.outputs[self.INTERRUPT] | hold << 1 | switches << 2
+
+    def count(self, axis: int = 1) -> int:
+        """Pulse counter, wraps at 32 bits in the answer."""
+        self._settle()
+        return self.counts[axis - 1]
+
+    def zero(self, axis: int = 1) -> None:
+        """Pulse counter to 0."""
+        self._settle()
+        self.counts[axis - 1] = 0
+
+    def now_ms(self) -> float:
+        """Virtual time in ms."""
+        return self.t * 1000 / self.clk_hz
+
+    def skip(self, limit_ms: float) -> None:
+        """Go to the event that changes what waits look at, or to the limit."""
+        before = self._seen  # before the last read, during which it may have changed
+        limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
+        if self.shown() == before:
+            self.run_until(limit, stop=lambda: self.shown() != before)

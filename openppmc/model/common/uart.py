@@ -1,0 +1,123 @@
+"""UART of the PPMC-312 in serial mode, in time: bit times are exact fractions of a clk.
+
+P312-SER-01, -15, -18.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from math import ceil
+from typing import Protocol
+
+from .blocks import Context, Phase
+from .scheduler import Event, Scheduler
+
+BITS = 10
+"""Start bit, eight data bits, stop bit."""
+_CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
+"""XTAL cycles of a bit, by mod[2:0]."""
+
+
+def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
+    """clk of a bit; None where mod names no documented speed, and the station is silent."""
+    cycles = _CYCLES.get(mod)
+    return None if cycles is None else cycles * clk_hz / xtal_hz
+
+
+class Queued(Protocol):
+    """Anything that has the queue of a part."""
+
+    @property
+    def queue(self) -> Scheduler:
+        """Its events."""
+        ...
+
+
+class Receiver:
+    """bit: clk of a bit. got(t, byte): a character, its stop bit sampled at edge t; None if it was low."""
+
+    def __init__(self, context: Queued, bit: Fraction, got: Callable[[int, int | None], None]) -> None:
+        self._queue, self._bit, self._got = context.queue, bit, got
+        self._level = 1
+        self._history: list[tuple[int, int]] = []
+        self._start: int | None = None
+        self._broken = False
+        self._event: Event | None = None
+
+    def forget(self) -> None:
+        """What is on its way is none; the line has to be high first."""
+        if self._event:
+            self._event.cancel()
+        self._start, self._broken = None, True
+
+    def see(self, t: int, level: int) -> None:
+        """The synchronised line from edge t on."""
+        self._level = level
+        if self._start is not None:
+            self._history.append((t, level))
+        elif level:
+            self._broken = False
+        elif not self._broken:
+            self._start, self._history = t, [(t, level)]
+            self._event = self._queue.at(self._middle(0), Phase.BUS, self._verify)
+
+    def _middle(self, number: int) -> int:
+        """Edge that samples bit `number`, 0 for the start bit."""
+        assert self._start is not None
+        return self._start + ceil((number + Fraction(1, 2)) * self._bit) - 1
+
+    def _verify(self, t: int) -> None:
+        """The middle of the start bit: a glitch is over by then."""
+        if self._level:
+            self._start = None
+        else:
+            self._event = self._queue.at(self._middle(BITS - 1), Phase.BUS, self._stop)
+
+    def _at(self, t: int) -> int:
+        """Level that edge t has seen."""
+        return next(level for since, level in reversed(self._history) if since <= t)
+
+    def _stop(self, t: int) -> None:
+        """The middle of the stop bit; what the line was in the middles before it is known now."""
+        byte = sum(self._at(self._middle(number + 1)) << number for number in range(8))
+        self._start, self._broken = None, not self._level
+        self._got(t, byte if self._level else None)
+
+
+class Transmitter:
+    """bit: clk of a bit. sent gets (edge in the middle of the stop bit, character). Changes txd and snd."""
+
+    def __init__(self, context: Context, bit: Fraction, sent: list[tuple[int, int]]) -> None:
+        self._queue, self._log, self._bit, self._sent = context.queue, context.log, bit, sent
+
+    def send(self, t: int, message: bytes, ended: Callable[[int], None]) -> None:
+        """snd rises at edge t, the first start bit comes one bit time later, the characters back to back.
+        ended(t): snd has fallen."""
+        self._log.set(t, "snd", 1)
+        levels = [1]
+        for byte in message:
+            levels += [0, *(byte >> place & 1 for place in range(8)), 1]
+        steps: list[tuple[Fraction, Callable[[int], None]]] = []
+        for number, (before, level) in enumerate(pairwise(levels), 1):
+            if level != before:
+                steps.append((Fraction(number), lambda now, v=level: self._log.set(now, "txd", v)))
+        for number, byte in enumerate(message, 1):
+            middle = BITS * number + Fraction(1, 2)
+            steps.append((middle, lambda now, b=byte: self._sent.append((now, b))))
+        steps.append((Fraction(len(levels)), lambda now: self._end(now, ended)))
+        steps.sort(key=lambda step: step[0])
+        self._next([(t + ceil(bits * self._bit), action) for bits, action in steps], 0)
+
+    def _next(self, steps: Sequence[tuple[int, Callable[[int], None]]], number: int) -> None:
+        if number < len(steps):
+            self._queue.at(steps[number][0], Phase.PIN, lambda now: self._do(now, steps, number))
+
+    def _do(self, t: int, steps: Sequence[tuple[int, Callable[[int], None]]], number: int) -> None:
+        steps[number][1](t)
+        self._next(steps, number + 1)
+
+    def _end(self, t: int, ended: Callable[[int], None]) -> None:
+        self._log.set(t, "snd", 0)
+        ended(t)

@@ -1,0 +1,347 @@
+"""Motion of one axis: one operation from its start edge to its end; what the family has in common.
+
+Intervals: P104-BCK-01..03, P104-INT-01..03, P104-PRO-04..06 (P2104-BCK, -INTV, -PRO). Forced deceleration:
+P104-FDC-01..05. Pulse shape: P104-TIM-02..06. Ends: P104-END-01..08. Inputs: P104-LIM-01..09 (which input
+does what: `guard`). When an operation may start, what a stop does and the DATASHEET times: `motion104`,
+`motion2104`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import ClassVar, NamedTuple
+
+from ..common.blocks import Context, Phase
+from ..common.scheduler import Event
+from .chopper import Chopper
+from .codes import ENDLESS, FINISH_NEW, FINISH_SLOW, FINISH_STOP, RAMP_OPERATIONS, SINGLE_STEP, Command
+from .excitation import Excitation
+from .external import ExternalInterval
+from .guard import GuardPins, Seen, inspect
+from .ramp import BaseClock, Ramp, natural_deceleration, next_index
+
+OnEnd = Callable[[int, bool], None]
+
+
+class Setup(NamedTuple):
+    """What an accepted initialisation leaves for operations."""
+
+    ramp: Ramp
+    external: bool
+    chopping: bool
+
+
+class Interval(NamedTuple):
+    """Interval `number` (from pulse `number` on): ramp index (None: constant speed), rate, length in
+    quanta (None: external clock)."""
+
+    number: int
+    index: int | None
+    rate: int
+    quanta: int | None
+
+
+class Motion:
+    """The one operation an axis can have; busy, index, done, intervals, finish, remaining are public.
+
+    guard: names of the switches in context.levels. on_end(t, masked): called when BUSY falls, masked as
+    the operation said. hold_cycles: XTAL cycles from there to HOLD.
+    """
+
+    hold_cycles: int
+    # A deceleration request at the start-up rate ends the operation at once (P2104-FDC-02, STMC-DEC-03).
+    stops_at_start_speed: ClassVar[bool] = False
+
+    def __init__(
+        self, context: Context, excitation: Excitation, chopper: Chopper, guard: GuardPins, on_end: OnEnd
+    ) -> None:
+        self._context = context
+        self._excitation = excitation
+        self._chopper = chopper
+        self._guard = guard
+        self._on_end = on_end
+        self.busy = self.finishing = self.low = False
+        self.hold, self.direction = 1, 0
+        self.finish, self.remaining = 0, 0
+        self.intervals: list[Interval] = []
+        self.index: int | None = None
+        self.operation = 0
+        self.done = 0
+        self._total = 0
+        self._flag_edge: int | None = None
+        self._natural = False
+        self._external: ExternalInterval | None = None
+        self._armed_from: int | None = None
+        self._last_rise: int | None = None
+        self._cut_at = 0
+        self._cut_on_fall = False
+        self._low_ended = -1
+        self._events: dict[str, Event] = {}
+
+    # ------------------------------------------------------------------ start
+
+    def _load(self, command: Command, data: list[int], setup: Setup, csel: int, plain: bool) -> None:
+        """Latch an operation at its C-event (P104-OPR-01, P104-BCK-02).
+
+        data: its bytes, rate before count. csel: level of the pin. plain: no extra time in an interval.
+        """
+        self.operation = command.operation
+        self._command = command
+        self._setup = setup
+        counted = data[-3:] if len(data) >= 3 else None
+        self._total = int.from_bytes(bytes(counted), "little") + 1 if counted else ENDLESS
+        if self.operation == SINGLE_STEP:
+            self._total = 1
+        self._rate = 0 if self.is_ramp or not data else data[0]
+        self._csel, self._plain = bool(csel), plain
+        self._clock = BaseClock.of_pins(csel, int(plain))
+        waits = setup.external and self.operation != SINGLE_STEP
+        self._external = ExternalInterval(self._context.timebase, plain) if waits else None
+
+    def _begin(self, t: int) -> None:
+        """Start edge: BUSY rises, hold and dir follow."""
+        self.busy, self.finishing = True, False
+        self.hold, self.direction = 0, self._command.direction
+        self.done, self.index = 0, None
+        self.intervals = []
+        self._flag_edge, self._natural = None, False
+        self._flag_bits = self._stop_bits = 0
+        self._stop_wanted = False
+        self._began, self._end_after = t, 0
+        self._chopper.stop()
+        self._cancel("hold")
+        self._context.queue.at(t + 1, Phase.GUARD, self.judge)
+
+    def _arm(self, first: int) -> None:
+        """Pulse 1 is due at edge `first`, or with the first base edge from there on."""
+        if self._external:
+            self._armed_from = first
+        else:
+            self._events["pulse"] = self._context.queue.at(first, Phase.PULSE, self._pulse)
+
+    def _cancel(self, name: str) -> None:
+        event = self._events.pop(name, None)
+        if event:
+            event.cancel()
+
+    @property
+    def is_ramp(self) -> bool:
+        """011 and 110 types."""
+        return self.operation in RAMP_OPERATIONS
+
+    @property
+    def external(self) -> bool:
+        """An operation runs that counts the external clock."""
+        return self.busy and self._external is not None
+
+    @property
+    def decelerating(self) -> bool:
+        """State DEC: flagged, or slowing down by count."""
+        return self.busy and not self.finishing and (self._flag_edge is not None or self._natural)
+
+    @property
+    def high(self) -> bool:
+        """State HIGH: the running interval has index PA and nothing is flagged (P104-PRO-06)."""
+        return self.is_ramp and self.index == self._setup.ramp.pa and not self.decelerating
+
+    # ------------------------------------------------------------------ stop commands and inputs
+
+    def stop(self, t: int) -> None:
+        """Immediate stop taken (P104-STP-01, -05, -08)."""
+        if not self.finishing:
+            self._stop_wanted = True
+            self._context.queue.at(t, Phase.GUARD, self.judge)
+
+    def judge(self, t: int) -> None:
+        """Guard at edge t: immediate ends first, then the slow-down limit (P104-LIM-01..09)."""
+        if not self.busy or self.finishing or t <= self._began:
+            return
+        seen = self._seen(t)
+        if seen.ends or self._stop_wanted:
+            self._end_now(t, seen.bits | (FINISH_STOP if self._stop_wanted else 0))
+        elif seen.slow and self.is_ramp and self._slow_counts():
+            self._request(self._slow_edge(t), "slow", FINISH_SLOW)
+
+    def _seen(self, t: int) -> Seen:
+        """What the switches say at edge t."""
+        return inspect(self._guard, self._context.levels, self.operation, self.direction)
+
+    def _slow_counts(self) -> bool:
+        """Whether an active slow-down limit sets the flag."""
+        return self._flag_edge is None and "slow" not in self._events
+
+    def _slow_edge(self, t: int) -> int:
+        """Edge on which a slow-down limit seen at edge t acts."""
+        return t
+
+    def _request(self, at: int, name: str, bit: int) -> None:
+        """Forced deceleration asked for by `name` acts at edge `at`."""
+        self._events[name] = self._context.queue.at(at, Phase.FLAG, lambda now: self._flag(now, bit))
+
+    def _flag(self, t: int, bit: int) -> None:
+        """Set the forced-deceleration flag; two requests on one edge both count (P104-LIM-09)."""
+        if self._flag_edge == t:  # The other request of this edge came first and may have ended the motion.
+            self._flag_bits |= bit
+            return
+        if self.finishing or not self.busy or self._natural or self._flag_edge is not None:
+            return
+        self._flag_edge = t
+        self._flag_bits |= bit
+        if self.stops_at_start_speed and self._at_start_speed:
+            self._end_now(t, 0)
+
+    @property
+    def _at_start_speed(self) -> bool:
+        """The running interval has the start-up rate, wherever on the ramp it lies."""
+        ramp = self._setup.ramp
+        return self.index is not None and ramp.rate(self.index) == ramp.rl
+
+    def _end_now(self, t: int, bits: int) -> None:
+        """Immediate end decided at edge t (P104-END-02, -04)."""
+        self.finishing = True
+        self._stop_bits = bits
+        self._cancel("pulse")
+        self._decided(t)
+
+    def _decided(self, t: int) -> None:
+        """Plan the end of a motion cut at edge t; FAST: when the low time is over."""
+        self._end_after = t + self._context.latency.imm_end
+        if not self.low:
+            self._plan_end(self._low_ended)
+
+    # ------------------------------------------------------------------ pulses
+
+    def base_rise(self, t: int) -> None:
+        """Effective rising edge of the external clock (P104-TIM-03, P104-BCK-04)."""
+        gap = None if self._last_rise is None else t - self._last_rise
+        self._last_rise = t
+        external = self._external
+        if not self.busy or external is None:
+            return
+        if self.finishing:  # the low time that has begun keeps its length (P104-TIM-05)
+            if self.low and self._cut_at:
+                external.rise(t, gap, self.low)
+                if external.edges == self._cut_at:
+                    self._cut_low(t)
+            return
+        if self.done == 0:
+            if self._armed_from is not None and t >= self._armed_from:
+                self._pulse(t, gap, on_edge=True)
+            return
+        due = external.rise(t, gap, self.low)
+        if due == 0:
+            self._pulse(t, gap, on_edge=True)
+        elif due is not None:
+            self._events["pulse"] = self._context.queue.at(t + due, Phase.PULSE, self._pulse)
+        elif self.low and self._cut_at and external.edges == self._cut_at:
+            self._cut_low(t)
+
+    def base_fall(self, t: int) -> None:
+        """Effective falling edge of the external clock (P104-TIM-05 c)."""
+        if self.low and self._cut_on_fall:
+            self._cut_low(t)
+
+    def _pulse(self, t: int, gap: int | None = None, on_edge: bool = False) -> None:
+        """Pulse event at edge t (P104-TIM-04, P104-PRO-04)."""
+        context = self._context
+        if not self.busy or self.finishing:
+            return
+        self.done += 1
+        if self.done == 1:
+            context.counter.restart(t)
+            self._quanta = 0
+        if not self._command.pulse_only:
+            self._excitation.step(self.direction)
+        rate = self._next_rate(t)
+        self._begin_low(t, rate, gap)
+        if rate is None:
+            self.finishing = True
+            self._train_over(t)
+            return
+        quanta = None if self._external else self._clock.quanta(rate)
+        self.intervals.append(Interval(self.done, self.index, rate, quanta))
+        if self._external:
+            self._external.begin(t, rate, on_edge)
+        else:
+            assert quanta is not None
+            self._quanta += quanta
+            edge = context.counter.edge_of(self._quanta)
+            self._events["pulse"] = context.queue.at(edge, Phase.PULSE, self._pulse)
+        self._interval_begun(t)
+
+    def _interval_begun(self, t: int) -> None:
+        """A pulse event at edge t has opened an interval."""
+
+    def _next_rate(self, t: int) -> int | None:
+        """Rate of the interval that pulse `done` opens, None if it was the last."""
+        left = self._total - self.done
+        if not self.is_ramp:
+            return self._rate if left else None
+        ramp = self._setup.ramp
+        kp = -1 if self.index is None else self.index
+        forced = self._flag_edge is not None and t - self._flag_edge >= self._context.latency.flag_lead
+        index = next_index(kp, left, ramp.pa, forced)
+        self._natural = self._natural or natural_deceleration(kp, left, ramp.pa)
+        self.index = index
+        return None if index is None else ramp.rate(index)
+
+    def _begin_low(self, t: int, rate: int | None, gap: int | None) -> None:
+        """pout_n goes low; the length is fixed here (P104-TIM-05)."""
+        timebase = self._context.timebase
+        length, self._cut_at, self._cut_on_fall = timebase.w, 0, False
+        if rate is not None and self._plain:
+            if not self._external:
+                if self._csel and rate <= 2:
+                    length = timebase.cyc(16 * (rate + 1))
+            elif rate >= 1:
+                self._cut_at = (rate + 1) // 2
+            else:
+                self._cut_on_fall = gap is not None and gap < timebase.cyc(128)
+        self.low = True
+        self._events["low"] = self._context.queue.at(t + length, Phase.LOW_END, self._low_end)
+
+    def _cut_low(self, t: int) -> None:
+        self._cut_at, self._cut_on_fall = 0, False
+        self._cancel("low")
+        self._events["low"] = self._context.queue.at(t, Phase.LOW_END, self._low_end)
+
+    def _low_end(self, t: int) -> None:
+        self.low = False
+        self._low_ended = t
+        if self.finishing and self._ends_with_low():
+            self._plan_end(t)
+
+    # ------------------------------------------------------------------ end
+
+    def _train_over(self, t: int) -> None:
+        """All N pulses are out at edge t, or the tail of a forced deceleration is."""
+
+    def _ends_with_low(self) -> bool:
+        """FAST: BUSY falls with the end of the last low time."""
+        return True
+
+    def _plan_end(self, low_ended: int) -> None:
+        latency = self._context.latency
+        edge = max(low_ended + latency.motor_pins + latency.end_extra, self._end_after)
+        self._context.queue.at(edge, Phase.END, self._finish)
+
+    def _finish(self, t: int) -> None:
+        """End actions, all on one edge (P104-END-01..08)."""
+        context = self._context
+        for name in ("flag", "slow"):
+            self._cancel(name)
+        left = self._total - self.done
+        bits = self._stop_bits | self._flag_bits if left else 0
+        self.finish = FINISH_NEW | bits | self.operation
+        self.remaining = max(left - 1, 0)
+        self.busy = self.finishing = False
+        self.index, self._armed_from = None, None
+        self._on_end(t, self._command.masked)
+        context.counter.restart(t)
+        if self._setup.chopping:
+            self._chopper.start(t)
+        at = t + context.timebase.cyc(self.hold_cycles)
+        self._events["hold"] = context.queue.at(at, Phase.CHOPPER, self._hold_rises)
+
+    def _hold_rises(self, t: int) -> None:
+        self.hold = 1

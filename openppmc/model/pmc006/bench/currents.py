@@ -1,0 +1,192 @@
+"""Phase currents that a PMC006B4 regulates: set-ups on the golden model, ripple, error, distortion (R-22)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from math import atan2, cos, hypot, pi, sin, sqrt
+from typing import NamedTuple
+
+from ..front.frames import command
+from ..part import Pmc006
+from .motor import Motor, Plant, Winding
+
+CLK_HZ, BAUD, ADDRESS = 16_000_000, 115_200, 255
+SAMPLE_S = 1e-6
+HARMONICS = 40
+MS = CLK_HZ // 1000
+
+
+@dataclass(frozen=True)
+class Case:
+    """cur: mA asked for. mstep (0: full steps) and full steps/s, whose product is at most 16000. emf: V, 90
+    degrees ahead of the reference. scomp: P. periods: of the electrical cycle that are measured."""
+
+    cur: int = 1000
+    mstep: int = 16
+    full: int = 1000
+    emf: float = 0.0
+    motor: Motor = Motor()
+    tau: float = 0.0
+    scomp: int = 1250
+    periods: int = 2
+
+    @property
+    def hz(self) -> float:
+        """Electrical frequency."""
+        return self.full / 4
+
+
+class Waves(NamedTuple):
+    """Samples of one phase: s from the first one, ampere."""
+
+    time: list[float]
+    current: list[float]
+    reference: list[float]
+
+
+class Figures(NamedTuple):
+    """amplitude: fundamental of the reference, A. error: rms of current less that fundamental, by its rms.
+    follows: rms of current less reference, by the reference's rms. thd: harmonics 2..40 of the current by its
+    fundamental. all: everything in the current but its fundamental, likewise."""
+
+    amplitude: float
+    error: float
+    follows: float
+    thd: float
+    all: float
+
+
+class Rig:
+    """A part that has booted, and its motor."""
+
+    def __init__(self, case: Case) -> None:
+        self.case = case
+        self.part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
+        self._go(MS)
+        for code, data in (("e", case.cur), ("m", case.mstep), ("M", 100), ("P", case.scomp), ("a", 0)):
+            self.tell(code, data)
+
+    def _go(self, clk: int) -> None:
+        self.part.run_until(self.part.now + clk)
+
+    def tell(self, code: str, data: int) -> None:
+        """A frame and its reply."""
+        bit = CLK_HZ / BAUD
+        begin = self.part.now + 1
+        for number, byte in enumerate(command(ADDRESS, code, data)):
+            self.part.hear(begin + round((10 * number + 9.5) * bit), byte)
+        self._go(round(165 * bit))
+
+    def hold(self, angle_steps: int = 0) -> Plant:
+        """At rest with full current, so many steps from the angle after reset; settled."""
+        if angle_steps:
+            self.tell("s", angle_steps)
+            self._go(MS * angle_steps * 2)
+        plant = Plant(self.part, CLK_HZ, self.case.motor, self.case.tau)
+        self._go(20 * MS)
+        return plant
+
+    def cruise(self) -> Plant:
+        """At constant speed, settled."""
+        speed = self.case.full * max(1, self.case.mstep)
+        slow = min(3000, speed)
+        for code, data in (("u", 5), ("v", speed), ("L", slow), ("S", slow), ("N", 1)):
+            self.tell(code, data)
+        self._go(MS * (20 + (speed - slow) // 54))
+        plant = Plant(self.part, CLK_HZ, self.case.motor, self.case.tau)
+        cycle = round(CLK_HZ / self.case.hz)
+        begin = self.part.now
+        self._go(cycle)
+        if self.case.emf:
+            _, angle = _component(waves(plant, "b", begin, begin + cycle).reference, 1)
+            ahead = angle - 2 * pi * self.case.hz * plant.seconds(begin) + pi / 2
+            plant.spin(self.case.emf, self.case.hz, ahead)
+        self._go(max(cycle, round(5 * CLK_HZ * self.case.motor.henry / self.case.motor.ohm)))
+        return plant
+
+
+def waves(plant: Plant, phase: str, first: int, last: int, step: float = SAMPLE_S) -> Waves:
+    """Samples of phase "a" or "b" from edge `first` up to before edge `last`, every `step` s."""
+    winding: Winding = plant.windings[phase]
+    begin = plant.seconds(first)
+    times = [number * step for number in range(round((plant.seconds(last) - begin) / step))]
+    current = [winding.current(begin + t) for t in times]
+    return Waves(times, current, [winding.reference(begin + t) for t in times])
+
+
+def cruising(case: Case) -> tuple[Waves, Waves]:
+    """Both phases over whole electrical cycles at constant speed."""
+    rig = Rig(case)
+    plant = rig.cruise()
+    first = rig.part.now
+    last = first + round(CLK_HZ / case.hz) * case.periods
+    rig.part.run_until(last)
+    return waves(plant, "a", first, last), waves(plant, "b", first, last)
+
+
+def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Waves]:
+    """Both phases at rest."""
+    rig = Rig(case)
+    plant = rig.hold(angle_steps)
+    first = rig.part.now
+    last = first + us * CLK_HZ // 1_000_000
+    rig.part.run_until(last)
+    step = SAMPLE_S / 8
+    return waves(plant, "a", first, last, step), waves(plant, "b", first, last, step)
+
+
+# ---------------------------------------------------------------------- figures
+
+
+def _component(samples: Sequence[float], cycles: int) -> tuple[float, float]:
+    """Amplitude and angle of the sine with so many cycles in all samples."""
+    turn = 2 * pi * cycles / len(samples)
+    along = sum(value * sin(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
+    across = sum(value * cos(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
+    return hypot(along, across), atan2(across, along)
+
+
+def _rms(samples: Sequence[float]) -> float:
+    return sqrt(sum(value * value for value in samples) / len(samples))
+
+
+def spectrum(samples: Sequence[float], periods: int, harmonics: int = HARMONICS) -> list[float]:
+    """Amplitudes of harmonics 1, 2, .. of samples over whole cycles."""
+    return [_component(samples, periods * number)[0] for number in range(1, harmonics + 1)]
+
+
+def figures(found: Waves, periods: int) -> Figures:
+    """Figures of one phase over whole cycles."""
+    size, angle = _component(found.reference, periods)
+    turn = 2 * pi * periods / len(found.reference)
+    wanted = [size * sin(turn * n + angle) for n in range(len(found.reference))]
+    off = _rms([a - b for a, b in zip(found.current, wanted, strict=True)])
+    beside = _rms([a - b for a, b in zip(found.current, found.reference, strict=True)])
+    lines = spectrum(found.current, periods)
+    rest = _rms(found.current) ** 2 - lines[0] ** 2 / 2
+    return Figures(
+        size,
+        off / _rms(wanted),
+        beside / _rms(found.reference),
+        hypot(*lines[1:]) / lines[0],
+        sqrt(max(0.0, rest) * 2) / lines[0],
+    )
+
+
+def left_at_zero(found: Waves) -> tuple[float, float]:
+    """Largest and smallest mean current of a step whose reference is 0, over its second half, A; 0 if there
+    is none."""
+    means = [0.0]
+    for zero, span in groupby(zip(found.reference, found.current, strict=True), lambda one: not one[0]):
+        currents = [current for _, current in span]
+        if zero:
+            late = currents[len(currents) // 2 :]
+            means.append(sum(late) / len(late))
+    return max(means), min(means)
+
+
+def ripple(found: Waves) -> tuple[float, float]:
+    """Mean and peak-to-peak of a current at rest, A."""
+    return sum(found.current) / len(found.current), max(found.current) - min(found.current)

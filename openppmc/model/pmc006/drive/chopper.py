@@ -1,0 +1,126 @@
+"""Chopper of one phase of the PMC006B4: fixed off time, then on or fast decay (P006-CHP-02..06).
+
+Event driven: timers, changes of the comparator, of the reference and of the enable. An edge named here is
+the one on which the half-bridge commands change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+from ...common.blocks import Phase
+from ...common.scheduler import Event, Scheduler
+
+
+class State(Enum):
+    """OFF: both low sides. ON: supply in the direction of the sign. FAST: supply against it."""
+
+    OFF = "off"
+    ON = "on"
+    FAST = "fast"
+
+
+@dataclass(frozen=True)
+class Times:
+    """clk: off time, blanking, longest fast decay, change of a sign to OFF."""
+
+    off: int
+    blank: int
+    fast: int
+    force: int = 1
+
+    @classmethod
+    def of(cls, clk_hz: int, t_off_ns: int, t_blank_ns: int, force: int = 1) -> Times:
+        """TOFF, BL, TF of P006 6.6."""
+        off, blank = (-(-ns * clk_hz // 1_000_000_000) for ns in (t_off_ns, t_blank_ns))
+        return cls(off, blank, max(blank, off // 2), force)
+
+
+class Chopper:
+    """show(t, m_plus, m_minus): half-bridge commands (m10, m11 or m20, m21) from edge t on."""
+
+    def __init__(self, queue: Scheduler, times: Times, show: Callable[[int, int, int], None]) -> None:
+        self._queue, self._times, self._show = queue, times, show
+        self.state = State.OFF
+        self._on = False
+        self._ref = self._sign = self._cmp = 0
+        self._armed = False
+        self._events: list[Event] = []
+
+    # ------------------------------------------------------------------ causes
+
+    def enable(self, t: int, on: bool) -> None:
+        """The bridge's enable changes at edge t; without it the commands are low from that edge on."""
+        self._on = on
+        if not on:
+            self._enter(t, State.OFF)
+        else:
+            self._rest(t)
+
+    def reference(self, t: int, ref: int, sign: int) -> None:
+        """The reference outputs change at edge t."""
+        turned = sign != self._sign
+        self._ref, self._sign = ref, sign
+        if turned and self._on:
+            self._forget()
+            self._at(t + self._times.force, self._forced)
+
+    def compare(self, t: int, level: int) -> None:
+        """Level of the synchronised comparator as decisions from edge t on see it."""
+        self._cmp = level
+        if self._armed and level == (self.state is State.ON):
+            self._at(t, self._over)
+
+    # ------------------------------------------------------------------ states
+
+    def _forced(self, t: int) -> None:
+        self._enter(t, State.OFF)
+
+    def _enter(self, t: int, state: State) -> None:
+        self._forget()
+        self.state = state
+        if state is State.OFF:
+            self._show(t, 0, 0)
+            self._rest(t)
+            return
+        forward = (state is State.ON) != bool(self._sign)
+        self._show(t, int(forward), int(not forward))
+        self._at(t + self._times.blank, self._arm)
+        if state is State.FAST:
+            self._at(t + self._times.fast, self._over)
+
+    def _rest(self, t: int) -> None:
+        """The off time counts from edge t on, if it may count."""
+        self._forget()
+        if self._on:
+            self._at(t + self._times.off, self._decide)
+
+    def _decide(self, t: int) -> None:
+        """No current is wanted with a reference of 0: what is there may only fall."""
+        if self._cmp:
+            self._enter(t, State.FAST)
+        else:
+            self._enter(t, State.ON if self._ref else State.OFF)
+
+    def _arm(self, t: int) -> None:
+        """Blanking is over."""
+        self._armed = True
+        if self._cmp == (self.state is State.ON):
+            self._over(t)
+
+    def _over(self, t: int) -> None:
+        if self._armed:
+            self._enter(t, State.OFF)
+
+    # ------------------------------------------------------------------ events
+
+    def _at(self, t: int, action: Callable[[int], None]) -> None:
+        self._events.append(self._queue.at(t, Phase.CHOPPER, action))
+
+    def _forget(self) -> None:
+        self._armed = False
+        for event in self._events:
+            event.cancel()
+        self._events.clear()

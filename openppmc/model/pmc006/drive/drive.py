@@ -1,0 +1,182 @@
+"""Drive of the PMC006B4: angle, references, idle current, bridges, reference bit streams (P006 chapter 6).
+
+Event driven. An edge named here is the one on which the register in question changes.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from ...common.blocks import Phase
+from ...common.scheduler import Event
+from ..motion.motion import Motion, base_code
+from ..pins import Shared
+from .angle import CYCLE, HOME, OFF, References, peak_code, references
+from .angle import Phase as Reference
+from .chopper import Chopper, Times
+
+IDLE_US = 100_000
+PINS = {"a": ("m10", "m11"), "b": ("m20", "m21")}
+MODULUS = 256
+
+
+class Stream:
+    """Carry of an accumulator that adds the reference every clk (P006-EXC-40), on demand."""
+
+    def __init__(self, t: int) -> None:
+        self._since, self._sum, self._before, self._ref = t, 0, 0, 0
+
+    def change(self, t: int, ref: int) -> None:
+        """The reference register changes at edge t, which still adds the old value."""
+        self._before, self._sum = self._total(t - 1), self._total(t)
+        self._since, self._ref = t, ref
+
+    def _total(self, t: int) -> int:
+        """Sum of all that has been added up to edge t."""
+        return self._sum + (t - self._since) * self._ref if t >= self._since else self._before
+
+    def level(self, t: int) -> int:
+        """Level after edge t. Raises ValueError before the last change of the reference."""
+        if t < self._since:
+            raise ValueError(f"level({t}): the reference has changed at edge {self._since}")
+        return self._total(t) // MODULUS - self._total(t - 1) // MODULUS
+
+
+class Drive:
+    """The outputs phase_*, bridge_*, m10 .. m21 go to the log; pwm_*: `level`.
+
+    angle: TH, 0..511. decayed: the idle timer has run out. t_off_ns, t_blank_ns: chopper. origin: first edge
+    inside after the reset.
+    """
+
+    def __init__(
+        self,
+        shared: Shared,
+        motion: Motion,
+        t_off_ns: int = 20_000,
+        t_blank_ns: int = 1_000,
+        origin: int = 0,
+    ) -> None:
+        self._shared, self._motion = shared, motion
+        motion.listener = self
+        self.angle = HOME
+        self.decayed = False
+        self.enabled = False
+        self._booted = False
+        self._looks = -1
+        self._compared = dict.fromkeys(PINS, 0)
+        self._origin = origin + shared.pace.grid_from
+        self._shown: References = OFF
+        self._wanted: References = OFF
+        self._timer: Event | None = None
+        times = Times.of(shared.clk_hz, t_off_ns, t_blank_ns, shared.pace.force)
+        self.choppers = {name: Chopper(shared.queue, times, partial(self._bridge, name)) for name in PINS}
+        self.streams = {name: Stream(origin) for name in PINS}
+
+    # ------------------------------------------------------------------ causes
+
+    def booted(self, t: int) -> None:
+        """BOOT ends at edge t."""
+        if not self._booted:
+            self._booted = True
+            self._start_idle(t)
+        self.settings_changed(t)
+
+    def settings_changed(self, t: int) -> None:
+        """cur, autodec, att or free have new values after edge t."""
+        on = self._booted and not self._shared.settings.free
+        if on != self.enabled:
+            self.enabled = on
+            self._shared.queue.at(t + self._shared.pace.enable, Phase.PIN, lambda at: self._enable(at, on))
+        self._look(t)
+
+    def compare(self, t: int, a: int, b: int) -> None:
+        """Edge t samples these levels of cmp_a and cmp_b first."""
+        for name, level in zip(PINS, (a, b), strict=True):
+            if level == self._compared[name]:
+                continue
+            self._compared[name] = level
+            see = partial(self.choppers[name].compare, level=level)
+            self._shared.queue.at(t + self._shared.pace.cmp, Phase.LEVELS, see)
+
+    def moved(self, t: int, forward: bool, increment: int) -> None:
+        """A step at edge t (P006-EXC-02)."""
+        self.angle = (self.angle + (increment if forward else -increment)) % CYCLE
+        self._look(t)
+
+    def changed(self, t: int) -> None:
+        """busy, b or w of the motion at edge t."""
+        if self._motion.busy:
+            self._stop_idle()
+        elif self._booted and self._timer is None and not self.decayed:
+            self._start_idle(t)
+        self._look(t)
+
+    # ------------------------------------------------------------------ idle timer
+
+    def _start_idle(self, t: int) -> None:
+        """P006-EXC-31; `t`: BUSY or BOOT falls."""
+        us = self._shared.us
+        over = us.edge_of(us.first(t + 1) + IDLE_US - 1) + self._shared.pace.idle
+        self._timer = self._shared.queue.at(over, Phase.STORE, self._decay)
+
+    def _stop_idle(self) -> None:
+        self.decayed = False
+        if self._timer:
+            self._timer.cancel()
+            self._timer = None
+
+    def _decay(self, t: int) -> None:
+        self.decayed, self._timer = True, None
+        self._look(t)
+
+    # ------------------------------------------------------------------ references
+
+    def _look(self, t: int) -> None:
+        """Something that the references depend on changes at edge t: the next look of the grid sees it."""
+        grid = self._shared.pace.grid
+        at = t + grid - (t - self._origin) % grid
+        if self._looks != at:
+            self._looks = at
+            self._shared.queue.at(at, Phase.PINS, self._judge)
+
+    def _judge(self, t: int) -> None:
+        """References as they follow from all levels before edge t (P006-EXC-12, -30, P006-STA-12)."""
+        motion, now = self._motion, self._shared.settings
+        wanted = OFF
+        if self.enabled:
+            lead = motion.w if motion.forward else -motion.w
+            decayed = self.decayed and bool(now.autodec)
+            peak = peak_code(base_code(now.cur), motion.b, motion.busy, decayed, now.att)
+            wanted = references((self.angle + lead) % CYCLE, peak)
+        if wanted != self._wanted:
+            self._wanted = wanted
+            self._shared.queue.at(t + self._shared.pace.refs, Phase.PIN, lambda at: self._show(at, wanted))
+
+    def _show(self, t: int, wanted: References) -> None:
+        for name, old, new in zip(PINS, self._shown, wanted, strict=True):
+            if old != new:
+                self._set_reference(t, name, new)
+        self._shown = wanted
+
+    def _set_reference(self, t: int, name: str, new: Reference) -> None:
+        log = self._shared.log
+        log.set(t, f"phase_{name}_ref", new.ref)
+        log.set(t, f"phase_{name}_sign", new.sign)
+        self.streams[name].change(t, new.ref)
+        self.choppers[name].reference(t, new.ref, new.sign)
+
+    # ------------------------------------------------------------------ bridges
+
+    def _enable(self, t: int, on: bool) -> None:
+        for name, chopper in self.choppers.items():
+            self._shared.log.set(t, f"bridge_{name}_en", int(on))
+            chopper.enable(t, on)
+
+    def _bridge(self, name: str, t: int, plus: int, minus: int) -> None:
+        for pin, level in zip(PINS[name], (plus, minus), strict=True):
+            self._shared.log.set(t, pin, level)
+
+    def level(self, t: int, name: str) -> int:
+        """pwm_a_ref ("a") or pwm_b_ref ("b") after edge t, not before the last change of the reference."""
+        return self.streams[name].level(t)

@@ -1,0 +1,139 @@
+"""Serial line of the PMC006B4 in time: receiver, silence, replies (P006-UART-01..05, P006-FRM-04, -07)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import groupby
+from math import ceil
+
+from ...common.blocks import Phase
+from ...common.uart import Receiver
+from ..pins import Shared
+from .frames import SIZE, Assembler, Command
+
+STOP = Fraction(163, 2)
+"""Bit times from e to the middle of a reply's last stop bit: a host may speak from there on."""
+SYNC = 2
+"""clk from a sampled level to its effect."""
+SILENCE = 192
+"""Bit times without the start of a byte after which a frame that has begun is dropped."""
+
+
+def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
+    """(bit times after e, pin, level) of all that a reply does to its pins."""
+    levels = [1]
+    for byte in frame:
+        levels += [0, *(byte >> place & 1 for place in range(8)), 1]
+    edges = [(2 + k, "txd", level) for k, level in enumerate(levels[1:]) if level != levels[k]]
+    return [(1, "de", 1), *edges, (2 + 10 * SIZE, "de", 0)]
+
+
+class Line:
+    """take(t, command): a frame with a right check is complete at edge t, the e of chapter 2.4; whether it is
+    for this controller.
+
+    It is deaf until `listen`. replies gets (edge on which de rises, frame), sent (edge in the middle of a
+    stop bit, byte).
+    """
+
+    def __init__(
+        self,
+        shared: Shared,
+        baud: int,
+        take: Callable[[int, Command], bool],
+        replies: list[tuple[int, bytes]],
+        sent: list[tuple[int, int]],
+    ) -> None:
+        self._shared, self._take = shared, take
+        self._bit = Fraction(shared.clk_hz, baud)
+        self._receiver = Receiver(shared, self._bit, self._got)
+        self._assembler = Assembler()
+        self._silence = ceil((SILENCE + Fraction(19, 2)) * self._bit)
+        self._heard = 0
+        self._pin = self._level = 1
+        self._open = False
+        self._deaf = True
+        self._e = 0
+        self._replies, self._sent = replies, sent
+
+    # ------------------------------------------------------------------ from the host
+
+    def sample(self, t: int, level: int) -> None:
+        """Edge t samples this level of the pin."""
+        self._pin = level
+        self._shared.queue.at(t + SYNC, Phase.PINS, lambda now: self._see(now, level))
+        if self._open:
+            self._hear_line(t + SYNC, level)
+
+    def _see(self, t: int, level: int) -> None:
+        """Synchronised level from edge t on: the ear opens on a high one."""
+        self._level = level
+        if level and not self._deaf and not self._open:
+            self._shared.queue.at(t, Phase.BUS, self._open_up)
+
+    def listen(self, t: int, on: bool) -> None:
+        """The ear is to be open, or is closed, after edge t; it has to see the line high first."""
+        self._deaf = not on
+        if not on:
+            self._open = False
+            self._receiver.forget()
+            self._receiver.see(t, 1)
+        elif self._level:
+            self._shared.queue.at(t + 1, Phase.BUS, self._open_up)
+
+    def _open_up(self, t: int) -> None:
+        """The line was high before edge t, and the next edge samples the pin."""
+        if not self._deaf and not self._open and self._level:
+            self._open = True
+            self._shared.queue.at(t + 1, Phase.BUS, lambda now: self._hear_line(now + SYNC, self._pin))
+
+    def _hear_line(self, t: int, level: int) -> None:
+        self._shared.queue.at(t, Phase.PINS, lambda now: self._receiver.see(now, level if self._open else 1))
+
+    def _got(self, t: int, byte: int | None) -> None:
+        """A character whose stop bit edge t has sampled."""
+        self._shared.queue.at(t, Phase.BUS, lambda now: self.hear(now, byte))
+
+    def hear(self, t: int, byte: int | None) -> None:
+        """A character at edge t; None: its stop bit was low."""
+        if self._deaf:
+            return
+        if byte is None or t - self._heard >= self._silence:
+            self._assembler.drop()
+        self._heard = t
+        command = None if byte is None else self._assembler.take(byte)
+        if command and self._take(t, command):
+            self._e = t
+            self.listen(t, False)
+
+    # ------------------------------------------------------------------ to the host
+
+    def answer(self, frame: bytes) -> None:
+        """The reply to what `take` got last."""
+        origin = self._e + self._shared.pace.answer
+        timed = [(origin + ceil(bits * self._bit), pin, level) for bits, pin, level in changes_of(frame)]
+        self._replies.append((timed[0][0], frame))
+        over = origin + ceil(STOP * self._bit)
+        self._shared.queue.at(over, Phase.PIN, lambda now: self.listen(now, True))
+        self._next([list(group) for _, group in groupby(timed, key=lambda change: change[0])])
+        self._count(origin, frame)
+
+    def _count(self, origin: int, rest: bytes) -> None:
+        """Bytes as sent, when they are."""
+        if rest:
+            at = origin + ceil((2 + 10 * (SIZE - len(rest)) + Fraction(19, 2)) * self._bit)
+            self._shared.queue.at(at, Phase.PIN, lambda now: self._passed(now, origin, rest))
+
+    def _passed(self, t: int, origin: int, rest: bytes) -> None:
+        self._sent.append((t, rest[0]))
+        self._count(origin, rest[1:])
+
+    def _next(self, changes: list[list[tuple[int, str, int]]]) -> None:
+        if changes:
+            self._shared.queue.at(changes[0][0][0], Phase.PIN, lambda now: self._do(now, changes))
+
+    def _do(self, t: int, changes: list[list[tuple[int, str, int]]]) -> None:
+        for _, pin, level in changes[0]:
+            self._shared.log.set(t, pin, level)
+        self._next(changes[1:])

@@ -1,0 +1,1 @@
+"""Instructions of the PMC006B4: executor, user program, keys."""

@@ -1,0 +1,143 @@
+"""The executor of the PMC006B4: one instruction at a time, of a frame or of the program.
+
+P006-FRM-02, -03, P006-CMD-52, -53, P006-PRG-15, -16.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ...common.blocks import Phase
+from ...common.scheduler import Event
+from ..codes import TABLE, Effect
+from ..front.frames import Command
+from .desk import Desk
+from .operations import Outcome
+
+
+class Executor:
+    """answered(t, data): data of the reply, sampled at edge t.
+
+    Begins are at edges whose clk before shows whoever begins: a frame or a program that runs.
+    """
+
+    def __init__(self, desk: Desk, answered: Callable[[int, int], None]) -> None:
+        self._desk, self._answered = desk, answered
+        self._queue, self._pace = desk.shared.queue, desk.shared.pace
+        self._free: int | None = 0
+        self._frame: tuple[int, Command] | None = None
+        self._run: int | None = None
+        self._begin: Event | None = None
+        self._slot: Event | None = None
+        self._next_slot = 0
+        self._cancelled = -1
+        self._leaving: Event | None = None
+
+    # ------------------------------------------------------------------ whose turn it is
+
+    def frame(self, t: int, command: Command) -> None:
+        """A command whose last byte was complete at edge t."""
+        self._frame = (t + self._pace.frame, command)
+        self._look(t)
+
+    def wake(self, t: int, afresh: bool = False) -> None:
+        """The program runs after edge t. afresh: it has been started."""
+        if afresh:
+            self._next_slot = 0
+        self._run = t + 1
+        self._look(t)
+
+    def cancel(self, t: int) -> None:
+        """RESET at edge t: an instruction of the program that is being worked on has no effect."""
+        self._cancelled = t
+        if self._slot:
+            self._slot.cancel()
+            self._slot, self._free = None, t + 1
+        self._look(t)
+
+    def _look(self, t: int) -> None:
+        """Plan the next begin."""
+        if self._begin:
+            self._begin.cancel()
+            self._begin = None
+        if self._free is None:
+            return
+        ready = []
+        if self._frame:
+            ready.append(max(self._free, self._frame[0]))
+        if self._run is not None and self._desk.program.runs:
+            ready.append(max(self._free, self._run, self._next_slot))
+        if ready:
+            self._begin = self._queue.at(max(t, min(ready)), Phase.BEGIN, self._start)
+
+    def _start(self, t: int) -> None:
+        self._begin = None
+        if self._frame and self._frame[0] <= t:
+            command, self._frame = self._frame[1], None
+            self._free = None
+            self._queue.at(t + self._pace.effect, Phase.COMMAND, lambda now: self._of_host(now, command))
+        elif self._desk.program.runs and self._cancelled != t:
+            self._next_slot = t + self._pace.slot
+            self._free, self._run = t + self._pace.fetch + 1, t + self._pace.fetch + 1
+            self._slot = self._queue.at(t + self._pace.fetch, Phase.COMMAND, self._of_program)
+            self._look(t)
+
+    # ------------------------------------------------------------------ effects
+
+    def _of_host(self, t: int, command: Command) -> None:
+        desk = self._desk
+        desk.judging = t
+        effect = TABLE[command.code](desk, command.data)
+        desk.carry_out(t, effect)
+        self._queue.at(t, Phase.STORE, lambda now: self._commit_host(now, effect))
+
+    def _commit_host(self, t: int, effect: Effect) -> None:
+        if effect.still and self._desk.stepped_at == t:
+            self._queue.at(t + 1, Phase.STORE, lambda now: self._commit_host(now, effect))
+            return
+        self._desk.commit(t, effect)
+        self._queue.at(t + 1, Phase.QUEUE, lambda now: self._reply(now, effect))
+        if effect.once is None:
+            self._free = t + self._pace.after
+        else:
+            place = effect.once
+            begin = t + 1
+            self._free = begin + self._pace.fetch + 1
+            self._queue.at(begin + self._pace.fetch, Phase.COMMAND, lambda now: self._of_single(now, place))
+            self._next_slot = 0
+        self._look(t)
+
+    def _reply(self, t: int, effect: Effect) -> None:
+        data = effect.reply
+        self._answered(t, data if isinstance(data, int) else data(self._desk))
+
+    def _of_single(self, t: int, place: int) -> None:
+        """The instruction that E executes."""
+        self._desk.judging = t
+        effect = self._desk.program.once(place)
+        self._desk.carry_out(t, effect)
+        self._queue.at(t, Phase.STORE, lambda now: self._desk.commit(now, effect))
+
+    def _of_program(self, t: int) -> None:
+        desk = self._desk
+        desk.judging, self._slot = t, None
+        outcome = desk.program.next()
+        desk.carry_out(t, outcome.effect)
+        self._queue.at(t, Phase.STORE, lambda now: self._commit_program(now, outcome))
+
+    def _commit_program(self, t: int, outcome: Outcome) -> None:
+        self._desk.commit(t, outcome.effect)
+        self._desk.program.advance(outcome)
+        self._look(t)
+
+    # ------------------------------------------------------------------ WAIT
+
+    def look_at_wait(self, t: int) -> None:
+        """What edge t finds may be what WAIT waits for."""
+        if not self._leaving and self._desk.program.passes():
+            self._leaving = self._queue.at(t, Phase.QUEUE, self._leave)
+
+    def _leave(self, t: int) -> None:
+        self._leaving = None
+        if self._desk.program.passes():
+            self._queue.at(t, Phase.STORE, self._desk.program.pass_on)

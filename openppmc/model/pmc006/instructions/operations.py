@@ -1,0 +1,207 @@
+"""Instructions of the PMC006B4's user program as objects (P006 chapters 12.2..12.4, 12.6)."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..codes import LETTERS, Effect
+from ..settings import BOTH
+
+if TYPE_CHECKING:
+    from .desk import Desk
+
+COUNT = 100
+TARGETS = range(COUNT)
+
+
+class Then(Enum):
+    """What the processor does after an instruction."""
+
+    NEXT = auto()
+    JUMP = auto()
+    WAIT = auto()
+    HALT = auto()
+
+
+class Outcome(NamedTuple):
+    """Effect on the part, and the way on; target: of a jump."""
+
+    effect: Effect = Effect()
+    then: Then = Then.NEXT
+    target: int = 0
+
+
+NOTHING = Outcome()
+
+
+class Operation:
+    """An instruction of the program. `single`: E executes it, too."""
+
+    single = True
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """What these fields ask for; operand is signed."""
+        return Outcome(then=Then.HALT)
+
+
+class End(Operation):
+    """END and every opcode that there is not."""
+
+    single = False
+
+
+@dataclass
+class AsHost(Operation):
+    """The host instruction of that letter, its data being the operand, or what `data` makes of it."""
+
+    letter: str
+    data: dict[int, int] | None = None
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """Refused like the host's."""
+        if self.data is None:
+            return Outcome(LETTERS[self.letter](desk, operand))
+        if operand not in self.data:
+            return NOTHING
+        return Outcome(LETTERS[self.letter](desk, self.data[operand]))
+
+
+class Speed(Operation):
+    """VSET."""
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """0 is legal here, unlike v."""
+        if option not in BOTH or operand not in range(16001):
+            return NOTHING
+        return Outcome(Effect(put={"vmax": operand, "analog": option}))
+
+
+@dataclass
+class Counter(Operation):
+    """CNTI, CNTC."""
+
+    up: bool
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """32 bits."""
+        fresh = (desk.program.counter + 1) % (1 << 32) if self.up else 0
+        return Outcome(Effect(do=lambda desk, t: setattr(desk.program, "counter", fresh)))
+
+
+@dataclass
+class Jump(Operation):
+    """JMP, JNE, JEQ; on: values of FLAG that let it jump."""
+
+    on: Container[int]
+    single = False
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """A bad target halts, if it would be taken."""
+        if desk.program.flag not in self.on:
+            return NOTHING
+        if operand not in TARGETS:
+            return Outcome(then=Then.HALT)
+        return Outcome(then=Then.JUMP, target=operand)
+
+
+class Wait(Operation):
+    """WAIT."""
+
+    single = False
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """Passes at once if it may."""
+        source = waited(desk, option)
+        return NOTHING if source in (None, operand & 1) else Outcome(then=Then.WAIT)
+
+
+class Out(Operation):
+    """OUT."""
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """One bit of GPO."""
+        if option not in range(1, 6):
+            return NOTHING
+        mask = 1 << option - 1
+        gpo = desk.settings.gpo & ~mask | (mask if operand & 1 else 0)
+        return Outcome(Effect(put={"gpo": gpo}))
+
+
+class Compare(Operation):
+    """CMP."""
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """A bad option clears FLAG."""
+        flag = int(compared(desk, option) == operand & 0xFFFF_FFFF)
+        return Outcome(Effect(do=lambda desk, t: setattr(desk.program, "flag", flag)))
+
+
+@dataclass
+class Key(Operation):
+    """RESET_EN, PAUSE_EN; name: which of the two."""
+
+    name: str
+    single = False
+
+    def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
+        """A target that there is not makes RESET_EN illegal, also when it is to switch off."""
+        if option not in BOTH or (self.name == "rsten" and operand not in TARGETS):
+            return NOTHING
+        return Outcome(Effect(do=lambda desk, t: desk.program.enable(self.name, option, operand)))
+
+
+def pin(desk: Desk, option: int) -> int | None:
+    """Sources 1..7 of WAIT and CMP: inputs and EXT flags."""
+    if option in range(1, 6):
+        return desk.levels["gpi"] >> option - 1 & 1
+    return int(desk.guard.latched(f"ext{option - 5}")) if option in (6, 7) else None
+
+
+def waited(desk: Desk, option: int) -> int | None:
+    """Source of WAIT; None for an option that there is not."""
+    if option == 8:
+        return int(desk.motion.busy)
+    return int(desk.guard.stall) if option == 9 else pin(desk, option)
+
+
+def compared(desk: Desk, option: int) -> int | None:
+    """Source of CMP."""
+    if option == 8:
+        return int(desk.program.counter)
+    return desk.levels["gpi"] if option == 9 else pin(desk, option)
+
+
+END = End()
+TABLE: dict[int, Operation] = {
+    0x00: END,
+    0x01: AsHost("s"),
+    0x02: AsHost("m"),
+    0x03: AsHost("d"),
+    0x04: AsHost("f", {0: 0, 1: 3}),
+    0x05: AsHost("g"),
+    0x06: AsHost("l"),
+    0x07: AsHost("b"),
+    0x08: Speed(),
+    0x09: AsHost("u", {given: min(given, 5) for given in range(7)}),
+    0x0A: AsHost("J"),
+    0x0B: Counter(True),
+    0x0C: Counter(False),
+    0x0D: Jump((0, 1)),
+    0x0E: Jump((0,)),
+    0x0F: Jump((1,)),
+    0x10: Wait(),
+    0x11: Out(),
+    0x12: Compare(),
+    0x13: Key("rsten"),
+    0x14: Key("pauen"),
+}
+"""Operation of each opcode; all others are END."""
+
+
+def decode(word0: int, word1: int) -> tuple[Operation, int, int]:
+    """Operation, option and signed operand of an instruction."""
+    operand = word1 - (word1 >> 31 << 32)
+    return TABLE.get(word0 & 0xFF, END), word0 >> 8 & 0xFF, operand

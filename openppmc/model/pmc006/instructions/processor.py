@@ -1,0 +1,158 @@
+"""The processor of the PMC006B4's user program: states, keys (P006 chapter 12)."""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from typing import TYPE_CHECKING, Protocol
+
+from ...common.blocks import Phase
+from ..codes import Effect
+from .operations import COUNT, Operation, Outcome, Then, decode, waited
+
+if TYPE_CHECKING:
+    from .desk import Desk
+
+WORDS = 2 * COUNT
+
+
+class State(Enum):
+    """States of the processor (P006-PRG-10); PAUSED is a flag beside RUN and WAIT."""
+
+    HALT = auto()
+    RUN = auto()
+    WAIT = auto()
+    HELD = auto()
+
+
+class Executes(Protocol):
+    """Who executes the instructions."""
+
+    def wake(self, t: int, afresh: bool = False) -> None:
+        """The program runs after edge t."""
+
+    def cancel(self, t: int) -> None:
+        """What is being worked on has no effect."""
+
+
+class Processor:
+    """words: the program. The executor asks for `next` while it `runs`."""
+
+    def __init__(self, desk: Desk, executor: Executes) -> None:
+        self._desk, self._executor = desk, executor
+        self.words = [0] * WORDS
+        self.state = State.HALT
+        self.paused = False
+        self.pc = self.counter = self.flag = 0
+        self.rsten = self.pauen = self.target = 0
+
+    @property
+    def halted(self) -> bool:
+        """No program runs."""
+        return self.state is State.HALT
+
+    @property
+    def runs(self) -> bool:
+        """There are instructions to execute."""
+        return self.state is State.RUN and not self.paused
+
+    def write(self, place: int, word: int) -> None:
+        """W."""
+        self.words[place] = word & 0xFFFF_FFFF
+
+    def start(self, t: int, pc: int) -> None:
+        """z or autostart."""
+        self.pc, self.state, self.paused = pc, State.RUN, False
+        self.counter = self.flag = self.rsten = self.pauen = 0
+        self._executor.wake(t, afresh=True)
+
+    def quit(self, t: int) -> None:
+        """F 0."""
+        self.state, self.paused = State.HALT, False
+        self.rsten = self.pauen = 0
+
+    # ------------------------------------------------------------------ instructions
+
+    def fetch(self, place: int) -> tuple[Operation, int, int]:
+        """Operation, option, operand of instruction `place`."""
+        return decode(self.words[2 * place], self.words[2 * place + 1])
+
+    def next(self) -> Outcome:
+        """What the instruction at PC does now."""
+        operation, option, operand = self.fetch(self.pc)
+        return operation(self._desk, option, operand)
+
+    def once(self, place: int) -> Effect:
+        """What E does with an instruction."""
+        operation, option, operand = self.fetch(place)
+        return operation(self._desk, option, operand).effect if operation.single else Effect()
+
+    def advance(self, outcome: Outcome) -> None:
+        """The instruction at PC has been executed."""
+        if outcome.then is Then.HALT:
+            self.state = State.HALT
+        elif outcome.then is Then.WAIT:
+            self.state = State.WAIT
+        elif outcome.then is Then.JUMP:
+            self.pc = outcome.target
+        else:
+            self._step()
+
+    def _step(self) -> None:
+        """The next instruction, if there is one."""
+        if self.pc + 1 == COUNT:
+            self.state = State.HALT
+        else:
+            self.pc += 1
+
+    def passes(self) -> bool:
+        """WAIT sees what it waits for."""
+        if self.state is not State.WAIT or self.paused:
+            return False
+        _, option, operand = self.fetch(self.pc)
+        return waited(self._desk, option) == operand & 1
+
+    def pass_on(self, t: int) -> None:
+        """The end of WAIT, unless something has come between."""
+        if self.state is State.WAIT:
+            self.state = State.RUN
+            self._step()
+            self._executor.wake(t)
+
+    # ------------------------------------------------------------------ keys
+
+    def enable(self, name: str, on: int, target: int) -> None:
+        """RESET_EN, PAUSE_EN."""
+        setattr(self, name, on)
+        if name == "rsten":
+            self.target = target
+
+    def reset_key(self, t: int) -> None:
+        """GPI1 has been pressed (P006-PRG-31)."""
+        if not self.rsten or self.state is State.HELD:
+            return
+        self._desk.stop(t)
+        if self.state is not State.HALT:
+            self._executor.cancel(t)
+            self._desk.shared.queue.at(t, Phase.END, self._hold)
+
+    def _hold(self, t: int) -> None:
+        """Behind whatever else this edge has done."""
+        if self.state is not State.HALT:
+            self.pc, self.state, self.paused = self.target, State.HELD, False
+
+    def release_key(self, t: int) -> None:
+        """GPI1 has been released."""
+        if self.state is State.HELD:
+            self.state = State.RUN
+            self._executor.wake(t)
+
+    def pause_key(self, t: int) -> None:
+        """GPI2 has been pressed (P006-PRG-32)."""
+        if self.pauen and self.state in (State.RUN, State.WAIT):
+            self._desk.shared.queue.at(t, Phase.END, self._pause)
+
+    def _pause(self, t: int) -> None:
+        """Behind whatever else this edge has done."""
+        if self.state in (State.RUN, State.WAIT):
+            self.paused = not self.paused
+            self._executor.wake(t)

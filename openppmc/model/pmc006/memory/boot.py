@@ -1,0 +1,118 @@
+"""Power-up of the PMC006B4: restore key, bus, parameters, program (P006 chapter 13.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ...common.blocks import Phase
+from ..settings import PAGE, Settings, framed, values_of
+from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Engine
+from .i2c import Bus, Course
+
+if TYPE_CHECKING:
+    from ..instructions.desk import Desk
+
+
+def program_of(block: bytes) -> list[int] | None:
+    """Words of a program with its sum and mark as read from the EEPROM; None if it is not valid."""
+    body, total, mark = block[:SIZE], int.from_bytes(block[SIZE : SIZE + 2], "little"), block[SIZE + 2]
+    if mark != COMPLETE or sum(body) % 65536 != total:
+        return None
+    return [int.from_bytes(body[at : at + 4], "little") for at in range(0, SIZE, 4)]
+
+
+class Boot:
+    """ended(t, valid): the end of BOOT; whether there is a program. stored(t): registers are new."""
+
+    def __init__(
+        self,
+        desk: Desk,
+        engine: Engine,
+        bus: Bus,
+        ended: Callable[[int, bool], None],
+        stored: Callable[[int], None],
+    ) -> None:
+        self._desk, self._engine, self._bus = desk, engine, bus
+        self._ended, self._stored = ended, stored
+        self._restoring = self._owed = self._whole = False
+        self._loaded = self._copied = False
+        self._page, self._rest = bytearray(PAGE), bytearray(MARK + 1 - PROGRAM)
+
+    def begin(self, t: int) -> None:
+        """Edge t is the first one of the inside."""
+        self._engine.run(t, "boot", self._course(), self._read)
+
+    def restore(self, t: int) -> None:
+        """FSET was low for long enough (P006-EEP-21)."""
+        self._restoring = self._owed = True
+        self._take(t, vars(Settings()))
+
+    def _course(self) -> Course:
+        yield
+        while not self._bus.level("fset_n") and not self._restoring:
+            yield
+        if not self._bus.level("sda_i"):
+            yield from self._bus.clear()
+        yield from self._engine.poll()
+        yield from self._engine.fetch(0, len(self._page), self._page.__setitem__)
+        yield from self._engine.fetch(PROGRAM, len(self._rest), self._rest.__setitem__)
+        self._whole = True
+
+    def _course_of_copy(self) -> Course:
+        """Over what was read from page 0, which is no good."""
+        yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
+        self._whole = True
+
+    # ------------------------------------------------------------------ what has been read
+
+    def _read(self, t: int) -> None:
+        """The bus is at rest since one clk."""
+        words = program_of(bytes(self._rest)) if self._whole else None
+        self._valid = words is not None
+        self._desk.program.words[:] = words or [0] * (SIZE // 4)
+        pace = self._desk.shared.pace
+        self._at(t + (pace.kept if self._valid else pace.wiped), self._judge)
+
+    def _judge(self, t: int) -> None:
+        """The program is in its place; is there a block of parameters?"""
+        if self._whole and framed(bytes(self._page)) and not self._restoring:
+            self._at(t + self._desk.shared.pace.fields, self._load)
+        else:
+            self._settle(t)
+
+    def _load(self, t: int) -> None:
+        """Its fields have been looked at."""
+        values = values_of(bytes(self._page))
+        if values is None or self._restoring:
+            self._settle(t)
+            return
+        self._loaded = True
+        pace = self._desk.shared.pace
+        self._at(t + pace.trigm, lambda now: self._store(now, values))
+        self._at(t + pace.fields, self._settle)
+
+    def _store(self, t: int, values: dict[str, int]) -> None:
+        if not self._restoring:
+            self._take(t, values)
+
+    def _take(self, t: int, values: dict[str, int]) -> None:
+        self._desk.settings.load(values)
+        self._stored(t)
+
+    def _settle(self, t: int) -> None:
+        self._at(t + 1, self._finish)
+
+    def _finish(self, t: int) -> None:
+        """The end, or a restore before it, or the copy's turn."""
+        if self._owed:
+            self._owed = False
+            self._engine.run(t + 1, "fact", self._engine.fact(), self._settle)
+        elif self._whole and not (self._loaded or self._copied or self._restoring):
+            self._copied, self._whole = True, False
+            self._engine.run(t + 1, "boot", self._course_of_copy(), self._read)
+        else:
+            self._ended(t, self._valid)
+
+    def _at(self, t: int, action: Callable[[int], None]) -> None:
+        self._desk.shared.queue.at(t, Phase.STORE, action)

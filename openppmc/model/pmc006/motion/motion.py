@@ -1,0 +1,210 @@
+"""Motions of the PMC006B4 on clk edges: start, steps, updates, ends (P006-MOT-04, -05, -50..-52).
+
+The arithmetic is `engine006`'s. An edge named here is the one on which the register in question changes;
+registers of others are read as they are before the edge. Work is done per update and per step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Protocol
+
+from ...common.blocks import Phase
+from ...common.scheduler import Event
+from ..pins import Shared
+from .engine import UPDATE, Engine, Live, Order, Stage
+
+RB_FULL, MA_FULL = 255, 4000
+ANALOG_UPDATES = 100
+
+
+def drive_index(cur: int) -> int:
+    """k of a request of 400..4000 mA (P006-EXC-20)."""
+    return (cur - 325) // 150
+
+
+@lru_cache
+def base_code(cur: int) -> int:
+    """RB of a request of 400..4000 mA (P006-EXC-20)."""
+    return (RB_FULL * (400 + 150 * drive_index(cur)) + MA_FULL // 2) // MA_FULL
+
+
+@lru_cache(maxsize=1 << 14)
+def compensation(speed: int, mstep: int, cur: int, ccomp: int, scomp: int) -> tuple[int, int]:
+    """B, addition to the peak code, and W, advance of the angle, at a speed (P006-EXC-21..23)."""
+    full = speed // max(1, mstep)
+    return base_code(cur) * ccomp * full // (1 << 22), min(64, scomp * full // (1 << 16))
+
+
+class Listener(Protocol):
+    """What is told of a motion."""
+
+    def moved(self, t: int, forward: bool, increment: int) -> None:
+        """A step at edge t."""
+
+    def changed(self, t: int) -> None:
+        """busy, b or w at edge t."""
+
+
+class Motion:
+    """stepped(t, forward): mon_step rises at edge t. ended(t): BUSY has fallen at edge t, by itself.
+
+    busy, forward, increment (angle units a step), b, w, steady (P006-STL-01): levels after the last edge that
+    was worked on. tick: number of the us tick that is t = 0, None before planning is done.
+    """
+
+    def __init__(
+        self, shared: Shared, stepped: Callable[[int, bool], None], ended: Callable[[int], None]
+    ) -> None:
+        self._shared, self._stepped, self._ended = shared, stepped, ended
+        self.listener: Listener | None = None
+        self.busy = self.steady = self._steady = False
+        self.forward = True
+        self.increment, self.b, self.w = 8, 0, 0
+        self.engine: Engine | None = None
+        self.tick: int | None = None
+        self._speed_mode = False
+        self._adc = self._adc_before = self._copy = 0
+        self._adc_at = -1
+        self._events: dict[int, Event] = {}
+        self._serial = 0
+
+    # ------------------------------------------------------------------ requests
+
+    def start(self, t: int, count: int) -> None:
+        """An accepted displacement of `count` >= 1 steps; BUSY rises at edge t."""
+        self._start(t, count)
+
+    def run(self, t: int) -> None:
+        """Speed mode from IDLE; BUSY rises at edge t."""
+        self._speed_mode = True
+        self._start(t, None)
+
+    def speed_mode(self, t: int, on: int) -> None:
+        """The register changes at edge t; 0 in speed mode asks for its end. 1 counts for an update of edge t
+        if it is told before Phase.RUN, 0 must be told after it."""
+        self._speed_mode = bool(on)
+
+    def adc(self, t: int, data: int) -> None:
+        """Edge t samples a strobe with this value, 0..1023."""
+        self._adc_before, self._adc, self._adc_at = self._adc_read(t), data, t
+
+    def halt(self, t: int) -> None:
+        """Stop at once: BUSY falls at edge t, whose step is suppressed (P006-STA-10)."""
+        if self.busy:
+            self._rest(t)
+
+    # ------------------------------------------------------------------ begin
+
+    def _start(self, t: int, count: int | None) -> None:
+        shared, now = self._shared, self._shared.settings
+        self._copy = self._adc_read(t)
+        target = self._target()
+        order = Order(count, now.vstart, now.vstop, target, now.acc, now.dec)
+        self.busy, self.forward = True, bool(now.dir)
+        self._mstep = now.mstep
+        self.increment = 128 // max(1, now.mstep)
+        self._following = (0, 0)
+        self._updates = 0
+        tick = shared.us.first(t + shared.pace.plan)
+
+        def begin(at: int) -> None:
+            self.engine, self.tick = Engine(order), tick
+            self._advance(at)
+            self._plan_steps(0, UPDATE - 1)
+
+        self._at(shared.us.edge_of(tick), Phase.RUN, begin)
+        self._tell(t)
+
+    def _adc_read(self, t: int) -> int:
+        return self._adc if t > self._adc_at else self._adc_before
+
+    def _target(self) -> int:
+        """The live target (P006-MOT-50, -51)."""
+        now = self._shared.settings
+        if not now.analog:
+            return now.vmax
+        return now.vmax * (self._copy + (self._copy >> 9)) >> 10
+
+    # ------------------------------------------------------------------ updates
+
+    def _update(self, t: int) -> None:
+        """The us tick of an update, at edge t."""
+        engine = self.engine
+        assert engine is not None
+        if engine.stage is Stage.END and not self._speed_mode:
+            self._at(t + self._shared.pace.run_end, Phase.PULSE, self._end)
+            return
+        engine.load()
+        if self._following != (self.b, self.w):
+            self.b, self.w = self._following
+            self._tell(t)
+        self._updates += 1
+        if self._updates % ANALOG_UPDATES == 0:
+            self._copy = self._adc_read(t)
+        if self._plan_steps(UPDATE * self._updates - 1, UPDATE):
+            self._advance(t)
+
+    def _plan_steps(self, before: int, ticks: int) -> bool:
+        """Steps in the us after t = `before`, and the next update; False if the first us has the last one."""
+        engine, us, lag = self.engine, self._shared.us, self._shared.pace.step
+        assert engine is not None and self.tick is not None
+        first = self.tick + before
+        made = engine.segment(ticks)
+        for offset in made:
+            self._at(us.edge_of(first + offset) + lag, Phase.PULSE, self._step)
+        if engine.over:
+            last = us.edge_of(first + made[-1]) + lag + self._shared.pace.move_end
+            self._at(last, Phase.BASE, self._end)
+            return made[-1] > 1
+        self._at(us.edge_of(first + ticks + 1), Phase.RUN, self._update)
+        return True
+
+    def _advance(self, t: int) -> None:
+        """What the next update loads, from the registers as they are before edge t."""
+        engine, now = self.engine, self._shared.settings
+        assert engine is not None
+        self._steady = engine.stage is Stage.CRUISE and engine.speed > 0
+        if self._steady != self.steady:
+            self._at(t, Phase.STORE, self._set_steady)
+        engine.advance(Live(self._target(), bool(now.analog), not self._speed_mode))
+        self._following = compensation(engine.speed, self._mstep, now.cur, now.ccomp, now.scomp)
+
+    def _set_steady(self, t: int) -> None:
+        self.steady = self._steady
+
+    # ------------------------------------------------------------------ steps and ends
+
+    def _step(self, t: int) -> None:
+        if self.listener:
+            self.listener.moved(t, self.forward, self.increment)
+        self._stepped(t, self.forward)
+
+    def _end(self, t: int) -> None:
+        self._rest(t)
+        self._ended(t)
+
+    def _rest(self, t: int) -> None:
+        for event in self._events.values():
+            event.cancel()
+        self._events.clear()
+        self.busy = self.steady = self._speed_mode = False
+        self.b = self.w = 0
+        self.engine = self.tick = None
+        self._tell(t)
+
+    def _tell(self, t: int) -> None:
+        if self.listener:
+            self.listener.changed(t)
+
+    def _at(self, t: int, phase: Phase, action: Callable[[int], None]) -> None:
+        """An event that the end of the motion cancels."""
+        self._serial += 1
+        serial = self._serial
+
+        def act(at: int) -> None:
+            del self._events[serial]
+            action(at)
+
+        self._events[serial] = self._shared.queue.at(t, phase, act)

@@ -1,0 +1,251 @@
+"""Golden model of the PMC006B4 at pin level, event driven and exact to the clk.
+
+Pins and time: `chip`. Line: `line006`, `frames006`. Instructions: `codes006`, `desk006`, `exec006`,
+`settings006`. Program: `program006`, `processor006`, `keys006`. Inputs: `guard006`. EEPROM: `eeprom006`,
+`i2c006`, `boot006`. Motion: `motion006`, `engine006`, `plan006`. Drive: `drive006`, `angle006`, `chopper006`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from ..common.blocks import Phase
+from ..common.chip import Chip
+from .drive.drive import Drive
+from .front.frames import Command, reply
+from .front.line import Line
+from .instructions.desk import Desk
+from .instructions.executor import Executor
+from .instructions.keys import KeyFilter
+from .instructions.processor import Processor
+from .memory.boot import Boot
+from .memory.eeprom import Engine
+from .memory.i2c import Bus
+from .motion.motion import Motion
+from .pace import Pace006
+from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Shared, Ticks
+from .settings import Settings
+
+MS, RESTORE_MS = 1000, 20
+"""µs ticks of a millisecond; length of a restore at FSET."""
+_LINES = {"scl_i", "sda_i"}
+
+
+class Pmc006(Chip):
+    """One PMC006B4. The names of the arguments in capitals are the parameters of the RTL.
+
+    clk_hz 8e6..200e6; xtal_hz has no effect; timing "FAST" or "DATASHEET", which are alike; step_ack "MANUAL"
+    or "ECHO"; baud 1200..115200; i2c_hz 10e3..400e3; ee_dev 0..127; t_off_ns, t_blank_ns: chopper;
+    fw_version. ValueError for anything else. straps: pin levels from the beginning on. The model starts just
+    released from reset, before edge 0.
+
+    replies: (edge on which de rises, frame); sent: (edge in the middle of a stop bit, byte). Both may be
+    emptied at any time. pwm_a_ref and pwm_b_ref are not in the log: `pwm`.
+    """
+
+    INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, ("rxd",)
+    BUS = Bus
+    """What moves the lines of the EEPROM."""
+
+    def __init__(
+        self,
+        clk_hz: int = 16_000_000,
+        xtal_hz: int = 16_000_000,
+        timing: str = "FAST",
+        step_ack: str = "MANUAL",
+        baud: int = 9600,
+        i2c_hz: int = 400_000,
+        ee_dev: int = 0x50,
+        t_off_ns: int = 20_000,
+        t_blank_ns: int = 1_000,
+        fw_version: int = 0x123,
+        straps: Mapping[str, int] | None = None,
+        pace: Pace006 | None = None,
+    ) -> None:
+        del xtal_hz
+        super().__init__(clk_hz, 16_000_000, timing, OUTPUTS, None)
+        if step_ack not in ("MANUAL", "ECHO"):
+            raise ValueError(f"step_ack {step_ack!r} is neither MANUAL nor ECHO")
+        for name, given, low, high in (
+            ("baud", baud, 1200, 115_200),
+            ("i2c_hz", i2c_hz, 10_000, 400_000),
+            ("ee_dev", ee_dev, 0, 0x7F),
+            ("t_off_ns", t_off_ns, 1_000, 100_000),
+            ("t_blank_ns", t_blank_ns, 100, 10_000),
+            ("fw_version", fw_version, 0, 0xFFFF_FFFF),
+        ):
+            if not low <= given <= high:
+                raise ValueError(f"{name} {given} is outside {low}..{high}")
+        self.pace = pace or Pace006()
+        self._echo, self._version = step_ack == "ECHO", fw_version
+        self._baud, self._i2c_hz, self._ee_dev = baud, i2c_hz, ee_dev
+        self._chopper_ns = (t_off_ns, t_blank_ns)
+        self._pins |= straps or {}
+        self.replies: list[tuple[int, bytes]] = []
+        self.sent: list[tuple[int, int]] = []
+        self._released(0)
+        self._sample(0, self.INPUTS)
+
+    # ------------------------------------------------------------------ reset
+
+    def _build(self, t: int) -> None:
+        """Fresh blocks in their reset state, as if edge t were the first one after the reset."""
+        first = t + self.pace.reset
+        queue, clk_hz = self._queue, self.timebase.clk_hz
+        us = Ticks(clk_hz, 1_000_000, first - 1)
+        self._first, self._booting = first, True
+        self._shared = shared = Shared(queue, self.log, clk_hz, us, self.pace, Settings())
+        self.desk = desk = Desk(shared, self._echo, self._version, self._changed)
+        self.motion = desk.motion = Motion(shared, self._stepped, desk.ended)
+        self.drive = Drive(shared, self.motion, *self._chopper_ns, origin=first)
+        self.executor = Executor(desk, self._answer)
+        desk.program = Processor(desk, self.executor)
+        bus = self.BUS(shared, desk.levels, self._i2c_hz)
+        desk.eeprom = Engine(desk, bus, self._ee_dev)
+        self._boot = Boot(desk, desk.eeprom, bus, self._booted, self._changed)
+        self.line = Line(shared, self._baud, self._take, self.replies, self.sent)
+        ticks = MS + self.pace.key_ticks
+        self._reset_key = KeyFilter(shared, ticks, ticks, desk.program.reset_key, desk.program.release_key)
+        self._pause_key = KeyFilter(shared, ticks, ticks, desk.program.pause_key)
+        restore_ticks = RESTORE_MS * MS + self.pace.key_ticks
+        self._restore_key = KeyFilter(shared, restore_ticks, 0, self._restore, armed=True)
+
+    def _restart(self) -> None:
+        self._build(0)
+
+    def _released(self, t: int) -> None:
+        """Edge t is the first one after a reset."""
+        self._build(t)
+        self._shown = (0, 0, True, False)
+        levels = dict(SYNCHRONISED)
+        self._queue.at(self._first, Phase.LEVELS, lambda now: self._keys(now, levels))
+        self._boot.begin(self._first)
+
+    # ------------------------------------------------------------------ boot
+
+    def _restore(self, t: int) -> None:
+        """FSET has been low for long enough (P006-EEP-21)."""
+        self._queue.at(t, Phase.END, self._restore_now)
+
+    def _restore_now(self, t: int) -> None:
+        if self._booting:
+            self._boot.restore(t)
+        else:
+            self.desk.eeprom.restore(t)
+
+    def _booted(self, t: int, valid: bool) -> None:
+        """BOOT ends at edge t."""
+        self._booting = False
+        self.desk.eeprom.idle()
+        self.drive.booted(t)
+        self.line.listen(t, True)
+        if valid and self.desk.settings.offline:
+            self.desk.program.start(t, 0)
+
+    # ------------------------------------------------------------------ frames
+
+    def _take(self, t: int, command: Command) -> bool:
+        """A frame with a right check (P006-FRM-02)."""
+        if command.address != self.desk.settings.addr:
+            return False
+        self.executor.frame(t, command)
+        return True
+
+    def _answer(self, t: int, data: int) -> None:
+        self.line.answer(reply(self.desk.settings.addr, data))
+
+    def hear(self, t: int, byte: int | None) -> None:
+        """A whole byte on the line, whose stop bit edge t samples, without the levels of rxd; None for one
+        with a low stop bit. ValueError for an edge already run."""
+        self._queue.at(t, Phase.BUS, lambda now: self.line.hear(now, byte))
+
+    # ------------------------------------------------------------------ inside of `chip`
+
+    def _latch(self, t: int) -> None:
+        """Registers of this part of the model, and what follows from them."""
+        desk, motion = self.desk, self.motion
+        now = (desk.settings.trigm, desk.gpo, motion.forward, motion.busy)
+        if now != self._shown:
+            before, self._shown = self._shown, now
+            self._show(t, before, now)
+        self.executor.look_at_wait(t + 1)
+        desk.guard.look(t)
+
+    def _show(self, t: int, before: tuple[int, ...], now: tuple[int, ...]) -> None:
+        trigm, gpo, forward, busy = now
+        self.log.set(t, "ext1_pu", ~trigm & 1)
+        self.log.set(t, "ext2_pu", ~trigm >> 1 & 1)
+        self.log.set(t, "mon_dir", int(forward))
+        self.log.set(t, "mon_busy", int(busy))
+        if gpo != before[1]:
+            at = t + self.pace.gpo
+            self._queue.at(at, Phase.PIN, lambda later: self.log.set(later, "gpo", gpo))
+
+    def _changed(self, t: int) -> None:
+        """Registers are new after edge t."""
+        self.drive.settings_changed(t)
+
+    def _stepped(self, t: int, forward: bool) -> None:
+        self.desk.stepped(t, forward)
+        self.log.set(t, "mon_step", 1)
+        self._queue.at(t + 1, Phase.PIN, lambda now: self.log.set(now, "mon_step", 0))
+
+    def _sample(self, t: int, changed: Iterable[str]) -> None:
+        """Nothing is sampled while a part is in reset; its first edge samples everything."""
+        names, at = set(changed), max(t, self._first)
+        if names <= _LINES:
+            # The bus of the EEPROM has more edges than all other pins.
+            levels = {pin: self._pins[pin] for pin in names}
+            seen = self.desk.levels
+            later = at + self.latency.input_sync
+            self._queue.at(later, Phase.LEVELS, lambda now: seen.update(levels))
+        else:
+            super()._sample(at, names)
+
+    def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
+        level = pins["rxd"]
+        self.line.sample(t, level)
+
+    def _sample_levels(self, t: int) -> None:
+        pins = self._pins
+        if pins["adc_valid"]:
+            self.motion.adc(t, pins["adc_data"])
+        self.desk.guard.strobe(t, pins["bemf_valid"], pins["bemf_level"])
+        self.drive.compare(t, pins["cmp_a"], pins["cmp_b"])
+        super()._sample_levels(t)
+
+    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+        seen = self.desk.levels
+        seen.update((pin, levels[pin]) for pin in SYNCHRONISED)
+        self.desk.guard.see(t, seen)
+        self._keys(t, seen)
+        self.executor.look_at_wait(t)
+
+    def _keys(self, t: int, levels: Mapping[str, int]) -> None:
+        self._reset_key.see(t, levels["gpi"] & 1)
+        self._pause_key.see(t, levels["gpi"] >> 1 & 1)
+        self._restore_key.see(t, levels["fset_n"])
+
+    def _strobe(self, write: bool, reg: int) -> dict[str, int]:
+        raise NotImplementedError("there is no bus")
+
+    # ------------------------------------------------------------------ what there is to see
+
+    def pwm(self, phase: str) -> int:
+        """Level of pwm_a_ref ("a") or pwm_b_ref ("b") after edge `now`."""
+        return self.drive.level(self.now, phase)
+
+    @property
+    def position(self) -> int:
+        """POS."""
+        return self.desk.position
+
+    @property
+    def angle(self) -> int:
+        """TH."""
+        return self.drive.angle
+
+    @property
+    def booting(self) -> bool:
+        """BOOT has not ended."""
+        return self._booting

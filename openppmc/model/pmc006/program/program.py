@@ -1,0 +1,71 @@
+"""A user program as the part keeps it: 100 instructions, 200 words, 803 bytes of the EEPROM.
+
+>>> program = Program.of([Instruction(3, 0, 1), Instruction(0)])
+>>> program.words[:4], len(program.image()), Program.from_image(program.image()) == program
+((3, 1, 0, 0), 803, True)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ....errors import PpmcError
+from .instructions import Instruction
+
+INSTRUCTIONS, WORDS = 100, 200
+PLACE = 0x20
+"""Address in the EEPROM."""
+_BYTES, _COMPLETE = 4 * WORDS, 0x5A
+
+
+class BadImage(PpmcError, ValueError):  # noqa: N818 - what it is
+    """Bytes that are no program."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """words: 200 of 32 bits, two an instruction. ValueError for others."""
+
+    words: tuple[int, ...] = (0,) * WORDS
+
+    def __post_init__(self) -> None:
+        if len(self.words) != WORDS or not all(0 <= word < 1 << 32 for word in self.words):
+            raise ValueError(f"a program has {WORDS} words of 32 bits")
+
+    @classmethod
+    def of(cls, instructions: Iterable[Instruction]) -> Program:
+        """With END behind the last one. ValueError for more than 100."""
+        words = [word for one in instructions for word in one.words]
+        return cls((*words, *[0] * (WORDS - len(words))))
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """All 100."""
+        pairs = zip(self.words[::2], self.words[1::2], strict=True)
+        return tuple(Instruction.of(first, second) for first, second in pairs)
+
+    @property
+    def used(self) -> tuple[Instruction, ...]:
+        """Up to the END behind the last one that is not END, at least one."""
+        last = max((place for place, word in enumerate(self.words) if word), default=-1) // 2
+        return self.instructions[: last + 2]
+
+    def image(self) -> bytes:
+        """As the EEPROM holds it from 0x0020 on: words, their sum, the mark of a complete program."""
+        data = b"".join(word.to_bytes(4, "little") for word in self.words)
+        return data + (sum(data) & 0xFFFF).to_bytes(2, "little") + bytes([_COMPLETE])
+
+    @classmethod
+    def from_image(cls, image: bytes) -> Program:
+        """From 803 such bytes, or from a whole EEPROM. BadImage if they are damaged."""
+        if len(image) > PLACE + _BYTES + 3:
+            image = image[PLACE : PLACE + _BYTES + 3]
+        if len(image) != _BYTES + 3:
+            raise BadImage(f"{len(image)} bytes: a program has {_BYTES + 3}, an EEPROM 4096")
+        data = image[:_BYTES]
+        if image[-1] != _COMPLETE:
+            raise BadImage(f"its end mark is {image[-1]:02X}, not {_COMPLETE:02X}: there is no whole program")
+        if sum(data) & 0xFFFF != int.from_bytes(image[_BYTES:-1], "little"):
+            raise BadImage("its sum is wrong: it is damaged")
+        return cls(tuple(int.from_bytes(data[at : at + 4], "little") for at in range(0, _BYTES, 4)))

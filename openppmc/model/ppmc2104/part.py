@@ -1,0 +1,125 @@
+"""Golden model of the PPMC-2104 at pin level, event driven and exact to the clk.
+
+Pins and time: `chip`. Blocks: `hostport` (P2104-BUS, -HSK), `commands2104` (P2104-CMD, -INI, -RD, -AUX, -ERR,
+-FSM), `interrupt2104` (P2104-INT), `windows2104` (P2104-DS), per axis `axis2104` with `motion`, `motion2104`
+(P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM), `chopper` (P2104-SW), `excitation` (P2104-PHS), `ramp`
+(P2104-RMP). Here: P2104-PORT-01..03, P2104-PAR-01. `clk_o` is not modelled (see `parts2104`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..common.blocks import Context, PinRegister
+from ..common.chip import Chip
+from ..common.timebase import Latency, QuantumCounter
+from ..motion.codes import IBF, OBF
+from ..motion.motion import Interval
+from ..single.hostport import HostPort
+from .axis import Axis
+from .commands import CommandUnit
+from .interrupt import Interrupt
+from .pins import AXES, HOST_PINS, INPUTS, OUTPUTS, WIDTHS, axis_levels, strobes
+from .windows import Windows
+
+
+class Ppmc2104(Chip):
+    """One PPMC-2104.
+
+    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET"; ValueError for anything else. Ports
+    of both axes are one number, bit 0 = axis 1. The model starts just released from reset, before edge 0.
+    """
+
+    INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
+
+    def __init__(
+        self,
+        clk_hz: int = 16_000_000,
+        xtal_hz: int = 16_000_000,
+        timing: str = "FAST",
+        latency: Latency | None = None,
+    ) -> None:
+        super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, latency)
+        self._build(0, INPUTS)
+
+    def _build(self, released: int, pins: Mapping[str, int]) -> None:
+        """Fresh blocks in their reset state; `released` is the first edge after the reset."""
+        counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
+        # The synchronisers wake up with idle inputs, but for clock edges that never were.
+        levels = {**INPUTS, "extck": pins["extck"]}
+        context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
+        self._context = context
+        self._port = HostPort(context, self._take, self._state, strobes, self._waits)
+        self._interrupt = Interrupt(context)
+        windows = Windows(context, self._port, released)
+        self.axes = [Axis(number, context, windows, self._interrupt) for number in AXES]
+        self._commands = CommandUnit(context, self._port, self.axes, self._interrupt, windows)
+        self._int_pin = PinRegister(self._queue, self.latency.int_pin, {"int_n": 1}, self.log.set)
+
+    def _take(self, t: int, byte: int, command: bool, stored_at: int) -> None:
+        self._commands.take(t, byte, command)
+
+    def _waits(self, t: int, byte: int, command: bool) -> bool:
+        return self._commands.waits(t, byte, command)
+
+    def _state(self) -> int:
+        return self._commands.state()
+
+    # ------------------------------------------------------------------ inside of `chip`
+
+    def _latch(self, t: int) -> None:
+        for axis in self.axes:
+            axis.latch(t)
+        self._int_pin.latch(t, {"int_n": self._interrupt.level(t)})
+
+    def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
+        self._port.sample(t, pins)
+
+    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+        self._context.levels.update(levels)
+        for axis in self.axes:
+            axis.see(t, axis_levels(levels, axis.number))
+
+    def _restart(self) -> None:
+        self._build(0, self._pins)
+
+    def _released(self, t: int) -> None:
+        self._build(t, self._pins)
+
+    def _strobe(self, write: bool, reg: int) -> dict[str, int]:
+        if self._pins["busc"]:
+            return {"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": int(not write), "a0": reg}
+        return {"cs_n": 0, "ds_wrs_n" if write else "rw_rds_n": 0, "a0": reg}
+
+    # ------------------------------------------------------------------ what there is to see
+
+    def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
+        """Changes (t, level) of one axis's bit (axis 1 or 2) of a port of both, from edge `since` on."""
+        place, changes = axis - 1, []
+        level = self.log.initial[signal] >> place & 1
+        for t, value in self.log.of(signal):
+            if (bit := value >> place & 1) != level:
+                level = bit
+                changes.append((t, bit))
+        return [(t, bit) for t, bit in changes if t >= since]
+
+    def pulses(self, axis: int, since: int = 0) -> list[int]:
+        """Edges of the pulses of axis 1 or 2: falls of its pout_n (P2104-GEN-05)."""
+        return [t for t, level in self.bits("pout_n", axis, since) if level == 0]
+
+    def busy(self, axis: int) -> bool:
+        """BUSY of axis 1 or 2."""
+        return self.axes[axis - 1].motion.busy
+
+    def intervals(self, axis: int) -> list[Interval]:
+        """Intervals of the present or last operation of axis 1 or 2."""
+        return self.axes[axis - 1].motion.intervals
+
+    def index(self, axis: int) -> int | None:
+        """Ramp index of the running interval of axis 1 or 2, None at rest and in constant speed."""
+        return self.axes[axis - 1].motion.index
+
+    @property
+    def status(self) -> int:
+        """Status register without the look-ahead of the read path."""
+        return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)

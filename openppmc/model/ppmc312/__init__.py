@@ -1,0 +1,8 @@
+"""Golden model of the PPMC-312. `Ppmc312` is the part at pin level.
+
+Rooms, from the ground up: stages, front, motion, instructions.
+"""
+
+from .part import Ppmc312
+
+__all__ = ["Ppmc312"]

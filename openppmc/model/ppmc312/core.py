@@ -1,0 +1,201 @@
+"""What instructions of the PPMC-312 act on: all blocks of the part behind its pins, and its state.
+
+Chapter 4, P312-GEN-12, P312-INP-30..33. `make_host` makes the host side of the parallel bus; `connect` puts
+another in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+from ..common.blocks import Context, Phase
+from .codes import Alarm, Answer, Cause, Source, State, Trigger
+from .front import responses
+from .front.responses import ENCODE, POSITION, Report, Responses
+from .instructions.overrides import EventBuffer, Fifo
+from .instructions.unit import Unit
+from .motion.inputs import EVENT_PINS, Filters, InputChange
+from .motion.operation import Operation
+from .motion.outputs import Outputs
+from .motion.position import Counters, Interlock, Monitor, Watch
+from .pace import Pace
+from .stages.curve import FreeCurve
+from .stages.tables import Table
+
+
+class HostSide(Protocol):
+    """What the part needs of the side that the host sees."""
+
+    def levels(self) -> dict[str, int]:
+        """Internal levels behind the pins of this side."""
+
+    def offer(self, t: int) -> None:
+        """A response may wait in the store."""
+
+    def done(self, t: int) -> None:
+        """The host's instruction has been processed and its answer stored."""
+
+    def ready(self, t: int) -> None:
+        """The interface may be used."""
+
+    def answer(self, t: int, source: Source, block: bytes) -> None:
+        """Serial mode only: the answer to an instruction, which no store keeps."""
+
+
+class Core:
+    """reset(t, source): the part's software reset, which answers."""
+
+    def __init__(
+        self,
+        context: Context,
+        pace: Pace,
+        version: int,
+        make_host: Callable[[Core], HostSide],
+        reset: Callable[[int, Source], None],
+    ) -> None:
+        self.context, self.pace, self.version, self.reset = context, pace, version, reset
+        self.table: Table | None = None
+        self.transfer: FreeCurve | None = None
+        self._abnormal = self._clearing = False
+        self.counters, self.interlock = Counters(), Interlock()
+        self.fifo, self.events = Fifo(pace.armed), (EventBuffer(), EventBuffer())
+        self.responses = Responses(self._offered, self._was_read, lambda: self.unit.holding)
+        self.outputs = Outputs(context)
+        self.filters = Filters(context, self._pin_changed)
+        pins = self.filters.levels
+        self.operation = Operation(
+            context,
+            pace,
+            pins,
+            self.outputs,
+            self.counters,
+            self.responses,
+            self._on_pulse,
+            self.overrun,
+            self._rested,
+            lambda: self.unit.settled or self._abnormal,
+            lambda: self._abnormal,
+        )
+        self.watch = Watch(
+            context,
+            pace,
+            self.counters,
+            Monitor(POSITION, Answer.POSITION_CHANGE, self.responses),
+            Monitor(ENCODE, Answer.ENCODE_CHANGE, self.responses),
+            lambda: self.operation.at_rest,
+            self.outputs.clamp,
+            lambda: not pins["end_n"],
+        )
+        self.input_change = InputChange(context, self.responses)
+        self.unit = Unit(self)
+        self.host = make_host(self)
+
+    def connect(self, host: HostSide, serial: bool) -> None:
+        """The host side, when it is known which one it is: right after a reset."""
+        self.host, self.responses.serial = host, serial
+
+    # ------------------------------------------------------------------ state
+
+    @property
+    def state(self) -> State:
+        """The operation state of chapter 4."""
+        if self._abnormal:
+            return State.ABN
+        return self.operation.state or (State.NOR if self.table else State.INI)
+
+    def forget_table(self) -> None:
+        """State INI: no table, no registered instructions."""
+        self.table = self.transfer = None
+        self._clear_buffers()
+
+    def set_table(self, table: Table) -> None:
+        """State NOR with a new table."""
+        self.table = table
+        self.operation.speed_limit = table.high
+        self._clear_buffers()
+
+    def _clear_buffers(self) -> None:
+        self.fifo.clear()
+        for buffer in self.events:
+            buffer.clear()
+
+    def drop_overrides(self, t: int) -> None:
+        """An override has failed: the FIFO is emptied; pulses that a position has stopped stay stopped."""
+        self.fifo.clear()
+
+    # ------------------------------------------------------------------ alarms
+
+    def alarm(self, t: int, status: Alarm) -> None:
+        """alm_n is low, or multiple occurrence (P312-INP-30..32)."""
+        self.responses.report(t, responses.ALARM, Answer.ALARM, status)
+        if self._abnormal:
+            return
+        self._abnormal, self._clearing = True, False
+        if self.transfer is not None:
+            self.forget_table()
+        self.operation.stop(t, Cause.ALARM)
+
+    def overrun(self, t: int, status: Alarm) -> None:
+        """A report has been lost at edge t; the alarm is one clk behind."""
+        self.context.queue.at(t + 1, Phase.LEVELS, lambda now: self.alarm(now, status))
+
+    def clear_alarm(self, t: int) -> None:
+        """24: aclr_n goes low, and while it is ABN can be left (P312-INP-33)."""
+        self.outputs.alarm_clear(t)
+        self._clearing = self._abnormal
+        self.context.queue.at(t + 1, Phase.LEVELS, self._leave_abnormal)
+
+    def _leave_abnormal(self, t: int) -> None:
+        if self._clearing and not self.outputs.aclr_n and self.filters.levels["alm_n"]:
+            self._abnormal = self._clearing = False
+
+    # ------------------------------------------------------------------ events of the blocks
+
+    def _offered(self, t: int) -> None:
+        self.host.offer(t)
+
+    def _was_read(self, t: int, report: Report, block: bytes) -> None:
+        self.unit.was_read(t, report)
+        if report.kind in (POSITION, ENCODE):
+            self.watch.was_read(t, report.kind)
+
+    def _on_pulse(self, t: int, direction: int) -> bool:
+        """The position has counted a pulse and is compared; whether the output stops here for good."""
+        position = self.counters.pulse
+        released = self.fifo.count(t, position)
+        if released:
+            self.unit.kick(t)
+        if self.interlock.arrives(position):
+            self.context.queue.at(t + self.pace.unlock - self.pace.compare, Phase.STORE, self._unlocked)
+        return released is not None and released.stops_at_position
+
+    def _unlocked(self, t: int) -> None:
+        if not self.responses.report(t, responses.INTERLOCK, Answer.INTERLOCK_END):
+            self.overrun(t, Alarm.INTERLOCK_OR_HOLD)
+
+    def count_encoder(self, t: int, direction: int) -> None:
+        """Rising edge of epin."""
+        self.counters.count_encoder(direction)
+        self.watch.look(t)
+
+    def _rested(self, t: int) -> None:
+        self.watch.look(t)
+
+    def _pin_changed(self, t: int, pin: str) -> None:
+        low = not self.filters.levels[pin]
+        if pin in EVENT_PINS:
+            if low:
+                self.unit.event(t, Trigger.EVT0 if pin == "evt0_n" else Trigger.EVT1)
+        elif pin == "alm_n":
+            if low:
+                self.outputs.reduce(t)
+                if not self._abnormal:
+                    self.alarm(t, Alarm.PIN)
+            else:
+                self._leave_abnormal(t)
+        elif pin == "end_n":
+            self.operation.look_at_end(t)
+            self.watch.look(t)
+        else:
+            self.operation.motion.look(t)

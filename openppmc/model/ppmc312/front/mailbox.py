@@ -1,0 +1,162 @@
+"""Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..08, -12).
+
+Their strobes: `bus312`. Another host side has the same members: `offer`, `done`, `levels`, `ready`, `answer`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ...common.blocks import Context, Phase
+from ...common.scheduler import Event
+from ..codes import Source
+from ..pace import Pace
+from .responses import Responses
+
+CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
+EWRQ, EWIRQ, ERIRQ, MWEF, MREF = 0x40, 0x20, 0x10, 0x08, 0x04
+WINDOW = 0x20
+
+
+class Mailbox:
+    """take(t, block): a complete instruction block in logical order, at its header's write event."""
+
+    def __init__(
+        self, context: Context, pace: Pace, responses: Responses, take: Callable[[int, bytes], None]
+    ) -> None:
+        self._context, self._pace = context, pace
+        self._responses, self._take = responses, take
+        self._enables = 0
+        self._armed = False
+        self._pointer = WINDOW
+        self._bytes: list[int] = []
+        self._busy = False
+        self._is_ready = False
+        self._window = b""
+        self._at = 0
+        self._free_from = 0
+        self._loading: Event | None = None
+        self._picked = self._taken = False
+        self._accessing = False
+        self._access_end = -(1 << 40)
+        self._wait_until: int | None = None
+
+    # ------------------------------------------------------------------ for the part
+
+    def ready(self, t: int) -> None:
+        """The interface may be used from edge t on."""
+        self._is_ready = True
+
+    def done(self, t: int) -> None:
+        """The instruction has been processed and its answer stored (P312-PAR-06)."""
+        self._context.queue.at(t, Phase.STORE, self._open)
+
+    def _open(self, t: int) -> None:
+        self._busy = False
+
+    def offer(self, t: int) -> None:
+        """A response may wait from edge t on: load it if the window is free (P312-PAR-08)."""
+        if self._window or self._picked or self._loading:
+            return
+        at = max(t + self._pace.load, self._free_from)
+        self._loading = self._context.queue.at(at, Phase.PINS, self._load)
+
+    def answer(self, t: int, source: Source, block: bytes) -> None:
+        """Answers wait in the store."""
+
+    def levels(self) -> dict[str, int]:
+        """Internal levels behind irq_n."""
+        wants = (self._enables & EWIRQ and not self.mwef) or (self._enables & ERIRQ and self._window)
+        return {"irq_n": int(not wants)}
+
+    @property
+    def csr(self) -> int:
+        """The status register."""
+        return self._register(CSR)
+
+    @property
+    def mwef(self) -> bool:
+        """No instruction may be written."""
+        return self._busy or not self._is_ready
+
+    def _load(self, t: int) -> None:
+        """The response is chosen; the host sees it when its bytes are there."""
+        self._loading = None
+        picked = self._responses.pick()
+        if picked is not None:
+            self._picked = True
+            self._context.queue.at(t + self._pace.show, Phase.STORE, lambda at: self._display(picked))
+
+    def _display(self, block: bytes) -> None:
+        self._picked = False
+        self._window, self._at = block[::-1], 0
+
+    # ------------------------------------------------------------------ strobes
+
+    def show(self, t: int, reg: int) -> int:
+        """The value that a read strobe shows from edge t on."""
+        self._taken = bool(self._window)
+        return self._register(reg)
+
+    def access(self, t: int, reg: int | None, write: bool) -> None:
+        """A DWR or DRR strobe begins or ends (P312-PAR-12)."""
+        accessing = reg == (WRITE if write else READ)
+        timebase = self._context.timebase
+        if self._accessing and not accessing:
+            self._access_end = t
+        elif accessing and not self._accessing:
+            gap = self._pace.wrq_fast
+            if self._context.datasheet:
+                gap = -(-19 * timebase.clk_hz // (2 * timebase.xtal_hz))
+            over = self._access_end + gap
+            if self._enables & EWRQ and over > t:
+                self._context.log.set(t, "wrq_n", 0)
+                self._wait_until = over
+                self._context.queue.at(over, Phase.QUEUE, self._wait_over)
+        self._accessing = accessing
+
+    def _wait_over(self, t: int) -> None:
+        if self._wait_until == t:
+            self._wait_until = None
+            self._context.log.set(t, "wrq_n", 1)
+
+    def _register(self, reg: int) -> int:
+        if reg == CSR:
+            return self._enables | (MWEF if self.mwef else 0) | (0 if self._window else MREF)
+        if reg == ADDRESS:
+            return 0x40 - (len(self._window) - self._at)
+        if reg == READ and self._window:
+            return self._window[self._at]
+        return 0
+
+    def after_read(self, t: int, reg: int) -> None:
+        """A read strobe has ended; one that began before there was a response has shown none of its bytes."""
+        if not self._taken:
+            return
+        if reg == CONTROL:
+            self._at = 0
+        elif reg == READ:
+            self._at += 1
+            if self._at == len(self._window):
+                self._window, self._at, self._free_from = b"", 0, t + self._pace.reload
+                self._responses.read(t)
+                self.offer(t)
+
+    # ------------------------------------------------------------------ write window
+
+    def store(self, t: int, reg: int, byte: int) -> None:
+        """A write strobe has ended."""
+        if reg == CSR:
+            self._enables = byte & (EWRQ | EWIRQ | ERIRQ)
+        elif self.mwef:
+            return
+        elif reg == CONTROL:
+            self._armed = byte == WINDOW
+        elif reg == ADDRESS:
+            self._pointer, self._bytes = min(byte, WINDOW), []
+        elif reg == WRITE and self._armed and self._pointer < WINDOW:
+            self._bytes.append(byte)
+            self._pointer += 1
+            if self._pointer == WINDOW:
+                self._busy = True
+                self._take(t, bytes(reversed(self._bytes)))

@@ -1,0 +1,159 @@
+"""Instruction codes of the PPMC-312's serial mode, and its replies (chapter 3.6, P312-SER-20..47)."""
+
+from __future__ import annotations
+
+from enum import IntEnum, unique
+from typing import NamedTuple
+
+from ..codes import DIR, IDX, OV, Answer, Cause, Code
+from . import responses
+from .frames import DATA, READY, SPECIFIC
+
+
+@unique
+class Note(IntEnum):
+    """Data byte of a specific report."""
+
+    INTERLOCK = 0x22
+    HOLD = 0x23
+    ENCODE_INSIDE = 0x24
+    ENCODE_OUTSIDE = 0x25
+    POSITION_INSIDE = 0x26
+    POSITION_OUTSIDE = 0x27
+    OVERRIDE_DONE = 0x28
+    EVENT_DONE = 0x29
+    INPUT = 0x2A
+    CHECKSUM = 0x41
+    PARAMETER = 0x42
+    STATUS = 0x43
+    LIMIT = 0x44
+    ALARM = 0x46
+    UNKNOWN = 0x47
+    SIZE = 0x48
+    REGISTRATION = 0x49
+    EVENT_FAILED = 0x4A
+    OVERRIDE_FAILED = 0x4B
+
+
+@unique
+class Local(IntEnum):
+    """Instructions that the station answers by itself."""
+
+    END_STATUS = 0x40
+    ERROR_CODE = 0x4E
+    ERROR_COUNT = 0x4F
+
+
+END_CODES = {
+    Cause.ALARM: 0x31,
+    Cause.ORIGIN: 0x32,
+    Cause.LIMIT: 0x33,
+    Cause.LIMIT_SLOW: 0x34,
+    Cause.SLOW: 0x36,
+    Cause.STOP: 0x37,
+    Cause.NORMAL: 0x38,
+    Cause.LOW: 0x39,
+}
+"""Table 10.3."""
+
+ERRORS = {
+    Answer.PARAMETER: Note.PARAMETER,
+    Answer.STATUS: Note.STATUS,
+    Answer.LIMIT: Note.LIMIT,
+    Answer.COMMAND: Note.UNKNOWN,
+    Answer.SIZE: Note.SIZE,
+    Answer.REGISTRATION: Note.REGISTRATION,
+}
+_TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
+"""By bits 5:4 of 80, 81, 89, 8A: flag byte, further bytes (P312-SER-40)."""
+_AUTO = 0x02
+_REFUSED = (1, 2, 5)
+"""Status bytes of 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
+
+
+class Form(NamedTuple):
+    """One serial instruction: data bytes, parallel code, flag byte that goes before the data."""
+
+    n: int
+    code: int
+    flags: bytes = b""
+
+
+def _forms() -> dict[int, Form]:
+    forms = {0x00: Form(8, Code.INITIAL), 0x02: Form(3, Code.IN_POSITION), 0x03: Form(3, Code.ENCODE)}
+    forms |= {0x04: Form(4, Code.INTERLOCK_POSITION), 0x05: Form(2, Code.SPEED_LIMIT)}
+    forms |= {0x06: Form(1, Code.END_TERMINAL), 0x26: Form(1, Code.OUTPUT), 0x28: Form(1, Code.MASK, b"\x01")}
+    forms |= {code: Form(0, code) for code in (0x20, 0x21, 0x22, 0x23, 0x24, 0x25, 0x27, 0x44, 0x45, 0x4D)}
+    forms |= {0x41: Form(0, Code.VERSION), 0xFF: Form(0, Code.RESET)}
+    for bit, flag in ((0x00, b"\x00"), (0x20, b"\x01")):
+        forms |= {0x42 + bit: Form(0, Code.POSITION_READ, flag), 0x43 + bit: Form(4, Code.POSITION_SET, flag)}
+    for number in (0, 1):
+        forms[0x49 | number << 4] = Form(10, Code.EVENT_SET, bytes([number]))
+        forms[0x69 | number << 4] = Form(0, Code.EVENT_SET, bytes([number | 2]))
+    for bits, (flags, more) in _TRIGGERS.items():
+        forms |= {first + bits: Form(more, first, bytes([flags])) for first in (0x80, 0x81)}
+        forms |= {first + bits: Form(2 + more, first - 2, bytes([flags])) for first in (0x89, 0x8A)}
+    starts = {
+        0x82: (0, Code.STEP),
+        0x83: (6, Code.RAMP),
+        0x84: (6, Code.CONSTANT),
+        0x85: (2, Code.FOREVER_CONSTANT),
+        0x86: (2, Code.FOREVER_RAMP),
+        0x87: (2, Code.ORIGIN_SEARCH),
+        0x88: (2, Code.ZERO_RETURN),
+    }
+    for first, (n, code) in starts.items():
+        for bit, flag in ((0x00, 0), (0x20, DIR)):
+            forms[first + bit] = Form(n, code, bytes([flag]))
+            if code in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN):
+                forms[first + bit + 0x10] = Form(n, code, bytes([flag | IDX]))
+    return forms
+
+
+FORMS = _forms()
+LENGTHS = {code: form.n for code, form in FORMS.items()} | dict.fromkeys(Local, 0)
+"""Data bytes of every serial instruction."""
+
+
+def block_of(code: int, data: bytes) -> bytes:
+    """The parallel block of a serial instruction, in logical order; not for `Local` ones."""
+    form, given = FORMS[code], data
+    if code == 0x00:
+        data = bytes([data[0] & 0x0F]) + data[1:]
+    elif code in (0x02, 0x03):
+        data = bytes([data[0] | _AUTO]) + data[1:]
+    elif form.code == Code.EVENT_SET and data:
+        data = data[: data[1] + 2]
+        if len(data) != given[1] + 2:
+            # Longer than its frame: the length of the block is wrong, too.
+            return bytes([0x03, 0, form.code]) + form.flags + data
+    body = bytes([form.code]) + form.flags + data
+    return bytes([0x03, len(body)]) + body
+
+
+def reply_of(answer: bytes) -> tuple[int, bytes]:
+    """Kind and data of the reply to an instruction; answer: the parallel one in logical order."""
+    code, content = answer[2], answer[3:]
+    if code in ERRORS:
+        return SPECIFIC, bytes([ERRORS[Answer(code)]])
+    if code == Code.EVENT_SET and content[0] in _REFUSED:
+        return SPECIFIC, bytes([Note.REGISTRATION])
+    if code in (Code.INPUT, Code.TERMINALS, Code.VERSION, Code.STATUS):
+        return DATA, content
+    if code == Code.POSITION_READ:
+        return DATA, content[1:]
+    return READY, b""
+
+
+def news_of(kind: int, report: bytes) -> tuple[int, bytes]:
+    """Kind and data of the answer to a poll, from a report of a class in logical order (P312-SER-30)."""
+    content = report[3:]
+    if kind == responses.STOPPED:
+        return DATA, bytes([END_CODES[Cause(content[0])]])
+    if kind == responses.INPUT:
+        return SPECIFIC, bytes([Note.INPUT]) + content
+    if kind in (responses.POSITION, responses.ENCODE):
+        inside = Note.POSITION_INSIDE if kind == responses.POSITION else Note.ENCODE_INSIDE
+        return SPECIFIC, bytes([inside + content[0]])
+    single = {responses.ALARM: Note.ALARM, responses.INTERLOCK: Note.INTERLOCK}
+    return SPECIFIC, bytes([single.get(kind, Note.HOLD)])

@@ -1,0 +1,202 @@
+"""The PPMC-312 as one of sixteen stations on a line: the host side of its serial mode.
+
+P312-SER-10..22, -30, -45, -46; frames: `frames312`, codes: `serial312`, bits: `line312`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from math import ceil
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...common.blocks import Phase
+from ...common.scheduler import Event
+from ...common.uart import Receiver, Transmitter
+from ..codes import Answer, Source, State
+from ..pace import SILENCE
+from .frames import BUSY, DATA, READY, SPECIFIC, Frame, Outcome, Parser, addressed, frame
+from .serial import END_CODES, LENGTHS, Local, Note, block_of, news_of, reply_of
+
+if TYPE_CHECKING:
+    from ..core import Core
+
+_MOST = 255
+_KEPT = (Note.PARAMETER, Note.STATUS, Note.LIMIT, Note.UNKNOWN, Note.SIZE, Note.REGISTRATION)
+"""What the error-code register takes (P312-SER-45)."""
+
+
+class Log(NamedTuple):
+    """(edge at which snd rises, frame) and (edge in the middle of the stop bit, character)."""
+
+    replies: list[tuple[int, bytes]]
+    sent: list[tuple[int, int]]
+
+
+class Station:
+    """bit: clk of a bit, None for a silent station. address: 0..15. mode: SUM_MODE.
+
+    log: of everything sent.
+    """
+
+    def __init__(self, core: Core, bit: Fraction | None, address: int, mode: str, log: Log) -> None:
+        self._core, self._queue, self._pace = core, core.context.queue, core.pace
+        self._address, self._mode = address, mode
+        self._is_ready = False
+        self._parser = Parser(address, LENGTHS, mode)
+        self._receiver = Receiver(core.context, bit, self.hear) if bit else None
+        self._transmitter = Transmitter(core.context, bit, log.sent) if bit else None
+        self._silence: Event | None = None
+        self._bit = bit
+        self._heard: int | None = None
+        self._busy = self._asked = False
+        self._code = 0
+        self._news: Note | None = None
+        self._error = 0
+        self.framing = self.overruns = self.checksums = 0
+        self._log = log
+
+    # ------------------------------------------------------------------ for the part
+
+    def sample(self, t: int, pins: Mapping[str, int]) -> None:
+        """Edge t samples a new level of the line."""
+        if self._receiver:
+            level = pins["rxd"]
+            at = t + self._core.context.latency.input_sync
+            self._queue.at(at, Phase.PINS, lambda now: self._see(now, level))
+
+    def _see(self, t: int, level: int) -> None:
+        assert self._receiver
+        self._receiver.see(t, level)
+
+    def levels(self) -> dict[str, int]:
+        """Internal levels behind the pins of the other host side, which rest."""
+        return {"irq_n": 1}
+
+    def offer(self, t: int) -> None:
+        """A report waits: for a poll."""
+
+    def done(self, t: int) -> None:
+        """The instruction has been processed."""
+
+    def ready(self, t: int) -> None:
+        """Frames count from edge t on."""
+        self._is_ready = True
+
+    @property
+    def busy(self) -> bool:
+        """A reply is pending or being sent."""
+        return self._busy
+
+    # ------------------------------------------------------------------ characters
+
+    def hear(self, t: int, byte: int | None) -> None:
+        """A character whose stop bit was sampled at edge t; None for one without a stop bit."""
+        self._heard = t
+        self._queue.at(t + self._pace.heard, Phase.BUS, lambda now: self._character(now, byte))
+
+    def _character(self, t: int, byte: int | None) -> None:
+        if not self._is_ready or self._transmitter is None:
+            return
+        if self._silence:
+            self._silence.cancel()
+            self._silence = None
+        if byte is None:
+            self.framing = min(self.framing + 1, _MOST)
+            self._parser.abandon()
+            return
+        if self._busy and addressed(byte, self._address):
+            self.overruns = min(self.overruns + 1, _MOST)
+            self._parser.abandon()
+            return
+        finished = self._parser.take(byte)
+        if finished:
+            self._take(t, finished)
+        elif self._parser.unfinished:
+            at = t + self._core.context.timebase.cyc(SILENCE) + self._pace.silence
+            self._silence = self._queue.at(at, Phase.LEVELS, self._silent)
+
+    def _silent(self, t: int) -> None:
+        """20 ms without a character (P312-SER-12, -16, -17)."""
+        self._silence = None
+        finished = self._parser.silence()
+        if finished:
+            self._take(t, finished)
+
+    # ------------------------------------------------------------------ frames
+
+    def _take(self, t: int, finished: Frame) -> None:
+        """Every frame for this station gets one reply (P312-SER-19)."""
+        self._busy = True
+        code, data = finished.code, finished.data
+        if finished.outcome is Outcome.INSTRUCTION and code not in iter(Local):
+            self._queue.at(t + self._pace.frame, Phase.BUS, lambda now: self._ask(now, code, data))
+            return
+        self._queue.at(
+            t + self._pace.look, Phase.BUS, lambda now: self._reply(now, *self._answer(now, finished))
+        )
+
+    def _ask(self, t: int, code: int, data: bytes) -> None:
+        self._asked = True
+        self._core.unit.host_block(t, block_of(code, data))
+
+    def answer(self, t: int, source: Source, block: bytes) -> None:
+        """The unit has an answer, in logical order (P312-SER-20, -22)."""
+        if source is Source.EVENT:
+            self._news = Note.EVENT_FAILED if block[2] == Answer.EVENT_FAILED else Note.EVENT_DONE
+        elif source is Source.OVERRIDE:
+            self._news = Note.OVERRIDE_FAILED if block[2] == Answer.OVERRIDE_FAILED else Note.OVERRIDE_DONE
+        elif self._asked:
+            self._asked = False
+            self._reply(t, *reply_of(block))
+
+    def _answer(self, t: int, finished: Frame) -> tuple[int, bytes]:
+        """Kind and data of what the station replies by itself."""
+        if finished.outcome is Outcome.POLL:
+            return self._poll(t)
+        if finished.outcome is Outcome.FAULT:
+            self.checksums = min(self.checksums + 1, _MOST)
+            return SPECIFIC, bytes([Note.CHECKSUM])
+        if finished.outcome is Outcome.UNKNOWN:
+            return SPECIFIC, bytes([Note.UNKNOWN])
+        if finished.code == Local.END_STATUS:
+            cause = self._core.operation.last_cause
+            return DATA, bytes([END_CODES[cause] if cause else 0])
+        if self._core.state not in (State.INI, State.NOR):
+            return SPECIFIC, bytes([Note.STATUS])
+        if finished.code == Local.ERROR_CODE:
+            error, self._error = self._error, 0
+            return DATA, bytes([error])
+        counts = bytes([self.framing, self.overruns, self.checksums])
+        self.framing = self.overruns = self.checksums = 0
+        return DATA, counts
+
+    def _poll(self, t: int) -> tuple[int, bytes]:
+        """P312-SER-30: the alarm, then what an event or an override has done, then the other classes."""
+        responses = self._core.responses
+        if self._news is not None and not responses.alarmed:
+            news, self._news = self._news, None
+            return SPECIFIC, bytes([news])
+        taken = responses.take(t)
+        if taken:
+            return news_of(*taken)
+        moving = self._core.state in (State.ACC, State.FIX, State.WRN)
+        return (BUSY if moving else READY), b""
+
+    def _reply(self, t: int, kind: int, data: bytes) -> None:
+        """At edge t it is known what to send; snd does not rise before the line is free (P312-SER-18)."""
+        if kind == SPECIFIC and data[0] in _KEPT:
+            self._error = data[0]
+        message = frame(kind | self._address, data, self._mode)
+        at = t + self._pace.reply
+        if self._bit and self._heard is not None and self._heard < t:
+            at = max(at, self._heard + ceil(self._bit) + self._pace.clear)
+        self._queue.at(at, Phase.PIN, lambda now: self._send(now, message))
+
+    def _send(self, t: int, message: bytes) -> None:
+        assert self._transmitter
+        self._log.replies.append((t, message))
+        self._transmitter.send(t, message, self._sent)
+
+    def _sent(self, t: int) -> None:
+        self._busy = False

@@ -1,0 +1,135 @@
+"""Setting instructions of the PPMC-312: 00..06 (chapter 3.2)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...common.blocks import Phase
+from .. import pace
+from ..codes import FO, LE, Answer
+from ..stages.curve import FreeCurve
+from ..stages.tables import SettingError, build
+from .work import Refusal, Work
+
+if TYPE_CHECKING:
+    from ..core import Core
+
+LENGTH, BAD_RATE, BAD_VALUE, BAD_RANGE = 0x00, 0x20, 0x23, {0x02: 0x26, 0x03: 0x27}
+
+
+def _number(data: bytes) -> int:
+    return int.from_bytes(data, "big")
+
+
+def initial(core: Core, data: bytes) -> Work:
+    """00: flags and what follows; the length is one of the two."""
+    flags = data[0]
+    separate, sigmoid = bool(flags & LE), bool(flags & FO)
+    try:
+        if len(data) == 8:
+            if separate:
+                raise SettingError(LENGTH)
+            rates, counts = (_number(data[1:3]), 0, _number(data[3:5])), (_number(data[5:8]), 0)
+        else:
+            rates = _number(data[1:3]), _number(data[3:5]), _number(data[5:7])
+            counts = _number(data[7:10]), _number(data[10:13])
+        table = build(*rates, *counts, flags & 7, sigmoid, separate)
+    except SettingError as error:
+        core.forget_table()
+        clk = core.pace.filling(error.table) + 1 if error.table else 0
+        raise Refusal(Answer.PARAMETER, error.number, clk) from None
+
+    def begin(t: int) -> None:
+        core.forget_table()
+
+    def finish(t: int) -> bytes:
+        core.set_table(table)
+        return b"\x00"
+
+    clk = core.pace.filling(table) + core.pace.looking_up()
+    return Work(finish, clk, pace.BUILD[sigmoid, separate], begin=begin)
+
+
+def open_curve(core: Core, header: int, data: bytes) -> Work:
+    """01: the code block."""
+    core.forget_table()
+    try:
+        transfer = FreeCurve(header, data)
+    except SettingError as error:
+        raise Refusal(Answer.PARAMETER, error.number) from None
+
+    def finish(t: int) -> bytes:
+        core.transfer = transfer
+        return b"\x01" + transfer.answer()
+
+    return Work(finish)
+
+
+def add_to_curve(core: Core, header: int, data: bytes) -> Work:
+    """A data block of the open transfer."""
+    transfer = core.transfer
+    assert transfer is not None
+    try:
+        transfer.add(header, data)
+    except SettingError as error:
+        core.transfer = None
+        raise Refusal(Answer.PARAMETER, error.number, core.pace.data + len(data)) from None
+
+    def finish(t: int) -> bytes:
+        if transfer.table is not None:
+            core.transfer = None
+            core.set_table(transfer.table)
+        return b"\x01" + transfer.answer()
+
+    clk = core.pace.data + len(data)
+    return Work(finish, clk + core.pace.looking_up() if transfer.table else clk)
+
+
+def monitor(core: Core, code: int, data: bytes) -> Work:
+    """02, 03."""
+    distance = _number(data[1:3])
+    if data[0] & 1 and not distance:
+        raise Refusal(Answer.PARAMETER, BAD_RANGE[code])
+
+    def finish(t: int) -> bytes:
+        watch = core.watch
+        watch.set_up(t, watch.in_position if code == 0x02 else watch.encode, data[0], distance)
+        return bytes([code])
+
+    return Work(finish)
+
+
+def interlock_position(core: Core, data: bytes) -> Work:
+    """04."""
+
+    def finish(t: int) -> bytes:
+        core.interlock.position = _number(data)
+        return b"\x04"
+
+    return Work(finish)
+
+
+def speed_limit(core: Core, data: bytes) -> Work:
+    """05."""
+    rate = _number(data)
+    if rate < 2:
+        raise Refusal(Answer.PARAMETER, BAD_RATE)
+
+    def finish(t: int) -> bytes:
+        core.operation.speed_limit = rate
+        return b"\x05"
+
+    return Work(finish)
+
+
+def end_terminal(core: Core, data: bytes) -> Work:
+    """06."""
+    if data[0] > 1:
+        raise Refusal(Answer.PARAMETER, BAD_VALUE)
+
+    def finish(t: int) -> bytes:
+        core.operation.end_monitored = bool(data[0])
+        core.context.queue.at(t + 1, Phase.QUEUE, core.operation.look_at_end)
+        return b"\x06" + data
+
+    return Work(finish)

@@ -1,0 +1,195 @@
+"""Terminal and aiding instructions of the PPMC-312: 20..28, 40..4D (chapter 3.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from ...common.blocks import Phase
+from .. import pace
+from ..codes import Answer, Code, Trigger
+from ..front.responses import INPUT
+from ..stages.tables import read_back
+from .work import Refusal, Work
+
+if TYPE_CHECKING:
+    from ..core import Core
+
+BAD_VALUE, NO_BUFFER, BAD_EVENT = 0x23, 0x24, 0x25
+REGISTERED, IN_USE, FULL, DELETED, NOW_EMPTY, NOTHING = range(6)
+_LONGEST_EVENT = 14
+_TERMINALS = (
+    ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n"),
+    ("evt1_n", "evt0_n", "run", None, None, None, None, None),
+)
+
+
+def _bits(values: Sequence[int | bool]) -> int:
+    """The first one is the most significant."""
+    return sum(bool(value) << place for place, value in enumerate(reversed(values)))
+
+
+def terminals(core: Core) -> bytes:
+    """27: plain pin levels (P312-CMD-27)."""
+    levels = core.context.levels
+    return bytes(_bits([pin is not None and levels[pin] for pin in pins]) for pins in _TERMINALS)
+
+
+def status(core: Core) -> bytes:
+    """4D (P312-CMD-4D)."""
+    operation, watch, fifo = core.operation, core.watch, core.fifo
+    first = [operation.run_ignored, core.interlock.on, 0, watch.encode.enabled, watch.in_position.enabled]
+    first += [operation.end_monitored, watch.encode.outside, watch.in_position.outside]
+    events = [bool(core.events[1].entries), bool(core.events[0].entries)]
+    events += [fifo.uses(Trigger.EVT1), fifo.uses(Trigger.EVT0)]
+    return bytes([_bits(first), core.state, _bits(events) << 4 | len(fifo.waiting)])
+
+
+def _alarm_clear(core: Core, t: int, data: bytes) -> bytes:
+    core.clear_alarm(t)
+    return b""
+
+
+def _mask(core: Core, t: int, data: bytes) -> bytes:
+    core.responses.withdraw(INPUT)
+    core.input_change.set_up(t, data[1], bool(data[0] & 1))
+    return b""
+
+
+def _position_read(core: Core, data: bytes) -> bytes:
+    counters = core.counters
+    return data + (counters.encoder if data[0] else counters.pulse).to_bytes(4, "big")
+
+
+def _position_set(core: Core, t: int, data: bytes) -> bytes:
+    value = int.from_bytes(data[1:], "big")
+    if data[0]:
+        core.counters.encoder = value
+    else:
+        core.counters.pulse = value
+    core.watch.look(t)
+    return b""
+
+
+def _interlock(core: Core, t: int, data: bytes) -> bytes:
+    core.interlock.on = not core.interlock.on
+    return bytes([core.interlock.on])
+
+
+def _run_monitor(core: Core, t: int, data: bytes) -> bytes:
+    core.operation.run_ignored = not core.operation.run_ignored
+    core.context.queue.at(t + 1, Phase.QUEUE, core.operation.look_at_run)
+    return bytes([core.operation.run_ignored])
+
+
+def _event_read(core: Core, data: bytes) -> bytes:
+    return core.events[data[0] if data else 0].read()
+
+
+def _event_set(core: Core, data: bytes) -> Work:
+    """49 with legal parameters."""
+    number, deletes = data[0] & 1, data[0] & 2
+    buffer = core.events[number]
+    said, act = REGISTERED, None
+    if deletes:
+        said = NOTHING if not buffer.entries else DELETED if len(buffer.entries) > 1 else NOW_EMPTY
+        act = buffer.delete
+    elif core.fifo.uses((Trigger.EVT0, Trigger.EVT1)[number]):
+        said = IN_USE
+    elif buffer.full:
+        said = FULL
+    else:
+        act = lambda: buffer.register(data[1:])  # noqa: E731
+
+    def finish(t: int) -> bytes:
+        if act:
+            act()
+        return bytes([Code.EVENT_SET, said])
+
+    return Work(finish, core.pace.copy if said == REGISTERED else 0)
+
+
+def _set(**levels: int) -> Callable[[Core, int, bytes], bytes]:
+    def act(core: Core, t: int, data: bytes) -> bytes:
+        for name, level in levels.items():
+            setattr(core.outputs, name, level)
+        return b""
+
+    return act
+
+
+def _output(core: Core, t: int, data: bytes) -> bytes:
+    core.outputs.auxo_n = ~data[0] & 0x3F
+    return b""
+
+
+def _counter_clear(core: Core, t: int, data: bytes) -> bytes:
+    core.outputs.counter_clear(t)
+    return b""
+
+
+# What they tell of the pins, with the levels of the edge at which they are checked: what is done a clk later
+# comes before that clk's levels.
+_PINS: dict[int, Callable[[Core], bytes]] = {
+    Code.INPUT: lambda core: bytes([core.context.levels["auxi"]]),
+    Code.TERMINALS: terminals,
+}
+# What they tell of the part, as it is when they are checked.
+_READS: dict[int, Callable[[Core, bytes], bytes]] = {
+    Code.VERSION: lambda core, data: bytes([core.version]),
+    Code.POSITION_READ: _position_read,
+    Code.EVENT_READ: _event_read,
+    Code.STATUS: lambda core, data: status(core),
+}
+# What the others do at edge t, and the parameters of their answers.
+_ACTS: dict[int, Callable[[Core, int, bytes], bytes]] = {
+    Code.EXCITATION_ON: _set(exon_n=0),
+    Code.EXCITATION_OFF: _set(exon_n=1),
+    Code.COUNTER_CLEAR: _counter_clear,
+    Code.ZERO_CLAMP: _set(zclmp_n=0),
+    Code.ALARM_CLEAR: _alarm_clear,
+    Code.OUTPUT: _output,
+    Code.MASK: _mask,
+    Code.POSITION_SET: _position_set,
+    Code.INTERLOCK: _interlock,
+    Code.RUN_MONITOR: _run_monitor,
+}
+
+
+def _check_event(data: bytes) -> None:
+    """P312-CMD-49: an embedded block, or a deletion without one."""
+    if data and data[0] & 2:
+        legal = len(data) == 1
+    else:
+        legal = (
+            len(data) >= 4 and data[1] == 0x03 and 1 <= data[2] <= _LONGEST_EVENT and len(data) == 3 + data[2]
+        )
+    if not legal:
+        raise Refusal(Answer.PARAMETER, BAD_EVENT)
+
+
+def act(core: Core, code: int, data: bytes) -> Work:
+    """Any of these instructions with a legal length; data: its parameters."""
+    if code == Code.TABLE_READ:
+        return Work(lambda t: _table(core))
+    if code in (Code.POSITION_READ, Code.POSITION_SET) and data[0] > 1:
+        raise Refusal(Answer.PARAMETER, BAD_VALUE)
+    if code == Code.EVENT_READ and data and data[0] > 1:
+        raise Refusal(Answer.PARAMETER, NO_BUFFER)
+    if code == Code.EVENT_SET:
+        _check_event(data)
+        return _event_set(core, data)
+    if code in _PINS:
+        return Work(lambda t: bytes([code]) + _PINS[code](core))
+    if code in _READS:
+        told = bytes([code]) + _READS[code](core, data)
+        return Work(lambda t: told)
+    return Work(
+        lambda t: bytes([code]) + _ACTS[code](core, t, data),
+        cycles=pace.OUTPUT if code == Code.OUTPUT else None,
+    )
+
+
+def _table(core: Core) -> list[bytes]:
+    assert core.table is not None
+    return [bytes([header, len(body)]) + body for header, body in read_back(core.table)]

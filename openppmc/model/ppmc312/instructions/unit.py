@@ -1,0 +1,301 @@
+"""Instruction unit of the PPMC-312: who is next, checks, execution, answers (P312-BLK-01, P312-RSP-20,
+P312-OVR-10).
+
+One instruction is processed at a time. Host blocks, released entries of the command FIFO and remembered
+event edges wait here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...common.blocks import Phase
+from ..codes import Alarm, Code, Source, Trigger
+from ..front.responses import ANSWER, Report
+from ..pace import WIDTH
+from .checks import check, is_reset
+from .work import Refusal, Work, refusal_block
+
+if TYPE_CHECKING:
+    from ..core import Core
+
+
+class Job(NamedTuple):
+    """What is processed: block in logical order, who asked, edge that the DATASHEET times count from,
+    number of the event buffer, released by a position."""
+
+    block: bytes
+    source: Source
+    since: int
+    buffer: int = 0
+    at_position: bool = False
+
+
+class Unit:
+    """core: everything that instructions act on.
+
+    holding: an answer is about to be stored; reports of classes 3 to 8 come after it.
+    """
+
+    def __init__(self, core: Core) -> None:
+        self._core = core
+        self._busy = False
+        self._free = 0
+        self._host: Job | None = None
+        self._host_next = False
+        self._source = Source.HOST
+        self._answered = True
+        self._job: Job | None = None
+        self._storing = False
+        self._late: bytes | None = None
+        self._rest: list[bytes] = []
+        self.holding = False
+
+    # ------------------------------------------------------------------ requests
+
+    def host_block(self, t: int, block: bytes) -> None:
+        """A complete block has been written; its header's write event is at edge t."""
+        self._host = Job(block, Source.HOST, t)
+        self._answered = False
+        self.kick(t)
+
+    def kick(self, t: int) -> None:
+        """Something may wait."""
+        self._at(t + self._core.pace.turn, self._turn)
+
+    def event(self, t: int, trigger: Trigger) -> None:
+        """Falling edge of an event pin (P312-EVT-01, -04, P312-OVR-10)."""
+        buffer = self._core.events[trigger - 1]
+        if buffer.entries:
+            if buffer.edge is None:
+                buffer.edge = t
+        elif not self._core.fifo.event(t, trigger):
+            return
+        self.kick(t)
+
+    @property
+    def settled(self) -> bool:
+        """Everything that the command FIFO has released is processed."""
+        return not self._core.fifo.triggered and not (self._busy and self._source is Source.OVERRIDE)
+
+    def _at(self, t: int, action: Callable[[int], None]) -> None:
+        """Instructions see what there was before an edge, so they come first."""
+        self._core.context.queue.at(t, Phase.BUS, action)
+
+    # ------------------------------------------------------------------ whose turn
+
+    def _turn(self, t: int) -> None:
+        if self._busy or t < self._free:
+            return
+        waits, host = self._next(t), self._host is not None and self._seen(self._host.since, t)
+        if waits is not None and not (self._host_next and host):
+            if not self._core.responses.serial and self._unread():
+                self._lost(t, waits)
+            else:
+                self._host_next = True
+                self._begin(t, self._take(waits))
+        elif host:
+            job, self._host = self._host, None
+            assert job
+            self._host_next = False
+            self._begin(t, job)
+
+    def _unread(self) -> bool:
+        """An answer has not been read, or is about to be stored."""
+        occupied = bool(self._core.responses.answer) or self._storing
+        return occupied or (not self._answered and self._host is None)
+
+    def _seen(self, since: int, t: int) -> bool:
+        """What has come on edge `since` can be begun at t."""
+        return since + self._core.pace.turn <= t
+
+    def _next(self, t: int) -> tuple[Source, int] | None:
+        """Who of the triggered ones is first: position, evt0, evt1 (P312-OVR-10); the buffer's number."""
+        fifo, events = self._core.fifo, self._core.events
+        waits = [
+            (n + 1, 0, (Source.EVENT, n))
+            for n, buffer in enumerate(events)
+            if buffer.edge is not None and self._seen(buffer.edge, t)
+        ]
+        if fifo.triggered and self._seen(fifo.triggered[0].t, t):
+            waits.append((fifo.triggered[0].entry.trigger, 1, (Source.OVERRIDE, 0)))
+        return min(waits)[-1] if waits else None
+
+    def _take(self, waits: tuple[Source, int]) -> Job:
+        source, number = waits
+        if source is Source.OVERRIDE:
+            first = self._core.fifo.triggered.popleft()
+            at_position = first.entry.trigger is Trigger.POSITION
+            return Job(first.entry.block, source, first.t, at_position=at_position)
+        buffer = self._core.events[number]
+        since, buffer.edge = buffer.edge, None
+        assert since is not None
+        return Job(buffer.take(), source, since, number)
+
+    def _lost(self, t: int, waits: tuple[Source, int]) -> None:
+        """Multiple occurrence: not executed, and what waits with it is forgotten (P312-RSP-20)."""
+        source, number = waits
+        if source is Source.EVENT:
+            self._core.events[number].clear()
+        else:
+            self._core.drop_overrides(t)
+        self._core.alarm(t, Alarm.HOST)
+        self._core.operation.motion.look_at_rest_soon(t)
+        self.kick(t)
+
+    # ------------------------------------------------------------------ processing
+
+    def _begin(self, t: int, job: Job) -> None:
+        pace = self._core.pace
+        self._busy, self._source, self._job, self._began = True, job.source, job, t
+        if is_reset(job.block):
+            self._at(t + pace.reset, lambda now: self._core.reset(now, job.source))
+            return
+        if job.source is Source.HOST:
+            self._at(t + pace.reset, lambda now: self._look_at_store(now, job))
+        self._at(t + pace.judge, lambda now: self._judge(now, t, job))
+
+    def _look_at_store(self, t: int, job: Job) -> None:
+        """A host that has not read its last answer is not served (P312-RSP-20)."""
+        answer = self._core.responses.answer
+        if answer and answer.source is Source.HOST:
+            self._idle(t)
+            self._answered = True
+            self._core.alarm(t, Alarm.HOST)
+            self._core.host.done(t)
+            self.kick(t)
+
+    def _judge(self, t: int, begun: int, job: Job) -> None:
+        if self._job is not job:
+            return
+        act = begun + self._core.pace.effect
+        try:
+            work = check(self._core, job.block, job.source, job.at_position)
+        except Refusal as refusal:
+            found = refusal
+            self.holding = not refusal.clk
+            self._at(act + refusal.clk, lambda now: self._refuse(now, job, found))
+            return
+        at = act
+        if work.cycles is not None and not work.clk:
+            at = self._paced(act, work)
+        self.holding = at == act
+        if at != act:
+            self._at(at - 1, self._hold)
+        self._at(at, lambda now: self._act(now, job, work))
+
+    def _hold(self, t: int) -> None:
+        self.holding = True
+
+    def _paced(self, t: int, work: Work) -> int:
+        """The time of the old chip, counted from the begin of processing (P312-TIM-20)."""
+        core = self._core
+        if not core.context.datasheet or work.cycles is None:
+            return t
+        timebase, pace = core.context.timebase, core.pace
+        cycles = work.cycles - pace.early - (WIDTH if work.starts else 0)
+        return max(t, self._began + timebase.cyc(cycles) + (pace.paced if work.starts or not work.clk else 2))
+
+    def _act(self, t: int, job: Job, work: Work) -> None:
+        """The effect of a short instruction."""
+        if work.begin:
+            work.begin(t)
+        due = self._paced(t + work.clk, work) if work.clk else t
+        if due == t:
+            self._finish(t, job, work)
+            return
+        self.holding = False
+        if work.check:
+            self._at(t + self._core.pace.limits, lambda now: self._check(now, job, work, due))
+        else:
+            self._at(due, lambda now: self._finish(now, job, work))
+
+    def _check(self, t: int, job: Job, work: Work, due: int) -> None:
+        assert work.check
+        try:
+            work.check(t)
+        except Refusal as refusal:
+            found = refusal
+            self._at(t + 1, lambda now: self._refuse(now, job, found))
+            return
+        self._at(due, lambda now: self._finish(now, job, work))
+
+    def _finish(self, t: int, job: Job, work: Work) -> None:
+        try:
+            answer = work.finish(t)
+        except Refusal as refusal:
+            self._refuse(t, job, refusal)
+            return
+        blocks = answer if isinstance(answer, list) else [bytes([job.source, len(answer)]) + answer]
+        self._answer(t, job.source, blocks)
+
+    def _refuse(self, t: int, job: Job, refusal: Refusal) -> None:
+        core = self._core
+        self._answer(t, job.source, [refusal_block(refusal, job.source, core.state, job.block[2:])])
+        if job.source is Source.EVENT:
+            core.events[job.buffer].clear()
+        elif job.source is Source.OVERRIDE:
+            core.drop_overrides(t)
+
+    # ------------------------------------------------------------------ answers
+
+    def _answer(self, t: int, source: Source, blocks: list[bytes]) -> None:
+        """The answer to what has had its effect at edge t is written, a byte a clk."""
+        self.holding, self._rest = True, blocks[1:]
+        self._write(t + self._core.pace.answer + len(blocks[0]), blocks[0], source)
+
+    def _write(self, stored: int, block: bytes, source: Source) -> None:
+        self._storing = True
+        self._at(stored - 1, self._over)
+        self._core.context.queue.at(stored, Phase.STORE, lambda now: self._store(now, block, source))
+
+    def _over(self, t: int) -> None:
+        """The next instruction may be taken."""
+        self._idle(t)
+        # An answer that has to wait lets other reports pass.
+        self.holding = self._core.responses.answer is None
+        self._core.operation.motion.look_at_rest_soon(t)
+        self.kick(t)
+
+    def _idle(self, t: int) -> None:
+        self._busy, self._job, self._free = False, None, t + self._core.pace.turn
+
+    def answer_reset(self, t: int) -> None:
+        """The first thing after a reset by FF."""
+        self._busy = True
+        self._answer(t, Source.HOST, [bytes([Source.HOST, 1, Code.RESET])])
+
+    def _store(self, t: int, block: bytes, source: Source) -> None:
+        if self._core.responses.serial:
+            self._storing = self.holding = False
+            self._answered = True
+            self._core.host.answer(t, source, block)
+            return
+        if not self._core.responses.post(t, ANSWER, [block], source):
+            # Behind an answer to an event or an override; the mailbox stays closed (P312-RSP-20).
+            self._late = block
+            return
+        self._late, self._storing, self.holding = None, False, bool(self._rest)
+        if source is Source.HOST and not self._rest:
+            self._at(t + self._core.pace.done, self._done)
+
+    def _done(self, t: int) -> None:
+        self._answered = True
+        self._core.host.done(t)
+
+    def was_read(self, t: int, report: Report) -> None:
+        """The host has read an answer; the one that waits for it, or the next block of it, follows."""
+        if report.kind != ANSWER:
+            return
+        pace, queue, late = self._core.pace, self._core.context.queue, self._late
+        if late is not None:
+            queue.at(t + pace.late, Phase.STORE, lambda now: self._store(now, late, Source.HOST))
+        elif self._rest:
+            following = self._rest.pop(0)
+            self._at(t + 1, self._fetch)
+            self._write(t + pace.reading(following), following, Source.HOST)
+
+    def _fetch(self, t: int) -> None:
+        """The next block of a table read is put together."""
+        self._busy, self._source = True, Source.HOST

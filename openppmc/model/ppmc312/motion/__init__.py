@@ -1,0 +1,1 @@
+"""The PPMC-312 in motion: operation, pulses, positions, monitors, pins."""

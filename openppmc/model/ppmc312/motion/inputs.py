@@ -1,0 +1,91 @@
+"""Input levels of the PPMC-312 as decisions see them, generalized input: P312-INP-01, P312-MON-10."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from ...common.blocks import Context, Phase
+from ...common.scheduler import Event
+from ..front.responses import Responses
+from ..pace import EVT_LOW, PIN_LOW, SAMPLE
+
+SLOW_PINS = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n")
+EVENT_PINS = ("evt0_n", "evt1_n")
+
+
+class Filters:
+    """levels: of the guarded pins. In DATASHEET a low one counts only when it has lasted; a high one at once.
+
+    changed(t, pin): the level of a pin has changed.
+    """
+
+    def __init__(self, context: Context, changed: Callable[[int, str], None]) -> None:
+        self._context, self._changed = context, changed
+        self._plain = dict.fromkeys((*SLOW_PINS, *EVENT_PINS), 1)
+        self.levels = dict(self._plain)
+        self._pending: dict[str, Event] = {}
+
+    def see(self, t: int, levels: Mapping[str, int]) -> None:
+        """Synchronised levels from edge t on."""
+        fresh = [pin for pin in self._plain if levels[pin] != self._plain[pin]]
+        for pin in fresh:
+            self._plain[pin] = levels[pin]
+        for pin in fresh:
+            if not levels[pin] and self._context.datasheet:
+                at = t + self._context.timebase.cyc(EVT_LOW if pin in EVENT_PINS else PIN_LOW)
+                self._pending[pin] = self._context.queue.at(
+                    at, Phase.LEVELS, lambda now, p=pin: self._low(now, p)
+                )
+            else:
+                self._set(t, pin, levels[pin])
+
+    def _low(self, t: int, pin: str) -> None:
+        self._set(t, pin, 0)
+
+    def _set(self, t: int, pin: str, level: int) -> None:
+        pending = self._pending.pop(pin, None)
+        if pending:
+            pending.cancel()
+        if self.levels[pin] != level:
+            self.levels[pin] = level
+            # All pins of one edge are in place before any of them is acted on.
+            self._context.queue.at(t, Phase.QUEUE, lambda now: self._changed(now, pin))
+
+
+class InputChange:
+    """Watches auxi behind a mask once in 50 us."""
+
+    def __init__(self, context: Context, responses: Responses) -> None:
+        self._context, self._responses = context, responses
+        self._mask = self._former = 0
+        self._auto = False
+        self._since = 0
+        self._next: Event | None = None
+
+    def set_up(self, t: int, mask: int, auto: bool) -> None:
+        """28."""
+        self._mask, self._auto, self._since = mask, auto, t
+        self._former = self._context.levels["auxi"]
+        if self._next:
+            self._next.cancel()
+            self._next = None
+
+    def see(self, t: int) -> None:
+        """auxi has changed at edge t: look at it with the next sample."""
+        if not self._mask or self._next:
+            return
+        timebase = self._context.timebase
+        number = max(1, (t - self._since) * timebase.xtal_hz // (SAMPLE * timebase.clk_hz))
+        while self._since + timebase.cyc(SAMPLE * number) < t:
+            number += 1
+        at = self._since + timebase.cyc(SAMPLE * number)
+        self._next = self._context.queue.at(at, Phase.RUN, self._sample)
+
+    def _sample(self, t: int) -> None:
+        self._next = None
+        level = self._context.levels["auxi"]
+        data, self._former = (self._former ^ level) & self._mask, level
+        if data:
+            self._responses.input_change(t, data)
+            if not self._auto:
+                self._mask = 0

@@ -1,0 +1,184 @@
+"""One operation of the PPMC-312 from its acceptance to its stop report: RUN, END, zero return, alarms.
+
+P312-INP-11, -20, -30; P312-MOT-06, -35, -42, -43; the state table of chapter 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from ...common.blocks import Context, Phase
+from ..codes import Alarm, Answer, Cause, State
+from ..front import responses as responses312
+from ..front.responses import Responses
+from ..pace import Pace
+from ..stages.plan import constant
+from .motion import LIMITS, SLOW_LIMITS, Motion, Order
+from .outputs import Outputs
+from .position import Counters
+from .sequence import Change
+
+
+class Operation:
+    """pins: input levels as decisions see them. alarm(t, status): multiple occurrence. rested(t): something
+    has moved, or pulse output has ended. settled(): nothing that a position has stopped for waits.
+    abnormal(): state ABN. run_level: RUN as decisions at this edge use it. end_monitored, run_ignored (CWS),
+    speed_limit (HSL) are settings; last_cause: of the last stop report."""
+
+    def __init__(
+        self,
+        context: Context,
+        pace: Pace,
+        pins: Mapping[str, int],
+        outputs: Outputs,
+        counters: Counters,
+        responses: Responses,
+        on_pulse: Callable[[int, int], bool],
+        alarm: Callable[[int, Alarm], None],
+        rested: Callable[[int], None],
+        settled: Callable[[], bool],
+        abnormal: Callable[[], bool],
+    ) -> None:
+        self._context, self._pace, self._pins = context, pace, pins
+        self._outputs, self._counters, self._responses = outputs, counters, responses
+        self._alarm, self._rested, self._abnormal = alarm, rested, abnormal
+        self.motion = Motion(
+            context, pace, pins, lambda: self.speed_limit, self._count, on_pulse, settled, self._pulses_ended
+        )
+        self._looked_at: Callable[[int], None] = rested
+        self.speed_limit = 0xFFFF
+        self.end_monitored = self.run_ignored = False
+        self.run_level = context.levels["run"]
+        self._held: Order | None = None
+        self._end_wait: Cause | None = None
+        self._alarm_at = -1
+        self.last_cause: Cause | None = None
+
+    # ------------------------------------------------------------------ state
+
+    @property
+    def state(self) -> State | None:
+        """ACC, FIX or WRN; None at rest."""
+        if self._held:
+            return State.WRN
+        if self.motion.in_table:
+            return State.ACC
+        return State.FIX if self.motion.busy or self.waits_for_end else None
+
+    @property
+    def waits_for_end(self) -> bool:
+        """END wait."""
+        return self._end_wait is not None
+
+    @property
+    def at_rest(self) -> bool:
+        """No pulse output runs."""
+        return not self.motion.busy
+
+    def _count(self, t: int, direction: int) -> None:
+        """POS counts a pulse."""
+        self._counters.count_pulse(direction)
+        self._looked_at(t)
+
+    # ------------------------------------------------------------------ start
+
+    def limited(self, order: Order) -> bool:
+        """Whether a limit forbids the start (P312-INP-11)."""
+        slow = not self._pins[SLOW_LIMITS[order.direction]] and order.target <= self.speed_limit
+        return not self._pins[LIMITS[order.direction]] or slow
+
+    @property
+    def may_run(self) -> bool:
+        """RUN is high or not monitored."""
+        return bool(self.run_level) or self.run_ignored
+
+    def start(self, t: int, order: Order) -> bool:
+        """t0, or state WRN; True if the operation is held."""
+        if self.may_run:
+            self._begin(t, order)
+            return False
+        self._held = order
+        return True
+
+    def look_at_run(self, t: int) -> None:
+        """RUN or its monitoring has changed."""
+        if self._held and self.may_run:
+            self._context.queue.at(t + self._pace.held, Phase.BEGIN, self._release)
+
+    def _release(self, t: int) -> None:
+        if self._held is None or not self.may_run:
+            return
+        if not self._responses.report(t, responses312.HOLD, Answer.HOLD_EXECUTED):
+            self._alarm(t, Alarm.INTERLOCK_OR_HOLD)
+        order, self._held = self._held, None
+        self._begin(t, order)
+
+    def _begin(self, t: int, order: Order) -> None:
+        self._outputs.begin()
+        self._looked_at(t)
+        self.motion.start(t, order)
+
+    # ------------------------------------------------------------------ stops
+
+    def stop(self, t: int, cause: Cause = Cause.STOP) -> None:
+        """80, or the alarm of a multiple occurrence or of alm_n."""
+        if cause is Cause.ALARM:
+            self._alarm_at = t
+        if self._held:
+            self._held = None
+            self._report(t, cause)
+        elif self._end_wait is not None and cause is Cause.ALARM:
+            self._context.queue.at(t + 1, Phase.QUEUE, self._leave_end_wait)
+        else:
+            self.motion.stop(t, cause)
+
+    def slow_stop(self, t: int) -> None:
+        """81."""
+        self.motion.slow_stop(t)
+
+    def change(self, t: int, change: Change) -> None:
+        """87, 88."""
+        self.motion.change(t, change)
+
+    # ------------------------------------------------------------------ end
+
+    def _pulses_ended(self, t: int, cause: Cause) -> None:
+        if cause is Cause.RETURN:
+            self._turn_back(t)
+            return
+        self._outputs.pulses_ended(t)
+        # In ABN nothing waits for END, whatever the cause; entered just now, it is left at once.
+        waits = self.end_monitored and cause is not Cause.ALARM and self._pins["end_n"]
+        if waits and not (self._abnormal() and self._alarm_at < t):
+            self._end_wait = cause
+            if self._abnormal():
+                self._context.queue.at(t + 1, Phase.QUEUE, self._leave_end_wait)
+        else:
+            self._report(t, cause)
+        self._rested(t)
+
+    def _turn_back(self, t: int) -> None:
+        """t0 of phase 2."""
+        order = self.motion.order
+        table = order.plan.table
+        rate = table.rates[table.sa]
+        self._begin(t, Order(constant(table, rate), 1 - order.direction, rate, True, False, order.index))
+
+    def look_at_end(self, t: int) -> None:
+        """end_n or its monitoring has changed."""
+        if self._end_wait is not None and (not self.end_monitored or not self._pins["end_n"]):
+            self._leave_end_wait(t)
+
+    def _leave_end_wait(self, t: int) -> None:
+        cause, self._end_wait = self._end_wait, None
+        if cause is not None:
+            self._report(t, cause)
+
+    def _report(self, t: int, cause: Cause) -> None:
+        self._context.queue.at(t + self._pace.report, Phase.END, lambda at: self._store(at, cause))
+
+    def _store(self, t: int, cause: Cause) -> None:
+        position = self._counters.pulse.to_bytes(4, "big")
+        self.last_cause = cause
+        if not self._responses.report(t, responses312.STOPPED, Answer.STOPPED, cause, position):
+            self._alarm(t, Alarm.STOPPED)

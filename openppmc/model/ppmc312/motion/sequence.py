@@ -1,0 +1,201 @@
+"""Sequence of pulses and rates of the PPMC-312, boundary by boundary, with changes: P312-MOT-20..33.
+
+No time here: `boundary` is asked at the end of every interval, and once before pulse 1.
+"""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from typing import NamedTuple
+
+from ..codes import Cause
+from ..stages.plan import Plan, Step
+
+_DECELERATING = (Cause.SLOW, Cause.LIMIT_SLOW)
+_ORDER = (Cause.LIMIT_SLOW, Cause.SLOW, Cause.RETURN)
+
+
+class Change(NamedTuple):
+    """Speed change: 87 (ramp) or 88, and the rate aimed at."""
+
+    rate: int
+    ramp: bool
+
+
+class _Mode(Enum):
+    PLAN = auto()
+    CONSTANT = auto()
+    RAMP = auto()
+    WALK = auto()
+    FINAL = auto()
+
+
+class Sequence:
+    """One operation. done: pulses out. running: the pulse and interval that run, None before pulse 1.
+
+    Of the last boundary: walk_begins: the walk to the end. drops: an 87 that waited is gone. sought: the
+    constant rate that runs was a stage's, so t(x) had to be found for it."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self.done = 0
+        self.running: Step | None = None
+        self._mode = _Mode.PLAN
+        self._stages: list[list[int]] = []
+        self._rate = plan.rate
+        self._walk_cause = Cause.SLOW
+        self._requests: set[Cause] = set()
+        self._limit = False
+        self.walk_begins = self.drops = self.sought = False
+        self._change: Change | None = None
+        self._held = self._changed = self._from_stage = False
+
+    @property
+    def complete(self) -> bool:
+        """Pulse N is out."""
+        return self.done == self.plan.n
+
+    @property
+    def in_table(self) -> bool:
+        """State ACC: the running interval, or pulse 1 before it is out, comes from the table."""
+        return self.present.stage is not None
+
+    @property
+    def present(self) -> Step:
+        """What runs; before pulse 1, what would."""
+        return self.running or self.plan.step(1)
+
+    # ------------------------------------------------------------------ requests
+
+    def request(self, cause: Cause) -> None:
+        """Deceleration for 81 or for the origin of a zero return (P312-MOT-30, -43)."""
+        if self._mode is _Mode.WALK:
+            if self._walk_cause is Cause.RETURN and cause in _DECELERATING:
+                self._walk_cause = cause
+            return
+        self._requests.add(cause)
+
+    def limit_level(self, active: bool) -> None:
+        """A high-speed limit forbids the present speed, or no longer does."""
+        if active:
+            self.request(Cause.LIMIT_SLOW)
+        else:
+            self._requests.discard(Cause.LIMIT_SLOW)
+        self._limit = active
+
+    def hold(self) -> None:
+        """An 87 waits; soon it may take effect."""
+        self._held = True
+
+    def change(self, change: Change) -> None:
+        """87 or 88 for the next boundary; it replaces one that waits."""
+        self._change = change
+        self._held = change.ramp
+
+    def drop_change(self) -> None:
+        """A newer 87 or 88 is on its way, or none counts any more."""
+        self._change = None
+        self._held = False
+
+    # ------------------------------------------------------------------ boundary
+
+    def boundary(self, ramps: bool = True, found: bool = True) -> Step | Cause:
+        """The next pulse, or why there is none (Cause.RETURN: phase 1 of a zero return is over).
+
+        ramps: 87 may take effect here. found: t(x) is known where it had to be `sought`.
+        """
+        self.walk_begins = self.drops = False
+        if self.complete:
+            return Cause.NORMAL
+        if self._mode is _Mode.WALK and not self._stages_left():
+            return self._walk_cause
+        if found or not self.sought or not self._walk_from(self.present):
+            wanted = self._requests
+            self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
+        else:
+            wanted = set()  # the walk waits until it is known where it begins
+        if wanted and self._mode is not _Mode.WALK:
+            end = self._decelerate(next(cause for cause in _ORDER if cause in wanted))
+            if end is not None:
+                return end
+        self._ramps = ramps
+        self._take_change()
+        plan = self.plan
+        if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.WALK:
+            if self._held:
+                # It could only speed up the rest.
+                self.drop_change()
+                self.drops = self._changed = True
+            if self._changed:
+                self._final()
+        self.running = self._next()
+        self.done += 1
+        self.sought = self._mode is _Mode.FINAL and self._from_stage and self.running.stage is None
+        return self.running
+
+    def _walk_from(self, step: Step) -> list[list[int]]:
+        """Stages and pulses of the walk down from there; empty if there is none (P312-MOT-20)."""
+        table = self.plan.table
+        top = table.stage(step.rate) if step.stage is None else step.stage
+        if step.rate >= table.rates[table.sd] or top < table.sd:
+            return []
+        return [[i, table.pd[i]] for i in range(top, table.sd - 1, -1)]
+
+    def _decelerate(self, request: Cause) -> Cause | None:
+        walk = self._walk_from(self.present)
+        if self.running is None or not walk:
+            return Cause.RETURN if request is Cause.RETURN else Cause.LOW
+        if not self.running.planned:
+            self._mode, self._stages, self._walk_cause = _Mode.WALK, walk, request
+            self.drop_change()
+            self.walk_begins = True
+        return None
+
+    def _take_change(self) -> None:
+        """87 or 88, if one waits; 87 needs a constant speed to start from."""
+        change = self._change
+        if change is None or (change.ramp and not self._ramps):
+            return
+        if change.ramp and self.running is not None and self.running.stage is not None:
+            return
+        self.drop_change()
+        self._changed = True
+        self._rate = change.rate
+        if not change.ramp:
+            self._mode = _Mode.CONSTANT
+            return
+        table, now = self.plan.table, self.present.rate
+        if change.rate < now:
+            stages = range(max(table.sa, table.stage(now) + 1), table.stage(change.rate) + 1)
+            pulses = table.pa
+        elif change.rate > now:
+            last = max(table.sd, table.stage(change.rate + 1) + 1)
+            stages = range(table.stage(now + 1), last - 1, -1)
+            pulses = table.pd
+        else:
+            stages, pulses = range(0), table.pa
+        self._mode = _Mode.RAMP
+        self._stages = [[i, pulses[i]] for i in stages if pulses[i]]
+
+    def _final(self) -> None:
+        """Deceleration point after a change (P312-MOT-33)."""
+        table = self.plan.table
+        start = Step(self._rate) if self._mode is _Mode.CONSTANT else self.present
+        self._stages = self._walk_from(start)
+        self._rate = table.rates[table.sd] if self._stages else start.rate
+        self._from_stage = bool(self._stages) or start.stage is not None
+        self._mode = _Mode.FINAL
+
+    def _stages_left(self) -> bool:
+        while self._stages and not self._stages[0][1]:
+            self._stages.pop(0)
+        return bool(self._stages)
+
+    def _next(self) -> Step:
+        if self._mode is _Mode.PLAN:
+            return self.plan.step(self.done + 1)
+        if self._mode is not _Mode.CONSTANT and self._stages_left():
+            self._stages[0][1] -= 1
+            stage = self._stages[0][0]
+            return Step(self.plan.table.rates[stage], stage, self._mode is _Mode.FINAL)
+        return Step(self._rate)

@@ -1,0 +1,294 @@
+"""Golden model of the PPMC-312 at pin level, event driven and exact to the clk.
+
+Pins and time: `chip`. Host side: `mailbox312` with `responses312`. Instructions: `unit312`, `checks312`,
+`settings312`, `starts312`, `terminals312`, `overrides312`. Tables: `tables312`, `curve312`. Motion:
+`plan312`, `sequence312`, `motion312`, `operation312`. Pins: `inputs312`, `outputs312`, `position312`. Here:
+P312-PRT-01..03, reset, software reset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from ..common.blocks import Context, Phase, PinRegister
+from ..common.chip import Chip
+from ..common.scheduler import Callback, Event, Scheduler
+from ..common.timebase import Latency, QuantumCounter
+from ..common.uart import bit_time
+from .codes import Source, State
+from .core import Core, HostSide
+from .front.bus import IDLE, Strobes
+from .front.mailbox import Mailbox
+from .front.station import Log, Station
+from .motion.motion import Motion
+from .pace import READY, Pace
+from .pins import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS
+
+_LATE = ("irq_n", "intlk_n")
+_SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
+"""What the inside sees of the pins before it has sampled them."""
+
+
+class _Asked(Event):
+    """What a block has asked for; only the present blocks have any in the queue."""
+
+    __slots__ = ()
+
+
+class Scope(Scheduler):
+    """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
+
+    def __init__(self, queue: Scheduler) -> None:
+        super().__init__()
+        self._queue = queue
+        self._alive = True
+
+    def at(self, t: int, phase: int, action: Callback) -> Event:
+        """Call `action(t)` unless the blocks have been replaced by then."""
+        event = self._queue.at(t, phase, action, _Asked)
+        if not self._alive:
+            event.cancel()
+        return event
+
+    def close(self) -> None:
+        """The blocks are replaced."""
+        self._alive = False
+        self._queue.cancel(_Asked)
+
+
+class Ppmc312(Chip):
+    """One PPMC-312.
+
+    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET", version 0..255; ValueError for
+    anything else. sum_mode "BINARY" or "CHARS": checksum of the serial mode. straps: pin levels from the
+    beginning on, as mode, mod, adr. The model starts just released from reset, before edge 0.
+    replies: (edge at which snd rises, whole frame) of all that the station has sent; sent: (edge in the
+    middle of the stop bit, character). Both may be emptied at any time.
+    """
+
+    INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
+
+    def __init__(
+        self,
+        clk_hz: int = 16_000_000,
+        xtal_hz: int = 16_000_000,
+        timing: str = "FAST",
+        version: int = 0x12,
+        sum_mode: str = "BINARY",
+        straps: Mapping[str, int] | None = None,
+        pace: Pace | None = None,
+        latency: Latency | None = None,
+    ) -> None:
+        if not 0 <= version <= 255:
+            raise ValueError(f"version {version} is outside 0..255")
+        if sum_mode not in ("BINARY", "CHARS"):
+            raise ValueError(f"sum_mode {sum_mode!r} is neither BINARY nor CHARS")
+        super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, latency)
+        self.pace = pace or Pace()
+        self._version, self._sum_mode = version, sum_mode
+        self._pins |= straps or {}
+        self.replies: list[tuple[int, bytes]] = []
+        self.sent: list[tuple[int, int]] = []
+        self._latched: dict[str, int] = dict(INPUTS)
+        self._counter = QuantumCounter(self.timebase, 0)
+        self._restart()
+        self._released(0)
+        self._sample(0, self.INPUTS)
+
+    def _build(self) -> None:
+        """Fresh blocks in their reset state; the synchronisers show inactive levels."""
+        levels = dict(_SYNCHRONISED)
+        self._scope = Scope(self._queue)
+        self._context = Context(
+            self.timebase, self.latency, self.datasheet, self._scope, self.log, self._counter, levels
+        )
+        self.core = Core(self._context, self.pace, self._version, self._make_host, self._software_reset)
+
+    def _make_host(self, core: Core) -> HostSide:
+        self._mailbox = Mailbox(core.context, self.pace, core.responses, core.unit.host_block)
+        return self._mailbox
+
+    def _latch_mode(self, t: int) -> None:
+        """The end of a reset: what the pins say of the host side (P312-PRT-03)."""
+        self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
+        self._connect()
+
+    def _connect(self) -> None:
+        """The host side that the latched pins say."""
+        self._host: HostSide = self._mailbox
+        self._host_pins = {*self.HOST_PINS}
+        if not self._latched["mode"]:
+            bit = bit_time(self._latched["mod"], self.timebase.clk_hz, self.timebase.xtal_hz)
+            log = Log(self.replies, self.sent)
+            self._host = Station(self.core, bit, self._latched["adr"], self._sum_mode, log)
+            self._host_pins = {*SERIAL_PINS}
+        self.core.connect(self._host, not self._latched["mode"])
+
+    # ------------------------------------------------------------------ reset
+
+    def _restart(self) -> None:
+        self._build()
+        self._strobes = Strobes(self._queue, self.log, self._mailbox)
+        self._out_oe = 0
+
+    def _released(self, t: int) -> None:
+        """Edge t is the first one after a reset (P312-PRT-02, -03)."""
+        self._latch_mode(t)
+        self._out_oe = 0
+        self._held = self._levels()
+        self._registers = self._make_registers()
+        self._seen: object = None
+        ready = t + (self.timebase.cyc(READY) + self.pace.start if self.datasheet else self.pace.ready)
+        self._parallel = bool(self._latched["mode"])
+        self._bus_from = self._line_from = t + self.pace.ready
+        self._pins_from = ready + 1
+        self._queue.at(ready, Phase.END, self._ready)
+
+    def _make_registers(self) -> list[tuple[tuple[str, ...], PinRegister]]:
+        """Most outputs are registers themselves, some follow an internal level."""
+        late = {name: level for name, level in self._held.items() if name in _LATE}
+        early = {name: level for name, level in self._held.items() if name not in _LATE}
+        return [
+            (tuple(levels), PinRegister(self._queue, lag, levels, self.log.set))
+            for levels, lag in ((early, 0), (late, self.pace.pins))
+        ]
+
+    def _ready(self, t: int) -> None:
+        self._out_oe = 1
+        self._host.ready(t)
+
+    def _sample(self, t: int, changed: Iterable[str]) -> None:
+        """Nothing is sampled while a part is in reset; its first edge samples everything."""
+        names = set(changed)
+        if self._host_pins & names:
+            self._queue.at(max(t, self._bus_from), Phase.PINS, lambda now: self._sample_bus(now, self._pins))
+        if others := names.difference(self.HOST_PINS, SERIAL_PINS):
+            super()._sample(max(t, self._pins_from), others)
+
+    def _sample_levels(self, t: int) -> None:
+        super()._sample_levels(t)
+        level = self._pins["run"]
+        self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._see_run(now, level))
+
+    def _see_run(self, t: int, level: int) -> None:
+        """RUN is a gate: a start sees its level of the same edge, not what there was before (P312-INP-20)."""
+        if t >= self._pins_from + self.latency.input_sync:
+            self.core.operation.run_level = level
+
+    def _software_reset(self, t: int, source: Source) -> None:
+        """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer.
+
+        A strobe on the bus goes on (P312-PAR-11), unless the pins say now that there is none.
+        """
+        self._scope.close()
+        self._queue.at(t, Phase.PIN, self._reset_outputs)
+        self._build()
+        self._connect()
+        # What a read shows at this very edge comes from the old registers.
+        self._queue.at(t, Phase.COMMAND, lambda now: self._strobes.replaced(now, self._mailbox))
+        self._line_from = self._pins_from = t + self.pace.reboot
+        self._queue.at(t + self.pace.reboot, Phase.PINS, self._switch)
+        super()._sample(self._pins_from, {*self.INPUTS}.difference(self.HOST_PINS, SERIAL_PINS))
+        self._queue.at(t + 1, Phase.PINS, self._latch_mode)
+        self._queue.at(t + 1, Phase.END, lambda now: self._reopen(now, Station))
+        self._queue.at(t + self.pace.reopen, Phase.END, lambda now: self._reopen(now, Mailbox))
+        self._queue.at(t + self.pace.reboot, Phase.BUS, self.core.unit.answer_reset)
+
+    def _switch(self, t: int) -> None:
+        """Edge t is the first one that samples the pins of the host side by the mode of a software reset."""
+        self._parallel = bool(self._latched["mode"])
+        if not self._parallel:
+            self._strobes.sample(t, IDLE)
+        self._sample_bus(t, self._pins)
+
+    def _reopen(self, t: int, kind: type[Mailbox | Station]) -> None:
+        if isinstance(self._host, kind):
+            self._host.ready(t)
+
+    def _reset_outputs(self, t: int) -> None:
+        """The pins that follow no internal level, and those that do so a clk later."""
+        for pin in ("wrq_n", "txd", "snd", *_LATE):
+            self.log.set(t, pin, OUTPUTS[pin])
+
+    def hear(self, t: int, byte: int | None) -> None:
+        """A whole character on the line, whose stop bit edge t samples, without the levels of rxd; None for
+        one with a low stop bit. Serial mode only; ValueError for an edge already run."""
+        self._queue.at(t, Phase.BUS, lambda now: self.station.hear(now, byte))
+
+    # ------------------------------------------------------------------ inside of `chip`
+
+    def _levels(self) -> dict[str, int]:
+        """Internal levels behind the pins."""
+        core, motion = self.core, self.motion
+        pulse = {"pout": motion.pout, "dir": motion.direction, "intlk_n": int(not core.interlock.on)}
+        return {**core.outputs.levels(), **pulse, **self._host.levels(), "out_oe": self._out_oe}
+
+    def _latch(self, t: int) -> None:
+        """Before out_oe the pins keep their reset levels (P312-PRT-02)."""
+        if not self._out_oe:
+            levels = self._held
+        else:
+            # Most edges change none of them.
+            core, motion = self.core, self.motion
+            seen = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
+            if seen == self._seen:
+                return
+            self._seen, levels = seen, self._levels()
+        for names, register in self._registers:
+            register.latch(t, {name: levels[name] for name in names})
+
+    def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
+        if self._parallel:
+            self._strobes.sample(t, pins)
+        elif isinstance(self._host, Station) and t >= self._line_from:
+            self._host.sample(t, pins)
+
+    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+        if t < self._pins_from + self.latency.input_sync:
+            return
+        inside, core = self._context.levels, self.core
+        before = dict(inside)
+        inside.update(levels)
+        if levels["epin"] and not before["epin"]:
+            core.count_encoder(t, levels["epdir"])
+        core.filters.see(t, levels)
+        if levels["run"] != before["run"]:
+            core.operation.look_at_run(t)
+        if levels["auxi"] != before["auxi"]:
+            core.input_change.see(t)
+        if levels["extck"] != before["extck"] and core.table is not None:
+            counted = {6: 1, 7: 0}.get(core.table.clk)
+            if counted == levels["extck"]:
+                self._queue.at(t, Phase.BASE, self.motion.tick)
+
+    def _strobe(self, write: bool, reg: int) -> dict[str, int]:
+        return {"cs_n": 0, "we_n" if write else "oe_n": 0, "rs": reg}
+
+    # ------------------------------------------------------------------ what there is to see
+
+    @property
+    def motion(self) -> Motion:
+        """The pulse output."""
+        return self.core.operation.motion
+
+    @property
+    def csr(self) -> int:
+        """What a read of CSR would show, without the access; parallel mode only."""
+        assert isinstance(self._host, Mailbox)
+        return self._host.csr
+
+    @property
+    def station(self) -> Station:
+        """The host side of the serial mode; there is a new one after every reset."""
+        assert isinstance(self._host, Station)
+        return self._host
+
+    @property
+    def state(self) -> State:
+        """Operation state."""
+        return self.core.state
+
+    @property
+    def position(self) -> int:
+        """POS."""
+        return self.core.counters.pulse

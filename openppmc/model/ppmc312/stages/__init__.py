@@ -1,0 +1,1 @@
+"""Acceleration tables of the PPMC-312, free curves, plans of operations."""

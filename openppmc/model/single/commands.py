@@ -1,0 +1,150 @@
+"""Command processor of the parts with one axis: from bytes to commands, and which error a byte makes.
+
+Errors and their order: P104-ERR-00..03, P104-STA-05/06, P104-FSM-01..03 (STMC-ST-01..03, STMC-CMD-01..03).
+Parameters: P104-HSK-07. What the commands do is the business of `commands104`, `commands_stmc`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from ..common.blocks import Context, Phase
+from ..motion.chopper import Chopper
+from ..motion.excitation import Excitation
+from ..motion.motion import Setup
+from ..motion.ramp import Ramp
+from .codes import BUSY, ERR, Command, Error, Kind
+from .hostport import HostPort
+from .timed_motion import TimedMotion
+
+_DS_PATTERN = 704  # crystal cycles to the first pattern (P104-DS-01)
+
+_WHILE_BUSY = (
+    Kind.STOP,
+    Kind.SLOW_STOP,
+    Kind.AUX_ON,
+    Kind.AUX_OFF,
+    Kind.AUX_OUTPUT,
+    Kind.EXCITATION_OFF,
+)
+
+
+class ByteUnit(ABC):
+    """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
+
+    def __init__(
+        self,
+        context: Context,
+        port: HostPort,
+        motion: TimedMotion,
+        excitation: Excitation,
+        chopper: Chopper,
+    ) -> None:
+        self._context = context
+        self._port = port
+        self._motion = motion
+        self._excitation = excitation
+        self._chopper = chopper
+        self.error: Error | None = None
+        self.setup: Setup | None = None
+        self._pending: Command | None = None
+        self._data: list[int] = []
+
+    @abstractmethod
+    def _decode(self, byte: int) -> Command:
+        """The command a code stands for."""
+
+    @abstractmethod
+    def _execute(self, t: int, command: Command, reference: int, data: list[int]) -> Error | None:
+        """Carry out a command with all its data bytes, or refuse them."""
+
+    @property
+    def expected(self) -> int:
+        """Parameter bytes still to come for the current command."""
+        return self._pending.parameters - len(self._data) if self._pending else 0
+
+    def state(self) -> int:
+        """ERR, NUM and BUSY as they stand in the status register (P104-STA-04..06)."""
+        field = self.expected << 4 if self.error is None else ERR | self.error << 4
+        return field | (BUSY if self._motion.busy else 0)
+
+    def take(self, t: int, byte: int, command: bool, reference: int) -> None:
+        """C-event at edge t."""
+        self.error = self._command(t, byte, reference) if command else self._parameter(t, byte, reference)
+
+    def _command(self, t: int, byte: int, reference: int) -> Error | None:
+        """A command byte; drops what an earlier one still asked for (P104-HSK-07). Returns its error."""
+        self._pending, self._data = None, []
+        command = self._decode(byte)
+        error = self._refusal(command)
+        if error is not None:
+            return error
+        if command.parameters:
+            self._pending = command
+            return None
+        return self._execute(t, command, reference, [])
+
+    def _refusal(self, command: Command) -> Error | None:
+        """Checks in the order of P104-ERR-01."""
+        motion, kind = self._motion, command.kind
+        if kind is Kind.UNDEFINED:
+            return Error.UNDEFINED
+        if kind in (Kind.STOP, Kind.SLOW_STOP) and not motion.busy:
+            return Error.UNDEFINED
+        if motion.busy and kind not in _WHILE_BUSY:
+            return Error.NOT_WHILE_BUSY
+        if kind is Kind.OPERATION and self.setup is None:
+            return Error.NOT_INITIALISED
+        if kind is Kind.SLOW_STOP and motion.is_ramp and (motion.decelerating or motion.finishing):
+            return Error.ALREADY_DECELERATING
+        return None
+
+    def _parameter(self, t: int, byte: int, reference: int) -> Error | None:
+        """A data byte; the last one a command asks for executes it (P104-FSM-03). Returns its error."""
+        if self._pending is None:
+            return Error.UNASKED_DATA_BUSY if self._motion.busy else Error.UNASKED_DATA
+        self._data.append(byte)
+        if self.expected:
+            return None
+        command, data = self._pending, self._data
+        self._pending, self._data = None, []
+        return self._execute(t, command, reference, data)
+
+    def _stop(self, t: int, kind: Kind, reference: int) -> None:
+        """A stop command that was not refused (P104-STP-01..03)."""
+        if kind is Kind.STOP or not self._motion.is_ramp:
+            self._motion.stop(t)
+        else:
+            self._motion.slow_stop(t, reference)
+
+    def _set_up(self, t: int, code: int, ramp: Ramp, reference: int, ds_build: int) -> None:
+        """Store an initialisation that was checked and begin the table build (P104-INI-05, STMC-INI-04..07).
+
+        ds_build: crystal cycles of the build in DATASHEET, from `reference` on.
+        """
+        context = self._context
+        if self.setup is None:
+            phases, half, positive = (code & 3) + 2, bool(code & 4), bool(code & 8)
+
+            def show(at: int) -> None:
+                self._excitation.configure(phases, half, positive)
+
+            if context.datasheet:
+                context.queue.at(reference + context.timebase.cyc(_DS_PATTERN), Phase.BEGIN, show)
+            else:
+                show(t)
+        self.setup = Setup(ramp, external=bool(code & 0x10), chopping=bool(code & 0x20))
+        if context.datasheet:
+            done = reference + context.timebase.cyc(ds_build)
+        else:
+            done = t + context.latency.build(ramp.rl, ramp.rh, ramp.pa)
+        self._port.close_until(done)
+        context.queue.at(done, Phase.BEGIN, self._complete)
+
+    def _complete(self, t: int) -> None:
+        """End of the table build: bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
+        assert self.setup is not None
+        if self.setup.chopping:
+            self._chopper.start(t)
+        else:
+            self._chopper.stop()

@@ -1,0 +1,159 @@
+"""Host side of the models: write path, early read path, mailbox, output queue.
+
+Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04.
+Output queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Which pins make a strobe, the other status bits and
+what makes a byte wait are the part's business.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from ..common.blocks import Context, Phase
+from ..common.scheduler import Event
+from ..motion.codes import IBF, OBF
+
+Take = Callable[[int, int, bool, int], None]
+Strobes = Callable[[Mapping[str, int]], tuple[bool, bool]]
+Waits = Callable[[int, int, bool], bool]
+
+WRITE_SYNC = 2
+READ_SYNC = 2
+
+
+class HostPort:
+    """Bus strobes to bytes and back.
+
+    take(t, byte, is_command, stored_at): the command processor, called on the C-event; stored_at is the
+    write event. state(): all status bits but IBF and OBF. strobes(pins): whether the bus pins make a write
+    strobe and a read strobe. waits(t, byte, is_command): the byte must stay in the buffer at edge t; whoever
+    says so calls `retry` when it may go.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        take: Take,
+        state: Callable[[], int],
+        strobes: Strobes,
+        waits: Waits = lambda t, byte, command: False,
+    ) -> None:
+        self._context = context
+        self._take_byte = take
+        self._state = state
+        self._strobes = strobes
+        self._waits = waits
+        self._pins: dict[str, int] = {}
+        self._writing = self._reading = False
+        self._in_pipe = 0
+        self._buffer = (0, False)
+        self._stored_at = 0
+        self.ibf = self.obf = False
+        self._shown = 0
+        self._queue: list[int] = []
+        self._taken = False
+        self._clearing: Event | None = None
+        self._presenting: Event | None = None
+        self._closed_until = 0
+
+    # ------------------------------------------------------------------ strobes
+
+    def sample(self, t: int, pins: Mapping[str, int]) -> None:
+        """Edge t samples new levels of the bus pins (P104-BUS-05, -06)."""
+        writing, reading = self._strobes(pins)
+        if self._writing and not writing:
+            self._in_pipe += 1
+            byte, command = self._pins["d_i"], bool(self._pins["a0"])
+            self._context.queue.at(t + WRITE_SYNC, Phase.STORE, lambda at: self._store(at, byte, command))
+        self._writing = writing
+        self._pins = dict(pins)
+        if reading != self._reading:
+            self._reading = reading
+            self._context.log.set(t, "d_oe", int(reading))
+            if reading:
+                self._load(t)
+                self._context.queue.at(t + 1, Phase.BUS, self._second_load)
+            elif self._taken:
+                self._taken = False
+                self._clearing = self._context.queue.at(t + READ_SYNC, Phase.QUEUE, self._clear)
+
+    def _second_load(self, t: int) -> None:
+        if self._reading:
+            self._load(t)
+
+    def _load(self, t: int) -> None:
+        """d_o takes the chosen register as it stands just before edge t."""
+        self._taken = False
+        if self._pins["a0"]:
+            value = self.status
+        else:
+            value = self._shown
+            self._taken = self._readable
+        self._context.log.set(t, "d_o", value)
+
+    @property
+    def _readable(self) -> bool:
+        return self.obf and self._clearing is None
+
+    @property
+    def status(self) -> int:
+        """Status register as a read sees it, a byte on its way in or out included."""
+        waiting = self.ibf or self._in_pipe > 0
+        return self._state() | (IBF if waiting else 0) | (OBF if self._readable else 0)
+
+    # ------------------------------------------------------------------ output queue
+
+    def answer(self, values: Iterable[int]) -> None:
+        """A read command loads its bytes; whatever was there is dropped (P104-HSK-08)."""
+        self._queue = list(values)
+        self._shown = self._queue.pop(0)
+        self.obf = True
+        self._taken = False
+        for event in (self._clearing, self._presenting):
+            if event:
+                event.cancel()
+        self._clearing = self._presenting = None
+
+    def _clear(self, t: int) -> None:
+        self._clearing = None
+        self.obf = False
+        if self._queue:
+            at = t + self._context.latency.queue_next
+            self._presenting = self._context.queue.at(at, Phase.QUEUE, self._present)
+
+    def _present(self, t: int) -> None:
+        self._presenting = None
+        self._shown = self._queue.pop(0)
+        self.obf = True
+
+    # ------------------------------------------------------------------ mailbox
+
+    def _store(self, t: int, byte: int, command: bool) -> None:
+        """Write event: the byte replaces one that still waits (P104-HSK-02)."""
+        self._in_pipe -= 1
+        self._buffer = (byte, command)
+        self._stored_at = t
+        self.ibf = True
+        self._context.queue.at(t + self._context.latency.c_event, Phase.COMMAND, self._try)
+
+    def close_until(self, t: int) -> None:
+        """Processing window: no byte is taken before edge t."""
+        self._closed_until = max(self._closed_until, t)
+
+    def retry(self, t: int) -> None:
+        """A waiting byte is looked at again at edge t."""
+        self._context.queue.at(t, Phase.COMMAND, self._try)
+
+    def _try(self, t: int) -> None:
+        latency = self._context.latency
+        if not self.ibf or t < self._stored_at + latency.c_event:
+            return
+        byte, command = self._buffer
+        opens = self._closed_until + (latency.window_open if self._closed_until > self._stored_at else 0)
+        if t < opens:
+            self.retry(opens)
+            return
+        if self._waits(t, byte, command):
+            return
+        self.ibf = False
+        self._take_byte(t, byte, command, self._stored_at)

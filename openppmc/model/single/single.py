@@ -1,0 +1,162 @@
+"""A part with one axis at pin level: what `ppmc104` and `stmc` have in common.
+
+Command bytes on their way in, pin registers on their way out, synchronised inputs to the axis, and the
+properties that tests and tools read.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import ClassVar
+
+from ..common.blocks import Context, Phase, PinRegister
+from ..common.chip import Chip
+from ..common.timebase import Latency, QuantumCounter
+from ..motion.chopper import Chopper
+from ..motion.codes import IBF, OBF
+from ..motion.excitation import ALL_PHASES, Excitation
+from ..motion.guard import GuardPins
+from ..motion.motion import Interval
+from .commands import ByteUnit
+from .hostport import HostPort
+from .timed_motion import TimedMotion
+
+
+class SingleAxis(Chip):
+    """One part. phase_idle: level of `s` from reset to the first initialisation, 0 or 1 (else ValueError).
+
+    Subclasses name their switches in GUARD and the pin of the external clock in CLOCK_PIN.
+    """
+
+    GUARD: ClassVar[GuardPins]
+    CLOCK_PIN: ClassVar[str]
+
+    _port: HostPort
+    _motion: TimedMotion
+    _commands: ByteUnit
+    _excitation: Excitation
+    _chopper: Chopper
+
+    def __init__(
+        self,
+        clk_hz: int,
+        xtal_hz: int,
+        timing: str,
+        outputs: Mapping[str, int],
+        phase_idle: int,
+        latency: Latency | None,
+    ) -> None:
+        if phase_idle not in (0, 1):
+            raise ValueError(f"phase_idle {phase_idle} is neither 0 nor 1")
+        super().__init__(clk_hz, xtal_hz, timing, {**outputs, "s": ALL_PHASES if phase_idle else 0}, latency)
+        self._phase_idle = phase_idle
+        counter = QuantumCounter(self.timebase, self.latency.reset_tick)
+        self._context = Context(
+            self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, dict(self.INPUTS)
+        )
+        self._build()
+
+    # ------------------------------------------------------------------ for the part
+
+    @abstractmethod
+    def _blocks(self, context: Context) -> None:
+        """Make `_port`, `_motion`, `_commands` and `_chopper` in their reset state."""
+
+    @abstractmethod
+    def _motor_levels(self) -> dict[str, int]:
+        """Internal levels behind the motor pins, but for `s`."""
+
+    # ------------------------------------------------------------------ inside of `chip`
+
+    def _build(self) -> None:
+        """Fresh blocks in their reset state."""
+        self._excitation = Excitation(self._phase_idle)
+        self._blocks(self._context)
+        at_rest = {name: self._reset_levels[name] for name in ("s", *self._motor_levels())}
+        self._motor_pins = PinRegister(self._queue, self.latency.motor_pins, at_rest, self.log.set)
+
+    def _take(self, t: int, byte: int, command: bool, stored_at: int) -> None:
+        """C-event; DATASHEET times count from the write event, or from the end of a wait."""
+        latency = self.latency
+        waited = t > stored_at + latency.c_event
+        reference = t + latency.ds_waited if waited else stored_at + latency.ds_host
+        self._commands.take(t, byte, command, reference)
+
+    def _state(self) -> int:
+        return self._commands.state()
+
+    def _latch(self, t: int) -> None:
+        phases = self._excitation.pattern if self._chopper.on else self._excitation.chopped
+        self._motor_pins.latch(t, {"s": phases, **self._motor_levels()})
+
+    def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
+        self._port.sample(t, pins)
+
+    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+        inside = self._context.levels
+        was = inside[self.CLOCK_PIN]
+        judged = any(inside[pin] != levels[pin] for pin in self.GUARD.all)
+        inside.update(levels)
+        if judged:
+            self._queue.at(t, Phase.GUARD, self._motion.judge)
+        if levels[self.CLOCK_PIN] != was:
+            edge = self._motion.base_fall if was else self._motion.base_rise
+            self._queue.at(t, Phase.BASE, edge)
+
+    def _restart(self) -> None:
+        self._context.levels = {**self.INPUTS, self.CLOCK_PIN: self._pins[self.CLOCK_PIN]}
+        self._build()
+
+    def _released(self, t: int) -> None:
+        self._context.counter.restart(t + self.latency.reset_tick)
+
+    def _strobe(self, write: bool, reg: int) -> dict[str, int]:
+        return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a0": reg}
+
+    def clock_rise(self, t: int) -> None:
+        """A rising edge of the external clock acts at edge t; its pin stands still. For boards with a clock
+        of their own: all its edges at the pin would take the model too long."""
+        self._queue.at(t, Phase.BASE, self._motion.base_rise)
+
+    # ------------------------------------------------------------------ what there is to see
+
+    @property
+    def counts_clock(self) -> bool:
+        """An operation runs that counts the external clock."""
+        return self._motion.external
+
+    @property
+    def busy(self) -> bool:
+        """BUSY."""
+        return self._motion.busy
+
+    @property
+    def status(self) -> int:
+        """Status register without the look-ahead of the read path."""
+        return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)
+
+    @property
+    def index(self) -> int | None:
+        """Ramp index of the running interval, None at rest, before the first pulse and in constant speed."""
+        return self._motion.index
+
+    @property
+    def intervals(self) -> list[Interval]:
+        """Intervals of the present or last operation."""
+        return self._motion.intervals
+
+    @property
+    def initialised(self) -> bool:
+        """An initialisation is in force (its table build may still run)."""
+        return self._commands.setup is not None
+
+    @property
+    def finish(self) -> int:
+        """Finish status as the next 0x80 would return it."""
+        return self._motion.finish
+
+    @property
+    def remaining(self) -> int:
+        """Remaining-pulse value as the read command would return it."""
+        return self._motion.remaining

@@ -1,0 +1,68 @@
+"""The modelled board with an STMC and the step clock of the J105 board."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from ..carrier.carrier import Board
+from ..carrier.plant import SWITCHES, Plant
+from ..common.edges import Edge
+from ..motion.excitation import ALL_PHASES, step_directions
+from .codes import BOARD_CLOCK_HZ
+from .part import Stmc
+
+_PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), strict=True))
+
+
+class BoardStmc(Board):
+    """Wired as stmc_board: no straps, MON in the place of the alarm. The motor follows the phases.
+
+    The step clock only ticks while a motion counts it.
+    """
+
+    NUMBER = 105
+    _directions_of = step_directions()
+
+    def __init__(
+        self,
+        plant: Plant,
+        clk_hz: int = 16_000_000,
+        xtal_hz: int = 16_000_000,
+        timing: str = "FAST",
+        on_interrupt: Callable[[], None] = lambda: None,
+        read_map: str = "SHEET",
+    ) -> None:
+        self._phases = 0
+        self._tick = 0
+        super().__init__(Stmc(clk_hz, xtal_hz, timing, read_map), [plant], on_interrupt)
+
+    def switch_pins(self, levels: Sequence[dict[str, int]]) -> dict[str, int]:
+        return {_PINS[name]: level for name, level in levels[0].items()}
+
+    def straps(self, levels: int) -> None:
+        """None are wired."""
+
+    def pins(self) -> int:
+        self._settle()
+        return self.pin_byte(self.part.outputs["hold"], 0)
+
+    def reset(self) -> None:
+        super().reset()
+        self._phases = self._tick = 0
+
+    def _next_event(self) -> int | None:
+        if self.part.counts_clock and self._tick <= self.part.now:
+            # Rise n = 0, 1, .. of a square wave comes (n + 1/2) periods after power-up.
+            rise = (self.part.now * 2 * BOARD_CLOCK_HZ // self.clk_hz + 1) // 2
+            self._tick = -(-(2 * rise + 1) * self.clk_hz // (2 * BOARD_CLOCK_HZ))
+            self.part.clock_rise(self._tick)
+        return super()._next_event()
+
+    def _follow(self, edge: Edge) -> None:
+        if edge.signal != "s":
+            super()._follow(edge)
+        elif edge.value not in (0, ALL_PHASES):  # else the chopper, or no initialisation yet
+            step = self._directions_of.get((self._phases, edge.value))
+            self._phases = edge.value
+            if step is not None:
+                self._step(0, step)

@@ -1,0 +1,90 @@
+"""Golden model of the STMC stepper controller core at pin level, event driven and exact to the clk.
+
+Pins and time: `chip`, `single`. Blocks: `hostport` (STMC-BUS), `commands` and `commands_stmc` (STMC-ST, -CMD,
+-INI, -RD), `motion`, `timed_motion` and `motion_stmc` (STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS), `chopper`
+(STMC-CHP), `excitation` (STMC-EXC), `ramp` (STMC-RMP). Here: parameters and reset values of chapter 1. The
+constants that the rules leave open are in `timebase.Latency`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..common.blocks import Context
+from ..common.timebase import Latency
+from ..motion.chopper import Chopper
+from ..single.hostport import HostPort
+from ..single.single import SingleAxis
+from ..single.strobes import strobes
+from .codes import READ_MAPS
+from .commands import CommandUnitStmc
+from .motion import MotionStmc
+from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
+
+# The table of 16-bit thresholds takes longer to build than that of the sister parts.
+LATENCY = Latency(build_base=2068, build_per_slow=53, build_per_rate=71)
+
+
+@dataclass(frozen=True)
+class FixedSwitching:
+    """Chopper times in crystal periods, rounded up to whole quanta (STMC-CHP-01)."""
+
+    on: int
+    off: int
+    quantum: int
+
+    def quanta(self, on: bool) -> int:
+        """Length of a phase that begins now."""
+        return -(-(self.on if on else self.off) // self.quantum)
+
+
+class Stmc(SingleAxis):
+    """One STMC core.
+
+    clk_hz 8e6..200e6, xtal_hz 1e6..20e6, timing "FAST" or "DATASHEET", read_map "SHEET" or "FAMILY",
+    phase_idle 0 or 1, hold_xt, chop_on_xt and chop_off_xt in crystal periods, at least 1; ValueError for
+    anything else. The model starts just released from reset, before edge 0.
+    """
+
+    XTAL_MAX = 20_000_000
+    INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
+    GUARD, CLOCK_PIN = GUARD, "ext_clk"
+
+    def __init__(
+        self,
+        clk_hz: int = 16_000_000,
+        xtal_hz: int = 16_000_000,
+        timing: str = "FAST",
+        read_map: str = "SHEET",
+        phase_idle: int = 0,
+        hold_xt: int = 544_000,
+        chop_on_xt: int = 1_040,
+        chop_off_xt: int = 1_740,
+        latency: Latency | None = None,
+    ) -> None:
+        if read_map not in READ_MAPS:
+            raise ValueError(f"read_map {read_map!r} is neither SHEET nor FAMILY")
+        if min(hold_xt, chop_on_xt, chop_off_xt) < 1:
+            raise ValueError(f"hold {hold_xt}, chopper {chop_on_xt} and {chop_off_xt} crystal periods")
+        self._read_map = read_map
+        self._hold_xt = hold_xt
+        self._chop_xt = (chop_on_xt, chop_off_xt)
+        super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, phase_idle, latency or LATENCY)
+
+    def _blocks(self, context: Context) -> None:
+        self._chopper = Chopper(context, FixedSwitching(*self._chop_xt, self.timebase.quantum))
+        self._port = HostPort(context, self._take, self._state, strobes)
+        self._motion = motion = MotionStmc(
+            context, self._port, self._excitation, self._chopper, self._hold_xt
+        )
+        self._commands = CommandUnitStmc(
+            context, self._port, motion, self._excitation, self._chopper, self._read_map
+        )
+
+    def _motor_levels(self) -> dict[str, int]:
+        return {"hold": self._motion.hold}
+
+    @property
+    def position(self) -> int:
+        """Position in the excitation table."""
+        return self._excitation.index

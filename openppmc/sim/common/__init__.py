@@ -1,0 +1,1 @@
+"""The virtual board, its build, its text, and lines of stations."""

@@ -1,0 +1,181 @@
+"""Builds the program of the virtual board when its sources have changed: Verilator, make, g++."""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from . import verilator
+from .verilator import SimError
+
+BOARDS = "rtl/boards"
+PARTS = {"ppmc104": 104, "ppmc2104": 2104, "stmc": 105, "ppmc312": 312}
+"""Numbers of the parts, for the C++ (tb/board/pins.h)."""
+GROUPS = ("common", "motion", "host", "single")  # and those of the part
+OWN_GROUPS = {"ppmc312": ("stage", "ppmc312")}
+KEEP_DAYS = 7
+# Assertions would cost a third of the speed, and `make test` has them all.
+# One C++ file: the precompiled header of split ones does not work with every Verilator.
+VERILATE = (
+    "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
+)
+
+
+def find_root() -> Path:
+    """The checkout of the project: OPENPPMC_ROOT, where this package lies, or the current folder."""
+    named = os.environ.get("OPENPPMC_ROOT")
+    here = Path.cwd()
+    places = [Path(named)] if named else [Path(__file__).resolve().parents[3], here, *here.parents]
+    for place in places:
+        if (place / BOARDS).is_dir() and (place / "tb/board/main.cpp").is_file():
+            return place.resolve()
+    if named:
+        raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC there")
+    raise SimError(
+        "the virtual board is built from the RTL, so it needs a checkout of OpenPPMC: run the command "
+        "in one, name one with OPENPPMC_ROOT, or use model: instead"
+    )
+
+
+def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[str], None]) -> Path:
+    """The program for a part, a key of PARTS, built if need be; `say` gets a line when that takes time.
+    Raises SimError.
+
+    params: of the board's top, CLK_HZ among them. trace: with waveforms, which makes a slower program. Safe
+    against other processes doing the same.
+    """
+    if not sys.platform.startswith("linux"):
+        raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
+    root = find_root()
+    rtl, cpp = _rtl(root, part), sorted((root / "tb/board").glob("*.cpp"))
+    version = verilator.version()
+    flags = [
+        *VERILATE,
+        *(["--trace-vcd"] if trace else []),
+        *("--top-module", f"{part}_board", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
+        *(
+            f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}"
+            for name, value in params.items()
+        ),
+        *(
+            "-CFLAGS",
+            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -DBOARD_PART={PARTS[part]}",
+            "-o",
+            "board",
+        ),
+        # The makefile would append its own -Os for these files.
+        *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
+    ]
+    folder = root / "build/board" / _digest([*rtl, *cpp, *_headers(root)], [version, *flags], root)
+    program = folder / "board"
+    with _locked(folder.with_suffix(".lock")):
+        if program.is_file():
+            os.utime(folder)
+            return program
+        for tool in ("make", "g++", "perl"):
+            if shutil.which(tool) is None:
+                raise SimError(
+                    f"{tool} is not installed: install it with the package manager (apt install {tool})"
+                )
+        say("building the virtual board; this takes some 20 s, once …")
+        _forget_old(folder.parent)
+        work = folder.with_suffix(".part")
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        runtime = folder.parent / f"runtime-{_digest([], [version, str(trace)], root)}"
+        copy_runtime(runtime, work)
+        words = [*flags, "-j", str(min(4, os.cpu_count() or 1)), "--Mdir", str(work)]
+        _run([*words, *map(str, rtl), *map(str, cpp)], work, folder.with_suffix(".log"))
+        copy_runtime(work, runtime)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        (work / "board").rename(program)
+        shutil.rmtree(work)
+        return program
+
+
+def copy_runtime(source: Path, target: Path) -> None:
+    """Objects of Verilator's run-time library into `target`, unless they are there; compiling them takes
+    longer than a design does. They are the same for all builds with the same arguments of compiler and
+    Verilator. Both folders lie in the same one."""
+    with _locked(target.parent / "runtime.lock"):
+        target.mkdir(parents=True, exist_ok=True)
+        if not any(target.glob("verilated*.o")):
+            # Not verilator.o: that is cocotb's main program, compiled for the ports of one design.
+            for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
+                shutil.copy(path, target)
+                # Newer than the makefile that is yet to be written, or make would compile them again.
+                os.utime(target / path.name, (time.time(), time.time() + 3_600))
+
+
+def _rtl(root: Path, part: str) -> list[Path]:
+    """Sources of the part's board in compile order, from rtl/files.yml (read without a YAML package)."""
+    groups: dict[str, list[str]] = {}
+    group = ""
+    for line in (root / "rtl/files.yml").read_text(encoding="utf-8").splitlines():
+        if match := re.match(r"(\w+):\s*$", line):
+            group = match[1]
+        elif match := re.match(r"\s*-\s*(\S+)", line):
+            groups.setdefault(group, []).append(match[1])
+    wanted = (*GROUPS, *OWN_GROUPS.get(part, (part,)))
+    files = [root / "rtl" / name for key in wanted for name in groups.get(key, [])]
+    shared = ("ppmc_board_host", "ppmc_board_steps")
+    files += [
+        root / "rtl" / name for name in groups["boards"] if Path(name).stem in (*shared, f"{part}_board")
+    ]
+    missing = [file.name for file in files if not file.is_file()]
+    if missing:
+        raise SimError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")
+    return files
+
+
+def _headers(root: Path) -> list[Path]:
+    return sorted([*(root / "tb/board").glob("*.h"), *(root / "rtl/common").glob("*.svh")])
+
+
+def _digest(files: list[Path], words: list[str], root: Path) -> str:
+    sha = hashlib.sha256(repr([word.replace(str(root), "") for word in words]).encode())
+    for file in files:
+        sha.update(file.name.encode() + b"\0" + file.read_bytes() + b"\0")
+    return sha.hexdigest()[:16]
+
+
+def _run(words: list[str], folder: Path, log: Path) -> None:
+    command, env = verilator.command(words, folder), verilator.environment(folder)
+    with open(log, "w", encoding="utf-8") as out:
+        done = subprocess.run(
+            command, cwd=folder, env=env, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL
+        )
+    if done.returncode:
+        text = log.read_text(encoding="utf-8", errors="replace")
+        first = next((line.strip() for line in text.splitlines() if "rror" in line), "no message")
+        raise SimError(f"the virtual board does not build: {first} (the whole log: {log})")
+
+
+def _forget_old(folder: Path) -> None:
+    """Remove builds that nobody has used for a week: every change of the RTL leaves one behind."""
+    for program in folder.glob("*/board"):
+        if time.time() - program.parent.stat().st_mtime > KEEP_DAYS * 86_400:
+            shutil.rmtree(program.parent, ignore_errors=True)
+
+
+@contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    """Exclusive between processes."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle = open(path, "w", encoding="utf-8")
+    except OSError as error:
+        raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
+    with handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield

@@ -1,0 +1,100 @@
+"""A virtual line that runs in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..ppmc312.line_spec import PART
+from .board import Child
+from .build import SimError
+from .lines import LINES, part_of
+from .spec import SpecError
+
+
+@dataclass(frozen=True)
+class StationStatus:
+    """A station: its number, where its motor is, its state; levels of its inputs and outputs if it has such,
+    number 1 last."""
+
+    number: int
+    position: int
+    state: str
+    inputs: str = ""
+    outputs: str = ""
+
+    @property
+    def text(self) -> str:
+        """For the user.
+
+        >>> StationStatus(5, 120, "idle", "11111", "00001").text
+        '5: 120 idle in 11111 out 00001'
+        """
+        pins = f" in {self.inputs} out {self.outputs}" if self.inputs else ""
+        return f"{self.number}: {self.position} {self.state}{pins}"
+
+
+@dataclass(frozen=True)
+class LineStatus:
+    """What the line shows. seconds: its time. factor: its time / wall time lately. lost: characters for the
+    host that found no room."""
+
+    seconds: float
+    factor: float
+    lost: int
+    stations: tuple[StationStatus, ...]
+
+    @classmethod
+    def parse(cls, line: str) -> LineStatus:
+        """From the program's own words.
+
+        >>> LineStatus.parse("seconds=1.5 factor=1.0 lost=0 stations=3:-20:NOR").stations[0].position
+        -20
+        """
+        words = dict(word.partition("=")[::2] for word in line.split())
+        stations = tuple(
+            StationStatus(int(number), int(position), *more)
+            for number, position, *more in (one.split(":") for one in words["stations"].split(","))
+        )
+        return cls(float(words["seconds"]), float(words["factor"]), int(words["lost"]), stations)
+
+    def text(self) -> str:
+        """One line for the user."""
+        stations = "  ".join(one.text for one in self.stations)
+        return f"{self.seconds:9.1f} s  {self.factor:.2f} x real time  {stations}"
+
+
+class SimLine(Child):
+    """A virtual line; see `Child`. spec: what was asked for. part: of the stations, unless the text says."""
+
+    def __init__(self, text: str, part: str = PART) -> None:
+        self.part = part_of(text) or part
+        try:
+            self.spec = LINES[self.part].parse(text)
+        except ValueError as error:
+            raise SpecError(str(error)) from None
+        if not sys.platform.startswith("linux"):
+            raise SimError("the virtual line needs Linux (its pseudo-terminals): use model: instead")
+        # The package may not be installed: the child finds it where this one is.
+        here = str(Path(__file__).resolve().parents[3])
+        paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+        named = text if part_of(text) else ",".join(filter(None, [text, f"part={self.part}"]))
+        super().__init__([sys.executable, "-m", "openppmc.sim.common.line_server", named], environment)
+
+    def status(self) -> LineStatus:
+        """What the line shows now. Raises SimError when the program has ended."""
+        return LineStatus.parse(self._ask_status())
+
+    def set_inputs(self, number: int, levels: str) -> LineStatus:
+        """Levels of the general inputs of a station, number 1 last, as "11111"; returns what shows then."""
+        return LineStatus.parse(self._ask_status(f"inputs {number} {levels}"))
+
+
+def start_line(text: str = "", part: str = PART) -> SimLine:
+    """Start a virtual line: `start_line("stations=4,speed=max")`. part: of the stations, if the text names
+    none. Raises SpecError (a ValueError) for a bad
+    text, SimError (a RuntimeError) if it does not start."""
+    return SimLine(text, part)

@@ -1,0 +1,127 @@
+"""The text after `sim:`: plant words and options of the virtual board, checked before anything is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...model.carrier.plant import PLANT_WORDS, Plant, parse_machine, stmc_read_map
+
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "vcd", "vcd_from", "vcd_for", "log")
+PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
+KNOWN = ", ".join((*PLANT_WORDS, *OPTIONS))
+
+
+class SpecError(ValueError):
+    """The text of a virtual board is wrong; one line that says what and what is known."""
+
+
+@dataclass(frozen=True)
+class Spec:
+    """A virtual board as it was asked for.
+
+    part: ppmc104, ppmc2104, stmc or ppmc312. plants: one an axis. speed: times real time, None: as fast as
+    the machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6).
+    xtal_hz: crystal of the emulated chip, 1e6 … 16e6 (stmc: 20e6). timing: FAST or DATASHEET. read_map: of
+    an stmc, SHEET or FAMILY. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log:
+    file that gets a line a pulse, or None.
+    """
+
+    part: str = "ppmc104"
+    plants: tuple[Plant, ...] = (Plant(),)
+    speed: float | None = 1.0
+    clk_hz: int = 8_000_000
+    xtal_hz: int = 16_000_000
+    timing: str = "FAST"
+    read_map: str = "SHEET"
+    vcd: Path | None = None
+    vcd_from: float = 0.0
+    vcd_for: float = 20.0
+    log: Path | None = None
+
+    @property
+    def parameters(self) -> dict[str, int | str]:
+        """Parameters of the board's top module."""
+        own: dict[str, int | str] = {"READ_MAP": self.read_map} if self.part == "stmc" else {}
+        return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, "TIMING": self.timing, **own}
+
+    def arguments(self) -> list[str]:
+        """Arguments of the program in tb/board."""
+        words = []
+        for plant, suffix in zip(self.plants, ("", "2"), strict=False):
+            words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLACES]
+            if self.part == "ppmc312":
+                words.append(f"index={plant.index}")
+            if plant.block is not None:
+                words.append(f"block={plant.block}")
+            if plant.alarm is not None:
+                words.append(f"alarm{suffix}={plant.alarm[0]}..{plant.alarm[1]}")
+        words.append(f"speed={'max' if self.speed is None else self.speed}")
+        if self.vcd is not None:
+            words += [f"vcd={self.vcd}", f"vcd_from={self.vcd_from}", f"vcd_for={self.vcd_for}"]
+        if self.log is not None:
+            words.append(f"log={self.log}")
+        return words
+
+
+def parse_spec(text: str = "", **options: object) -> Spec:
+    """Spec from `word=value,word=value`; options have the same names and win. Raises SpecError."""
+    words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
+    try:
+        machine = parse_machine(",".join(words))
+        read_map = stmc_read_map(machine.part, machine.others.get("read_map"))
+    except ValueError as error:
+        raise SpecError(f"{error} (there are {KNOWN})") from None
+    rest = machine.others
+    for word in rest:
+        if word not in OPTIONS:
+            raise SpecError(f"unknown word {word!r} (there are {KNOWN})")
+    for plant, suffix in zip(machine.plants, ("", "2"), strict=False):
+        if plant.ccw >= plant.cw:
+            words = f"cw{suffix}={plant.cw},ccw{suffix}={plant.ccw}"
+            raise SpecError(f"{words}: the CW limit must lie above the CCW limit")
+    timing = rest.get("timing", "FAST").upper()
+    if timing not in ("FAST", "DATASHEET"):
+        raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
+    if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
+        raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
+    speed, stmc = rest.get("speed", "1"), machine.part == "stmc"
+    return Spec(
+        machine.part,
+        machine.plants,
+        None if speed == "max" else _number("speed", speed, 0.001, 1000, "or max"),
+        _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000),
+        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, 20_000_000 if stmc else 16_000_000),
+        timing,
+        read_map,
+        _file("vcd", rest),
+        _number("vcd_from", rest.get("vcd_from", "0"), 0, 1e9, "ms"),
+        _number("vcd_for", rest.get("vcd_for", "20"), 0.001, 1e6, "ms"),
+        _file("log", rest),
+    )
+
+
+def _number(word: str, text: str, low: float, high: float, unit: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not low <= value <= high:
+        raise SpecError(f"{word}={text}: expected {low:g} to {high:g} {unit}")
+    return value
+
+
+def _whole(word: str, text: str, low: int, high: int) -> int:
+    value = _number(word, text, low, high, "Hz")
+    if value != int(value):
+        raise SpecError(f"{word}={text}: expected a whole number of Hz")
+    return int(value)
+
+
+def _file(word: str, rest: dict[str, str]) -> Path | None:
+    if word not in rest:
+        return None
+    path = Path(rest[word]).absolute()
+    if path.is_dir() or not path.parent.is_dir():
+        raise SpecError(f"{word}={rest[word]}: not a file that can be written")
+    return path

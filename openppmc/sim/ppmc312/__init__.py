@@ -1,0 +1,1 @@
+"""A virtual line of PPMC-312."""
