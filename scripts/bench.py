@@ -21,15 +21,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.table import Table
 
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.compare import new_model, replay
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.runner import SimError, build, part_design, run_sim
-from cocotb_tests.common.stimulus import Recording
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.compare import new_model, replay
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.project import console
+from cocotb_tests.harness.runner import SimError, build, part_design, run_sim
+from cocotb_tests.harness.stimulus import Recording
 from scripts.flow import plain_sim
 from scripts.flow.report import markdown_table
-from scripts.project import console
 
 RUNS = 3
 FOLDER = project.BUILD / "bench"
@@ -71,7 +71,7 @@ def measure(part: str) -> tuple[Recording, dict[str, list[float]]]:
     console.print("building …")
     build(design)
     program = plain_sim.build(design, project.BUILD / "plain" / part)
-    item = Item("cocotb_tests.demo.tb_demo", "demo_move", F16, part, ())
+    item = Item("cocotb_tests.ppmc104.demo", "demo_move", F16, part, ())
     times: dict[str, list[float]] = {side: [] for side in LABELS}
     for run in range(1, RUNS + 1):
         times["rtl"].append(seconds(lambda: run_sim(design, item, seed=1, folder=FOLDER, repro="make bench")))

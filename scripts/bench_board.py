@@ -15,13 +15,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.table import Table
 
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import console
 from openppmc import sim
 from openppmc.host import Ppmc104, PpmcError
 from openppmc.host.bridge.script import Script
-from scripts import project
 from scripts.bench import machine
 from scripts.flow.report import markdown_table
-from scripts.project import console
 
 BLOCK = 255
 CLK_HZ = 8_000_000

@@ -13,18 +13,18 @@ from statistics import median
 
 from rich.table import Table
 
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.runner import SimError, build, run_sim
-from cocotb_tests.common.stimulus import Recording
-from cocotb_tests.demo.tb_demo_312_serial import program
-from cocotb_tests.ppmc312_line.compare import compare_line
-from cocotb_tests.ppmc312_line.library import FAST_ARGS
-from cocotb_tests.ppmc312_line.master import Master, at_once
-from cocotb_tests.ppmc312_line.models import ModelLine
-from cocotb_tests.ppmc312_line.setting import F8L, LINE, STATIONS, design
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.project import console
+from cocotb_tests.harness.runner import SimError, build, run_sim
+from cocotb_tests.harness.stimulus import Recording
+from cocotb_tests.ppmc312.line.compare import compare_line
+from cocotb_tests.ppmc312.line.demo import program
+from cocotb_tests.ppmc312.line.library import FAST_ARGS
+from cocotb_tests.ppmc312.line.master import Master, at_once
+from cocotb_tests.ppmc312.line.models import ModelLine
+from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
 from scripts.flow.report import markdown_table
-from scripts.project import console
 
 NAME = "ppmc312-serial"
 RUNS = 3
@@ -54,7 +54,7 @@ def measure() -> list[tuple[str, int, float, float]]:
     console.print("building …")
     made = design(F8L, FAST_ARGS)
     build(made)
-    item = Item("cocotb_tests.demo.tb_demo_312_serial", "demo_line", F8L, LINE.name, ())
+    item = Item("cocotb_tests.ppmc312.line.demo", "demo_line", F8L, LINE.name, ())
     repro = f"make bench PART={NAME}"
     times: dict[str, list[tuple[float, float]]] = {"rtl": [], "models": [], "replay": []}
     clk = 0

@@ -11,9 +11,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console
 from scripts.flow.boards import BOARDS, BY_PART, HOSTS, build_board
-from scripts.project import ProjectError, console
 
 
 def arguments() -> argparse.Namespace:

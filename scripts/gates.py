@@ -21,11 +21,11 @@ from rich import box
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from cocotb_tests.common.runner import SimError, SimOptions, attempt, build
-from cocotb_tests.gates.suite import GateTest, chosen, everything, left_out
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.runner import SimError, SimOptions, attempt, build
+from scripts.flow.gate_suite import GateTest, chosen, everything, left_out
 from scripts.pool import as_done
-from scripts.project import ProjectError, console
 
 # A failing test runs again with waves, which needs another build: only when few tests were asked for.
 WAVES_UP_TO = 20

@@ -20,11 +20,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.markup import escape
 
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console, relative
 from openppmc.sim.common import verilator as start
-from scripts import project
 from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources
-from scripts.project import ProjectError, console, relative
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"

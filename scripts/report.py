@@ -18,13 +18,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from scripts import bridges, project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import console, fail
+from scripts import bridges
 from scripts.flow import size_page, sizes, targets
 from scripts.flow.netlist import Count
 from scripts.flow.synthesis import SEEDS, all_seeds, synthesize
 from scripts.flow.targets import Target
 from scripts.flow.yosys_job import BEST
-from scripts.project import console, fail
 
 Tell = Callable[[str], None]
 

@@ -23,16 +23,16 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from cocotb_tests.harness.project import ProjectError, console, part
 from scripts import soak_line
 from scripts.pool import as_done
-from scripts.project import ProjectError, console, part
 
 
 def one(part_name: str, seed: int) -> tuple[int, str, str]:
     """Run one seed in this process; returns (seed, test id, message or "")."""
     if part_name == soak_line.NAME:
         return soak_line.one(seed)
-    from cocotb_tests.common.runner import attempt
+    from cocotb_tests.harness.runner import attempt
 
     item = importlib.import_module(f"cocotb_tests.{part_name}.test_random").random_item(seed)
     return seed, item.id, attempt(item)

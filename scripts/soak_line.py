@@ -18,12 +18,12 @@ REPEAT = f"make soak PART={NAME} SEED={{}} COUNT=1"
 
 def one(seed: int) -> tuple[int, str, str]:
     """Run one seed in this process; returns (seed, test id, message or "")."""
-    from cocotb_tests.common.runner import attempt
+    from cocotb_tests.harness.runner import attempt
+    from cocotb_tests.ppmc312.line.master import Master, at_once
+    from cocotb_tests.ppmc312.line.setting import design
+    from cocotb_tests.ppmc312.line.stream import model_line, play
+    from cocotb_tests.ppmc312.line.test_line import stream_item
     from cocotb_tests.ppmc312.serial_streams import campaign
-    from cocotb_tests.ppmc312_line.master import Master, at_once
-    from cocotb_tests.ppmc312_line.setting import design
-    from cocotb_tests.ppmc312_line.stream import model_line, play
-    from cocotb_tests.ppmc312_line.test_line import stream_item
 
     item = stream_item(seed)
     count = random.Random(seed).choice((4, 4, 8, 16))

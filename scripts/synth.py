@@ -24,7 +24,8 @@ from rich.progress import (
 )
 from rich.table import Table
 
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import console
 from scripts.flow import pnr
 from scripts.flow.netlist import Breakdown, flat_counts
 from scripts.flow.report import LUT_NAME, breakdown_table, device_rows, markdown
@@ -39,7 +40,6 @@ from scripts.flow.synthesis import (
     wrapped_netlist,
 )
 from scripts.flow.yosys_job import BEST, RECIPES
-from scripts.project import console
 
 VARIANTS: tuple[tuple[str, dict[str, int | str]], ...] = (
     ("CLK_HZ = 100 MHz", {"CLK_HZ": 100_000_000}),

@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cocotb_tests.common.verifies import manual_rules, part_of_rule
-from scripts.project import BUILD, DOCS, ProjectError, console, part
+from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part
+from cocotb_tests.harness.verifies import manual_rules, part_of_rule
 
 CHECK = re.compile(r"AC-|P312-CHK-|P006-AC-")
 RESULTS = BUILD / "trace" / "results.jsonl"
@@ -139,7 +139,7 @@ def page(trace: Trace, part_name: str) -> str:
         "",
         f"{passing} of {len(rules)} rules and {passing_checks} of {len(checks)} acceptance checks have tests"
         " that all pass. A number after × says how often a test ran (seeds or configurations);"
-        " the names in brackets are the build configurations of `cocotb_tests/common/config.py`.",
+        " the names in brackets are the build configurations of `cocotb_tests/harness/config.py`.",
         "",
         "## Rules",
         "",

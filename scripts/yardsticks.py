@@ -16,14 +16,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.table import Table
 
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import console
 from scripts.flow import pnr
 from scripts.flow.netlist import flat_counts
 from scripts.flow.peers import OLDER, WHERE, read
 from scripts.flow.report import markdown_table, recipe_words
 from scripts.flow.synthesis import SEEDS, run_yosys, wrapped_netlist
 from scripts.flow.yosys_job import BEST
-from scripts.project import console
 
 FOLDER = project.BUILD / "yardsticks"
 ECP5 = pnr.DEVICES[0]

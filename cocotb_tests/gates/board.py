@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.config import Config
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.config import Config
 
 TOP = "ppmc104_board"
 MODULE = "cocotb_tests.gates.tb_board"

@@ -8,10 +8,10 @@ from typing import Any
 import cocotb
 from cocotb.triggers import Timer
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.config import configs
 from cocotb_tests.gates.board import B24
 from cocotb_tests.gates.uart import Uart
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.config import configs
 from openppmc.host.bridge.frames import encode
 from openppmc.host.bridge.script import RATES, Identity, Result, Script
 from openppmc.model.ppmc104.part import Ppmc104

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from cocotb_tests.common.scripts import building
+from cocotb_tests.harness.scripts import building
 
 from .modules import F8B
 

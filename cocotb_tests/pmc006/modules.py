@@ -7,7 +7,7 @@ timing mode with the other reply to s.
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import F16, Config
+from cocotb_tests.harness.config import F16, Config
 
 FAST_LINE = ("BAUD", 115_200)
 F8B = Config("f8b", clk_hz=8_000_000, extra=(FAST_LINE,))

@@ -7,7 +7,7 @@ from collections import Counter
 from math import ceil
 from typing import Any
 
-from cocotb_tests.common.background import Background
+from cocotb_tests.harness.background import Background
 
 from .frames import command
 from .random_program import SPEEDS

@@ -10,9 +10,9 @@ from collections import Counter
 from collections.abc import Callable
 from math import ceil
 
-from cocotb_tests.common.background import Background
-from cocotb_tests.common.config import Config
-from cocotb_tests.common.scripts import building
+from cocotb_tests.harness.background import Background
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.scripts import building
 
 from .modules import D8E, F8B, ODD
 from .random_faults import Faults

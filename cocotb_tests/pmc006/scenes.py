@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from cocotb_tests.common.part import PMC006
-from cocotb_tests.common.scripts import parameters
+from cocotb_tests.harness.part import PMC006
+from cocotb_tests.harness.scripts import parameters
 from openppmc.model.carrier.eeprom import Eeprom24C32
 
 from .script_host import Host006

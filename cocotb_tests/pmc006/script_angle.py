@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .reference import HOME, boost, code, increment, lead, sines
 from .scenes import after_steps, brisk, move, quick, rest, run, start

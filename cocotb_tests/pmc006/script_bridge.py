@@ -6,7 +6,7 @@ import random
 from itertools import pairwise
 from math import ceil
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .scenes import after_steps, brisk, rest, run, start
 from .script_host import Host006

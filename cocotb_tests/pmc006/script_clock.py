@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .reference import HOME, code, sines
 from .scenes import Op, after_steps, image, load, page, quick, rest, run, start, with_eeprom

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .frames import signed
 from .scenes import (

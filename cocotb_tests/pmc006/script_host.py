@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.common.part import PMC006
-from cocotb_tests.common.script import Script
-from cocotb_tests.common.scripts import parameters, simulating
-from cocotb_tests.common.serial_line import SerialLine, characters
-from cocotb_tests.common.stimulus import Access
+from cocotb_tests.harness.part import PMC006
+from cocotb_tests.harness.script import Script
+from cocotb_tests.harness.scripts import parameters, simulating
+from cocotb_tests.harness.serial_line import SerialLine, characters
+from cocotb_tests.harness.stimulus import Access
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.part import Pmc006
 

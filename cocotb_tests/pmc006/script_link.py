@@ -7,7 +7,7 @@ from math import ceil
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .frames import checked, command, reply
 from .scenes import DECAY, device, image, quick

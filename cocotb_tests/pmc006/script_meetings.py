@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import ceil
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .frames import command
 from .scenes import DECAY, EXT1, Op, after_steps, brisk, download, goto, load, out, quick, run, start

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 from .scenes import DECAY, FACTORY_PAGE, P1, device, download, image, page, quick, start, words
 from .script_eeprom import BLINK, FACTORY, SAVED, VALUES, booted, values

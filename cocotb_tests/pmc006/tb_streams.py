@@ -6,13 +6,13 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.config import configs
-from cocotb_tests.common.part import PMC006
-from cocotb_tests.common.scripts import building
-from cocotb_tests.common.stimulus import Edge
-from cocotb_tests.common.tape import record
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.config import configs
+from cocotb_tests.harness.part import PMC006
+from cocotb_tests.harness.scripts import building
+from cocotb_tests.harness.stimulus import Edge
+from cocotb_tests.harness.tape import record
+from cocotb_tests.harness.verifies import verifies
 
 from .modules import F8B
 from .scenes import after_steps, brisk, run

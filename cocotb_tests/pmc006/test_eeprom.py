@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.part import Part
-from cocotb_tests.common.paths import ROOT
-from cocotb_tests.common.runner import Design, SimOptions, run_item
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.runner import Design, SimOptions, run_item
 from openppmc.model.carrier.eeprom import Eeprom24C32
 
 from .tb_eeprom import WRITE_CLK

@@ -10,9 +10,9 @@ from collections import Counter
 
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.runner import SimOptions
+from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.runner import SimOptions
 
 from .random_host import BUILDS, plan, play
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import Item, cocotb_items
-from cocotb_tests.common.part import PMC006
-from cocotb_tests.common.runner import SimOptions, run_item
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.part import PMC006
+from cocotb_tests.harness.runner import SimOptions, run_item
 
 ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_scripts", "tb_streams", part=PMC006)
 

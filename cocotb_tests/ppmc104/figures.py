@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.figures import (
+from cocotb_tests.harness.figures import (
     NO_PULSES_DONE,
     STEPS,
     Ramp,

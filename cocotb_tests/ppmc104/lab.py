@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import BUSY, HostBus
-from cocotb_tests.common.drive import Drive
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import BUSY, HostBus
+from cocotb_tests.harness.drive import Drive
 
 from .figures import INIT_A
 

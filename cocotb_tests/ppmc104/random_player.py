@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.single_player import SinglePlayer
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.single_player import SinglePlayer
 from cocotb_tests.ppmc104.random_host import Scenario
 
 

@@ -6,13 +6,13 @@ import random
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY, DATA, IBF, OBF
-from cocotb_tests.common.config import D16, F8, F16, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
+from cocotb_tests.harness.config import D16, F8, F16, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A
 from .lab import Lab
-from .tb_acceptance_1 import kind_of
+from .tb_acceptance_moves import kind_of
 
 
 @cocotb.test()

@@ -6,9 +6,9 @@ from itertools import chain, repeat
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY
-from cocotb_tests.common.config import F8, F11, F16, F16X1, F25, F50, F100, Config, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.config import F8, F11, F16, F16X1, F25, F50, F100, Config, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A, differences, rates
 from .lab import Lab

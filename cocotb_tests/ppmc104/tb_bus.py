@@ -6,9 +6,9 @@ import cocotb
 from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.common.bus import COMMAND, DATA, IBF, STATUS
-from cocotb_tests.common.config import F8, F16, F50, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import COMMAND, DATA, IBF, STATUS
+from cocotb_tests.harness.config import F8, F16, F50, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A
 from .lab import PINS_LATEST, Lab

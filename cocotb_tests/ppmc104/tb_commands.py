@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY, DATA, ERR
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY, DATA, ERR
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A
 from .lab import Lab
 from .states import CONSTANT, MOVING, enter
-from .tb_acceptance_1 import kind_of
+from .tb_acceptance_moves import kind_of
 
 OPERATIONS = (0x42, 0x43, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC6)
 READS = (0x80, 0x81, 0x82, 0x83, 0x85)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY, DATA, IBF
-from cocotb_tests.common.config import D11, D16, D25X8, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY, DATA, IBF
+from cocotb_tests.harness.config import D11, D16, D25X8, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A
 from .lab import WRITE_EVENT

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.compare import check_against_model
-from cocotb_tests.common.config import F8, F16, F25, configs
-from cocotb_tests.common.ext_moves import BRISK, ExtMoves, Move, sweep
-from cocotb_tests.common.figures import differences
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.compare import check_against_model
+from cocotb_tests.harness.config import F8, F16, F25, configs
+from cocotb_tests.harness.ext_moves import BRISK, ExtMoves, Move, sweep
+from cocotb_tests.harness.figures import differences
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A
 from .lab import Lab

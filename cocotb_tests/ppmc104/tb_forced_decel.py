@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.config import F16, F25, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.config import F16, F25, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_B, forced, indices, rates
 from .lab import Lab

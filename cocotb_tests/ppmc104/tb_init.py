@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bus import DATA, IBF
-from cocotb_tests.common.config import F16, F16X1, F50, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import DATA, IBF
+from cocotb_tests.harness.config import F16, F16X1, F50, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A, INIT_B, rates, steps
 from .lab import PINS_LATEST, Lab

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY
-from cocotb_tests.common.config import F16, F50, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.config import F16, F50, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A, INIT_B, forced, rates
 from .lab import Lab

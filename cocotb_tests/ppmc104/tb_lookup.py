@@ -6,11 +6,11 @@ from itertools import repeat
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import HostBus
-from cocotb_tests.common.compare import check_against_model
-from cocotb_tests.common.config import D16, F8, F16, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.compare import check_against_model
+from cocotb_tests.harness.config import D16, F8, F16, configs
+from cocotb_tests.harness.verifies import verifies
 
 
 @cocotb.test()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import HostBus
-from cocotb_tests.common.config import F16, configs
-from cocotb_tests.common.sessions import Sessions
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.config import F16, configs
+from cocotb_tests.harness.sessions import Sessions
 
 SESSIONS = Sessions("ppmc104", brief=(0x42, 0x52, 0x5A))  # single steps last 10 µs
 blocks, play = SESSIONS.blocks, SESSIONS.play

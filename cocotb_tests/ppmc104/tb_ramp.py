@@ -7,8 +7,8 @@ from math import isqrt
 
 import cocotb
 
-from cocotb_tests.common.config import F8, F16, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.config import F8, F16, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A, INIT_B, forced, indices, rate, rates
 from .lab import Lab

@@ -6,12 +6,12 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import BUSY, IBF, HostBus
-from cocotb_tests.common.compare import check_against_model
-from cocotb_tests.common.player import describe
-from cocotb_tests.common.seeds import each_seed
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import BUSY, IBF, HostBus
+from cocotb_tests.harness.compare import check_against_model
+from cocotb_tests.harness.player import describe
+from cocotb_tests.harness.seeds import each_seed
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
 from cocotb_tests.ppmc104.random_player import Player104

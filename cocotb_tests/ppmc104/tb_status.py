@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY, COMMAND, DATA, IBF, OBF
-from cocotb_tests.common.config import D16, F16, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF
+from cocotb_tests.harness.config import D16, F16, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A, INIT_B
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab

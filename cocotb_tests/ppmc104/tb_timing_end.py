@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.common.bus import BUSY, IBF
-from cocotb_tests.common.config import F8, F11, F16, F25, F50, F100, configs
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bus import BUSY, IBF
+from cocotb_tests.harness.config import F8, F11, F16, F25, F50, F100, configs
+from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A, INIT_B
 from .lab import C_EVENT_LATEST, PINS_LATEST, Lab

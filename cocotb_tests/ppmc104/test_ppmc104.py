@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import cocotb_items
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.elaborate import check_ranges
-from cocotb_tests.common.runner import part_design, run_item
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges
+from cocotb_tests.harness.runner import part_design, run_item
+from cocotb_tests.harness.verifies import verifies
 
 ITEMS = cocotb_items(
     "cocotb_tests.ppmc104",
-    "tb_acceptance_1",
-    "tb_acceptance_2",
-    "tb_acceptance_3",
+    "tb_acceptance_moves",
+    "tb_acceptance_stops",
+    "tb_acceptance_clocks",
     "tb_bus",
     "tb_status",
     "tb_commands",
@@ -29,7 +29,7 @@ ITEMS = cocotb_items(
     "tb_limits",
     "tb_bad_input",
     "tb_datasheet",
-    "tb_datasheet_2",
+    "tb_datasheet_stops",
     "tb_lookup",
     "tb_ext_clock",
     "tb_manual",

@@ -15,12 +15,12 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import IBF, HostBus
-from cocotb_tests.common.config import F16, Config
-from cocotb_tests.common.drive import Drive
-from cocotb_tests.common.judged import judged_test
-from cocotb_tests.common.part import PPMC2104
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import IBF, HostBus
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.drive import Drive
+from cocotb_tests.harness.judged import judged_test
+from cocotb_tests.harness.part import PPMC2104
 
 from .figures import ALL, BUSY1, CMND1, INIT_A, Init
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from cocotb_tests.common.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
-from cocotb_tests.common.host_writer import HostWriter
-from cocotb_tests.common.player import Action, ExternalClock, random_clock
+from cocotb_tests.harness.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
+from cocotb_tests.harness.host_writer import HostWriter
+from cocotb_tests.harness.player import Action, ExternalClock, random_clock
 from cocotb_tests.ppmc2104.random_codes import KNOWN_CODES, Codes
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.player import Player
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.player import Player
 from cocotb_tests.ppmc2104.random_host import Scenario
 
 BUSY = {1: 0x04, 2: 0x08}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bus import IBF
+from cocotb_tests.harness.bus import IBF
 
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
 

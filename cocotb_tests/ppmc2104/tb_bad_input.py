@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.common.bus import IBF, OBF
-from cocotb_tests.common.config import D16, F11, F16
-from cocotb_tests.common.figures import indices, rates
+from cocotb_tests.harness.bus import IBF, OBF
+from cocotb_tests.harness.config import D16, F11, F16
+from cocotb_tests.harness.figures import indices, rates
 
 from .figures import CMND1, ERROR, INIT_A, kind_of
 from .lab import Lab, part_test

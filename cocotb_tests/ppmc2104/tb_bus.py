@@ -6,8 +6,8 @@ from itertools import product
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.common.bus import COMMAND, DATA, IBF, OBF, STATUS
-from cocotb_tests.common.config import F8, F11, F16, F48, F100
+from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF, STATUS
+from cocotb_tests.harness.config import F8, F11, F16, F48, F100
 
 from .figures import INIT_A
 from .lab import PINS_LATEST, Lab, part_test

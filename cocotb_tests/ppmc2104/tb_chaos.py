@@ -6,12 +6,12 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import IBF, HostBus
-from cocotb_tests.common.figures import indices, offsets, rates
-from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.seeds import each_seed
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import IBF, HostBus
+from cocotb_tests.harness.figures import indices, offsets, rates
+from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.seeds import each_seed
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.figures import BUSY1, BUSY2, CMND1, CMND2, OBF
 from cocotb_tests.ppmc2104.random_noise import noise
 

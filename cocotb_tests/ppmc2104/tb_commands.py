@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.common.bus import IBF, OBF
+from cocotb_tests.harness.bus import IBF, OBF
 
 from .figures import (
     CMND1,

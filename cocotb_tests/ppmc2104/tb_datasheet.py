@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bus import IBF, OBF
-from cocotb_tests.common.config import D11, D16
-from cocotb_tests.common.figures import bytes_of, rates
+from cocotb_tests.harness.bus import IBF, OBF
+from cocotb_tests.harness.config import D11, D16
+from cocotb_tests.harness.figures import bytes_of, rates
 
 from .figures import ERROR, INIT_A, INIT_B, slowed
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab, part_test

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import F11, F16, F48
-from cocotb_tests.common.figures import NO_PULSES_DONE
+from cocotb_tests.harness.config import F11, F16, F48
+from cocotb_tests.harness.figures import NO_PULSES_DONE
 
 from .figures import INIT_A, INIT_B
 from .lab import Lab, part_test

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.common.config import F11, F16, F48
-from cocotb_tests.common.figures import differences, steps
+from cocotb_tests.harness.config import F11, F16, F48
+from cocotb_tests.harness.figures import differences, steps
 
 from .figures import INIT_A, STEP_CODES
 from .lab import Lab, part_test

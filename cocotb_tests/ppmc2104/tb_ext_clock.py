@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import F8, F16, F48
-from cocotb_tests.common.ext_moves import BRISK, ExtMoves, Move, sweep
+from cocotb_tests.harness.config import F8, F16, F48
+from cocotb_tests.harness.ext_moves import BRISK, ExtMoves, Move, sweep
 
 from .lab import Lab, part_test
 

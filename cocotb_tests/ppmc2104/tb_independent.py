@@ -8,12 +8,12 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import HostBus
-from cocotb_tests.common.compare import check_against_model
-from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.seeds import each_seed
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.compare import check_against_model
+from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.seeds import each_seed
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 
 WAVES = ("pout_n[2]", "dir[2]", "hold[2]", "s2_n")

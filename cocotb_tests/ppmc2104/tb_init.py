@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product, repeat
 
-from cocotb_tests.common.figures import indices, rates, steps
+from cocotb_tests.harness.figures import indices, rates, steps
 
 from .figures import INIT_A, INIT_B, STEP_CODES
 from .lab import Lab, part_test

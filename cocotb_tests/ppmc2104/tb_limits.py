@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.common.config import F16, F48, F100
-from cocotb_tests.common.figures import NO_PULSES_DONE, forced, rates
+from cocotb_tests.harness.config import F16, F48, F100
+from cocotb_tests.harness.figures import NO_PULSES_DONE, forced, rates
 
 from .figures import INIT_A
 from .lab import Lab, part_test

@@ -9,12 +9,12 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.bus import HostBus
-from cocotb_tests.common.compare import check_against_model
-from cocotb_tests.common.config import F16, configs
-from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.sessions import Sessions
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.compare import check_against_model
+from cocotb_tests.harness.config import F16, configs
+from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.sessions import Sessions
 
 SESSIONS = Sessions("ppmc2104", brief=(0x42, 0x62))  # single steps last 10 µs
 blocks, play = SESSIONS.blocks, SESSIONS.play

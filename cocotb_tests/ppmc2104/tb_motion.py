@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import product, repeat
 
-from cocotb_tests.common.config import F8, F11, F16, F16X8, F48, F100
-from cocotb_tests.common.figures import NO_PULSES_DONE, indices, rates
+from cocotb_tests.harness.config import F8, F11, F16, F16X8, F48, F100
+from cocotb_tests.harness.figures import NO_PULSES_DONE, indices, rates
 
 from .figures import ERROR, INIT_A, INIT_EXT
 from .lab import Lab, part_test

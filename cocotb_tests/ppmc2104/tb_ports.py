@@ -6,8 +6,8 @@ import cocotb
 from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.common.bus import COMMAND, DATA, STATUS
-from cocotb_tests.common.config import D16, F16, F16X8, F48, F100
+from cocotb_tests.harness.bus import COMMAND, DATA, STATUS
+from cocotb_tests.harness.config import D16, F16, F16X8, F48, F100
 
 from .figures import INIT_A
 from .lab import Lab, part_test

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.common.config import F11, F16, F48
-from cocotb_tests.common.figures import indices, rate, rates
+from cocotb_tests.harness.config import F11, F16, F48
+from cocotb_tests.harness.figures import indices, rate, rates
 
 from .figures import INIT_A, INIT_B, slowed
 from .lab import Axis, Lab, part_test

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.common.bus import IBF
-from cocotb_tests.common.config import F11, F16, F48, F100
+from cocotb_tests.harness.bus import IBF
+from cocotb_tests.harness.config import F11, F16, F48, F100
 
 from .figures import INIT_A, INIT_B, STEP_CODES
 from .lab import Lab, part_test

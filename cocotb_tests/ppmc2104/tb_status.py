@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.common.bus import COMMAND, DATA, IBF, OBF
-from cocotb_tests.common.config import F11, F16
-from cocotb_tests.common.figures import indices, rates
+from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF
+from cocotb_tests.harness.config import F11, F16
+from cocotb_tests.harness.figures import indices, rates
 
 from .figures import BUILD_LATEST, ERROR, INIT_A, INIT_B
 from .lab import Lab, part_test

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import cocotb_items
-from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.runner import run_item
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.runner import run_item
 
 ITEMS = cocotb_items("cocotb_tests.ppmc2104", "tb_manual", part=PPMC2104)
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import cocotb_items
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.elaborate import check_ranges, ports
-from cocotb_tests.common.part import PPMC2104
-from cocotb_tests.common.runner import part_design, run_item
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges, ports
+from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.runner import part_design, run_item
+from cocotb_tests.harness.verifies import verifies
 
 ITEMS = cocotb_items(
     "cocotb_tests.ppmc2104",
-    "tb_acceptance_1",
-    "tb_acceptance_2",
-    "tb_acceptance_3",
-    "tb_acceptance_4",
+    "tb_acceptance_moves",
+    "tb_acceptance_errors",
+    "tb_acceptance_axes",
+    "tb_acceptance_bus",
     "tb_bus",
     "tb_ports",
     "tb_commands",
@@ -31,7 +31,7 @@ ITEMS = cocotb_items(
     "tb_reads",
     "tb_bad_input",
     "tb_datasheet",
-    "tb_datasheet_2",
+    "tb_datasheet_rates",
     part=PPMC2104,
 )
 

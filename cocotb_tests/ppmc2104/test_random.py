@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.config import D16, F11, F16, F100
-from cocotb_tests.common.runner import SimOptions
+from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.config import D16, F11, F16, F100
+from cocotb_tests.harness.runner import SimOptions
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_pairs import pair
 

@@ -6,10 +6,10 @@ fit in. Now and then it does what a rough host does.
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import Config
+from cocotb_tests.harness.config import Config
 from openppmc.model.ppmc312.codes import State
 
-from .host312 import CSR, MREF, MWEF
+from .host import CSR, MREF, MWEF
 from .scenes import Scenes
 
 

@@ -5,7 +5,7 @@ A new module needs a row here; each build of a row is one simulation.
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import D16, F16, F50, Config
+from cocotb_tests.harness.config import D16, F16, F50, Config
 
 F27 = Config("f27m", clk_hz=27_000_000)
 F27X12 = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)

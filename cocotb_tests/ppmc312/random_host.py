@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import random
 
-from cocotb_tests.common.config import D16, F16, F50, Config
+from cocotb_tests.harness.config import D16, F16, F50, Config
 
-from .host312 import Host312
+from .host import Host312
 from .lively_host import Lively
 from .rough_host import Player, host_of
 

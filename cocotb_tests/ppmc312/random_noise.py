@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import random
 
-from cocotb_tests.common.config import Config
+from cocotb_tests.harness.config import Config
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
-from .host312 import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host312
+from .host import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host312
 from .random_host import host_of
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))

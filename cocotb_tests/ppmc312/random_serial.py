@@ -9,13 +9,13 @@ import random
 from collections.abc import Callable
 from fractions import Fraction
 
-from cocotb_tests.common.background import Background
-from cocotb_tests.common.config import D16, F16, Config
+from cocotb_tests.harness.background import Background
+from cocotb_tests.harness.config import D16, F16, Config
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
 from .modules import CHARS, F8V, F27X12
-from .serial312 import SILENCE, Serial312, summed
+from .serial_host import SILENCE, Serial312, summed
 
 BUILDS: tuple[tuple[Config, int], ...] = ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4))
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")

@@ -8,11 +8,11 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 
-from cocotb_tests.common.background import Background
-from cocotb_tests.common.config import Config
+from cocotb_tests.harness.background import Background
+from cocotb_tests.harness.config import Config
 from openppmc.model.ppmc312.codes import LENGTHS, State
 
-from .host312 import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host312
+from .host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host312
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)

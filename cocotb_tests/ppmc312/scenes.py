@@ -5,7 +5,7 @@ from __future__ import annotations
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.stages.plan import ramped
 
-from .host312 import CSR, DRR, MREF, MWEF, RAR
+from .host import CSR, DRR, MREF, MWEF, RAR
 from .rough_host import Player, some_equal
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import CSR, MREF, MWEF, T1, TF, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, T1, TF, Host312, clean
 
 STOP = "03 02 80 00"
 AT_REST = {"alm_n": 1, "fl_n": 1, "run": 1}

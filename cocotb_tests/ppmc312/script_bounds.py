@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import T3, TF, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import T3, TF, Host312, clean
 from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")

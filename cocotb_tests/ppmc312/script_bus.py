@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, T1, TF, WAR, WCR, Host312
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, T1, TF, WAR, WCR, Host312
 
 ADDRESSES = range(8)
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from math import ceil
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.stages.tables import build
 
-from .host312 import T1, Host312
+from .host import T1, Host312
 
 MHZ = 50
 CLK = MHZ * 1_000_000

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common import script
+from cocotb_tests.harness import script
 from openppmc.model.ppmc312.part import Ppmc312
 
 TICK = 16

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import TF, TG, TH, TICK, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import TF, TG, TH, TICK, Host312, clean
 
 STOP, SLOW_STOP = "03 02 80 00", "03 02 81 00"
 ALWAYS = "03 04 86 00"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
-from .serial312 import TS, Serial312
+from .serial_host import TS, Serial312
 
 PARAMETER, STATE, LIMIT, SIZE, REGISTRATION = "B0 42", "B0 43", "B0 44", "B0 48", "B0 49"
 EVENT = "03 01 20 00 00 00 00 00 00 00"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
-from .serial312 import SILENCE, TS, Serial312, summed
+from .serial_host import SILENCE, TS, Serial312, summed
 
 NONE = "A0 00 00 00"
 

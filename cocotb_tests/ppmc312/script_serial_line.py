@@ -7,9 +7,9 @@ from math import ceil
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
-from .serial312 import TS, Serial312, summed
+from .serial_host import TS, Serial312, summed
 
 PATTERNS = (0x00, 0x55, 0xAA, 0x7F, 0x80, 0xFF, 0x01, 0xFE)
 

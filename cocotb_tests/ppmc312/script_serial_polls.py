@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
-from .serial312 import TS, Serial312, summed
+from .serial_host import TS, Serial312, summed
 
 ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "02 84 00"))
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
-from .host312 import CSR, Host312
-from .serial312 import TS, Serial312, summed
+from .host import CSR, Host312
+from .serial_host import TS, Serial312, summed
 
 
 def reset(host: Serial312, clk: int = 12) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
-from .serial312 import TS, Serial312, summed
+from .serial_host import TS, Serial312, summed
 
 
 @verifies(

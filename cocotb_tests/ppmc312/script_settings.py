@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import CSR, MWEF, RATES, T1, T2, T3, T4, TF, TG, TH, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import CSR, MWEF, RATES, T1, T2, T3, T4, TF, TG, TH, Host312, clean
 from openppmc.model.ppmc312.stages.tables import build
 
 T5 = "03 09 00 09 2000 0040 00EA60"

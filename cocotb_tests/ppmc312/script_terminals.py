@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import T1, TF, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import T1, TF, Host312, clean
 
 CLEAR = 393_216
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.part import PPMC312
-from cocotb_tests.common.script_player import module_tests
+from cocotb_tests.harness.part import PPMC312
+from cocotb_tests.harness.script_player import module_tests
 
 from .modules import MODULES
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.config import D16, F16, F50
-from cocotb_tests.common.runner import SimOptions
+from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.config import D16, F16, F50
+from cocotb_tests.harness.runner import SimOptions
 
 from . import random_serial
 from .census import counting, thin

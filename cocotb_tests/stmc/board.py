@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from cocotb_tests.common.bench import Bench
-from cocotb_tests.common.config import F16, Config
-from cocotb_tests.common.judged import judged_test
-from cocotb_tests.common.part import J105_STMC
-from cocotb_tests.common.runner import Design
-from cocotb_tests.isa_4axis.master import IsaHost, IsaMaster
-from scripts.project import include_dirs, part, sources
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
+from cocotb_tests.harness.judged import judged_test
+from cocotb_tests.harness.part import J105_STMC
+from cocotb_tests.harness.project import include_dirs, part, sources
+from cocotb_tests.harness.runner import Design
 
 from .lab import Lab
 

@@ -16,13 +16,13 @@ from collections.abc import Awaitable, Callable, Sequence
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.common.bench import TIMEOUT, Bench
-from cocotb_tests.common.bus import BUSY, IBF, HostBus
-from cocotb_tests.common.config import F16, Config
-from cocotb_tests.common.drive import Drive
-from cocotb_tests.common.figures import differences
-from cocotb_tests.common.judged import judged_test
-from cocotb_tests.common.part import STMC
+from cocotb_tests.harness.bench import TIMEOUT, Bench
+from cocotb_tests.harness.bus import BUSY, IBF, HostBus
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.drive import Drive
+from cocotb_tests.harness.figures import differences
+from cocotb_tests.harness.judged import judged_test
+from cocotb_tests.harness.part import STMC
 
 from .figures import STANDARD, TICK, Init, internal_offsets
 

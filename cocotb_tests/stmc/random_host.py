@@ -6,10 +6,10 @@ more, where every rule holds to the clk (STMC-CLK-04).
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import D16, D25X8, F16, Config
-from cocotb_tests.common.host_writer import HostWriter
-from cocotb_tests.common.player import ExternalClock, random_clock
-from cocotb_tests.common.single_player import Scenario
+from cocotb_tests.harness.config import D16, D25X8, F16, Config
+from cocotb_tests.harness.host_writer import HostWriter
+from cocotb_tests.harness.player import ExternalClock, random_clock
+from cocotb_tests.harness.single_player import Scenario
 
 from .figures import F8X20, F12, F200, FAMILY, ODD, SWITCHES
 

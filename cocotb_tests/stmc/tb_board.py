@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.common.bus import IBF, OBF
-from cocotb_tests.common.config import F8, F16
-from cocotb_tests.isa_4axis.master import Times
+from cocotb_tests.harness.bus import IBF, OBF
+from cocotb_tests.harness.config import F8, F16
+from cocotb_tests.harness.isa_master import Times
 
 from .board import OTHER, BoardLab, board_test
 from .figures import A, gaps
-from .tb_acceptance_1 import W1
+from .tb_acceptance_moves import W1
 
 
 @board_test("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.common.bus import BUSY, COMMAND, DATA, IBF, OBF, STATUS
-from cocotb_tests.common.config import D16, F16
+from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF, STATUS
+from cocotb_tests.harness.config import D16, F16
 
 from .figures import F8X20, F200, INTERNAL, STANDARD
 from .lab import C_EVENT_LATEST, PINS_LATEST, Lab, part_test

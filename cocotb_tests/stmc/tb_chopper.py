@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.config import F16
+from cocotb_tests.harness.config import F16
 
 from .figures import F12, FAMILY, INTERNAL, ODD, T0
 from .lab import Lab, part_test

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bus import BUSY, IBF, OBF
-from cocotb_tests.common.config import D16, D25X8
+from cocotb_tests.harness.bus import BUSY, IBF, OBF
+from cocotb_tests.harness.config import D16, D25X8
 
 from .figures import INTERNAL, gaps, slowed
 from .lab import WRITE_EVENT, Lab, part_test

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.ext_moves import ExtMoves, sweep
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.ext_moves import ExtMoves, sweep
 
 from .figures import F8X20, Ramp, divisor
 from .lab import Lab, part_test

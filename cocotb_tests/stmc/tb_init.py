@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bus import BUSY, DATA, IBF, OBF
-from cocotb_tests.common.config import D16, F16
+from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
+from cocotb_tests.harness.config import D16, F16
 
 from .figures import FAMILY, STANDARD, STEPS, gaps, steps
 from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab, part_test

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import repeat
 
-from cocotb_tests.common.bus import BUSY
-from cocotb_tests.common.config import F16
+from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.config import F16
 
 from .figures import ALL, EXT, F8X20, F12, F200, INTERNAL, MOST, ODD, STANDARD, SWITCHES, T0, divisor, gaps
 from .lab import END_LATEST, Lab, part_test

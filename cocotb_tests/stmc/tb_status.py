@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bus import BUSY, COMMAND, DATA, ERR, IBF, OBF
-from cocotb_tests.common.config import F16
+from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, ERR, IBF, OBF
+from cocotb_tests.harness.config import F16
 
 from .figures import FAMILY, STANDARD
 from .lab import Lab, part_test

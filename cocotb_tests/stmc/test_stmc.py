@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.collect import cocotb_items
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.elaborate import check_ranges
-from cocotb_tests.common.part import STMC
-from cocotb_tests.common.runner import part_design, run_item
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges
+from cocotb_tests.harness.part import STMC
+from cocotb_tests.harness.runner import part_design, run_item
 
 ITEMS = cocotb_items(
     "cocotb_tests.stmc",
-    "tb_acceptance_1",
-    "tb_acceptance_2",
-    "tb_acceptance_3",
+    "tb_acceptance_moves",
+    "tb_acceptance_stops",
+    "tb_acceptance_registers",
     "tb_bus",
     "tb_status",
     "tb_init",

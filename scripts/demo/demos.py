@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cocotb_tests.common.config import F16, Config
-from cocotb_tests.demo.story_006 import BUILD
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.pmc006.story import BUILD
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
 from scripts.demo import picture006, picture104, picture312, picture2104, picture_stmc
@@ -224,7 +224,7 @@ DEMOS = {
         Demo(
             "ppmc104",
             "ppmc104",
-            "cocotb_tests.demo.tb_demo",
+            "cocotb_tests.ppmc104.demo",
             "demo_move",
             Words104(),
             picture104.picture,
@@ -234,7 +234,7 @@ DEMOS = {
         Demo(
             "ppmc2104",
             "ppmc2104",
-            "cocotb_tests.demo.tb_demo_2104",
+            "cocotb_tests.ppmc2104.demo",
             "demo_two_axes",
             Words2104(),
             picture2104.picture,
@@ -245,7 +245,7 @@ DEMOS = {
         Demo(
             "stmc",
             "j105_stmc",
-            "cocotb_tests.demo.tb_demo_stmc",
+            "cocotb_tests.stmc.demo",
             "demo_board",
             WordsStmc(),
             picture_stmc.picture,
@@ -255,7 +255,7 @@ DEMOS = {
         Demo(
             "ppmc312",
             "ppmc312",
-            "cocotb_tests.demo.tb_demo_312",
+            "cocotb_tests.ppmc312.demo",
             "demo_blocks",
             Words312(),
             None,
@@ -266,7 +266,7 @@ DEMOS = {
         Demo(
             "pmc006",
             "pmc006",
-            "cocotb_tests.demo.tb_demo_006",
+            "cocotb_tests.pmc006.demo",
             "demo_program",
             Words006(),
             None,

@@ -12,18 +12,18 @@ from typing import Any
 from rich import box
 from rich.table import Table
 
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.compare import Comparison, write_report
-from cocotb_tests.common.runner import SimError, build, run_sim
-from cocotb_tests.common.stimulus import Recording
-from cocotb_tests.ppmc312_line.compare import compare_line
-from cocotb_tests.ppmc312_line.library import FAST_ARGS
-from cocotb_tests.ppmc312_line.setting import F8L, LINE, STATIONS, design
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.compare import Comparison, write_report
+from cocotb_tests.harness.project import BUILD, console, fail, relative
+from cocotb_tests.harness.runner import SimError, build, run_sim
+from cocotb_tests.harness.steps import Steps
+from cocotb_tests.harness.stimulus import Recording
+from cocotb_tests.ppmc312.line.compare import compare_line
+from cocotb_tests.ppmc312.line.library import FAST_ARGS
+from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
 from scripts.demo import waves_line312
 from scripts.demo.picture_line312 import draw
-from scripts.demo.steps import Steps
 from scripts.demo.talk312 import Exchange, exchanges
-from scripts.project import BUILD, console, fail, relative
 
 NAME = "ppmc312-serial"
 FOLDER = BUILD / "demo"
@@ -51,7 +51,7 @@ def simulate(steps: Steps) -> LineRun:
     """Build and run."""
     made = steps.run("build one station and the line with Verilator", lambda: design(F8L, FAST_ARGS))
     steps.run("join sixteen of them", lambda: build(made))
-    item = Item("cocotb_tests.demo.tb_demo_312_serial", "demo_line", F8L, LINE.name, ())
+    item = Item("cocotb_tests.ppmc312.line.demo", "demo_line", F8L, LINE.name, ())
     steps.run(
         "drive them over the line",
         lambda: run_sim(made, item, seed=1, folder=RUN, repro=REPRO),

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.demo.story_006 import FINE, LEAD, MOTOR, MOVES, WAY
+from cocotb_tests.pmc006.story import FINE, LEAD, MOTOR, MOVES, WAY
 from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare
 from scripts.demo.picture312 import heading

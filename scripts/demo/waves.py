@@ -14,7 +14,7 @@ from typing import Any
 
 from vcd import VCDWriter
 
-from cocotb_tests.common.part import PARTS
+from cocotb_tests.harness.part import PARTS
 from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 

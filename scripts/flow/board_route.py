@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from scripts.project import ProjectError, relative, tool
+from cocotb_tests.harness.project import ProjectError, relative, tool
 
 if TYPE_CHECKING:
     from .boards import Board

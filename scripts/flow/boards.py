@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from scripts import project
-from scripts.project import ProjectError
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
 
 from . import board_route
 from .synthesis import run_yosys

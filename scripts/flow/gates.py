@@ -14,9 +14,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from cocotb_tests.common.runner import Design, locked
-from scripts import project
-from scripts.project import ProjectError
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.runner import Design, locked
 
 from .synthesis import run_yosys
 from .yosys_job import BEST, RECIPES

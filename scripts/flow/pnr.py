@@ -9,7 +9,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.project import ROOT, ProjectError, relative, tool
+from cocotb_tests.harness.project import ROOT, ProjectError, relative, tool
 
 CLOCK = "clk"
 

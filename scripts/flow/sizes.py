@@ -9,7 +9,7 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from scripts.project import DOCS, ProjectError, relative
+from cocotb_tests.harness.project import DOCS, ProjectError, relative
 
 Sizes = dict[str, dict[str, dict[str, int]]]
 

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from scripts import project
-from scripts.project import ProjectError
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
 
 from . import pnr, scan_wrapper
 from .netlist import Breakdown, Count, flat_counts, kept_counts

@@ -7,9 +7,9 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.part import PARTS
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.part import PARTS
 
 from . import board_route, boards, gates, pnr
 from .netlist import Count, flat_counts

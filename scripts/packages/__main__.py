@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 
-from scripts import project
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console, relative
 from scripts.packages.cores import core_files
 from scripts.packages.lists import list_files
-from scripts.project import ProjectError, console, relative
 
 
 def main() -> int:

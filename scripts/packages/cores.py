@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from cocotb_tests.harness.project import PARTS, ROOT, file_groups, relative
 from openppmc import __version__
-from scripts.project import PARTS, ROOT, file_groups, relative
 
 WAIVERS = ROOT / "rtl" / "common" / "waivers.vlt"
 HEAD = """CAPI=2:

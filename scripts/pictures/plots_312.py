@@ -8,7 +8,7 @@ from itertools import accumulate, pairwise
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.ppmc312.host312 import TF, Host312
+from cocotb_tests.ppmc312.host import TF, Host312
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import ramped
 from openppmc.model.ppmc312.stages.tables import LAST, Table, build

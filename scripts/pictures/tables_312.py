@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from cocotb_tests.ppmc312.host312 import CSR, T1, T2, T3, Host312
+from cocotb_tests.ppmc312.host import CSR, T1, T2, T3, Host312
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import Step, constant, ramped
 from openppmc.model.ppmc312.stages.tables import Table, build

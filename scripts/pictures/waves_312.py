@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from cocotb_tests.ppmc312.host312 import CSR, DRR, DWR, RAR, TF, WAR, WCR
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR
 from scripts.pictures.bench_312 import (
     NAMES,
     WIDE,

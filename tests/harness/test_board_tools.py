@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts import project
+from cocotb_tests.harness import project
 from scripts.flow import boards
 from scripts.flow.boards import BOARDS, BY_PART
 

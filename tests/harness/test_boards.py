@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts import project
+from cocotb_tests.harness import project
 from scripts.flow import boards
 from scripts.flow.boards import BY_PART, HOSTS
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.common.compare import compare_edges, compare_recording, report, write_report
-from cocotb_tests.common.compare_draw import differing_spans
-from cocotb_tests.common.part import PPMC104
-from cocotb_tests.common.stimulus import Access, Change, Edge, Recording
+from cocotb_tests.harness.compare import compare_edges, compare_recording, report, write_report
+from cocotb_tests.harness.compare_draw import differing_spans
+from cocotb_tests.harness.part import PPMC104
+from cocotb_tests.harness.stimulus import Access, Change, Edge, Recording
 
 INITIAL = PPMC104.reset_levels()
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.compare import compare_recording, new_model, replay
-from cocotb_tests.common.part import PARTS
-from cocotb_tests.common.stimulus import Access, Change, Recording
+from cocotb_tests.harness.compare import compare_recording, new_model, replay
+from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.stimulus import Access, Change, Recording
 from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import DEMOS, VIEW_312, VIEW_2104, VIEW_STMC
@@ -16,7 +17,6 @@ from scripts.demo.words104 import Words104
 from scripts.demo.words312 import Words312
 from scripts.demo.words2104 import Words2104
 from scripts.demo.words_stmc import WordsStmc
-from scripts.project import ProjectError
 
 
 def accesses(script: str) -> list[Access]:

@@ -6,8 +6,8 @@ from math import isnan
 
 import pytest
 
-from cocotb_tests.common.stimulus import Access
-from cocotb_tests.demo.story_006 import FINE, MOVES, PROGRAM
+from cocotb_tests.harness.stimulus import Access
+from cocotb_tests.pmc006.story import FINE, MOVES, PROGRAM
 from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
 from scripts.demo.__main__ import chosen

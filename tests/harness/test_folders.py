@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness.project import ROOT
 from openppmc.sim.common import verilator
 from scripts import bootstrap
-from scripts.project import ROOT
 
 ODD = "my dir ünï (#1, 100%) it's"
 DESIGN = 'module odd(input wire a, output wire b); `include "half.svh"\nendmodule\n'

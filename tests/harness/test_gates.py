@@ -6,27 +6,26 @@ from dataclasses import replace
 
 import pytest
 
-from cocotb_tests.common.runner import repro_line
-from cocotb_tests.gates import suite
+from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.runner import repro_line
 from cocotb_tests.ppmc104 import test_ppmc104
-from scripts.flow import gates
+from scripts.flow import gate_suite, gates
 from scripts.pool import as_done
-from scripts.project import ProjectError
 
-EVERYTHING = suite.everything()
+EVERYTHING = gate_suite.everything()
 
 
 @pytest.mark.parametrize("family", gates.FAMILIES)
 def test_all_directed_tests_run_on_each_family(family: str) -> None:
-    items = [(part, param.values[0]) for part in suite.PARTS for param in part.directed.ITEMS]
+    items = [(part, param.values[0]) for part in gate_suite.PARTS for param in part.directed.ITEMS]
     items = [(part, item) for part, item in items if family in part.families]
-    wanted = {item.id for part, item in items if item.test not in suite.TOO_LONG and part.built(item)}
+    wanted = {item.id for part, item in items if item.test not in gate_suite.TOO_LONG and part.built(item)}
     here = {t.item.id for t in EVERYTHING if t.family == family}
     assert {f"{name}-{family}" for name in wanted} <= here
 
 
 def test_the_sample_of_random_hosts_uses_each_of_their_configurations() -> None:
-    for part in suite.PARTS:
+    for part in gate_suite.PARTS:
         if part.random is None:
             continue
         make, all_seeds = part.random.random_item, part.random.SEEDS
@@ -47,31 +46,31 @@ def test_a_failure_is_repeated_by_the_same_target() -> None:
 
 def test_the_line_that_repeats_a_random_host_chooses_it() -> None:
     test = next(t for t in EVERYTHING if t.item.test == "random_host")
-    assert test in suite.chosen(suite.everything(test.item.seed), test.item.id)
+    assert test in gate_suite.chosen(gate_suite.everything(test.item.seed), test.item.id)
 
 
 def test_choosing() -> None:
-    assert suite.chosen(EVERYTHING, None) == EVERYTHING
-    assert suite.chosen(EVERYTHING, "nosuchtest") == []
-    quick = suite.chosen(EVERYTHING, "quick")
+    assert gate_suite.chosen(EVERYTHING, None) == EVERYTHING
+    assert gate_suite.chosen(EVERYTHING, "nosuchtest") == []
+    quick = gate_suite.chosen(EVERYTHING, "quick")
     assert 60 < len(quick) < 150
     assert {t.family for t in quick} == set(gates.FAMILIES)
     assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "ppmc104_board"}
-    some = suite.chosen(EVERYTHING, "D16-ECP5")
+    some = gate_suite.chosen(EVERYTHING, "D16-ECP5")
     assert some and all(t.group[0] == "ecp5" for t in some)
 
 
 def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    reasons = (suite.OTHER_BUILDS, suite.COSTLY_BUILDS)
-    builds = {name: why for name, why in suite.left_out().items() if why in reasons}
-    families = {"ppmc312 on ice40": suite.TOO_BIG}
-    assert suite.left_out() == {**suite.NOT_APPLICABLE, **suite.TOO_LONG, **builds, **families}
+    reasons = (gate_suite.OTHER_BUILDS, gate_suite.COSTLY_BUILDS)
+    builds = {name: why for name, why in gate_suite.left_out().items() if why in reasons}
+    families = {"ppmc312 on ice40": gate_suite.TOO_BIG}
+    assert gate_suite.left_out() == {**gate_suite.NOT_APPLICABLE, **gate_suite.TOO_LONG, **builds, **families}
     assert [name.split(" in ")[0] for name in builds] == ["stmc", "j105_stmc", "ppmc312", "pmc006"]
-    tests = {param.values[0].test for part in suite.PARTS for param in part.directed.ITEMS}
-    assert set(suite.TOO_LONG) <= tests
+    tests = {param.values[0].test for part in gate_suite.PARTS for param in part.directed.ITEMS}
+    assert set(gate_suite.TOO_LONG) <= tests
     monkeypatch.setattr(test_ppmc104, "test_something_new", lambda: None, raising=False)
     with pytest.raises(ProjectError, match="does not say why test_something_new is left out"):
-        suite.left_out()
+        gate_suite.left_out()
 
 
 def test_the_control_file_shows_the_ports_and_nothing_else() -> None:
@@ -112,7 +111,7 @@ def test_the_pool_returns_all_results_and_raises_errors() -> None:
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:
     """Only tag and target differ from the item of `make test`."""
-    own = {param.values[0].id: param.values[0] for part in suite.PARTS for param in part.directed.ITEMS}
+    own = {param.values[0].id: param.values[0] for part in gate_suite.PARTS for param in part.directed.ITEMS}
     for test in EVERYTHING:
         if test.item.module.startswith(
             ("cocotb_tests.ppmc", "cocotb_tests.stmc")

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.part import PPMC312
-from cocotb_tests.demo.tb_demo_312_serial import PULSES, SETTING
-from cocotb_tests.ppmc312_line.master import Master, NoFrameError, Reply, at_once, understood
-from cocotb_tests.ppmc312_line.models import ModelLine, heard
-from cocotb_tests.ppmc312_line.setting import ALL, LINE, STATIONS
-from cocotb_tests.ppmc312_line.wave import merged, wave
+from cocotb_tests.harness.part import PPMC312
+from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.ppmc312.line.demo import PULSES, SETTING
+from cocotb_tests.ppmc312.line.master import Master, NoFrameError, Reply, at_once, understood
+from cocotb_tests.ppmc312.line.models import ModelLine, heard
+from cocotb_tests.ppmc312.line.setting import ALL, LINE, STATIONS
+from cocotb_tests.ppmc312.line.wave import merged, wave
 from openppmc.model.ppmc312.front.frames import frame
 from scripts import bench_line, soak_line
 from scripts.demo.__main__ import chosen, part_of
 from scripts.demo.talk312 import exchanges
 from scripts.demo.waves_line312 import view
-from scripts.project import ProjectError
 from scripts.soak import main as soak
 
 

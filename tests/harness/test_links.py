@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.project import DOCS, ROOT
+from cocotb_tests.harness.project import DOCS, ROOT
 from scripts.trace import at_home
 
 PAGES = sorted([*DOCS.rglob("*.md"), *ROOT.glob("*.md"), *(ROOT / "drivers").rglob("*.md")])

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.common.paths import ROOT
-from cocotb_tests.ppmc312.host312 import Host312, clean
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.ppmc312.host import Host312, clean
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 
 DOCS = ROOT / "docs"

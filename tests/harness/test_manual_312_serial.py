@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from cocotb_tests.ppmc312.serial312 import SPEEDS, Serial312, clean, summed
+from cocotb_tests.ppmc312.serial_host import SPEEDS, Serial312, clean, summed
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.harness.test_manual_312 import DOCS, Player, chapters
 

@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import pytest
 
-from cocotb_tests.common.paths import ROOT
-from cocotb_tests.common.sessions import Sessions, Step
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.sessions import Sessions, Step
 from openppmc.model.stmc.pc104_board import J105Stmc
 
 EXAMPLES = Sessions("stmc", brief=())

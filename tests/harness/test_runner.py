@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.common import runner
-from cocotb_tests.common.collect import Item
-from cocotb_tests.common.config import ALL_CONFIGS, D16, F11, F16, Config
-from cocotb_tests.common.runner import Design, SimError, build, part_design
+from cocotb_tests.harness import runner
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.config import ALL_CONFIGS, D16, F11, F16, Config
+from cocotb_tests.harness.runner import Design, SimError, build, part_design
 
 
 def results(tmp_path: Path, *cases: str) -> Path:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness.project import ProjectError
 from scripts import report
 from scripts.flow import size_page, sizes
 from scripts.flow.netlist import Breakdown, Count
-from scripts.project import ProjectError
 
 OLD = {"part": {"ecp5": {"lut": 1000, "ff": 600, "ram": 2}}}
 

@@ -8,7 +8,7 @@ import pytest
 from special_pins import SPECIAL, Kind, Special
 from test_boards import CONSTRAINTS, FILES, PIN, pins, ports
 
-from scripts import project
+from cocotb_tests.harness import project
 
 USED = sorted(path.name for path in CONSTRAINTS.iterdir() if path.suffix in PIN)
 TOPS = {entry[1]: entry[0] for entry in FILES}

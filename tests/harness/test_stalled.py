@@ -6,14 +6,14 @@ import time
 
 import pytest
 
-from cocotb_tests.blocks.tb_stalled import BLOCKS
-from cocotb_tests.blocks.wrapper import area_design
-from cocotb_tests.common.collect import cocotb_items
-from cocotb_tests.common.part import Part
-from cocotb_tests.common.runner import SimError, build, run_sim
+from cocotb_tests.common.tb_stalled import BLOCKS
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.runner import SimError, build, run_sim
+from cocotb_tests.harness.wrapper import area_design
 
 ITEMS = [
-    param.values[0] for param in cocotb_items("cocotb_tests.blocks", "tb_stalled", part=Part("x", "BLK", {}))
+    param.values[0] for param in cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", "BLK", {}))
 ]
 
 

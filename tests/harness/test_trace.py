@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import RULE_ID, part_of_rule, rules_of, verifies
+from cocotb_tests.harness.verifies import RULE_ID, part_of_rule, rules_of, verifies
 from scripts.trace import join, page
 
 RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Reset levels"}

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from scripts import project
+from cocotb_tests.harness import project
 
 PAGES = sorted(
     [*project.DOCS.glob("*_replace.md"), *(project.DOCS / name for name in ("boards.md", "isa_4axis.md"))]

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.common.stimulus import Edge, Recording
-from scripts import project, yardsticks
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.stimulus import Edge, Recording
+from scripts import yardsticks
 from scripts.flow import plain_sim, scan_wrapper
-from scripts.project import ProjectError
 
 
 def designs(folder: Path) -> Path:

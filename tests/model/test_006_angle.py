@@ -9,7 +9,7 @@ from bench006 import SETUP, Bench
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.drive.angle import WAVE, peak_code, references
 
 TABLE = """

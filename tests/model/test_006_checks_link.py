@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.frames import command, signed
 from cocotb_tests.pmc006.line import Line, Node
 from cocotb_tests.pmc006.scenes import ready, rest, run, still

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.config import Config
-from cocotb_tests.common.scripts import building, cases, model_only
-from cocotb_tests.common.tape import taping
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.scripts import building, cases, model_only
+from cocotb_tests.harness.tape import taping
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.scenes import ready, rest
 
 MODULES = [f"tests/model/test_006_checks_{name}.py" for name in ("link", "motion", "guard", "program")]

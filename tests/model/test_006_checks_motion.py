@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.scripts import model_only
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.scripts import model_only
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.frames import reply, signed
 from cocotb_tests.pmc006.reference import sines
 from cocotb_tests.pmc006.scenes import (

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.scripts import model_only
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.scripts import model_only
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.scenes import (
     DECAY,
     END,

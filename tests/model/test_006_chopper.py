@@ -8,7 +8,7 @@ from math import exp
 import pytest
 from bench006 import SETUP, Bench
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.common.blocks import Phase
 from openppmc.model.common.scheduler import Scheduler
 from openppmc.model.pmc006.drive.chopper import Chopper, Times

@@ -9,7 +9,7 @@ from functools import cache
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.front.frames import command
 from openppmc.model.pmc006.part import Pmc006

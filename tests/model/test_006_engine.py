@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference006 import Reference
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.motion.engine import Live, Order, Stage
 from openppmc.model.pmc006.motion.plan import Plan, acceleration, plan
 

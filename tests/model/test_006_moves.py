@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from bench006 import Made, make
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.motion.engine import Live, Order, Stage
 from openppmc.model.pmc006.motion.plan import by_coefficient, by_distance, plan, reach, way
 

@@ -8,7 +8,7 @@ from math import inf, pi, sin
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.script_host import Host006
 from openppmc.model.pmc006.bench.currents import (
     CLK_HZ,

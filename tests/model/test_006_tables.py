@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.codes import LETTERS, TABLE, UNKNOWN
 from openppmc.model.pmc006.front.frames import Assembler, Command, command, reply
 from openppmc.model.pmc006.front.line import changes_of

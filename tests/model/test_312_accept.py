@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import T1, TF, Host312
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import T1, TF, Host312
 
 # States INI, NOR, ACC, FIX, ABN, WRN; O accepted, . refused. Blocks with 05 for flags have OV = 1.
 ROWS = [

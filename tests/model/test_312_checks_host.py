@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import (
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import (
     CSR,
     DRR,
     DWR,

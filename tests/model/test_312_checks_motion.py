@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import T1, T2, T3, T4, TF, TG, TH, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import T1, T2, T3, T4, TF, TG, TH, Host312, clean
 
 
 def rates(text: str) -> list[int]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import ceil
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import TF, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import TF, Host312, clean
 
 STOP = "03 02 80 00"
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import CSR, MREF, T1, T2, TF, Host312
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import CSR, MREF, T1, T2, TF, Host312
 
 STOP = "03 02 80 00"
 

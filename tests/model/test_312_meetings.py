@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import DWR, RATES, T1, TF, WAR, WCR, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import DWR, RATES, T1, TF, WAR, WCR, Host312, clean
 
 FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 

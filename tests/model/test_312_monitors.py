@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import TF, Host312
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import TF, Host312
 
 
 @verifies("P312-CHK-46", "P312-CHK-47", "P312-MON-03", "P312-MON-05", "P312-MON-06", "P312-RSP-22")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from reference312 import T1, T2, T3, T4, T5, TF, TG, TH
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.pace import Pace
 from openppmc.model.ppmc312.stages.plan import constant, ramped
 from openppmc.model.ppmc312.stages.tables import Table

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from reference312 import T1, T2, T3, T4, TF, TG, TH, runs, ticks
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.codes import Cause
 from openppmc.model.ppmc312.motion.sequence import Change, Sequence
 from openppmc.model.ppmc312.stages.curve import curve

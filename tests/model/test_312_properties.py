@@ -7,8 +7,8 @@ from math import ceil
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import Host312
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import Host312
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import constant, ramped
 from openppmc.model.ppmc312.stages.tables import DIVIDERS

@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from cocotb_tests.ppmc312.host312 import CSR, MREF, MWEF, TF, TG, TH, Host312
+from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, TF, TG, TH, Host312
 from openppmc.model.ppmc312.codes import LENGTHS, State
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))

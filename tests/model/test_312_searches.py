@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import TF, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import TF, Host312, clean
 
 STOP = "03 02 80 00"
 START_30 = "03 08 82 00 0000 0000001E"

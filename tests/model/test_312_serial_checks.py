@@ -7,8 +7,8 @@ from math import ceil
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.serial312 import T1, TS, Serial312, clean, summed
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.serial_host import T1, TS, Serial312, clean, summed
 
 
 def exchange(host: Serial312, text: str, within: int = 4_096) -> str:

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.serial312 import T_INIT, TS, Serial312
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.serial_host import T_INIT, TS, Serial312
 
 ACK = "91 6E"
 SET_POSITION = "43 12345678"

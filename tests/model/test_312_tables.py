@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from reference312 import T1, T2, T3, T4, T5, TF, TG, TH
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.stages.curve import FreeCurve, curve
 from openppmc.model.ppmc312.stages.tables import SettingError, Table, build, read_back, sigmoid_weights
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.common.verifies import verifies
-from cocotb_tests.ppmc312.host312 import CSR, DRR, DWR, MREF, MWEF, RAR, T1, TF, WAR, WCR, Host312, clean
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, T1, TF, WAR, WCR, Host312, clean
 
 T1_8M = "03 09 00 00 03E8 00C8 0007D0"
 """T1 at F = 8 MHz, for moves that would take 15 to 25 million clk at 1 MHz."""

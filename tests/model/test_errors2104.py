@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from model2104_host import B1, B2, LONG, Host2104
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 RUNNING = B1 + " c 44 d FF d FF d 00 d 00 "
 

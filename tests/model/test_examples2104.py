@@ -7,7 +7,7 @@ from math import ceil
 import pytest
 from model2104_host import B1, LONG, RAMP, Host2104, clk
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model import predict_move
 from openppmc.model.motion.ramp import Ramp
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model import Ppmc104, predict_move
 from openppmc.model.common.edges import Edge, EdgeLog, low_times
 from openppmc.model.common.scheduler import Scheduler

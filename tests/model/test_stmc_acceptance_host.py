@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from stmc_host import INTERNAL, STANDARD, SWITCHES, HostStmc, count, init
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.motion.codes import Kind
 from openppmc.model.stmc.codes import decode
 from openppmc.model.stmc.part import Stmc

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from stmc_host import INTERNAL, HostStmc, count, init
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 
 PINS = 2
 

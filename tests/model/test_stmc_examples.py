@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from stmc_host import HostStmc, count, init
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.stmc.commands import profile
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]

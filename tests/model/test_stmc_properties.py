@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from stmc_host import EXT16, INTERNAL, SWITCHES, HostStmc, count, init
 
-from cocotb_tests.common.verifies import verifies
+from cocotb_tests.harness.verifies import verifies
 from openppmc.model.common.square import Square
 from openppmc.model.motion.ramp import profile_index
 from openppmc.model.stmc.part import Stmc

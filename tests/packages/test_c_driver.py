@@ -23,9 +23,9 @@ from c_programs import (
     timed,
 )
 
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.paths import ROOT, relative
-from cocotb_tests.common.runner import part_design
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.paths import ROOT, relative
+from cocotb_tests.harness.runner import part_design
 from openppmc.model.single.codes import Error
 from openppmc.model.single.predict import predict_move
 

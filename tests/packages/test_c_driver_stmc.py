@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 from c_programs import BENCH, DRIVER, TIMINGS, Lines, ending, pulses, result, simulate, timed
 
-from cocotb_tests.common.config import F16
-from cocotb_tests.common.runner import part_design
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.runner import part_design
 from openppmc.model.single.codes import Error
 from openppmc.model.single.predict import predict_move
 

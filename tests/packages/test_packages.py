@@ -7,7 +7,7 @@ import re
 import pytest
 import yaml
 
-from cocotb_tests.common.paths import ROOT
+from cocotb_tests.harness.paths import ROOT
 from scripts.packages.cores import core_files
 from scripts.packages.lists import list_files
 

@@ -1,0 +1,87 @@
+"""ppmc_board_reset and ppmc_board_lamp against their headers."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.harness.unit import Unit, rng, same
+from cocotb_tests.harness.wrapper import Block
+
+RESETS = [(1_000_000, 20), (3_000_000, 7), (24_000_000, 2), (50_000_000, 1)]  # ClkHz, HoldUs
+LAMP_CLK_HZ = 1_000_000
+BLOCKS = {
+    **{
+        f"reset{i}": Block(
+            "ppmc_board_reset", "clk_i lock_i req_ni rst_no", {"ClkHz": clk, "HoldUs": hold}, bare=True
+        )
+        for i, (clk, hold) in enumerate(RESETS)
+    },
+    "lamp": Block("ppmc_board_lamp", "on_i lamp_o", {"ClkHz": LAMP_CLK_HZ}),
+}
+
+
+async def clocks_to_release(unit: Unit, limit: int) -> int:
+    """Clock edges from now until rst_no is 1; at most `limit`."""
+    for count in range(limit):
+        if await unit.settle():
+            return count
+        await unit.clk()
+    raise AssertionError(f"still in reset after {limit} clk")
+
+
+@cocotb.test()
+async def board_reset_release(dut):
+    """Power-on, lock lost, and a bouncing button: reset lasts HoldUs to 2 HoldUs after all is good."""
+    random = rng()
+    for i, (clk_hz, hold_us) in enumerate(RESETS):
+        unit = Unit(dut, f"reset{i}", BLOCKS, "rst_no")
+        least = clk_hz // 1_000_000 * hold_us
+        unit.put(lock_i=1, req_ni=1)
+        unit.choose()
+        if i == 0:  # the start values make a reset of their own, without any lock
+            first = await clocks_to_release(unit, 3 * least)
+            assert least <= first <= 2 * least + 3, f"power-on: {first} clk of {least}"
+        for what in ("lock_i", "req_ni"):
+            await unit.clk(lock_i=1, req_ni=1)
+            for _ in range(5):  # bounces
+                for level in (0, 1):
+                    for _ in range(random.randrange(3, max(4, least))):
+                        await unit.clk(**{what: level})
+                    if not level:
+                        same(f"{what} low", await unit.settle(), 0)
+            await unit.clk(**{what: 0})
+            await unit.clk(**{what: 0})
+            await unit.clk(**{what: 0})
+            unit.put(**{what: 1})
+            count = await clocks_to_release(unit, 3 * least + 3)
+            assert least <= count <= 2 * least + 4, f"{what} {clk_hz}: {count} clk, least {least}"
+
+
+@cocotb.test()
+async def board_reset_assertion(dut):
+    """lock_i resets at once and without a clock, req_ni with the third edge that sees it."""
+    clk_hz, hold_us = RESETS[2]
+    unit = Unit(dut, "reset2", BLOCKS, "rst_no")
+    unit.put(lock_i=1, req_ni=1)
+    unit.choose()
+    await clocks_to_release(unit, 200)
+    same("lock lost", await unit.settle(lock_i=0), 0)
+    unit.put(lock_i=1)
+    await clocks_to_release(unit, 3 * clk_hz // 1_000_000 * hold_us)
+    seen = [await unit.clk(req_ni=0) for _ in range(4)]
+    same("levels before edges 1 to 4 with req_ni = 0", seen, [1, 1, 1, 0])
+
+
+@cocotb.test()
+async def board_lamp_stretch(dut):
+    """A pulse of one clk is seen for 1/32 to 1/16 s, and a new one in between makes it longer."""
+    unit = Unit(dut, "lamp", BLOCKS, "lamp_o")
+    await unit.reset()
+    same("after reset", await unit.clk(on_i=0), 0)
+    await unit.clk(on_i=1)
+    lit, again = 0, LAMP_CLK_HZ // 64
+    while await unit.clk(on_i=int(lit == again)):
+        lit += 1
+        assert lit < LAMP_CLK_HZ, "lamp stays on"
+    least = LAMP_CLK_HZ // 32
+    assert least + again <= lit <= 2 * least + again + 2, f"{lit} clk"

@@ -1,0 +1,200 @@
+"""Contract of ppmc_i2c_master: the times on both lines against the data sheets of the EEPROMs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import ceil
+
+import cocotb
+
+from ..harness.unit import Unit, rng, same
+from ..harness.wrapper import Block
+
+AREA = "i2c"
+NONE, START, STOP, BYTE, FREE = range(5)
+CLOCKS = [
+    (8_000_000, 400_000),
+    (8_727_000, 400_000),  # 0.55 bit is a hair below 12 clk
+    (8_909_000, 400_000),  # half a bit is one below 12 clk
+    (11_059_200, 300_000),
+    (12_000_000, 400_000),
+    (16_000_000, 400_000),
+    (25_000_000, 397_000),
+    (200_000_000, 400_000),
+    (8_000_000, 100_000),
+    (8_000_000, 90_000),
+]
+"""CLK_HZ, I2C_HZ."""
+PORTS = (
+    "tick_o cmd_i:3:ppmc_i2c_pkg::i2c_cmd_e byte_i:8 ack_i first_o done_o fail_o byte_o:8 nack_o"
+    " scl_i sda_i scl_oe_o sda_oe_o"
+)
+BLOCKS = {
+    f"bus{i}": Block("ppmc_i2c_master", PORTS, {"ClkHz": clk, "SclHz": scl})
+    for i, (clk, scl) in enumerate(CLOCKS)
+}
+SHORTEST_NS = {
+    "low": (1300, 4700),
+    "high": (600, 4000),
+    "su_sta": (600, 4700),
+    "hd_sta": (600, 4000),
+    "su_dat": (100, 250),
+    "hd_dat": (0, 0),
+    "su_sto": (600, 4000),
+    "buf": (1300, 4700),
+}
+"""First what 24LC32A from 2.5 V on (Microchip, table of the AC characteristics) and M24C32 at 400 kHz (ST,
+likewise) both ask for; then the 24AA32A below 2.5 V, at 90 kHz."""
+SENT = (0xA5, 0x3C)
+ACCESS_NS = 900
+"""Fall of SCL to what the device sends (both); it is looked at later than that."""
+
+
+@dataclass
+class Lines:
+    """Levels over time, and the shortest of each time in clk. Whoever holds SCL low does it `stretch` clk."""
+
+    stretch: int = 0
+    t: int = 0
+    scl: int = 1
+    sda: int = 1
+    held: int = 0
+    since: dict[str, int] = field(default_factory=dict)
+    found: dict[str, int] = field(default_factory=dict)
+
+    def _note(self, name: str, begin: str) -> None:
+        if begin in self.since:
+            span = self.t - self.since[begin]
+            self.found[name] = min(span, self.found.get(name, span))
+
+    def clk(self, scl_oe: int, sda_oe: int) -> tuple[int, int]:
+        """Levels after an edge on which the master pulls so."""
+        self.t += 1
+        self.held = max(0, self.held - 1)
+        scl, sda = int(not scl_oe and not self.held), int(not sda_oe)
+        if sda != self.sda:
+            self._data(scl, sda)
+        if scl != self.scl:
+            if scl:
+                self._note("low", "fall")
+                if self.since.get("data", -1) >= self.since.get("fall", 0):
+                    self._note("su_dat", "data")
+                self.since["rise"] = self.t
+            else:
+                self._note("high", "rise")
+                if self.since.get("start", -1) > self.since.get("rise", 0):
+                    self._note("hd_sta", "start")
+                self.since["fall"] = self.t
+                self.held = self.stretch
+        self.scl, self.sda = scl, sda
+        return scl, sda
+
+    def _data(self, scl: int, sda: int) -> None:
+        """SDA changes: START, STOP, or a bit while SCL is low."""
+        if not (scl and self.scl):
+            assert not scl and not self.scl, f"clk {self.t}: both lines change together"
+            self._note("hd_dat", "fall")
+            self.since["data"] = self.t
+        elif sda:
+            self._note("su_sto", "rise")
+            self.since["stop"] = self.t
+        else:
+            self._note("su_sta", "rise")
+            self._note("buf", "stop")
+            self.since.pop("stop", None)
+            self.since["start"] = self.t
+
+
+def course() -> Iterator[tuple[int, int]]:
+    """Commands and bytes: transfers with a repeated START, STOP and START without a pause."""
+    for address in (0xA1, 0xA0):
+        yield START, 0
+        yield BYTE, address
+        yield START, 0
+        yield BYTE, 0x55
+        yield STOP, 0
+
+
+async def played(dut: object, number: int, stretch: int = 0) -> Lines:
+    """A course on one instance."""
+    u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
+    lines = Lines(stretch)
+    await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=NONE)
+    delay = [(1, 1)] * 2
+    for cmd, byte in course():
+        u.put(cmd_i=cmd, byte_i=byte)
+        done = 0
+        while not done:
+            (scl, sda), *delay = delay
+            done, scl_oe, sda_oe = await u.clk(scl_i=scl, sda_i=sda)
+            delay.append(lines.clk(scl_oe, sda_oe))
+    return lines
+
+
+@cocotb.test()
+async def i2c_times_of_the_data_sheets(dut):
+    """Given any clock, then every time on the lines is at least what 24LC32A and M24C32 ask for, and SCL low
+    lasts 55 % of the period, to the clk."""
+    for number, (clk, scl) in enumerate(CLOCKS):
+        lines = await played(dut, number)
+        found = {name: Fraction(span * 10**9, clk) for name, span in lines.found.items()}
+        for name, limits in SHORTEST_NS.items():
+            got, shortest = found[name], limits[scl == 90_000]
+            assert got >= shortest, f"{clk} Hz, SCL {scl} Hz: {name} {float(got):.1f} ns, want {shortest}"
+        low = lines.found["low"]
+        assert 0 <= low - Fraction(55 * clk, 100 * scl) < 1, f"{clk} Hz, SCL {scl} Hz: low {low} clk"
+
+
+@cocotb.test()
+async def i2c_times_with_a_stretched_clock(dut):
+    """Given a device that holds SCL low at any length, then the high time is kept, too."""
+    rand = rng()
+    for number, (clk, scl) in enumerate(CLOCKS[:6]):
+        low = clk * 11 // (scl * 20)
+        for stretch in (low, low + 1, rand.randrange(low, 5 * low)):
+            lines = await played(dut, number, stretch)
+            for name in ("high", "su_sta", "su_sto", "hd_sta"):
+                got = Fraction(lines.found[name] * 10**9, clk)
+                assert got >= SHORTEST_NS[name][0], f"{clk} Hz, {stretch} clk: {name} {float(got):.1f} ns"
+
+
+@cocotb.test()
+async def i2c_period(dut):
+    """Given bytes without a pause, then SCL rises every period, to the clk, without drift."""
+    for number, (clk, scl) in enumerate(CLOCKS):
+        u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
+        await u.reset(scl_i=1, sda_i=0, ack_i=1, cmd_i=BYTE, byte_i=0)
+        rises, before, t = [], 0, 0
+        while len(rises) < 30:
+            t += 1
+            _, pulled = await u.clk()
+            if before and not pulled:
+                rises.append(t)
+            before = pulled
+        for n, t in enumerate(rises):
+            assert abs(t - rises[0] - n * Fraction(clk, scl)) < 1, f"{clk} Hz: rise {n} after {t - rises[0]}"
+
+
+@cocotb.test()
+async def i2c_access_time(dut):
+    """Given a device whose bits come as late as the data sheets let them, then they are received."""
+    for number, (clk, _) in enumerate(CLOCKS[:7]):
+        u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
+        await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=BYTE, byte_i=0xFF)
+        late = ceil(Fraction(ACCESS_NS * clk, 10**9))
+        levels = [int(bit) for byte in SENT for bit in f"{byte:08b}1"]
+        before = waits = 0
+        sda = wanted = 1
+        for byte in SENT:
+            done = 0
+            while not done:
+                done, pulled = await u.clk(scl_i=int(not before), sda_i=sda)
+                if pulled and not before:
+                    waits, wanted = late, levels.pop(0) if levels else 1
+                elif waits:
+                    waits -= 1
+                    sda = sda if waits else wanted
+                before = pulled
+            same(f"{clk} Hz: byte", u.get("byte_o"), byte)

@@ -1,1 +1,0 @@
-"""The host side of `make demo`."""

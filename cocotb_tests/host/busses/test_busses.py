@@ -1,0 +1,33 @@
+"""Runs the tests of the on-chip bus bridges: one pytest item a cocotb test, one build for all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.runner import Design, part_design, run_item
+
+ITEMS = cocotb_items("cocotb_tests.host.busses", "tb_axil", "tb_wishbone", part=Part("busses", "BUS", {}))
+
+# The wheel's verilated.mk cannot build a design that is split into several C++ files.
+ONE_FILE = ("--output-split", "0")
+
+
+def busses_design(item) -> Design:
+    """Everything of a PPMC-104, the templates of both bridges and the test top."""
+    part = part_design("ppmc104", item.config)
+    templates = [
+        ROOT / "packages" / "templates" / f"ppmc104_example_{bus}.sv" for bus in ("axil", "wishbone")
+    ]
+    top = Path(__file__).with_name("busses_top.sv")
+    return Design("busses_top", [*part.sources, *templates, top], part.includes, args=ONE_FILE)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_bus(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options, design=busses_design(item))

@@ -1,0 +1,177 @@
+"""A board with a PMC006B4: both lines, the converter's strobes, lamps, the button, what the EEPROM keeps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import ClockCycles, Event, FallingEdge, RisingEdge, Timer, with_timeout
+from cocotb.utils import get_sim_time
+
+from cocotb_tests.harness.unit import same
+from cocotb_tests.harness.wire import Wire
+from cocotb_tests.pmc006.frames import command, of_reply
+
+BAUD, ADDRESS = 115_200, 255
+ACCEPTED = 3  # reply to s
+INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "cmp": 0, "ext1": 1, "ext2": 1, "gpi": 31}
+INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
+LINE, MOVING, SWITCH, RUNNING = range(4)  # lamps
+
+
+class Host(Wire):
+    """A PC on one of the two lines."""
+
+    def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
+        super().__init__(rxd, txd, BAUD)
+        self._de = de
+        self.bytes = bytearray()
+        self._whole = Event()
+
+    def came(self, byte: int) -> None:
+        """Collect a reply; DE must be on."""
+        same("DE", int(self._de.value), 1)
+        self.bytes.append(byte)
+        if len(self.bytes) == 8:
+            self._whole.set()
+
+    async def ask(self, code: str, data: int = 0) -> int:
+        """Data of the reply, which must come on this line; ends when the line is free again."""
+        self.bytes.clear()
+        self._whole.clear()
+        await self.send(command(ADDRESS, code, data))
+        await with_timeout(self._whole.wait(), 10, "ms")
+        await self._time(1)  # it came in the middle of its stop bit
+        address, value = of_reply(bytes(self.bytes))
+        same("address", address, ADDRESS)
+        return value
+
+
+class Board:
+    """The board after power-on, with a PC on each line."""
+
+    def __init__(self, dut: Any) -> None:
+        self.dut = dut
+        for name, level in INPUTS.items():
+            getattr(dut, name).value = level
+        Clock(dut.clk, 125, "ns").start()
+        self.usb = Host(dut.uart_rxd, dut.uart_txd, dut.rs485_de)
+        self.rs485 = Host(dut.rs485_rxd, dut.rs485_txd, dut.rs485_de)
+
+    def lamp(self, which: int) -> int:
+        """A lamp, 1 = on."""
+        return int(self.dut.lamps.value) >> which & 1
+
+    async def boot(self) -> None:
+        """Until the bridges are on, which ends the boot; the lamp "running" is lit before."""
+        await with_timeout(RisingEdge(self.dut.bridge_a_en), 60, "ms")
+        same("running", self.lamp(RUNNING), 1)
+
+    async def strobe(self, name: str, level: int) -> None:
+        """One conversion on the converter's bus, as short as it may be, then another level."""
+        pin = getattr(self.dut, name)
+        self.dut.conv.value, pin.value = level, 1
+        await ClockCycles(self.dut.clk, 4)
+        self.dut.conv.value, pin.value = 1023 - level, 0
+        await ClockCycles(self.dut.clk, 4)
+
+
+async def start(dut: Any) -> Board:
+    """Power-on and boot; both lines are listened to from then on."""
+    board = Board(dut)
+    await board.boot()
+    await ClockCycles(dut.clk, 10)
+    for host in (board.usb, board.rs485):
+        host.listen()
+    return board
+
+
+@cocotb.test()
+async def board006_both_lines(dut: Any) -> None:
+    """Either host is answered, on both lines; DE frames the reply, and the lamp of the line shows it."""
+    board = await start(dut)
+    same("lamp before", board.lamp(LINE), 0)
+    for host, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
+        other.bytes.clear()
+        same("DE", int(dut.rs485_de.value), 0)
+        same("microstepping", await host.ask("k"), 16)
+        same("the other line", bytes(other.bytes), bytes(host.bytes))
+        same("lamp", board.lamp(LINE), 1)
+    same("DE", int(dut.rs485_de.value), 0)
+
+
+@cocotb.test()
+async def board006_motion_and_lamps(dut: Any) -> None:
+    """A move lights its lamp and ends on its step; a switch has its own; the outputs follow."""
+    board = await start(dut)
+    usb, steps = board.usb, 0
+    same("y", await usb.ask("y", 0b10110 << 3), 0b10110 << 3)
+    same("gpo", int(dut.gpo.value), 0b10110)
+    for name in ("ext1", "ext2"):
+        same("lamp", board.lamp(SWITCH), 0)
+        getattr(dut, name).value = 0
+        await Timer(10, "us")
+        same(f"lamp of {name}", board.lamp(SWITCH), 1)
+        getattr(dut, name).value = 1
+        await Timer(10, "us")
+    same("lamp", board.lamp(MOVING), 0)
+    same("step", await usb.ask("s", 5), ACCEPTED)
+    same("lamp", board.lamp(MOVING), 1)
+    while board.lamp(MOVING):
+        await with_timeout(FallingEdge(dut.mon_step), 10, "ms")
+        steps += 1
+        await ClockCycles(dut.clk, 40)
+    same("steps", steps, 5)
+    same("position", await usb.ask("c"), 5)
+
+
+@cocotb.test()
+async def board006_converter(dut: Any) -> None:
+    """One bus, two strobes: the speed follows only the one, the stall detector only the other."""
+    board = await start(dut)
+    usb = board.usb
+    # VSET 1198 analog; half of it is the start-up rate, so the move has that rate throughout.
+    for code, data in (("A", 0), ("W", 0x0108), ("W", 1198), ("A", 0), ("E", 0)):
+        await usb.ask(code, data)
+    same("VMAX", await usb.ask("q"), 1198)
+    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 are a stall
+        same(code, await usb.ask(code, data), data)
+    await board.strobe("adc_stb", 512)
+    await board.strobe("bemf_stb", 1000)
+    same("step", await usb.ask("s", 1000), ACCEPTED)
+    times = []
+    for _ in range(4):
+        await with_timeout(RisingEdge(dut.mon_step), 10, "ms")
+        times.append(get_sim_time("us"))
+        for _ in range(3):  # low levels, but of the other input
+            await board.strobe("adc_stb", 30)
+    period = (times[-1] - times[0]) / 3
+    assert abs(period - 1e6 / 600) <= 1, f"{period} us from step to step"
+    same("not stalled", await usb.ask("j"), 0b01001)
+    await board.strobe("bemf_stb", 99)
+    await board.strobe("bemf_stb", 100)
+    await board.strobe("bemf_stb", 99)
+    same("one low level", await usb.ask("j"), 0b01001)
+    await board.strobe("bemf_stb", 99)
+    same("stalled", await usb.ask("j") >> 4, 1)
+
+
+@cocotb.test()
+async def board006_button_and_eeprom(dut: Any) -> None:
+    """The button resets part and bridges at once; what was saved is there again, the rest is not."""
+    board = await start(dut)
+    rs485 = board.rs485
+    for code, data in (("m", 32), ("v", 2000), ("t", 0)):
+        await rs485.ask(code, data)
+    await Timer(4, "ms")  # a page at 400 kHz and the device's write time
+    dut.btn_n.value = 0
+    await with_timeout(FallingEdge(dut.bridge_a_en), 1, "us")
+    same("bridges", int(dut.bridge_b_en.value), 0)
+    same("running", board.lamp(RUNNING), 0)
+    await Timer(100, "us")
+    dut.btn_n.value = 1
+    await board.boot()
+    await ClockCycles(dut.clk, 10)
+    same("saved", await rs485.ask("k"), 32)
+    same("not saved", await rs485.ask("q"), 1000)

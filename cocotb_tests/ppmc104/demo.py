@@ -1,0 +1,62 @@
+"""What `make demo` plays: a host that initialises a PPMC-104, makes two moves and lets the motor rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.story import Story
+
+# 4-phase motor, full step, high level = coil on, internal clock, phases chopped at rest.
+INIT = 0x2A
+SLOW, FAST, RAMP = 199, 19, 250  # 2.5 kpps to 25 kpps within 250 pulses
+ACC_DEC, CONTINUOUS = 0x43, 0x45
+RATE = 49  # 10 kpps
+PULSES_TO_LIMIT = 60
+INTERRUPT_LATENCY = 800  # clk, 50 us: a host of its time was not faster
+
+
+async def results(host: HostBus) -> None:
+    """Wait for the interrupt, then read finish status and remaining pulses as a host does."""
+    bench = host.bench
+    if bench.level("int_n"):
+        await bench.edge("int_n", 0, timeout=3_000_000)
+    await bench.clocks(INTERRUPT_LATENCY)
+    await host.status()
+    await host.fetch(0x80)
+    await host.fetch(0x83, 3)
+
+
+@cocotb.test()
+async def demo_move(dut: Any) -> None:
+    """Given a reset chip, when a host moves 1000 pulses and then runs into L1, then all of it is recorded."""
+    bench = await Bench.start(dut)
+    host = HostBus(bench)
+    story = Story(bench)
+    with story.chapter("reset", "after reset"):
+        await host.status()
+        await host.fetch(0x81)
+    with story.chapter("init", "initialise"):
+        await host.init(INIT, SLOW, FAST, RAMP)
+        await host.status()
+        # The table build keeps this one in the buffer: IBF tells when the chip is ready.
+        await host.fetch(0x82)
+    with story.chapter("move", "1000 pulses with ramps"):
+        await host.move(ACC_DEC, 1000)
+        await results(host)
+    with story.chapter("pause", "rest"):
+        await bench.clocks(64_000)
+    with story.chapter("limit", "run into limit L1"):
+        start = bench.now
+        await host.send(CONTINUOUS, [RATE])
+        last = await bench.nth_fall(PULSES_TO_LIMIT, since=start)
+        bench.at(last + 700, l1_n=0)
+        await results(host)
+        await host.fetch(0x81)
+    with story.chapter("rest", "rest until HOLD rises"):
+        await bench.edge("hold", 1, timeout=2_000_000)
+        await bench.clocks(16_000)
+    story.save()

@@ -1,0 +1,309 @@
+"""Black-box acceptance checks AC-45 to AC-60: stimulus and figures as the acceptance table gives them."""
+
+from __future__ import annotations
+
+from itertools import repeat
+
+import cocotb
+from cocotb.triggers import Timer
+
+from cocotb_tests.harness.bus import BUSY, COMMAND, IBF
+from cocotb_tests.harness.config import D16, F11, configs
+from cocotb_tests.harness.verifies import verifies
+
+from .figures import INIT_A, INIT_B, differences
+from .lab import Lab
+
+A_DATA = (9, 4, 4)
+
+
+@cocotb.test()
+@verifies("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
+async def p104_ac_45_chopping(dut):
+    """Given S = 1, when parameters and vsel change,
+    then the chopper follows; a step sees the full pattern.
+    """
+    lab = await Lab.start(dut, (0x2A, *A_DATA))
+    on, off = 0b00011, 0b00000
+    await lab.bench.clocks(9000)
+    times = lab.stretches(lab.bench.now - 8900)
+    lab.check("AC-45", "default phases", set(times), {(on, 1040), (off, 1740)})
+    await lab.host.run("c 84 d 10 d 20")
+    await lab.bench.clocks(4000)
+    since = lab.bench.now
+    await lab.bench.clocks(9000)
+    lab.check("AC-45", "phases, vsel = 1", set(lab.stretches(since)), {(on, 1200), (off, 2064)})
+    lab.bench.set(vsel=0)
+    await lab.bench.clocks(4000)
+    since = lab.bench.now
+    for _ in range(8):
+        lab.check("AC-45", "0x82", await lab.host.run("c 82 r"), [0xC4])
+        await lab.bench.clocks(1100)
+    lab.check("AC-45", "phases, vsel = 0", set(lab.stretches(since)), {(on, 1168), (off, 1996)})
+    await lab.go(0x42)
+    pulse = await lab.pulse(1)
+    started = lab.bench.falls("hold", lab.since)[0]
+    lab.window("AC-45", "full pattern before the pulse", pulse - started, 80, 82)
+    lab.check("AC-45", "s from the start on", lab.bench.level_at("s", started), on)
+    await lab.ended()
+    lab.check("AC-45", "edges of s in the step", lab.bench.edges("s", started + 1), [(pulse, 0b00110)])
+
+
+@cocotb.test()
+@verifies("AC-46", "P104-SW-02", "P104-SW-04")
+async def p104_ac_46_chopper_starts_with_on(dut):
+    """Given S = 1, when a single step ends, then the first OFF phase begins 1040 clk later."""
+    lab = await Lab.start(dut, (0x2A, *A_DATA))
+    await lab.go(0x42)
+    end = await lab.ended()
+    off = await lab.bench.edge("s", 0)
+    lab.window("AC-46", "INT to the first OFF phase", off - end, 1034, 1046)
+
+
+@cocotb.test()
+@verifies("AC-47", "P104-INI-08")
+async def p104_ac_47_chopping_ends(dut):
+    """Given S = 1, when a re-init with S = 0 completes, then chopping ends with the pattern on."""
+    lab = await Lab.start(dut, (0x2A, *A_DATA))
+    await lab.bench.edge("s", 0)
+    await lab.init(*INIT_A)
+    await lab.bench.clocks(2)
+    since = lab.bench.now
+    lab.check("AC-47", "s", lab.bench.level("s"), 0b00011)
+    await lab.bench.clocks(8000)
+    lab.check("AC-47", "edges of s", lab.bench.edges("s", since), [])
+
+
+@cocotb.test()
+@verifies("AC-48", "P104-END-08")
+async def p104_ac_48_hold(dut):
+    """Given single steps 20 ms apart, when the second has rested 34 ms, then hold rises."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.move(0x42)
+    first = lab.pulses[0]
+    fell = lab.bench.falls("hold")[0]
+    lab.window("AC-48", "hold falls before the pulse", first - fell, 80, 82)
+    await lab.bench.until(first + 320_000)
+    await lab.move(0x42)
+    second = lab.pulses[0]
+    rise = await lab.bench.edge("hold", 1)
+    lab.window("AC-48", "pulse to hold", rise - second, 544_000, 545_600)
+    lab.check("AC-48", "edges of hold", [value for _, value in lab.bench.edges("hold")], [0, 1])
+
+
+@cocotb.test()
+@verifies("AC-48", "P104-END-08")
+async def p104_ac_48_hold_after_one_step(dut):
+    """Given one single step, when 34 ms have passed, then hold rises."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.move(0x42)
+    rise = await lab.bench.edge("hold", 1)
+    lab.window("AC-48", "pulse to hold", rise - lab.pulses[0], 544_000, 545_600)
+
+
+@cocotb.test()
+@verifies("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
+async def p104_ac_49_external_clock(dut):
+    """Given external clocks, when rate 9 runs with vsel 1 and 0, then 640, 760 and 1600 clk."""
+    lab = await Lab.start(dut, (0x1A, *A_DATA))
+    for period, vsel, expected in ((64, 1, 640), (64, 0, 760), (160, 0, 1600)):
+        lab.bench.set(vsel=vsel)
+        clock = lab.bench.external_clock(repeat(period), high=period // 2)
+        await lab.move(0x44, 10, rate=9)
+        clock.cancel()
+        await lab.bench.align()
+        lab.bench.set(clock=0)
+        await lab.bench.clocks(4)
+        lab.check("AC-49", "pulses", len(lab.pulses), 10)
+        for interval in lab.intervals:
+            lab.window(
+                "AC-49", f"interval at {period} clk, vsel {vsel}", interval, expected - 2, expected + 2
+            )
+        lab.check("AC-49", "sum of intervals", sum(lab.intervals), 9 * expected)
+
+
+@cocotb.test()
+@verifies("AC-50", "P104-TIM-03", "P104-BAD-13")
+async def p104_ac_50_external_clock_missing(dut):
+    """Given a stopped clock, when a move starts, then it waits with BUSY = 1 until 0x40."""
+    lab = await Lab.start(dut, (0x1A, *A_DATA))
+    await lab.go(0x44, 10, rate=9)
+    await lab.bench.clocks(16_000)
+    lab.check("AC-50", "BUSY", await lab.host.status(), BUSY)
+    await lab.host.run("c 40")
+    await lab.result("AC-50", 0, 0xC4, 9)
+
+
+@cocotb.test()
+@verifies("AC-51", "P104-BCK-03", "P104-EX-12")
+@configs(F11)
+async def p104_ac_51_no_drift(dut):
+    """Given CLK_HZ = 11 059 200, when 1001 pulses run at rate 0, then each lies where the formula says."""
+    lab = await Lab.start(dut, INIT_A)
+    pulses = await lab.move(0x44, 1001, rate=0)
+    got = [t - pulses[0] for t in pulses]
+    expected = [-(-221184 * n // 10000) for n in range(1001)]
+    lab.check("AC-51", "falls 1, 2, 3, 1000", [expected[n] for n in (1, 2, 3, 1000)], [23, 45, 67, 22119])
+    lab.check("AC-51", "all pulses", got, expected)
+
+
+@cocotb.test()
+@verifies("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02")
+@configs(D16)
+async def p104_ac_52_init_time(dut):
+    """Given DATASHEET, when C1 and C2 are written into the closed mailbox,
+    then only C2 is taken, at 16.5 ms.
+    """
+    lab = await Lab.start(dut, None)
+    await lab.host.run("c 0A d 09 d 04 d 04")
+    event = await lab.host.data(0x00, poll=False) + 2
+    # The status right after the byte: taken at once, the mailbox closed behind it.
+    await lab.host.poll(IBF, 0)
+    await lab.host.command(0xC1, poll=False)
+    await lab.host.command(0xC2, poll=False)
+    while (at := lab.bench.now) < event + 263_990:
+        lab.check("AC-52", f"status at edge {at}", await lab.host.status(), IBF)
+        await lab.bench.clocks(min(8000, max(1, event + 263_980 - lab.bench.now)))
+    await lab.host.poll(IBF, 0, dense=1000)
+    lab.window("AC-52", "IBF cleared after the write event", lab.bench.now - event, 264_000, 264_030)
+    await lab.bench.clocks(400)
+    lab.check("AC-52", "edges of aux_n", lab.bench.edges("aux_n"), [])
+
+
+@cocotb.test()
+@verifies("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07")
+@configs(D16)
+async def p104_ac_53_constant_speed_times(dut):
+    """Given DATASHEET, when 0x44 runs 3 pulses,
+    then BUSY, pulse 1, INT and the next command keep their times.
+    """
+    lab = await Lab.start(dut, INIT_A)
+    lab.since = lab.bench.now
+    await lab.host.run("c 44 d 63 d 02 d 00")
+    event = await lab.host.data(0x00, poll=False) + 2
+    last_idle = event
+    while True:
+        at = lab.bench.now
+        if await lab.host.status() & BUSY:
+            break
+        last_idle = at
+    lab.window("AC-53", "last status with BUSY = 0 after the write event", last_idle - event, 0, 448)
+    lab.window("AC-53", "first status with BUSY = 1 after the write event", at + 2 - event, 432, 456)
+    lab.window("AC-53", "hold fall", lab.bench.falls("hold")[0] - event, 432, 448)
+    lab.window("AC-53", "pulse 1", await lab.pulse(1) - event, 3104, 3120)
+    last = await lab.pulse(3)
+    await lab.bench.until(last + 10)
+    await lab.host.command(0x80, poll=False)
+    lab.window("AC-53", "INT after the last fall", await lab.ended() - last, 416, 432)
+    taken = await lab.bench.edge("int_n", 1)
+    lab.window("AC-53", "0x80 taken after the last fall", taken - last, 2496, 2514)
+
+
+@cocotb.test()
+@verifies("AC-54", "P104-DS-06")
+@configs(D16)
+async def p104_ac_54_single_step_times(dut):
+    """Given DATASHEET, when 0x42 is written, then the pulse comes at 86 us and INT at 112 us."""
+    lab = await Lab.start(dut, INIT_A)
+    event = await lab.go(0x42, poll=False) + 2
+    lab.window("AC-54", "pulse", await lab.pulse(1) - event, 1376, 1392)
+    lab.window("AC-54", "INT", await lab.ended() - event, 1792, 1808)
+
+
+@cocotb.test()
+@verifies("AC-55", "P104-DS-05")
+@configs(D16)
+async def p104_ac_55_ramp_times(dut):
+    """Given DATASHEET, when a trapezoid and a triangle start, then pulse 1 comes at its own time."""
+    lab = await Lab.start(dut, INIT_B)
+    for n, low in ((1000, 3200), (10, 3276)):
+        event = await lab.go(0x43, n, poll=False) + 2
+        lab.window("AC-55", f"pulse 1 of N = {n}", await lab.pulse(1) - event, low, low + 16)
+        await lab.host.run("c 40")
+        await lab.idle()
+        await lab.host.run("c 80 r")
+
+
+@cocotb.test()
+@verifies("AC-56", "P104-DS-12")
+@configs(D16)
+async def p104_ac_56_too_fast_for_commands(dut):
+    """Given DATASHEET and 20 us intervals, when C1 comes, then it waits for the end; 0x40 does not."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 100, rate=9)
+    await lab.pulse(20, 10)
+    await lab.host.command(0xC1, poll=False)
+    last = await lab.pulse(100)
+    await lab.bench.until(last + 2480)
+    lab.check("AC-56", "IBF before 156 us", await lab.host.status() & IBF, IBF)
+    lab.check("AC-56", "aux_n before 156 us", lab.bench.level("aux_n"), 1)
+    on = await lab.bench.edge("aux_n", 0)
+    lab.window("AC-56", "aux_n after the last fall", on - last, 2720, 2752)
+    await lab.result("AC-56", 100, 0x84)
+    await lab.go(0x44, 100, rate=9)
+    await lab.pulse(20, 100)
+    await lab.host.command(0x40, poll=False)
+    await lab.result("AC-56", 20, 0xC4, 0x4F)
+
+
+@cocotb.test()
+@verifies("AC-57", "P104-BAD-19")
+async def p104_ac_57_reset_in_motion(dut):
+    """Given a running move, when rst_n falls between two clk edges, then all outputs are at reset levels."""
+    lab = await Lab.start(dut, INIT_A)
+    bench = lab.bench
+    await lab.host.run("c C1 c 86 d 0F")
+    await lab.go(0x4C, 20, rate=0x13)
+    await lab.pulse(3, 20)
+    await Timer(bench.period // 4 // 2 * 2, "ps")
+    bench.set_between_edges(rst_n=0)
+    await Timer(bench.period // 8, "ps")
+    expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
+    lab.check("AC-57", "outputs", lab.outputs(), expected)
+    await bench.align()
+    await bench.clocks(4)
+    bench.set(rst_n=1)
+    await bench.clocks(6)
+    lab.check("AC-57", "status", await lab.host.status(), 0x00)
+    lab.check("AC-57", "status of 0x42", await lab.host.command(0x42), 0xA0)
+
+
+@cocotb.test()
+@verifies("AC-58", "P104-BUS-02")
+async def p104_ac_58_both_strobes(dut):
+    """Given both strobes low together, when they end together, then there was no access."""
+    lab = await Lab.start(dut, None)
+    before = await lab.host.command(0x86)
+    await lab.bench.clocks(4)
+    since = lab.bench.set(a0=COMMAND, d_i=0xC1, cs_n=0, rd_n=0, wr_n=0)
+    await lab.bench.clocks(10)
+    lab.bench.set(cs_n=1, rd_n=1, wr_n=1)
+    await lab.bench.clocks(12)
+    lab.check("AC-58", "edges of d_oe", lab.bench.edges("d_oe", since), [])
+    lab.check("AC-58", "status", await lab.host.status(), before)
+    lab.check("AC-58", "edges of aux_n", lab.bench.edges("aux_n"), [])
+
+
+@cocotb.test()
+@verifies("AC-59", "P104-OPR-06", "P104-TIM-02")
+async def p104_ac_59_single_step_needs_no_clock(dut):
+    """Given a stopped external clock, when 0x42 starts, then its pulse comes all the same."""
+    lab = await Lab.start(dut, (0x1A, *A_DATA))
+    await lab.move(0x42)
+    lab.window("AC-59", "hold fall to pulse", lab.pulses[0] - lab.bench.falls("hold")[0], 80, 82)
+    lab.check("AC-59", "low time", lab.bench.low_times(lab.since), [80])
+    lab.check("AC-59", "s", lab.bench.level("s"), 0b00110)
+    await lab.result("AC-59", 1, 0x82)
+
+
+@cocotb.test()
+@verifies("AC-60", "P104-TIM-05", "P104-END-02")
+async def p104_ac_60_limit_in_short_low_time(dut):
+    """Given rate 0, when L1 falls 2 clk after pulse 10, then that pulse keeps its 16 clk and is the last."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 100, rate=0)
+    await lab.pulse(10, 2)
+    lab.bench.set(l1_n=0)
+    await lab.result("AC-60", 10, 0x94, 0x59)
+    lab.check("AC-60", "low times", lab.bench.low_times(lab.since), [16] * 10)
+    lab.check("AC-60", "intervals", differences(lab.pulses), [32] * 9)

@@ -1,0 +1,336 @@
+"""Black-box acceptance checks AC-01 to AC-24: stimulus and figures as the acceptance table gives them."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.harness.bus import BUSY, IBF, OBF, STATUS
+from cocotb_tests.harness.verifies import verifies
+
+from .figures import INIT_A, INIT_B
+from .lab import Lab
+
+A_DATA = "d 09 d 04 d 04 d 00"
+A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
+
+
+def kind_of(code: int) -> str:
+    """What a command code is, from the code map alone (P104-CMD-01)."""
+    low = code & 7
+    if code < 0x40:
+        return "init" if code & 3 else "undefined"
+    if code < 0x80:
+        return "stop" if low < 2 else "operation"
+    if code < 0xC0:
+        names = {0x80: "read", 0x81: "read", 0x82: "read", 0x83: "read", 0x85: "read"}
+        return names.get(code, {0x84: "switching", 0x86: "aux"}.get(code, "undefined"))
+    return {0: "off", 1: "on", 2: "off", 3: "operation", 6: "operation"}.get(low, "undefined")
+
+
+async def stopped_after_ten(lab: Lab) -> None:
+    """The stimulus of AC-20: 1000 pulses at rate 99, stopped 400 clk after the tenth."""
+    await lab.go(0x44, 1000, rate=0x63)
+    await lab.pulse(10, 400)
+    await lab.host.run("c 40")
+    await lab.idle()
+
+
+@cocotb.test()
+@verifies("AC-01", "P104-PORT-01", "P104-PORT-03", "P104-STA-07")
+async def p104_ac_01_reset_levels(dut):
+    """Given a reset, when it ends, then all outputs, status and data register have their reset values."""
+    lab = await Lab.start(dut, None)
+    expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
+    lab.check("AC-01", "outputs", lab.outputs(), expected)
+    lab.check("AC-01", "d_oe", lab.bench.level("d_oe"), 0)
+    lab.check("AC-01", "status", await lab.host.status(), 0x00)
+    lab.check("AC-01", "data register", await lab.host.read(0), 0x00)
+
+
+@cocotb.test()
+@verifies("AC-02", "P104-BUS-05")
+async def p104_ac_02_read_strobe(dut):
+    """Given a status read of 6 clk, when it runs, then d_oe and d_o keep to their windows."""
+    lab = await Lab.start(dut, None)
+    bench = lab.bench
+    first = bench.set(a0=STATUS, cs_n=0, rd_n=0)
+    await bench.clocks(6)
+    after = bench.set(cs_n=1, rd_n=1)
+    await bench.clocks(8)
+    (on, _), (off, _) = bench.edges("d_oe", first)
+    lab.window("AC-02", "d_oe rise after edge 0", on - first, 0, 2)
+    lab.window("AC-02", "d_oe fall after edge 0'", off - after, 0, 2)
+    lab.check("AC-02", "d_o changes in the strobe", bench.edges("d_o", first + 3), [])
+
+
+@cocotb.test()
+@verifies("AC-03", "P104-ERR-01", "P104-FSM-01")
+async def p104_ac_03_not_initialised(dut):
+    """Given a core after reset, when operations and stops come, then error 2 or 0 and nothing moves."""
+    lab = await Lab.start(dut, None)
+    got = await lab.statuses("c 42 c 40 c 41 c 46 c C3 d 00")
+    lab.check("AC-03", "statuses", got, [0xA0, 0x80, 0x80, 0xA0, 0xA0, 0xB0])
+    await lab.bench.clocks(500)
+    lab.check("AC-03", "pulses", lab.bench.pulses(), [])
+    lab.check("AC-03", "hold edges", lab.bench.edges("hold"), [])
+
+
+@cocotb.test()
+@verifies("AC-04", "P104-CMD-01", "P104-CMD-03", "P104-STA-06")
+async def p104_ac_04_all_codes(dut):
+    """Given a reset before each of the 256 codes, when the code is sent,
+    then the status is as its kind says.
+    """
+    lab = await Lab.start(dut, None)
+    status = {"undefined": 0x80, "stop": 0x80, "operation": 0xA0, "init": 0x40, "switching": 0x20}
+    status |= {"aux": 0x10, "read": 0x01, "on": 0x00, "off": 0x00}
+    count = 0
+    for code in range(256):
+        await lab.bench.reset()
+        await lab.bench.clocks(6)
+        kind = kind_of(code)
+        count += kind == "undefined"
+        lab.check("AC-04", f"status after {code:#04x}", await lab.host.command(code), status[kind])
+    lab.check("AC-04", "number of undefined codes", count, 97)
+
+
+@cocotb.test()
+@verifies("AC-05", "P104-INI-02", "P104-STA-05")
+async def p104_ac_05_init_counts_down(dut):
+    """Given init A, when its bytes go in, then NUM counts 4, 3, 2, 1, 0."""
+    lab = await Lab.start(dut, None)
+    got = await lab.statuses(f"c 0A {A_DATA}")
+    lab.check("AC-05", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
+
+
+@cocotb.test()
+@verifies("AC-06", "P104-INI-05", "P104-RD-06")
+async def p104_ac_06_first_pattern(dut):
+    """Given init A, when it is accepted, then s shows index 0 and 0x82 reads it."""
+    lab = await Lab.start(dut, None)
+    await lab.host.run(f"c 0A {A_DATA}")
+    lab.check("AC-06", "s", lab.bench.level("s"), 0b00011)
+    lab.check("AC-06", "0x82", await lab.host.run("c 82 r"), [0xC4])
+
+
+@cocotb.test()
+@verifies("AC-07", "P104-PHS-01")
+async def p104_ac_07_negative_logic(dut):
+    """Given negative logic, when initialised, then s is inverted and 0x82 shows the pin levels."""
+    lab = await Lab.start(dut, None)
+    await lab.host.run(f"c 02 {A_DATA}")
+    lab.check("AC-07", "s", lab.bench.level("s"), 0b11100)
+    lab.check("AC-07", "0x82", await lab.host.run("c 82 r"), [0x3C])
+
+
+@cocotb.test()
+@verifies("AC-08", "P104-RD-06", "P104-PHS-02", "P104-RD-05")
+async def p104_ac_08_reads_after_reset(dut):
+    """Given a core after reset, when the registers are read, then 0xFC, 0xCF, 0x00."""
+    lab = await Lab.start(dut, None)
+    lab.check("AC-08", "reads", await lab.host.run("c 82 r c 81 r c 80 r"), [0xFC, 0xCF, 0x00])
+
+
+@cocotb.test()
+@verifies("AC-09", "P104-EX-01", "P104-PRO-02")
+async def p104_ac_09_trapezoid(dut):
+    """Given init A, when 14 pulses are asked for, then the trapezoid of EX-01 comes out."""
+    lab = await Lab.start(dut, None)
+    await lab.host.run(f"c 0A {A_DATA} c 43 d 0D d 00 d 00")
+    await lab.idle()
+    lab.check("AC-09", "intervals", lab.bench.intervals(), A_INTERVALS)
+    lab.check("AC-09", "s at the end", lab.bench.level("s"), 0b01100)
+
+
+@cocotb.test()
+@verifies("AC-10", "P104-EX-02", "P104-PRO-03")
+async def p104_ac_10_triangles(dut):
+    """Given init A, when D goes from 0 to 9, then the pulse counts and rates of EX-02 come out."""
+    lab = await Lab.start(dut, INIT_A)
+    table = [[], [9], [9, 9], [9, 7, 9], [9, 7, 7, 9], [9, 7, 5, 7, 9], [9, 7, 5, 5, 7, 9]]
+    table += [[9, 7, 5, 5, 5, 7, 9], [9, 7, 5, 5, 5, 5, 7, 9], [9, 7, 5, 5, 4, 5, 5, 7, 9]]
+    for d, rates in enumerate(table):
+        pulses = await lab.move(0x43, d + 1)
+        lab.check("AC-10", f"pulses for D = {d}", len(pulses), d + 1)
+        lab.check("AC-10", f"intervals for D = {d}", lab.intervals, [32 * (r + 1) for r in rates])
+
+
+@cocotb.test()
+@verifies("AC-11", "P104-EX-03")
+async def p104_ac_11_long_move(dut):
+    """Given a ramp of 100 steps, when 1000 pulses run, then they last 1 795 008 clk."""
+    lab = await Lab.start(dut, None)
+    await lab.host.run("c 0A d C7 d 31 d 64 d 00 c 43 d E7 d 03 d 00")
+    await lab.bench.edge("int_n", 0, 2_000_000)
+    pulses = lab.bench.pulses()
+    lab.check("AC-11", "pulses", len(pulses), 1000)
+    lab.check("AC-11", "first to last edge", pulses[-1] - pulses[0], 1_795_008)
+    lab.check("AC-11", "first intervals", lab.bench.intervals()[:4], [6400, 5984, 5600, 5312])
+
+
+@cocotb.test()
+@verifies("AC-12", "P104-RMP-03")
+async def p104_ac_12_half_rounds_up(dut):
+    """Given RL 4, RH 0, PA 8, when 20 pulses run, then the exact half at index 1 is rounded up."""
+    lab = await Lab.start(dut, None)
+    await lab.host.run("c 0A d 04 d 00 d 08 d 00 c 43 d 13 d 00 d 00")
+    await lab.idle()
+    expected = [160, 96, 64, 64, *[32] * 11, 64, 64, 96, 160]
+    lab.check("AC-12", "intervals", lab.bench.intervals(), expected)
+
+
+@cocotb.test()
+@verifies("AC-13", "P104-TIM-02", "P104-TIM-04")
+async def p104_ac_13_first_pulse_and_phases(dut):
+    """Given AC-09, when it runs, then pulse 1 is 80..82 clk after hold and s moves with each pulse."""
+    lab = await Lab.start(dut, INIT_A)
+    pulses = await lab.move(0x43, 14)
+    lab.window("AC-13", "hold fall to pulse 1", pulses[0] - lab.bench.falls("hold")[0], 80, 82)
+    lab.check("AC-13", "edges of s", [t for t, _ in lab.bench.edges("s", lab.since)], pulses)
+
+
+@cocotb.test()
+@verifies("AC-14", "P104-TIM-05")
+async def p104_ac_14_low_times(dut):
+    """Given AC-09 and a move at rate 0, when they run, then low times are 80, and 16 at rate 0."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.move(0x43, 14)
+    lab.check("AC-14", "low times", lab.bench.low_times(lab.since), [80] * 14)
+    await lab.move(0x44, 10, rate=0)
+    lab.check("AC-14", "intervals at rate 0", lab.intervals, [32] * 9)
+    lab.check("AC-14", "low times at rate 0", lab.bench.low_times(lab.since), [16] * 9 + [80])
+
+
+@cocotb.test()
+@verifies("AC-15", "P104-EX-06", "P104-BCK-02")
+async def p104_ac_15_csel_vsel(dut):
+    """Given rate 99, when csel and vsel are 11, 01, 10, 00, then the four intervals of EX-06 come out."""
+    lab = await Lab.start(dut, INIT_A)
+    for csel, vsel, interval in ((1, 1, 3200), (0, 1, 12800), (1, 0, 3320), (0, 0, 12920)):
+        lab.bench.set(csel=csel, vsel=vsel)
+        await lab.bench.clocks(4)
+        await lab.move(0x44, 5, rate=0x63)
+        lab.check("AC-15", f"intervals at csel {csel}, vsel {vsel}", lab.intervals, [interval] * 4)
+
+
+@cocotb.test()
+@verifies("AC-16", "P104-BCK-02", "P104-BAD-16")
+async def p104_ac_16_latched_at_start(dut):
+    """Given a move, when csel and vsel fall after pulse 2, then its intervals stay."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 5, rate=0x63)
+    await lab.pulse(2, 10)
+    lab.bench.set(csel=0, vsel=0)
+    await lab.idle()
+    lab.check("AC-16", "intervals", lab.intervals, [3200] * 4)
+
+
+@cocotb.test()
+@verifies("AC-17", "P104-END-01", "P104-RD-03", "P104-RD-04")
+async def p104_ac_17_int_and_finish(dut):
+    """Given a two-pulse move, when it ends, then INT falls with BUSY, and 0x80 releases it."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x43, 2)
+    await lab.busy_until(lambda: lab.bench.level("int_n") == 0, "AC-17")
+    lab.check("AC-17", "BUSY after INT", await lab.host.status() & BUSY, 0)
+    late = lab.bench.falls("int_n")[0] - lab.bench.rises("pout_n")[-1]
+    lab.window("AC-17", "int_n after the last pout_n rise", late, 0, 4)
+    lab.check("AC-17", "first finish status", await lab.host.run("c 80 r"), [0x83])
+    lab.check("AC-17", "int_n after 0x80", lab.bench.level("int_n"), 1)
+    lab.check("AC-17", "second finish status", await lab.host.run("c 80 r"), [0x03])
+
+
+@cocotb.test()
+@verifies("AC-18", "P104-CMD-02")
+async def p104_ac_18_masked_interrupt(dut):
+    """Given I = 1, when the move ends, then int_n stays 1 and the finish status is still new."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.move(0x53, 2)
+    lab.check("AC-18", "int_n edges", lab.bench.edges("int_n"), [])
+    lab.check("AC-18", "finish status", await lab.host.run("c 80 r"), [0x83])
+
+
+@cocotb.test()
+@verifies("AC-19", "P104-END-07")
+async def p104_ac_19_pending_interrupt(dut):
+    """Given a pending INT, when a masked step follows, then INT stays until 0x80."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.move(0x42)
+    await lab.move(0x52)
+    lab.check("AC-19", "int_n levels so far", [v for _, v in lab.bench.edges("int_n")], [0])
+    lab.check("AC-19", "finish status", await lab.host.run("c 80 r"), [0x82])
+    lab.check("AC-19", "int_n after 0x80", lab.bench.level("int_n"), 1)
+
+
+@cocotb.test()
+@verifies("AC-20", "P104-EX-10", "P104-END-06")
+async def p104_ac_20_immediate_stop(dut):
+    """Given N = 1000, when 0x40 comes after pulse 10, then it ends there and 989 is read."""
+    lab = await Lab.start(dut, INIT_A)
+    await stopped_after_ten(lab)
+    lab.check("AC-20", "pulses", len(lab.pulses), 10)
+    lab.check("AC-20", "finish status", await lab.host.run("c 80 r"), [0xC4])
+    lab.check("AC-20", "remaining", await lab.host.run("c 83 rrr"), [0xDD, 0x03, 0x00])
+
+
+@cocotb.test()
+@verifies("AC-40", "P104-HSK-08", "P104-HSK-06")
+async def p104_ac_40_queue_replaced(dut):
+    """Given two unread bytes after AC-20, when 0x80 is executed, then its byte replaces them."""
+    lab = await Lab.start(dut, INIT_A)
+    await stopped_after_ten(lab)
+    await lab.host.run("c 80 r c 83 rrr")
+    lab.check("AC-40", "first byte, then 0x80", await lab.host.run("c 83 r c 80 r"), [0xDD, 0x44])
+    lab.check("AC-40", "OBF", await lab.host.status() & OBF, 0)
+    lab.check("AC-40", "stale byte", await lab.host.read(0), 0x44)
+    lab.check("AC-40", "status after the stale read", await lab.host.status() & (OBF | IBF), 0)
+
+
+@cocotb.test()
+@verifies("AC-21", "P104-END-06")
+async def p104_ac_21_one_left(dut):
+    """Given N = 2, when 0x40 comes after pulse 1, then one pulse is left and 0 is read."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 2, rate=0x63)
+    await lab.pulse(1, 400)
+    await lab.host.run("c 40")
+    await lab.result("AC-21", 1, 0xC4, 0)
+
+
+@cocotb.test()
+@verifies("AC-22", "P104-FDC-02", "P104-EX-04")
+async def p104_ac_22_forced_in_acceleration(dut):
+    """Given init B, when 0x41 comes after pulse 4, then the ramp is mirrored to 8 pulses."""
+    lab = await Lab.start(dut, INIT_B)
+    await lab.go(0x43, 1000)
+    await lab.pulse(4, 100)
+    await lab.host.run("c 41")
+    await lab.result("AC-22", 8, 0xC3, 0x0003DF)
+    lab.check("AC-22", "intervals", lab.intervals, [640, 576, 512, 480, 512, 576, 640])
+
+
+@cocotb.test()
+@verifies("AC-23", "P104-EX-04", "P104-STP-04")
+async def p104_ac_23_forced_from_plateau(dut):
+    """Given init B, when 0x41 comes after pulse 29 and again after 33, then 40 pulses and error 7."""
+    lab = await Lab.start(dut, INIT_B)
+    await lab.go(0x43, 1000)
+    await lab.pulse(29, 50)
+    await lab.host.run("c 41")
+    await lab.pulse(33)
+    lab.check("AC-23", "status of the second 0x41", await lab.host.command(0x41), 0xF4)
+    await lab.result("AC-23", 40, 0xC3, 0x0003BF)
+    tail = [32 * (r + 1) for r in (9, 10, 10, 11, 12, 12, 14, 15, 17, 19)]
+    lab.check("AC-23", "tail after I(29)", lab.intervals[29:], tail)
+
+
+@cocotb.test()
+@verifies("AC-24", "P104-PRO-05", "P104-STP-04")
+async def p104_ac_24_natural_deceleration(dut):
+    """Given init A and N = 14, when 0x41 comes after pulse 11, then error 7 and a complete move."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x43, 14)
+    await lab.pulse(11, 50)
+    lab.check("AC-24", "status", await lab.host.command(0x41), 0xF4)
+    await lab.result("AC-24", 14, 0x83, 0)
+    lab.check("AC-24", "intervals", lab.intervals, A_INTERVALS)

@@ -1,0 +1,285 @@
+"""Black-box acceptance checks AC-25 to AC-44: stimulus and figures as the acceptance table gives them."""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.harness.bus import ERR, OBF
+from cocotb_tests.harness.verifies import verifies
+
+from .figures import INIT_A, INIT_B, STEP_CODES, steps
+from .lab import Lab
+
+A_DATA = "d 09 d 04 d 04 d 00"
+A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
+
+
+@cocotb.test()
+@verifies("AC-25", "P104-STP-05")
+async def p104_ac_25_decelerating_stop_at_constant_speed(dut):
+    """Given 0x45, when 0x41 comes after pulse 5, then it stops at once without an error."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x45, rate=0x63)
+    await lab.pulse(5, 400)
+    lab.check("AC-25", "ERR", await lab.host.command(0x41) & ERR, 0)
+    await lab.result("AC-25", 5, 0xC5, 0xFFFFFA)
+
+
+@cocotb.test()
+@verifies("AC-26", "P104-EX-04", "P104-FDC-03")
+async def p104_ac_26_start_on_slow_down_limit(dut):
+    """Given L3 low before the start, when 0x43 starts CW, then exactly one pulse comes."""
+    lab = await Lab.start(dut, INIT_B)
+    lab.bench.set(l3_n=0)
+    await lab.go(0x43, 1000)
+    await lab.result("AC-26", 1, 0x8B, 0x0003E6)
+
+
+@cocotb.test()
+@verifies("AC-27", "P104-FDC-01", "P104-FDC-04")
+async def p104_ac_27_short_slow_down_limit(dut):
+    """Given init B, when L3 is low for 10 clk after pulse 4, then the deceleration runs to its end."""
+    lab = await Lab.start(dut, INIT_B)
+    await lab.go(0x43, 1000)
+    await lab.pulse(4, 100)
+    await lab.bench.pulse_pin("l3_n", 0, 10)
+    await lab.result("AC-27", 8, 0x8B, 0x0003DF)
+    lab.check("AC-27", "intervals", lab.intervals, [640, 576, 512, 480, 512, 576, 640])
+
+
+@cocotb.test()
+@verifies("AC-28", "P104-EX-05")
+async def p104_ac_28_pout_mode_limit(dut):
+    """Given POUT mode and L3 always low, when 0xC3 runs, then the plateau is reached before it acts."""
+    lab = await Lab.start(dut, INIT_B)
+    lab.bench.set(l3_n=0)
+    await lab.go(0xC3, 1000)
+    await lab.result("AC-28", 22, 0x8B, 0x0003D1)
+    lab.check("AC-28", "edges of s", lab.bench.edges("s", lab.since), [])
+
+
+@cocotb.test()
+@verifies("AC-29", "P104-LIM-04")
+async def p104_ac_29_pout_mode_lost_limit(dut):
+    """Given POUT mode, when L3 is low only between pulses 3 and 8, then all 1000 pulses come."""
+    lab = await Lab.start(dut, INIT_B)
+    await lab.go(0xC3, 1000)
+    await lab.pulse(3)
+    lab.bench.set(l3_n=0)
+    await lab.pulse(8)
+    lab.bench.set(l3_n=1)
+    await lab.result("AC-29", 1000, 0x83, 0)
+
+
+@cocotb.test()
+@verifies("AC-30", "P104-LIM-02", "P104-LIM-08")
+async def p104_ac_30_limits_of_the_direction(dut):
+    """Given CCW, when L1 and L3 are low, then nothing happens; with L4 low one pulse comes."""
+    lab = await Lab.start(dut, INIT_B)
+    lab.bench.set(l1_n=0, l3_n=0)
+    await lab.go(0x4B, 30)
+    await lab.result("AC-30", 30, 0x83, 0)
+    lab.check("AC-30", "dir", lab.bench.level("dir"), 1)
+    lab.bench.set(l1_n=1, l3_n=1, l4_n=0)
+    await lab.go(0x4B, 30)
+    await lab.result("AC-30", 1, 0x8B)
+
+
+@cocotb.test()
+@verifies("AC-31", "P104-LIM-03", "P104-END-02")
+async def p104_ac_31_hard_limit(dut):
+    """Given 0x45, when L1 falls after pulse 5, then it ends in 8 clk, and only CCW moves afterwards."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x45, rate=0x63)
+    await lab.pulse(5, 400)
+    hit = lab.bench.set(l1_n=0)
+    late = await lab.ended() - hit
+    lab.window("AC-31", "int_n after the pin edge", late, 0, 8)
+    lab.check("AC-31", "BUSY", await lab.host.status() & 4, 0)
+    await lab.result("AC-31", 5, 0x95, 0xFFFFFA)
+    await lab.go(0x45, rate=0x63)
+    await lab.result("AC-31", 0, 0x95, 0xFFFFFF)
+    await lab.go(0x4D, rate=0x63)
+    await lab.pulse(3)
+    lab.check("AC-31", "BUSY of the CCW move", await lab.host.status() & 4, 4)
+
+
+@cocotb.test()
+@verifies("AC-32", "P104-LIM-05")
+async def p104_ac_32_alarm(dut):
+    """Given 0x46, when ALM falls after pulse 6, then it ends with 6 pulses."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x46)
+    await lab.pulse(6, 100)
+    lab.bench.set(alm_n=0)
+    await lab.result("AC-32", 6, 0xA6, 0xFFFFF9)
+
+
+@cocotb.test()
+@verifies("AC-33", "P104-LIM-07", "P104-LIM-09")
+async def p104_ac_33_causes_at_start(dut):
+    """Given L1 and ALM low, when 0x43 and 0x42 start,
+    then no pulse, both bits, the whole rest, INT each time.
+    """
+    lab = await Lab.start(dut, INIT_A)
+    lab.bench.set(l1_n=0, alm_n=0)
+    pattern = lab.bench.level("s")
+    await lab.go(0x43, 10)
+    await lab.result("AC-33", 0, 0xB3, 9)
+    await lab.go(0x42)
+    await lab.result("AC-33", 0, 0xB2, 0)
+    lab.check("AC-33", "s", lab.bench.level("s"), pattern)
+    lab.check("AC-33", "falls of int_n", len(lab.bench.falls("int_n")), 2)
+
+
+@cocotb.test()
+@verifies("AC-34", "P104-LIM-06")
+async def p104_ac_34_origin(dut):
+    """Given 0x47, when CNP falls after pulse 7, then it ends without a cause bit; 0x44 ignores CNP."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x47, rate=0x63)
+    await lab.pulse(7, 400)
+    lab.bench.set(cnp_n=0)
+    await lab.result("AC-34", 7, 0x87, 0xFFFFF8)
+    await lab.go(0x47, rate=0x63)
+    await lab.result("AC-34", 0, 0x87, 0xFFFFFF)
+    await lab.go(0x44, 4, rate=0x63)
+    await lab.result("AC-34", 4, 0x84, 0)
+
+
+@cocotb.test()
+@verifies("AC-35", "P104-END-05")
+async def p104_ac_35_too_late(dut):
+    """Given N = 3, when L1 falls in the low time of pulse 3, then the move counts as complete."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x43, 3)
+    await lab.pulse(3, 20)
+    lab.bench.set(l1_n=0)
+    await lab.result("AC-35", 3, 0x83, 0)
+
+
+@cocotb.test()
+@verifies("AC-36", "P104-CMD-04", "P104-RD-01")
+async def p104_ac_36_commands_while_busy(dut):
+    """Given a running move, when commands come that BUSY forbids, then errors 1, 0, 6 and a calm move."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 6, rate=0x63)
+    await lab.pulse(2)
+    got = await lab.statuses("c 80 c 44 c 0A c 84 c 85 c 87 d 11")
+    lab.check("AC-36", "statuses", got, [*[0x94] * 5, 0x84, 0xE4])
+    lab.check("AC-36", "OBF", await lab.host.status() & OBF, 0)
+    await lab.result("AC-36", 6, 0x84, 0)
+    lab.check("AC-36", "intervals", lab.intervals, [3200] * 5)
+
+
+@cocotb.test()
+@verifies("AC-37", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05")
+async def p104_ac_37_aux_while_busy(dut):
+    """Given a running move, when the aux commands come, then the pins follow and the move does not notice."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.go(0x44, 6, rate=0x63)
+    await lab.pulse(2)
+    lab.check("AC-37", "status after 0x86", await lab.host.command(0x86), 0x14)
+    lab.check("AC-37", "status after its data", await lab.host.data(0x05), 0x04)
+    await lab.bench.clocks(2)
+    lab.check("AC-37", "auxo", lab.bench.level("auxo"), 0b1010)
+    for code, level in ((0xC1, 0), (0xC2, 1), (0xC0, 0)):
+        lab.check("AC-37", f"status after {code:#x}", await lab.host.command(code), 0x04)
+        await lab.bench.clocks(2)
+        lab.check("AC-37", f"aux_n after {code:#x}", lab.bench.level("aux_n"), level)
+    await lab.result("AC-37", 6, 0x84, 0)
+    lab.check("AC-37", "intervals", lab.intervals, [3200] * 5)
+    await lab.go(0x42)
+    await lab.result("AC-37", 1, 0x82, 0)
+
+
+@cocotb.test()
+@verifies("AC-38", "P104-AUX-02", "P104-RD-08")
+async def p104_ac_38_aux_before_init(dut):
+    """Given a core after reset, when auxiliary ports are used, then they work."""
+    lab = await Lab.start(dut, None)
+    await lab.host.run("c 86 d FF")
+    await lab.bench.clocks(2)
+    lab.check("AC-38", "auxo", lab.bench.level("auxo"), 0b0000)
+    await lab.host.run("c 86 d A0")
+    await lab.bench.clocks(2)
+    lab.check("AC-38", "auxo", lab.bench.level("auxo"), 0b1111)
+    lab.bench.set(auxi=0b1001)
+    lab.check("AC-38", "0x85", await lab.host.run("c 85 r"), [0x09])
+
+
+@cocotb.test()
+@verifies("AC-39", "P104-HSK-07")
+async def p104_ac_39_cancelled_command(dut):
+    """Given a half-entered move, when a read command comes, then the move is dropped."""
+    lab = await Lab.start(dut, INIT_A)
+    lab.check("AC-39", "0x81", await lab.host.run("c 43 d 09 c 81 r"), [0xCF])
+    lab.check("AC-39", "status after a late byte", await lab.host.data(0x00), 0xB0)
+    await lab.bench.clocks(500)
+    lab.check("AC-39", "pulses", lab.bench.pulses(), [])
+
+
+@cocotb.test()
+@verifies("AC-41", "P104-INI-03", "P104-INI-06")
+async def p104_ac_41_rejected_inits(dut):
+    """Given init A, when four illegal ones follow, then errors 5, 5, 4, 4 and the old ramp stays."""
+    lab = await Lab.start(dut, INIT_A)
+    cases = (((5, 6, 100), 0xD0), ((9, 4, 3), 0xD0), ((9, 4, 11221), 0xC0), ((5, 6, 11221), 0xC0))
+    for values, status in cases:
+        lab.check("AC-41", f"status of {values}", await lab.host.init(0x0A, *values), status)
+    await lab.go(0x43, 14)
+    await lab.result("AC-41", 14, 0x83, 0)
+    lab.check("AC-41", "intervals", lab.intervals, A_INTERVALS)
+
+
+@cocotb.test()
+@verifies("AC-42", "P104-INI-03", "P104-EX-11")
+async def p104_ac_42_extreme_inits(dut):
+    """Given the extreme legal values, when they are sent, then all are accepted; RL = RH runs flat."""
+    lab = await Lab.start(dut, None)
+    for values in ((9, 4, 4), (9, 4, 11220), (10, 10, 4), (255, 0, 4)):
+        lab.check("AC-42", f"status of {values}", await lab.host.init(0x0A, *values), 0x00)
+        if values == (10, 10, 4):
+            await lab.move(0x43, 12)
+            lab.check("AC-42", "intervals", lab.intervals, [352] * 11)
+
+
+@cocotb.test()
+@verifies("AC-43", "P104-INI-05", "P104-AUX-04")
+async def p104_ac_43_frozen_until_excitation_off(dut):
+    """Given init A, when a 5-phase re-init comes, then the motor type stays until Excitation OFF."""
+    lab = await Lab.start(dut, INIT_A)
+    await lab.host.run(f"c 0F {A_DATA}")
+    lab.check("AC-43", "s after the re-init", lab.bench.level("s"), 0b00011)
+    await lab.move(0x42)
+    lab.check("AC-43", "s after a step", lab.bench.level("s"), 0b00110)
+    await lab.host.run("c C0")
+    await lab.bench.clocks(2)
+    lab.check("AC-43", "s after Excitation OFF", lab.bench.level("s"), 0b00000)
+    lab.check("AC-43", "status of 0x42", await lab.host.command(0x42), 0xA0)
+    await lab.host.run(f"c 0F {A_DATA}")
+    got = [lab.bench.level("s")]
+    for _ in range(3):
+        await lab.move(0x42)
+        got.append(lab.bench.level("s"))
+    lab.check("AC-43", "s of the new motor", got, [0b00011, 0b00111, 0b00110, 0b01110])
+
+
+@cocotb.test()
+@verifies("AC-44", "P104-PHS-01", "P104-PHS-06", "P104-OPR-05")
+async def p104_ac_44_step_lists(dut):
+    """Given each motor type and logic, when two turns run CW and back, then s follows its list."""
+    lab = await Lab.start(dut, None)
+    for name, code in STEP_CODES.items():
+        for positive in (True, False):
+            await lab.host.command(0xC0)
+            await lab.init(code if positive else code & ~8, 9, 4, 4)
+            table = steps(name, positive)
+            length = len(table)
+            await lab.bench.clocks(2)
+            since, got = lab.bench.now, [lab.bench.level("s")]
+            for op in [0x52] * (2 * length) + [0x5A] * (2 * length):
+                await lab.move(op)
+            got += [value for _, value in lab.bench.edges("s", since)]
+            walk = [*range(2 * length + 1), *range(2 * length - 1, -1, -1)]
+            lab.check("AC-44", f"{name}, positive {positive}", got, [table[i % length] for i in walk])

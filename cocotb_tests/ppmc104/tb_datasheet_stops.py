@@ -1,0 +1,222 @@
+"""Processing times of the old chip, second part: decelerating stops, aux commands, speed limit,
+external clock.
+"""
+
+from __future__ import annotations
+
+import cocotb
+
+from cocotb_tests.harness.bus import BUSY, IBF
+from cocotb_tests.harness.config import D11, D16, configs
+from cocotb_tests.harness.verifies import verifies
+
+from .figures import INIT_B, forced, rates
+from .lab import WRITE_EVENT
+from .sheet import TOLERANCE, US, Sheet
+
+
+@cocotb.test()
+@verifies("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02")
+@configs(D16, D11)
+async def p104_ds_10_decelerating_stop(dut):
+    """Given 0x41 in I(4), when the flag comes 17 us later,
+    then I(4) or I(5) is the last up; INT 200 us after the end.
+    """
+    # Slow enough that no interval closes the mailbox by itself (P104-DS-12).
+    ramp = (60, 30, 10)
+    lab = await Sheet.start(dut, (0x0A, *ramp))
+    fourth = lab.cfg.quanta(8 * (rates(ramp, [3])[0] + 1))
+    for early, interval in ((50, 4), (-50, 5)):
+        await lab.event(0x43, 200)
+        fall = await lab.pulse(4)
+        await lab.bench.until(fall + fourth - lab.cfg.us(17) - early)
+        event = await lab.host.command(0x41, poll=False) + WRITE_EVENT
+        await lab.host.poll(IBF, 0)
+        lab.check("P104-DS-10", "no error", await lab.host.status(), BUSY)
+        await lab.opens("P104-DS-10", event, 17 * US)
+        which = forced(200, 10, interval)
+        last = await lab.pulse(len(which) + 1, 20)
+        await lab.opens("P104-DS-08", last, 200 * US, 0xC2)
+        end = await lab.ended()
+        lab.after("P104-DS-08", "INT after the last fall", end - last, 200 * US)
+        await lab.idle()
+        lab.check_train("P104-DS-10", rates(ramp, which))
+        await lab.result("P104-DS-10", len(which) + 1, 0xC3, 200 - len(which) - 2)
+        await lab.host.command(0xC2)
+        await lab.rest()
+
+
+@cocotb.test()
+@verifies("P104-DS-10", "P104-FDC-01", "P104-LIM-04")
+@configs(D16)
+async def p104_ds_10_slow_down_limit(dut):
+    """Given L3 for 10 clk in START, ACC and HIGH, when 12 or 17 us have passed, then the flag is set."""
+    lab = await Sheet.start(dut, INIT_B)
+    # j: interval in which L3 falls; its length and the delay of the flag in clk at 16 MHz.
+    for j, length, delay in ((4, 480, 192), (13, 320, 272)):
+        for early in (40, -40):
+            await lab.event(0x43, 200)
+            fall = await lab.pulse(j)
+            await lab.bench.until(fall + length - delay - early)
+            await lab.bench.pulse_pin("l3_n", 0, 10)
+            await lab.idle()
+            which = forced(200, 10, j if early > 0 else j + 1)
+            lab.check_train("P104-DS-10", rates(INIT_B[1:], which))
+            await lab.result("P104-DS-10", len(which) + 1, 0x8B, 200 - len(which) - 2)
+            await lab.rest()
+    await lab.event(0x43, 200)
+    await lab.bench.level_is("hold", 0)
+    await lab.host.poll(BUSY, BUSY)
+    await lab.bench.pulse_pin("l3_n", 0, 10)
+    await lab.idle()
+    await lab.result("P104-DS-10", 1, 0x8B, 198)
+
+
+@cocotb.test()
+@verifies("P104-DS-10", "P104-END-05", "P104-FDC-05")
+@configs(D16)
+async def p104_ds_10_flag_too_late(dut):
+    """Given 0x41 or L3 just before natural deceleration or the end, when the flag is due,
+    then it has no effect.
+    """
+    lab = await Sheet.start(dut, INIT_B)
+    for cause in ("41", "l3_n"):
+        # N = 8: natural deceleration begins at pulse 5, I(4) is 480 clk. N = 2: I(1) is 640 clk.
+        for n, j, length in ((8, 4, 480), (2, 1, 640)):
+            await lab.event(0x43, n)
+            fall = await lab.pulse(j)
+            await lab.bench.until(fall + length - 60)
+            if cause == "41":
+                await lab.host.command(0x41, poll=False)
+                lab.check("P104-DS-10", "no error", await lab.host.poll(IBF, 0), BUSY)
+            else:
+                await lab.bench.pulse_pin("l3_n", 0, 10)
+            await lab.idle()
+            which = [min(i - 1, n - 1 - i, 10) for i in range(1, n)]
+            lab.check_train("P104-DS-10", rates(INIT_B[1:], which))
+            await lab.result("P104-DS-10", n, 0x83, 0)
+            await lab.rest()
+
+
+@cocotb.test()
+@verifies("P104-DS-11", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05")
+@configs(D16, D11)
+async def p104_ds_11_aux_times(dut):
+    """Given AUX ON/OFF, auxiliary output and 0xC0, when stored,
+    then pins move 14 or 18 us later, closed till then.
+    """
+    lab = await Sheet.start(dut, (0x02, 9, 4, 4))
+    for code, pin in ((0xC1, "aux_n"), (0xC2, "aux_n")):
+        event = await lab.host.write(1, code) + WRITE_EVENT
+        await lab.bench.until(event + 10)
+        lab.check("P104-DS-11", "IBF falls as in FAST", await lab.host.status() & IBF, 0)
+        await lab.opens("P104-DS-11", event, 14 * US, 0x87)
+        lab.after("P104-DS-11", f"{pin} after {code:#x}", lab.bench.edges(pin, event)[0][0] - event, 14 * US)
+    await lab.host.command(0x86)
+    event = await lab.host.write(0, 0x05) + WRITE_EVENT
+    lab.after("P104-DS-11", "auxo", await lab.bench.edge("auxo", 0xA) - event, 14 * US)
+    await lab.bench.clocks(40)
+    await lab.event(0x44, 3, 255)
+    await lab.pulse(1, 40)
+    event = await lab.host.write(1, 0xC0) + WRITE_EVENT
+    lab.after("P104-DS-11", "aux_n by 0xC0 while BUSY", await lab.bench.edge("aux_n", 0) - event, 14 * US)
+    await lab.idle()
+    await lab.rest()
+    event = await lab.host.write(1, 0xC0) + WRITE_EVENT
+    await lab.bench.until(event + 10)
+    await lab.opens("P104-DS-11", event, 18 * US, 0x42)
+    lab.check("P104-AUX-04", "0x42 afterwards", await lab.host.status(), 0xA0)
+    lab.after("P104-DS-11", "s by 0xC0", lab.bench.edges("s", event)[0][0] - event, 18 * US)
+
+
+@cocotb.test()
+@verifies("P104-DS-12", "P104-STP-01")
+@configs(D16)
+async def p104_ds_12_speed_limit(dut):
+    """Given intervals below and at 148 q and 100 q, when C1 comes, then it waits or is taken."""
+    lab = await Sheet.start(dut, None)
+    # 144 q and 152 q in phase mode, 96 q and 104 q in POUT mode, 142 q and 150 q with vsel = L.
+    for rate, code, vsel, open_ in (
+        (17, 0x44, 1, False),
+        (18, 0x44, 1, True),
+        (13, 0x44, 0, False),
+        (14, 0x44, 0, True),
+        (11, 0xC3, 1, False),
+        (12, 0xC3, 1, True),
+    ):
+        await lab.init(0x0A, rate, rate, 4)
+        lab.bench.set(vsel=vsel)
+        await lab.event(code, 12, rate if code == 0x44 else None)
+        await lab.pulse(3, 40)
+        await lab.host.command(0xC1 if lab.bench.level("aux_n") else 0xC2, poll=False)
+        await lab.bench.clocks(20)
+        what = f"IBF at rate {rate}, {code:#x}, vsel {vsel}"
+        lab.check("P104-DS-12", what, await lab.host.status() & IBF, 0 if open_ else IBF)
+        if not open_:
+            await lab.pulse(12, 1000)
+            lab.check("P104-DS-12", "IBF after the last pulse", await lab.host.status() & IBF, IBF)
+            await lab.host.poll(IBF, 0)
+        await lab.result("P104-DS-12", 12, 0x80 | code & 7, 0)
+        await lab.rest()
+
+
+@cocotb.test()
+@verifies("P104-DS-12", "P104-LIM-01", "P104-STP-04")
+@configs(D16)
+async def p104_ds_12_ends_with_the_fast_part(dut):
+    """Given a fast plateau, when C1 waits,
+    then the first slow interval takes it; 0x41 and limits act at once.
+    """
+    lab = await Sheet.start(dut, INIT_B)
+    await lab.event(0x43, 60)
+    await lab.pulse(15, 40)
+    await lab.host.command(0xC1, poll=False)
+    # Rates going down: 9,10,10,11,12,12,14,15,17,19; 17 is 144 q, 19 is 160 q: the last interval, I(59).
+    await lab.pulse(58, 100)
+    lab.check("P104-DS-12", "IBF in I(58), 144 q", await lab.host.status() & IBF, IBF)
+    await lab.pulse(59, 60)
+    lab.check("P104-DS-12", "IBF in I(59), 160 q", await lab.host.status() & IBF, 0)
+    await lab.result("P104-DS-12", 60, 0x83, 0)
+    await lab.host.command(0xC2)
+    await lab.rest()
+    await lab.event(0x43, 200)
+    await lab.pulse(15, 10)
+    await lab.host.command(0x41, poll=False)
+    await lab.bench.clocks(20)
+    lab.check("P104-DS-12", "0x41 is taken", await lab.host.status() & IBF, 0)
+    # The flag comes 17 us = 272 clk later, in the same 320 clk interval.
+    await lab.result("P104-DS-12", 26, 0xC3, 173)
+    await lab.rest()
+    await lab.event(0x44, 100, 9)
+    await lab.pulse(5, 100)
+    lab.bench.set(l1_n=0)
+    await lab.result("P104-DS-12", 5, 0x94, 94)
+
+
+@cocotb.test()
+@verifies("P104-DS-04", "P104-DS-05", "P104-DS-12", "P104-TIM-03")
+@configs(D16)
+async def p104_ds_04_external_clock(dut):
+    """Given an external clock, when moves start,
+    then pulse 1 is the first edge after 194 or 200 us; no speed limit.
+    """
+    lab = await Sheet.start(dut, (0x1A, 9, 4, 4))
+    for code, n, rate, first in ((0x44, 8, 0, 194), (0x43, 14, None, 200)):
+        await lab.host.command(0xC2)
+        await lab.rest()
+        event = await lab.event(code, n, rate)
+        clock = lab.bench.external_clock([180] * 200, high=90)
+        pulse = await lab.pulse(1)
+        edges = lab.clock_edges(event)
+        nominal = event + lab.cfg.us(first)
+        candidates = [t for t in edges if nominal - 3 <= t + 3 and t <= pulse]
+        lab.window("P104-DS-04", f"edge to pulse 1 of {code:#x}", pulse - candidates[0], 2, 5 + TOLERANCE)
+        lab.window("P104-DS-04", f"pulse 1 of {code:#x}", pulse - nominal, 0, 180 + TOLERANCE + 5)
+        await lab.pulse(3, 20)
+        await lab.host.command(0xC1, poll=False)
+        await lab.bench.clocks(20)
+        lab.check("P104-DS-12", "IBF: not applied to the external clock", await lab.host.status() & IBF, 0)
+        await lab.result("P104-DS-04", n, 0x80 | code & 7, 0)
+        clock.cancel()
+        await lab.bench.align()
+        lab.bench.set(clock=0)

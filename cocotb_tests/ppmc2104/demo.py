@@ -1,0 +1,87 @@
+"""What `make demo PART=ppmc2104` plays: a straight line of two axes, then each on its own way."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.story import Story
+
+# Axis 1: 4-phase motor, full step; axis 2: half step. Both with the internal clock, switched at rest.
+SETTINGS = {1: (0x12, 127, 39, 200), 2: (0x36, 255, 79, 100)}  # code, RL, RH, PA
+PULSES = {1: 1000, 2: 500}
+CW, CCW = 0x43, 0x6B  # ramped moves: axis 1 clockwise, axis 2 the other way
+CONTINUOUS, HIGH_SPEED = 0x45, 0x66  # axis 1 until its limit, axis 2 until its slow-down limit
+RATE = 49  # 10 kpps
+PULSES_TO_LIMIT, PULSES_TO_SLOW_DOWN = {1: 150}, {2: 130}
+BUSY = {1: 0x04, 2: 0x08}
+CMND = 0x30
+INTERRUPT_LATENCY = 2400  # clk, 150 us: a busy host; both axes have ended by then
+BETWEEN_AXES = 320  # clk, 20 us: what it does with the answers of one
+LONG = 4_000_000
+
+
+async def serve(host: HostBus, pending: set[int]) -> None:
+    """Wait for the interrupt; read end status and remaining pulses of each axis of `pending` at rest."""
+    bench = host.bench
+    if bench.level("int_n"):
+        await bench.edge("int_n", 0, timeout=LONG)
+    await bench.clocks(INTERRUPT_LATENCY)
+    status = await host.status()
+    for axis in sorted(pending):
+        if not status & BUSY[axis]:
+            await host.fetch(0x80 | (axis - 1) << 5)
+            await host.fetch(0x83 | (axis - 1) << 5, 3)
+            pending.discard(axis)
+            await bench.clocks(BETWEEN_AXES)
+
+
+@cocotb.test()
+async def demo_two_axes(dut: Any) -> None:
+    """Given a reset chip, when a host moves both axes by RUN and then apart, then all of it is recorded."""
+    bench = await Bench.start(dut, PPMC2104, run=0b00)
+    host = HostBus(bench)
+    story = Story(bench)
+    with story.chapter("reset", "after reset"):
+        await host.status()
+        await host.fetch(0x81)
+        await host.fetch(0xA1)
+    with story.chapter("init", "set up both axes"):
+        for setting in SETTINGS.values():
+            await host.init(*setting)
+        await host.poll(CMND, 0)
+    with story.chapter("wait", "two moves wait for RUN"):
+        await host.move(CW, PULSES[1])
+        await host.move(CCW, PULSES[2])
+        await bench.clocks(48_000)
+    with story.chapter("move", "a line: 1000 and 500 pulses"):
+        await bench.align()
+        bench.set(run=0b11)
+        pending = {1, 2}
+        while pending:
+            await serve(host, pending)
+    with story.chapter("pause", "rest"):
+        await bench.edge("hold", 0b11, timeout=LONG)
+        await bench.clocks(32_000)
+    with story.chapter("limits", "each to its own limit"):
+        start = bench.now
+        await host.send(CONTINUOUS, [RATE])
+        await host.send(HIGH_SPEED)
+        last = await bench.nth_fall(PULSES_TO_LIMIT[1], start, "pout_n[1]", LONG)
+        bench.at(last + 1100, **{"fl_n[1]": 0})
+        pending = {1, 2}
+        await serve(host, pending)
+        await host.fetch(0x81)
+        last = await bench.nth_fall(PULSES_TO_SLOW_DOWN[2], start, "pout_n[2]", LONG)
+        bench.at(last + 700, **{"fhl_n[2]": 0})
+        while pending:
+            await serve(host, pending)
+        await host.fetch(0xA1)
+    with story.chapter("rest", "rest until HOLD rises"):
+        await bench.edge("hold", 0b11, timeout=LONG)
+        await bench.clocks(16_000)
+    story.save()

@@ -1,0 +1,106 @@
+"""The module isa_4axis as the harness sees it, and a bench with two hosts and four axes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.drive import Drive
+from cocotb_tests.harness.part import BusStyle, Part
+from cocotb_tests.harness.project import include_dirs, part, sources
+from cocotb_tests.harness.runner import Design
+
+from ...harness.isa_master import IsaHost, IsaMaster
+
+BASE = 0x300
+SOURCE = BASE + 4
+PARTS = 2
+BUSY1, BUSY2, CMND1, CMND2, ERROR = 0x04, 0x08, 0x10, 0x20, 0x80
+
+AXIS_INPUTS = ("run", "csel", "extck", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
+AXIS_OUTPUTS = {"pout_n": 0b1111, "dir": 0, "hold": 0b1111}
+PHASES = ("s1_n", "s2_n", "s3_n", "s4_n")
+
+ISA_4AXIS = Part(
+    name="isa_4axis",
+    prefix="ISA",
+    inputs={
+        "reset_drv": 0,
+        "sa": 0,
+        "aen": 0,
+        "ior_n": 1,
+        "iow_n": 1,
+        "sd_i": 0,
+        "errint_n": 1,
+        "auxi": 0,
+        **{pin: 0 if pin == "extck" else 0b1111 for pin in AXIS_INPUTS},
+    },
+    outputs={
+        "sd_o": (8, 0),
+        "sd_oe": (1, 0),
+        "irq": (1, 0),
+        "auxo": (4, 0b1111),
+        "clk_o": (1, 0),
+        **{pin: (4, level) for pin, level in AXIS_OUTPUTS.items()},
+        **{pin: (5, 0b11111) for pin in PHASES},
+        # Not pins: what the two parts give to the slave.
+        "d": (16, 0),
+        "d_oe": (2, 0b00),
+        "int_n": (2, 0b11),
+    },
+    widths={"sa": 10, "sd_i": 8, "auxi": 4, **dict.fromkeys(AXIS_INPUTS, 4)},
+    parameters=("CLK_HZ", "XTAL_HZ", "TIMING"),
+    styles=(
+        BusStyle(
+            write_on={"iow_n": 0},
+            write_off={"iow_n": 1},
+            read_on={"ior_n": 0},
+            read_off={"ior_n": 1},
+            address="sa",
+        ),
+    ),
+    clock="extck",
+    lowest=dict.fromkeys((*AXIS_INPUTS, *AXIS_OUTPUTS, *PHASES), 1),
+    unwatched=frozenset({"clk_o"}),
+)
+
+
+def design(config: Config, **params: int) -> Design:
+    """The module with its parts; `params` overrides or adds parameters."""
+    ports = ("clk", "rst_n", *ISA_4AXIS.inputs, *ISA_4AXIS.outputs)
+    values = {**ISA_4AXIS.params(config), "BASE_ADDR": BASE, **params}
+    return Design("isa_4axis", sources(part("isa_4axis")), include_dirs(), values, ports=ports)
+
+
+class Setting:
+    """The bench, one bus master, the host of each part, and the four axes as `axes[1]` … `axes[4]`."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        self.master = IsaMaster(bench)
+        self.hosts = [IsaHost(self.master, BASE + 2 * number) for number in range(PARTS)]
+        self.axes = {
+            axis: Drive(
+                bench,
+                self.hosts[(axis - 1) // 2],
+                f"pout_n[{axis}]",
+                f"s{axis}_n",
+                f"extck[{axis}]",
+                (BUSY1, BUSY2)[(axis - 1) % 2],
+                ((axis - 1) % 2) << 5,
+            )
+            for axis in range(1, 2 * PARTS + 1)
+        }
+
+    @classmethod
+    async def start(cls, dut: Any, **pins: int) -> Setting:
+        """Reset done, the parts take bytes."""
+        return cls(await Bench.start(dut, ISA_4AXIS, **pins))
+
+    async def set_up(self, axis: int, code: int, rl: int, rh: int, pa: int) -> None:
+        """Initial setting of an axis; waits for its ramp table."""
+        host = self.hosts[(axis - 1) // 2]
+        second = (axis - 1) % 2
+        await host.init(code | second << 5, rl, rh, pa)
+        await host.poll((CMND1, CMND2)[second] | 0x02, 0)

@@ -1,0 +1,45 @@
+"""isa_4axis in simulation, its slave alone, and its parameters."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.runner import SimError, build, run_item
+from cocotb_tests.harness.wrapper import area_design
+
+from .setting import ISA_4AXIS, design
+from .tb_slave import BLOCKS
+
+ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_bus", "tb_motion", part=ISA_4AXIS)
+SLAVE_ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_slave", part=ISA_4AXIS)
+RANDOM = [item for (item,) in (param.values for param in ITEMS) if item.test == "isa_random_both_parts"]
+RANDOM = [item for item in RANDOM if not item.config.datasheet]  # one seed is enough: its set-up takes long
+SEEDS = range(2, 7)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_isa_4axis(item, sim_options):
+    """Run one simulation of the module."""
+    run_item(item, sim_options, design=design(item.config))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("item", RANDOM, ids=[item.id for item in RANDOM])
+def test_isa_4axis_random(item, seed, sim_options):
+    """Further seeds of the random hosts."""
+    run_item(item.with_seed(seed), sim_options, design=design(item.config))
+
+
+@pytest.mark.parametrize("item", SLAVE_ITEMS)
+def test_isa_slave(item, sim_options):
+    """Run one simulation of the slave alone."""
+    run_item(item, sim_options, design=area_design("isa", BLOCKS))
+
+
+@pytest.mark.parametrize("base", [0x301, 0x304, 0x400], ids=hex)
+def test_bad_base_address(base):
+    """ISA-03: a base address that is not a multiple of 8, or beyond 3FFh, stops the elaboration."""
+    with pytest.raises(SimError, match="Base must be 0 .. 3FFh and a multiple"):
+        build(design(F16, BASE_ADDR=base))

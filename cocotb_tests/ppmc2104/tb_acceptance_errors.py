@@ -1,0 +1,338 @@
+"""Black-box acceptance checks AC-22 to AC-44: errors, stops, limits."""
+
+from __future__ import annotations
+
+from itertools import repeat
+
+from cocotb_tests.harness.bus import OBF
+
+from .figures import BUSY1, INIT_B
+from .lab import Axis, Lab, part_test
+from .tb_acceptance_moves import AC_09, B1
+
+E7 = "d E7 d 03 d 00"
+EX_03 = {5: [99, 53, 41, 34, 30, 34, 41, 53, 99], 2: [99, 53, 99], 1: []}
+
+
+def clk(rates: list[int]) -> list[int]:
+    """Intervals of rates on the 500 kHz base clock."""
+    return [32 * (rate + 1) for rate in rates]
+
+
+async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
+    """A move of n pulses and a stop code 100 clk after pulse j; returns the status after the code."""
+    await axis.go(0x43, n)
+    await axis.pulse(j, 100)
+    return await axis.command(code)
+
+
+@part_test("AC-22", "P2104-ERR-06", "P2104-STA-06")
+async def p2104_ac_22_error_bit(lab: Lab) -> None:
+    """Given errors of both axes, when they are read in turn, then ERROR falls with the second."""
+    got = await lab.run("c 87 c A7 s e1 s e2 s e2")
+    lab.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
+
+
+@part_test("AC-23", "P2104-ERR-01", "P2104-ERR-02")
+async def p2104_ac_23_data_without_need(lab: Lab) -> None:
+    """Given a data byte nobody wants, when both registers are read, then error 2 is on axis 1."""
+    lab.check("AC-23", "e2, e1", await lab.run("d 55 e2 e1"), [0, 2])
+
+
+@part_test("AC-24", "P2104-ERR-02", "P2104-BAD-04")
+async def p2104_ac_24_code_in_a_data_wait(lab: Lab) -> None:
+    """Given an unfinished operation of axis 1, when a step of axis 2 comes, then both are dropped."""
+    first, second = await lab.both(INIT_B)
+    since = lab.bench.now
+    lab.check("AC-24", "status, e1, e2", await lab.run("c 43 d 05 c 62 s e1 e2"), [0x80, 0, 3])
+    await lab.bench.clocks(200)
+    lab.quiet("AC-24", since)
+    await second.move(0x42)
+    lab.check("AC-24", "pulses", (len(lab.bench.pulses(since, first.pout)), len(second.pulses)), (0, 1))
+
+
+@part_test("AC-25", "P2104-ERR-01")
+async def p2104_ac_25_axisless_code_in_a_data_wait(lab: Lab) -> None:
+    """Given an unfinished operation, when C2 comes, then error 3 on axis 1, and nothing is answered."""
+    await lab.run(B1)
+    await lab.x1.ready()
+    (status,) = await lab.run("c 43 c C2 s")
+    lab.check("AC-25", "OBF", status & OBF, 0)
+    lab.check("AC-25", "e1", await lab.run("e1"), [3])
+    lab.check(
+        "AC-25", "e1, e2 after F1, which has no axis bit either", await lab.run("c 43 c F1 e1 e2"), [3, 0]
+    )
+    lab.check("AC-25", "auxo", lab.bench.level("auxo"), 0b11)
+
+
+@part_test("AC-26", "P2104-BAD-06")
+async def p2104_ac_26_not_set_up(lab: Lab) -> None:
+    """Given axis 2 not set up, when 63 and a data byte come, then error 4 there and error 2 on axis 1."""
+    lab.check("AC-26", "e2, e1", await lab.run("c 63 d 01 e2 e1"), [4, 2])
+
+
+@part_test("AC-27", "P2104-FSM-01", "P2104-AUX-02", "P2104-AUX-03", "P2104-RD-08")
+async def p2104_ac_27_busy(lab: Lab) -> None:
+    """Given a slow operation, when what is not allowed then comes, then error 5, and the motion goes on."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.go(0x44, 256, 0xFF)
+    for code in ("02", "42", "80", "81", "82", "83", "84", "85", "C0"):
+        (status,) = await lab.run(f"c {code} s")
+        lab.check("AC-27", f"OBF after {code}", status & OBF, 0)
+        lab.check("AC-27", f"error of {code}", await lab.run("e1"), [5])
+    lab.check("AC-27", "C2", await lab.run("c C2 r c D1 s"), [0x00, BUSY1])
+    lab.check("AC-27", "auxo", lab.bench.level("auxo"), 0b10)
+    await axis.pulse(5)
+    lab.check("AC-27", "intervals", axis.intervals, [8192] * 4)
+    await axis.halt()
+    lab.check("AC-27", "e1", await lab.run("e1"), [0])
+
+
+@part_test("AC-28", "P2104-STP-04")
+async def p2104_ac_28_stops_at_rest(lab: Lab) -> None:
+    """Given axis 1 at rest and axis 2 not set up, when stops come, then errors 6, 6, 4."""
+    await lab.ready(1, INIT_B)
+    lab.check("AC-28", "errors", await lab.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])
+
+
+@part_test("AC-29", "P2104-LIM-06", "P2104-ERR-05")
+async def p2104_ac_29_limit_refuses(lab: Lab) -> None:
+    """Given the CW limit, when CW operations come, then error 7; the other direction moves."""
+    axis = await lab.ready(1, INIT_B)
+    axis.set(fl_n=0)
+    await lab.bench.clocks(4)
+    since = lab.bench.now
+    lab.check("AC-29", "42", await lab.run("c 42 e1"), [7])
+    got = await lab.run("c 43 s d 09 s d 00 s d 00 s e1")
+    lab.check("AC-29", "43 and its bytes, e1", got, [0x10, 0x10, 0x10, 0x80, 7])
+    lab.check("AC-29", "83", await lab.run("c 83 rrr"), [0, 0, 0])
+    lab.quiet("AC-29", since)
+    await axis.move(0x4A)
+    lab.check("AC-29", "pulses CCW, dir", (len(axis.pulses), axis.level("dir")), (1, 1))
+
+
+@part_test("AC-30", "P2104-LIM-06", "P2104-LIM-02")
+async def p2104_ac_30_what_refuses(lab: Lab) -> None:
+    """Given one input at a time, when axis 1 starts CW, then only ALM, and ORG for 47, refuse it."""
+    axis = await lab.ready(1, INIT_B)
+    for pin, code, n, rate, error in (
+        ("alm_n[1]", 0x42, None, None, 7),
+        ("org_n[1]", 0x47, None, 0x31, 7),
+        ("org_n[1]", 0x44, 1, 0x31, 0),
+        ("bl_n[1]", 0x42, None, None, 0),
+        ("fhl_n[1]", 0x42, None, None, 0),
+        ("fl_n[2]", 0x42, None, None, 0),
+    ):
+        lab.bench.set(**{pin: 0})
+        await lab.bench.clocks(4)
+        await axis.move(code, n, rate)
+        lab.check("AC-30", f"error of {code:#x} with {pin}", await axis.error(), error)
+        lab.check("AC-30", f"pulses of {code:#x} with {pin}", len(axis.pulses), 0 if error else 1)
+        lab.bench.set(**{pin: 1})
+        await lab.bench.clocks(4)
+
+
+@part_test("AC-31", "P2104-STP-03", "P2104-PRO-05")
+async def p2104_ac_31_deceleration_stop_refused(lab: Lab) -> None:
+    """Given constant speed, RUN wait, natural deceleration, when 41 comes, then error 8 and no effect."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.running()
+    await axis.refused("AC-31", "41 in 45", 8, 0x41)
+    await axis.pulse(5)
+    lab.check("AC-31", "intervals of 45", axis.intervals, [1600] * 4)
+    await axis.halt()
+    axis.set(run=0)
+    await axis.go(0x42)
+    await axis.refused("AC-31", "41 in RUN wait", 8, 0x41)
+    axis.set(run=1)
+    await axis.result("AC-31", 1, 0x82, 0)
+    await asked_in(axis, 17, n=25)
+    lab.check("AC-31", "41 in deceleration", await axis.error(), 8)
+    await axis.result("AC-31", 25, 0x83, 0)
+    lab.check("AC-31", "intervals of 43", axis.intervals, AC_09)
+
+
+@part_test("AC-32", "P2104-INI-02", "P2104-INI-03", "P2104-BAD-16")
+async def p2104_ac_32_setting_values(lab: Lab) -> None:
+    """Given values at and beyond their limits, when they are set, then errors 9, 10 or none."""
+    axis = await lab.ready(1, INIT_B)
+    bad = ((5, 4, 100, 9), (5, 6, 100, 9), (5, 0, 100, 9), (9, 4, 3, 9), (5, 4, 3, 9))
+    for rl, rh, pa, error in (*bad, (9, 4, 0x2BD5, 10), (5, 4, 0x2BD5, 9)):
+        await axis.init(0x02, rl, rh, pa)
+        lab.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), error)
+    await axis.move(0x43, 25)
+    lab.check("AC-32", "intervals", axis.intervals, AC_09)
+    for rl, rh, pa in ((6, 4, 4), (255, 1, 0x2BD4)):
+        await axis.init(0x02, rl, rh, pa)
+        lab.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), 0)
+
+
+@part_test("AC-33", "P2104-OPR-07", "P2104-INI-01")
+async def p2104_ac_33_rate_zero(lab: Lab) -> None:
+    """Given rate 00, when the base clock is internal, then error 9; with the external one it runs."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.refused("AC-33", "45 00", 9, 0x45, 0)
+    await lab.run("c C0 c 0A d 63 d 13 d 0A d 00")
+    await axis.ready()
+    clock = lab.bench.external_clock(repeat(20), axis.clock, high=10)
+    await axis.go(0x45, rate=0)
+    await axis.pulse(10)
+    await axis.halt()
+    lab.check("AC-33", "error", await axis.error(), 0)
+    clock.cancel()
+
+
+@part_test("AC-34", "P2104-AUX-04", "P2104-BAD-16")
+async def p2104_ac_34_switching_values(lab: Lab) -> None:
+    """Given switching values around 40, when they are set, then error 11 below it."""
+    got = await lab.run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1")
+    lab.check("AC-34", "errors", got, [11, 11, 0])
+
+
+@part_test("AC-35", "P2104-EX-03", "P2104-STP-02", "P2104-FDC-02", "P2104-FDC-03", "P2104-END-03")
+async def p2104_ac_35_deceleration_stop(lab: Lab) -> None:
+    """Given ramp B, when 41 comes in I(5), I(2), I(1), then 10, 4, 1 pulses and their remains."""
+    axis = await lab.ready(1, INIT_B)
+    for j, pulses, low in ((5, 10, 0xDD), (2, 4, 0xE3), (1, 1, 0xE6)):
+        await asked_in(axis, j)
+        await axis.result("AC-35", pulses, 0xC3, 0x300 | low)
+        lab.check("AC-35", f"intervals, asked in I({j})", axis.intervals, clk(EX_03[j]))
+        lab.check("AC-35", "83", await lab.run("c 83 rrr"), [low, 3, 0])
+
+
+@part_test("AC-36", "P2104-EX-05", "P2104-FDC-05", "P2104-PRO-04", "P2104-END-06")
+async def p2104_ac_36_around_the_peak(lab: Lab) -> None:
+    """Given triangles of 10 and 11 pulses, when 41 comes around the peak, then as EX-05 has it."""
+    axis = await lab.ready(1, INIT_B)
+    for n, j, pulses, finish, left, error in (
+        (11, 4, 8, 0xC3, 2, 0),
+        (11, 5, 10, 0xC3, 0, 0),
+        (11, 6, 11, 0x83, 0, 8),
+        (10, 4, 8, 0xC3, 1, 0),
+        (10, 5, 10, 0x83, 0, 0),
+        (10, 6, 10, 0x83, 0, 8),
+        (25, 13, 24, 0xC3, 0, 0),
+        (25, 14, 25, 0x83, 0, 0),
+        (25, 15, 25, 0x83, 0, 8),
+    ):
+        await asked_in(axis, j, n=n)
+        lab.check("AC-36", f"error, N = {n}, I({j})", await axis.error(), error)
+        await axis.result(f"AC-36, N = {n}, I({j})", pulses, finish, left)
+        if (n, j) == (11, 5):
+            lab.check("AC-36", "intervals", axis.intervals, clk(EX_03[5]))
+
+
+@part_test("AC-37", "P2104-EX-06", "P2104-FDC-02")
+async def p2104_ac_37_flat_start_of_the_ramp(lab: Lab) -> None:
+    """Given a ramp that begins flat, when 41 comes on its flat piece, then the axis stops at once."""
+    axis = await lab.ready(1, (0x02, 14, 12, 16))
+    for j, pulses, left in ((3, 3, [0xE4, 3, 0]), (5, 10, [0xDD, 3, 0])):
+        await asked_in(axis, j)
+        await axis.result("AC-37", pulses, 0xC3)
+        lab.check("AC-37", "83", await lab.run("c 83 rrr"), left)
+    lab.check("AC-37", "intervals", axis.intervals, clk([14, 14, 14, 14, 13, 14, 14, 14, 14]))
+    pulses = await axis.move(0x43, 100)
+    lab.check("AC-37", "N = 100, first to last", pulses[-1] - pulses[0], 42_208)
+
+
+@part_test("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
+async def p2104_ac_38_slow_down_limit(lab: Lab) -> None:
+    """Given the plateau, when FHL is low for 10 clk, twice, then 31 pulses; BHL does nothing."""
+    axis = await lab.ready(1, INIT_B)
+    for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):
+        await axis.go(code, 1000 if code == 0x43 else None)
+        for j in (20, 25):
+            await axis.pulse(j, 200)
+            await axis.blip("fhl_n", 10)
+        await axis.result("AC-38", 31, finish)
+        lab.check("AC-38", "83", await lab.run("c 83 rrr"), left)
+        tail = [20, 21, 23, 24, 27, 30, 34, 41, 53, 99]
+        lab.check("AC-38", "tail", axis.intervals[20:], clk(tail))
+        lab.check("AC-38", "first to last", sum(axis.intervals), 30_848)
+    await axis.go(0x43, 1000)
+    await axis.pulse(20, 200)
+    await axis.blip("bhl_n", 10)
+    await axis.result("AC-38", 1000, 0x83, 0)
+    lab.check("AC-38", "P2104-EX-02 sum", sum(axis.intervals), 651_008)
+
+
+@part_test("AC-39", "P2104-FDC-04", "P2104-LIM-05", "P2104-OPR-05", "P2104-OPR-09")
+async def p2104_ac_39_started_on_the_slow_down_limit(lab: Lab) -> None:
+    """Given FHL active, when 43, C3, 46 start, then one pulse each."""
+    axis = await lab.ready(1, INIT_B)
+    axis.set(fhl_n=0)
+    for script, finish, left in (
+        (f"c 43 {E7}", 0x8B, [0xE6, 3, 0]),
+        (f"c C3 {E7}", 0x8B, [0xE6, 3, 0]),
+        ("c 46", 0x8E, [0xFE, 0xFF, 0xFF]),
+    ):
+        axis.since = lab.bench.now
+        await lab.run(script)
+        await axis.result("AC-39", 1, finish)
+        lab.check("AC-39", "83", await lab.run("c 83 rrr"), left)
+
+
+@part_test("AC-40", "P2104-FDC-04", "P2104-FDC-05", "P2104-END-05")
+async def p2104_ac_40_complete_all_the_same(lab: Lab) -> None:
+    """Given FHL active, when one pulse is asked for, then it is complete and has no cause bit."""
+    axis = await lab.ready(1, INIT_B)
+    axis.set(fhl_n=0)
+    await axis.go(0x43, 1)
+    await axis.result("AC-40", 1, 0x83, 0)
+
+
+@part_test("AC-41", "P2104-EX-09", "P2104-END-06", "P2104-STP-01")
+async def p2104_ac_41_immediate_stop(lab: Lab) -> None:
+    """Given N = 1000, when 40 comes in I(7), then 7 pulses; what is left completes the move."""
+    axis = await lab.ready(1, INIT_B)
+    await asked_in(axis, 7, 0x40)
+    await axis.result("AC-41", 7, 0xC3)
+    lab.check("AC-41", "83", await lab.run("c 83 rrr"), [0xE0, 3, 0])
+    lab.check("AC-41", "intervals", axis.intervals, AC_09[:6])
+    axis.since = lab.bench.now
+    await lab.run("c 43 d E0 d 03 d 00")
+    await axis.result("AC-41", 993, 0x83, 0)
+
+
+@part_test("AC-42", "P2104-LIM-03", "P2104-END-02", "P2104-OPR-06")
+async def p2104_ac_42_limit(lab: Lab) -> None:
+    """Given constant speed CW, when FL falls, then it ends there within 8 clk; BL does nothing."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.go(0x45, rate=0x31)
+    await axis.pulse(2, 400)
+    axis.set(bl_n=0)
+    await axis.pulse(5, 400)
+    pin = axis.set(fl_n=0)
+    await lab.bench.until(pin + 8)
+    lab.check("AC-42", "BUSY 8 clk after the pin", await lab.host.status() & BUSY1, 0)
+    await axis.result("AC-42", 5, 0x95)
+    lab.check("AC-42", "83", await lab.run("c 83 rrr"), [0xFA, 0xFF, 0xFF])
+
+
+@part_test("AC-43", "P2104-END-04", "P2104-LIM-04")
+async def p2104_ac_43_several_causes(lab: Lab) -> None:
+    """Given a forced deceleration or a plateau, when limit and alarm come, then all bits show."""
+    axis = await lab.ready(1, INIT_B)
+    for slow, pins, finish in (
+        (True, ("fl_n",), 0x9B),
+        (True, ("alm_n",), 0xAB),
+        (False, ("alm_n", "fl_n"), 0xB3),
+    ):
+        await axis.go(0x43, 1000)
+        await axis.pulse(20, 200)
+        if slow:
+            await axis.blip("fhl_n", 10)
+            await axis.pulse(24, 200)
+        axis.set(**dict.fromkeys(pins, 0))
+        await axis.result("AC-43", 24 if slow else 20, finish)
+        axis.set(**dict.fromkeys(pins, 1))
+
+
+@part_test("AC-44", "P2104-END-05", "P2104-LIM-09")
+async def p2104_ac_44_alarm_after_the_last_pulse(lab: Lab) -> None:
+    """Given a step, when ALM falls while pout_n is low, then the step is complete."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.go(0x42)
+    await axis.pulse(1, 20)
+    axis.set(alm_n=0)
+    await axis.result("AC-44", 1, 0x82, 0)

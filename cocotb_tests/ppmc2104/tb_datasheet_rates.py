@@ -1,0 +1,239 @@
+"""Polled switches and rate limits, TIMING = "DATASHEET" (P2104-DS-20…36), AC-67 to AC-70, AC-75, AC-76."""
+
+from __future__ import annotations
+
+from itertools import repeat
+
+from cocotb_tests.harness.bus import IBF
+from cocotb_tests.harness.config import D11, D16, F16
+from cocotb_tests.harness.figures import NO_PULSES_DONE
+
+from .figures import INIT_B
+from .lab import Axis, Lab, part_test
+from .sheet import last_byte, opens, rest
+
+# Smallest accepted rates: other axis idle, other axis operating, by kind and csel (P2104-DS-30).
+LIMITS = {
+    ("pout", 1): (0x0C, 0x19),
+    ("phase", 1): (0x12, 0x23),
+    ("org", 1): (0x14, 0x25),
+    ("pout", 0): (0x03, 0x06),
+    ("phase", 0): (0x04, 0x08),
+    ("org", 0): (0x05, 0x09),
+}
+
+
+def rate_error(kind: str, csel: int, rate: int, operating: bool) -> int:
+    """Errors 12 and 13 of P2104-DS-30."""
+    single, double = LIMITS[kind, csel]
+    return 12 if rate < single else 13 if operating and rate < double else 0
+
+
+async def tried(lab: Lab, axis: Axis, code: int, error: int, rate: int | None = None, note: str = "") -> None:
+    """Start an operation; it must give that error and no BUSY, or run."""
+    data = [] if rate is None else [rate]
+    data += [99, 0, 0] if code & 7 in (3, 4) else []
+    await last_byte(axis, code, *data)
+    await lab.host.poll(IBF, 0)
+    busy = await lab.host.status() & axis.busy
+    what = f"{code:#x}, rate {rate}{note}"
+    lab.check("P2104-DS-30", f"BUSY of {what}", busy, 0 if error else axis.busy)
+    if busy:
+        await axis.command(0x40)
+        await axis.idle()
+        await axis.finish()
+    lab.check("P2104-DS-30", f"error of {what}", await axis.error(), error)
+
+
+@part_test("AC-67", "P2104-DS-30", "P2104-DS-35", "P2104-ERR-05", on=(D16, D11))
+async def p2104_ac_67_rate_bytes(lab: Lab) -> None:
+    """Given axis 2 not set up, when rates around the limits start, then error 12 below them."""
+    axis = await lab.ready(1, INIT_B)
+    for csel in (1, 0):
+        axis.set(csel=csel)
+        await lab.bench.clocks(4)
+        for code, kind in ((0x44, "phase"), (0x4D, "phase"), (0x47, "org")):
+            limit = LIMITS[kind, csel][0]
+            for rate in (limit - 1, limit):
+                error = rate_error(kind, csel, rate, False)
+                lab.check("AC-67", "figures", error, 12 if rate < limit else 0)
+                await tried(lab, axis, code, error, rate, f", csel {csel}")
+    # Order: rate 00 is error 9, a rate error comes before the guard's.
+    axis.set(alm_n=0)
+    await lab.bench.clocks(4)
+    for rate, error in ((0x00, 9), (0x03, 12), (0x04, 7)):
+        await tried(lab, axis, 0x44, error, rate, " on ALM")
+
+
+@part_test("AC-68", "AC-69", "P2104-DS-30", "P2104-DS-31", "P2104-DS-32", "P2104-DS-33", on=(D16,))
+async def p2104_ac_68_ramps_and_two_axes(lab: Lab) -> None:
+    """Given RH and rates around the limits, when axis 2 is idle or operating, then errors 12, 13 or none."""
+    axis, other = lab.axes
+    for rh, level, cases in (
+        (0x0B, 1, ((0xC3, 12), (0xC6, 12))),
+        (0x0C, 1, ((0xC3, 0), (0xC6, 0), (0x43, 12))),
+        (0x11, 1, ((0x43, 12), (0x46, 12), (0xC3, 0))),
+        (0x02, 0, ((0xC3, 12),)),
+        (0x03, 0, ((0xC3, 0), (0x43, 12))),
+    ):
+        axis.set(csel=level)
+        # The setting itself is never refused for its rate.
+        await axis.init(0x02, 0x63, rh, 10)
+        lab.check("P2104-DS-33", f"error of the setting, RH {rh:#x}", await axis.error(), 0)
+        for code, error in cases:
+            await tried(lab, axis, code, error, note=f", RH {rh:#x}, csel {level}")
+    await other.init(*INIT_B)
+    other.set(run=0)
+    await other.go(0x42)
+    await lab.host.poll(IBF, 0)
+    for level, cases in (
+        (1, ((0x44, 0x22, 13), (0x44, 0x23, 0), (0x47, 0x24, 13), (0x47, 0x25, 0), (0x44, 0x11, 12))),
+        (0, ((0x44, 0x07, 13), (0x44, 0x08, 0), (0x47, 0x08, 13), (0x47, 0x09, 0), (0x45, 0x03, 12))),
+    ):
+        axis.set(csel=level)
+        await lab.bench.clocks(4)
+        for code, rate, error in cases:
+            kind = "org" if code == 0x47 else "phase"
+            lab.check("AC-69", "figures", rate_error(kind, level, rate, True), error)
+            await tried(lab, axis, code, error, rate, f", csel {level}, axis 2 in RUN wait")
+        await tried(lab, axis, 0x42, 0, note=": single steps have no rate")
+    for rh, level, error in ((0x18, 1, 13), (0x19, 1, 0), (0x05, 0, 13), (0x06, 0, 0)):
+        axis.set(csel=level)
+        await axis.init(0x02, 0x63, rh, 10)
+        await tried(lab, axis, 0xC3, error, note=f", RH {rh:#x}, csel {level}, axis 2 in RUN wait")
+        await tried(lab, axis, 0x43, 13, note=f", RH {rh:#x}, csel {level}, axis 2 in RUN wait")
+    # The slow newcomer beside a fast runner is accepted, and the fast one goes on.
+    await other.command(0x40)
+    await rest(lab)
+    other.set(run=1)
+    await axis.go(0x44, 2_000, 0x04)
+    await lab.host.poll(IBF, 0)
+    await other.go(0x44, 5, 0x30)
+    await lab.host.poll(IBF, 0)
+    lab.check("P2104-DS-32", "both BUSY", await lab.host.status() & 0x8C, 0x0C)
+    await other.idle()
+    other.check_train("P2104-DS-32", [0x30] * 4)
+    await axis.command(0x40)
+    await axis.idle()
+    axis.check_train("P2104-DS-32", [0x04] * (len(axis.pulses) - 1), 0)
+
+
+@part_test("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", on=(D16,))
+async def p2104_ac_70_switching_counts(lab: Lab) -> None:
+    """Given axis 2 at rest with S = 1, when axis 1 starts, then the limit of two axes counts."""
+    axis, other = await lab.ready(1, INIT_B), lab.x2
+    await other.init(0x12, *INIT_B[1:])
+    await tried(lab, axis, 0x44, 13, 0x22, ", axis 2 switching")
+    await tried(lab, axis, 0x44, 0, 0x23, ", axis 2 switching")
+    await other.command(0xC0)
+    await tried(lab, axis, 0x44, 0, 0x22, ", axis 2 off")
+    await axis.command(0xC0)
+    await axis.init(0x0A, *INIT_B[1:])
+    clock = lab.bench.external_clock(repeat(20), axis.clock, high=10)
+    await tried(lab, axis, 0x45, 0, 0x00, ", external clock")
+    # Faster than the silicon could: nothing locks up.
+    await axis.go(0x44, 50, 0)
+    await axis.result("P2104-DS-36", 50, 0x84, 0)
+    clock.cancel()
+
+
+@part_test("AC-70", "P2104-DS-34", "P2104-INTV-01", on=(F16,))
+async def p2104_ac_70_no_limits_in_fast(lab: Lab) -> None:
+    """Given FAST and both axes, one of them switching, when rate 01 starts, then it runs."""
+    axis, other = lab.axes
+    await axis.init(*INIT_B)
+    await other.init(0x12, *INIT_B[1:])
+    await other.running(1)
+    await axis.move(0x44, 20, 1)
+    axis.check_train("P2104-DS-34", [1] * 19)
+    await axis.result("P2104-DS-34", 20, 0x84, 0)
+    await other.halt()
+    lab.check("P2104-DS-34", "errors", await lab.errors(), (0, 0))
+
+
+@part_test("AC-75", "P2104-DS-20", "P2104-DS-23", "P2104-LIM-01", on=(D16, D11))
+async def p2104_ac_75_polled_limits(lab: Lab) -> None:
+    """Given levels of 10 us at 7 offsets, when they are polled, then some are missed; 36 us never are."""
+    axis = await lab.ready(1, INIT_B)
+    us = lab.cfg.us
+    ended = []
+    for offset in range(7):
+        edge0 = await last_byte(axis, 0x45, 0xFF)
+        await lab.bench.until(edge0 + us(200 + 5 * offset))
+        await axis.blip("fl_n", us(10))
+        await lab.bench.clocks(40)
+        ended.append((await lab.host.status() & axis.busy) == 0)
+        if not ended[-1]:
+            await axis.command(0x40)
+        await axis.idle()
+        lab.check("AC-75", "end status", await axis.finish(), 0x95 if ended[-1] else 0xC5)
+    lab.check("AC-75", "missed, seen", (ended.count(False) >= 4, ended.count(True) >= 1), (True, True))
+    for offset in (0, 7, 19, 33):
+        for pin, finish in (("fl_n", 0x95), ("alm_n", 0xA5)):
+            edge0 = await last_byte(axis, 0x45, 0xFF)
+            await lab.bench.until(edge0 + us(200 + offset))
+            stamp = await axis.blip(pin, us(36))
+            end = await axis.ended()
+            lab.window("AC-75", "pin to the end", end - stamp, 2, us(35) + 8)
+            lab.check("AC-75", "end status", await axis.finish(), finish)
+            await lab.bench.clocks(us(50))
+    # While a window is open nothing is looked at; 35 us after it the level is seen.
+    await axis.go(0x45, rate=0xFF)
+    await axis.pulse(1, 300)
+    edge0 = await lab.host.command(0xC1, poll=False)
+    stamp = axis.set(fl_n=0)
+    end = await axis.ended()
+    lab.window("P2104-DS-20", "pin to the end, 40 us window", end - stamp, us(40 + 35) - 20, us(40 + 35) + 30)
+    axis.set(fl_n=1)
+    # The slow-down limit alike: in 43 it flags at a tick.
+    await rest(lab)
+    await axis.go(0x43, 1000)
+    await axis.pulse(30, 100)
+    await axis.blip("fhl_n", us(36))
+    await axis.idle()
+    lab.window("P2104-DS-20", "pulses", len(axis.pulses), 41, 42)
+    lab.check("P2104-DS-20", "end status", await axis.finish(), 0x8B)
+
+
+@part_test("AC-76", "P2104-DS-21", "P2104-LIM-07", on=(D16,))
+async def p2104_ac_76_origin_at_pulses(lab: Lab) -> None:
+    """Given an origin search, when ORG is low between two falls, then nothing; across one, the end."""
+    axis = await lab.ready(1, INIT_B)
+    await axis.go(0x47, rate=0x31)
+    await axis.pulse(5, 200)
+    await axis.blip("org_n", 1_000)
+    await axis.pulse(8, 1_500)
+    await axis.blip("org_n", 200)
+    await axis.result("AC-76", 9, 0x87)
+    lab.check("AC-76", "83", await axis.fetch(0x83, 3), [0xF6, 0xFF, 0xFF])
+    # Pulse 1 included; in RUN wait it is not looked at.
+    axis.set(run=0)
+    await axis.go(0x47, rate=0x31)
+    await lab.bench.clocks(lab.cfg.us(40))
+    axis.set(org_n=0)
+    await lab.bench.clocks(1_000)
+    lab.check("P2104-DS-21", "BUSY in RUN wait", await lab.host.status() & axis.busy, axis.busy)
+    axis.set(run=1)
+    await axis.result("P2104-DS-21", 1, 0x87, NO_PULSES_DONE - 2)
+    axis.set(org_n=1)
+
+
+@part_test("P2104-DS-01", "P2104-DS-14", "P2104-HSK-04", "P2104-STP-07", on=(D16,))
+async def p2104_ds_01_window_for_both_axes(lab: Lab) -> None:
+    """Given axis 2 moving, when axis 1 is set, then bytes for axis 2 wait as well, a stop too."""
+    axis, other = lab.axes
+    await other.init(*INIT_B)
+    await other.go(0x45, rate=0xFF)
+    edge0 = await last_byte(axis, 0x02, 9, 4, 4, 0)
+    await lab.bench.clocks(100)
+    await lab.host.command(0x60, poll=False)
+    await lab.bench.until(edge0 + lab.cfg.us(71_000) - 40)
+    lab.check("P2104-DS-01", "status", await lab.host.status() & 0x3E, IBF | axis.cmnd | other.busy)
+    pulses = len(other.pulses)
+    end = await other.ended()
+    lab.window("P2104-DS-02", "the stop's end", end - edge0, lab.cfg.us(71_400), lab.cfg.us(71_400) + 60)
+    lab.window("P2104-STP-07", "pulses after the window", len(other.pulses) - pulses, 0, 1)
+    lab.check("P2104-DS-01", "rates", set(other.intervals), {8_192})
+    await rest(lab)
+    edge0 = await last_byte(other, 0x42)
+    await opens(lab, "P2104-DS-04", edge0, 103)

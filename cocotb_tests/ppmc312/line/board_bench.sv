@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_board_bench: a board with a PPMC-312 on its serial line; what is not of the line is quiet.
+`default_nettype none
+
+module ppmc312_board_bench (
+    input  wire logic       clk,
+    input  wire logic       btn_n,
+    input  wire logic       uart_rxd,
+    output logic            uart_txd,
+    input  wire logic       rs485_rxd,
+    output logic            rs485_txd,
+    output logic            rs485_de,
+    input  wire logic [2:0] mod,
+    input  wire logic [3:0] adr,
+    input  wire logic       fl_n,
+    input  wire logic       alm_n,
+    input  wire logic [7:0] auxi,
+    output logic            pout,
+    output logic            dir,
+    output logic      [5:0] auxo_n,
+    output logic            d_oe,
+    output logic      [3:0] lamps
+);
+
+  ppmc312_station #(
+      .CLK_HZ(8_000_000),
+      .HOST  ("SERIAL")
+  ) u_station (
+      .clk,
+      .lock   (1'b1),
+      .req_n  (btn_n),
+      .uart_rxd,
+      .uart_txd,
+      .rs485_rxd,
+      .rs485_txd,
+      .rs485_de,
+      .hsp    (1'b1),
+      .mod,
+      .adr,
+      // a read strobe, which the part must not see
+      .rs     ('1),
+      .cs_n   (1'b0),
+      .oe_n   (1'b0),
+      .we_n   (1'b1),
+      .d_i    ('0),
+      .d_o    (),
+      .d_oe,
+      .wrq_n  (),
+      .irq_n  (),
+      .fl_n,
+      .bl_n   (1'b1),
+      .fhl_n  (1'b1),
+      .bhl_n  (1'b1),
+      .org_n  (1'b1),
+      .index_n(1'b1),
+      .alm_n,
+      .end_n  (1'b1),
+      .epin   (1'b0),
+      .epdir  (1'b0),
+      .run    (1'b1),
+      .evt0_n (1'b1),
+      .evt1_n (1'b1),
+      .extck  (1'b0),
+      .auxi,
+      .pout,
+      .dir,
+      .exon_n (),
+      .cd_n   (),
+      .cclr_n (),
+      .aclr_n (),
+      .zclmp_n(),
+      .intlk_n(),
+      .auxo_n,
+      .lamps
+  );
+
+endmodule
+
+`default_nettype wire

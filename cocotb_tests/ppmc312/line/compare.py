@@ -1,0 +1,120 @@
+"""What each station of the RTL saw and did, compared edge by edge with a golden model of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import groupby, zip_longest
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.compare import Comparison, compare_recording, write_report
+from cocotb_tests.harness.part import PPMC312
+from cocotb_tests.harness.stimulus import Change, Edge, Recording, by_signal
+from openppmc.model.ppmc312.part import Ppmc312
+
+from .models import heard, straps
+from .setting import ALL, LINE, OUTPUTS, SINGLE, STATIONS
+
+
+def line_recording(bench: Bench) -> Recording:
+    """Everything that a bench of the line has seen. It has not been reset since its start."""
+    recording = bench.recording()
+    recording.part = LINE.name
+    return recording
+
+
+def driven(edges: Mapping[str, list[tuple[int, int]]]) -> Iterator[tuple[int, int]]:
+    """(edge, levels) of what the stations' drivers let through."""
+    txd, snd = ALL, 0
+    changes = [(t, name, value) for name in ("txd", "snd") for t, value in edges[name]]
+    for t, group in groupby(sorted(changes), key=lambda change: change[0]):
+        for _, name, value in group:
+            txd, snd = (value, snd) if name == "txd" else (txd, value)
+        yield t, txd | ALL & ~snd
+
+
+def stimulus(recording: Recording, outputs: Mapping[str, list[tuple[int, int]]]) -> list[list[Change]]:
+    """Pin changes of each station: its own pins, and what it hears of master and stations.
+
+    What a station drives at an edge is heard at the next one.
+    """
+    levels, level = dict(LINE.inputs), ALL
+    steps = [(t + 1, "", value) for t, value in driven(outputs)]
+    steps += [(change.t, change.pin, change.value) for change in recording.stimulus]
+    found: list[list[Change]] = [[] for _ in range(STATIONS)]
+    rxd = [1] * STATIONS
+    for t, group in groupby(sorted(steps, key=lambda step: step[0]), key=lambda step: step[0]):
+        for _, pin, value in group:
+            if not pin:
+                level = value
+                continue
+            before, levels[pin] = levels[pin], value
+            for number in range(STATIONS) if pin in SINGLE else ():
+                if (before ^ value) >> number & 1:
+                    found[number].append(Change(t, pin, value >> number & 1))
+        for number in range(STATIONS):
+            if (now := heard(levels, level, number)) != rxd[number]:
+                rxd[number] = now
+                found[number].append(Change(t, "rxd", now))
+    return found
+
+
+def station_edges(outputs: Mapping[str, list[tuple[int, int]]], number: int) -> list[Edge]:
+    """Output edges of one station."""
+    rows: list[Edge] = []
+    for name, (width, first) in OUTPUTS.items():
+        level = first
+        for t, value in outputs[name]:
+            now = value >> width * number & (1 << width) - 1
+            if now != level:
+                level = now
+                rows.append(Edge(t, name, now))
+    return sorted(rows, key=lambda edge: edge.t)
+
+
+def compare_line(recording: Recording) -> list[Comparison]:
+    """All outputs of all stations against golden models with their addresses and speeds."""
+    outputs = by_signal(recording.edges, {name: level for name, (_, level) in LINE.outputs.items()})
+    first = {**LINE.inputs, **{c.pin: c.value for c in recording.stimulus if c.t == 0}}
+    params = {name: v for name, v in recording.params.items() if name in PPMC312.parameters + ("SUM_MODE",)}
+    comparisons = []
+    for number, changes in enumerate(stimulus(recording, outputs)):
+        edges = station_edges(outputs, number)
+        accesses = [access for access in recording.accesses if access.reg == number]
+        own = Recording("ppmc312", params, recording.seed, recording.end, changes, edges, accesses)
+        model = Ppmc312(**{name.lower(): v for name, v in params.items()}, straps=straps(first, number))
+        comparisons.append(compare_recording(own, model))
+    return comparisons
+
+
+def check_line(bench: Bench, at_least: int = 0) -> list[Comparison]:
+    """Every station equals its model; AssertionError with a report at the first one that does not.
+
+    `at_least`: so many edges in all must have been there to compare.
+    """
+    recording = line_recording(bench)
+    comparisons = compare_line(recording)
+    for number, comparison in enumerate(comparisons):
+        if comparison.mismatch is not None:
+            text = write_report(comparison, bench.out / f"station_{number}", bench.repro)
+            raise AssertionError(f"station {number}: {text}")
+    count = sum(comparison.edges_compared for comparison in comparisons)
+    assert count >= at_least, f"only {count} edges to compare"
+    check_wire(recording)
+    return comparisons
+
+
+def check_wire(recording: Recording) -> None:
+    """The line is low if and only if the master or a driver that is on makes it so."""
+    outputs = by_signal(recording.edges, {name: level for name, (_, level) in LINE.outputs.items()})
+    steps = [(t, 0, int(level == ALL)) for t, level in driven(outputs)]
+    steps += [(change.t, 1, change.value) for change in recording.stimulus if change.pin == "master"]
+    levels, line, want = [1, 1], 1, []
+    for t, group in groupby(sorted(steps), key=lambda step: step[0]):
+        for _, which, level in group:
+            levels[which] = level
+        if min(levels) != line and t <= recording.end:
+            line = min(levels)
+            want.append((t, line))
+    got = outputs["line"]
+    differ = next((pair for pair in zip_longest(want, got) if pair[0] != pair[1]), None)
+    assert differ is None, f"the line should do {differ[0]}, does {differ[1]}"

@@ -1,0 +1,168 @@
+"""A board with a PPMC-312 on its serial line: straps, both lines, DE, lamps, the button, pulses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import FallingEdge, RisingEdge, Timer, with_timeout
+from cocotb.utils import get_sim_time
+
+from cocotb_tests.harness.unit import same
+from cocotb_tests.harness.wire import Wire
+from cocotb_tests.ppmc312.serial_host import SPEEDS, summed
+from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL
+
+OPEN = {"mod": 7, "adr": 15}
+INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "fl_n": 1, "alm_n": 1, "auxi": 0xA5} | OPEN
+LINK, MOVING, SWITCH, RUNNING = range(4)  # lamps
+
+
+class Master(Wire):
+    """A master on one of the two lines."""
+
+    def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
+        super().__init__(rxd, txd, 1.0)
+        self._de = de
+        self.bytes = bytearray()
+
+    def came(self, byte: int) -> None:
+        """Collect a reply; DE must be on."""
+        same("DE", int(self._de.value), 1)
+        self.bytes.append(byte)
+
+    async def ask(self, station: int, text: str = "") -> str:
+        """The reply to an instruction, or a poll: kind and station, then data; ends when the line is free."""
+        data = bytes.fromhex(text)
+        self.bytes.clear()
+        await self.send(summed((INSTRUCTION if data else POLL) | station, data))
+        await with_timeout(RisingEdge(self._de), 10, "ms")
+        await with_timeout(FallingEdge(self._de), 10, "ms")
+        control, text = self.bytes[0], self.bytes[1:-1].decode("ascii")
+        same("frame", bytes(self.bytes), summed(control, bytes.fromhex(text)))
+        return f"{control:02X} {text}".strip()
+
+
+class Board:
+    """The board with its straps, out of reset, with a master on each line."""
+
+    def __init__(self, dut: Any, **straps: int) -> None:
+        self.dut = dut
+        for name, level in (INPUTS | straps).items():
+            getattr(dut, name).value = level
+        Clock(dut.clk, 125, "ns").start()
+        self.usb = Master(dut.uart_rxd, dut.uart_txd, dut.rs485_de)
+        self.rs485 = Master(dut.rs485_rxd, dut.rs485_txd, dut.rs485_de)
+        self.speed(7)
+
+    def speed(self, mod: int) -> None:
+        """Both masters take the speed of these straps."""
+        self.usb.rate = self.rs485.rate = float(SPEEDS[mod])
+
+    def lamp(self, which: int) -> int:
+        """A lamp, 1 = on."""
+        return int(self.dut.lamps.value) >> which & 1
+
+    async def boot(self) -> None:
+        """Until the lamp "running" is lit."""
+        while not self.lamp(RUNNING):
+            await Timer(50, "us")
+        await Timer(50, "us")
+
+
+async def start(dut: Any, **straps: int) -> Board:
+    """Power-on; both lines are listened to from then on."""
+    board = Board(dut, **straps)
+    await board.boot()
+    for master in (board.usb, board.rs485):
+        master.listen()
+    return board
+
+
+@cocotb.test()
+async def board312_serial_open_straps(dut: Any) -> None:
+    """Open straps are 83 333 baud and station 15; either master is answered, on both lines, framed by DE."""
+    board = await start(dut)
+    same("lamp before", board.lamp(LINK), 0)
+    for master, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
+        other.bytes.clear()
+        same("DE", int(dut.rs485_de.value), 0)
+        same("inputs", await master.ask(15, "25"), "AF a5")
+        same("the other line", bytes(other.bytes), bytes(master.bytes))
+        same("lamp", board.lamp(LINK), 1)
+        same("ready", await master.ask(15), "9F")
+    same("DE", int(dut.rs485_de.value), 0)
+    same("bus", int(dut.d_oe.value), 0)
+
+
+@cocotb.test()
+async def board312_serial_half_a_bit(dut: Any) -> None:
+    """DE comes half a bit or more after the master's stop bit, the start bit a bit later."""
+    board = await start(dut)
+    bit = 1e6 / board.rs485.rate
+    for master in (board.usb, board.rs485):
+        await master.send(summed(POLL | 15))
+        end = get_sim_time("us")
+        await with_timeout(RisingEdge(dut.rs485_de), 1, "ms")
+        late = get_sim_time("us") - end - bit / 2
+        assert 0 <= late <= 1, f"DE comes {late} us after half a bit"
+        await with_timeout(FallingEdge(dut.rs485_txd), 1, "ms")
+        late = get_sim_time("us") - end - 1.5 * bit
+        assert 0 <= late <= 1, f"the start bit comes {late} us after one and a half"
+        await with_timeout(FallingEdge(dut.rs485_de), 1, "ms")
+        await Timer(50, "us")
+
+
+@cocotb.test()
+async def board312_serial_straps_and_button(dut: Any) -> None:
+    """The straps count at the end of a reset, by the button too, which stops and forgets everything."""
+    board = await start(dut, adr=3, mod=6)
+    rs485 = board.rs485
+    board.speed(6)
+    same("output", await rs485.ask(3, "26 15"), "93")
+    same("auxo_n", int(dut.auxo_n.value), 0x2A)
+    dut.adr.value, dut.mod.value = 10, 5
+    same("still station 3", await rs485.ask(3), "93")
+    dut.btn_n.value = 0
+    await Timer(10, "us")
+    same("running", board.lamp(RUNNING), 0)
+    same("auxo_n", int(dut.auxo_n.value), 0x3F)
+    dut.btn_n.value = 1
+    await Timer(100, "us")
+    await board.boot()
+    board.speed(5)
+    same("station 10", await rs485.ask(10), "9A")
+
+
+@cocotb.test()
+async def board312_serial_motion_and_lamps(dut: Any) -> None:
+    """A move ordered by USB, polls on the line; the pulses are counted; limit and alarm have their lamp."""
+    board = await start(dut)
+    usb, pulses = board.usb, []
+
+    async def count() -> None:
+        while True:
+            await RisingEdge(dut.pout)
+            pulses.append(board.lamp(MOVING))
+
+    cocotb.start_soon(count())
+    same("table", await usb.ask(15, "00 00 0140 00A0 000360"), "9F")
+    same("lamp", board.lamp(MOVING), 0)
+    same("move", await usb.ask(15, "A4 0140 0000001E"), "9F")
+    same("direction", int(dut.dir.value), 1)
+    said = await board.rs485.ask(15)
+    while said == "8F":
+        said = await board.rs485.ask(15)
+    same("END code", said, "AF 38")
+    same("pulses", len(pulses), 30)
+    same("lamp", (sum(pulses[1:]), board.lamp(MOVING)), (29, 1))
+    same("position", await board.rs485.ask(15, "42"), "AF ffffffe2")
+    for name in ("fl_n", "alm_n"):
+        same("lamp", board.lamp(SWITCH), 0)
+        getattr(dut, name).value = 0
+        await Timer(10, "us")
+        same(f"lamp of {name}", board.lamp(SWITCH), 1)
+        getattr(dut, name).value = 1
+        await Timer(10, "us")
+    same("alarm", await board.rs485.ask(15), "BF 46")

@@ -1,0 +1,38 @@
+"""The stream of one seed on sixteen stations of RTL; then each station against a golden model of its own."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.config import configs
+from cocotb_tests.harness.verifies import verifies
+
+from .compare import check_line
+from .master import Master, RtlPort
+from .setting import F8L, LINE
+from .stream import pins_of, play
+
+SIZE = 120
+"""Characters."""
+
+
+@cocotb.test()
+@configs(F8L)
+@verifies("P312-BAD-16", "P312-SER-10", "P312-SER-15", "P312-SER-19")
+async def line_stream(dut: Any) -> None:
+    """Given sixteen stations, when anything is on the line, then at most one poll brings each back."""
+    seed = int(os.environ.get("OPENPPMC_SEED", "1"))
+    bench = await Bench.start(dut, LINE, settle=8, **pins_of(seed))
+    cocotb.log.info("seed %d", seed)
+    try:
+        late = await play(Master(RtlPort(bench)), seed, SIZE)
+    except AssertionError as error:
+        check_line(bench)
+        raise AssertionError(f"stream of seed {seed}: {error}") from None
+    await bench.clocks(100)
+    check_line(bench)
+    cocotb.log.info("%d stations needed a second poll", late)

@@ -1,0 +1,54 @@
+"""Sixteen stations on one line: the RTL with its models, and the line of models alone under more seeds."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.runner import SimOptions, run_item
+
+from .master import Master, at_once
+from .models import ModelLine
+from .scenes import BAD, ONE_MUTE, TWINS, twins
+from .setting import LINE, design
+from .stream import model_line, play
+from .tb_stream import SIZE
+
+ITEMS = cocotb_items("cocotb_tests.ppmc312.line", "tb_line", "tb_stream", part=LINE)
+
+
+def stream_item(seed: int) -> Item:
+    """The stream of one seed on the RTL."""
+    return next(p.values[0] for p in ITEMS if p.values[0].test == "line_stream").with_seed(seed)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_line(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation of the line."""
+    run_item(item, sim_options, design=design(item.config))
+
+
+@pytest.fixture
+def seeds(request: pytest.FixtureRequest) -> list[int]:
+    """Two fixed ones, or that of the command line; printed when a test fails."""
+    chosen = request.config.getoption("--seed")
+    picked = [2, 3] if chosen is None else [chosen]
+    print(f"seeds {picked}")
+    return picked
+
+
+def test_scenes_on_models(seeds: list[int]) -> None:
+    """The bad scenes and the twins under other seeds, on golden models alone."""
+    for seed in seeds:
+        for scenes, line in ((BAD, ModelLine()), ((twins,), ModelLine(adr=TWINS, mod=ONE_MUTE))):
+            at_once(line.until(8))
+            for scene in scenes:
+                at_once(scene(Master(line), random.Random(f"{scene.__name__} {seed}")))
+
+
+def test_streams_on_models(seeds: list[int]) -> None:
+    """Streams under other seeds: on an undisturbed line hardly a station needs a second poll."""
+    late = sum(at_once(play(Master(model_line(seed, 8)), seed, SIZE, 8)) for seed in seeds)
+    assert late <= 8 * len(seeds)

@@ -1,0 +1,89 @@
+"""Packed types of ppmc_stage_pkg as numbers, and the blocks of the stage area with their ports."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from openppmc.model.ppmc312.stages.tables import LAST, Table
+
+from ...harness.wrapper import Block
+
+AREA = "stage"
+GROUPS = ("common", "motion", "stage")
+CLOCKS = (8_000_000, 16_000_000, 50_000_000)
+"""Clk of the instances of ppmc_interval, at the crystal of 16 MHz."""
+PACKAGE = "ppmc_stage_pkg::"
+INTERVAL = "base_i:3 extck_i arm_i first_i fire_i rate_i:16 due_o high_o"
+BLOCKS = {
+    "muldiv": Block(
+        "ppmc_muldiv",
+        "start_i mul_i zero_i keep_i steps_i:6 hi_i:40 lo_i:24 operand_i:40 busy_o hi_o:40 lo_o:24",
+    ),
+    "rom": Block("ppmc_cosine_rom", "clk_i index_i:7 weight_o:17", bare=True),
+    "unit": Block(
+        "ppmc_stage_unit",
+        f"drop_i build_i curve_i:101:{PACKAGE}curve_t busy_o thin_o open_i open_acc_i:7 open_dec_i:7"
+        f" entry_i:34:{PACKAGE}entry_t close_i table_o:115 home_o:38 read_side_i read_addr_i:7"
+        " read_rate_o:16 read_pulses_o:24 plan_start_i plan_ramp_i plan_endless_i plan_rate_i:16"
+        " plan_count_i:32 plan_busy_o plan_kind_o:8 plan_o:128 side_i addr_i:7 rate_o:16 pulses_o:24",
+    ),
+    "seq": Block(
+        "ppmc_stage_seq",
+        f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 side_o addr_o:7"
+        " table_rate_i:16 table_pulses_i:24 load_i endless_i climb_i count_i:32 dec_i:24"
+        f" dec_from_i:32:{PACKAGE}walk_t target_i:38:{PACKAGE}target_t change_i change_ramp_i slow_i"
+        " next_end_o next_low_o next_count_o next_slow_o next_walk_o next_rate_o:16 step_i rate_o:16 flat_o"
+        " walk_o first_o complete_o",
+    ),
+    **{
+        f"interval{clk // 1_000_000}": Block("ppmc_interval", INTERVAL, {"ClkHz": clk, "XtalHz": 16_000_000})
+        for clk in CLOCKS
+    },
+}
+
+
+def pack(*fields: tuple[int, int]) -> int:
+    """Packed struct of (value, width) fields, the first one uppermost."""
+    number = 0
+    for value, width in fields:
+        assert 0 <= value < 1 << width, f"{value} does not fit {width} bits"
+        number = number << width | value
+    return number
+
+
+class Target(NamedTuple):
+    """target_t: a rate and its look-up; ge: t(rate), one before the first stage in use if there is none."""
+
+    rate: int
+    slows: int
+    ge: int
+    ge1: int
+    gt1: int
+
+    @classmethod
+    def of(cls, table: Table, rate: int) -> Target:
+        """What the look-up of a rate finds in a table."""
+        at, above = table.stage(rate), table.stage(rate + 1)
+        return cls(rate, int(rate < table.rates[table.sd]), at % 128, at + 1, above + 1)
+
+    @classmethod
+    def split(cls, number: int) -> Target:
+        """Fields of a packed one."""
+        return cls(number >> 22, number >> 21 & 1, number >> 14 & 0x7F, number >> 7 & 0x7F, number & 0x7F)
+
+    @property
+    def packed(self) -> int:
+        """As a port carries it."""
+        return pack((self.rate, 16), (self.slows, 1), (self.ge, 7), (self.ge1, 7), (self.gt1, 7))
+
+
+def walk_start(table: Table, pulses: int) -> tuple[int, int]:
+    """Stage of the first of the last `pulses` pulses of the deceleration, and how many of them it has."""
+    stage = next(i for i in range(table.sd, LAST + 1) if table.sums_down[i] >= pulses)
+    return stage, pulses - (table.sums_down[stage - 1] if stage else 0)
+
+
+def brief(table: Table) -> str:
+    """Used stages of a table."""
+    first = table.first
+    return f"{table.rates[first:]} up {table.pa[first:]} down {table.pd[first:]}, from {table.sa}, {table.sd}"

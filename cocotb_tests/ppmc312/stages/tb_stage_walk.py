@@ -1,0 +1,233 @@
+"""Contract of ppmc_stage_seq: which rate the next pulse has, or why there is none."""
+
+from __future__ import annotations
+
+import random
+from collections import deque
+
+import cocotb
+
+from openppmc.model.ppmc312.codes import Cause
+from openppmc.model.ppmc312.motion.sequence import Change, Sequence
+from openppmc.model.ppmc312.stages.curve import curve
+from openppmc.model.ppmc312.stages.plan import Plan, constant, ramped
+from openppmc.model.ppmc312.stages.tables import STAGES, Table
+
+from ...harness.unit import Unit, rng, same
+from . import stage_types
+from .stage_types import Target, brief, pack, walk_start
+
+AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
+LEADS = {"slow": 2, "jump": 5, "ramp": 9}
+"""How many clk before a boundary a request must come at least to count for it."""
+SHORTEST, TARGET_CLK = 4, 2
+"""Clk of an interval; clk after change_i in which target_i is taken."""
+FLAT, SEARCH, FOUND = 7, 129, 3
+"""Clk of constant rate before a ramp begins; clk of a search, and after it before a walk begins."""
+WATCH = "next_end_o next_low_o next_count_o next_rate_o"
+
+
+def small_curve(rand: random.Random) -> Table:
+    """A curve of a few stages with a few pulses each, mostly falling, half with equal neighbours; the sides
+    may differ."""
+    counts = [rand.choice((2, 3, 5)), rand.choice((2, 3, 4))]
+    split = rand.random() < 0.7
+    most = max(counts) if split else counts[0]
+    rates = sorted(rand.sample(range(2, 400), most))
+    if rand.random() < 0.5:
+        rates = sorted(rand.choices(rates, k=most))
+    if rand.random() < 0.25:
+        rand.shuffle(rates)
+    pulses = [[rand.randint(2, 6) for _ in range(count)] for count in counts]
+    return curve(rates, pulses[0], pulses[1] if split else None)
+
+
+def some_rate(rand: random.Random, table: Table) -> int:
+    """A rate that an instruction may ask for; often one of the table, or next to it."""
+    low, high = sorted((table.high, table.slowest))
+    near = rand.choice(table.rates[table.first :]) + rand.choice((0, 0, 1, -1))
+    return rand.choice((min(max(near, low), high), rand.randint(low, high)))
+
+
+class Walker:
+    """The sequencer in a motion, with a table that answers two clk after the address."""
+
+    def __init__(self, u: Unit, table: Table, plan: Plan, rand: random.Random) -> None:
+        self.u, self.table, self.plan, self.rand = u, table, plan, rand
+        self.asked = deque([(0, 0), (0, 0)])
+        self.sequence = Sequence(plan)
+        self.story: list[str] = []
+        self.busy = rand.choice((0.1, 0.4))
+        self.flat_for, self.slow, self.searched = SEARCH, 0, 0
+        self.what = f"{brief(table)}: {plan.n} pulses at {plan.rate}, {plan.up} up, {plan.down} down"
+
+    async def clk(self, **inputs: int) -> tuple[int, ...]:
+        """One clk; returns the watched outputs before it."""
+        out = await self.look(**inputs)
+        self.asked.popleft()
+        self.asked.append((self.u.get("side_o"), self.u.get("addr_o")))
+        await self.u.clk()
+        return out
+
+    async def look(self, **inputs: int) -> tuple[int, ...]:
+        """Watched outputs with these inputs and the table's answer of this clk."""
+        side, i = self.asked[0]
+        table, i = self.table, min(i, STAGES - 1)
+        pulses = table.pd if side else table.pa
+        self.u.put(table_rate_i=table.rates[i], table_pulses_i=pulses[i])
+        return await self.u.settle(**inputs)
+
+    async def load(self) -> None:
+        """Begin the operation."""
+        table, plan = self.table, self.plan
+        self.u.put(first_acc_i=table.sa, first_dec_i=table.sd, rate_dec_i=table.rates[table.sd])
+        self.u.put(slow_i=0, change_i=0)
+        stage, left = walk_start(table, plan.down) if plan.down else (0, 0)
+        part = int(plan.down > 0 and left != table.pd[stage])
+        self.u.put(dec_from_i=pack((stage, 7), (part, 1), (left * part, 24)), dec_i=plan.down)
+        self.u.put(target_i=Target.of(table, plan.rate).packed, endless_i=plan.n is None)
+        await self.clk(load_i=1, climb_i=plan.up > 0, count_i=plan.n or 7)
+        self.u.put(load_i=0, climb_i=self.rand.randrange(2), count_i=self.rand.getrandbits(32), target_i=0)
+        for _ in range(12):
+            await self.clk()
+
+    def plan_requests(self) -> dict[int, str]:
+        """Requests in the coming interval, by their lead in clk; at most one change."""
+        rand, found = self.rand, {}
+        if rand.random() < 0.08:
+            found[LEADS["slow"] + rand.choice((0, 0, 1, 7))] = "slow"
+        if rand.random() < self.busy:
+            flat = self.sequence.present.stage is None
+            what = rand.choice(["jump"] + ["ramp"] * (flat or self.sequence.running is not None))
+            lead = LEADS[what] + rand.choice((0, 0, 1, 6))
+            found[lead if lead not in found else lead + 1] = what
+        return found
+
+    def aim(self) -> int:
+        """Rate of a change."""
+        return some_rate(self.rand, self.table)
+
+    async def interval(self) -> None:
+        """All clk of an interval but the last one."""
+        requests = self.plan_requests()
+        longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
+        if self.sequence.sought and self.rand.random() < 0.3:
+            # A boundary where what the search finds just counts, or just not yet.
+            wanted = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
+            longest = max(longest, wanted - self.flat_for)
+        self.flat_for += longest
+        slow, target = self.slow, {}
+        for left in range(longest - 1, 0, -1):
+            what = requests.get(left)
+            if what:
+                self.story.append(f"{what} after pulse {self.sequence.done}")
+            if what == "slow":
+                slow = 1
+                self.sequence.request(Cause.SLOW)
+            elif what:
+                rate = self.aim()
+                self.story[-1] += f" to {rate}"
+                self.sequence.change(Change(rate, what == "ramp"))
+                packed = Target.of(self.table, rate).packed
+                target = {left - TARGET_CLK: {"target_i": packed, "change_ramp_i": what == "ramp"}}
+            self.u.put(target_i=self.rand.getrandbits(38), change_ramp_i=self.rand.randrange(2))
+            await self.clk(slow_i=slow, change_i=bool(what) and what != "slow", **target.get(left, {}))
+        self.u.put(change_i=0)
+
+    async def run(self, limit: int = 200) -> str:
+        """All pulses; returns why there are no more."""
+        for _ in range(limit):
+            await self.interval()
+            where = f"{self.what}, {self.story}, boundary {self.sequence.done + 1}"
+            end, low, count, rate = await self.look()
+            self.slow = self.u.get("slow_i") and not self.u.get("next_slow_o")
+            flat_for = self.flat_for - SEARCH * self.sequence.sought
+            was_stage = self.sequence.in_table
+            want = self.sequence.boundary(flat_for >= FLAT, flat_for >= FOUND)
+            if isinstance(want, Cause):
+                why = (1, want is Cause.LOW, want is Cause.NORMAL)
+                same(f"{where}: end, low, count", (end, low, count), why)
+                return want.name
+            same(f"{where}: end, rate", (end, rate), (0, want.rate))
+            if was_stage and want.stage is None:
+                self.flat_for = 0
+            self.searched += self.sequence.sought
+            await self.clk(step_i=1)
+            self.u.put(step_i=0, slow_i=0)
+            await self.u.settle()
+            got = [self.u.get(name) for name in ("rate_o", "flat_o", "first_o", "complete_o")]
+            same(f"{where}: rate, flat", got, [want.rate, want.stage is None, 0, self.sequence.complete])
+        return "endless"
+
+
+def some_plan(rand: random.Random, table: Table) -> Plan:
+    """82, 85, 83 or 86 with as many pulses as make it interesting."""
+    rate = some_rate(rand, table)
+    most = table.na + table.nd + 12
+    n = rand.choice((None, rand.randint(1, most), rand.randint(1, most), rand.randint(1, 4)))
+    return ramped(table, rate, n) if rand.random() < 0.7 else constant(table, rate, n)
+
+
+@cocotb.test()
+async def stage_seq_walks(dut):
+    """Given random curves, operations and requests, then each pulse and the end are those of the model."""
+    rand = rng()
+    u = Unit(dut, "seq", BLOCKS, WATCH)
+    await u.reset()
+    ends: dict[str, int] = {}
+    for _ in range(220):
+        table = small_curve(rand)
+        walker = Walker(u, table, some_plan(rand, table), rand)
+        await walker.load()
+        end = await walker.run(60)
+        ends[end] = ends.get(end, 0) + 1
+    same("ends that occurred", sorted(ends), ["LOW", "NORMAL", "SLOW", "endless"])
+
+
+class Meeting(Walker):
+    """A ramp of 87 is sent to meet the deceleration point; what comes after it is random."""
+
+    def plan_requests(self) -> dict[int, str]:
+        """88 some pulses before that point, 87 closer to it."""
+        plan = self.plan
+        before = (plan.n or 0) - plan.down - self.sequence.done
+        if before in (self.jump, self.ramp):
+            return {LEADS["ramp"]: "jump" if before == self.jump else "ramp"}
+        return {} if 0 < before else super().plan_requests()
+
+    def aim(self) -> int:
+        """Down to where a ramp has stages, then up."""
+        before = (self.plan.n or 0) - self.plan.down - self.sequence.done
+        if self.rand.random() < 0.2 or before < 1:
+            return super().aim()
+        return self.table.high if before == self.ramp else self.table.rates[self.table.first]
+
+    @classmethod
+    def some(cls, u: Unit, rand: random.Random) -> Meeting:
+        """A table and an operation with so many pulses of deceleration that much can happen in them."""
+        while True:
+            table = small_curve(rand)
+            rate = some_rate(rand, table)
+            plan = ramped(table, rate, None)
+            n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
+            plan = ramped(table, rate, n)
+            if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
+                break  # often with stages that only the acceleration has, where there is no walk
+        walker = cls(u, table, plan, rand)
+        walker.jump, walker.ramp, walker.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
+        return walker
+
+
+@cocotb.test()
+async def stage_seq_searches(dut):
+    """Given a stage that becomes a constant rate, then t(rate) is found for what comes after it."""
+    rand = rng()
+    u = Unit(dut, "seq", BLOCKS, WATCH)
+    await u.reset()
+    searched = 0
+    for _ in range(240):
+        walker = Meeting.some(u, rand)
+        await walker.load()
+        await walker.run(120)
+        searched += walker.searched
+    assert searched > 100, f"a search ran in {searched} intervals only"

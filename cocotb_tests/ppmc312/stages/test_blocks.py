@@ -1,0 +1,17 @@
+"""Unit tests of the stage blocks of the PPMC-312, one simulation each."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.blocks import BLOCKS, run_block
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.runner import SimOptions
+
+ITEMS = cocotb_items("cocotb_tests.ppmc312.stages", "tb_stage", "tb_stage_walk", "tb_interval", part=BLOCKS)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_block(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation."""
+    run_block(item, sim_options)

@@ -1,0 +1,91 @@
+"""What `make demo PART=stmc` plays on the board's ISA bus: an old program that moves, finds its limit, its
+reference point, and rests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
+from cocotb_tests.harness.part import J105_STMC
+from cocotb_tests.harness.story import Story
+from scripts.demo.scenes import steps
+
+BASE = 0x3B0
+# 4-phase motor, full step, positive logic for the driver on the board, 48.675 kHz, chopped at rest.
+INIT = 0x3A
+SLOW, FAST, RAMP = 50, 10, 60  # 973.5 to 4867.5 steps/s within 60 steps
+MOVE, TO_LIMIT, TO_REFERENCE = 0x43, 0x46, 0x4F  # the last one counter-clockwise
+STEPS = 300
+STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170  # of TO_LIMIT: L3 closes, then L1
+DIVISOR = 25  # 1947 steps/s
+STEPS_TO_REFERENCE = 40
+INTERRUPT_LATENCY = 800  # clk, 50 us: a PC of its time was not faster
+LONG = 4_000_000
+
+
+async def results(host: IsaHost) -> None:
+    """Wait for the interrupt, then read finish status and remaining steps as a handler does."""
+    bench = host.bench
+    if not bench.level("irq"):
+        await bench.edge("irq", 1, timeout=LONG)
+    await bench.clocks(INTERRUPT_LATENCY)
+    await host.status()
+    await host.fetch(0x80)
+    await host.fetch(0x84, 3)
+
+
+async def step(bench: Bench, n: int, since: int) -> int:
+    """Edge of the n-th step from `since` on; waits for it."""
+    seen = [(since, bench.level("drv"))]
+    while len(steps([*seen, *bench.edges("drv", since)])) < n:
+        await bench.edge("drv", timeout=LONG)
+    await bench.align()
+    return steps([*seen, *bench.edges("drv", since)])[n - 1]
+
+
+@cocotb.test()
+async def demo_board(dut: Any) -> None:
+    """Given a board just powered up, when the host's program runs on the bus, then all of it is recorded."""
+    bench = await Bench.start(dut, J105_STMC)
+    host = IsaHost(IsaMaster(bench), BASE)
+    story = Story(bench)
+    with story.chapter("reset", "after reset"):
+        await host.status()
+        await host.fetch(0x82)
+    with story.chapter("init", "initialise"):
+        await host.init(INIT, SLOW, FAST, RAMP)
+        await host.status()
+        # The table build keeps this one in the buffer: IBF tells when the board is ready.
+        await host.fetch(0x83)
+        await bench.clocks(8000)
+    with story.chapter("move", f"{STEPS} steps with ramps"):
+        await host.move(MOVE, STEPS)
+        await results(host)
+    with story.chapter("pause", "rest"):
+        await bench.clocks(64_000)
+    with story.chapter("limit", "accelerate to the limit"):
+        await host.send(TO_LIMIT)
+        start = bench.now
+        last = await step(bench, STEPS_TO_SLOW_DOWN, start)
+        bench.at(last + 700, l3_n=0)
+        last = await step(bench, STEPS_TO_LIMIT, start)
+        bench.at(last + 2500, l1_n=0)
+        await results(host)
+        await host.fetch(0x82)
+    with story.chapter("pause2", "rest"):
+        await bench.clocks(64_000)
+    with story.chapter("reference", "back to the reference point"):
+        await host.send(TO_REFERENCE, [DIVISOR])
+        start = bench.now
+        last = await step(bench, 2, start)
+        bench.at(last + 900, l1_n=1, l3_n=1)
+        last = await step(bench, STEPS_TO_REFERENCE, start)
+        bench.at(last + 3000, cnp_n=0)
+        await results(host)
+    with story.chapter("rest", "rest until HOLD rises"):
+        await bench.edge("hold", 1, timeout=LONG)
+        await bench.clocks(16_000)
+    story.save()

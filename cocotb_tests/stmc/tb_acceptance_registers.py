@@ -1,0 +1,217 @@
+"""Black-box acceptance checks AC-35 to AC-45 and AC-48 to AC-52: registers, chopper, clock, bad input."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
+from cocotb_tests.harness.config import D16
+
+from .figures import FAMILY, INTERNAL, MOST
+from .lab import WRITE_EVENT, Lab, part_test
+
+
+@part_test("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
+async def stmc_ac_35_interrupt(lab: Lab) -> None:
+    """Given bit 4, motions, reads, when they come, then int_n falls without it and 80 alone releases it."""
+    await lab.move(0x53, 1)
+    lab.check("AC-35", "edges of int_n", lab.bench.edges("int_n"), [])
+    await lab.move(0x43, 1)
+    lab.check("AC-35", "int_n", lab.bench.level("int_n"), 0)
+    await lab.move(0x42)
+    await lab.host.status()
+    lab.check("AC-35", "edges of int_n", [v for _, v in lab.bench.edges("int_n")], [0])
+    await lab.host.command(0x80)
+    lab.check("AC-35", "int_n before the byte is read", lab.bench.level("int_n"), 1)
+    lab.check("AC-35", "FIN", await lab.host.read_data(), 0x82)
+
+
+@part_test("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17", "STMC-INI-03")
+async def stmc_ac_36_bytes_during_a_move(lab: Lab) -> None:
+    """Given a running move, when 80, 0A, C0, 42 and a data byte come, then errors 1, 1, 0, 1, 6."""
+    await lab.go(0x43, 100)
+    got = await lab.statuses("c 80 c 0A c C0 c 42 d 00")
+    lab.check("AC-36", "statuses", got, [0x94, 0x94, 0x84, 0x94, 0xE4])
+    await lab.result("AC-36", 100, 0x83, 0)
+
+
+@part_test("AC-37", "STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-BAD-11")
+async def stmc_ac_37_answer_replaced(lab: Lab) -> None:
+    """Given a half-read answer, when 82 is accepted, then only the inputs byte is there."""
+    lab.check("AC-37", "bytes", await lab.host.run("c 84 r c 82 r"), [0, 0xCF])
+    lab.check("AC-37", "OBF", await lab.host.status() & OBF, 0)
+    lab.check("AC-37", "data register", await lab.host.read(DATA), 0xCF)
+    lab.check("AC-37", "status", await lab.host.status(), 0)
+
+
+@part_test("AC-38", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-04")
+async def stmc_ac_38_command_instead_of_data(lab: Lab) -> None:
+    """Given an unfinished command 3, when 42 comes, then one step, and a later data byte is error 3."""
+    lab.since = lab.bench.now
+    await lab.host.run("c 43 d 05 c 42")
+    await lab.idle()
+    lab.check("AC-38", "steps", len(lab.pulses), 1)
+    lab.check("AC-38", "status", await lab.statuses("d 00"), [0xB0])
+
+
+@part_test("AC-39", "STMC-INI-02", "STMC-BAD-05")
+async def stmc_ac_39_refused_initialisation(lab: Lab) -> None:
+    """Given 20/5/8, when 5/20/8 is sent, then error 5, and the old data stay."""
+    lab.check("AC-39", "status", await lab.host.init(0x1A, 5, 20, 8), 0xD0)
+    await lab.move(0x43, 4)
+    lab.train("AC-39", [20, 12, 20])
+
+
+@part_test("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
+async def stmc_ac_40_bytes_meet_the_build(lab: Lab) -> None:
+    """Given a table build, when 40 and then 80 are written, then 80 is answered without an error."""
+    await lab.host.init(0x1A, 255, 5, 400)
+    edge0 = await lab.host.write(1, 0x40)
+    await lab.bench.until(edge0 + 12)
+    await lab.host.write(1, 0x80)
+    lab.check("AC-40", "status", await lab.host.poll(IBF, 0), OBF)
+    lab.check("AC-40", "FIN", await lab.host.read_data(), 0x80)
+    await lab.move(0x43, 4)
+    lab.check("AC-40", "first gap", lab.intervals[0], 255 * 16)
+
+
+@part_test("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02", on=(FAMILY,), init=None)
+async def stmc_ac_41_chopper(lab: Lab) -> None:
+    """Given bit 5, when the part rests, steps, rests, then the pattern is chopped but for the step."""
+    await lab.host.init(0x3A, 20, 5, 8)
+    await lab.bench.level_is("s", 0b00000, 60_000)
+    off = lab.bench.now
+    for _ in range(8):
+        lab.check("AC-41", "outputs", await lab.out(), 0xC4)
+        await lab.bench.clocks(400)
+    lab.check("AC-41", "hold", lab.bench.edges("hold"), [])
+    for level, clk in lab.stretches(off - 1):
+        lab.window("AC-41", f"clk of s = {level}", clk, *((1035, 1045) if level else (1735, 1745)))
+    while lab.bench.level("s"):
+        await lab.bench.edge("s")
+    await lab.go(0x42)
+    begin = lab.bench.falls("hold")[0]
+    end = await lab.ended()
+    lab.check("AC-41", "full pattern with hold", lab.bench.level_at("s", begin), 0b00011)
+    step = next(t for t, level in lab.bench.edges("s", begin) if level == 0b00110)
+    lab.window("AC-41", "hold to the step", step - begin, 80, 82)
+    first_off = await lab.bench.edge("s", 0)
+    lab.window("AC-41", "first on-time", first_off - end, 1032, 1048)
+    rise = await lab.bench.edge("hold", 1)
+    lab.window("AC-41", "hold", rise - step, 1600, 1624)
+
+
+@part_test("AC-42", "STMC-CLK-05", clock=0)
+async def stmc_ac_42_no_ticks(lab: Lab) -> None:
+    """Given no external clock, when a move starts, then it waits; 40 ends it, 41 leaves one step."""
+    await lab.go(0x43, 6)
+    await lab.bench.clocks(5_000)
+    lab.check("AC-42", "BUSY", await lab.host.status(), BUSY)
+    await lab.command(0x40)
+    await lab.result("AC-42", 0, 0xC3, 5)
+    await lab.go(0x43, 6)
+    lab.check("AC-42", "status after 41", await lab.command(0x41), BUSY)
+    await lab.bench.clocks(500)
+    lab.check("AC-42", "steps without ticks", lab.pulses, [])
+    await lab.ticks(3)
+    await lab.result("AC-42", 1, 0xC3, 4)
+
+
+@part_test("AC-43", "STMC-RUN-01")
+async def stmc_ac_43_bit_5_of_a_motion(lab: Lab) -> None:
+    """Given 63, when it runs, then it is 43."""
+    await lab.go(0x63, 1)
+    await lab.result("AC-43", 1, 0x83, 0)
+    lab.check("AC-43", "pattern", lab.patterns, [0b00110])
+
+
+@part_test("AC-44", "STMC-RD-01", "STMC-BAD-01", on=(FAMILY,))
+async def stmc_ac_44_family_codes(lab: Lab) -> None:
+    """Given READ_MAP "FAMILY", when 81, 82, 83, 84 come, then inputs, outputs, three bytes, error 0."""
+    got = await lab.host.run("c 81 r c 82 r c 83 rrr c 84 s")
+    lab.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])
+
+
+@part_test("AC-45", "STMC-RD-01", "STMC-BAD-01")
+async def stmc_ac_45_sheet_codes(lab: Lab) -> None:
+    """Given READ_MAP "SHEET", when 81 and 84 come, then error 0 and three bytes."""
+    lab.check("AC-45", "answers", await lab.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
+
+
+@part_test("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", on=(D16,), init=INTERNAL, clock=0)
+async def stmc_ac_48_datasheet_times(lab: Lab) -> None:
+    """Given the DATASHEET timing, when two steps run, then start, steps, end, answer at their times."""
+    bench = lab.bench
+    edge0 = await lab.go(0x44, 2, 10, poll=False)
+    hold = await bench.edge("hold", 0)
+    lab.window("AC-48", "hold", hold - edge0, 432, 432 + 24)
+    first = await lab.pulse(1)
+    lab.window("AC-48", "first step", first - edge0, 3104, 3104 + 24)
+    last = await lab.pulse(2)
+    lab.check("AC-48", "gap", last - first, 12_800)
+    end = await lab.ended()
+    lab.window("AC-48", "int_n", end - last, 416, 416 + 16)
+    await lab.host.write(1, 0x80)
+    await bench.until(last + 2_400)
+    while bench.now < last + 2_490:
+        lab.check("AC-48", "IBF", await lab.host.status(), IBF)
+    status = await lab.host.poll(IBF, 0, dense=100)
+    lab.window("AC-48", "taken", bench.now - last, 2_496, 2_496 + 16 + 12)
+    lab.check("AC-48", "status and byte", (status, await lab.host.read_data()), (OBF, 0x84))
+
+
+@part_test("AC-49", "STMC-BAD-16")
+async def stmc_ac_49_reset_in_motion(lab: Lab) -> None:
+    """Given a move, when rst_n falls, then all outputs rest at once and everything is forgotten."""
+    await lab.go(0x43, 100)
+    await lab.in_gap(5)
+    lab.set(rst_n=0)
+    await lab.bench.clocks(1)
+    lab.check("AC-49", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
+    await lab.bench.clocks(5)
+    lab.set(rst_n=1)
+    await lab.bench.clocks(5)
+    lab.check("AC-49", "status", await lab.host.status(), 0)
+    lab.check("AC-49", "42", await lab.statuses("c 42"), [0xA0])
+    lab.check("AC-49", "registers", await lab.host.run("c 80 r c 84 rrr c 83 r"), [0x80, 0, 0, 0, 4])
+
+
+@part_test("AC-50", "STMC-DEC-03", "STMC-IN-04")
+async def stmc_ac_50_start_at_the_deceleration_limit(lab: Lab) -> None:
+    """Given l3_n low, when 3, 6, 3 with N = 1, 7 start, then 1, 1, 1, 0 steps; with l1_n low, then none."""
+    await lab.pins(l3_n=0)
+    for code, n, rate, steps, finish, rest in (
+        (0x43, 100, None, 1, 0x8B, 98),
+        (0x46, None, None, 1, 0x8E, MOST - 1),
+        (0x43, 1, None, 1, 0x83, 0),
+        (0x47, None, 10, 0, 0x8F, MOST),
+    ):
+        await lab.go(code, n, rate)
+        await lab.result("AC-50", steps, finish, rest)
+    await lab.pins(l1_n=0)
+    await lab.go(0x43, 100)
+    await lab.result("AC-50", 0, 0x93, 99)
+
+
+@part_test("AC-51", "STMC-CMD-01", "STMC-BAD-11")
+async def stmc_ac_51_answer_outlives_a_step(lab: Lab) -> None:
+    """Given a half-read remaining value, when a step runs, then the other two bytes are still there."""
+    await lab.go(0x43, 100)
+    await lab.in_gap(10)
+    await lab.command(0x40)
+    await lab.idle()
+    lab.check("AC-51", "first byte", await lab.host.run("c 84 r"), [0x58])
+    await lab.host.command(0x42)
+    await lab.idle()
+    lab.check("AC-51", "other bytes", await lab.host.run("rr"), [0, 0])
+    lab.check("AC-51", "OBF", await lab.host.status() & OBF, 0)
+
+
+@part_test("AC-52", "STMC-BUS-06", "STMC-BAD-12")
+async def stmc_ac_52_both_strobes(lab: Lab) -> None:
+    """Given both strobes low together, when they rise together, then nothing was driven or written."""
+    before = await lab.host.status()
+    since = lab.bench.now
+    await lab.host.raw(10, cs_n=0, rd_n=0, wr_n=0, a0=1, d_i=0x42)
+    await lab.host.raw(20 + WRITE_EVENT, cs_n=1, rd_n=1, wr_n=1)
+    lab.check("AC-52", "d_oe", lab.bench.edges("d_oe", since), [])
+    lab.check("AC-52", "status", await lab.host.status(), before)
+    lab.quiet("AC-52", since)
