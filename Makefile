@@ -107,7 +107,7 @@ board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top (p
 	@$(PY) -m openppmc.sim $(addprefix part=,$(GIVEN_PART)) $(if $(SIM),$(call quote,$(SIM)))
 
 test-board: $(ENVSIM) ## the host package on the virtual board, through pyserial, unplugging included
-	@$(PYTEST) tests/board -n $(J) $(if $(T),-k $(call quote,$(T)))
+	@$(PYTEST) tests/*/board -n $(J) $(if $(T),-k $(call quote,$(T)))
 
 report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each, into docs/benchmarks.md and docs/sizes.json
 	@$(PY) -m scripts.report $(addprefix --part ,$(GIVEN_PART))

@@ -59,7 +59,7 @@ def module_tests(part: Part, modules: Mapping[str, tuple[Config, ...]], module: 
     """The cocotb tests of all script modules, by name, as globals of the Python module called `module`."""
     tests = {}
     for path, builds in modules.items():
-        stem = Path(path).stem.removeprefix(f"test_{part.prefix[1:]}_").removeprefix("script_")
+        stem = Path(path).stem.removeprefix("test_").removeprefix("script_")
         name = f"{part.prefix.lower()}_{stem}"
         assert name not in tests, f"{path}: second module called {name}"
         tests[name] = _test(part, path, builds, name)

@@ -11,7 +11,6 @@ import importlib
 import importlib.util
 import inspect
 import itertools
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,7 +19,6 @@ from typing import Any, NamedTuple, TypeVar
 
 from .config import Config
 from .part import PARTS, Part
-from .paths import ROOT
 from .tape import Tape
 from .verifies import rules_of
 
@@ -37,16 +35,8 @@ class Case(NamedTuple):
 
 
 def load(path: str) -> ModuleType:
-    """The module in a file, named from the project's root; the model's own tests are in no package."""
-    if path.startswith("cocotb_tests/"):
-        return importlib.import_module(path.removesuffix(".py").replace("/", "."))
-    name = Path(path).stem
-    if name not in sys.modules:
-        spec = importlib.util.spec_from_file_location(name, ROOT / path)
-        assert spec and spec.loader
-        sys.modules[name] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(sys.modules[name])
-    return sys.modules[name]
+    """The module in a file, named from the project's root."""
+    return importlib.import_module(path.removesuffix(".py").replace("/", "."))
 
 
 def functions(module: ModuleType) -> list[Any]:

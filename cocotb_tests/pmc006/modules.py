@@ -21,11 +21,11 @@ BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900)
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 
 MODULES: dict[str, tuple[Config, ...]] = {
-    "tests/model/test_006_checks_link.py": (F8B,),
-    "tests/model/test_006_checks_motion.py": (F8B,),
-    "tests/model/test_006_checks_guard.py": (F8B,),
-    "tests/model/test_006_checks_modes.py": (D8E,),
-    "tests/model/test_006_checks_program.py": (F8B,),
+    "tests/pmc006/model/test_checks_link.py": (F8B,),
+    "tests/pmc006/model/test_checks_motion.py": (F8B,),
+    "tests/pmc006/model/test_checks_guard.py": (F8B,),
+    "tests/pmc006/model/test_checks_modes.py": (D8E,),
+    "tests/pmc006/model/test_checks_program.py": (F8B,),
     "cocotb_tests/pmc006/script_tour.py": (F8B, F16, D8E),
     "cocotb_tests/pmc006/script_link.py": (F8B, ODD),
     "cocotb_tests/pmc006/script_codes.py": (F8B,),

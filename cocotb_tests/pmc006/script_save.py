@@ -192,7 +192,7 @@ def answering(host: Host006) -> int:
 @verifies("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
 def test_reset_while_settings_are_saved() -> None:
     """Wherever a reset cuts t off, the next boot has the old settings or the new ones, all of them. Here some
-    places, each through the whole part; tests/model/test_006_cuts.py has every edge of the lines."""
+    places, each through the whole part; tests/pmc006/model/test_cuts.py has every edge of the lines."""
     seen: list[bool] = []
     for number in range(PLACES):
         host = booted(image(SAVED) + bytes(0x1D) + SAVED, 120)

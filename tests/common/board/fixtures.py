@@ -1,0 +1,88 @@
+"""Virtual boards for the tests, driven from outside as a user would."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from openppmc import sim
+
+StartBoard = Callable[..., sim.SimBoard]
+Wait = Callable[..., None]
+
+PATIENCE = 30.0
+"""Wall seconds after which a test gives up; on a busy machine the board is slower than real time."""
+
+SETUP = {"start_pps": 2000, "high_pps": 20000, "ramp_pulses": 400}
+"""A set-up that covers the plant's 40 000 pulses in some 2 s of board time."""
+
+
+@pytest.fixture
+def start_board() -> Iterator[StartBoard]:
+    """Starts virtual boards and ends them after the test."""
+    boards: list[sim.SimBoard] = []
+
+    def start(text: str = "", **options: object) -> sim.SimBoard:
+        boards.append(sim.start(text, **options))
+        return boards[-1]
+
+    yield start
+    for board in boards:
+        board.close()
+
+
+@pytest.fixture
+def board(start_board: StartBoard) -> sim.SimBoard:
+    """A board with the default plant."""
+    return start_board()
+
+
+@pytest.fixture
+def until() -> Wait:
+    """Waits for something that happens in another process, or fails with `what`."""
+
+    def wait(condition: Callable[[], object], what: str, seconds: float = PATIENCE) -> None:
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, f"after {seconds:g} s still not: {what}"
+            time.sleep(0.01)
+
+    return wait
+
+
+class CommandLine:
+    """The program `openppmc` in a process of its own."""
+
+    def __init__(self, state: Path) -> None:
+        self._env = {**os.environ, "OPENPPMC_STATE": str(state), "PYTHONPATH": str(ROOT), "COLUMNS": "200"}
+
+    def begin(self, port: str, *words: str) -> subprocess.Popen[str]:
+        """Start it and return."""
+        command = [sys.executable, "-m", "openppmc.cli", "--port", port, *words]
+        return subprocess.Popen(
+            command, env=self._env, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        )
+
+    def run(self, port: str, *words: str) -> tuple[int, str, str]:
+        """Exit status, standard output, standard error."""
+        process = self.begin(port, *words)
+        out, err = process.communicate(timeout=2 * PATIENCE)
+        return process.returncode, out, err
+
+
+@pytest.fixture
+def openppmc(tmp_path: Path) -> CommandLine:
+    """The command line with a state folder of its own."""
+    return CommandLine(tmp_path / "state")
+
+
+def one_line(text: str) -> bool:
+    """True for exactly one line of error text without a traceback."""
+    return len(text.strip().splitlines()) == 1 and text.startswith("error: ") and "Traceback" not in text

@@ -1,0 +1,168 @@
+"""Motions on the virtual board, through `openppmc.host`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from openppmc.host import (
+    CCW,
+    CW,
+    AlarmStop,
+    Cause,
+    CommandRefused,
+    LimitReached,
+    NotInitialised,
+    NotWhileBusy,
+    OriginNotFound,
+    Ppmc104,
+)
+from openppmc.model import Timebase, predict_move
+from openppmc.sim import SimBoard
+
+from .fixtures import SETUP, StartBoard, Wait
+
+
+def test_info(board: SimBoard) -> None:
+    """The bridge tells part, clocks and the rates that this clock allows; the link works at 1 Mbaud."""
+    with Ppmc104.open(board.port) as axis:
+        identity = axis.link.identity
+        assert (identity.part, identity.clk_hz, identity.xtal_hz) == (104, 8_000_000, 16_000_000)
+        assert (identity.version, identity.counter, identity.datasheet) == (1, True, False)
+        assert identity.best_rate == 4  # 5 clk a bit at least
+        assert board.status().rate == axis.link.baud == 1_000_000
+    assert not board.status().open
+
+
+def test_not_initialised(board: SimBoard) -> None:
+    """A fresh part refuses to move, with a reason; nothing turns."""
+    with Ppmc104.open(board.port) as axis:
+        with pytest.raises(NotInitialised):
+            axis.move(10)
+    assert board.status().pulses == 0
+
+
+def test_move_with_event(board: SimBoard) -> None:
+    """A move ends with an interrupt message, the motor is where it should be, then it is at rest."""
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        axis.start_move(1500)
+        pins = axis.link.wait_event(20)
+        assert pins is not None and not pins & 1, "no interrupt message within 20 s"
+        end = axis.motion.wait()
+        assert end.complete and end.pulses == 1500
+        assert axis.move(-600).position == 900
+    now = board.status()
+    assert (now.position, now.pulses) == (4900, 2100)
+
+
+@pytest.mark.parametrize("start", [3000, -150, 0], ids=["above", "below_on_switch", "on_the_edge"])
+def test_home(start_board: StartBoard, start: int) -> None:
+    """Homing finds the same edge from wherever it begins."""
+    board = start_board(start=start)
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        end = axis.home(CCW, fast=True)
+        assert end.cause is Cause.ORIGIN and axis.position == 0
+        now = board.status()
+        assert now.position == 0 and now.cnp
+        axis.move_to(250)
+        assert board.status().position == 250
+
+
+def test_home_without_switch(start_board: StartBoard) -> None:
+    """An origin switch that is out of reach: the limit ends the search, and the error says so."""
+    board = start_board(start=500, origin=-10_000)
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        with pytest.raises(OriginNotFound):
+            axis.home(CCW)
+    assert board.status().position == -400
+
+
+def test_hard_limit_stops(start_board: StartBoard) -> None:
+    """At constant speed only the hard limit ends the motion: on its first pulse, and back is possible."""
+    board = start_board(start=37_000, cw=38_500)
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        with pytest.raises(LimitReached) as limit:
+            axis.move_constant(10_000, 10_000)
+        assert Cause.LIMIT in limit.value.end.cause
+        assert limit.value.end.pulses == 1500
+        now = board.status()
+        assert now.position == 38_500 and now.l1 and now.l3
+        with pytest.raises(LimitReached):
+            axis.step(CW)
+        axis.step(CCW)
+        assert board.status().position == 38_499
+
+
+def test_slow_down_limit_stops(start_board: StartBoard) -> None:
+    """A ramped move into L3 comes to rest by its ramp of at most 400 pulses, before the hard limit."""
+    board = start_board(start=37_000)
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        with pytest.raises(LimitReached) as limit:
+            axis.move(10_000)
+        assert limit.value.end.cause is Cause.SLOW_LIMIT
+        assert 38_000 < board.status().position <= 38_401
+        assert limit.value.end.pulses == board.status().position - 37_000
+
+
+def test_alarm_stops(start_board: StartBoard) -> None:
+    """The alarm ends a motion at once and refuses the next one."""
+    board = start_board(alarm="5000..5100")
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        with pytest.raises(AlarmStop):
+            axis.move(3000)
+        assert board.status().position == 5000 and board.status().alm
+        with pytest.raises(AlarmStop):
+            axis.step(CCW)
+
+
+def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
+    """A jog runs until the stop, which takes a ramp; the motor then stands still."""
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        axis.jog(CW, high=True)
+        until(lambda: board.status().pulses > 2000, "2000 pulses made")
+        with pytest.raises(NotWhileBusy):
+            axis.step(CW)
+        before = board.status().pulses
+        end = axis.stop()
+        assert end is not None and end.cause is Cause.STOP
+        after = board.status()
+        assert after.pulses - before >= 400, "no ramp down from high speed"
+        assert end.pulses == after.pulses == after.position - 4000
+        until(lambda: board.status().hold, "hold output")
+        assert board.status().pulses == after.pulses
+
+
+def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
+    """Refused commands during a move leave its number of pulses alone."""
+    with Ppmc104.open(board.port) as axis:
+        axis.initialise(**SETUP)
+        motion = axis.start_move(4000)
+        for _ in range(5):
+            with pytest.raises(CommandRefused):
+                axis.remaining()
+        assert motion.wait().check(4000).pulses == 4000
+    assert board.status().position == 8000
+
+
+@pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
+def test_edges_exact(start_board: StartBoard, tmp_path: Path, timing: str) -> None:
+    """Every interval between POUT edges of a ramped move is the predicted number of clk."""
+    log = tmp_path / "pulses.txt"
+    board = start_board(log=log, timing=timing)
+    with Ppmc104.open(board.port) as axis:
+        assert axis.link.identity.datasheet == (timing == "DATASHEET")
+        setup = axis.initialise(start_pps=3000, high_pps=17_000, ramp_pulses=150)
+        axis.move(1000)
+    board.close()
+    rows = [[int(word) for word in line.split()] for line in log.read_text().splitlines()[1:]]
+    move = predict_move(bytes(setup.data), 1000, timebase=Timebase(8_000_000, 16_000_000))
+    assert [row[0] - rows[0][0] for row in rows] == list(move.clk)
+    assert [row[1:] for row in rows] == [[0, 4001 + n] for n in range(1000)]

@@ -1,0 +1,126 @@
+"""Ports that are no board, taken, or gone: a clear error each time."""
+
+from __future__ import annotations
+
+import os
+import random
+import threading
+import time
+import tty
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from openppmc.host import Disconnected, NoAnswer, PortError, Ppmc104, WrongDevice
+from openppmc.sim import SimBoard
+
+from .fixtures import SETUP, one_line
+
+Reply = Callable[[bytes], bytes]
+MakeStranger = Callable[[Reply], str]
+
+
+def refusal(port: str, kind: type[Exception]) -> str:
+    """Open `port`, expect `kind`; its message must be one line that names the port."""
+    with pytest.raises(kind) as caught:
+        Ppmc104.open(port).close()
+    text = str(caught.value)
+    assert port in text and one_line(f"error: {text}")
+    return text
+
+
+def test_no_such_port() -> None:
+    """A path that is not there."""
+    assert "no such port" in refusal("/dev/ttyNotThere7", PortError)
+
+
+def test_not_a_port(tmp_path: Path) -> None:
+    """A plain file."""
+    (tmp_path / "file").touch()
+    assert "not a serial port" in refusal(str(tmp_path / "file"), PortError)
+
+
+def test_busy_port(board: SimBoard) -> None:
+    """Opened twice: the second one is told, the first one works on."""
+    with Ppmc104.open(board.port) as axis:
+        assert "close it first" in refusal(board.port, PortError)
+        assert axis.status().busy is False
+
+
+class Stranger:
+    """A pseudo-terminal with something else than a board behind it."""
+
+    def __init__(self, reply: Reply) -> None:
+        self._reply = reply
+        self._master, self._slave = os.openpty()
+        tty.setraw(self._slave)
+        self.path = os.ttyname(self._slave)
+        self._end = False
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def _serve(self) -> None:
+        while not self._end:
+            try:
+                data = os.read(self._master, 1024)
+            except OSError:
+                return
+            if reply := self._reply(data):
+                os.write(self._master, reply)
+
+    def close(self) -> None:
+        self._end = True
+        os.write(self._slave, b"x")  # wakes the thread up
+        self._thread.join(5)
+        os.close(self._slave)
+        os.close(self._master)
+
+
+@pytest.fixture
+def stranger() -> Iterator[MakeStranger]:
+    """Makes strangers and removes them after the test."""
+    made: list[Stranger] = []
+
+    def make(reply: Reply) -> str:
+        made.append(Stranger(reply))
+        return made[-1].path
+
+    yield make
+    for one in made:
+        one.close()
+
+
+def test_silent_port(stranger: MakeStranger) -> None:
+    """Nobody there: the error says what to check."""
+    assert "no answer" in refusal(stranger(lambda data: b""), NoAnswer)
+
+
+def test_echo(stranger: MakeStranger) -> None:
+    """A device that sends everything back is not taken for a bridge."""
+    refusal(stranger(lambda data: data), (NoAnswer, WrongDevice))
+
+
+def test_modem(stranger: MakeStranger) -> None:
+    """A device that talks text."""
+    assert "right port" in refusal(stranger(lambda data: b"ERROR unknown command\r\n" * 3), WrongDevice)
+
+
+def test_garbage(stranger: MakeStranger) -> None:
+    """A device that answers with random bytes."""
+    noise = random.Random(7)
+    refusal(stranger(lambda data: noise.randbytes(64)), (NoAnswer, WrongDevice))
+
+
+def test_board_dies_in_a_move(board: SimBoard) -> None:
+    """The port goes away under a motion: Disconnected, with what to do, and soon."""
+    axis = Ppmc104.open(board.port)
+    axis.initialise(**SETUP)
+    motion = axis.start_move(30_000)
+    board.process.kill()
+    begin = time.monotonic()
+    with pytest.raises(Disconnected) as caught:
+        motion.wait()
+    assert time.monotonic() - begin < 10
+    assert one_line(f"error: {caught.value}")
+    axis.close()

@@ -1,0 +1,76 @@
+"""Constraint files against special_pins.py: no unsafe use of a pin, and none that docs/boards.md hides."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from cocotb_tests.harness import project
+from tests.common.harness.special_pins import SPECIAL, Kind, Special
+from tests.common.harness.test_boards import CONSTRAINTS, FILES, PIN, pins, ports
+
+USED = sorted(path.name for path in CONSTRAINTS.iterdir() if path.suffix in PIN)
+TOPS = {entry[1]: entry[0] for entry in FILES}
+STOPS = re.compile(r"(l[1-4]|fh?l|bh?l|alm)_n(\[\d\])?|mon")
+"""Ports that stop a motor: limits, alarm, MON. The others may wait for a plug to be pulled."""
+
+
+def board(file: str) -> str:
+    """The board's name: what a constraint file is called up to the part."""
+    return re.split(r"[-.]", file)[0]
+
+
+def uses(file: str) -> list[tuple[str, str, Special]]:
+    """(port, pin, its other job) of a constraint file."""
+    pairs = pins((CONSTRAINTS / file).read_text(), (CONSTRAINTS / file).suffix)
+    return [
+        (port, pin, special) for port, pin in pairs for special in SPECIAL[board(file)] if pin in special.pins
+    ]
+
+
+def told(name: str) -> dict[str, set[str]]:
+    """The table of docs/boards.md for a board: the pins told for each other job."""
+    page = (project.DOCS / "boards.md").read_text()
+    found = re.search(rf"<!-- special {name} -->(.*?)<!-- /special {name} -->", page, re.DOTALL)
+    rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \| [^|]+ \|$", found[1] if found else "", re.MULTILINE)
+    return {job: set(re.findall(r"`(\w+)`", names)) for names, job in rows}
+
+
+@pytest.mark.parametrize("name", sorted({board(file) for file in USED}))
+def test_second_jobs_are_told(name: str) -> None:
+    """Every used pin that has another job is in the board's table, in the row of that job."""
+    used = {(special.job, pin) for file in USED if board(file) == name for _, pin, special in uses(file)}
+    page = {(job, pin) for job, names in told(name).items() for pin in names}
+    assert used <= page, f"not told: {sorted(used - page)}"
+
+
+@pytest.mark.parametrize("file", USED)
+def test_no_use_of_configuration_and_control_pins(file: str) -> None:
+    never = [
+        f"{port} at {pin}: {special.job}" for port, pin, special in uses(file) if special.kind is Kind.NEVER
+    ]
+    assert not never
+
+
+@pytest.mark.parametrize("file", USED)
+def test_nothing_drives_against_an_output_or_holds_a_limit(file: str) -> None:
+    outputs = {bit for port in ports(TOPS[file]).values() if port.direction != "input" for bit in port.bits}
+    unsafe = [
+        f"{port} at {pin}: {special.job}"
+        for port, pin, special in uses(file)
+        if special.kind is Kind.DRIVEN and (port in outputs or STOPS.fullmatch(port))
+    ]
+    assert not unsafe
+
+
+def test_sources_are_named() -> None:
+    for name, specials in SPECIAL.items():
+        each = [pin for special in specials for pin in special.pins]
+        assert len(each) == len(set(each)), name
+        assert all(special.source for special in specials)
+
+
+@pytest.mark.parametrize("port", ["l1_n", "fl_n", "fl_n[2]", "bl_n", "fhl_n", "bhl_n[1]", "alm_n", "mon"])
+def test_stops_are_known(port: str) -> None:
+    assert STOPS.fullmatch(port)

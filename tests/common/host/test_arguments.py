@@ -1,0 +1,277 @@
+"""What a caller can get wrong in Python, the same for all parts: one clear error, and nothing is sent."""
+
+from __future__ import annotations
+
+import copy
+import pydoc
+import threading
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from openppmc.host import (
+    CCW,
+    OutOfRange,
+    Pmc006,
+    Pmc006Bus,
+    Ppmc104,
+    Ppmc312,
+    Ppmc312Bus,
+    Ppmc2104,
+    PpmcError,
+    Stmc,
+)
+from openppmc.host.basis import arguments
+from openppmc.host.basis.arguments import exact, flag, whole, within
+from tests.pmc006.host.line_ports import one
+
+FAST = "model:speed=max"
+BRIDGED = {"ppmc104": Ppmc104, "ppmc2104": Ppmc2104, "stmc": Stmc, "ppmc312": Ppmc312}
+WRONG = {
+    "int": (2.5, "5", None, True, float("nan"), float("inf"), [1], 1j),
+    "Number": ("5", None, True, float("nan"), float("inf"), [1], 1j),
+    "float": ("5", None, True, float("nan"), [1]),
+    "bool": ("no", None, 2, 0.5, []),
+}
+HARMLESS: dict[str, Any] = {"block": b"", "path": "", "baud": 9600}
+
+
+class Index:
+    """An integer of another library, such as numpy's."""
+
+    def __init__(self, value: int) -> None:
+        self.value = value
+
+    def __index__(self) -> int:
+        return self.value
+
+
+class Single:
+    """A real number of another library, such as numpy's float32."""
+
+    def __init__(self, value: float) -> None:
+        self.value = value
+
+    def as_integer_ratio(self) -> tuple[int, int]:
+        return self.value.as_integer_ratio()
+
+
+@pytest.fixture(params=[*BRIDGED, "ppmc312-serial", "pmc006"])
+def axis(request: pytest.FixtureRequest) -> Iterator[Any]:
+    """An initialised axis of each part."""
+    if request.param == "pmc006":
+        with one("eeprom=none")[1] as motor:
+            motor.start_speed = motor.stop_speed = motor.max_speed = 2000
+            yield motor
+    elif request.param == "ppmc312-serial":
+        with Ppmc312Bus.open(f"{FAST},stations=2", 83_333) as bus:
+            bus.axis(0).initialise(4000, 8000, 600)
+            yield bus.axis(0)
+    else:
+        with BRIDGED[request.param].open(f"{FAST},part={request.param}") as part:
+            one_axis = part.x if request.param == "ppmc2104" else part
+            if request.param == "ppmc312":
+                one_axis.initialise(4000, 8000, 600)
+            else:
+                one_axis.initialise(1000, 2000, 100)
+            yield one_axis
+
+
+# ---------------------------------------------------------------------- numbers
+
+
+def test_whole_numbers_of_any_kind_are_taken() -> None:
+    for value in (100, 100.0, Fraction(100), Index(100), Single(100.0)):
+        assert type(whole(value, "pulses")) is int and whole(value, "pulses") == 100
+    assert whole(-1e6, "pulses") == -1_000_000
+    for value in WRONG["int"]:
+        with pytest.raises(OutOfRange, match=r"^pulses .* is not a whole number$"):
+            whole(value, "pulses")
+
+
+def test_numbers_and_flags() -> None:
+    assert exact(0.1, "speed") == Fraction(0.1) and exact(Single(0.5), "speed") == Fraction(1, 2)
+    for value in WRONG["Number"]:
+        with pytest.raises(OutOfRange, match=r"^speed .* is not a number$"):
+            exact(value, "speed")
+    assert [flag(value, "on") for value in (True, False, 1, 0)] == [True, False, True, False]
+    for value in WRONG["bool"]:
+        with pytest.raises(OutOfRange, match=r"^on .* is neither True nor False$"):
+            flag(value, "on")
+    assert within(5.0, "outputs", 0, 5) == 5
+    with pytest.raises(OutOfRange, match=r"^outputs 6 is outside 0 to 5 V$"):
+        within(6, "outputs", 0, 5, "V")
+
+
+def test_a_whole_number_of_pulses_may_come_as_a_float(axis: Any) -> None:
+    assert axis.move(100.0).pulses == 100
+    axis.move(Index(-50))
+    assert axis.position == 50
+    axis.move_to(20.0)
+    assert axis.position == 20
+
+
+@pytest.mark.parametrize("value", [2.5, "5", None, True, float("nan")])
+def test_no_part_moves_by_what_is_no_whole_number(axis: Any, value: Any) -> None:
+    with pytest.raises(OutOfRange, match=r"(pulses|steps) .* is not a whole number"):
+        axis.move(value)
+    with pytest.raises(OutOfRange, match="position .* is not a whole number"):
+        axis.move_to(value)
+    with pytest.raises(OutOfRange, match="direction .* is not a whole number"):
+        axis.jog(value)
+    assert axis.position == 0 and axis.motion is None
+
+
+def _quiet(part: Any) -> list[bytes]:
+    """What is written from now on."""
+    port, sent = part.link.port, []
+    write = port.write
+    port.write = lambda data: (sent.append(data), write(data))
+    return sent
+
+
+def _wrong_calls(part: Any) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Each public method with each parameter wrong in each way, the others left out or harmless."""
+    for name in dir(type(part)):
+        entry = getattr(type(part), name)
+        if name.startswith("_") or not isinstance(entry, arguments.Entry):
+            continue
+        for parameter, kind in entry.kinds.items():
+            for value in WRONG[kind.name]:
+                if value is not None or not kind.optional:
+                    yield name, parameter, {parameter: value}
+
+
+def test_each_argument_of_each_method_is_checked_before_anything_is_sent(axis: Any) -> None:
+    sent, tried = _quiet(axis), set()
+    for name, parameter, words in _wrong_calls(axis):
+        tried.add((name, parameter))
+        with pytest.raises(OutOfRange, match=f"^{parameter} .* is (not|neither)"):
+            getattr(axis, name)(**words)
+    assert sent == []
+    assert {("move", "pulses"), ("move", "steps")} & tried and {
+        ("jog", "direction"),
+        ("stop", "wait"),
+    } <= tried
+    assert len(tried) > 30
+
+
+def test_opening_a_port_checks_numbers_too() -> None:
+    for make in (Ppmc104, Ppmc2104, Stmc, Ppmc312, Pmc006, Pmc006Bus):
+        with pytest.raises(OutOfRange, match="baud '115200' is not a whole number"):
+            make.open(FAST, baud="115200")
+    with pytest.raises(OutOfRange, match="speed 19200.5 is not a whole number"):
+        Ppmc312Bus.open(FAST, speed=19200.5)
+    with pytest.raises(OutOfRange, match="patience nan is not a number"):
+        Pmc006Bus.open(FAST, patience=float("nan"))
+
+
+def test_one_station_whatever_kind_of_number() -> None:
+    with Ppmc312Bus.open(f"{FAST},stations=2") as bus:
+        assert bus.axis(1.0) is bus.axis(1) is bus.axis(Index(1)) and len(bus.axes) == 1
+        for wrong in ("1", 1.5, None, True):
+            with pytest.raises(OutOfRange, match="station .* is not a whole number"):
+                bus.axis(wrong)
+    with Pmc006Bus.open(f"{FAST},address=1..2,eeprom=none") as lines:
+        assert lines.axis(2.0) is lines.axis(2) and lines.axis(2.0).address == 2
+    with Ppmc2104.open(f"{FAST},part=ppmc2104") as part:
+        assert part.axis[1.0] is part.x
+        with pytest.raises(OutOfRange, match="axis 3: a PPMC-2104 has axes 1 to 2"):
+            part.axis[3]
+
+
+def test_settings_of_the_pmc006() -> None:
+    with one("eeprom=none")[1] as motor:
+        motor.current, motor.free, motor.outputs = 1500.0, True, 3.0
+        assert (motor.current, motor.free, motor.outputs) == (1500, 1, 3)
+        for wrong in (1500.5, "1500", None, True):
+            with pytest.raises(OutOfRange, match="current .* is not a whole number"):
+                motor.current = wrong
+        with pytest.raises(OutOfRange, match="outputs '3' is not a whole number"):
+            motor.outputs = "3"  # type: ignore[assignment]
+
+
+@pytest.mark.parametrize("mode", ["binary", "chars", "foo", None, 0])
+def test_a_checksum_rule_is_a_sum_mode(mode: Any) -> None:
+    with pytest.raises(OutOfRange, match=r"there are SumMode\.BINARY and SumMode\.CHARS"):
+        Ppmc312Bus.open(f"{FAST},stations=1", sum_mode=mode)
+
+
+# ---------------------------------------------------------------------- names and parentheses
+
+
+def test_a_mistyped_name_is_refused(axis: Any) -> None:
+    with pytest.raises(PpmcError, match="has no attribute 'positoin': do you mean 'position'") as caught:
+        axis.positoin = 0
+    assert isinstance(caught.value, AttributeError)
+    with pytest.raises(PpmcError, match="'move' is a method"):
+        axis.move = 100
+    if isinstance(axis, Pmc006):
+        with pytest.raises(PpmcError, match="has no attribute 'curent': do you mean 'current'"):
+            axis.curent = 1500
+
+
+def test_a_method_without_parentheses_is_never_a_value(axis: Any) -> None:
+    names = [name for name in dir(type(axis)) if isinstance(getattr(type(axis), name), arguments.Entry)]
+    assert {"inputs", "status"} & {*names} or {"flags", "ports", "program_runs", "on_switch"} <= {*names}
+    for name in names:
+        with pytest.raises(TypeError, match=rf"'{name}' is a method: write {name}\("):
+            bool(getattr(axis, name))
+        with pytest.raises(TypeError):
+            assert getattr(axis, name) == 0
+        with pytest.raises(PpmcError, match=rf"'{name}' is a method: write {name}\("):
+            _ = getattr(axis, name).busy
+    if isinstance(axis, Pmc006):
+        assert not axis.program_runs()
+
+
+def test_motions_are_alike(axis: Any) -> None:
+    motion = axis.start_move(40)
+    with pytest.raises(TypeError, match=r"'poll' is a method: write poll\("):
+        bool(motion.poll)
+    with pytest.raises(OutOfRange, match="timeout 'soon' is not a number"):
+        motion.wait(timeout="soon")
+    assert motion.wait(timeout=5).complete
+
+
+def test_methods_are_good_callbacks() -> None:
+    with Ppmc104.open(FAST) as axis:
+        axis.initialise(1000, 2000, 100)
+        thread = threading.Thread(target=axis.move, args=(30.0,))
+        thread.start()
+        thread.join()
+        assert axis.position == 30 and callable(axis.move)
+        assert axis.move == axis.move and axis.move not in (None, print, axis.stop)
+        assert {axis.move, axis.move} == {axis.move}
+        assert copy.copy(axis.move) == axis.move
+
+
+def test_help_still_shows_what_a_method_takes() -> None:
+    text = pydoc.plain(pydoc.render_doc(Ppmc104))
+    assert "move(self, pulses: 'int'" in text and "Move with ramps and wait" in text
+    with Ppmc104.open(FAST) as axis:
+        assert "pulses: 'int'" in pydoc.plain(pydoc.render_doc(axis.move))
+        assert "move" in repr(axis.move)
+
+
+# ---------------------------------------------------------------------- what a set-up prints
+
+
+def test_a_set_up_prints_its_speeds_and_no_table(axis: Any) -> None:
+    if isinstance(axis, Pmc006):
+        assert not hasattr(axis, "initialise")
+        return
+    setup = axis.initialise(4000, 8000, 600) if axis.kind.usual_ramp == 2000 else axis.initialise()
+    for text in (str(setup), repr(setup)):
+        assert len(text) < 400 and "\n" not in text
+    assert "start" in str(setup) and " pps" in str(setup) and "ramp" in str(setup)
+
+
+def test_jogging_the_wrong_way_is_told() -> None:
+    with Ppmc104.open(FAST) as axis:
+        axis.initialise()
+        with pytest.raises(OutOfRange, match=r"direction 2 is neither 0 \(CW\) nor 1 \(CCW\)"):
+            axis.jog(2)
+        assert axis.jog(float(CCW)).direction == 1  # type: ignore[arg-type]

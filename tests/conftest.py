@@ -1,0 +1,18 @@
+"""Hypothesis profiles: fixed examples by default, new ones with OPENPPMC_EXPLORE=1.
+
+A failing new example prints the line that repeats it; `--hypothesis-seed=N` repeats a whole run.
+"""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import HealthCheck, settings
+
+from .common.board.fixtures import board, openppmc, start_board, until  # noqa: F401
+from .common.cli.fixtures import run  # noqa: F401
+
+_COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow, HealthCheck.data_too_large]}
+settings.register_profile("fixed", derandomize=True, database=None, max_examples=150, **_COMMON)
+settings.register_profile("explore", print_blob=True, max_examples=1000, **_COMMON)
+settings.load_profile("explore" if os.environ.get("OPENPPMC_EXPLORE") else "fixed")

@@ -1,0 +1,1 @@
+"""tests/pmc006/board"""

@@ -1,0 +1,139 @@
+"""What docs/pmc006.md prints, on the golden model."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from cocotb_tests.pmc006.script_host import Host006
+from openppmc.model.pmc006.codes import LETTERS
+from openppmc.model.pmc006.front.frames import command, reply
+from openppmc.model.pmc006.program import assemble
+from tests.ppmc312.test_manual import DOCS, chapters
+
+TEXT = (DOCS / "pmc006.md").read_text(encoding="utf-8")
+LONG = 60_000_000
+"""us; no motion of the page takes longer."""
+
+
+class Session:
+    """A controller as it leaves the factory, and what a session of the page does to it."""
+
+    KINDS = {"m": "raw", "s": "reply", ">": "order", "<": "data", "idle": "idle", "at": "at", "=": "count",
+             "pin": "pin", "ms": "ms"}  # fmt: skip
+
+    def __init__(self) -> None:
+        self.host = Host006(clk_hz=8_000_000, baud=115_200)
+        self.since = 0
+
+    def play(self, lines: list[str], where: str) -> None:
+        """All lines; an AssertionError names the first that is not as printed."""
+        for number, line in enumerate(lines, 1):
+            # Two spaces begin a comment.
+            kind, _, words = re.split(r"\s{2,}", line.strip())[0].partition(" ")
+            found = getattr(self, self.KINDS[kind])(words)
+            assert found is None or found == words, f"{where}, line {number}: {line!r} gave {found}"
+
+    def raw(self, words: str) -> None:
+        self.host.raw(words)
+
+    def reply(self, words: str) -> str:
+        if not words:
+            assert self.host.silent(self.host.us(2000)), "a reply"
+            return words
+        self.host.hear()
+        return self.host.wire.hex(" ").upper()
+
+    def order(self, words: str) -> None:
+        code, data = (*words.split(), "0")[:2]
+        self.host.say(int(code, 16) if code.startswith("0x") else code, int(data, 0))
+
+    def data(self, words: str) -> str:
+        got = self.host.hear()
+        return words if got == int(words, 0) & 0xFFFF_FFFF else str(got)
+
+    def idle(self, words: str) -> None:
+        self.host.until("mon_busy", 0, LONG)
+
+    def made(self) -> int:
+        """Steps since the last `=`."""
+        self.host.sync()
+        return len(self.host.model.log.rises("mon_step", self.since))
+
+    def at(self, words: str) -> None:
+        while self.made() < int(words):
+            self.host.step()
+
+    def count(self, words: str) -> str:
+        found = self.made()
+        self.since = self.host.t
+        return str(found)
+
+    def pin(self, words: str) -> None:
+        name, level = words.split()
+        self.host.pins(**{name: int(level)})
+
+    def ms(self, words: str) -> None:
+        self.host.ms(int(words))
+
+
+SESSIONS = {
+    title: blocks for title, blocks in chapters(DOCS / "pmc006.md").items() if title.startswith("17.")
+}
+
+
+@pytest.mark.parametrize("title", SESSIONS, ids=lambda title: title.split()[0])
+def test_session(title: str) -> None:
+    """Given a session of the page, when its lines are played one after the other, then all is as printed."""
+    assert SESSIONS[title]
+    for block in SESSIONS[title]:
+        Session().play(block, title)
+
+
+def test_a_wrong_byte_is_found() -> None:
+    """Given a reply that is printed wrong, then the line is named."""
+    with pytest.raises(AssertionError, match="line 2: '< 17' gave 16"):
+        Session().play(["> k", "< 17"], "x")
+    with pytest.raises(AssertionError, match="gave 0"):
+        Session().play(["= 5"], "x")
+    with pytest.raises(AssertionError, match="a reply"):
+        Session().play(["> k", "s"], "x")
+
+
+def test_frames_of_the_text_have_their_sums() -> None:
+    """Given the frames of the first chapter, then each is what the model makes of its parts."""
+    frames = [bytes.fromhex(text) for text in re.findall(r"`(A5(?: [0-9A-F]{2}){7})`", TEXT)]
+    assert len(frames) >= 8
+    for frame in frames:
+        data = int.from_bytes(frame[3:7], "little")
+        made = reply(frame[2], data) if frame[1] == 0x7A else command(frame[1], frame[2], data)
+        assert bytes(made) == frame
+
+
+def test_first_frames_get_their_replies() -> None:
+    """Given the table of the first chapter, then a controller answers as printed."""
+    chapter = TEXT.split("## 1 In five minutes")[1].split("\n## ")[0]
+    frames = re.findall(r"`(A5(?: [0-9A-F]{2}){7})`", chapter)
+    session = Session()
+    for question, answer in zip(frames[::2], frames[1::2], strict=True):
+        session.play([f"m {question}", f"s {answer}"], "chapter 1")
+
+
+def test_codes_of_the_page() -> None:
+    """Given the table of instructions, then it has all codes that do anything, with their letters."""
+    table = TEXT.split("| Code | Letter |")[1].split("\n\n")[0]
+    rows = re.findall(r"^\| 0x([0-9A-F]{2}) \| (.) \|", table, re.M)
+    assert all(chr(int(code, 16)) == letter for code, letter in rows)
+    assert {letter for _, letter in rows} == set(LETTERS)
+
+
+def test_program_of_the_page() -> None:
+    """Given the program of chapter 13, then the assembler makes the session's kind of words of it."""
+    (text,) = re.findall(r"^```asm\n(.*?)^```", TEXT, re.S | re.M)
+    words = assemble(text).words
+    assert words[:20] == (
+        *(0x03, 1, 0x08, 3200, 0x0C, 0, 0x01, 200, 0x0810, 0),
+        *(0x0B, 0, 0x0812, 3, 0x0E, 3, 0x0111, 1, 0, 0),
+    )
+    assert not any(words[20:])

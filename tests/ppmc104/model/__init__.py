@@ -1,0 +1,1 @@
+"""tests/ppmc104/model"""

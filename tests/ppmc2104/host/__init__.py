@@ -1,0 +1,1 @@
+"""tests/ppmc2104/host"""

@@ -1,0 +1,1 @@
+"""tests/ppmc312/line"""

@@ -1,0 +1,120 @@
+"""What docs/ppmc312_serial.md prints, on the golden model."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+import pytest
+
+from cocotb_tests.ppmc312.serial_host import SPEEDS, Serial312, clean, summed
+from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
+from tests.ppmc312.test_manual import DOCS, Player, chapters
+
+PAGE = DOCS / "ppmc312_serial.md"
+TEXT = PAGE.read_text(encoding="utf-8")
+REPLY = 400_000
+"""clk that the page waits for a reply: 20 ms and the frame."""
+
+
+class Line(Player):
+    """One session with station 1."""
+
+    KINDS = Player.KINDS | {"m": "raw", "s": "reply", "?": "poll"}
+
+    def __init__(self) -> None:
+        self.host = Serial312()
+
+    def raw(self, words: str) -> None:
+        self.host.raw(words)
+
+    def reply(self, words: str) -> str:
+        self.host.hear(REPLY, timed=False)
+        return words if clean(words) == self.host.wire else self.host.wire
+
+    def send(self, words: str) -> None:
+        mark = self.host.mark
+        self.host.say(words)
+        self.host.mark = mark
+
+    def answer(self, words: str) -> str:
+        got = self.host.hear(REPLY, timed=False)
+        return words if clean(words) == got else got
+
+    def poll(self, words: str) -> str:
+        self.host.ask_poll()
+        return self.answer(words)
+
+
+SESSIONS = {title: blocks for title, blocks in chapters(PAGE).items() if title.startswith("7.")}
+
+
+@pytest.mark.parametrize("title", SESSIONS, ids=lambda title: title.split()[0])
+def test_session(title):
+    """Given a session of the page, when its lines are played one after the other, then all is as printed."""
+    assert SESSIONS[title]
+    for block in SESSIONS[title]:
+        Line().play(block, title)
+
+
+def test_reply_times():
+    """Half a bit to snd, one and a half to the start bit, rounded down to 0.1 µs; one between."""
+    rows = re.findall(r"^\| ([\d ]+) \| ([\d.]+) µs \| ([\d.]+) µs \| ([\d.]+) µs \|$", TEXT, re.M)
+    assert [row[0].replace(" ", "") for row in rows] == [str(int(speed)) for speed in SPEEDS.values()]
+    for row, speed in zip(rows, SPEEDS.values(), strict=True):
+        bit = 10_000_000 / speed
+        tenths = [int(bit / 2), int(bit * Fraction(3, 2)), round(bit)]
+        assert [float(text) for text in row[1:]] == [number / 10 for number in tenths]
+
+
+def test_a_wrong_byte_is_found():
+    """Given a reply that is printed wrong, then the line is named."""
+    with pytest.raises(AssertionError, match="line 1: '[?] 80' gave 90"):
+        Line().play(["? 80"], "x")
+    with pytest.raises(AssertionError, match="gave 91 6E"):
+        Line().play(["m 81 7E", "s 91 6F"], "x")
+
+
+def test_frames_of_the_text_have_their_checksums():
+    """Given the worked frames of chapter 2, then each ends with its checksum."""
+    frames = re.findall(r"`([89AB][0-9A-F](?: [0-9A-F]{2}){3,})`", TEXT)
+    assert len(frames) == 2
+    for text in frames:
+        line = bytes.fromhex(text)
+        assert line == summed(line[0], bytes.fromhex(line[1:-1].decode()))
+
+
+def test_speeds_of_the_page():
+    """Given the table of speeds, then it has those of the part."""
+    rows = re.findall(r"\| (\d{3}) \| ([\d ]+\.?\d*) \| (\d+) / (\d+) \|", TEXT)
+    assert {int(mod, 2) for mod, *_ in rows} == set(SPEEDS)
+    for mod, baud, over, under in rows:
+        assert SPEEDS[int(mod, 2)] == pytest.approx(float(baud.replace(" ", "")), abs=0.1)
+        assert SPEEDS[int(mod, 2)] * int(under) == 16_000_000 * int(over)
+
+
+def codes(cell: str) -> set[int]:
+    """Codes of the first column: lists, and ranges with dots."""
+    found = {int(code, 16) for code in re.findall(r"[0-9A-F]{2}", cell)}
+    if "…" in cell:
+        found |= set(range(min(found), max(found) + 1))
+    return found
+
+
+def test_codes_and_lengths_of_the_page():
+    """Given the table of instructions, then it has all codes, each with its number of data bytes."""
+    table = TEXT.split("| Code | Parallel |")[1].split("\n\n")[0]
+    found = {}
+    for row in table.splitlines()[2:]:
+        cell, _, _, data, _ = (part.strip() for part in row.strip("|").split("|"))
+        size = sum(map(int, re.findall(r"\b(?:2|3|4|10)\b", data))) + len(
+            re.findall(r"flags|mask|00 or 01|^1$", data)
+        )
+        found |= dict.fromkeys(codes(cell), size)
+    assert found == dict(LENGTHS)
+
+
+def test_end_codes_of_the_page():
+    """Given the table of END codes, then they are those of the model."""
+    row = re.findall(r"\| END code \| (.*) \|", TEXT)[0]
+    assert {int(code, 16) for code in row.split(" | ")} == set(END_CODES.values())

@@ -1,0 +1,114 @@
+"""A polling host on the pins of the STMC model, with a square wave on `ext_clk`."""
+
+from __future__ import annotations
+
+from openppmc.model.common.square import Square
+from openppmc.model.stmc.part import Stmc
+from tests.ppmc104.model.host import ModelHost
+
+# Period of the external clock of the acceptance checks, in clk.
+EXT16 = 16
+TICK = 1280
+SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
+
+
+def init(code: int, d1: int, d2: int, pa: int) -> str:
+    """Script of an initialisation; the numbers are decimal."""
+    return f"c {code:02X} d {d1:02X} d {d2:02X} d {pa & 0xFF:02X} d {pa >> 8:02X} "
+
+
+def count(value: int) -> str:
+    """Script of three data bytes, low first."""
+    return " ".join(f"d {byte:02X}" for byte in value.to_bytes(3, "little")) + " "
+
+
+STANDARD = init(0x1A, 20, 5, 8)
+INTERNAL = init(0x0A, 20, 5, 8)
+
+
+class ClockedStmc(Stmc):
+    """The model with an external clock that runs by itself; `ext` = 0: the pin is left alone."""
+
+    def __init__(self, ext: int = EXT16, **parameters: object) -> None:
+        super().__init__(**parameters)
+        self.square = Square(2 * ext, 2) if ext else None
+
+    @property
+    def next_event(self) -> int | None:
+        event = super().next_event
+        if self.square is None:
+            return event
+        return self.square.next_edge if event is None else min(event, self.square.next_edge)
+
+    def run_until(self, t: int) -> None:
+        while self.square and self.square.next_edge <= t:
+            at, level = self.square.next_edge, self.square.next_level
+            self.square.advance()
+            self.pins(at, ext_clk=level)
+        super().run_until(t)
+
+
+class HostStmc(ModelHost):
+    """As ModelHost. The script is run at once; scripts may also say idle (wait for BUSY = 0)."""
+
+    MODEL = ClockedStmc
+
+    def __init__(self, script: str = STANDARD, **parameters: object) -> None:
+        super().__init__(**parameters)
+        self.run(script)
+
+    def run(self, script: str) -> list[int]:
+        """Returns what r read."""
+        got = []
+        for part in script.replace("idle", "|idle|").split("|"):
+            if part == "idle":
+                self.idle()
+            else:
+                got += super().run(part)
+        return got
+
+    def start(self, script: str) -> None:
+        """A motion command; steps count from here."""
+        mark = self.t
+        self.run(script)
+        self.mark = mark
+
+    def move(self, script: str) -> tuple[int, int]:
+        """A motion command up to its end; FIN and REM."""
+        self.start(script)
+        return self.finish()
+
+    def pulses(self) -> list[int]:
+        """Steps since `mark`: changes of `s`."""
+        return [t for t, _ in self.model.log.of("s", self.mark)]
+
+    def gaps(self, tick: int = EXT16) -> list[int]:
+        """Gaps since `mark` in ticks of so many clk; the external clock may be off by one clk."""
+        return [round(gap / tick) for gap in self.intervals()]
+
+    def in_gap(self, i: int, after: int = 40) -> None:
+        """Go on to `after` clk after step i, the one that opens gap i."""
+        self.fall(i + 1, after)
+
+    def finish(self) -> tuple[int, int]:
+        """Wait for the end; FIN and REM as the host reads them."""
+        self.idle()
+        mark = self.mark
+        (status,) = self.run("c 80 r")
+        low, mid, high = self.run("c 84 rrr")
+        self.mark = mark
+        return status, low | mid << 8 | high << 16
+
+    def blip(self, clocks: int, **levels: int) -> None:
+        """Levels for so many clk, then the idle ones."""
+        self.pins(**levels)
+        self.pause(clocks - 1)
+        self.pins(**{pin: self.model.INPUTS[pin] for pin in levels})
+
+    def phases(self) -> list[str]:
+        """Levels that `s` took since `mark`."""
+        return [f"{value:05b}" for _, value in self.model.log.of("s", self.mark)]
+
+    def status(self) -> int:
+        """Status read."""
+        return self.read(1)
