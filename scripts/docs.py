@@ -14,20 +14,16 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
-from scripts.pictures import (
-    current_006,
-    plots,
-    plots_006,
-    plots_312,
-    plots_stmc,
-    tables,
-    tables_006,
-    tables_312,
-    tables_stmc,
-    waves,
-    waves_312,
-    waves_stmc,
-)
+from scripts.pictures import plots, tables, waves
+from scripts.pmc006 import currents
+from scripts.pmc006 import plots as plots_006
+from scripts.pmc006 import tables as tables_006
+from scripts.ppmc312 import plots as plots_312
+from scripts.ppmc312 import tables as tables_312
+from scripts.ppmc312 import waves as waves_312
+from scripts.stmc import plots as plots_stmc
+from scripts.stmc import tables as tables_stmc
+from scripts.stmc import waves as waves_stmc
 
 IMAGES = DOCS / "img"
 # Tables inside hand-written pages: page -> marker -> text.
@@ -47,11 +43,11 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
     },
     "pmc006.md": {
         "moves-table": tables_006.moves_table,
-        "currents-table": current_006.currents_table,
+        "currents-table": currents.currents_table,
         "times-table": tables_006.times_table,
     },
 }
-PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS, **plots_006.PLOTS, **current_006.PLOTS}
+PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS, **plots_006.PLOTS, **currents.PLOTS}
 DIAGRAMS = {**waves_stmc.DIAGRAMS, **waves_312.DIAGRAMS}
 
 

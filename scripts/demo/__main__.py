@@ -19,8 +19,9 @@ from cocotb_tests.harness.project import BUILD, ProjectError, console, fail, rel
 from cocotb_tests.harness.runner import SimError, build, part_design, run_sim
 from cocotb_tests.harness.steps import Steps
 from cocotb_tests.harness.stimulus import Recording
-from scripts.demo import line312, waves
+from scripts.demo import waves
 from scripts.demo.demos import DEMOS, Demo
+from scripts.ppmc312.line import demo as line_demo
 
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
@@ -169,15 +170,15 @@ def chosen(arguments: list[str] | None) -> Demo:
     """The demo of one part, which the command line names; ProjectError lists those there are."""
     name = part_of(arguments)
     if name not in DEMOS:
-        known = ", ".join((*DEMOS, line312.NAME))
+        known = ", ".join((*DEMOS, line_demo.NAME))
         raise ProjectError(f"PART={name}: there is no demo of it (there is one of {known})")
     return DEMOS[name]
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the demo; 0 when RTL and golden model agree in every edge."""
-    if part_of(arguments) == line312.NAME:
-        return line312.main()
+    if part_of(arguments) == line_demo.NAME:
+        return line_demo.main()
     demo = chosen(arguments)
     steps = Steps()
     begin = time.monotonic()

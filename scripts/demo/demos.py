@@ -11,15 +11,19 @@ from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.pmc006.story import BUILD
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
-from scripts.demo import picture006, picture104, picture312, picture2104, picture_stmc
 from scripts.demo.scenes import Changes, access_text, falls, frame_text, register_text, rises
 from scripts.demo.scenes import steps as phase_steps
 from scripts.demo.words import Words
-from scripts.demo.words006 import Words006
-from scripts.demo.words104 import Words104
-from scripts.demo.words312 import Words312
-from scripts.demo.words2104 import Words2104
-from scripts.demo.words_stmc import WordsStmc
+from scripts.pmc006 import picture
+from scripts.pmc006.words import Words006
+from scripts.ppmc104 import picture as picture104
+from scripts.ppmc104.words import Words104
+from scripts.ppmc312 import picture as picture312
+from scripts.ppmc312.words import Words312
+from scripts.ppmc2104 import picture as picture2104
+from scripts.ppmc2104.words import Words2104
+from scripts.stmc import picture as picture_stmc
+from scripts.stmc.words import WordsStmc
 
 
 @dataclass(frozen=True)
@@ -272,7 +276,7 @@ DEMOS = {
             None,
             VIEW_006,
             ("move4", "move16", "move32", "program"),
-            own=picture006.draw,
+            own=picture.draw,
             config=BUILD,
         ),
     )

@@ -11,8 +11,8 @@ from cocotb_tests.pmc006.story import FINE, MOVES, PROGRAM
 from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
 from scripts.demo.__main__ import chosen
-from scripts.demo.picture006 import way
-from scripts.demo.words006 import Words006
+from scripts.pmc006.picture import way
+from scripts.pmc006.words import Words006
 
 
 def told(*rows: tuple[str, int, int]) -> list[Access]:

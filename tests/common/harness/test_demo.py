@@ -13,10 +13,10 @@ from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import DEMOS, VIEW_312, VIEW_2104, VIEW_STMC
 from scripts.demo.scenes import register_text, steps
 from scripts.demo.words import exchanges
-from scripts.demo.words104 import Words104
-from scripts.demo.words312 import Words312
-from scripts.demo.words2104 import Words2104
-from scripts.demo.words_stmc import WordsStmc
+from scripts.ppmc104.words import Words104
+from scripts.ppmc312.words import Words312
+from scripts.ppmc2104.words import Words2104
+from scripts.stmc.words import WordsStmc
 
 
 def accesses(script: str) -> list[Access]:

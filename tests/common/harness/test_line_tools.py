@@ -14,8 +14,8 @@ from cocotb_tests.ppmc312.line.wave import merged, wave
 from openppmc.model.ppmc312.front.frames import frame
 from scripts import bench_line, soak_line
 from scripts.demo.__main__ import chosen, part_of
-from scripts.demo.talk312 import exchanges
-from scripts.demo.waves_line312 import view
+from scripts.ppmc312.line.talk import exchanges
+from scripts.ppmc312.line.waves import view
 from scripts.soak import main as soak
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 
-from scripts.pictures import tables_312, waves, waves_312, waves_stmc
-from scripts.pictures.bench_312 import marked
+from scripts.pictures import waves
 from scripts.pictures.recorded import Row, beside_gaps, record, wave, write_cycle
-from scripts.pictures.stmc_bench import Bench
+from scripts.ppmc312 import tables
+from scripts.ppmc312 import waves as waves_312
+from scripts.ppmc312.bench import marked
+from scripts.stmc import waves as waves_stmc
+from scripts.stmc.bench import Bench
 
 SINGLE_STEP = 0x42
 
@@ -65,7 +68,7 @@ def test_a_block_of_the_312_is_drawn_byte_by_byte():
 
 def test_worked_moves_of_the_312():
     """Given the table of moves, then shapes, pulses and times are those of the rules' worked examples."""
-    rows = tables_312.moves_table().splitlines()
+    rows = tables.moves_table().splitlines()
     assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
     assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows
     assert "| TG, N = 3 | 40 | 3, 0, 0 | 400×3 | 1200 |" in rows

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import groupby
 
 from openppmc.model.stmc.commands import profile
-from scripts.pictures.stmc_bench import CLK_HZ, Bench, Outcome, little
+from scripts.stmc.bench import CLK_HZ, Bench, Outcome, little
 
 INTERNAL_HZ, BOARD_HZ = 12_500, 48_675
 DIVISORS = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 50, 59, 75, 100, 125, 141, 175, 200, 255)

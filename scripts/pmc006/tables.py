@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from scripts.pictures.plots_006 import CLK_HZ, FAST, finish, new, steps
+from scripts.pmc006.plots import CLK_HZ, FAST, finish, new, steps
 
 MOVES = (
     (255, 600, 600, 3200, 3),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR
-from scripts.pictures.bench_312 import (
+from scripts.pictures.recorded import Levels, Row, wave
+from scripts.ppmc312.bench import (
     NAMES,
     WIDE,
     Drawing,
@@ -21,7 +22,6 @@ from scripts.pictures.bench_312 import (
     table,
     write_cycle,
 )
-from scripts.pictures.recorded import Levels, Row, wave
 
 
 def write() -> Drawing:

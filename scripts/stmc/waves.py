@@ -18,7 +18,7 @@ from scripts.pictures.recorded import (
     wave,
     write_cycle,
 )
-from scripts.pictures.stmc_bench import Bench, little
+from scripts.stmc.bench import Bench, little
 
 Drawing = dict[str, Any]
 RAMP = (20, 5, 8)

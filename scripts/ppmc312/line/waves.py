@@ -13,7 +13,7 @@ from scripts.demo.demos import View
 from scripts.demo.scenes import pin
 
 if TYPE_CHECKING:
-    from scripts.demo.line312 import LineRun
+    from scripts.ppmc312.line.demo import LineRun
 
 PINS = ("txd", "snd", "pout", "dir", "cd_n")
 MOVING = ("speed_pps", "position")

@@ -21,9 +21,9 @@ from cocotb_tests.harness.stimulus import Recording
 from cocotb_tests.ppmc312.line.compare import compare_line
 from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
-from scripts.demo import waves_line312
-from scripts.demo.picture_line312 import draw
-from scripts.demo.talk312 import Exchange, exchanges
+from scripts.ppmc312.line import waves
+from scripts.ppmc312.line.picture import draw
+from scripts.ppmc312.line.talk import Exchange, exchanges
 
 NAME = "ppmc312-serial"
 FOLDER = BUILD / "demo"
@@ -129,7 +129,7 @@ def main() -> int:
         shutil.rmtree(FOLDER, ignore_errors=True)
         run = simulate(steps)
         comparisons = steps.run("ask sixteen golden models", lambda: compare_line(run.recording))
-        saved = waves_line312.write(run, comparisons, FOLDER / NAME)
+        saved = waves.write(run, comparisons, FOLDER / NAME)
         picture = FOLDER / "profile.png"
         steps.run("draw the picture", lambda: draw(run, comparisons, picture))
     except SimError as error:

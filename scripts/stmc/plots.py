@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 
 from openppmc.model.stmc.commands import profile
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, exact_period, svg
-from scripts.pictures.stmc_bench import little
-from scripts.pictures.tables_stmc import BOARD_HZ, CASES, INTERNAL_HZ, LONG_RAMP, STANDARD, Case, play
+from scripts.stmc.bench import little
+from scripts.stmc.tables import BOARD_HZ, CASES, INTERNAL_HZ, LONG_RAMP, STANDARD, Case, play
 
 COLOURS = (BLUE, RED, GREEN)
 

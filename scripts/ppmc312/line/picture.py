@@ -12,13 +12,13 @@ from matplotlib.axes import Axes
 from cocotb_tests.harness.compare import Comparison
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up
 from openppmc.plot.signals import Run, Section, Trace
-from scripts.demo.picture312 import heading
 from scripts.demo.scenes import pin
-from scripts.demo.talk312 import Exchange
-from scripts.demo.waves_line312 import positions
+from scripts.ppmc312.line.talk import Exchange
+from scripts.ppmc312.line.waves import positions
+from scripts.ppmc312.picture import heading
 
 if TYPE_CHECKING:
-    from scripts.demo.line312 import LineRun
+    from scripts.ppmc312.line.demo import LineRun
 
 MASTER = SPEED
 REPLIES = {"busy": "#c26a1b", "ready": "#2f9e6e", "data": "#c0392b", "specific": "#7a4fa3"}

@@ -1,0 +1,1 @@
+"""scripts/ppmc2104"""
