@@ -96,7 +96,7 @@ bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine
 	@$(PY) -m scripts.bench --part $(PART)
 	@$(PY) -m scripts.bench_board
 
-trace: $(ENVSIM) ## docs/traceability/: each rule with its tests, from the last test run; fails on a gap
+trace: $(ENVSIM) ## docs/<part>/traceability.md: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
 	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104 stmc ppmc312 pmc006); do $(PY) -m scripts.trace $$part || exit 1; done
 

@@ -1,4 +1,4 @@
-"""Redraw the pictures of docs/: WaveDrom JSON and plots to docs/img/, computed tables into the manual.
+"""Redraw the pictures of docs/: WaveDrom JSON and plots to docs/<part>/img/, computed tables into the manual.
 
 ``python scripts/docs.py`` (or ``make docs``) writes; ``--check`` writes nothing, lists what is stale and
 exits with 1 if anything is. The files are the same byte for byte on each run.
@@ -25,23 +25,22 @@ from scripts.stmc import plots as plots_stmc
 from scripts.stmc import tables as tables_stmc
 from scripts.stmc import waves as waves_stmc
 
-IMAGES = DOCS / "img"
 # Tables inside hand-written pages: page -> marker -> text.
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
-    "ppmc104.md": {"speed-table": tables.speed_table_104},
-    "ppmc2104.md": {"speed-table": tables.speed_table_2104},
-    "stmc.md": {
+    "ppmc104/README.md": {"speed-table": tables.speed_table_104},
+    "ppmc2104/README.md": {"speed-table": tables.speed_table_2104},
+    "stmc/README.md": {
         "speed-table": tables_stmc.speed_table,
         "ramp-table": tables_stmc.ramp_table,
         "moves-table": tables_stmc.moves_table,
         "times-table": tables_stmc.times_table,
     },
-    "ppmc312.md": {
+    "ppmc312/README.md": {
         "table-table": tables_312.table_table,
         "moves-table": tables_312.moves_table,
         "times-table": tables_312.times_table,
     },
-    "pmc006.md": {
+    "pmc006/README.md": {
         "moves-table": tables_006.moves_table,
         "currents-table": currents.currents_table,
         "times-table": tables_006.times_table,
@@ -51,18 +50,24 @@ PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS, **plots_006.PLOTS
 DIAGRAMS = {**waves_stmc.DIAGRAMS, **waves_312.DIAGRAMS}
 
 
+def image(name: str) -> Path:
+    """Where the picture "<part>/<what>" stands."""
+    part, what = name.split("/")
+    return DOCS / part / "img" / f"{what}.svg"
+
+
 def wanted() -> dict[Path, bytes]:
     """Path and content of every generated file of docs/."""
     files: dict[Path, bytes] = {}
-    for source in sorted((DOCS / "wavedrom").glob("*.json")):
+    for source in sorted(DOCS.glob("*/wavedrom/*.json")):
         try:
-            files[IMAGES / f"{source.stem}.svg"] = waves.render(source)
+            files[source.parents[1] / "img" / f"{source.stem}.svg"] = waves.render(source)
         except ValueError as error:
             raise ProjectError(str(error)) from None
     for name, diagram in DIAGRAMS.items():
-        files[IMAGES / f"{name}.svg"] = waves.draw(diagram(), name)
+        files[image(name)] = waves.draw(diagram(), name)
     for name, plot in PLOTS.items():
-        files[IMAGES / f"{name}.svg"] = plots.render(plot)
+        files[image(name)] = plots.render(plot)
     for page, wanted_tables in TABLES.items():
         text = (DOCS / page).read_text(encoding="utf-8")
         for marker, table in wanted_tables.items():
@@ -74,8 +79,7 @@ def wanted() -> dict[Path, bytes]:
 def stale(files: dict[Path, bytes]) -> list[Path]:
     """Generated files that are missing or differ, and pictures of a part that have lost their source."""
     changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
-    parts = {path.stem.split("_")[0] for path in files if path.parent == IMAGES}
-    kept = [path for part in sorted(parts) for path in sorted(IMAGES.glob(f"{part}_*.svg"))]
+    kept = sorted(DOCS.glob("*/img/*.svg"))
     return changed + [path for path in kept if path not in files]
 
 
@@ -94,9 +98,9 @@ def main(arguments: list[str] | None = None) -> int:
     if check:
         console.print(f"{len(files)} generated files, {len(found)} stale")
         return 1 if found else 0
-    IMAGES.mkdir(exist_ok=True)
     for path in found:
         if path in files:
+            path.parent.mkdir(exist_ok=True)
             path.write_bytes(files[path])
         else:
             path.unlink()

@@ -1,4 +1,4 @@
-"""Not tests of a block: what the harness says of blocks that never answer (tests/common/harness/test_stalled.py)."""
+"""Not tests of a block: what is said of blocks that never answer (tests/common/harness/test_stalled.py)."""
 
 from __future__ import annotations
 

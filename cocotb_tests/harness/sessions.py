@@ -1,4 +1,4 @@
-"""Plays the host sessions printed in docs/<part>_examples.md: every byte must be the printed one.
+"""Plays the host sessions printed in docs/<part>/examples.md: every byte must be the printed one.
 
 A chapter is "## <number> title"; its code blocks hold one access a line:
 
@@ -36,7 +36,7 @@ class Sessions:
     """The sessions of one part. `brief`: codes of operations that may be over before a slow host looks."""
 
     def __init__(self, part: str, brief: Collection[int]) -> None:
-        self.page = ROOT / "docs" / f"{part}_examples.md"
+        self.page = ROOT / "docs" / part / "examples.md"
         self.brief = brief
 
     def blocks(self, chapter: int) -> list[list[Step]]:

@@ -61,11 +61,11 @@ def part_of_rule(rule: str) -> str | None:
 
 @cache
 def manual_rules(part: str) -> dict[str, str]:
-    """Rule ID -> short text, from the tables of docs/<part>.md (empty if there is no manual yet).
+    """Rule ID -> short text, from the tables of docs/<part>/README.md (empty if there is no manual yet).
 
     A rule is a table row of two cells whose first cell is an ID. Raises ValueError for a double ID.
     """
-    manual = ROOT / "docs" / f"{part}.md"
+    manual = ROOT / "docs" / part / "README.md"
     rules: dict[str, str] = {}
     if not manual.is_file():
         return rules
@@ -73,7 +73,7 @@ def manual_rules(part: str) -> dict[str, str]:
         match = _ROW.match(line)
         if match and RULE_ID.match(match["id"]):
             if match["id"] in rules:
-                raise ValueError(f"docs/{part}.md lists {match['id']} twice")
+                raise ValueError(f"docs/{part}/README.md lists {match['id']} twice")
             rules[match["id"]] = match["text"]
     return rules
 

@@ -1,4 +1,4 @@
-"""Plays the sessions of docs/ppmc104_examples.md on the core: every byte must be the printed one."""
+"""Plays the sessions of docs/ppmc104/examples.md on the core: every byte must be the printed one."""
 
 from __future__ import annotations
 

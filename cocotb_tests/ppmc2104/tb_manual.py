@@ -1,4 +1,4 @@
-"""Plays the sessions of docs/ppmc2104_examples.md on the core: every byte must be the printed one.
+"""Plays the sessions of docs/ppmc2104/examples.md on the core: every byte must be the printed one.
 
 The figures in the page's text (pulses, clk, levels) are checked beside them.
 """

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_isa: 8-bit ISA or PC/104 slave for parts with two registers each: decodes, drives the bus, merges
 // interrupts.
-// Rules:  ISA-01..07, ISA-11 (docs/isa_4axis.md); J105-01..03 and J105-05 with Parts = 1.
+// Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
 // Timing: address, strobes and bus release are combinational; the parts sample them (ppmc_strobe_bus). irq_o
 //         follows int_ni by one clk; a write to the source register holds it low from the first clk edge that
 //         samples the write to the first that does not.

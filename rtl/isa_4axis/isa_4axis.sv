@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // isa_4axis: four axes on an 8-bit ISA or PC/104 bus: two PPMC-2104 behind one base address, one interrupt.
-// Rules:  ISA-01..11; of each part all P2104 rules. Manual: docs/isa_4axis.md.
+// Rules:  ISA-01..11; of each part all P2104 rules. Manual: docs/ppmc2104/isa.md.
 // Timing: that of ppmc2104 at its pins; irq follows int_n by one clk.
 // Axes:   part A has axes 1 and 2, part B has axes 3 and 4, which its host calls 1 and 2.
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc104: single-axis stepper controller, a replacement for the Ampere PPMC-104BFP.
-// Rules:  P104-PORT-01..04, P104-PAR-01 and, through its blocks, all others. Manual: docs/ppmc104.md.
+// Rules:  P104-PORT-01..04, P104-PAR-01 and, through its blocks, all others. Manual: docs/ppmc104/README.md.
 // Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
 //         one clk later.
 `default_nettype none

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // j105_stmc: the PC/104 board J105 STMC: a stmc on an 8-bit ISA bus, with its second step clock and the outputs to
 // the driver on the board.
-// Rules:  J105-01..08; of the controller all STMC rules. Manual: docs/stmc.md.
+// Rules:  J105-01..08; of the controller all STMC rules. Manual: docs/stmc/README.md.
 // Timing: that of stmc at its pins; irq follows int_n by one clk, drv is s.
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // stmc: single-axis stepper controller without pulse output, a replacement for the controller of the J105 STMC.
-// Rules:  STMC section 1 and, through its blocks, all other STMC rules. Manual: docs/stmc.md.
+// Rules:  STMC section 1 and, through its blocks, all other STMC rules. Manual: docs/stmc/README.md.
 // Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
 //         one clk later.
 `default_nettype none

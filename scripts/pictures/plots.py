@@ -175,12 +175,12 @@ def pair() -> bytes:
 
 
 PLOTS: dict[str, Callable[[], bytes]] = {
-    "ppmc104_ramp": ramp,
-    "ppmc104_profile": profile,
-    "ppmc104_forced": forced,
-    "ppmc2104_ramp": ramp_2104,
-    "ppmc2104_forced": forced_2104,
-    "ppmc2104_pair": pair,
+    "ppmc104/ramp": ramp,
+    "ppmc104/profile": profile,
+    "ppmc104/forced": forced,
+    "ppmc2104/ramp": ramp_2104,
+    "ppmc2104/forced": forced_2104,
+    "ppmc2104/pair": pair,
 }
 
 

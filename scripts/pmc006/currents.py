@@ -1,4 +1,4 @@
-"""Phase currents of docs/pmc006.md: what the golden model regulates in the windings of a motor."""
+"""Phase currents of docs/pmc006/README.md: what the golden model regulates in the windings of a motor."""
 
 from __future__ import annotations
 
@@ -118,4 +118,4 @@ def currents_table() -> str:
     return "\n".join([*lines, "", f"Ripple of a phase at rest, peak to peak: {rest}."])
 
 
-PLOTS = {"pmc006_currents": currents}
+PLOTS = {"pmc006/currents": currents}

@@ -1,4 +1,4 @@
-"""Plots of docs/pmc006.md: speed of moves, from the steps of the golden model at its pins."""
+"""Plots of docs/pmc006/README.md: speed of moves, from the steps of the golden model at its pins."""
 
 from __future__ import annotations
 
@@ -92,4 +92,4 @@ def retarget() -> bytes:
     return svg(figure)
 
 
-PLOTS = {"pmc006_moves": moves, "pmc006_speed_mode": retarget}
+PLOTS = {"pmc006/moves": moves, "pmc006/speed_mode": retarget}

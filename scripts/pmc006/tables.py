@@ -1,4 +1,4 @@
-"""Tables of docs/pmc006.md that are computed: times of moves, latencies of the golden model."""
+"""Tables of docs/pmc006/README.md that are computed: times of moves, latencies of the golden model."""
 
 from __future__ import annotations
 

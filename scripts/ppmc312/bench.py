@@ -1,4 +1,4 @@
-"""How the timing diagrams of docs/ppmc312.md are made: a host on the model, columns, rows, letters."""
+"""How the timing diagrams of docs/ppmc312/README.md are made: a host on the model, columns, rows, letters."""
 
 from __future__ import annotations
 

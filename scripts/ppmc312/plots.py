@@ -1,4 +1,4 @@
-"""Plots of docs/ppmc312.md: tables and plans of the golden model, changes and origin from its pins."""
+"""Plots of docs/ppmc312/README.md: tables and plans of the golden model, changes and origin from its pins."""
 
 from __future__ import annotations
 
@@ -150,8 +150,8 @@ def origin() -> bytes:
 
 
 PLOTS: dict[str, Callable[[], bytes]] = {
-    "ppmc312_tables": tables,
-    "ppmc312_shapes": shapes,
-    "ppmc312_changes": changes,
-    "ppmc312_return": origin,
+    "ppmc312/tables": tables,
+    "ppmc312/shapes": shapes,
+    "ppmc312/changes": changes,
+    "ppmc312/return": origin,
 }

@@ -1,4 +1,4 @@
-"""Tables of docs/ppmc312.md that are computed: what settings become, what moves become."""
+"""Tables of docs/ppmc312/README.md that are computed: what settings become, what moves become."""
 
 from __future__ import annotations
 

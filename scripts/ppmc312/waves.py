@@ -1,4 +1,4 @@
-"""The timing diagrams of docs/ppmc312.md: what the golden model does on its pins."""
+"""The timing diagrams of docs/ppmc312/README.md: what the golden model does on its pins."""
 
 from __future__ import annotations
 
@@ -220,13 +220,13 @@ def turn() -> Drawing:
 
 
 DIAGRAMS: dict[str, Callable[[], Drawing]] = {
-    "ppmc312_write": write,
-    "ppmc312_read": read,
-    "ppmc312_wrq": wrq,
-    "ppmc312_block": block,
-    "ppmc312_start": start,
-    "ppmc312_end": end,
-    "ppmc312_stop": stop,
-    "ppmc312_hold": hold,
-    "ppmc312_turn": turn,
+    "ppmc312/write": write,
+    "ppmc312/read": read,
+    "ppmc312/wrq": wrq,
+    "ppmc312/block": block,
+    "ppmc312/start": start,
+    "ppmc312/end": end,
+    "ppmc312/stop": stop,
+    "ppmc312/hold": hold,
+    "ppmc312/turn": turn,
 }

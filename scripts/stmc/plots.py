@@ -1,4 +1,4 @@
-"""Plots of docs/stmc.md: moves as the golden model makes them on its pins."""
+"""Plots of docs/stmc/README.md: moves as the golden model makes them on its pins."""
 
 from __future__ import annotations
 
@@ -97,4 +97,4 @@ def slowed() -> bytes:
     return svg(figure)
 
 
-PLOTS: dict[str, Callable[[], bytes]] = {"stmc_ramp": ramp, "stmc_moves": moves, "stmc_slowed": slowed}
+PLOTS: dict[str, Callable[[], bytes]] = {"stmc/ramp": ramp, "stmc/moves": moves, "stmc/slowed": slowed}

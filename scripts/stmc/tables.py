@@ -1,4 +1,4 @@
-"""Tables of docs/stmc.md that are computed: speeds, ramps, worked moves, times of both timing modes."""
+"""Tables of docs/stmc/README.md, computed: speeds, ramps, worked moves, times of both timing modes."""
 
 from __future__ import annotations
 

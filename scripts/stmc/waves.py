@@ -1,4 +1,4 @@
-"""The timing diagrams of docs/stmc.md: what the golden model does on its pins."""
+"""The timing diagrams of docs/stmc/README.md: what the golden model does on its pins."""
 
 from __future__ import annotations
 
@@ -282,12 +282,12 @@ def isa() -> Drawing:
 
 
 DIAGRAMS: dict[str, Callable[[], Drawing]] = {
-    "stmc_write": write,
-    "stmc_read": read,
-    "stmc_start": start,
-    "stmc_end": end,
-    "stmc_stop": stop,
-    "stmc_chop": chop,
-    "stmc_datasheet": datasheet,
-    "stmc_isa": isa,
+    "stmc/write": write,
+    "stmc/read": read,
+    "stmc/start": start,
+    "stmc/end": end,
+    "stmc/stop": stop,
+    "stmc/chop": chop,
+    "stmc/datasheet": datasheet,
+    "stmc/isa": isa,
 }

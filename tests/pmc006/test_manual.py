@@ -1,4 +1,4 @@
-"""What docs/pmc006.md prints, on the golden model."""
+"""What docs/pmc006/README.md prints, on the golden model."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
 from tests.ppmc312.test_manual import DOCS, chapters
 
-TEXT = (DOCS / "pmc006.md").read_text(encoding="utf-8")
+TEXT = (DOCS / "pmc006/README.md").read_text(encoding="utf-8")
 LONG = 60_000_000
 """us; no motion of the page takes longer."""
 
@@ -79,7 +79,7 @@ class Session:
 
 
 SESSIONS = {
-    title: blocks for title, blocks in chapters(DOCS / "pmc006.md").items() if title.startswith("17.")
+    title: blocks for title, blocks in chapters(DOCS / "pmc006/README.md").items() if title.startswith("17.")
 }
 
 

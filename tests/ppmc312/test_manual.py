@@ -1,4 +1,4 @@
-"""What docs/ppmc312_examples.md prints, and the first chapter of docs/ppmc312.md, on the golden model."""
+"""What docs/ppmc312/examples.md and chapter 1 of docs/ppmc312/README.md print, on the golden model."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from cocotb_tests.ppmc312.host import Host312, clean
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 
 DOCS = ROOT / "docs"
-PAGE = DOCS / "ppmc312_examples.md"
+PAGE = DOCS / "ppmc312/examples.md"
 MS = 16_000
 LONG = 60_000_000  # clk; nothing on the page takes longer
 
@@ -114,7 +114,7 @@ def test_a_wrong_byte_is_found():
 
 def test_first_move_of_the_manual_is_that_of_the_examples():
     """Given the ten-byte chapter of the manual, then its writes and blocks are those of example 1."""
-    text = (DOCS / "ppmc312.md").read_text(encoding="utf-8")
+    text = (DOCS / "ppmc312/README.md").read_text(encoding="utf-8")
     chapter = text.split("### 1.1 ")[1].split("\n## ")[0]
     writes = [line[2:].split("  ")[0].strip() for line in CHAPTERS["1 The first move, every access"][0]
               if line.startswith("w")]  # fmt: skip
@@ -129,7 +129,7 @@ def test_first_move_of_the_manual_is_that_of_the_examples():
 
 def test_free_curve_of_the_instructions_page():
     """Given the transfer printed there, then each block has the answer that is indented below it."""
-    text = (DOCS / "ppmc312_instructions.md").read_text(encoding="utf-8")
+    text = (DOCS / "ppmc312/instructions.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
     lines = [line.strip() for line in block.splitlines()]
     Player().play([f"{'<' if n % 2 else '>'} {line}" for n, line in enumerate(lines)], "free curve")
@@ -140,7 +140,7 @@ STATES = (State.INI, State.NOR, State.ACC, State.FIX, State.ABN, State.WRN)
 
 def accepted() -> dict[int, list[str]]:
     """Code -> cells of the manual's table of what each state accepts."""
-    text = (DOCS / "ppmc312.md").read_text(encoding="utf-8")
+    text = (DOCS / "ppmc312/README.md").read_text(encoding="utf-8")
     head = "| Instruction | INI | NOR | ACC | FIX | ABN | WRN |\n"
     rows = text.split(head)[1].split("\n\n")[0].splitlines()[1:]
     found = {}
@@ -170,7 +170,7 @@ def test_table_of_states_is_that_of_the_model():
 
 def test_lengths_of_the_instructions_page():
     """Given the list of instructions, then each has the lengths that the model accepts, and a chapter."""
-    text = (DOCS / "ppmc312_instructions.md").read_text(encoding="utf-8")
+    text = (DOCS / "ppmc312/instructions.md").read_text(encoding="utf-8")
     head = text.split("\n## ")[0]
     rows = re.findall(r"\| \[([0-9A-F, ]+)\]\(#[^)]+\) \| [^|]+ \| ([^|]+) \|", head)
     found = {}

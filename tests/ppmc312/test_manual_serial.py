@@ -1,4 +1,4 @@
-"""What docs/ppmc312_serial.md prints, on the golden model."""
+"""What docs/ppmc312/serial.md prints, on the golden model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from cocotb_tests.ppmc312.serial_host import SPEEDS, Serial312, clean, summed
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.ppmc312.test_manual import DOCS, Player, chapters
 
-PAGE = DOCS / "ppmc312_serial.md"
+PAGE = DOCS / "ppmc312/serial.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 REPLY = 400_000
 """clk that the page waits for a reply: 20 ms and the frame."""

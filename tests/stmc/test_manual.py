@@ -1,4 +1,4 @@
-"""What docs/stmc_examples.md and docs/stmc_replace.md print, on the golden model of the board."""
+"""What docs/stmc/examples.md and docs/stmc/replace.md print, on the golden model of the board."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from cocotb_tests.harness.sessions import Sessions, Step
 from openppmc.model.stmc.pc104_board import J105Stmc
 
 EXAMPLES = Sessions("stmc", brief=())
-REPLACE = ROOT / "docs" / "stmc_replace.md"
+REPLACE = ROOT / "docs/stmc/replace.md"
 DATA, COMMAND = 0x3B0, 0x3B1
 OBF, IBF, BUSY = 1, 2, 4
 MOST = 40_000  # bus cycles of a host that is not lost
@@ -171,7 +171,7 @@ def test_examples_without_motion(board):
 
 
 def code(kind: str) -> str:
-    """The program of that language in docs/stmc_replace.md."""
+    """The program of that language in docs/stmc/replace.md."""
     (found,) = re.findall(rf"^```{kind}\n(.*?)^```$", REPLACE.read_text(encoding="utf-8"), re.S | re.M)
     return found
 

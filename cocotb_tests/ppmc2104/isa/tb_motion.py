@@ -17,7 +17,7 @@ RAMP_B = (0x63, 0x13, 0x0A)
 
 
 async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
-    """The handler of docs/isa_4axis.md: goes on as long as it clears something; appends (axis, end status).
+    """The handler of docs/ppmc2104/isa.md: goes on while it clears something; appends (axis, end status).
 
     False if it leaves a cause behind, because its axis moves again.
     """

@@ -1,4 +1,4 @@
-"""The C program of docs/isa_4axis.md, compiled and run against two golden models behind the registers."""
+"""The C program of docs/ppmc2104/isa.md, compiled and run against two golden models behind the registers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from openppmc.model.ppmc2104.part import Ppmc2104
 
 from .setting import BASE, SOURCE
 
-PAGE = ROOT / "docs" / "isa_4axis.md"
+PAGE = ROOT / "docs/ppmc2104/isa.md"
 CONIO = "int inp(unsigned short port); int outp(unsigned short port, int byte);\n"
 DOS = "void _disable(void); void _enable(void);\n"
 STUBS = """

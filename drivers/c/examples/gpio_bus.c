@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A PPMC-104 on the pins of a microcontroller, strobes by software. A sketch: put your pin functions in.
  *
- * The part needs (docs/ppmc104.md, chapter 4, at CLK_HZ = 16 MHz): a read strobe of 250 ns before its data are
+ * The part needs (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): a read strobe of 250 ns before its data are
  * good, a write strobe of 73 ns, 73 ns between strobes. A function call per pin is slow enough on most
  * controllers; put bus_delay() to use if yours is faster. The port must be 5 V tolerant, or the part on 3.3 V.
  */

@@ -140,8 +140,8 @@ def plan_setup(
     '03 09 00 01 03 e8 00 c8 00 07 d0'
     >>> plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 1142)
     Traceback (most recent call last):
-    openppmc.host.basis.errors.OutOfRange: 1142 pulses: the ramp is too short: each of its stages needs 3 pulses: \
-1143 or more
+    openppmc.host.basis.errors.OutOfRange: 1142 pulses: the ramp is too short: each of its stages needs 3 \
+pulses: 1143 or more
     """
     separate = stop_pps is not None or down is not None
     start, high = clock.choose(start_pps, "start speed"), clock.choose(high_pps, "high speed")

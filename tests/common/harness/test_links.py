@@ -55,14 +55,12 @@ def test_links(page: Path) -> None:
 
 
 def test_a_dead_link_is_found() -> None:
-    text = "[a](ppmc312.md#7-states) [b](#7-states) [c](ppmc312.md#8-states) [d](no.md) [e](https://example.org/#x)"
-    assert dead(DOCS / "testing.md", text) == ["#7-states", "ppmc312.md#8-states", "no.md"]
+    text = "[a](ppmc312/README.md#7-states) [b](#7-states) [c](ppmc312/README.md#8-states) [d](no.md) [e](https://example.org/#x)"
+    assert dead(DOCS / "testing.md", text) == ["#7-states", "ppmc312/README.md#8-states", "no.md"]
 
 
 def test_links_of_a_rule_move_with_it() -> None:
-    """`make trace` copies statements into a folder below docs."""
-    text = "[a](#7-states), [b](boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
-    moved = (
-        "[a](../ppmc312.md#7-states), [b](../boards.md#3-pins), [c](../img/x.svg), [d](https://example.org)"
-    )
-    assert at_home(text, "ppmc312") == moved
+    """`make trace` copies statements into a page beside the manual."""
+    text = "[a](#7-states), [b](../boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
+    moved = "[a](README.md#7-states), [b](../boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
+    assert at_home(text) == moved

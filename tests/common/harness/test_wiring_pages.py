@@ -9,7 +9,7 @@ import pytest
 from cocotb_tests.harness import project
 
 PAGES = sorted(
-    [*project.DOCS.glob("*_replace.md"), *(project.DOCS / name for name in ("boards.md", "isa_4axis.md"))]
+    [*project.DOCS.glob("*/replace.md"), *(project.DOCS / name for name in ("boards.md", "ppmc2104/isa.md"))]
 )
 NAMES = [page.name for page in PAGES]
 
