@@ -25,7 +25,7 @@ class ModelPort:
     """A board that needs no hardware.
 
     text: words of the machine (`openppmc.model.carrier.plant`) and `speed` (1: real time, 10: ten times as
-    fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (of an stmc)
+    fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (stmc)
     SHEET or FAMILY, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
     anything else.
     """

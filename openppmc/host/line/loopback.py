@@ -8,8 +8,8 @@ from ..ports.pacer import Pacer
 
 
 class ModelLine:
-    """A line that needs no hardware. text: words of `openppmc.sim.common.lines.LINES`. baud: line rate. part: of
-    the stations. Raises PortError for a bad text."""
+    """A line that needs no hardware. text: words of `openppmc.sim.common.lines.LINES`. baud: line rate. part:
+    of the stations. Raises PortError for a bad text."""
 
     def __init__(self, text: str, baud: int, part: str = "ppmc312-serial") -> None:
         self.name = "model:" + text
