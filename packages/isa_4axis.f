@@ -56,4 +56,4 @@
 ../rtl/ppmc2104/ppmc2104_setup.sv
 ../rtl/ppmc2104/ppmc2104_axis.sv
 ../rtl/ppmc2104/ppmc2104.sv
-../rtl/isa_4axis/isa_4axis.sv
+../rtl/ppmc2104/isa/isa_4axis.sv

@@ -58,5 +58,5 @@
 ../rtl/ppmc104/ppmc104_setup.sv
 ../rtl/ppmc104/ppmc104_pace.sv
 ../rtl/ppmc104/ppmc104.sv
-../rtl/boards/ppmc_board_host.sv
-../rtl/boards/ppmc104_board.sv
+../rtl/boards/common/ppmc_board_host.sv
+../rtl/ppmc104/ppmc104_carrier.sv

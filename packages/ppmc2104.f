@@ -56,5 +56,5 @@
 ../rtl/ppmc2104/ppmc2104_setup.sv
 ../rtl/ppmc2104/ppmc2104_axis.sv
 ../rtl/ppmc2104/ppmc2104.sv
-../rtl/boards/ppmc_board_host.sv
-../rtl/boards/ppmc2104_board.sv
+../rtl/boards/common/ppmc_board_host.sv
+../rtl/ppmc2104/ppmc2104_carrier.sv

@@ -56,6 +56,6 @@
 ../rtl/single/ppmc_single.sv
 ../rtl/stmc/stmc_pkg.sv
 ../rtl/stmc/stmc.sv
-../rtl/boards/ppmc_board_host.sv
-../rtl/boards/ppmc_board_steps.sv
-../rtl/boards/stmc_board.sv
+../rtl/boards/common/ppmc_board_host.sv
+../rtl/boards/common/ppmc_board_steps.sv
+../rtl/stmc/stmc_carrier.sv

@@ -56,80 +56,80 @@ set files [list \
   $root/rtl/single/ppmc_pace.sv \
   $root/rtl/single/ppmc_finish.sv \
   $root/rtl/single/ppmc_single.sv \
-  $root/rtl/motion/ppmc_stage_pkg.sv \
-  $root/rtl/motion/ppmc_muldiv.sv \
-  $root/rtl/motion/ppmc_cosine_rom.sv \
-  $root/rtl/motion/ppmc_stage_table.sv \
-  $root/rtl/motion/ppmc_stage_builder.sv \
-  $root/rtl/motion/ppmc_stage_plan.sv \
-  $root/rtl/motion/ppmc_stage_unit.sv \
-  $root/rtl/motion/ppmc_stage_seq.sv \
-  $root/rtl/motion/ppmc_interval.sv \
+  $root/rtl/ppmc312/stages/ppmc312_stage_pkg.sv \
+  $root/rtl/ppmc312/stages/ppmc312_muldiv.sv \
+  $root/rtl/ppmc312/stages/ppmc312_cosine_rom.sv \
+  $root/rtl/ppmc312/stages/ppmc312_stage_table.sv \
+  $root/rtl/ppmc312/stages/ppmc312_stage_builder.sv \
+  $root/rtl/ppmc312/stages/ppmc312_stage_plan.sv \
+  $root/rtl/ppmc312/stages/ppmc312_stage_unit.sv \
+  $root/rtl/ppmc312/stages/ppmc312_stage_seq.sv \
+  $root/rtl/ppmc312/stages/ppmc312_interval.sv \
   $root/rtl/ppmc312/ppmc312_pkg.sv \
-  $root/rtl/ppmc312/ppmc312_serial_pkg.sv \
-  $root/rtl/ppmc312/ppmc312_bus.sv \
-  $root/rtl/ppmc312/ppmc312_mailbox.sv \
-  $root/rtl/ppmc312/ppmc312_reports.sv \
-  $root/rtl/ppmc312/ppmc312_store.sv \
-  $root/rtl/ppmc312/ppmc312_fetch.sv \
-  $root/rtl/ppmc312/ppmc312_arbiter.sv \
-  $root/rtl/ppmc312/ppmc312_judge.sv \
-  $root/rtl/ppmc312/ppmc312_compose.sv \
-  $root/rtl/ppmc312/ppmc312_reply.sv \
-  $root/rtl/ppmc312/ppmc312_answer.sv \
-  $root/rtl/ppmc312/ppmc312_readback.sv \
-  $root/rtl/ppmc312/ppmc312_free.sv \
-  $root/rtl/ppmc312/ppmc312_setup.sv \
+  $root/rtl/ppmc312/front/ppmc312_serial_pkg.sv \
+  $root/rtl/ppmc312/front/ppmc312_bus.sv \
+  $root/rtl/ppmc312/front/ppmc312_mailbox.sv \
+  $root/rtl/ppmc312/front/ppmc312_reports.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_store.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_fetch.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_judge.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_compose.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_reply.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_answer.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_readback.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_free.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_setup.sv \
   $root/rtl/ppmc312/ppmc312_pace.sv \
-  $root/rtl/ppmc312/ppmc312_move.sv \
-  $root/rtl/ppmc312/ppmc312_settings.sv \
-  $root/rtl/ppmc312/ppmc312_exec.sv \
-  $root/rtl/ppmc312/ppmc312_instr.sv \
-  $root/rtl/ppmc312/ppmc312_pins.sv \
-  $root/rtl/ppmc312/ppmc312_outputs.sv \
-  $root/rtl/ppmc312/ppmc312_auxin.sv \
-  $root/rtl/ppmc312/ppmc312_window.sv \
-  $root/rtl/ppmc312/ppmc312_position.sv \
-  $root/rtl/ppmc312/ppmc312_motion.sv \
-  $root/rtl/ppmc312/ppmc312_axis.sv \
+  $root/rtl/ppmc312/motion/ppmc312_move.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_settings.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_exec.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_instr.sv \
+  $root/rtl/ppmc312/motion/ppmc312_pins.sv \
+  $root/rtl/ppmc312/motion/ppmc312_outputs.sv \
+  $root/rtl/ppmc312/motion/ppmc312_auxin.sv \
+  $root/rtl/ppmc312/motion/ppmc312_window.sv \
+  $root/rtl/ppmc312/motion/ppmc312_position.sv \
+  $root/rtl/ppmc312/motion/ppmc312_motion.sv \
+  $root/rtl/ppmc312/motion/ppmc312_axis.sv \
   $root/rtl/ppmc312/ppmc312_core.sv \
-  $root/rtl/ppmc312/ppmc312_codes.sv \
-  $root/rtl/ppmc312/ppmc312_frame.sv \
-  $root/rtl/ppmc312/ppmc312_block.sv \
-  $root/rtl/ppmc312/ppmc312_counts.sv \
-  $root/rtl/ppmc312/ppmc312_polled.sv \
-  $root/rtl/ppmc312/ppmc312_replies.sv \
-  $root/rtl/ppmc312/ppmc312_sender.sv \
-  $root/rtl/ppmc312/ppmc312_serial.sv \
+  $root/rtl/ppmc312/front/ppmc312_codes.sv \
+  $root/rtl/ppmc312/front/ppmc312_frame.sv \
+  $root/rtl/ppmc312/front/ppmc312_block.sv \
+  $root/rtl/ppmc312/front/ppmc312_counts.sv \
+  $root/rtl/ppmc312/front/ppmc312_polled.sv \
+  $root/rtl/ppmc312/front/ppmc312_replies.sv \
+  $root/rtl/ppmc312/front/ppmc312_sender.sv \
+  $root/rtl/ppmc312/front/ppmc312_serial.sv \
   $root/rtl/ppmc312/ppmc312_reset.sv \
   $root/rtl/ppmc312/ppmc312.sv \
   $root/rtl/pmc006/pmc006_pkg.sv \
-  $root/rtl/pmc006/pmc006_calc_pkg.sv \
-  $root/rtl/pmc006/pmc006_calc_rom.sv \
-  $root/rtl/pmc006/pmc006_calc.sv \
-  $root/rtl/pmc006/pmc006_rate.sv \
-  $root/rtl/pmc006/pmc006_motion.sv \
-  $root/rtl/pmc006/pmc006_sine_rom.sv \
-  $root/rtl/pmc006/pmc006_refs.sv \
-  $root/rtl/pmc006/pmc006_bridge.sv \
-  $root/rtl/pmc006/pmc006_drive.sv \
-  $root/rtl/pmc006/pmc006_frame.sv \
-  $root/rtl/pmc006/pmc006_serial.sv \
-  $root/rtl/pmc006/pmc006_range.sv \
-  $root/rtl/pmc006/pmc006_exec.sv \
-  $root/rtl/pmc006/pmc006_settings.sv \
-  $root/rtl/pmc006/pmc006_accept.sv \
-  $root/rtl/pmc006/pmc006_guard.sv \
-  $root/rtl/pmc006/pmc006_stall.sv \
-  $root/rtl/pmc006/pmc006_key.sv \
-  $root/rtl/pmc006/pmc006_buffer.sv \
-  $root/rtl/pmc006/pmc006_program.sv \
-  $root/rtl/pmc006/pmc006_ports.sv \
-  $root/rtl/pmc006/pmc006_position.sv \
-  $root/rtl/pmc006/pmc006_page.sv \
-  $root/rtl/pmc006/pmc006_eeprom.sv \
-  $root/rtl/pmc006/pmc006_answer.sv \
-  $root/rtl/pmc006/pmc006_control.sv \
+  $root/rtl/pmc006/motion/pmc006_calc_pkg.sv \
+  $root/rtl/pmc006/motion/pmc006_calc_rom.sv \
+  $root/rtl/pmc006/motion/pmc006_calc.sv \
+  $root/rtl/pmc006/motion/pmc006_rate.sv \
+  $root/rtl/pmc006/motion/pmc006_motion.sv \
+  $root/rtl/pmc006/drive/pmc006_sine_rom.sv \
+  $root/rtl/pmc006/drive/pmc006_refs.sv \
+  $root/rtl/pmc006/drive/pmc006_bridge.sv \
+  $root/rtl/pmc006/drive/pmc006_drive.sv \
+  $root/rtl/pmc006/front/pmc006_frame.sv \
+  $root/rtl/pmc006/front/pmc006_serial.sv \
+  $root/rtl/pmc006/instructions/pmc006_range.sv \
+  $root/rtl/pmc006/instructions/pmc006_exec.sv \
+  $root/rtl/pmc006/memory/pmc006_settings.sv \
+  $root/rtl/pmc006/instructions/pmc006_accept.sv \
+  $root/rtl/pmc006/motion/pmc006_guard.sv \
+  $root/rtl/pmc006/drive/pmc006_stall.sv \
+  $root/rtl/pmc006/instructions/pmc006_key.sv \
+  $root/rtl/pmc006/instructions/pmc006_buffer.sv \
+  $root/rtl/pmc006/instructions/pmc006_program.sv \
+  $root/rtl/pmc006/instructions/pmc006_ports.sv \
+  $root/rtl/pmc006/motion/pmc006_position.sv \
+  $root/rtl/pmc006/memory/pmc006_page.sv \
+  $root/rtl/pmc006/memory/pmc006_eeprom.sv \
+  $root/rtl/pmc006/front/pmc006_answer.sv \
+  $root/rtl/pmc006/instructions/pmc006_control.sv \
   $root/rtl/pmc006/pmc006.sv \
   $root/rtl/ppmc104/ppmc104_pkg.sv \
   $root/rtl/ppmc104/ppmc104_setup.sv \
@@ -146,17 +146,17 @@ set files [list \
   $root/rtl/stmc/stmc_pkg.sv \
   $root/rtl/stmc/stmc.sv \
   $root/rtl/stmc/j105_stmc.sv \
-  $root/rtl/isa_4axis/isa_4axis.sv \
-  $root/rtl/boards/ppmc_board_host.sv \
-  $root/rtl/boards/ppmc104_board.sv \
-  $root/rtl/boards/ppmc_board_reset.sv \
-  $root/rtl/boards/ppmc_board_lamp.sv \
-  $root/rtl/boards/ppmc_board_panel.sv \
-  $root/rtl/boards/ppmc2104_board.sv \
-  $root/rtl/boards/ppmc_board_steps.sv \
-  $root/rtl/boards/stmc_board.sv \
-  $root/rtl/boards/ppmc312_board.sv \
-  $root/rtl/boards/pmc006_board.sv \
+  $root/rtl/ppmc2104/isa/isa_4axis.sv \
+  $root/rtl/boards/common/ppmc_board_host.sv \
+  $root/rtl/ppmc104/ppmc104_carrier.sv \
+  $root/rtl/boards/common/ppmc_board_reset.sv \
+  $root/rtl/boards/common/ppmc_board_lamp.sv \
+  $root/rtl/boards/common/ppmc_board_panel.sv \
+  $root/rtl/ppmc2104/ppmc2104_carrier.sv \
+  $root/rtl/boards/common/ppmc_board_steps.sv \
+  $root/rtl/stmc/stmc_carrier.sv \
+  $root/rtl/ppmc312/ppmc312_carrier.sv \
+  $root/rtl/pmc006/pmc006_carrier.sv \
 ]
 add_files -norecurse $files
 set_property file_type SystemVerilog [get_files $files]

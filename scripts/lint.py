@@ -193,7 +193,7 @@ def board_checks() -> list[Check]:
     """The board tops and what they share, with each host that they can be built for."""
     every = []
     tops = [path.stem for path in project.file_groups().get("boards", []) if path.stem.startswith("board_")]
-    for top in ["ppmc104_board", *tops]:
+    for top in ["ppmc104_carrier", *tops]:
         hosts = HOSTS if "HOST" in parameters(top) else ("",)
         for host in hosts:
             params: dict[str, int | str] = {"HOST": host.upper()} if host else {}

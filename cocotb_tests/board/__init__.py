@@ -1,1 +1,1 @@
-"""Tests of what rtl/boards adds around ppmc104_board, in simulation."""
+"""Tests of what rtl/boards adds around ppmc104_carrier, in simulation."""

@@ -8,7 +8,7 @@ from cocotb_tests.harness import project
 from cocotb_tests.harness.collect import Item, cocotb_items
 from cocotb_tests.harness.config import Config
 
-TOP = "ppmc104_board"
+TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
 # The clock of the iCEBreaker's bitstream.
 B24 = Config("b24m", clk_hz=24_000_000)

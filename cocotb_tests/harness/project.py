@@ -93,7 +93,7 @@ def board_files(part_name: str) -> list[Path]:
     In compile order.
     """
     files = file_groups().get("boards", [])
-    found = {path for path in files if path.stem == f"{part_name}_board"}
+    found = {path for path in files if path.stem == f"{part_name}_carrier"}
     while True:
         text = "\n".join(path.read_text(encoding="utf-8") for path in found)
         more = {path for path in files if re.search(rf"^\s*{path.stem}\s", text, re.M)} - found

@@ -39,7 +39,7 @@ module pmc006_board_bench (
       .sda_oe_o(sda_device)
   );
 
-  pmc006_board #(
+  pmc006_carrier #(
       .CLK_HZ(8_000_000),
       .BAUD  (115_200)
   ) u_board (

@@ -30,7 +30,7 @@ module ppmc104_example_uart #(
   logic [7:0] unused_d;
   logic [3:0] unused_auxo;
 
-  ppmc104_board #(
+  ppmc104_carrier #(
       .CLK_HZ    (CLK_HZ),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    ("FAST"),

@@ -2,7 +2,7 @@
 // board_icebreaker_pmc006: PMC006B4 on an iCEBreaker (iCE40UP5K-SG48), clk 18 MHz. Its pins have room for three of the
 //                          five inputs and outputs each, and for no converter: no analog speed, no stall.
 // Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker-pmc006.pcf.
-// Timing: of pmc006_board.
+// Timing: of pmc006_carrier.
 `default_nettype none
 
 module board_icebreaker_pmc006 #(
@@ -60,7 +60,7 @@ module board_icebreaker_pmc006 #(
       .lock_o   (lock)
   );
 
-  pmc006_board #(
+  pmc006_carrier #(
       .CLK_HZ    (ClkHz),
       .STEP_ACK  (STEP_ACK),
       .BAUD      (BAUD),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // board_ulx3s_pmc006: PMC006B4 on a ULX3S (ECP5 LFE5U-25F or -85F, CABGA381), clk 50 MHz from its 25 MHz oscillator.
 // Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s-pmc006.lpf.
-// Timing: of pmc006_board.
+// Timing: of pmc006_carrier.
 `default_nettype none
 
 module board_ulx3s_pmc006 #(
@@ -66,7 +66,7 @@ module board_ulx3s_pmc006 #(
       .lock_o   (lock)
   );
 
-  pmc006_board #(
+  pmc006_carrier #(
       .CLK_HZ    (ClkHz),
       .STEP_ACK  (STEP_ACK),
       .BAUD      (BAUD),

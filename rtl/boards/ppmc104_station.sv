@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_station: what the tops of all boards share: ppmc104_board with its reset and its lamps.
+// ppmc104_station: what the tops of all boards share: ppmc104_carrier with its reset and its lamps.
 // Rules:  lamps, wiring: docs/boards.md.
 // Timing: of ppmc104 and ppmc_board_reset; the inputs need no synchroniser outside.
 `default_nettype none
@@ -66,7 +66,7 @@ module ppmc104_station #(
       .lamps_o (lamps)
   );
 
-  ppmc104_board #(
+  ppmc104_carrier #(
       .CLK_HZ    (CLK_HZ),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),

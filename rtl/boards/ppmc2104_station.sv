@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_station: what the tops of all boards share: ppmc2104_board with its reset, its lamps, its phase drivers.
+// ppmc2104_station: what the tops of all boards share: ppmc2104_carrier with its reset, its lamps, its phase drivers.
 // Rules:  lamps, wiring: docs/boards.md.
 // Timing: of ppmc2104 and ppmc_board_reset; the inputs need no synchroniser outside.
 `default_nettype none
@@ -70,7 +70,7 @@ module ppmc2104_station #(
       .lamps_o (lamps)
   );
 
-  ppmc2104_board #(
+  ppmc2104_carrier #(
       .CLK_HZ (CLK_HZ),
       .XTAL_HZ(XTAL_HZ),
       .TIMING (TIMING),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_station: what the tops of all boards share: ppmc312_board with its reset and its lamps.
+// ppmc312_station: what the tops of all boards share: ppmc312_carrier with its reset and its lamps.
 // Rules:  lamps, wiring: docs/boards.md.
 // Timing: of ppmc312 and ppmc_board_reset; the inputs need no synchroniser outside.
 `default_nettype none
@@ -80,7 +80,7 @@ module ppmc312_station #(
       .lamps_o (lamps)
   );
 
-  ppmc312_board #(
+  ppmc312_carrier #(
       .CLK_HZ  (CLK_HZ),
       .XTAL_HZ (XTAL_HZ),
       .TIMING  (TIMING),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc_station: what the tops of all boards share: stmc_board with its reset and its lamps.
+// stmc_station: what the tops of all boards share: stmc_carrier with its reset and its lamps.
 // Rules:  lamps, wiring: docs/boards.md.
 // Timing: of stmc and ppmc_board_reset; the inputs need no synchroniser outside.
 `default_nettype none
@@ -57,7 +57,7 @@ module stmc_station #(
       .lamps_o (lamps)
   );
 
-  stmc_board #(
+  stmc_carrier #(
       .CLK_HZ    (CLK_HZ),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),

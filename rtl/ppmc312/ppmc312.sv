@@ -9,7 +9,7 @@
 module ppmc312
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
-  import ppmc_stage_pkg::*;
+  import ppmc312_stage_pkg::*;
 #(
     parameter int unsigned CLK_HZ   = 16_000_000,  // 8e6 .. 200e6, at least XTAL_HZ / 2
     parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6

@@ -7,7 +7,7 @@
 module ppmc312_core
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
-  import ppmc_stage_pkg::*;
+  import ppmc312_stage_pkg::*;
 #(
     parameter int unsigned       ClkHz     = 16_000_000,
     parameter int unsigned       XtalHz    = 16_000_000,

@@ -252,7 +252,7 @@ def sources(top: str) -> list[Path]:
 
 def parameters(top: str) -> set[str]:
     """Names of the parameters of a board top."""
-    text = (project.RTL / "boards" / f"{top}.sv").read_text()
+    text = next(path for path in project.file_groups()["boards"] if path.stem == top).read_text()
     return set(re.findall(r"^ *parameter +[^=]*?(\w+) *=", text, re.MULTILINE))
 
 

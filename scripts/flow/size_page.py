@@ -108,7 +108,7 @@ def instance_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
             Count(*(getattr(result.total, key) - getattr(inside, key) - getattr(bridge, key) for key in KEYS))
         )
     total = [result.total for result in split.values()]
-    return [*rows, ["(top itself)", f"{part}_board", *_cells(rest)], ["total", "", *_cells(total)]]
+    return [*rows, ["(top itself)", f"{part}_carrier", *_cells(rest)], ["total", "", *_cells(total)]]
 
 
 def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
@@ -131,7 +131,7 @@ def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: 
             *(f"{INSIDE[f]} {what}" for f in split for what in ("LUT", "FF", "RAM")),
         ]
         parts += [
-            f"Where the cells of {part}_board are, flattened, a LUT credited to the instance it feeds:",
+            f"Where the cells of {part}_carrier are, flattened, a LUT credited to the instance it feeds:",
             markdown_table(heads, instance_rows(part, split), left=2),
         ]
     return "\n\n".join(parts)

@@ -17,7 +17,7 @@ from .synthesis import run_yosys, wrapped_netlist
 from .yosys_job import BEST
 
 FOLDER = project.BUILD / "report"
-BOARD_TOPS = {part: f"{part}_board" for part in boards.BY_PART}
+BOARD_TOPS = {part: f"{part}_carrier" for part in boards.BY_PART}
 HOST = "uart"
 SIMULATED = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006")
 """Parts whose netlist with default parameters `make test-gates` simulates, too: it is kept for that."""

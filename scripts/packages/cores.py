@@ -118,7 +118,12 @@ def group_core(group: str, files: list[Path]) -> str:
     if group in PARTS:
         needs = [need for need in PARTS[group].groups if need != group]
     text = f"{HEAD}name: {vlnv(group)}\ndescription: {TEXT[group]}\n\nfilesets:\n"
-    text += fileset("rtl", [path.name for path in files], [vlnv(need) for need in needs], headers=headers)
+    text += fileset(
+        "rtl",
+        [path.relative_to(folder).as_posix() for path in files],
+        [vlnv(need) for need in needs],
+        headers=headers,
+    )
     if group not in PARTS:
         return text + "\ntargets:\n  default:\n    filesets: [rtl]\n"
     return text + part_targets(group)
@@ -207,7 +212,7 @@ def boards_core(files: list[Path]) -> str:
     text += fileset(
         "rtl", [relative(path) for path in files if path not in special], [vlnv(part) for part in PARTS]
     )
-    targets = "\ntargets:\n  default:\n    filesets: [rtl]\n    toplevel: ppmc104_board\n"
+    targets = "\ntargets:\n  default:\n    filesets: [rtl]\n    toplevel: ppmc104_carrier\n"
     for target, (top, constraints, flow) in VENDOR_BOARDS.items():
         source = ROOT / "rtl" / "boards" / f"{top}.sv"
         if source not in special:

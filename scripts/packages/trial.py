@@ -43,7 +43,7 @@ def fusesoc(target: str, core: str = PART, *options: str) -> str:
     folder = BUILD / "fusesoc"
     shutil.rmtree(folder, ignore_errors=True)
     start = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
-    place = ["--cores-root", "rtl", "--cores-root", "tb/fusesoc", "--cores-root", "."]
+    place = ["--cores-root", "rtl", "--cores-root", "tb/ppmc104", "--cores-root", "."]
     words = ["run", f"--target={target}", f"--work-root={relative(folder)}", *options, core]
     return run(*start, *place, *words, env=verilator.environment(folder))
 

@@ -5,6 +5,6 @@ slave.py         Toy: a mailbox part whose behaviour depends on its accesses onl
 settings.py      build configurations
 tb_line.py       UB-LIN; tb_frames.py UB-FRM; tb_ops.py ops, UB-BUS; tb_waits.py UB-WAIT;
 tb_messages.py   UB-SEQ, UB-ANS, UB-MSG; tb_random.py random scripts against the golden model
-tb_board.py      ppmc104_board: a real part behind its bridge
+tb_board.py      ppmc104_carrier: a real part behind its bridge
 tb_station.py    ppmc2104_station: the old bus as host
 """

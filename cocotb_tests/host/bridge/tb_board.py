@@ -1,4 +1,4 @@
-"""ppmc104_board: the real part, initialised and moved over its UART, one frame each."""
+"""ppmc104_carrier: the real part, initialised and moved over its UART, one frame each."""
 
 from __future__ import annotations
 

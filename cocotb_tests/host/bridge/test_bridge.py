@@ -36,7 +36,9 @@ def board_design(item) -> Design:
     """A PPMC-104 behind its bridge."""
     part = part_design("ppmc104", item.config)
     params = {"CLK_HZ": item.config.clk_hz, "BAUD": dict(item.config.extra)["Baud"]}
-    return Design("ppmc104_board", [*part.sources, *board_files("ppmc104")], part.includes, params, ONE_FILE)
+    return Design(
+        "ppmc104_carrier", [*part.sources, *board_files("ppmc104")], part.includes, params, ONE_FILE
+    )
 
 
 @pytest.mark.parametrize("item", ITEMS)

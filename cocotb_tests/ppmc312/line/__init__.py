@@ -1,6 +1,6 @@
 """Sixteen stations of the PPMC-312 in serial mode on one line, and a master with all bad habits.
 
-setting.py     ports and build of tb/line; library.py compiles the station that all sixteen share
+setting.py     ports and build of tb/ppmc312/line; library.py compiles the station that all sixteen share
 wave.py        characters as levels of a line, several of them over each other
 models.py      the same line of golden models, the same pins
 master.py      a master of the line: over the RTL or over the golden models

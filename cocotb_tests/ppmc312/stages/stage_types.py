@@ -1,4 +1,4 @@
-"""Packed types of ppmc_stage_pkg as numbers, and the blocks of the stage area with their ports."""
+"""Packed types of ppmc312_stage_pkg as numbers, and the blocks of the stage area with their ports."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from ...harness.wrapper import Block
 AREA = "stage"
 GROUPS = ("common", "motion", "stage")
 CLOCKS = (8_000_000, 16_000_000, 50_000_000)
-"""Clk of the instances of ppmc_interval, at the crystal of 16 MHz."""
-PACKAGE = "ppmc_stage_pkg::"
+"""Clk of the instances of ppmc312_interval, at the crystal of 16 MHz."""
+PACKAGE = "ppmc312_stage_pkg::"
 INTERVAL = "base_i:3 extck_i arm_i first_i fire_i rate_i:16 due_o high_o"
 BLOCKS = {
     "muldiv": Block(
-        "ppmc_muldiv",
+        "ppmc312_muldiv",
         "start_i mul_i zero_i keep_i steps_i:6 hi_i:40 lo_i:24 operand_i:40 busy_o hi_o:40 lo_o:24",
     ),
-    "rom": Block("ppmc_cosine_rom", "clk_i index_i:7 weight_o:17", bare=True),
+    "rom": Block("ppmc312_cosine_rom", "clk_i index_i:7 weight_o:17", bare=True),
     "unit": Block(
-        "ppmc_stage_unit",
+        "ppmc312_stage_unit",
         f"drop_i build_i curve_i:101:{PACKAGE}curve_t busy_o thin_o open_i open_acc_i:7 open_dec_i:7"
         f" entry_i:34:{PACKAGE}entry_t close_i table_o:115 home_o:38 read_side_i read_addr_i:7"
         " read_rate_o:16 read_pulses_o:24 plan_start_i plan_ramp_i plan_endless_i plan_rate_i:16"
         " plan_count_i:32 plan_busy_o plan_kind_o:8 plan_o:128 side_i addr_i:7 rate_o:16 pulses_o:24",
     ),
     "seq": Block(
-        "ppmc_stage_seq",
+        "ppmc312_stage_seq",
         f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 side_o addr_o:7"
         " table_rate_i:16 table_pulses_i:24 load_i endless_i climb_i count_i:32 dec_i:24"
         f" dec_from_i:32:{PACKAGE}walk_t target_i:38:{PACKAGE}target_t change_i change_ramp_i slow_i"
@@ -36,7 +36,9 @@ BLOCKS = {
         " walk_o first_o complete_o",
     ),
     **{
-        f"interval{clk // 1_000_000}": Block("ppmc_interval", INTERVAL, {"ClkHz": clk, "XtalHz": 16_000_000})
+        f"interval{clk // 1_000_000}": Block(
+            "ppmc312_interval", INTERVAL, {"ClkHz": clk, "XtalHz": 16_000_000}
+        )
         for clk in CLOCKS
     },
 }

@@ -1,4 +1,4 @@
-"""Contract of ppmc_interval: when pulses are due and how long they last, for every base clock."""
+"""Contract of ppmc312_interval: when pulses are due and how long they last, for every base clock."""
 
 from __future__ import annotations
 

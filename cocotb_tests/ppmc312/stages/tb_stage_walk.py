@@ -1,4 +1,4 @@
-"""Contract of ppmc_stage_seq: which rate the next pulse has, or why there is none."""
+"""Contract of ppmc312_stage_seq: which rate the next pulse has, or why there is none."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), s
 
 
 class Board104(Board):
-    """Wired as ppmc104_board: straps bit 0 is csel, bit 1 vsel."""
+    """Wired as ppmc104_carrier: straps bit 0 is csel, bit 1 vsel."""
 
     NUMBER = 104
 

@@ -12,7 +12,7 @@ _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
 
 
 class Board2104(Board):
-    """Wired as ppmc2104_board: straps bits 1..0 are csel, 3..2 run, 4 errint_n; bit 7 chooses the pins in
+    """Wired as ppmc2104_carrier: straps bits 1..0 are csel, 3..2 run, 4 errint_n; bit 7 chooses the pins in
     PINS, 1 for those of axis 1."""
 
     NUMBER = 2104

@@ -13,7 +13,7 @@ _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
 
 
 class Board312(Board):
-    """Wired as ppmc312_board: straps bit 0 is RUN, bits 1 and 2 are the event inputs 1 and 2.
+    """Wired as ppmc312_carrier: straps bit 0 is RUN, bits 1 and 2 are the event inputs 1 and 2.
 
     The encoder gives a pulse for each one that the axle follows; the drive says END at once. `positions` is
     the axle's, the part itself counts pulses.

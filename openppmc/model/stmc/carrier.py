@@ -15,7 +15,7 @@ _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), str
 
 
 class BoardStmc(Board):
-    """Wired as stmc_board: no straps, MON in the place of the alarm. The motor follows the phases.
+    """Wired as stmc_carrier: no straps, MON in the place of the alarm. The motor follows the phases.
 
     The step clock only ticks while a motion counts it.
     """

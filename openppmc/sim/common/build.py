@@ -61,7 +61,7 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
     flags = [
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
-        *("--top-module", f"{part}_board", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
+        *("--top-module", f"{part}_carrier", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
         *(
             f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}"
             for name, value in params.items()
@@ -130,7 +130,7 @@ def _rtl(root: Path, part: str) -> list[Path]:
     files = [root / "rtl" / name for key in wanted for name in groups.get(key, [])]
     shared = ("ppmc_board_host", "ppmc_board_steps")
     files += [
-        root / "rtl" / name for name in groups["boards"] if Path(name).stem in (*shared, f"{part}_board")
+        root / "rtl" / name for name in groups["boards"] if Path(name).stem in (*shared, f"{part}_carrier")
     ]
     missing = [file.name for file in files if not file.is_file()]
     if missing:

@@ -165,7 +165,7 @@ def test_sources_of_a_board(on: boards.Board, host: str) -> None:
         return
     files = boards.sources(on.top[host])
     assert boards.part_of(on.top[host]) == on.part
-    others = {f"{part}_board" for part in BY_PART if part != on.part.split("-")[0]}
+    others = {f"{part}_carrier" for part in BY_PART if part != on.part.split("-")[0]}
     assert not others & {path.stem for path in files}
     assert all(path.is_file() for path in files)
     assert [path.stem for path in files if path.stem.startswith("board_")] == [on.top[host]]

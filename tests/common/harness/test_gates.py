@@ -55,7 +55,7 @@ def test_choosing() -> None:
     quick = gate_suite.chosen(EVERYTHING, "quick")
     assert 60 < len(quick) < 150
     assert {t.family for t in quick} == set(gates.FAMILIES)
-    assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "ppmc104_board"}
+    assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "ppmc104_carrier"}
     some = gate_suite.chosen(EVERYTHING, "D16-ECP5")
     assert some and all(t.group[0] == "ecp5" for t in some)
 

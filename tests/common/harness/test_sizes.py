@@ -132,7 +132,7 @@ def test_the_breakdown_adds_up_to_the_total() -> None:
         ["u_part", "ppmc104, all of it", "60", "25", "2"],
         ["u_bridge", "bridge", "30", "20", "1"],
         ["&nbsp;&nbsp;u_rx", "rx", "6", "4", ""],
-        ["(top itself)", "ppmc104_board", "4", "1", ""],
+        ["(top itself)", "ppmc104_carrier", "4", "1", ""],
         ["total", "", "100", "50", "3"],
     ]
     del split.kept[bridge], split.kept[f"{bridge}.u_rx"], split.flat[bridge], split.flat[f"{bridge}.u_rx"]
@@ -140,7 +140,7 @@ def test_the_breakdown_adds_up_to_the_total() -> None:
     assert size_page.instance_rows("pmc006", {"ecp5": split}) == [
         ["u_part", "pmc006", "10", "5", "1"],
         ["&nbsp;&nbsp;u_axis", "axis", "50", "20", "1"],
-        ["(top itself)", "pmc006_board", "40", "25", "1"],
+        ["(top itself)", "pmc006_carrier", "40", "25", "1"],
         ["total", "", "100", "50", "3"],
     ]
 

@@ -15,11 +15,11 @@ LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8")
 RTL = [f"rtl/{name}" for group, names in LISTED.items() if group != "boards" for name in names]
 # The board modules, and the blocks that they share.
 PARTS_OF = {
-    "ppmc104": ["ppmc_board_host", "ppmc104_board"],
-    "ppmc2104": ["ppmc_board_host", "ppmc2104_board"],
-    "stmc": ["ppmc_board_host", "ppmc_board_steps", "stmc_board"],
-    "ppmc312": ["ppmc_board_host", "ppmc312_board"],
-    "pmc006": ["ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "pmc006_board"],
+    "ppmc104": ["ppmc_board_host", "ppmc104_carrier"],
+    "ppmc2104": ["ppmc_board_host", "ppmc2104_carrier"],
+    "stmc": ["ppmc_board_host", "ppmc_board_steps", "stmc_carrier"],
+    "ppmc312": ["ppmc_board_host", "ppmc312_carrier"],
+    "pmc006": ["ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "pmc006_carrier"],
 }
 IN_USE = {name for names in PARTS_OF.values() for name in names}
 BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name[7:-3] in IN_USE]

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc104_carrier: everything of a PPMC-104 board but its clock generator and pads: the part, and as its host
+//         either the UART bridge or the pins of the old chip's bus.
+// Rules:  HOST = "UART": docs/uart_bridge.md; HOST = "BUS": P104-PORT-01. Wiring: docs/boards.md.
+// Timing: of ppmc104; the inputs need no synchroniser outside.
+`default_nettype none
+
+module ppmc104_carrier #(
+    parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter string       TIMING     = "FAST",
+    parameter bit          PHASE_IDLE = 1'b1,
+    parameter string       HOST       = "UART",      // or "BUS"
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // bus host
+    input  wire logic       a0,
+    input  wire logic       cs_n,
+    input  wire logic       rd_n,
+    input  wire logic       wr_n,
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe,
+    output logic            int_n,
+    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    input  wire logic       csel,
+    input  wire logic       vsel,
+    input  wire logic       clock,
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       alm_n,
+    // auxiliary
+    input  wire logic [3:0] auxi,
+    output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir,
+    // lamps
+    output logic            led_link   // 1: a script is running or an answer is on its way
+);
+
+  logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, part_a0, part_csel, part_vsel;
+  logic [7:0] part_d, straps;
+  logic unused_straps;
+
+  ppmc104 #(
+      .CLK_HZ    (CLK_HZ),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .PHASE_IDLE(PHASE_IDLE)
+  ) u_part (
+      .clk,
+      .rst_n(part_rst_n),
+      .a0   (part_a0),
+      .cs_n (part_cs_n),
+      .rd_n (part_rd_n),
+      .wr_n (part_wr_n),
+      .d_i  (part_d),
+      .d_o,
+      .d_oe,
+      .int_n,
+      .csel (part_csel),
+      .vsel (part_vsel),
+      .clock,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .aux_n,
+      .s,
+      .hold,
+      .pout_n,
+      .dir
+  );
+
+  ppmc_board_host #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .Host     (HOST),
+      .Baud     (BAUD),
+      .Part     (104)
+  ) u_host (
+      .clk_i      (clk),
+      .rst_ni     (rst_n),
+      .rxd_i      (uart_rxd),
+      .txd_o      (uart_txd),
+      .cs_ni      (cs_n),
+      .rd_ni      (rd_n),
+      .wr_ni      (wr_n),
+      .a_i        (a0),
+      .d_i,
+      .part_rst_no(part_rst_n),
+      .part_cs_no (part_cs_n),
+      .part_rd_no (part_rd_n),
+      .part_wr_no (part_wr_n),
+      .part_a_o   (part_a0),
+      .part_d_o   (part_d),
+      .part_d_i   (d_o),
+      .int_ni     (int_n),
+      .straps_o   (straps),
+      .switches_ni({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+      .hold_i     (hold),
+      .pout_ni    (pout_n),
+      .dir_i      (dir),
+      .link_o     (led_link)
+  );
+
+  assign part_csel     = csel && straps[0];
+  assign part_vsel     = vsel && straps[1];
+  assign unused_straps = ^straps[7:2];
+
+endmodule
+
+`default_nettype wire

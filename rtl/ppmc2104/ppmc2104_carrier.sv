@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc2104_carrier: everything of a PPMC-2104 board but its clock generator and pads: the part, and as its host
+//         either the UART bridge or the pins of the old chip's bus.
+// Rules:  HOST = "UART": docs/uart_bridge.md, straps {pins of axis 1, -, -, errint_n, run, csel}; HOST = "BUS":
+//         P2104-PORT-01. Wiring: docs/boards.md.
+// Timing: of ppmc2104; the inputs need no synchroniser outside.
+`default_nettype none
+
+module ppmc2104_carrier #(
+    parameter int unsigned CLK_HZ  = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ = 16_000_000,
+    parameter string       TIMING  = "FAST",
+    parameter string       HOST    = "UART",      // or "BUS"
+    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // bus host
+    input  wire logic       cs_n,
+    input  wire logic       a0,
+    input  wire logic       busc,
+    input  wire logic       ds_wrs_n,
+    input  wire logic       rw_rds_n,
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe,
+    output logic            int_n,
+    // with the UART host the straps can pull these to 0 as well
+    input  wire logic       errint_n,
+    input  wire logic [2:1] run,
+    input  wire logic [2:1] csel,
+    input  wire logic [2:1] extck,
+    // switches, 0 = active
+    input  wire logic [2:1] fl_n,
+    input  wire logic [2:1] bl_n,
+    input  wire logic [2:1] fhl_n,
+    input  wire logic [2:1] bhl_n,
+    input  wire logic [2:1] org_n,
+    input  wire logic [2:1] alm_n,
+    // auxiliary
+    input  wire logic [1:0] auxi,
+    output logic      [1:0] auxo,
+    output logic            clk_o,
+    // motors
+    output logic      [5:1] s1_n,
+    output logic      [5:1] s2_n,
+    output logic      [2:1] hold,
+    output logic      [2:1] pout_n,
+    output logic      [2:1] dir,
+    // lamps
+    output logic            led_link   // 1: a script is running or an answer is on its way
+);
+
+  logic part_rst_n, part_cs_n, part_a0, part_busc, part_ds_wrs_n, part_rw_rds_n, part_errint_n;
+  logic [2:1] part_run, part_csel;
+  logic [7:0] part_d, straps;
+  logic unused_straps;
+
+  ppmc2104 #(
+      .CLK_HZ (CLK_HZ),
+      .XTAL_HZ(XTAL_HZ),
+      .TIMING (TIMING)
+  ) u_part (
+      .clk,
+      .rst_n   (part_rst_n),
+      .cs_n    (part_cs_n),
+      .a0      (part_a0),
+      .busc    (part_busc),
+      .ds_wrs_n(part_ds_wrs_n),
+      .rw_rds_n(part_rw_rds_n),
+      .d_i     (part_d),
+      .d_o,
+      .d_oe,
+      .int_n,
+      .errint_n(part_errint_n),
+      .pout_n,
+      .dir,
+      .hold,
+      .s1_n,
+      .s2_n,
+      .run     (part_run),
+      .extck,
+      .csel    (part_csel),
+      .fl_n,
+      .bl_n,
+      .fhl_n,
+      .bhl_n,
+      .org_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .clk_o
+  );
+
+  ppmc_board_host #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .Host     (HOST),
+      .Baud     (BAUD),
+      .Part     (2104),
+      .Axes     (2)
+  ) u_host (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .rxd_i(uart_rxd),
+      .txd_o(uart_txd),
+      .cs_ni(cs_n),
+      .rd_ni(rw_rds_n),
+      .wr_ni(ds_wrs_n),
+      .a_i(a0),
+      .d_i,
+      .part_rst_no(part_rst_n),
+      .part_cs_no(part_cs_n),
+      .part_rd_no(part_rw_rds_n),
+      .part_wr_no(part_ds_wrs_n),
+      .part_a_o(part_a0),
+      .part_d_o(part_d),
+      .part_d_i(d_o),
+      .int_ni(int_n),
+      .straps_o(straps),
+      .switches_ni({
+        {alm_n[2], org_n[2], bhl_n[2], fhl_n[2], bl_n[2], fl_n[2]},
+        {alm_n[1], org_n[1], bhl_n[1], fhl_n[1], bl_n[1], fl_n[1]}
+      }),
+      .hold_i(hold),
+      .pout_ni(pout_n),
+      .dir_i(dir),
+      .link_o(led_link)
+  );
+
+  assign part_busc     = HOST == "BUS" && busc;  // the bridge drives read and write strobes
+  assign part_csel     = csel & straps[1:0];
+  assign part_run      = run & straps[3:2];
+  assign part_errint_n = errint_n && straps[4];
+  assign unused_straps = ^straps[7:5];
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_free: a free-curve transfer: blocks of rates and pulse numbers into the stage table.
+// Rules:  P312-CMD-FC-1..10.
+// Timing: open_i takes the three parameters. A data block takes its bytes + 4 clk from data_i to done_o; what it
+//         has come to stands until the next one.
+// Note:   what a bad block has written does no harm, because any error ends the transfer without a table.
+`default_nettype none
+
+module ppmc312_free
+  import ppmc312_pkg::*;
+  import ppmc312_stage_pkg::*;
+(
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic                  open_i,
+    input  wire logic                  split_i,     // with open_i: LE
+    input  wire logic [           6:0] acc_i,       // with open_i: stages of the sides, 2 .. 127
+    input  wire logic [           6:0] dec_i,
+    input  wire logic                  abort_i,
+    output logic                       transfer_o,  // one is open
+    // a data block
+    input  wire logic                  data_i,
+    input  wire logic [           4:0] bytes_i,     // 1 .. 30
+    input  wire logic                  last_i,      // says to be the last one
+    output logic                       busy_o,
+    output logic                       done_o,
+    output logic      [BLOCK_BITS-1:0] addr_o,      // in the block, two clk before its byte
+    input  wire logic [           7:0] byte_i,
+    output logic                       bad_o,
+    output logic      [           7:0] error_o,
+    // what comes next
+    output logic                       complete_o,
+    output logic      [           1:0] list_o,      // 0 rates, 1 acceleration, 2 deceleration
+    output logic      [           6:0] left_o,      // stages of this list to come
+    output logic      [          23:0] acc_sum_o,
+    output logic      [          23:0] dec_sum_o,
+    output entry_t                     entry_o      // into the table
+);
+
+  localparam logic [6:0] Fastest = 7'd126;
+
+  logic [1:0] valid_q, part_q;
+  logic run_q, split_q, whole, tiny, size_q, rate_q, pulses_q, over_q, finishing_q, list_done;
+  logic [4:0] sent_q, seen_q;
+  logic [6:0] stage_q, acc_q, dec_q;
+  logic [15:0] high_q;
+  logic [23:0] word;
+  logic [24:0] sum;
+  logic rates;
+
+  assign rates = list_o == 2'd0;
+  assign word = {high_q, byte_i};
+  assign whole = valid_q[1] && part_q == (rates ? 2'd1 : 2'd2);
+  assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
+  assign sum = {1'b0, (list_o == 2'd1) ? acc_sum_o : dec_sum_o} + {1'b0, word};
+  assign list_done = whole && left_o == 7'd1;
+  assign addr_o = BLOCK_BITS'(sent_q + 5'd2);
+  assign busy_o = run_q;
+  assign done_o = finishing_q;
+
+  assign entry_o = '{
+          rate: whole && rates && !complete_o,
+          acc: whole && list_o == 2'd1 && !complete_o,
+          dec: whole && (list_o == 2'd2 || (list_o == 2'd1 && !split_q)) && !complete_o,
+          stage: stage_q,
+          data: rates ? 24'(word[15:0]) : word
+      };
+
+  always_comb begin
+    bad_o   = 1'b1;
+    error_o = E_FREE_SIZE;
+    if (size_q) error_o = E_FREE_SIZE;
+    else if (rate_q) error_o = E_FREE_RATE;
+    else if (pulses_q) error_o = E_FREE_PULSES;
+    else if (over_q) error_o = E_FREE_SUM;
+    else if (last_i != complete_o) error_o = E_FREE_LAST;
+    else bad_o = 1'b0;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      transfer_o  <= 1'b0;
+      run_q       <= 1'b0;
+      valid_q     <= '0;
+      finishing_q <= 1'b0;
+    end else begin
+      if (open_i) transfer_o <= 1'b1;
+      else if (abort_i || (done_o && (bad_o || complete_o))) transfer_o <= 1'b0;
+      if (data_i) run_q <= 1'b1;
+      else if (finishing_q) run_q <= 1'b0;
+      valid_q     <= {valid_q[0], run_q && sent_q != bytes_i};
+      finishing_q <= valid_q[1] && seen_q + 5'd1 == bytes_i;
+    end
+  end
+
+  // No reset: a transfer begins with open_i, a block with data_i.
+  always_ff @(posedge clk_i) begin
+    if (open_i) begin
+      split_q    <= split_i;
+      acc_q      <= acc_i;
+      dec_q      <= split_i ? dec_i : acc_i;
+      list_o     <= 2'd0;
+      left_o     <= (split_i && dec_i > acc_i) ? dec_i : acc_i;
+      stage_q    <= Fastest;
+      acc_sum_o  <= '0;
+      dec_sum_o  <= '0;
+      complete_o <= 1'b0;
+    end
+    if (data_i) begin
+      {size_q, rate_q, pulses_q, over_q} <= '0;
+      part_q <= '0;
+      sent_q <= '0;
+      seen_q <= '0;
+    end else begin
+      if (run_q && sent_q != bytes_i) sent_q <= sent_q + 1'b1;
+      if (valid_q[1]) begin
+        seen_q <= seen_q + 1'b1;
+        high_q <= {high_q[7:0], byte_i};
+        part_q <= whole ? '0 : part_q + 1'b1;
+        // A block holds whole stages of one list.
+        if ((seen_q + 5'd1 == bytes_i) ? !whole : list_done) size_q <= 1'b1;
+        if (complete_o) size_q <= 1'b1;
+      end
+      if (whole) begin
+        stage_q <= stage_q - 1'b1;
+        left_o  <= left_o - 1'b1;
+        if (rates && tiny) rate_q <= 1'b1;
+        if (!rates && tiny) pulses_q <= 1'b1;
+        if (!rates && sum[24]) over_q <= 1'b1;
+        if (list_o == 2'd1) acc_sum_o <= sum[23:0];
+        if (list_o == 2'd1 && !split_q) dec_sum_o <= sum[23:0];
+        if (list_o == 2'd2) dec_sum_o <= sum[23:0];
+        if (list_done) begin
+          stage_q    <= Fastest;
+          list_o     <= list_o + 1'b1;
+          left_o     <= rates ? acc_q : dec_q;
+          complete_o <= list_o == (split_q ? 2'd2 : 2'd1);
+        end
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_judge: may this block be executed? Size, header, code, status, length, values, in this order.
+// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03, section 10.2.
+// Timing: the verdict stands three clk after the block.
+`default_nettype none
+
+module ppmc312_judge
+  import ppmc312_pkg::*;
+  import ppmc312_stage_pkg::*;
+(
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    input  wire block_t        block_i,
+    input  wire logic          keep_i,      // the verdict stands
+    input  wire status_e       status_i,
+    input  wire logic          end_wait_i,
+    input  wire logic          transfer_i,  // a free-curve transfer is open
+    input  wire table_t        table_i,
+    output verdict_e           verdict_o,
+    output logic         [7:0] error_o,     // number of F0, status of F1
+    output logic               ov_o         // is to be registered
+);
+
+  info_t info;
+  logic host, ov, le, trig_pos, size_bad, len_bad, len_long, accepted, at_table, table_q;
+  logic [7:0] flags, value_error, size_error;
+  logic [15:0] rate, range, start, stop, fast, slower_q, faster_q, slowest_q;
+  logic [16:0] spread_q, close_q;
+  logic [31:0] count;
+  logic rate_bad_q, count_bad_q, init_rate_q, value_bad;
+  logic event_q, embedded_bad;
+  verdict_e verdict;
+  logic [7:0] error;
+
+  assign info = info_of(block_i.code);
+  assign host = block_i.source == SrcHost;
+  assign flags = block_i.par[0];
+  assign ov = info.has_ov && flags[2] && host;  // what has been triggered is executed
+  assign le = flags[4];
+  assign trig_pos = !flags[0];
+  assign rate = {block_i.par[1], block_i.par[2]};
+  assign range = rate;
+  assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
+  assign at_table = block_i.code == I_TABLE;
+
+  // Initialisation: rates, and how far they are apart: at least 128 is far.
+  assign start = rate;
+  assign stop = le ? {block_i.par[3], block_i.par[4]} : start;
+  assign fast = {block_i.par[5], block_i.par[6]};
+
+  always_ff @(posedge clk_i) begin
+    slowest_q <= (table_i.first_acc < table_i.first_dec) ? table_i.rate_acc : table_i.rate_dec;
+    rate_bad_q <= (rate != '0 || !info.rate_zero) && (rate < table_i.fast || rate > slowest_q);
+    count_bad_q <= count == '0;
+    init_rate_q <= fast < 16'h0002 || fast > 16'hffef || start < 16'h0011 || stop < 16'h0011;
+    slower_q <= (start > stop) ? start : stop;
+    faster_q <= (start > stop) ? stop : start;
+    spread_q <= {1'b0, slower_q} - {1'b0, fast};
+    close_q <= {1'b0, faster_q} - {1'b0, fast};
+    event_q <= block_i.source == SrcEvent &&
+        ((info.has_ov && flags[2]) || block_i.code inside {I_FREE, I_TABLE, I_EVT_SET});
+    table_q <= table_i.valid;
+  end
+
+  // ---- size and length -------------------------------------------------------------------------------------------
+
+  assign size_bad = host && (block_i.size < 6'd3 || block_i.len == '0 || block_i.len >= 8'd31 ||
+      block_i.len != 8'(block_i.size) - 8'd2);
+  assign size_error = (block_i.size > 6'd1 && block_i.len >= 8'd31) ? E_FREE_LONG : E_FREE_SIZE;
+  assign len_long = block_i.len == 8'((info.len_a > info.len_b) ? info.len_a : info.len_b);
+  assign embedded_bad = block_i.len < 8'd5 || block_i.par[1] != 8'h03 ||
+      block_i.par[2] == '0 || block_i.par[2] > 8'd14 ||
+      block_i.len != block_i.par[2] + 8'd4;
+
+  always_comb begin
+    len_bad = block_i.len != 8'(info.len_a) && block_i.len != 8'(info.len_b);
+    if (block_i.code == I_INIT && le) len_bad = block_i.len != 8'd14;
+    if (block_i.code == I_EVT_SET) len_bad = flags[1] ? block_i.len != 8'd2 : embedded_bad;
+  end
+
+  // ---- status ----------------------------------------------------------------------------------------------------
+
+  assign accepted = ((ov ? info.later : info.now) & status_i) != '0 || (block_i.code == I_END && end_wait_i);
+
+  // ---- values ----------------------------------------------------------------------------------------------------
+
+  always_comb begin
+    value_bad   = 1'b1;
+    value_error = E_OPERAND;
+    unique case (block_i.code)
+      I_INIT: begin
+        if (init_rate_q) value_error = E_RATE;
+        else if (close_q[16] || close_q == '0) value_error = E_ORDER;
+        else if (spread_q[16:7] == '0) value_error = E_SPREAD;
+        else if (close_q[15:7] == '0) value_error = E_CLOSE;
+        else value_bad = 1'b0;
+      end
+      I_FREE: begin
+        value_error = (block_i.head == 8'h03) ? E_FREE_HEADER : E_FREE_STAGES;
+        value_bad = block_i.head == 8'h03 || stages_bad(block_i.par[1]) ||
+            (le && (stages_bad(block_i.par[2]) || block_i.len == 8'd3));
+      end
+      I_INPOS: begin
+        value_error = E_INPOS_ZERO;
+        value_bad   = flags[0] && range == '0;
+      end
+      I_ENCODE: begin
+        value_error = E_ENCODE_ZERO;
+        value_bad   = flags[0] && range == '0;
+      end
+      I_LIMIT: begin
+        value_error = E_RATE_RANGE;
+        value_bad   = {block_i.par[0], block_i.par[1]} < 16'd2;
+      end
+      I_END, I_POS, I_POS_SET: value_bad = flags > 8'd1;
+      I_EVT_READ: begin
+        value_error = E_EVT_NUMBER;
+        value_bad   = flags > 8'd1;
+      end
+      default: begin
+        value_bad = 1'b0;
+        if (ov && trig_pos) begin
+          // only what stops or changes a motion, and with a position
+          value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_long;
+          value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
+        end else if (!ov && info.counted && count_bad_q) begin
+          value_bad = 1'b1;
+        end else if (!ov && info.rated && rate_bad_q) begin
+          value_bad   = 1'b1;
+          value_error = E_RATE_RANGE;
+        end
+      end
+    endcase
+  end
+
+  function automatic logic stages_bad(logic [7:0] n);
+    return n < 8'd2 || n > 8'd127;
+  endfunction
+
+  function automatic logic [7:0] len_error(logic [7:0] code, logic [7:0] head);
+    unique case (code)
+      I_INIT:    return E_INIT_LEN;
+      I_FREE:    return (head == 8'h03) ? E_FREE_HEADER : E_FREE_STAGES;
+      I_EVT_SET: return E_EVT_LEN;
+      default:   return E_OPERAND;
+    endcase
+  endfunction
+
+  // ---- in the order of the rules ---------------------------------------------------------------------------------
+
+  always_comb begin
+    verdict = VerdictGo;
+    error   = 8'h00;
+    if (size_bad && transfer_i) {verdict, error} = {VerdictPar, size_error};
+    else if (size_bad) verdict = VerdictSize;
+    else if (host && transfer_i) begin
+      if (block_i.head > 8'h01) {verdict, error} = {VerdictStatus, 8'h02};
+      else verdict = VerdictData;
+    end else if (host && !(block_i.head inside {8'h02, 8'h03})) {verdict, error} = {VerdictStatus, 8'h01};
+    else if (!info.known) verdict = VerdictCommand;
+    else if (event_q) verdict = VerdictPar;
+    else if (host && block_i.head == 8'h02 && block_i.code != I_FREE)
+      {verdict, error} = {VerdictStatus, 8'h01};
+    else if (!accepted || (at_table && !table_q)) verdict = VerdictStatus;
+    else if (len_bad) {verdict, error} = {VerdictPar, len_error(block_i.code, block_i.head)};
+    else if (value_bad) {verdict, error} = {VerdictPar, value_error};
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      verdict_o <= VerdictGo;
+      error_o   <= '0;
+      ov_o      <= 1'b0;
+    end else if (!keep_i) begin
+      verdict_o <= verdict;
+      error_o   <= error;
+      ov_o      <= ov;
+    end
+  end
+
+  logic unused_bits;
+  assign unused_bits = &{1'b0, block_i, table_i, info, spread_q};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_carrier: everything of a board with a PPMC-312 but its clock generator and pads: the part, and as its host
+//                the UART bridge, the pins of its parallel bus, or the part's own serial line.
+// Rules:  HOST = "UART": docs/uart_bridge.md; straps bit 0 is RUN, bits 1 and 2 the event inputs 1 and 2, each ANDed
+//         with its pin. HOST = "BUS": section 1.3 of the PPMC-312 rules. HOST = "SERIAL": section 2.4; frames come from
+//         either line (one master at a time), replies go to both. Wiring: docs/boards.md.
+// Timing: of ppmc312; the inputs need no synchroniser outside.
+`default_nettype none
+
+module ppmc312_carrier #(
+    parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ  = 16_000_000,
+    parameter string       TIMING   = "FAST",
+    parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter string       HOST     = "UART",      // or "BUS", "SERIAL"
+    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // UART host, or a master of the part itself
+    input  wire logic       uart_rxd,   // from the PC
+    output logic            uart_txd,   // to the PC
+    // serial line and its straps; it rests with another host
+    input  wire logic       rs485_rxd,
+    output logic            rs485_txd,
+    output logic            rs485_de,
+    input  wire logic       hsp,
+    input  wire logic [2:0] mod,
+    input  wire logic [3:0] adr,
+    // bus host
+    input  wire logic [2:0] rs,
+    input  wire logic       cs_n,
+    input  wire logic       oe_n,
+    input  wire logic       we_n,
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe,
+    output logic            wrq_n,
+    output logic            irq_n,
+    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    input  wire logic       fl_n,
+    input  wire logic       bl_n,
+    input  wire logic       fhl_n,
+    input  wire logic       bhl_n,
+    input  wire logic       org_n,
+    input  wire logic       index_n,
+    input  wire logic       alm_n,
+    input  wire logic       end_n,
+    input  wire logic       epin,
+    input  wire logic       epdir,
+    input  wire logic       run,
+    input  wire logic       evt0_n,
+    input  wire logic       evt1_n,
+    input  wire logic       extck,
+    input  wire logic [7:0] auxi,
+    // motor and drive
+    output logic            pout,
+    output logic            dir,
+    output logic            exon_n,
+    output logic            cd_n,
+    output logic            cclr_n,
+    output logic            aclr_n,
+    output logic            zclmp_n,
+    output logic            intlk_n,
+    output logic      [5:0] auxo_n,
+    // lamps
+    output logic            hold,       // 1: at rest for 100 ms, or since the reset
+    output logic            led_link    // 1: a script is running or an answer is on its way; rs485_de
+);
+
+  logic part_rst_n, part_cs_n, part_oe_n, part_we_n, moved_q, unused;
+  logic [2:0] part_rs;
+  logic [7:0] part_d, straps;
+  logic rxd, out_oe;
+
+  ppmc312 #(
+      .CLK_HZ  (CLK_HZ),
+      .XTAL_HZ (XTAL_HZ),
+      .TIMING  (TIMING),
+      .SUM_MODE(SUM_MODE)
+  ) u_part (
+      .clk,
+      .rst_n (part_rst_n),
+      .mode  (HOST != "SERIAL"),
+      .d_i   (part_d),
+      .d_o,
+      .d_oe,
+      .rs    (part_rs),
+      .cs_n  (part_cs_n),
+      .we_n  (part_we_n),
+      .oe_n  (part_oe_n),
+      .wrq_n,
+      .irq_n,
+      .rxd,
+      .txd   (rs485_txd),
+      .snd   (rs485_de),
+      .hsp,
+      .mod,
+      .adr,
+      .evt0_n(evt0_n && straps[1]),
+      .evt1_n(evt1_n && straps[2]),
+      .auxi,
+      .auxo_n,
+      .exon_n,
+      .cclr_n,
+      .aclr_n,
+      .zclmp_n,
+      .cd_n,
+      .alm_n,
+      .end_n,
+      .epin,
+      .epdir,
+      .index_n,
+      .org_n,
+      .fl_n,
+      .bl_n,
+      .fhl_n,
+      .bhl_n,
+      .pout,
+      .dir,
+      .extck,
+      .run   (run && straps[0]),
+      .intlk_n,
+      .out_oe
+  );
+
+  // cd_n falls 100 ms after the pulses, but not before the first ones.
+  always_ff @(posedge clk or negedge part_rst_n) begin
+    if (!part_rst_n) moved_q <= 1'b0;
+    else if (pout) moved_q <= 1'b1;
+  end
+
+  assign hold = !moved_q || !cd_n;
+
+  if (HOST == "SERIAL") begin : g_serial
+    // Both lines rest at 1.
+    assign rxd = uart_rxd && rs485_rxd;
+    assign uart_txd = rs485_txd;
+    assign led_link = rs485_de;
+
+    assign part_rst_n = rst_n;
+    assign {part_cs_n, part_oe_n, part_we_n} = '1;
+    assign {part_rs, part_d, straps} = '1;
+
+    logic unused_bus;
+    assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
+  end else begin : g_host
+    assign rxd = 1'b1;
+
+    logic unused_line;
+    assign unused_line = rs485_rxd;
+
+    ppmc_board_host #(
+        .ClkHz    (CLK_HZ),
+        .XtalHz   (XTAL_HZ),
+        .Datasheet(TIMING == "DATASHEET"),
+        .Host     (HOST),
+        .Baud     (BAUD),
+        .Part     (312),
+        .AddrBits (3)
+    ) u_host (
+        .clk_i      (clk),
+        .rst_ni     (rst_n),
+        .rxd_i      (uart_rxd),
+        .txd_o      (uart_txd),
+        .cs_ni      (cs_n),
+        .rd_ni      (oe_n),
+        .wr_ni      (we_n),
+        .a_i        (rs),
+        .d_i,
+        .part_rst_no(part_rst_n),
+        .part_cs_no (part_cs_n),
+        .part_rd_no (part_oe_n),
+        .part_wr_no (part_we_n),
+        .part_a_o   (part_rs),
+        .part_d_o   (part_d),
+        .part_d_i   (d_o),
+        .int_ni     (irq_n),
+        .straps_o   (straps),
+        .switches_ni({alm_n, org_n, bhl_n, fhl_n, bl_n, fl_n}),
+        .hold_i     (hold),
+        .pout_ni    (!pout),
+        .dir_i      (dir),
+        .link_o     (led_link)
+    );
+  end
+
+  assign unused = &{1'b0, straps[7:3], out_oe};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_interval: when the next pulse of a motion is due, and how long a pulse lasts; the rate is the number of
+// base clocks of an interval.
+// Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
+// Timing: due_o is combinational and comes for pulse 1 WidthClk clk after arm_i, for pulse k + 1 so that it
+//         fires exactly ceil(ticks * clk a tick) clk after pulse 1; external clock: on the tick itself. Two
+//         pulses are at least 4 clk apart; nothing is caught up.
+// Note:   ppmc_base_clock and ppmc_rate_counter need 3 clk a base clock; here a base clock may be one clk.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_interval #(
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter int unsigned RateBits  = 16,
+    parameter int unsigned WidthXtal = 80           // pulse width and direction set-up
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6, 7: pin up, down
+    input  wire logic                extck_i,  // pin
+    input  wire logic                arm_i,    // start of a motion
+    input  wire logic                first_i,  // the coming pulse is pulse 1
+    input  wire logic                fire_i,   // a pulse, in a cycle of due_o
+    input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next one, at least 2
+    output logic                     due_o,    // the time for a pulse has come
+    output logic                     high_o    // a pulse is active
+);
+
+  localparam logic [2:0] ExtRise = 3'd6;
+  localparam int unsigned PreBits = 9;
+
+  logic quantum, tick, restart, level, last_q, edge_now, external, cut, up, unused_meta;
+  logic past_q, elapsed, old, elapsed_now;
+  logic [2:0] age_q;  // clk since the pulse, up to 4
+  logic [PreBits-1:0] pre_q, pre_load;
+  logic [RateBits-1:0] left_q, half_q;
+
+  assign external = base_i >= ExtRise;
+  assign restart  = fire_i && first_i;
+
+  ppmc_tick_gen #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (XtalHz),
+      .TickXtal(2),
+      .MinClk  (1)
+  ) u_quantum (
+      .clk_i,
+      .rst_ni,
+      .restart_i(restart),
+      .tick_o   (quantum)
+  );
+
+  ppmc_sync #(
+      .Width   (1),
+      .ResetVal(1'b1)
+  ) u_sync (
+      .clk_i,
+      .rst_ni,
+      .d_i (extck_i),
+      .q1_o(unused_meta),
+      .q2_o(level)
+  );
+
+  always_comb begin
+    unique case (base_i)
+      3'd1:    pre_load = PreBits'(7);
+      3'd2:    pre_load = PreBits'(15);
+      3'd3:    pre_load = PreBits'(31);
+      3'd4:    pre_load = PreBits'(127);
+      3'd5:    pre_load = PreBits'(511);
+      default: pre_load = '0;
+    endcase
+    edge_now = level != last_q && level == (base_i == ExtRise);
+    tick = external ? edge_now : quantum && pre_q == '0;
+  end
+
+  // A base clock in the cycle of a pulse belongs to the interval before.
+  assign old = age_q[2];
+  assign elapsed_now = tick && left_q == RateBits'(1);
+  assign elapsed = elapsed_now || past_q;
+  assign due_o = first_i ? up && (!external || tick) : elapsed && old;
+  assign cut = tick && half_q == RateBits'(1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      last_q <= 1'b1;
+      past_q <= 1'b0;
+      age_q  <= '0;
+      pre_q  <= '0;
+      left_q <= '0;
+      half_q <= '0;
+    end else begin
+      last_q <= level;
+      if (restart) pre_q <= pre_load;
+      else if (quantum) pre_q <= (pre_q == '0) ? pre_load : pre_q - 1'b1;
+      if (arm_i) begin
+        past_q <= 1'b0;
+        left_q <= '0;
+      end else if (fire_i) begin
+        past_q <= 1'b0;
+        age_q  <= 3'd1;
+        left_q <= rate_i;
+        half_q <= {1'b0, rate_i[RateBits-1:1]};
+      end else begin
+        if (elapsed_now) past_q <= 1'b1;
+        if (!old) age_q <= age_q + 1'b1;
+        if (tick && left_q != '0) left_q <= left_q - 1'b1;
+        if (tick && half_q != '0) half_q <= half_q - 1'b1;
+      end
+    end
+  end
+
+  ppmc_pulse_shaper #(
+      .ClkHz    (ClkHz),
+      .XtalHz   (XtalHz),
+      .RateBits (1),
+      .WidthXtal(WidthXtal),
+      .HalfRates(1)
+  ) u_shaper (
+      .clk_i,
+      .rst_ni,
+      .arm_i,
+      .pulse_i(fire_i),
+      .full_i (1'b0),
+      .halve_i(1'b0),
+      .rate_i (1'b0),
+      .cut_i  (cut),
+      .low_o  (high_o),
+      .up_o   (up)
+  );
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_mot_04, !(fire_i && !first_i) || age_q[2])
+`endif
+
+endmodule
+
+`default_nettype wire

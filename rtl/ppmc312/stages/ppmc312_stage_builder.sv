@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_stage_builder: fills the stage table from start-up, stop and high-speed rate and the pulses of both sides.
+// Rules:  P312-TBL-01..06, P312-CMD-00 (0x05).
+// Timing: busy_o rises with the edge of start_i and falls when the table and its description are complete: at
+//         most 127 * 300 clk. All inputs stand still meanwhile.
+// How:    stage i has the speed D_i = K*RH + (Rs-RH)*W_i. First pass: R[i] = C/D_i rounded, C = K*Rs*RH; where
+//         the sides begin; sums of D_i. Second pass: pulses in proportion to D_i, the remainder carried along.
+//         All sums are made by the multiplier, h + operand * lo; its numbers stay in a small RAM in between.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc312_stage_builder (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        start_i,
+    input  wire logic        cosine_i,      // sigmoid instead of linear
+    input  wire logic        split_i,       // both sides have their own number of pulses
+    input  wire logic [15:0] start_rate_i,
+    input  wire logic [15:0] stop_rate_i,
+    input  wire logic [15:0] fast_rate_i,
+    input  wire logic [23:0] acc_i,         // pulses of the acceleration side
+    input  wire logic [23:0] dec_i,         // of the deceleration side, with split_i
+    output logic             busy_o,
+    output logic             thin_o,        // a stage has two pulses or less; stands until the next start
+    // table
+    output logic             we_rate_o,
+    output logic             we_acc_o,
+    output logic             we_dec_o,
+    output logic      [ 6:0] addr_o,
+    output logic      [23:0] data_o,
+    // where the sides begin
+    output logic      [ 6:0] first_acc_o,
+    output logic      [ 6:0] first_dec_o,
+    output logic      [15:0] rate_acc_o,
+    output logic      [15:0] rate_dec_o,
+    // arithmetic, shared with the planner
+    output logic             op_start_o,
+    output logic             op_mul_o,
+    output logic             op_zero_o,     // h = 0
+    output logic      [ 5:0] op_steps_o,
+    output logic      [23:0] op_lo_o,
+    output logic      [39:0] word_o,        // h with op_start_o, then the operand
+    input  wire logic        op_busy_i,
+    input  wire logic [39:0] hi_i,
+    input  wire logic [23:0] lo_i
+);
+
+  localparam logic [6:0] Last = 7'd126;
+
+  typedef enum logic [3:0] {
+    StIdle,
+    StCopy,    // RH, Rs, Rs - RH into the RAM
+    StBase,    // K * RH; K is the weight of the last stage
+    StScale,   // K * Rs
+    StSpeed,   // D
+    StHalf,    // D / 2
+    StCurve,   // C + D / 2
+    StRate,    // / D
+    StBegin,   // do the sides begin here?
+    StSum,     // S + D
+    StShare,   // P * D + remainder
+    StPulses,  // / S
+    StWrite,
+    StNext
+  } state_e;
+
+  typedef enum logic [3:0] {
+    WordFast,
+    WordSlow,
+    WordSpread,
+    WordBase,
+    WordScale,
+    WordSpeed,
+    WordHalf,
+    WordUnused,
+    WordSum,     // of the first side
+    WordSumDec,
+    WordRest,
+    WordRestDec
+  } word_e;
+
+  state_e state_q;
+  logic pass_q, side_q, wait_q, works, done, last_side, we;
+  logic [1:0] phase_q, hit_q, open_q;
+  word_e h_word, x_word, to_word;
+  logic [1:0][ 6:0] first_q;
+  logic [1:0][15:0] entry_q;
+  logic [16:0] cosine, weight;
+  logic [15:0] slow_q, spread_q, rate, limit, given;
+  logic [39:0] result;
+  logic hit, begins;
+
+  ppmc312_cosine_rom u_rom (
+      .clk_i,
+      .index_i (addr_o),
+      .weight_o(cosine)
+  );
+
+  assign weight = cosine_i ? cosine : 17'(addr_o);
+  assign rate = lo_i[15:0];
+  assign limit = side_q ? stop_rate_i : start_rate_i;
+  // The slower side has all stages, whatever rounding makes of R[1].
+  assign hit = (limit == slow_q) ? addr_o == '0 : rate >= limit;
+  assign begins = addr_o == first_q[side_q];
+  assign last_side = side_q || !split_i;
+
+  assign busy_o = state_q != StIdle;
+  assign first_acc_o = first_q[0];
+  assign first_dec_o = first_q[1];
+  assign rate_acc_o = entry_q[0];
+  assign rate_dec_o = entry_q[1];
+
+  // ---- one operation a state: h, then the operand is read, then it is started --------------------------------
+
+  assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum, StShare, StPulses};
+  assign done = wait_q && !op_busy_i;
+  assign op_start_o = works && phase_q == 2'd2;
+  assign op_mul_o = !(state_q inside {StRate, StPulses});
+
+  always_comb begin
+    op_zero_o  = state_q inside {StBase, StScale};
+    op_steps_o = 6'd24;
+    h_word     = WordBase;
+    x_word     = WordSpeed;
+    to_word    = WordSpeed;
+    unique case (state_q)
+      StBase: begin
+        x_word  = WordFast;
+        to_word = WordBase;
+      end
+      StScale: begin
+        x_word  = WordSlow;
+        to_word = WordScale;
+      end
+      StSpeed: x_word = WordSpread;
+      StHalf: begin
+        h_word     = WordSpeed;
+        op_steps_o = 6'd1;
+        to_word    = WordHalf;
+      end
+      StCurve: begin
+        h_word     = WordHalf;
+        x_word     = WordScale;
+        op_steps_o = 6'd16;
+      end
+      StRate:  op_steps_o = 6'd16;
+      StSum: begin
+        op_zero_o = hit_q[side_q];
+        h_word    = side_q ? WordSumDec : WordSum;
+        to_word   = side_q ? WordSumDec : WordSum;
+      end
+      StShare: begin
+        op_zero_o = begins;
+        h_word    = side_q ? WordRestDec : WordRest;
+      end
+      StPulses: begin
+        x_word  = side_q ? WordSumDec : WordSum;
+        to_word = side_q ? WordRestDec : WordRest;
+      end
+      default: to_word = word_e'({2'b00, phase_q});
+    endcase
+    unique case (state_q)
+      StHalf:  op_lo_o = '0;
+      StCurve: op_lo_o = 24'(fast_rate_i);
+      StSum:   op_lo_o = 24'd1;
+      StShare: op_lo_o = side_q ? dec_i : acc_i;
+      default: op_lo_o = 24'(weight);
+    endcase
+    unique case (phase_q)
+      2'd0:    given = fast_rate_i;
+      2'd1:    given = slow_q;
+      default: given = spread_q;
+    endcase
+    unique case (state_q)
+      StCopy:           result = 40'(given);
+      StHalf, StPulses: result = hi_i;
+      default:          result = {hi_i[15:0], lo_i};
+    endcase
+    we = state_q == StCopy || (done && !(state_q inside {StCurve, StRate, StShare}));
+  end
+
+  ppmc_ram #(
+      .Width   (40),
+      .AddrBits(4)
+  ) u_words (
+      .clk_i,
+      .we_i   (we),
+      .waddr_i(to_word),
+      .wdata_i(result),
+      .raddr_i((phase_q == 2'd0 && !wait_q && op_mul_o) ? h_word : x_word),
+      .rdata_o(word_o)
+  );
+
+  // ---- order -----------------------------------------------------------------------------------------------------
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= StIdle;
+      phase_q <= '0;
+      wait_q  <= 1'b0;
+      pass_q  <= 1'b0;
+      side_q  <= 1'b0;
+      addr_o  <= Last;
+      thin_o  <= 1'b0;
+    end else begin
+      if (op_start_o) wait_q <= 1'b1;
+      else if (done) wait_q <= 1'b0;
+      if (op_start_o || done || !(works || state_q == StCopy)) phase_q <= '0;
+      else if (!wait_q) phase_q <= phase_q + 1'b1;
+      unique case (state_q)
+        StIdle: begin
+          pass_q <= 1'b0;
+          side_q <= 1'b0;
+          addr_o <= Last;
+          if (start_i) begin
+            thin_o  <= 1'b0;
+            state_q <= StCopy;
+          end
+        end
+        StCopy:
+        if (phase_q == 2'd2) begin
+          phase_q <= '0;
+          state_q <= StBase;
+        end
+        StBase:   if (done) state_q <= StScale;
+        StScale:
+        if (done) begin
+          addr_o  <= '0;
+          state_q <= StSpeed;
+        end
+        StSpeed:  if (done) state_q <= !pass_q ? StHalf : open_q[0] ? StShare : split_i ? StWrite : StNext;
+        StHalf:   if (done) state_q <= StCurve;
+        StCurve:  if (done) state_q <= StRate;
+        StRate:   if (done) state_q <= StBegin;
+        StBegin: begin
+          side_q <= !side_q;
+          if (side_q) state_q <= StSum;
+        end
+        StSum:
+        if (done) begin
+          side_q  <= !last_side;
+          state_q <= last_side ? StNext : StSum;
+        end
+        StShare:  if (done) state_q <= StPulses;
+        StPulses: if (done) state_q <= StWrite;
+        StWrite: begin
+          if (open_q[side_q] && lo_i <= 24'd2) thin_o <= 1'b1;
+          side_q  <= !last_side;
+          state_q <= last_side ? StNext : open_q[1] ? StShare : StNext;
+          if (!last_side && !open_q[1]) side_q <= 1'b0;
+        end
+        StNext: begin
+          addr_o  <= addr_o + 1'b1;
+          state_q <= StSpeed;
+          if (addr_o == Last) begin
+            addr_o  <= '0;
+            pass_q  <= 1'b1;
+            state_q <= pass_q ? StIdle : StSpeed;
+          end
+        end
+        default:  state_q <= StIdle;
+      endcase
+    end
+  end
+
+  // No reset: all of it is written before it is used. The rates stand long before they are.
+  always_ff @(posedge clk_i) begin
+    slow_q   <= (start_rate_i > stop_rate_i) ? start_rate_i : stop_rate_i;
+    spread_q <= slow_q - fast_rate_i;
+    if (state_q == StBegin) begin
+      hit_q[side_q] <= hit;
+      if (hit) begin
+        first_q[side_q] <= addr_o;
+        entry_q[side_q] <= rate;
+      end
+    end
+    // Second pass: the sides that have begun.
+    for (int unsigned n = 0; n < 2; n++) begin
+      if (!pass_q) open_q[n] <= 1'b0;
+      else if (addr_o == first_q[n]) open_q[n] <= 1'b1;
+    end
+  end
+
+  assign we_rate_o = state_q == StBegin && !side_q;
+  assign we_acc_o  = state_q == StWrite && !side_q && open_q[0];
+  assign we_dec_o  = state_q == StWrite && side_q;
+  assign data_o    = lo_i;
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_tbl_02_ends, !we_rate_o || addr_o != '0 || rate == slow_q)
+  `PPMC_ASSERT(p312_tbl_02_top, !we_rate_o || addr_o != Last || rate == fast_rate_i)
+`endif
+
+endmodule
+
+`default_nettype wire

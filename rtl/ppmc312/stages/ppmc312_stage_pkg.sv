@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_stage_pkg: types of the motion along a stage table.
+// Rules:  P312-GEN-06 (t(x)), P312-MOT-20.
+`default_nettype none
+
+package ppmc312_stage_pkg;
+
+  // A constant rate and what the look-up in the table has found for it.
+  typedef struct packed {
+    logic [15:0] rate;
+    logic        slows;  // a deceleration from it has stages
+    logic [6:0]  ge;     // last stage with at least this rate
+    logic [6:0]  ge1;    // the same plus 1; no such stage: the first one in use
+    logic [6:0]  gt1;    // last stage with a higher rate, plus 1
+  } target_t;
+
+  // Where a walk down the table begins.
+  typedef struct packed {
+    logic [6:0]  stage;
+    logic        part;   // not with all pulses of this stage,
+    logic [23:0] left;   // but with so many
+  } walk_t;
+
+  // A ramp as an initialisation gives it, or as a curve is described when its transfer begins.
+  typedef struct packed {
+    logic        cosine;  // sigmoid; 00 only
+    logic        split;   // acceleration and deceleration side of their own
+    logic [2:0]  base;    // base clock, see ppmc312_interval
+    logic [15:0] start;   // start-up rate
+    logic [15:0] stop;    // stop rate
+    logic [15:0] fast;    // high-speed rate
+    logic [23:0] acc;     // pulses of the sides
+    logic [23:0] dec;
+  } curve_t;
+
+  // The table in force.
+  typedef struct packed {
+    logic        valid;
+    logic        split;
+    logic [2:0]  base;
+    logic [6:0]  first_acc;  // first stage of a side
+    logic [6:0]  first_dec;
+    logic [15:0] rate_acc;   // and its rate
+    logic [15:0] rate_dec;
+    logic [15:0] fast;
+    logic [23:0] acc;        // pulses of the sides
+    logic [23:0] dec;
+  } table_t;
+
+  // A word on its way into the table.
+  typedef struct packed {
+    logic        rate;   // which columns
+    logic        acc;
+    logic        dec;
+    logic [6:0]  stage;
+    logic [23:0] data;
+  } entry_t;
+
+  // An operation along the table, planned.
+  typedef struct packed {
+    logic        endless;
+    logic        climb;    // begins with acceleration
+    logic [31:0] count;
+    logic [23:0] dec;      // pulses of the deceleration
+    walk_t from;           // where it begins
+    target_t     to;       // constant rate
+  } plan_t;
+
+endpackage
+
+`default_nettype wire

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_stage_plan: looks a rate up in the stage table and plans an operation with acceleration and deceleration.
+// Rules:  P312-MOT-10..13 (kinds, pulses of the sides), P312-GEN-06 (t(x)).
+// Timing: busy_o rises with the edge of start_i. A look-up takes 131 clk, a plan with an end at most 7 clk more, a
+//         triangle 60. 5 clk + the stages of the deceleration side are added where that does not begin with a full stage.
+//         Results stand until the next start.
+// How:    one pass goes up the table and adds the pulses of the sides, and keeps the sums as they are at the last
+//         stage that is fast enough: those of stages that both sides have, and those that only one side has.
+// Note:   t(x) is given as it is and plus 1; "no such stage" is the one before the first in use. Rates need not
+//         fall with the stages.
+`default_nettype none
+
+module ppmc312_stage_plan (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        start_i,
+    input  wire logic        ramp_i,        // plan, too; else look up only
+    input  wire logic        endless_i,     // the operation has no end of its own
+    input  wire logic [15:0] rate_i,        // steady while busy, as all below
+    input  wire logic [31:0] count_i,       // pulses, at least 1
+    input  wire logic [ 6:0] first_acc_i,   // where the sides of the table begin
+    input  wire logic [ 6:0] first_dec_i,
+    output logic             busy_o,
+    // table
+    output logic             both_o,        // the other port is needed, too
+    output logic      [ 6:0] addr_o,
+    input  wire logic [15:0] table_rate_i,
+    input  wire logic [23:0] table_acc_i,
+    input  wire logic [23:0] table_dec_i,   // with both_o
+    // look-up: last stage with at least this rate, the same plus 1, last one with a higher rate plus 1
+    output logic      [ 6:0] ge_o,
+    output logic      [ 6:0] ge1_o,
+    output logic      [ 6:0] gt1_o,
+    output logic             slows_o,       // the deceleration side begins with a higher rate
+    // plan
+    output logic             climb_o,       // begins with acceleration
+    output logic      [ 7:0] kind_o,        // status byte: 00 trapezoid, 10 triangle, 20, 40 right-angled
+    output logic      [23:0] dec_o,         // pulses of the deceleration
+    output logic      [ 6:0] dec_stage_o,   // where it begins
+    output logic             dec_part_o,    // with so many pulses of this stage:
+    output logic      [23:0] dec_left_o,
+    // arithmetic, shared with the builder
+    output logic             op_start_o,
+    output logic             op_mul_o,
+    output logic      [23:0] op_lo_o,
+    output logic      [24:0] operand_o,
+    input  wire logic        op_busy_i,
+    input  wire logic [23:0] lo_i
+);
+
+  localparam logic [6:0] Last = 7'd126;
+
+  typedef enum logic [3:0] {
+    StIdle,
+    StFind,      // look-up and sums
+    StOwn,       // what only one side has,
+    StAcc,       // the acceleration where both are,
+    StDec,       // and the deceleration: all
+    StKind,
+    StDecOwn,    // all of the deceleration side
+    StDecAll,
+    StShort,     // is it too long?
+    StRestAcc,   // what both have
+    StRestDec,
+    StMultiply,
+    StDivide,
+    StSplit,     // a triangle's acceleration
+    StSplitOwn,
+    StMeet       // where the deceleration begins
+  } state_e;
+
+  state_e state_q;
+  logic ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first;
+  logic [1:0] valid_q, in_acc_q, in_dec_q;  // in the sides: this stage, the one before
+  logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
+  logic [1:0][6:0] at_q;
+  logic [6:0] at;
+  logic [23:0] own_q, acc_q, dec_q, own_kept_q, acc_kept_q, dec_kept_q, x;
+  logic [24:0] sum_q, over_q;
+  logic [25:0] ahead;
+
+  assign acc_first = first_acc_i < first_dec_i;
+  assign busy_o = state_q != StIdle;
+
+  // ---- passes ----------------------------------------------------------------------------------------------------
+
+  // The table's answer is that of stage `at`. A look-up begins before stage 0: "none" may be there.
+  assign at = at_q[1];
+  assign step = valid_q[1];
+  assign both_o = ramp_q;
+
+  always_ff @(posedge clk_i) begin
+    at_q <= {at_q[0], addr_o};
+    if (run_q) addr_o <= addr_o + 1'b1;
+    else addr_o <= (state_q == StMeet) ? first_dec_i : 7'h7f;
+    if (!run_q) begin
+      in_acc_q <= '0;
+      in_dec_q <= '0;
+    end else if (valid_q[0]) begin
+      in_acc_q <= {in_acc_q[0], in_acc_q[0] || at_q[0] == first_acc_i};
+      in_dec_q <= {in_dec_q[0], in_dec_q[0] || at_q[0] == first_dec_i};
+    end
+  end
+
+  assign past = at >= ge1_o;
+  assign ends = run_q && step && ((state_q == StFind) ? at == Last : past);
+
+  // ---- look-up ---------------------------------------------------------------------------------------------------
+
+  assign virt = !in_acc_q[0] && !in_dec_q[0] && (at_q[0] == first_acc_i || at_q[0] == first_dec_i);
+  assign hit = virt || ((in_acc_q[0] || in_dec_q[0]) && table_rate_i >= rate_i);
+  assign higher = hit && (virt || table_rate_i != rate_i);
+
+  always_ff @(posedge clk_i) begin
+    if (state_q == StFind && step) begin
+      if (hit) begin
+        ge_o  <= at;
+        ge1_o <= at_q[0];
+      end
+      if (higher) gt1_o <= at_q[0];
+      if (in_dec_q == 2'b01) slows_o <= higher;
+      if (hit && in_acc_q[1]) climb_o <= 1'b1;
+    end
+    if (state_q == StIdle) climb_o <= start_i ? 1'b0 : climb_o;
+  end
+
+  // ---- sums ------------------------------------------------------------------------------------------------------
+
+  always_ff @(posedge clk_i) begin
+    hit_q <= state_q == StFind && step && hit;
+    if (state_q == StIdle) begin
+      own_q <= '0;
+      acc_q <= '0;
+      dec_q <= '0;
+    end else if (state_q == StFind && step) begin
+      if (in_acc_q[0] != in_dec_q[0]) own_q <= own_q + (acc_first ? table_acc_i : table_dec_i);
+      if (in_acc_q[0] && in_dec_q[0]) begin
+        acc_q <= acc_q + table_acc_i;
+        dec_q <= dec_q + table_dec_i;
+      end
+    end
+    if (hit_q) begin
+      own_kept_q <= own_q;
+      acc_kept_q <= acc_q;
+      dec_kept_q <= dec_q;
+    end
+  end
+
+  // What is left of the operation without the pulses of the sum.
+  assign ahead = {1'b0, count_i[24:0]} - {1'b0, sum_q};
+  assign big   = count_i[31:25] != '0;
+  assign full  = big || !ahead[25];
+  assign none  = !big && (ahead[25] || ahead[24:0] == '0);
+
+  always_comb begin
+    counts = step && !past;
+    unique case (state_q)
+      StOwn:                      x = own_kept_q;
+      StDecOwn:                   x = acc_first ? '0 : own_kept_q;
+      StSplitOwn:                 x = acc_first ? own_kept_q : '0;
+      StAcc, StRestAcc:           x = acc_kept_q;
+      StDec, StDecAll, StRestDec: x = dec_kept_q;
+      StSplit:                    x = lo_i;
+      default:                    x = counts ? table_dec_i : '0;
+    endcase
+    clear = state_q inside {StIdle, StFind, StKind, StShort} || (state_q == StDivide && op_done);
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (clear) sum_q <= '0;
+    else if (!(state_q inside {StMultiply, StDivide})) sum_q <= sum_q + 25'(x);
+    if (state_q == StAcc) over_q <= ahead[24:0];
+    // The deceleration begins with the last stage before which some of its pulses are left.
+    if (state_q == StMeet && counts && !none) begin
+      dec_stage_o <= at;
+      dec_left_o  <= ahead[23:0];
+    end
+    if (state_q == StShort) begin
+      dec_o       <= sum_q[23:0];
+      dec_stage_o <= ge_o;
+      dec_part_o  <= 1'b0;
+    end
+    if (state_q == StKind) dec_o <= '0;
+    if (state_q == StMeet) begin
+      dec_part_o <= 1'b1;
+      if (next_q) dec_o <= none ? '0 : ahead[23:0];
+    end
+  end
+
+  // ---- arithmetic ------------------------------------------------------------------------------------------------
+
+  assign op_start_o = !wait_q && state_q inside {StMultiply, StDivide};
+  assign op_mul_o = state_q == StMultiply;
+  assign operand_o = op_mul_o ? over_q : sum_q;
+  assign op_lo_o = acc_kept_q;
+  assign op_done = wait_q && !op_busy_i;
+
+  // ---- order -----------------------------------------------------------------------------------------------------
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= StIdle;
+      run_q   <= 1'b0;
+      next_q  <= 1'b0;
+      done_q  <= 1'b0;
+      valid_q <= '0;
+      wait_q  <= 1'b0;
+      ramp_q  <= 1'b0;
+      inner_q <= 1'b0;
+      kind_o  <= 8'h00;
+    end else begin
+      wait_q  <= op_start_o || (wait_q && op_busy_i);
+      valid_q <= ends ? '0 : {valid_q[0], run_q};
+      done_q  <= ends;
+      next_q  <= 1'b0;
+      if (ends) run_q <= 1'b0;
+      if (next_q) run_q <= 1'b1;
+      unique case (state_q)
+        StIdle:
+        if (start_i) begin
+          ramp_q  <= ramp_i;
+          kind_o  <= 8'h00;
+          state_q <= StFind;
+          run_q   <= 1'b1;
+        end
+        StFind:
+        if (done_q) begin
+          state_q <= (!ramp_q || endless_i) ? StIdle : climb_o ? StOwn : StDecOwn;
+          if (ramp_q && !endless_i && !climb_o) kind_o <= 8'h20;
+        end
+        StOwn:      state_q <= StAcc;
+        StAcc: begin
+          inner_q <= none;  // stays where only one side has stages
+          state_q <= StDec;
+        end
+        StDec:      state_q <= StKind;
+        StKind: begin
+          state_q <= full ? StDecOwn : StRestAcc;
+          if (!full) kind_o <= 8'h10;
+          if (!full && inner_q) begin
+            kind_o  <= acc_first ? 8'h40 : 8'h20;
+            state_q <= acc_first ? StIdle : StMeet;
+            next_q  <= !acc_first;
+          end
+        end
+        StDecOwn:   state_q <= StDecAll;
+        StDecAll:   state_q <= StShort;
+        StShort: begin
+          state_q <= full ? StIdle : StMeet;
+          next_q  <= !full;
+        end
+        StRestAcc:  state_q <= StRestDec;
+        StRestDec:  state_q <= StMultiply;
+        StMultiply: if (op_done) state_q <= StDivide;
+        StDivide:   if (op_done) state_q <= StSplit;
+        StSplit:    state_q <= StSplitOwn;
+        StSplitOwn: begin
+          state_q <= StMeet;
+          next_q  <= 1'b1;
+        end
+        default:    if (done_q) state_q <= StIdle;
+      endcase
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_stage_unit: the stage table, who fills it, who plans with it, the arithmetic they share, and the
+// description of the table in force.
+// Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
+// Timing: build_i and close_i are followed by busy_o until the table can be used. plan_start_i the same with
+//         plan_busy_o; the plan then stands until the next start. Read-back: data two clk after read_addr_i,
+//         while nothing is busy.
+`default_nettype none
+
+module ppmc312_stage_unit
+  import ppmc312_stage_pkg::*;
+(
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    // set-up
+    input  wire logic          drop_i,          // the table is void
+    input  wire logic          build_i,         // from curve_i, steady while busy
+    input  wire curve_t        curve_i,
+    output logic               busy_o,
+    output logic               thin_o,          // a stage has two pulses or less: no table
+    // free curve
+    input  wire logic          open_i,          // a transfer begins: sides and base clock
+    input  wire logic   [ 6:0] open_acc_i,      // their first stages
+    input  wire logic   [ 6:0] open_dec_i,
+    input  wire entry_t        entry_i,
+    input  wire logic          close_i,         // complete; curve_i has the pulses of the sides
+    // table in force
+    output table_t             table_o,
+    output target_t            home_o,          // what the look-up of rate_acc has found
+    input  wire logic          read_side_i,     // 1 = pulses of the deceleration side
+    input  wire logic   [ 6:0] read_addr_i,
+    output logic        [15:0] read_rate_o,
+    output logic        [23:0] read_pulses_o,
+    // planning
+    input  wire logic          plan_start_i,
+    input  wire logic          plan_ramp_i,
+    input  wire logic          plan_endless_i,
+    input  wire logic   [15:0] plan_rate_i,     // steady while busy
+    input  wire logic   [31:0] plan_count_i,
+    output logic               plan_busy_o,
+    output logic        [ 7:0] plan_kind_o,
+    output plan_t              plan_o,
+    // the motion's port
+    input  wire logic          side_i,
+    input  wire logic   [ 6:0] addr_i,
+    output logic        [15:0] rate_o,
+    output logic        [23:0] pulses_o
+);
+
+  typedef enum logic [1:0] {
+    StIdle,
+    StBuild,
+    StHome    // look R[first_acc] up
+  } state_e;
+
+  state_e state_q;
+  logic begin_q, build_busy, plan_busy, plan_start, found;
+  logic [15:0] find_rate;
+  entry_t built, entry;
+  logic [6:0] plan_addr, built_acc, built_dec;
+  logic [15:0] built_acc_rate, built_dec_rate;
+  target_t target;
+  logic takes, plan_climb, plan_both, ramp_q;
+  logic [23:0] plan_dec;
+  walk_t plan_from;
+
+  // ---- arithmetic ------------------------------------------------------------------------------------------------
+
+  logic op_start, op_busy, build_op, plan_op, op_mul, build_mul, plan_mul, build_zero;
+  logic [5:0] op_steps, build_steps;
+  logic [39:0] word, operand, hi;
+  logic [24:0] plan_operand;
+  logic [23:0] op_lo, build_lo, plan_lo, lo;
+
+  assign op_start = build_op || plan_op;
+  assign op_mul   = build_busy ? build_mul : plan_mul;
+  assign op_steps = build_busy ? build_steps : 6'd24;
+  assign op_lo    = build_busy ? build_lo : plan_lo;
+  assign operand  = build_busy ? word : 40'(plan_operand);
+
+  ppmc312_muldiv #(
+      .HiBits(40),
+      .LoBits(24)
+  ) u_arithmetic (
+      .clk_i,
+      .rst_ni,
+      .start_i  (op_start),
+      .mul_i    (op_mul),
+      .steps_i  (op_steps),
+      .zero_i   (build_zero || !build_busy),
+      .keep_i   (!op_mul),
+      .hi_i     (word),
+      .lo_i     (op_lo),
+      .operand_i(operand),
+      .busy_o   (op_busy),
+      .hi_o     (hi),
+      .lo_o     (lo)
+  );
+
+  // ---- who fills the table ---------------------------------------------------------------------------------------
+
+  ppmc312_stage_builder u_builder (
+      .clk_i,
+      .rst_ni,
+      .start_i     (build_i),
+      .cosine_i    (curve_i.cosine),
+      .split_i     (curve_i.split),
+      .start_rate_i(curve_i.start),
+      .stop_rate_i (curve_i.stop),
+      .fast_rate_i (curve_i.fast),
+      .acc_i       (curve_i.acc),
+      .dec_i       (curve_i.dec),
+      .busy_o      (build_busy),
+      .thin_o,
+      .we_rate_o   (built.rate),
+      .we_acc_o    (built.acc),
+      .we_dec_o    (built.dec),
+      .addr_o      (built.stage),
+      .data_o      (built.data),
+      .first_acc_o (built_acc),
+      .first_dec_o (built_dec),
+      .rate_acc_o  (built_acc_rate),
+      .rate_dec_o  (built_dec_rate),
+      .op_start_o  (build_op),
+      .op_mul_o    (build_mul),
+      .op_steps_o  (build_steps),
+      .op_zero_o   (build_zero),
+      .op_lo_o     (build_lo),
+      .word_o      (word),
+      .op_busy_i   (op_busy),
+      .hi_i        (hi),
+      .lo_i        (lo)
+  );
+
+  assign entry = build_busy ? built : entry_i;
+
+  // A plan is made at rest: the motion does not need its port. It keeps it while 87 or 88 look a rate up
+  // (plan_both low), and after the plan (plan_busy low).
+  assign takes = plan_busy && plan_both;
+
+  ppmc312_stage_table u_table (
+      .clk_i,
+      .we_rate_i  (entry.rate),
+      .we_pulses_i(entry.acc || entry.dec),
+      .wside_i    (!entry.acc),
+      .waddr_i    (entry.stage),
+      .wdata_i    (entry.data),
+      .side_a_i   ((takes || side_i) && table_o.split),
+      .addr_a_i   (takes ? plan_addr : addr_i),
+      .rate_a_o   (rate_o),
+      .pulses_a_o (pulses_o),
+      .side_b_i   (!plan_busy && read_side_i && table_o.split),
+      .addr_b_i   (plan_busy ? plan_addr : read_addr_i),
+      .rate_b_o   (read_rate_o),
+      .pulses_b_o (read_pulses_o)
+  );
+
+  // ---- who plans -------------------------------------------------------------------------------------------------
+
+  assign find_rate = (state_q == StHome) ? table_o.rate_acc : plan_rate_i;
+  assign plan_start = (plan_start_i && state_q == StIdle) || begin_q;
+  assign found = state_q == StHome && !begin_q && !plan_busy;
+
+  ppmc312_stage_plan u_plan (
+      .clk_i,
+      .rst_ni,
+      .start_i     (plan_start),
+      .ramp_i      (plan_ramp_i && state_q == StIdle),
+      .endless_i   (plan_endless_i),
+      .rate_i      (find_rate),
+      .count_i     (plan_count_i),
+      .first_acc_i (table_o.first_acc),
+      .first_dec_i (table_o.first_dec),
+      .busy_o      (plan_busy),
+      .both_o      (plan_both),
+      .addr_o      (plan_addr),
+      .table_rate_i(read_rate_o),
+      .table_acc_i (read_pulses_o),
+      .table_dec_i (pulses_o),
+      .ge_o        (target.ge),
+      .ge1_o       (target.ge1),
+      .gt1_o       (target.gt1),
+      .slows_o     (target.slows),
+      .climb_o     (plan_climb),
+      .kind_o      (plan_kind_o),
+      .dec_o       (plan_dec),
+      .dec_stage_o (plan_from.stage),
+      .dec_part_o  (plan_from.part),
+      .dec_left_o  (plan_from.left),
+      .op_start_o  (plan_op),
+      .op_mul_o    (plan_mul),
+      .op_lo_o     (plan_lo),
+      .operand_o   (plan_operand),
+      .op_busy_i   (op_busy),
+      .lo_i        (lo)
+  );
+
+  assign target.rate = find_rate;
+  assign plan_busy_o = plan_busy;
+  assign plan_o = '{
+          endless: plan_endless_i,
+          climb: ramp_q && plan_climb,
+          count: plan_count_i,
+          dec: ramp_q ? plan_dec : '0,
+          from : plan_from,
+          to: target
+      };
+
+  always_ff @(posedge clk_i) if (plan_start_i) ramp_q <= plan_ramp_i;
+
+  // ---- table in force --------------------------------------------------------------------------------------------
+
+  assign busy_o = state_q != StIdle;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= StIdle;
+      begin_q <= 1'b0;
+      table_o <= '0;
+    end else begin
+      begin_q <= 1'b0;
+      unique case (state_q)
+        StIdle: begin
+          if (build_i) state_q <= StBuild;
+          else if (close_i) begin
+            state_q <= StHome;
+            begin_q <= 1'b1;
+          end
+        end
+        StBuild:
+        if (!build_busy) begin
+          state_q <= thin_o ? StIdle : StHome;
+          begin_q <= !thin_o;
+        end
+        StHome:
+        if (found) begin
+          state_q       <= StIdle;
+          table_o.valid <= 1'b1;
+        end
+        default: state_q <= StIdle;
+      endcase
+      if (drop_i || open_i || build_i) table_o.valid <= 1'b0;
+      if (open_i) begin
+        table_o.first_acc <= open_acc_i;
+        table_o.first_dec <= open_dec_i;
+      end
+      if (open_i || build_i) begin
+        table_o.split <= curve_i.split;
+        table_o.base  <= curve_i.base;
+      end
+      if (state_q == StBuild) begin
+        table_o.first_acc <= built_acc;
+        table_o.first_dec <= built_dec;
+        table_o.rate_acc  <= built_acc_rate;
+        table_o.rate_dec  <= built_dec_rate;
+        table_o.fast      <= curve_i.fast;
+      end else if (entry_i.rate) begin
+        if (entry_i.stage == table_o.first_acc) table_o.rate_acc <= entry_i.data[15:0];
+        if (entry_i.stage == table_o.first_dec) table_o.rate_dec <= entry_i.data[15:0];
+        if (entry_i.stage == 7'd126) table_o.fast <= entry_i.data[15:0];
+      end
+      if (close_i || build_i) begin
+        table_o.acc <= curve_i.acc;
+        table_o.dec <= curve_i.split ? curve_i.dec : curve_i.acc;
+      end
+    end
+  end
+
+  // No reset: table_o.valid tells whether it means anything.
+  always_ff @(posedge clk_i) if (found) home_o <= target;
+
+endmodule
+
+`default_nettype wire

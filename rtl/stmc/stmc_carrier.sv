@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// stmc_carrier: everything of a board with the controller of the J105 STMC but its clock generator and pads: the part,
+//         its second step clock, and as its host either the UART bridge or the pins of its bus.
+// Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": section 1.3 of the STMC rules;
+//         step clock: J105-06. Wiring: docs/boards.md.
+// Timing: of stmc; the inputs need no synchroniser outside.
+`default_nettype none
+
+module stmc_carrier #(
+    parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter string       TIMING     = "FAST",
+    parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
+    parameter bit          PHASE_IDLE = 1'b0,
+    parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
+    parameter string       HOST       = "UART",      // or "BUS"
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // bus host
+    input  wire logic       cs_n,
+    input  wire logic       a0,
+    input  wire logic       rd_n,
+    input  wire logic       wr_n,
+    input  wire logic [7:0] d_i,
+    output logic      [7:0] d_o,
+    output logic            d_oe,
+    output logic            int_n,
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       mon,       // 1 = the motor may run
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    // lamps
+    output logic            led_link   // 1: a script is running or an answer is on its way
+);
+
+  logic part_rst_n, part_cs_n, part_a0, part_rd_n, part_wr_n, ext_rst_n, ext_clk, pout_n, dir, unused_straps;
+  logic [7:0] part_d, straps;
+
+  // The step clock goes on when only the part is reset.
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .rst_no(ext_rst_n)
+  );
+
+  // Half a period of the wave counts as one "crystal" cycle.
+  ppmc_square #(
+      .ClkHz   (CLK_HZ),
+      .XtalHz  (2 * EXT_HZ),
+      .HalfXtal(1)
+  ) u_ext (
+      .clk_i (clk),
+      .rst_ni(ext_rst_n),
+      .wave_o(ext_clk)
+  );
+
+  stmc #(
+      .CLK_HZ    (CLK_HZ),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .READ_MAP  (READ_MAP),
+      .PHASE_IDLE(PHASE_IDLE)
+  ) u_part (
+      .clk,
+      .rst_n(part_rst_n),
+      .ext_clk,
+      .cs_n (part_cs_n),
+      .a0   (part_a0),
+      .rd_n (part_rd_n),
+      .wr_n (part_wr_n),
+      .d_i  (part_d),
+      .d_o,
+      .d_oe,
+      .int_n,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .mon,
+      .s,
+      .hold
+  );
+
+  ppmc_board_steps u_steps (
+      .clk_i  (clk),
+      .rst_ni (part_rst_n),
+      .s_i    (s),
+      .pout_no(pout_n),
+      .dir_o  (dir)
+  );
+
+  ppmc_board_host #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .Host     (HOST),
+      .Baud     (BAUD),
+      .Part     (105)
+  ) u_host (
+      .clk_i      (clk),
+      .rst_ni     (rst_n),
+      .rxd_i      (uart_rxd),
+      .txd_o      (uart_txd),
+      .cs_ni      (cs_n),
+      .rd_ni      (rd_n),
+      .wr_ni      (wr_n),
+      .a_i        (a0),
+      .d_i,
+      .part_rst_no(part_rst_n),
+      .part_cs_no (part_cs_n),
+      .part_rd_no (part_rd_n),
+      .part_wr_no (part_wr_n),
+      .part_a_o   (part_a0),
+      .part_d_o   (part_d),
+      .part_d_i   (d_o),
+      .int_ni     (int_n),
+      .straps_o   (straps),
+      .switches_ni({mon, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+      .hold_i     (hold),
+      .pout_ni    (pout_n),
+      .dir_i      (dir),
+      .link_o     (led_link)
+  );
+
+  assign unused_straps = ^straps;
+
+endmodule
+
+`default_nettype wire
