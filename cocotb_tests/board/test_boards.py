@@ -18,12 +18,12 @@ BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
-HERE = ROOT / "cocotb_tests" / "boards"
+HERE = ROOT / "cocotb_tests" / "board"
 RTL = ROOT / "rtl" / "boards"
 # One C++ file: the wheel's make file cannot use the header that several share. Start values 0, as in an FPGA:
 # the top's power-on reset is made of them, and no pin can give an edge of reset before the first clk.
 ARGS = ("--output-split", "0", "--x-initial", "0")
-SHARED = [RTL / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
 
 
 @pytest.mark.parametrize("item", BLOCK_ITEMS)

@@ -7,12 +7,13 @@ rst_n can fall between two edges. A difference gives a text report, a VCD and a 
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 from typing import Any
+
+from openppmc import parts
 
 from .part import PARTS, Part
 from .stimulus import Change, Edge, Recording, by_signal
@@ -51,8 +52,7 @@ class Comparison:
 
 def new_model(recording: Recording) -> Any:
     """Golden model of the recorded part under the recorded parameters."""
-    module = importlib.import_module(f"openppmc.model.{recording.part}")
-    model = getattr(module, "".join(word.capitalize() for word in recording.part.split("_")))
+    model = parts.part(recording.part).load("model")
     return model(**{name.lower(): value for name, value in recording.params.items()})
 
 

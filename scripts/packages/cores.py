@@ -234,6 +234,6 @@ def core_files() -> dict[Path, str]:
     }
     cores[WAIVERS.parent / "openppmc_waivers.core"] = WAIVERS_CORE
     cores[WAIVERS] = (ROOT / "lint" / "verilator.vlt").read_text()
-    cores[ROOT / "tb" / "fusesoc" / "ppmc104_smoke.core"] = SMOKE
+    cores[ROOT / "tb/ppmc104/ppmc104_smoke.core"] = SMOKE
     cores[ROOT / "openppmc_boards.core"] = boards_core(groups["boards"])
     return cores

@@ -56,7 +56,7 @@ def test_bridge_board(item, sim_options):
 def station_design(item) -> Design:
     """A PPMC-2104 on the pins of the old bus, with the reset and the lamps of a board."""
     part = part_design("ppmc2104", item.config)
-    panel = [BOARDS / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+    panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
     boards = [*panel, *board_files("ppmc2104"), BOARDS / "ppmc2104_station.sv"]
     params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
     args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA

@@ -18,7 +18,7 @@ from cocotb_tests.harness.runner import VERILATOR_ARGS, SimError, from_root, loc
 from openppmc.sim.common import verilator
 
 TOP = "line_station"
-FOLDER = ROOT / "tb" / "line"
+FOLDER = ROOT / "tb/ppmc312/line"
 FAST_ARGS = ("-O3", "--x-assign", "fast", "--x-initial", "fast", "-CFLAGS", "-O3", "--output-split", "0")
 """Without assertions and without random start values: for figures, not for tests."""
 

@@ -39,7 +39,8 @@ def only_line(done: subprocess.CompletedProcess[str]) -> str:
 def flash(root: Path, path: Path) -> subprocess.CompletedProcess[str]:
     """`make flash` for the Tang Nano 9K with `root` as the project's folder and `path` as PATH."""
     code = (
-        "import sys; from pathlib import Path; from scripts import flash, project; "
+        "import sys; from pathlib import Path; from cocotb_tests.harness import project; "
+        "from scripts import flash; "
         f"project.ROOT = Path({str(root)!r}); project.BUILD = project.ROOT / 'build'; "
         "sys.argv = ['flash', 'tangnano9k']; sys.exit(project.run(flash.main))"
     )

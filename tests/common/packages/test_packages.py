@@ -22,7 +22,7 @@ PARTS_OF = {
     "pmc006": ["ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "pmc006_carrier"],
 }
 IN_USE = {name for names in PARTS_OF.values() for name in names}
-BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name[7:-3] in IN_USE]
+BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name.rsplit("/")[-1][:-3] in IN_USE]
 # What each part needs besides the blocks that all use.
 NEEDS = {
     "ppmc104": ["host", "single"],
@@ -62,7 +62,8 @@ def test_list_of_a_part(part):
     """Given a part's list, then it names the shared blocks, the part and its board module."""
     groups = ["common", "motion", *NEEDS[part], part]
     own = [f"rtl/{name}" for group in groups for name in LISTED[group]]
-    boards = [f"rtl/boards/{name}.sv" for name in PARTS_OF.get(part, [])]
+    wanted = {f"{name}.sv" for name in PARTS_OF.get(part, [])}
+    boards = [name for name in BOARDS if name.rsplit("/")[-1] in wanted]
     assert listed(f"{part}.f") == [*own, *boards]
 
 

@@ -1,0 +1,248 @@
+"""The one table of parts: where the things of each are, never how they work. Source: docs/architecture.md.
+
+Needs the standard library only and imports nothing of the project, so that `make` can ask it before there is
+an environment:
+
+    python3 openppmc/parts.py names [--with FIELD]     names of all parts, or of those that have this
+    python3 openppmc/parts.py show NAME                one row, a field a line
+
+Places in the columns `model`, `driver`, `kind`, `commands` and `machine` are "module:name" below the part's
+folder in that layer; `load` imports them when they are asked for.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+
+class UnknownPartError(ValueError):
+    """A name or number that is not in the table, or a part without what was asked for. One line."""
+
+
+LAYER_OF = {"model": "model", "driver": "host", "kind": "host", "commands": "cli", "machine": "sim"}
+"""Column with places -> folder of openppmc in which they are."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One part, or another one in a frame (`of`), which lives in that one's folder.
+
+    name: `PART=`, `--part`, `part=` and the folder in every layer. title: in messages, on pages and pictures.
+    of: the part whose folder it shares and whose columns it takes over where it has none of its own (but for
+    the yes-or-no ones). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
+    its rule IDs. rtl: its group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
+    docs: pages of its folder in docs/ beside README.md and traceability.md. carrier: there is a
+    <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
+    own. demo, soak, gates: `make demo`, `make soak`, `make test-gates` have it.
+    """
+
+    name: str
+    title: str = ""
+    of: str = ""
+    number: int = 0
+    rules: tuple[str, ...] = ()
+    rtl: str = ""
+    top: str = ""
+    families: tuple[str, ...] = ()
+    model: str = ""
+    driver: str = ""
+    kind: str = ""
+    commands: str = ""
+    machine: str = ""
+    docs: tuple[str, ...] = ()
+    carrier: bool = False
+    line: bool = False
+    demo: bool = False
+    soak: bool = False
+    gates: bool = False
+
+    @property
+    def folder(self) -> str:
+        """Folder in every layer."""
+        return self.of or self.name
+
+    def load(self, column: str) -> Any:
+        """What the place in this column names; UnknownPartError if the part has none."""
+        place: str = getattr(self, column)
+        if not place:
+            raise UnknownPartError(f"part {self.name} has no {column}")
+        module, _, name = place.partition(":")
+        package = f"openppmc.{LAYER_OF[column]}.{self.folder}"
+        return getattr(importlib.import_module(f"{package}.{module}"), name)
+
+
+BOTH = ("ecp5", "ice40")
+ROWS = (
+    Row(
+        name="ppmc104",
+        title="PPMC-104",
+        number=104,
+        rules=("P104",),
+        families=BOTH,
+        model="part:Ppmc104",
+        driver="driver:Ppmc104",
+        kind="kind:KIND",
+        machine="machine:MACHINE",
+        docs=("replace.md", "examples.md", "rulings.md"),
+        carrier=True,
+        demo=True,
+        soak=True,
+        gates=True,
+    ),
+    Row(
+        name="ppmc2104",
+        title="PPMC-2104",
+        number=2104,
+        rules=("P2104",),
+        families=BOTH,
+        model="part:Ppmc2104",
+        driver="driver:Ppmc2104",
+        kind="kind:KIND",
+        machine="machine:MACHINE",
+        docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
+        carrier=True,
+        demo=True,
+        soak=True,
+        gates=True,
+    ),
+    Row(name="isa_4axis", title="four axes on an ISA bus", of="ppmc2104", rtl="isa_4axis", top="isa_4axis"),
+    Row(
+        name="stmc",
+        title="J105 STMC",
+        number=105,
+        rules=("STMC", "J105"),
+        families=BOTH,
+        model="part:Stmc",
+        driver="driver:Stmc",
+        kind="kind:KIND",
+        machine="machine:MACHINE",
+        docs=("replace.md", "examples.md", "rulings.md"),
+        carrier=True,
+        demo=True,
+        soak=True,
+        gates=True,
+    ),
+    Row(
+        name="j105_stmc",
+        title="J105 STMC board",
+        of="stmc",
+        rtl="j105_stmc",
+        top="j105_stmc",
+        model="pc104_board:J105Stmc",
+        gates=True,
+    ),
+    Row(
+        name="ppmc312",
+        title="PPMC-312",
+        number=312,
+        rules=("P312",),
+        families=("ecp5",),
+        model="part:Ppmc312",
+        driver="driver:Ppmc312",
+        kind="kind:KIND",
+        machine="machine:MACHINE",
+        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "rulings.md"),
+        carrier=True,
+        demo=True,
+        soak=True,
+        gates=True,
+    ),
+    Row(
+        name="ppmc312-serial",
+        title="PPMC-312 in serial mode",
+        of="ppmc312",
+        driver="line.bus:Ppmc312Bus",
+        kind="line.kind:KIND",
+        commands="line.app:app",
+        machine="line_spec:MACHINE",
+        line=True,
+        demo=True,
+        soak=True,
+    ),
+    Row(
+        name="pmc006",
+        title="PMC006B4",
+        rules=("P006",),
+        families=BOTH,
+        model="part:Pmc006",
+        driver="bus:Pmc006Bus",
+        kind="kind:KIND",
+        commands="app:app",
+        machine="line_spec:MACHINE",
+        docs=("rulings.md",),
+        carrier=True,
+        line=True,
+        demo=True,
+        soak=True,
+        gates=True,
+    ),
+)
+YES_OR_NO = ("carrier", "line", "demo", "soak", "gates")
+OWN = ("name", "of", "number", "rules", "docs", *YES_OR_NO)
+"""Columns that a row does not take from the one it is `of`."""
+
+
+def _filled(row: Row) -> Row:
+    """The row with what it takes from the part it is `of`, and group and top module by its name."""
+    if row.of:
+        other = _filled(next(known for known in ROWS if known.name == row.of))
+        empty = [f.name for f in fields(row) if f.name not in OWN and not getattr(row, f.name)]
+        row = replace(row, **{name: getattr(other, name) for name in empty})
+    return replace(row, rtl=row.rtl or row.name, top=row.top or row.name)
+
+
+PARTS: dict[str, Row] = {row.name: _filled(row) for row in ROWS}
+"""Every row by its name, in the order in which parts are listed."""
+
+
+def part(name: str) -> Row:
+    """The row of this name; UnknownPartError lists the names that there are."""
+    if name not in PARTS:
+        raise UnknownPartError(f"part {name}: there is no such part (there are {', '.join(PARTS)})")
+    return PARTS[name]
+
+
+def having(*columns: str) -> tuple[Row, ...]:
+    """The rows that have something in all of these columns. UnknownPartError for a column that is not there."""
+    known = [f.name for f in fields(Row)]
+    for column in columns:
+        if column not in known:
+            raise UnknownPartError(f"{column}: there is no such column (there are {', '.join(known)})")
+    return tuple(row for row in PARTS.values() if all(getattr(row, column) for column in columns))
+
+
+def folders() -> tuple[Row, ...]:
+    """The parts with folders of their own."""
+    return tuple(row for row in PARTS.values() if not row.of)
+
+
+def by_number(number: int) -> Row | None:
+    """The part that tells this number over the UART bridge, or None."""
+    return next((row for row in having("number") if row.number == number), None)
+
+
+def main(arguments: list[str]) -> int:
+    """Command line, for make and shell scripts; returns the exit code."""
+    try:
+        if arguments == ["names"]:
+            print(*PARTS)
+        elif arguments[:2] == ["names", "--with"] and arguments[2:]:
+            print(*(row.name for row in having(*arguments[2:])))
+        elif arguments[:1] == ["show"] and len(arguments) == 2:
+            for f in fields(Row):
+                value = getattr(part(arguments[1]), f.name)
+                print(f"{f.name}: {' '.join(value) if isinstance(value, tuple) else value}")
+        else:
+            print("expected: names [--with COLUMN…] or show NAME", file=sys.stderr)
+            return 2
+    except UnknownPartError as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
