@@ -32,8 +32,8 @@ class Row:
 
     name: `PART=`, `--part`, `part=` and the folder in every layer. title: in messages, on pages and pictures.
     of: the part whose folder it shares and whose columns it takes over where it has none of its own (but for
-    the yes-or-no ones). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
-    its rule IDs. rtl: its group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
+    the yes-or-no ones). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes
+    of its rule IDs. rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
     docs: pages of its folder in docs/ beside README.md and traceability.md. carrier: there is a
     <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
     own. demo, soak, gates: `make demo`, `make soak`, `make test-gates` have it.
@@ -206,7 +206,7 @@ def part(name: str) -> Row:
 
 
 def having(*columns: str) -> tuple[Row, ...]:
-    """The rows that have something in all of these columns. UnknownPartError for a column that is not there."""
+    """The rows that have something in all of these columns. UnknownPartError for an unknown column."""
     known = [f.name for f in fields(Row)]
     for column in columns:
         if column not in known:
