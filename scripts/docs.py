@@ -15,11 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
 from scripts.pictures import house, plots, tables, waves
-from scripts.pmc006 import diagram as diagram_006
-from scripts.ppmc312 import diagram as diagram_312
 from scripts.pmc006 import currents
+from scripts.pmc006 import diagram as diagram_006
 from scripts.pmc006 import plots as plots_006
 from scripts.pmc006 import tables as tables_006
+from scripts.ppmc312 import diagram as diagram_312
 from scripts.ppmc312 import plots as plots_312
 from scripts.ppmc312 import tables as tables_312
 from scripts.ppmc312 import waves as waves_312
