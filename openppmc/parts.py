@@ -219,6 +219,11 @@ def folders() -> tuple[Row, ...]:
     return tuple(row for row in PARTS.values() if not row.of)
 
 
+def tops() -> tuple[Row, ...]:
+    """The parts with a top module of their own, those in another one's folder among them."""
+    return tuple(row for row in PARTS.values() if row.top == row.name)
+
+
 def by_number(number: int) -> Row | None:
     """The part that tells this number over the UART bridge, or None."""
     return next((row for row in having("number") if row.number == number), None)
