@@ -12,6 +12,8 @@ from typing import Any
 
 import cocotb
 
+from openppmc import parts
+
 from .bench import Bench
 from .config import Config, configs
 from .part import Part
@@ -60,7 +62,7 @@ def module_tests(part: Part, modules: Mapping[str, tuple[Config, ...]], module: 
     tests = {}
     for path, builds in modules.items():
         stem = Path(path).stem.removeprefix("test_").removeprefix("script_")
-        name = f"{part.prefix.lower()}_{stem}"
+        name = f"{parts.part(part.name).rules[0].lower()}_{stem}"
         assert name not in tests, f"{path}: second module called {name}"
         tests[name] = _test(part, path, builds, name)
         tests[name].func.__module__ = module

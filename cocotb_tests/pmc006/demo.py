@@ -8,9 +8,10 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.tape import record
 from cocotb_tests.pmc006.story import Story006
+
+from .bench import PMC006
 
 
 @cocotb.test()

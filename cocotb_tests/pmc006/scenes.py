@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.scripts import parameters
 from openppmc.model.carrier.eeprom import Eeprom24C32
 
+from .bench import PMC006
 from .script_host import Host006
 
 EXT1, EXT2, DECAY, STALL = 0x02, 0x04, 0x08, 0x10

@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.script import Script
 from cocotb_tests.harness.scripts import parameters, simulating
 from cocotb_tests.harness.serial_line import SerialLine, characters
@@ -17,6 +16,7 @@ from cocotb_tests.harness.stimulus import Access
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.part import Pmc006
 
+from .bench import PMC006
 from .frames import command, number, of_reply
 from .i2c_bus import I2cBus
 from .watch import Watch

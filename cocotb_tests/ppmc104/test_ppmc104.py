@@ -10,6 +10,8 @@ from cocotb_tests.harness.elaborate import check_ranges
 from cocotb_tests.harness.runner import part_design, run_item
 from cocotb_tests.harness.verifies import verifies
 
+from .bench import PPMC104
+
 ITEMS = cocotb_items(
     "cocotb_tests.ppmc104",
     "tb_acceptance_moves",
@@ -33,6 +35,7 @@ ITEMS = cocotb_items(
     "tb_lookup",
     "tb_ext_clock",
     "tb_manual",
+    part=PPMC104,
 )
 
 # Parameter, legal extremes, values just outside.

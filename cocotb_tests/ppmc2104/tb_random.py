@@ -8,12 +8,13 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.player import describe
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_player import Player2104
+
+from .bench import PPMC2104
 
 
 @cocotb.test()

@@ -7,8 +7,9 @@ import pytest
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.elaborate import check_ranges
-from cocotb_tests.harness.part import STMC
 from cocotb_tests.harness.runner import part_design, run_item
+
+from .bench import STMC
 
 ITEMS = cocotb_items(
     "cocotb_tests.stmc",

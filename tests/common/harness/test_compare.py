@@ -9,8 +9,8 @@ import pytest
 
 from cocotb_tests.harness.compare import compare_edges, compare_recording, report, write_report
 from cocotb_tests.harness.compare_draw import differing_spans
-from cocotb_tests.harness.part import PPMC104
 from cocotb_tests.harness.stimulus import Access, Change, Edge, Recording
+from cocotb_tests.ppmc104.bench import PPMC104
 
 INITIAL = PPMC104.reset_levels()
 
