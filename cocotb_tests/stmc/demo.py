@@ -9,8 +9,8 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
+from cocotb_tests.harness.stimulus import steps
 from cocotb_tests.harness.story import Story
-from scripts.demo.scenes import steps
 
 from .bench import J105_STMC
 

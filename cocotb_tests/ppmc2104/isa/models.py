@@ -5,7 +5,8 @@ from __future__ import annotations
 from itertools import groupby
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.compare import Comparison, compare_recording, write_report
+from cocotb_tests.harness.compare import compare_recording, write_report
+from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.stimulus import Change, Edge, Recording
 
 from ..bench import PPMC2104
