@@ -34,7 +34,7 @@ START = 1024
 """clk from the end of a frame to t = 0 of a motion, beside 1 us."""
 
 
-class Host006(Watch, SerialLine, Script):
+class Host(Watch, SerialLine, Script):
     """The host of one part, just booted.
 
     address: of the part, as the host knows it. levels: of input pins from edge 0 on. eeprom: the device on

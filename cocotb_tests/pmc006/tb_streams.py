@@ -16,12 +16,12 @@ from cocotb_tests.harness.verifies import verifies
 from .bench import PMC006
 from .modules import F8B
 from .scenes import after_steps, brisk, run
-from .script_host import Host006
+from .script_host import Host
 
 
-def turning() -> Host006:
+def turning() -> Host:
     """References of many sizes and signs, off and on again."""
-    host = Host006()
+    host = Host()
     host.ok(e=4000)
     brisk(host, 2000, m=8)
     run(host)

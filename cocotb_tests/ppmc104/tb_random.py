@@ -14,7 +14,7 @@ from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
-from cocotb_tests.ppmc104.random_player import Player104
+from cocotb_tests.ppmc104.random_player import HostPlayer
 
 from .bench import PPMC104
 
@@ -43,7 +43,7 @@ async def random_host(dut: Any) -> None:
         plan = scenario(seed)
         bench = await Bench.start(dut, PPMC104, seed=seed, **plan.pins)
         (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-        await Player104(bench, plan).run()
+        await HostPlayer(bench, plan).run()
         result = check_against_model(bench)
         assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
 

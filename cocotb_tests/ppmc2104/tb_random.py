@@ -12,7 +12,7 @@ from cocotb_tests.harness.player import describe
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.random_host import scenario
-from cocotb_tests.ppmc2104.random_player import Player2104
+from cocotb_tests.ppmc2104.random_player import HostPlayer
 
 from .bench import PPMC2104
 
@@ -43,7 +43,7 @@ async def p2104_random_host(dut: Any) -> None:
         plan = scenario(seed)
         bench = await Bench.start(dut, PPMC2104, seed=seed, **plan.pins)
         (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-        await Player2104(bench, plan).run()
+        await HostPlayer(bench, plan).run()
         result = check_against_model(bench)
         assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
 
