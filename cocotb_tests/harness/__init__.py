@@ -26,7 +26,7 @@ In short, for someone who writes tests:
         bench.check("P104-STP-01", "pulses", len(bench.pulses(start)), 10)
         bench.check("AC-20", "finish status", await host.run("c 80 r"), [0xC4])
 
-    # cocotb_tests/ppmc104/test_ppmc104.py                    (runs under pytest)
+    # cocotb_tests/ppmc104/test_part.py                    (runs under pytest)
     ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus")
     @pytest.mark.parametrize("item", ITEMS)
     def test_ppmc104(item, sim_options):

@@ -1,6 +1,6 @@
 """Turns the cocotb tests of tb_* modules into pytest items: one item a test and build configuration.
 
-# test_ppmc104.py
+# test_part.py
 ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_bus", "tb_status", part=PPMC104)
 
 @pytest.mark.parametrize("item", ITEMS)
