@@ -90,7 +90,7 @@ def test_a_line_of_models_answers():
 def test_demo_and_its_waves():
     """Given the name of the line, then its demo is found by it, and each shown pin is one of a station."""
     assert part_of(["--part", "ppmc312-serial"]) == "ppmc312-serial"
-    with pytest.raises(ProjectError, match="pmc006, ppmc312-serial"):
+    with pytest.raises(ProjectError, match="ppmc312, ppmc312-serial"):
         chosen(["--part", "isa_4axis"])
     names = {name.split(".")[1] for _, group in view(STATIONS).groups[1:] for name in group}
     assert names - {"speed_pps", "position"} <= set(PPMC312.outputs)
