@@ -38,6 +38,7 @@ LAYER_OF = {
     "soak": "cocotb_tests",
     "gates": "cocotb_tests",
     "demo": "scripts",
+    "bench": "scripts",
 }
 """Column with places -> package in which each part has its folder."""
 
@@ -48,12 +49,15 @@ class Row:
 
     name: `PART=`, `--part`, `part=` and the folder in every layer. title: in messages, on pages and pictures.
     of: the part whose folder it shares and whose columns it takes over where it has none of its own (but for
-    those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes
-    of its rule IDs. rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
+    those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
+    its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
+    rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
     docs: pages of its folder in docs/ beside README.md and traceability.md. carrier: there is a
     <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
-    own. demo: what `make demo` plays, or a function that plays it. soak: what makes the test of a seed for
-    `make soak`. gates: which tests `make test-gates` runs.
+    own.
+    demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
+    on the pins of a part. soak: what makes the test of a seed for `make soak`, or a campaign of many a seed.
+    gates: which tests `make test-gates` runs.
     """
 
     name: str
@@ -75,6 +79,7 @@ class Row:
     carrier: bool = False
     line: bool = False
     demo: str = ""
+    bench: str = ""
     soak: str = ""
     gates: str = ""
 
@@ -182,7 +187,8 @@ ROWS = (
         machine="line_spec:MACHINE",
         line=True,
         demo="line.demo:main",
-        soak="line.soak:one",
+        bench="line.bench:main",
+        soak="line.soak:SOAK",
     ),
     Row(
         name="pmc006",
@@ -202,7 +208,7 @@ ROWS = (
         gates="gates:PART",
     ),
 )
-OWN = ("name", "of", "number", "rules", "docs", "carrier", "line", "demo", "soak", "gates")
+OWN = ("name", "of", "number", "rules", "docs", "carrier", "line", "demo", "bench", "soak", "gates")
 """Columns that a row does not take from the one it is `of`."""
 
 
