@@ -37,6 +37,7 @@ LAYER_OF = {
     "machine": "openppmc.sim",
     "soak": "cocotb_tests",
     "gates": "cocotb_tests",
+    "manual": "scripts",
     "demo": "scripts",
     "bench": "scripts",
 }
@@ -52,7 +53,8 @@ class Row:
     those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
     its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
     rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
-    docs: pages of its folder in docs/ beside README.md and traceability.md. carrier: there is a
+    docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and computed
+    for them. carrier: there is a
     <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
     own.
     demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
@@ -76,6 +78,7 @@ class Row:
     words: str = ""
     machine: str = ""
     docs: tuple[str, ...] = ()
+    manual: str = ""
     carrier: bool = False
     line: bool = False
     demo: str = ""
@@ -111,6 +114,7 @@ ROWS = (
         kind="kind:KIND",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -128,6 +132,7 @@ ROWS = (
         view="view:VIEW",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -145,6 +150,7 @@ ROWS = (
         kind="kind:KIND",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -172,6 +178,7 @@ ROWS = (
         words="words:WORDS",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -201,6 +208,7 @@ ROWS = (
         commands="app:app",
         machine="line_spec:MACHINE",
         docs=("design.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         line=True,
         demo="demo:DEMO",
@@ -208,7 +216,7 @@ ROWS = (
         gates="gates:PART",
     ),
 )
-OWN = ("name", "of", "number", "rules", "docs", "carrier", "line", "demo", "bench", "soak", "gates")
+OWN = ("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "demo", "bench", "soak", "gates")
 """Columns that a row does not take from the one it is `of`."""
 
 
