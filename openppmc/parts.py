@@ -53,10 +53,9 @@ class Row:
     those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
     its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
     rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
-    docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and computed
-    for them. carrier: there is a
-    <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
-    own.
+    docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and
+    computed for them. carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
+    on a serial line, with commands of its own.
     demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
     on the pins of a part. soak: what makes the test of a seed for `make soak`, or a campaign of many a seed.
     gates: which tests `make test-gates` runs.

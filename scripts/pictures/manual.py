@@ -1,4 +1,4 @@
-"""What is drawn and computed for the pages of a part: its scripts/<part>/manual.py, named in the table of parts."""
+"""What is drawn and computed for the pages of a part: its scripts/<part>/manual.py, named in the table."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Manual:
-    """tables: marker in the README.md of the part -> Markdown. plots: name -> SVG. diagrams: name -> WaveDrom."""
+    """tables: marker in the part's README.md -> Markdown. plots: name -> SVG. diagrams: name -> WaveDrom."""
 
     tables: Mapping[str, Callable[[], str]] = field(default_factory=dict)
     plots: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
