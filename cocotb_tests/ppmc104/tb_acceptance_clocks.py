@@ -5,7 +5,6 @@ from __future__ import annotations
 from itertools import repeat
 
 import cocotb
-from cocotb.triggers import Timer
 
 from cocotb_tests.harness.bus import BUSY, COMMAND, IBF
 from cocotb_tests.harness.config import D16, F11, configs
@@ -255,9 +254,7 @@ async def p104_ac_57_reset_in_motion(dut):
     await lab.host.run("c C1 c 86 d 0F")
     await lab.go(0x4C, 20, rate=0x13)
     await lab.pulse(3, 20)
-    await Timer(bench.period // 4 // 2 * 2, "ps")
-    bench.set_between_edges(rst_n=0)
-    await Timer(bench.period // 8, "ps")
+    reset = await bench.set_between(rst_n=0)
     expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
     lab.check("AC-57", "outputs", lab.outputs(), expected)
     await bench.align()
@@ -266,6 +263,8 @@ async def p104_ac_57_reset_in_motion(dut):
     await bench.clocks(6)
     lab.check("AC-57", "status", await lab.host.status(), 0x00)
     lab.check("AC-57", "status of 0x42", await lab.host.command(0x42), 0xA0)
+    await bench.clocks(10_000)
+    lab.check("AC-57", "pulses after the reset", bench.pulses(reset + 1), [])
 
 
 @cocotb.test()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from cocotb_tests.harness.bus import IBF
 from cocotb_tests.harness.config import F8
 from cocotb_tests.harness.figures import indices, rates
+from cocotb_tests.harness.model_bench import rtl_only
 
 from .figures import (
     BUILD_LATEST,
@@ -44,6 +45,7 @@ async def p2104_ac_02_reads_after_reset(lab: Lab) -> None:
         lab.check("AC-02", f"reads of axis {axis.n}", reads, [[0], [0xCF], [0xFC], [0, 0, 0], [0]])
 
 
+@rtl_only("nanoseconds of the bus, which the model counts in clk")
 @part_test("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
 async def p2104_ac_03_write_times_of_the_sheet(lab: Lab) -> None:
     """Given 120 ns strobes with 80 ns of data, when written at any phase in both styles, then they act."""
@@ -59,6 +61,7 @@ async def p2104_ac_03_write_times_of_the_sheet(lab: Lab) -> None:
                 lab.check("AC-03", what, lab.bench.level("auxo"), auxo)
 
 
+@rtl_only("nanoseconds of the bus, which the model counts in clk")
 @part_test("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
 async def p2104_ac_04_read_times_of_the_sheet(lab: Lab) -> None:
     """Given 120 ns read strobes, when status is read, then it is there from 100 ns to the end."""
@@ -72,6 +75,7 @@ async def p2104_ac_04_read_times_of_the_sheet(lab: Lab) -> None:
             lab.check("AC-04", f"busc {busc}, phase {phase}/16", samples, [(1, 0x80)] * 2)
 
 
+@rtl_only("nanoseconds of the bus, which the model counts in clk")
 @part_test("AC-05", "P2104-BUS-07", "P2104-STA-03")
 async def p2104_ac_05_no_invisible_write(lab: Lab) -> None:
     """Given a data byte nobody wants, when status is read 75 ns later, then IBF or ERROR is 1."""
