@@ -57,7 +57,7 @@ def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
     params, seen = [], set()
     for name in modules:
         module = importlib.import_module(f"{package}.{name}")
-        for test in tests_of(module):
+        for test in all_tests(module):
             for case in test.generate_tests():
                 for config in configs_of(test):
                     item = Item(module.__name__, case.name, config, part.name, rules_of(test))
@@ -68,7 +68,7 @@ def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
     return params
 
 
-def tests_of(module: ModuleType) -> list[Any]:
+def all_tests(module: ModuleType) -> list[Any]:
     """The cocotb tests that a module defines, in order; ValueError if it has none."""
     found = [
         obj

@@ -7,7 +7,7 @@ coroutine with one `send(None)`. What changes pins beside the test waits in a qu
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Coroutine, Iterable, Iterator
+from collections.abc import Callable, Coroutine, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import Any, TypeVar
@@ -163,10 +163,15 @@ class ModelBench(Side):
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
         """As `Side.edge`."""
         end, before = self._now + timeout, self.level(output)
+        edges: Sequence[Any] = self.model.edges
+        last = edges[-1] if edges else None
         while self._now < end:
             event = self.model.next_event
-            times = [end, *([event + 1] if event is not None else []), *(row[0] for row in self._due[:1])]
-            self._go(max(self._now, min(times)))
+            stop = end if event is None else min(end, event + 1)
+            self._go(min(stop, self._due[0][0]) if self._due else stop)
+            if not edges or edges[-1] is last:
+                continue
+            last = edges[-1]
             was, before = before, self.level(output)
             if before != was and level in (None, before):
                 return self._now - 1

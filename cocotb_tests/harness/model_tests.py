@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from .collect import configs_of, tests_of
+from .collect import all_tests, configs_of
 from .config import Config
 from .model_bench import OnModel, on_model
 from .verifies import rules_of, verifies
@@ -27,7 +27,7 @@ def model_tests(module: str, package: str, *names: str) -> dict[str, Any]:
     """
     made: dict[str, Any] = {}
     for name in names:
-        for test in tests_of(importlib.import_module(f"{package}.{name}")):
+        for test in all_tests(importlib.import_module(f"{package}.{name}")):
             if hasattr(test.func, "_openppmc_rtl_only"):
                 continue
             run = _test(test)
