@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..common.edges import EdgeLog
 from ..common.scheduler import Scheduler
-from .pace import Pace006
+from .pace import Pace
 from .settings import Settings
 
 INPUTS: dict[str, int] = {
@@ -90,5 +90,5 @@ class Shared:
     log: EdgeLog
     clk_hz: int
     us: Ticks
-    pace: Pace006
+    pace: Pace
     settings: Settings

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from openppmc.host import Pmc006, Pmc006Bus
 from openppmc.host.pmc006.wire import reply
-from openppmc.sim.pmc006.node import Node006
+from openppmc.sim.pmc006.node import Node
 from tests.ppmc312.line.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
 
 CUT_FRAME, CUT_REPLY, DOUBLE_REPLY = "cut frame", "cut reply", "double reply"
@@ -58,9 +58,9 @@ class SpoiledLine(Spoiled):
         place = 3 if fate == CHANGED_REPLY else 0
         return whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :]
 
-    def node(self, number: int = 255) -> Node006:
+    def node(self, number: int = 255) -> Node:
         """The model of a controller."""
-        node: Node006 = self.line.board(number)
+        node: Node = self.line.board(number)
         return node
 
 
