@@ -7,10 +7,13 @@ It is built from a checkout of the project; docs/virtual_board.md has the words 
 """
 
 from .common.board import AxisStatus, SimBoard, Status, start
-from .common.build import SimError
 from .common.line_child import LineStatus, SimLine, start_line
 from .common.lines import part_of
-from .common.spec import KNOWN, Spec, SpecError, parse_spec
+from .common.spec import Spec, SpecError, known_words, parse_spec
+from .common.verilator import SimError
+
+KNOWN = known_words()
+"""Words of a board's text."""
 
 __all__ = [
     "KNOWN",
