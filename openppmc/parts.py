@@ -6,8 +6,8 @@ an environment:
     python3 openppmc/parts.py names [--with FIELD]     names of all parts, or of those that have this
     python3 openppmc/parts.py show NAME                one row, a field a line
 
-Places in the columns `model`, `driver`, `kind`, `commands` and `machine` are "module:name" below the part's
-folder in that layer; `load` imports them when they are asked for.
+Places in the columns `model`, `predict`, `driver`, `kind`, `commands` and `machine` are "module:name" below
+the part's folder in that layer; `load` imports them when they are asked for.
 """
 
 from __future__ import annotations
@@ -22,7 +22,14 @@ class UnknownPartError(ValueError):
     """A name or number that is not in the table, or a part without what was asked for. One line."""
 
 
-LAYER_OF = {"model": "model", "driver": "host", "kind": "host", "commands": "cli", "machine": "sim"}
+LAYER_OF = {
+    "model": "model",
+    "predict": "model",
+    "driver": "host",
+    "kind": "host",
+    "commands": "cli",
+    "machine": "sim",
+}
 """Column with places -> folder of openppmc in which they are."""
 
 
@@ -48,6 +55,7 @@ class Row:
     top: str = ""
     families: tuple[str, ...] = ()
     model: str = ""
+    predict: str = ""
     driver: str = ""
     kind: str = ""
     commands: str = ""
@@ -83,6 +91,7 @@ ROWS = (
         rules=("P104",),
         families=BOTH,
         model="part:Ppmc104",
+        predict="predict:predict",
         driver="driver:Ppmc104",
         kind="kind:KIND",
         machine="machine:MACHINE",
@@ -99,6 +108,7 @@ ROWS = (
         rules=("P2104",),
         families=BOTH,
         model="part:Ppmc2104",
+        predict="predict:predict",
         driver="driver:Ppmc2104",
         kind="kind:KIND",
         machine="machine:MACHINE",
@@ -116,6 +126,7 @@ ROWS = (
         rules=("STMC", "J105"),
         families=BOTH,
         model="part:Stmc",
+        predict="predict:predict",
         driver="driver:Stmc",
         kind="kind:KIND",
         machine="machine:MACHINE",
@@ -141,6 +152,7 @@ ROWS = (
         rules=("P312",),
         families=("ecp5",),
         model="part:Ppmc312",
+        predict="predict:predict",
         driver="driver:Ppmc312",
         kind="kind:KIND",
         machine="machine:MACHINE",
