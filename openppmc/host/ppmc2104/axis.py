@@ -8,20 +8,16 @@ from typing import TYPE_CHECKING
 from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
 from ..axis.axis import CCW, Axis, Order
+from ..axis.kind import AXIS_BIT
 from ..axis.motion import Motion
 from ..axis.registers import Inputs
 from ..basis import units
 from ..basis.ending import Cause, End
-from ..basis.errors import (
-    AlreadyDecelerating,
-    CutCommand,
-    NothingToStop,
-    NotInitialised,
-    StartRefused,
-    Timeout,
-)
-from ..basis.kind import AXIS_BIT, PPMC2104
+from ..basis.errors import Timeout
+from ..basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused
 from ..bridge.script import Script
+from .errors import CutCommand
+from .kind import KIND
 
 if TYPE_CHECKING:
     from .driver import Ppmc2104
@@ -41,7 +37,7 @@ class Axis2104(Axis):
     until `excitation_off` or `reset` (P2104-INI-05).
     """
 
-    kind = PPMC2104
+    kind = KIND
 
     def __init__(self, part: Ppmc2104, number: int) -> None:
         super().__init__(part.link)

@@ -25,7 +25,10 @@ INPUTS: dict[str, int] = {
     "scl_i": 1,
     "sda_i": 1,
 }
-WIDTHS: dict[str, int] = {"gpi": 5, "adc_data": 10, "bemf_level": 10}
+WIDTHS: dict[str, int] = {
+    **{"gpi": 5, "adc_data": 10, "bemf_level": 10},
+    **{"gpo": 5, "phase_a_ref": 8, "phase_b_ref": 8},
+}
 OUTPUTS: dict[str, int] = {
     "txd": 1,
     "de": 0,

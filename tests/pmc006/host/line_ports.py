@@ -20,7 +20,7 @@ HEARD = (LOSE_REPLY, BREAK_REPLY, CUT_REPLY, CHANGED_REPLY, LATE_REPLY)
 FATES = (*UNHEARD, *HEARD, *HARMLESS)
 
 
-class Spoiled006(Spoiled):
+class SpoiledLine(Spoiled):
     """A modelled line of PMC006B4."""
 
     def __init__(self, text: str, baud: int = 9600) -> None:
@@ -81,13 +81,13 @@ def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[byt
     return plan
 
 
-def one(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pmc006]:
+def one(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
     """Such a port, and the controller on it."""
-    port = Spoiled006(text)
+    port = SpoiledLine(text)
     return port, Pmc006.open(port, address)
 
 
-def several(text: str = "address=1..2") -> tuple[Spoiled006, Pmc006Bus]:
+def several(text: str = "address=1..2") -> tuple[SpoiledLine, Pmc006Bus]:
     """Such a port, and a bus on it."""
-    port = Spoiled006(text)
+    port = SpoiledLine(text)
     return port, Pmc006Bus.open(port)

@@ -31,10 +31,12 @@ from openppmc.host import (
     open_part,
 )
 from openppmc.host.basis import units
-from openppmc.host.basis.errors import CommandRefused, refused_stmc
-from openppmc.host.basis.kind import STMC
+from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
+from openppmc.host.stmc.errors import refused as refused_stmc
+from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.carrier.plant import Plant
 from openppmc.model.stmc.carrier import Carrier
 
@@ -118,7 +120,7 @@ def test_bytes_of_an_initialisation() -> None:
         ({"start_pps": 345, "high_pps": 345, "phases": 3}, "19 8D 8D C8 00"),
     ]
     for arguments, wanted in examples:
-        setup = STMC.plan(XTAL, **arguments)  # type: ignore[arg-type]
+        setup = STMC.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
         assert bytes([setup.code]) + setup.data == bytes.fromhex(wanted), arguments
 
 
