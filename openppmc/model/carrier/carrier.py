@@ -96,7 +96,7 @@ class Carrier(ABC, Generic[P]):
         self.t = max(self.t, t)
 
     def _next_event(self) -> int | None:
-        """Edge of the next event of part or board."""
+        """Edge of the next event of part or carrier."""
         return self.part.next_event
 
     def _watch(self) -> None:

@@ -1,1 +1,1 @@
-"""What is around the PPMC-104 in the virtual board and in the model."""
+"""What is around a PPMC-104: its machine."""

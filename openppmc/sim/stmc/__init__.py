@@ -1,1 +1,1 @@
-"""What is around the STMC in the virtual board and in the model."""
+"""What is around an STMC: its machine."""
