@@ -1,8 +1,9 @@
 """Golden models: pure Python, integers and fractions, written from the rules and not from the RTL.
 
-A folder a part (`ppmc104`, `ppmc2104`, `stmc`, `ppmc312`, `pmc006`); in each, `part` is the part at pin level,
-`pins` its pins, `codes` its codes, `predict` the arithmetic of one move for plots and tables, `carrier` the
-part with what its UART bridge sees, `Carrier`. Parts know the shared rooms and not each other:
+A folder a part (`ppmc104`, `ppmc2104`, `stmc`, `ppmc312`, `pmc006`); in each, `part` is the part at pin
+level, `pins` its pins and `codes` its codes; where there is such, `carrier` is the part as its UART bridge
+sees it and `predict` the arithmetic of one move for plots and tables. Parts know the shared rooms and not
+each other:
 
     common      time, events, edges, blocks of a clocked part, UART
     motion      motion of one axis as the family has it: ramp, guard, excitation, chopper
