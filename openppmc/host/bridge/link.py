@@ -16,7 +16,8 @@ from ..basis.errors import (
 )
 from ..basis.kind import name_of
 from ..basis.refusals import refused
-from ..ports.transport import BASE_BAUD, Port, open_port
+from ..ports.transport import BASE_BAUD, Port
+from .port import open_port
 from .script import (
     PROTOCOL_VERSION,
     RATES,

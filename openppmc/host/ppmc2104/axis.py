@@ -3,29 +3,47 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
-from ..axis.axis import CCW, Axis, Order
+from ..axis.axis import CCW, Axis
 from ..axis.kind import AXIS_BIT
-from ..axis.motion import Motion
+from ..axis.motion import Motion, Order
 from ..axis.registers import Inputs
 from ..basis import units
 from ..basis.ending import Cause, End
 from ..basis.errors import Timeout
 from ..basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused
+from ..bridge.link import Link
 from ..bridge.script import Script
 from .errors import CutCommand
 from .kind import KIND
-
-if TYPE_CHECKING:
-    from .driver import Ppmc2104
+from .registers import Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
 """Limit for the end of an initialisation at a 16 MHz crystal: a part needs 0.15 s for both axes, but a
 virtual board may be slow."""
+
+
+class Settling(Protocol):
+    """What an axis needs of the other one."""
+
+    def settle(self, status: int) -> None: ...
+
+
+class Both(Protocol):
+    """What an axis needs of its part, which is a `driver.Ppmc2104`."""
+
+    @property
+    def link(self) -> Link: ...
+    def status(self) -> Status: ...
+    def straps(self, number: int, clock: units.BaseClock | None) -> Script: ...
+    def show(self, number: int) -> Script: ...
+    def other(self, number: int) -> Settling: ...
+    def rests(self, number: int) -> None: ...
+    def settle_foreign(self, number: int) -> None: ...
 
 
 class Axis2104(Axis):
@@ -39,7 +57,7 @@ class Axis2104(Axis):
 
     kind = KIND
 
-    def __init__(self, part: Ppmc2104, number: int) -> None:
+    def __init__(self, part: Both, number: int) -> None:
         super().__init__(part.link)
         self.part = part
         self.number = self.kind.check_axis(number)
