@@ -27,7 +27,7 @@ from openppmc.host.ppmc312.profile import base_clocks, plan_setup
 from openppmc.host.ppmc312.registers import EventBuffer, Inputs, Status
 from openppmc.model import Timebase, predict_move
 from openppmc.model.ppmc312.codes import Cause, State
-from openppmc.model.ppmc312.predict import Move312
+from openppmc.model.ppmc312.predict import TableMove
 
 XTAL = 16_000_000
 MEGAHERTZ = base_clocks(XTAL)[1]
@@ -317,13 +317,13 @@ def test_prediction_of_a_move() -> None:
     """Examples E13 and E17 of the rules, and a constant speed; what the part would refuse is refused."""
     one, two = "01 03e8 00c8 0007d0", "11 03e8 01f4 00c8 0007d0 0005dc"
     move = predict_move(bytes.fromhex(one), 5000, part="ppmc312")
-    assert isinstance(move, Move312) and (move.kind, len(move.clk)) == (0, 5000)
+    assert isinstance(move, TableMove) and (move.kind, len(move.clk)) == (0, 5000)
     assert move.clk[-1] == 16 * (1_532_294 - 1000) and move.rates[:6] == (1000,) * 5 + (969,)
     move = predict_move(bytes.fromhex(two), 100, part="ppmc312", timebase=Timebase(8_000_000))
-    assert isinstance(move, Move312) and move.kind == 0x40 and move.clk[-1] == 8 * (81_077 - 677)
+    assert isinstance(move, TableMove) and move.kind == 0x40 and move.clk[-1] == 8 * (81_077 - 677)
     assert move.seconds[-1] == pytest.approx(0.0804) and move.speeds[0] == 1000
     flat = predict_move(bytes.fromhex(one), 3, 500, part="ppmc312")
-    assert isinstance(flat, Move312) and flat.intervals == [8000, 8000] and flat.indices == (None, None)
+    assert isinstance(flat, TableMove) and flat.intervals == [8000, 8000] and flat.indices == (None, None)
     for init, n, rate in (
         (one[:-2], 5, None),
         ("01 03e8 00c8 000100", 5, None),

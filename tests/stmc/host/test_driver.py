@@ -38,7 +38,7 @@ from openppmc.host.bridge.script import Script
 from openppmc.host.stmc.errors import refused as refused_stmc
 from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.carrier.plant import Plant
-from openppmc.model.stmc.carrier import BoardStmc
+from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
@@ -68,10 +68,10 @@ def axis() -> Iterator[Stmc]:
         yield ready
 
 
-def model(axis: Stmc) -> BoardStmc:
+def model(axis: Stmc) -> Carrier:
     """The modelled board."""
     assert isinstance(axis.link.port, ModelPort)
-    assert isinstance(axis.link.port.board, BoardStmc)
+    assert isinstance(axis.link.port.board, Carrier)
     return axis.link.port.board
 
 
