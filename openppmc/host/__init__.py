@@ -16,6 +16,7 @@ called "Pure" in its first line does neither.
 from .axis.axis import CCW, CW, Axis
 from .axis.motion import Motion, Progress
 from .axis.part import Part as AnyPart
+from .basis import units as units
 from .basis.ending import AlarmStop, Cause, End, LimitReached, MotionError, OriginNotFound, StoppedEarly
 from .basis.errors import (
     Disconnected,
@@ -117,4 +118,5 @@ __all__ = [
     "open_part",
     "open_port",
     "serial_ports",
+    "units",
 ]

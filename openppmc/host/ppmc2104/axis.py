@@ -17,6 +17,7 @@ from ..basis.errors import Timeout
 from ..basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused
 from ..bridge.link import Link
 from ..bridge.script import Script
+from . import times
 from .errors import CutCommand
 from .kind import KIND
 from .registers import Status
@@ -149,14 +150,14 @@ class Axis2104(Axis):
     def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: 32 to 127.5 each); returns those reached.
         Only at rest."""
-        on = units.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
-        off = units.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        on = times.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = times.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
         self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
         return on[1], off[1]
 
     def hold_delay(self, microseconds: units.Number) -> Fraction:
         """Time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); returns the one reached. Only
         at rest."""
-        byte, reached = units.hold_byte(self.link.identity.xtal_hz, microseconds)
+        byte, reached = times.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
         return reached

@@ -15,8 +15,9 @@ from ..basis.arguments import whole, within
 from ..basis.ending import End
 from ..basis.errors import PpmcError, ProtocolError
 from ..basis.refusals import AlreadyDecelerating, CommandRefused
+from ..bridge.answer import Answer
 from ..bridge.link import Link
-from ..bridge.script import Answer, Script
+from ..bridge.script import Script
 from .axis import Axis2104
 from .errors import BY_NUMBER, refused
 from .kind import KIND

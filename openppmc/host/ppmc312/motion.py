@@ -11,7 +11,7 @@ from ..axis.motion import PROGRESS_POLL, SAFETY_POLL, Progress
 from ..basis.arguments import Checked
 from ..basis.ending import Cause, End
 from ..basis.errors import ProtocolError, Timeout
-from ..bridge.script import Identity
+from ..bridge.answer import Identity
 from .answers import Stopped, signed
 from .registers import Status
 

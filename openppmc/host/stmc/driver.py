@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ..axis.registers import FAMILY, ReadCodes
 from ..axis.single import OneAxis
+from ..bridge.answer import Result
 from ..bridge.link import Link
-from ..bridge.script import Result, Script
+from ..bridge.script import Script
 from .errors import refused
 from .kind import KIND
 from .registers import Inputs
