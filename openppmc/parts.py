@@ -6,8 +6,9 @@ an environment:
     python3 openppmc/parts.py names [--with FIELD]     names of all parts, or of those that have this
     python3 openppmc/parts.py show NAME                one row, a field a line
 
-Places in the columns `model`, `driver`, `kind`, `commands` and `machine` are "module:name" below the part's
-folder in that layer; `load` imports them when they are asked for.
+Places in the columns of LAYER_OF are "module:name" below the part's folder in that layer; `load` imports them
+when they are asked for. commands: a command line of its own; view: what it shows on the shared one; words:
+those of its own in script files.
 """
 
 from __future__ import annotations
@@ -22,7 +23,15 @@ class UnknownPartError(ValueError):
     """A name or number that is not in the table, or a part without what was asked for. One line."""
 
 
-LAYER_OF = {"model": "model", "driver": "host", "kind": "host", "commands": "cli", "machine": "sim"}
+LAYER_OF = {
+    "model": "model",
+    "driver": "host",
+    "kind": "host",
+    "commands": "cli",
+    "view": "cli",
+    "words": "cli",
+    "machine": "sim",
+}
 """Column with places -> folder of openppmc in which they are."""
 
 
@@ -51,6 +60,8 @@ class Row:
     driver: str = ""
     kind: str = ""
     commands: str = ""
+    view: str = ""
+    words: str = ""
     machine: str = ""
     docs: tuple[str, ...] = ()
     carrier: bool = False
@@ -101,6 +112,7 @@ ROWS = (
         model="part:Ppmc2104",
         driver="driver:Ppmc2104",
         kind="kind:KIND",
+        view="view:VIEW",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
         carrier=True,
@@ -143,6 +155,8 @@ ROWS = (
         model="part:Ppmc312",
         driver="driver:Ppmc312",
         kind="kind:KIND",
+        view="view:VIEW",
+        words="words:WORDS",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "instructions.md", "serial.md", "rulings.md"),
         carrier=True,

@@ -20,6 +20,7 @@ from ...host.ppmc312.axis import Axis312
 from ...host.ppmc312.profile import Setup312
 from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source
+from ..common import show
 
 _DONE = {
     Code.STOP: "stopped at once",
@@ -55,16 +56,11 @@ def state_rows(values: dict[str, Any]) -> dict[str, str]:
 
 def setup_rows(setup: Setup312) -> dict[str, str]:
     """Asked and reached speeds, ramps, bytes."""
-
-    def speed(value: units.Speed) -> str:
-        text = f"{units.nearby(value.reached)} pps (rate {value.rate})"
-        return text if value.reached == value.asked else f"{text}, asked {units.nearby(value.asked)} pps"
-
     table = setup.table
-    rows = {"start speed": speed(setup.start), "high speed": speed(setup.high)}
+    rows = {"start speed": show.speed(setup.start), "high speed": show.speed(setup.high)}
     rows["ramp"] = f"{setup.shape}, {table.na} pulses, {setup.seconds(table.pa):.4g} s"
     if table.separate:
-        rows["stop speed"] = speed(setup.stop)
+        rows["stop speed"] = show.speed(setup.stop)
         rows["ramp down"] = f"{table.nd} pulses, {setup.seconds(table.pd):.4g} s"
     kind = "external" if setup.clock.external else "internal"
     rows["base clock"] = f"{units.nearby(setup.clock.hertz)} Hz ({kind})"

@@ -12,7 +12,7 @@ from rich.table import Table
 from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
 from ....host.ppmc312.line.bus import Found
-from ...common import show
+from ...common import output
 from .. import show as show312
 
 _HEADS = ("station", "version", "state", "position", "framing", "overrun", "checksum", "line faults")
@@ -84,7 +84,7 @@ def report_line(number: int, report: Report) -> str:
     return text if text.startswith(who) else who + text
 
 
-def reports(axes: Iterable[Station312], tell: Callable[[str], None] = show.say) -> None:
+def reports(axes: Iterable[Station312], tell: Callable[[str], None] = output.say) -> None:
     """What stations said meanwhile. Raises what went wrong, after all of it."""
     trouble: PpmcError | None = None
     for axis in axes:
