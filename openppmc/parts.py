@@ -158,7 +158,7 @@ ROWS = (
         view="view:VIEW",
         words="words:WORDS",
         machine="machine:MACHINE",
-        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "rulings.md"),
+        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
         carrier=True,
         demo=True,
         soak=True,
@@ -186,7 +186,7 @@ ROWS = (
         kind="kind:KIND",
         commands="app:app",
         machine="line_spec:MACHINE",
-        docs=("rulings.md",),
+        docs=("design.md", "rulings.md"),
         carrier=True,
         line=True,
         demo=True,
@@ -231,6 +231,11 @@ def having(*columns: str) -> tuple[Row, ...]:
 def folders() -> tuple[Row, ...]:
     """The parts with folders of their own."""
     return tuple(row for row in PARTS.values() if not row.of)
+
+
+def tops() -> tuple[Row, ...]:
+    """The parts with a top module of their own, those in another one's folder among them."""
+    return tuple(row for row in PARTS.values() if row.top == row.name)
 
 
 def by_number(number: int) -> Row | None:

@@ -13,7 +13,7 @@ from cocotb_tests.harness.wrapper import area_design
 
 from .tb_blocks import BLOCKS
 
-PART = Part("boards", "BRD", {})
+PART = Part("boards", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)

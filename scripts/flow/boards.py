@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.header import parameters as parameters_of
 from cocotb_tests.harness.project import ProjectError
 
 from . import board_route
@@ -244,16 +244,16 @@ def part_of(top: str) -> str:
 def sources(top: str) -> list[Path]:
     """The sources of a board top in compile order, the declarations of the vendors' cells first."""
     part = part_of(top).split("-")[0]  # its RTL; what follows is a mode of it
-    shared = project.file_groups().get("boards", [])
     other = tuple(f"{name}_" for name in BY_PART if name != part)
-    files = [path for path in shared if not path.stem.startswith(("board_", *other)) or path.stem == top]
-    return [VENDOR_CELLS, *project.sources(project.part(part)), *files]
+    own = project.files(f"{part}_carrier", "panel")
+    on_board = project.listed()["boards"].files
+    files = [path for path in on_board if not path.stem.startswith(("board_", *other)) or path.stem == top]
+    return [VENDOR_CELLS, *own, *files]
 
 
 def parameters(top: str) -> set[str]:
     """Names of the parameters of a board top."""
-    text = next(path for path in project.file_groups()["boards"] if path.stem == top).read_text()
-    return set(re.findall(r"^ *parameter +[^=]*?(\w+) *=", text, re.MULTILINE))
+    return set(parameters_of(next(path for path in project.files("boards") if path.stem == top)))
 
 
 def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:

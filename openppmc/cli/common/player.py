@@ -68,9 +68,7 @@ class Player:
         elif step.word == "wait":
             self._guard.pause(self._part, values["seconds"])
         elif step.word == "stop":
-            status = self._part.status().raw
-            if busy := tuple(motor for motor in self._session.chosen(step.axis) if status & motor.busy):
-                stop_all(busy)
+            stop_all(self._session.view.busy(self._part, self._session.chosen(step.axis)))
         elif step.word == "zero":
             axis.zero()
         elif own := own_words().get(step.word):

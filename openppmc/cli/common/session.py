@@ -12,19 +12,17 @@ import typer
 
 from ... import parts
 from ...host import End, NothingToStop, PpmcError, open_part
-from ...host.basis.kind import BY_WORD, Kind
+from ...host.basis.kind import Kind, kind_of
 from ...host.bridge.link import DEFAULT_BAUD
 from ...host.ports.transport import MODEL, SIM
 from . import output
 from .guard import Guard, Interrupted
 from .needs import Axis, Part
-from .options import SetupValues
+from .options import USUAL, SetupValues
 from .state import recall
 from .view import AnyView, view_of
 
 INTERRUPTED = 130
-USUAL = "ppmc104"
-"""The part of a virtual board when nobody names one."""
 
 
 class PartName(str, Enum):
@@ -38,11 +36,6 @@ class PartName(str, Enum):
 
 
 NAMES = frozenset(name.value for name in PartName)
-
-
-def kind_of(name: str) -> Kind:
-    """What the part with this name can do."""
-    return BY_WORD[name]
 
 
 @dataclass
@@ -64,15 +57,15 @@ class Board:
         return f"{self.port}{comma}part={self.part}"
 
     @property
-    def planned(self) -> str:
+    def planned(self) -> Kind:
         """The part for plans, which open no board: the one that was named, in the port's text if need be."""
         if self.part is not None:
-            return self.part
+            return kind_of(self.part)
         if not self.port.startswith((MODEL, SIM)):
             return USUAL
         words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
         named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
-        return named[-1] if named and named[-1] in NAMES else USUAL
+        return kind_of(named[-1]) if named and named[-1] in NAMES else USUAL
 
 
 BOARD = Board()
@@ -93,7 +86,7 @@ class Session:
     @property
     def view(self) -> AnyView:
         """What it shows, and what not all parts have."""
-        return view_of(self.kind.word)
+        return view_of(self.kind)
 
     @property
     def xtal_hz(self) -> int:

@@ -7,17 +7,33 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
-from ... import parts
 from ...host import End, OutOfRange
 from ...host.basis import units
+from ...host.basis.kind import Kind
 from . import forecast, show
 from .forecast import Course
 from .needs import Axis, OnProgress, Part
 from .override import Override
 
-AnyPart = TypeVar("AnyPart", bound=Part)
+
+class Status(Protocol):
+    """The status of a part; its bits are the part's."""
+
+    @property
+    def raw(self) -> int:
+        """As it was read."""
+
+
+class Told(Part, Protocol):
+    """A part that tells its status."""
+
+    def status(self) -> Status:
+        """Read it; disturbs nothing."""
+
+
+AnyPart = TypeVar("AnyPart", bound=Told)
 AnySetup = TypeVar("AnySetup")
 
 
@@ -40,6 +56,11 @@ class View(ABC, Generic[AnyPart, AnySetup]):
             "switches": show.switches(values["inputs"]),
             "last byte": "good" if error is None else f"error {error}",
         }
+
+    def busy(self, part: AnyPart, axes: Sequence[Axis]) -> tuple[Axis, ...]:
+        """Those of these axes that move."""
+        status = part.status().raw
+        return tuple(axis for axis in axes if status & axis.busy)
 
     def reports(self, part: AnyPart, tell: Callable[[str], None]) -> None:
         """What the part said meanwhile, a line each. Raises what went wrong, after all of it."""
@@ -136,11 +157,10 @@ class RampView(View[AnyPart, units.Setup]):
 
 AnyView = View[Any, Any]
 """Of a part that is known by its name only."""
-_USUAL: AnyView = RampView[Part]()
+_USUAL: AnyView = RampView[Told]()
 
 
-def view_of(name: str) -> AnyView:
-    """The view of the part with this name."""
-    row = parts.part(name)
-    view: AnyView = row.load("view") if row.view else _USUAL
+def view_of(kind: Kind) -> AnyView:
+    """The view of the part of this kind."""
+    view: AnyView = kind.row.load("view") if kind.row.view else _USUAL
     return view

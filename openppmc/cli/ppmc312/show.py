@@ -17,7 +17,7 @@ from ...host.ppmc312.answers import (
     Stopped,
 )
 from ...host.ppmc312.axis import Axis312
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup
 from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source
 from ..common import show
@@ -54,7 +54,7 @@ def state_rows(values: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def setup_rows(setup: Setup312) -> dict[str, str]:
+def setup_rows(setup: Setup) -> dict[str, str]:
     """Asked and reached speeds, ramps, bytes."""
     table = setup.table
     rows = {"start speed": show.speed(setup.start), "high speed": show.speed(setup.high)}
@@ -69,7 +69,7 @@ def setup_rows(setup: Setup312) -> dict[str, str]:
     return rows
 
 
-def setup_values(setup: Setup312) -> dict[str, Any]:
+def setup_values(setup: Setup) -> dict[str, Any]:
     """For JSON."""
     return {
         "shape": setup.shape,
@@ -83,7 +83,7 @@ def setup_values(setup: Setup312) -> dict[str, Any]:
     }
 
 
-def table_lines(read: TableRead, setup: Setup312) -> list[str]:
+def table_lines(read: TableRead, setup: Setup) -> list[str]:
     """The table as a CSV that `--curve` takes: slowest stage first."""
     lines = ["pps,up,down" if read.down else "pps,up"]
     for place in range(len(read.rates) - 1, -1, -1):

@@ -8,7 +8,7 @@ from typing import Any
 from ...host import Ppmc312
 from ...host.basis import units
 from ...host.ppmc312.answers import Alarm, Failed
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup
 from ..common.forecast import Course
 from ..common.needs import Axis, OnProgress
 from ..common.override import Override
@@ -17,7 +17,7 @@ from . import forecast, show
 from .overrides import register
 
 
-class PartView(View[Ppmc312, Setup312]):
+class PartView(View[Ppmc312, Setup]):
     """Tables of ramps, an encoder, overrides, and reports that the part sends by itself."""
 
     def status_values(self, part: Ppmc312, axis: Axis) -> dict[str, Any]:
@@ -38,16 +38,16 @@ class PartView(View[Ppmc312, Setup312]):
         if trouble is not None:
             raise trouble
 
-    def setup_rows(self, setup: Setup312) -> dict[str, str]:
+    def setup_rows(self, setup: Setup) -> dict[str, str]:
         return show.setup_rows(setup)
 
-    def setup_values(self, setup: Setup312) -> dict[str, Any]:
+    def setup_values(self, setup: Setup) -> dict[str, Any]:
         return show.setup_values(setup)
 
-    def figures(self, setup: Setup312, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+    def figures(self, setup: Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
         return forecast.figures(setup, pulses, speed)
 
-    def course(self, setup: Setup312, pulses: int, speed: units.Speed | None) -> Course:
+    def course(self, setup: Setup, pulses: int, speed: units.Speed | None) -> Course:
         return forecast.course(setup, pulses, speed)
 
     def prepare(self, part: Ppmc312, overrides: Sequence[Override], encoder: int | None) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...host import Ppmc312
 from ...host.basis.kind import Kind
 from ...host.ppmc312 import blocks
+from ...host.ppmc312.kind import KIND
 from ..common.options import Side
 from ..common.override import parse_override
 from ..common.words import OwnWord, Values
@@ -76,7 +77,7 @@ def _count(words: list[str], wanted: int) -> None:
 
 def _lacks(kind: Kind, values: Values) -> str:
     """Why another part cannot do it; empty for a PPMC-312."""
-    return "" if kind is Ppmc312.kind else f"a {kind} has neither overrides nor events"
+    return "" if kind is KIND else f"a {kind} has neither overrides nor events"
 
 
 def _do_at(part: Ppmc312, values: Values) -> None:

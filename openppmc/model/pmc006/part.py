@@ -22,7 +22,7 @@ from .memory.boot import Boot
 from .memory.eeprom import Engine
 from .memory.i2c import Bus
 from .motion.motion import Motion
-from .pace import Pace006
+from .pace import Pace
 from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Shared, Ticks
 from .settings import Settings
 
@@ -60,7 +60,7 @@ class Pmc006(Chip):
         t_blank_ns: int = 1_000,
         fw_version: int = 0x123,
         straps: Mapping[str, int] | None = None,
-        pace: Pace006 | None = None,
+        pace: Pace | None = None,
     ) -> None:
         del xtal_hz
         super().__init__(clk_hz, 16_000_000, timing, OUTPUTS, None)
@@ -76,7 +76,7 @@ class Pmc006(Chip):
         ):
             if not low <= given <= high:
                 raise ValueError(f"{name} {given} is outside {low}..{high}")
-        self.pace = pace or Pace006()
+        self.pace = pace or Pace()
         self._echo, self._version = step_ack == "ECHO", fw_version
         self._baud, self._i2c_hz, self._ee_dev = baud, i2c_hz, ee_dev
         self._chopper_ns = (t_off_ns, t_blank_ns)

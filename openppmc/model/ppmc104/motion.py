@@ -16,7 +16,7 @@ DS_FLAG_COMMAND, DS_FLAG_LIMIT, DS_FLAG_LIMIT_HIGH = 272, 192, 272
 DS_FAST_PULSE, DS_FAST_PHASE = 100, 148
 
 
-class Motion104(TimedMotion):
+class Motion(TimedMotion):
     """The axis of a PPMC-104."""
 
     hold_cycles = 544_000

@@ -15,9 +15,9 @@ from ..motion.chopper import Chopper
 from ..single.hostport import HostPort
 from ..single.single import SingleAxis
 from ..single.strobes import SpeedGate, strobes
-from .chopper import Switching104
+from .chopper import Switching
 from .commands import CommandUnit
-from .motion import Motion104
+from .motion import Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
 
@@ -42,11 +42,11 @@ class Ppmc104(SingleAxis):
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, phase_idle, latency)
 
     def _blocks(self, context: Context) -> None:
-        switching = Switching104(context)
+        switching = Switching(context)
         self._chopper = Chopper(context, switching)
         gate = SpeedGate(lambda t: self._port.retry(t))
         self._port = HostPort(context, self._take, self._state, strobes, gate.waits)
-        self._motion = motion = Motion104(context, self._port, gate, self._excitation, self._chopper)
+        self._motion = motion = Motion(context, self._port, gate, self._excitation, self._chopper)
         self._commands = CommandUnit(context, self._port, motion, self._excitation, self._chopper, switching)
 
     def _motor_levels(self) -> dict[str, int]:

@@ -24,6 +24,7 @@ INPUTS: dict[str, int] = {
     **dict.fromkeys(SWITCHES, 1),
 }
 OUTPUTS: dict[str, int] = {"sd_o": 0, "sd_oe": 0, "irq": 0, "s": 0, "drv": 0, "hold": 1}
+WIDTHS: dict[str, int] = {"sa": 10, "sd_i": 8, "sd_o": 8, "s": 5, "drv": 4}
 
 
 class J105Stmc:

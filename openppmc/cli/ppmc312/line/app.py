@@ -100,7 +100,7 @@ def reset(axis: Axis) -> None:
 def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any]) -> list[Any]:
     """Initialise stations, all plans made before the first."""
     xtal_hz = session.bus.line.identity.xtal_hz
-    plans = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
+    plans: list[Any] = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
     reached = []
     for one, made in zip(axes, plans, strict=True):
         session.guard.check()
