@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...host import PpmcError
-from .words import READERS, none_left, own_words, read_axis, read_repeat
+from .reading import READERS, none_left, read_axis, read_repeat
+from .words import own_words
 
 DEEPEST = 20
 

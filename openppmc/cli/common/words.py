@@ -1,20 +1,15 @@
-"""The words of script files: how each line is read. Those that only some parts know come from the table."""
+"""Words of script files that not all parts know, and what parts bring along (column `words`)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Protocol
 
 from ... import parts
 from ...host.basis.kind import AUX, Kind
-from .options import Logic, SetupValues, Side
-
-MOST_TURNS = 1_000_000
-Values = dict[str, Any]
-Reader = Callable[[list[str]], Values]
-"""Takes the words after the first one; ValueError."""
+from .reading import Reader, Values, first, none_left, whole
 
 
 @dataclass(frozen=True)
@@ -27,171 +22,6 @@ class OwnWord:
     do: Callable[[Any, Values], None]
 
 
-def none_left(words: list[str]) -> None:
-    if words:
-        raise ValueError(f"{words[0]!r} does not belong here")
-
-
-def _number(text: str, what: str, low: float, high: float) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise ValueError(f"{what} {text!r} is not a number") from None
-    if not low <= value <= high:
-        raise ValueError(f"{what} {text} is outside {low:g} to {high:g}")
-    return value
-
-
-def _whole(text: str, what: str, low: int, high: int) -> int:
-    try:
-        value = int(text)
-    except ValueError:
-        raise ValueError(f"{what} {text!r} is not a whole number") from None
-    if not low <= value <= high:
-        raise ValueError(f"{what} {text} is outside {low} to {high}")
-    return value
-
-
-def _first(words: list[str], what: str) -> str:
-    if not words:
-        raise ValueError(f"{what} is missing")
-    return words.pop(0)
-
-
-def _side(words: list[str]) -> int:
-    text = _first(words, "direction (cw or ccw)")
-    if text.lower() not in ("cw", "ccw"):
-        raise ValueError(f"{text!r} is neither cw nor ccw")
-    return Side(text.lower()).code
-
-
-def _pairs(words: Iterable[str]) -> dict[str, str]:
-    pairs = {}
-    for word in words:
-        name, equals, value = word.partition("=")
-        if not equals or not value:
-            raise ValueError(f"{word!r} is not of the form name=value")
-        pairs[name.replace("-", "_").lower()] = value
-    return pairs
-
-
-def _speed(words: list[str]) -> float | None:
-    """`speed=PPS`, if it comes next."""
-    if words and words[0].startswith("speed="):
-        return _number(words.pop(0)[6:], "speed", 1e-6, 1e6)
-    return None
-
-
-def read_axis(words: list[str]) -> int | None:
-    """`axis=1` or `axis=2` at the end of the line."""
-    if words and words[-1].startswith("axis="):
-        return _whole(words.pop()[5:], "axis", 1, 2)
-    return None
-
-
-def read_repeat(words: list[str]) -> dict[str, Any]:
-    turns = _whole(_first(words, "how often"), "count", 1, MOST_TURNS)
-    none_left(words)
-    return {"turns": turns}
-
-
-_YES = {"yes": True, "on": True, "1": True, "no": False, "off": False, "0": False}
-
-
-def _init(words: list[str]) -> dict[str, Any]:
-    values: dict[str, Any] = {}
-    for name, text in _pairs(words).items():
-        if name in ("start", "high", "stop", "base_clock", "external_clock"):
-            values[name] = _number(text, name, 1e-6, 1e7)
-        elif name in ("ramp", "down"):
-            values[name] = _whole(text, name, 0, 0xFFFFFF)
-        elif name == "phases":
-            values[name] = _whole(text, name, 0, 65535)
-        elif name in ("half_step", "chop", "long_intervals", "sigmoid"):
-            if text.lower() not in _YES:
-                raise ValueError(f"{name} {text!r} is neither yes nor no")
-            values[name] = _YES[text.lower()]
-        elif name == "logic":
-            if text not in ("positive", "negative"):
-                raise ValueError(f"logic {text!r} is neither positive nor negative")
-            values[name] = Logic(text).value
-        else:
-            values[name] = text
-    SetupValues().merged(values)
-    return values
-
-
-def _move(words: list[str]) -> dict[str, Any]:
-    most = 1 << 24
-    pulses = _whole(_first(words, "number of pulses"), "pulses", -most, most)
-    second = _whole(words.pop(0), "pulses", -most, most) if words and "=" not in words[0] else None
-    values = {"pulses": pulses, "second": second, "speed": _speed(words)}
-    none_left(words)
-    return values
-
-
-def _move_to(words: list[str]) -> dict[str, Any]:
-    ends = -(1 << 31), (1 << 31) - 1
-    values = {"position": _whole(_first(words, "position"), "position", *ends), "second": None}
-    if words:
-        values["second"] = _whole(words.pop(0), "position", *ends)
-    none_left(words)
-    return values
-
-
-def _jog(words: list[str]) -> dict[str, Any]:
-    side = _side(words)
-    ramped = bool(words) and words[0] == "ramped" and bool(words.pop(0))
-    speed = None if ramped else _speed(words)
-    if _first(words, "for SECONDS") != "for":
-        raise ValueError("jog needs: jog cw|ccw [ramped | speed=PPS] for SECONDS")
-    seconds = _number(_first(words, "seconds"), "seconds", 0, 86_400)
-    none_left(words)
-    return {"side": side, "ramped": ramped, "speed": speed, "seconds": seconds}
-
-
-def _home(words: list[str]) -> dict[str, Any]:
-    side = _side(words) if words and words[0].lower() in ("cw", "ccw") else Side.CCW.code
-    approach = words.pop(0) if words and words[0] in ("fast", "to-limit") else ""
-    values = {"side": side, "approach": approach, "speed": _speed(words)}
-    none_left(words)
-    return values
-
-
-def _wait(words: list[str]) -> dict[str, Any]:
-    seconds = _number(_first(words, "seconds"), "seconds", 0, 86_400)
-    none_left(words)
-    return {"seconds": seconds}
-
-
-def _aux(words: list[str]) -> dict[str, Any]:
-    text = _first(words, "on or off")
-    if text not in ("on", "off"):
-        raise ValueError(f"{text!r} is neither on nor off")
-    none_left(words)
-    return {"on": text == "on"}
-
-
-def _auxo(words: list[str]) -> dict[str, Any]:
-    value = _whole(_first(words, "value"), "outputs", 0, 63)
-    none_left(words)
-    return {"value": value}
-
-
-def _step(words: list[str]) -> dict[str, Any]:
-    values = {"side": _side(words)}
-    none_left(words)
-    return values
-
-
-def _plain(words: list[str]) -> dict[str, Any]:
-    none_left(words)
-    return {}
-
-
-# ---------------------------------------------------------------------- words of some parts
-
-
 class _HasAux(Protocol):
     def aux(self, on: bool) -> None:
         """Switch the output AUX."""
@@ -200,6 +30,20 @@ class _HasAux(Protocol):
 class _HasOutputs(Protocol):
     def auxo(self, value: int) -> None:
         """Set the auxiliary outputs."""
+
+
+def _read_aux(words: list[str]) -> Values:
+    text = first(words, "on or off")
+    if text not in ("on", "off"):
+        raise ValueError(f"{text!r} is neither on nor off")
+    none_left(words)
+    return {"on": text == "on"}
+
+
+def _read_outputs(words: list[str]) -> Values:
+    value = whole(first(words, "value"), "outputs", 0, 63)
+    none_left(words)
+    return {"value": value}
 
 
 def _lacks_aux(kind: Kind, values: Values) -> str:
@@ -225,29 +69,18 @@ def _do_outputs(part: _HasOutputs, values: Values) -> None:
 
 
 _SOME = {
-    "aux": OwnWord(_aux, _lacks_aux, _do_aux),
-    "auxo": OwnWord(_auxo, _lacks_outputs, _do_outputs),
+    "aux": OwnWord(_read_aux, _lacks_aux, _do_aux),
+    "auxo": OwnWord(_read_outputs, _lacks_outputs, _do_outputs),
 }
-READERS: dict[str, Reader] = {
-    "init": _init,
-    "move": _move,
-    "goto": _move_to,
-    "step": _step,
-    "jog": _jog,
-    "home": _home,
-    "wait": _wait,
-    "stop": _plain,
-    "zero": _plain,
-    "off": _plain,
-    "position": _plain,
-}
-"""Words of all parts."""
 
 
 @cache
 def own_words() -> dict[str, OwnWord]:
     """Words that not all parts know, with those that parts bring along (column `words`)."""
     own = dict(_SOME)
-    for row in parts.having("words"):
-        own |= row.load("words")
+    for row in parts.folders():
+        if row.words:
+            more: dict[str, OwnWord] = row.load("words")
+            assert not own.keys() & more.keys(), f"{row.name}: a word that another part has, too"
+            own |= more
     return own

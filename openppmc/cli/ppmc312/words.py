@@ -8,7 +8,8 @@ from ...host.ppmc312 import blocks
 from ...host.ppmc312.kind import KIND
 from ..common.options import Side
 from ..common.override import parse_override
-from ..common.words import OwnWord, Values
+from ..common.reading import Values
+from ..common.words import OwnWord
 from .overrides import register
 
 _DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
