@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from ...host import BACKWARD, FORWARD, Pmc006
+from ...host.pmc006.motion import Motion006
 from ..common import output
 from ..common.line_session import ending_after
+from ..common.needs import OnProgress
 from ..common.options import check_seconds
 from . import show
 from .session import Address, Session, opened
@@ -62,12 +64,12 @@ def jog(
         _finish(session, motions, False, ending_after(seconds, session.bus, session.guard, parts))
 
 
-def _finish(session: Session, motions: list[Any], judge: bool, look: Any = None) -> None:
+def _finish(session: Session, motions: list[Motion006], judge: bool, look: OnProgress | None = None) -> None:
     """Wait for all, print where they stand, tell the first that ended early."""
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        output.say(show.end_line(end))  # type: ignore[arg-type]
+        output.say(show.end_line(end))
     for motion, end in zip(motions, ends, strict=True):
         if judge:
             end.check(motion.asked)
@@ -106,7 +108,7 @@ def stop(
     with opened() as session:
         ends = session.bus.stop([part.address for part in session.chosen(address)], now)
         for end in ends:
-            output.say(show.end_line(end))  # type: ignore[arg-type]
+            output.say(show.end_line(end))
         if not ends:
             output.say("nothing was moving")
 
