@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ...host import BACKWARD, FORWARD, Pmc006
-from ...host.pmc006.motion import Motion006
+from ...host.pmc006.motion import Motion
 from ..common import output
 from ..common.line_session import ending_after
 from ..common.needs import OnProgress
@@ -64,7 +64,7 @@ def jog(
         _finish(session, motions, False, ending_after(seconds, session.bus, session.guard, parts))
 
 
-def _finish(session: Session, motions: list[Motion006], judge: bool, look: OnProgress | None = None) -> None:
+def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgress | None = None) -> None:
     """Wait for all, print where they stand, tell the first that ended early."""
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from ...host import Pmc006, Pmc006Bus
-from ...host.pmc006.bus import Found006
+from ...host.pmc006.bus import Found
 from ...host.pmc006.driver import find
 from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST
 from ..common.guard import Guard
@@ -62,7 +62,7 @@ class Session:
             raise typer.BadParameter(f"--address {text!r}: this is for one controller at a time")
         return self.chosen(text)[0]
 
-    def scan(self) -> list[Found006]:
+    def scan(self) -> list[Found]:
         """Who is there."""
         found = self.bus.scan(progress=self._scanning)
         self.guard.bar_off()

@@ -9,7 +9,7 @@ from typing import Any
 from rich.table import Table
 
 from ...host import End, Pmc006
-from ...host.pmc006.bus import Found006
+from ...host.pmc006.bus import Found
 from ...host.pmc006.codes import Flags, Modes
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
 
@@ -27,7 +27,7 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
     return ", ".join(words) or "at rest"
 
 
-def found_table(found: Iterable[Found006]) -> Table:
+def found_table(found: Iterable[Found]) -> Table:
     """A line a controller."""
     grid = Table(box=None, pad_edge=False)
     for head in _HEADS:
@@ -43,7 +43,7 @@ def found_table(found: Iterable[Found006]) -> Table:
     return grid
 
 
-def found_values(found: Iterable[Found006]) -> list[dict[str, Any]]:
+def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
     """For JSON."""
     return [
         {

@@ -16,7 +16,7 @@ from ...host.ppmc312.answers import (
     Report,
     Stopped,
 )
-from ...host.ppmc312.axis import Axis312
+from ...host.ppmc312.axis import Axis
 from ...host.ppmc312.profile import Setup
 from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source
@@ -30,7 +30,7 @@ _DONE = {
 }
 
 
-def status_values(part: Axis312) -> dict[str, Any]:
+def status_values(part: Axis) -> dict[str, Any]:
     """Everything that may be read at any time."""
     status = part.status()
     return {

@@ -55,13 +55,13 @@ class LineKind:
 
 
 def _stations312(spec: line_spec.LineSpec) -> VirtualLine:
-    from ..ppmc312.line_board import StationLine
+    from ..ppmc312.line import StationLine
 
     return StationLine(spec)
 
 
 def _nodes006(spec: line_spec006.LineSpec) -> VirtualLine:
-    from ..pmc006.line_board import NodeLine
+    from ..pmc006.line import NodeLine
 
     return NodeLine(spec)
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 
 from ...model.carrier.carrier import Carrier
 from ...model.carrier.eeprom import BLANK, SIZE
 from ...model.common.edges import Edge
 from ...model.pmc006.memory.eeprom import PROGRAM
+from ...model.pmc006.memory.i2c import Bus
 from ...model.pmc006.part import Pmc006
+from ...model.pmc006.pins import Shared
 from ...model.pmc006.program import assemble
 from ...model.pmc006.settings import Settings, page_of
 from ..common.char_line import LineStation
@@ -41,8 +42,11 @@ class Part(Pmc006):
     """The model, with an EEPROM that is spoken to byte by byte."""
 
     def __init__(self, eeprom: Eeprom, spec: LineSpec, gpi: int) -> None:
-        self.BUS = partial(QuickBus, eeprom)
+        self._eeprom = eeprom
         super().__init__(spec.clk_hz, step_ack=spec.step_ack, baud=spec.baud, straps={"gpi": gpi})
+
+    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
+        return QuickBus(self._eeprom, shared, levels, self._i2c_hz)
 
 
 class Node(LineStation, Carrier):

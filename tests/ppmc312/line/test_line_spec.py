@@ -11,7 +11,7 @@ from openppmc.host.ppmc312.line.ascii import frame
 from openppmc.sim import part_of
 from openppmc.sim.common import line_child, lines
 from openppmc.sim.ppmc312 import line_spec
-from openppmc.sim.ppmc312.line_board import StationLine
+from openppmc.sim.ppmc312.line import StationLine
 from openppmc.sim.ppmc312.line_spec import parse_line
 
 
