@@ -1,8 +1,8 @@
 """Golden model of the PMC006B4 at pin level, event driven and exact to the clk.
 
-Pins and time: `chip`. Line: `line006`, `frames006`. Instructions: `codes006`, `desk006`, `exec006`,
-`settings006`. Program: `program006`, `processor006`, `keys006`. Inputs: `guard006`. EEPROM: `eeprom006`,
-`i2c006`, `boot006`. Motion: `motion006`, `engine006`, `plan006`. Drive: `drive006`, `angle006`, `chopper006`.
+Pins and time: `common.chip`. Line: room `front`. Instructions: `codes`, `settings`, room `instructions`
+(the user program and its keys, too). Motion, emergency inputs and stall: room `motion`. EEPROM: room
+`memory`. Microsteps and chopper: room `drive`.
 """
 
 from __future__ import annotations
@@ -44,8 +44,6 @@ class Pmc006(Chip):
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, ("rxd",)
-    BUS = Bus
-    """What moves the lines of the EEPROM."""
 
     def __init__(
         self,
@@ -100,7 +98,7 @@ class Pmc006(Chip):
         self.drive = Drive(shared, self.motion, *self._chopper_ns, origin=first)
         self.executor = Executor(desk, self._answer)
         desk.program = Processor(desk, self.executor)
-        bus = self.BUS(shared, desk.levels, self._i2c_hz)
+        bus = self._bus(shared, desk.levels)
         desk.eeprom = Engine(desk, bus, self._ee_dev)
         self._boot = Boot(desk, desk.eeprom, bus, self._booted, self._changed)
         self.line = Line(shared, self._baud, self._take, self.replies, self.sent)
@@ -109,6 +107,10 @@ class Pmc006(Chip):
         self._pause_key = KeyFilter(shared, ticks, ticks, desk.program.pause_key)
         restore_ticks = RESTORE_MS * MS + self.pace.key_ticks
         self._restore_key = KeyFilter(shared, restore_ticks, 0, self._restore, armed=True)
+
+    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
+        """What moves the lines of the EEPROM."""
+        return Bus(shared, levels, self._i2c_hz)
 
     def _restart(self) -> None:
         self._build(0)

@@ -1,4 +1,4 @@
-"""Command processor of the PPMC-104 model: what each command does. The bytes before that: `commands`.
+"""Command processor of the PPMC-104 model: what each command does. The bytes before that: `single.commands`.
 
 Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary: P104-AUX-01..06,
 P104-DS-11.

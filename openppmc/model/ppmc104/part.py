@@ -1,10 +1,10 @@
 """Golden model of the PPMC-104 at pin level, event driven and exact to the clk.
 
-Pins and time: `chip`, `single`. Blocks: `hostport` and `hostport104` (P104-BUS, -HSK), `commands` and
-`commands104` (P104-CMD, -ERR, -INI, -RD, -AUX), `motion`, `timed_motion` and `motion104` (P104-OPR, -BCK,
--PRO, -FDC, -TIM, -END), `guard` (P104-LIM), `chopper` (P104-SW), `excitation` (P104-PHS), `ramp` (P104-RMP).
-Here: P104-PORT-01..03 (pins, reset), P104-PAR-01 (parameters). The constants that the rules leave open are
-in `timebase.Latency`.
+Pins and time: `common.chip`, `single.single`. Blocks: `hostport` and `strobes` (P104-BUS, -HSK), `commands`
+here and in `single` (P104-CMD, -ERR, -INI, -RD, -AUX), `motion` here and in `motion`, `timed_motion`
+(P104-OPR, -BCK, -PRO, -FDC, -TIM, -END), `guard` (P104-LIM), `chopper` (P104-SW), `excitation` (P104-PHS),
+`ramp` (P104-RMP). Here: P104-PORT-01..03 (pins, reset), P104-PAR-01 (parameters). The constants that the
+rules leave open are in `timebase.Latency`.
 """
 
 from __future__ import annotations

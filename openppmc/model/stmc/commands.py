@@ -1,4 +1,4 @@
-"""Command processor of the STMC: what each command does. The bytes before that: `commands`.
+"""Command processor of the STMC: what each command does. The bytes before that: `single.commands`.
 
 Initialisation: STMC-INI-01..08, STMC-DS-02/03. Motion commands: STMC-MOT-01..04. Reads: STMC-FIN, -INP,
 -OUT, -REM, -RD.

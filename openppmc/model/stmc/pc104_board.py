@@ -1,6 +1,6 @@
 """Golden model of the J105 STMC board: ISA slave, 48.675 kHz step clock and interrupt around the core.
 
-Rules J105-01..07. Only what lies between the core and the bus is here; the core is `stmc`.
+Rules J105-01..07. Only what lies between the core and the bus is here; the core is `part`.
 """
 
 from __future__ import annotations

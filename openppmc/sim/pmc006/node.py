@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 
 from ...model.carrier.carrier import Carrier
 from ...model.carrier.eeprom import BLANK, SIZE
 from ...model.common.edges import Edge
 from ...model.pmc006.memory.eeprom import PROGRAM
+from ...model.pmc006.memory.i2c import Bus
 from ...model.pmc006.part import Pmc006
+from ...model.pmc006.pins import Shared
 from ...model.pmc006.program import assemble
 from ...model.pmc006.settings import Settings, page_of
 from ..common.char_line import LineStation
@@ -41,22 +42,23 @@ class Part(Pmc006):
     """The model, with an EEPROM that is spoken to byte by byte."""
 
     def __init__(self, eeprom: Eeprom, spec: LineSpec, gpi: int) -> None:
-        self.BUS = partial(QuickBus, eeprom)
+        self._eeprom = eeprom
         super().__init__(spec.clk_hz, step_ack=spec.step_ack, baud=spec.baud, straps={"gpi": gpi})
 
+    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
+        return QuickBus(self._eeprom, shared, levels, self._i2c_hz)
 
-class Node(LineStation, Carrier):
+
+class Node(Carrier[Part], LineStation[Part]):
     """number: its address at first. `position` is the carriage's in 1/16 full steps, the part itself counts
     steps. The switches are optical: they do not bounce. It has been on for a while: it has booted."""
-
-    NUMBER = 6
 
     def __init__(self, carriage: Carriage, number: int, spec: LineSpec) -> None:
         self.number, self.carriage = number, carriage
         self.eeprom = Eeprom(first_content(number, carriage), carriage.eeprom, carriage.no_eeprom)
         self._way = carriage.start * FULL_STEP // UNIT
         part = Part(self.eeprom, spec, carriage.gpi)
-        super().__init__(part, [carriage], lambda: None)  # type: ignore[list-item]
+        super().__init__(part, [carriage], lambda: None)
         while part.booting:
             self.run_until(self.t + self.clk_hz // 10_000)
 
