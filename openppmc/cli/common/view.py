@@ -26,14 +26,14 @@ class Status(Protocol):
         """As it was read."""
 
 
-class Told(Part, Protocol):
+class WithStatus(Part, Protocol):
     """A part that tells its status."""
 
     def status(self) -> Status:
         """Read it; disturbs nothing."""
 
 
-AnyPart = TypeVar("AnyPart", bound=Told)
+AnyPart = TypeVar("AnyPart", bound=WithStatus)
 AnySetup = TypeVar("AnySetup")
 
 
@@ -157,7 +157,7 @@ class RampView(View[AnyPart, units.Setup]):
 
 AnyView = View[Any, Any]
 """Of a part that is known by its name only."""
-_USUAL: AnyView = RampView[Told]()
+_USUAL: AnyView = RampView[WithStatus]()
 
 
 def view_of(kind: Kind) -> AnyView:
