@@ -10,11 +10,13 @@ from collections.abc import Callable, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from ...host import End, OutOfRange
+from ...host.axis.moves import OnProgress
+from ...host.axis.part import AnyAxis
 from ...host.basis import units
 from ...host.basis.kind import Kind
+from ...host.bridge.link import Link
 from . import forecast, show
 from .forecast import Course
-from .needs import Axis, OnProgress, Part
 from .override import Override
 
 
@@ -26,9 +28,13 @@ class Status(Protocol):
         """As it was read."""
 
 
-class WithStatus(Part, Protocol):
+class WithStatus(Protocol):
     """A part that tells its status."""
 
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def link(self) -> Link: ...
     def status(self) -> Status:
         """Read it; disturbs nothing."""
 
@@ -44,7 +50,7 @@ class View(ABC, Generic[AnyPart, AnySetup]):
     # ------------------------------------------------------------------ looking
 
     @abstractmethod
-    def status_values(self, part: AnyPart, axis: Axis) -> dict[str, Any]:
+    def status_values(self, part: AnyPart, axis: AnyAxis) -> dict[str, Any]:
         """Everything that may be read of an axis at any time: position, moving, error, status, inputs."""
 
     def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
@@ -57,7 +63,7 @@ class View(ABC, Generic[AnyPart, AnySetup]):
             "last byte": "good" if error is None else f"error {error}",
         }
 
-    def busy(self, part: AnyPart, axes: Sequence[Axis]) -> tuple[Axis, ...]:
+    def busy(self, part: AnyPart, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
         """Those of these axes that move."""
         status = part.status().raw
         return tuple(axis for axis in axes if status & axis.busy)
@@ -106,7 +112,7 @@ class View(ABC, Generic[AnyPart, AnySetup]):
     def home(
         self,
         part: AnyPart,
-        axis: Axis,
+        axis: AnyAxis,
         direction: int,
         pps: float | None,
         fast: bool,
@@ -127,7 +133,7 @@ class View(ABC, Generic[AnyPart, AnySetup]):
 class RampView(View[AnyPart, units.Setup]):
     """Parts with the one ramp of the family."""
 
-    def status_values(self, part: AnyPart, axis: Axis) -> dict[str, Any]:
+    def status_values(self, part: AnyPart, axis: AnyAxis) -> dict[str, Any]:
         status: Any = part.status()
         moving, error = self.moving(status, axis.number)
         return {
