@@ -90,7 +90,7 @@ class Player:
         absolute, speed = step.word == "goto", values.get("speed")
         first, second = values["position" if absolute else "pulses"], values["second"]
         if second is not None:
-            x, y = (motor.position if absolute else 0 for motor in self._part.axes)
+            x, y = (motor.position if absolute else 0 for motor in self._part.axes[:2])
             self._session.view.together(self._part, (first - x, second - y), speed, progress)
             return
         pulses = first - (axis.position if absolute else 0)
