@@ -88,12 +88,14 @@ def sources(of: Part) -> list[Path]:
 
 
 def board_files(part_name: str) -> list[Path]:
-    """The board module of a part and the files beside it that it is built from; none if it has no board.
+    """The carrier of a part and what it is built from; none if the part has no carrier."""
+    return built_from(f"{part_name}_carrier")
 
-    In compile order.
-    """
+
+def built_from(module: str) -> list[Path]:
+    """A module of the group `boards` and what it is built from there, in compile order; none if unknown."""
     files = file_groups().get("boards", [])
-    found = {path for path in files if path.stem == f"{part_name}_carrier"}
+    found = {path for path in files if path.stem == module}
     while True:
         text = "\n".join(path.read_text(encoding="utf-8") for path in found)
         more = {path for path in files if re.search(rf"^\s*{path.stem}\s", text, re.M)} - found

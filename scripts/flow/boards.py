@@ -1,22 +1,23 @@
-"""The boards that `make bitstream` knows, and the way from their tops to a bitstream file."""
+"""The boards that `make bitstream` knows, by their descriptions, and the way from top to bitstream file."""
 
 from __future__ import annotations
 
 import json
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
+from openppmc import parts as table
+from scripts.boards.description import HOSTS, Carried, Description, Device, load_all
 
 from . import board_route
 from .synthesis import run_yosys
 from .yosys_job import BEST
 
 SEEDS = 5  # tried one after the other until the clock rate is met
-HOSTS = ("uart", "bus")
 VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
 CONSTRAINTS = project.ROOT / "constraints"
 
@@ -61,156 +62,48 @@ class Board:
         return self.folder(host) / f"{self.stem(host)}{self.suffix}"
 
 
-def both(text: str) -> dict[str, str]:
-    """The same for both hosts."""
-    return dict.fromkeys(HOSTS, text)
-
-
-def ulx3s(size: str) -> Board:
-    """A ULX3S with an LFE5U of `size` thousand LUTs."""
+def _board(of: Description, device: Device, same: list[Carried]) -> Board:
+    """A part on a board with one of its FPGAs; `same` has one entry, or one for each of its hosts."""
+    on = same[0]
     return Board(
-        name=f"ulx3s-{size}f",
-        title=f"ULX3S-{size}F",
-        device=f"LFE5U-{size}F-6CABGA381",
-        family="ecp5",
-        top=both("board_ulx3s"),
-        constraints=both("ulx3s.lpf"),
-        oscillator=("clk_25m", 25),
-        clk_hz=100_000_000,
-        goal_mhz=100,
-        suffix=".bit",
-        loader="ulx3s",
-        route=(f"--{size}k", "--package", "CABGA381", "--speed", "6"),
+        name=device.name,
+        title=device.title,
+        device=device.device,
+        family=of.family,
+        top={host: of.top(one) for one in same for host in one.hosts},
+        constraints={host: of.constraints(one) for one in same for host in one.hosts},
+        oscillator=(of.clock["port"], of.clock["mhz"]),
+        clk_hz=round(on.mhz * 1e6),
+        goal_mhz=on.goal,
+        suffix=of.suffix,
+        loader=of.loader,
+        route=tuple(map(str, device.route)),
+        part=on.part,
+        chip=device.chip,
+        seeds=on.seeds,
+        recipe=on.recipe,
     )
 
 
-BOARDS = {
-    board.name: board
-    for board in (
-        Board(
-            name="icebreaker",
-            title="iCEBreaker",
-            device="iCE40UP5K-SG48",
-            family="ice40",
-            top={"uart": "board_icebreaker", "bus": "board_icebreaker_bus"},
-            constraints={"uart": "icebreaker.pcf", "bus": "icebreaker-bus.pcf"},
-            oscillator=("clk_12m", 12),
-            clk_hz=24_000_000,
-            goal_mhz=24,
-            suffix=".bin",
-            loader="ice40_generic",
-            route=("--up5k", "--package", "sg48"),
-        ),
-        ulx3s("25"),
-        ulx3s("85"),
-        Board(
-            name="tangnano9k",
-            title="Tang Nano 9K",
-            device="GW1NR-LV9QN88PC6/I5",
-            family="gowin",
-            top=both("board_tangnano9k"),
-            constraints=both("tangnano9k.cst"),
-            oscillator=("clk_27m", 27),
-            clk_hz=54_000_000,
-            goal_mhz=50,
-            suffix=".fs",
-            loader="tangnano9k",
-            route=("--device", "GW1NR-LV9QN88PC6/I5", "--vopt", "family=GW1N-9C"),
-            chip="GW1N-9C",
-        ),
-    )
-}
+def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]]:
+    """Part -> name -> board, for what the tools of `make setup` build; the parts as in their table."""
+    found: dict[str, dict[str, Board]] = {}
+    for part in table.PARTS:
+        for of in descriptions:
+            same = [on for on in of.parts if on.part == part]
+            for device in of.devices if same else ():
+                found.setdefault(part, {})[device.name] = _board(of, device, same)
+    return found
 
 
-def carrying(part: str, on: str, hosts: tuple[str, ...] = HOSTS) -> Board:
-    """The board of this name with another part than a PPMC-104, for these hosts."""
-    ppmc104 = BOARDS[on]
-    family = on.split("-")[0]
-    suffix = Path(ppmc104.constraints["uart"]).suffix
-    return replace(
-        ppmc104,
-        top=dict.fromkeys(hosts, f"board_{family}_{part.replace('-', '_')}"),
-        constraints=dict.fromkeys(hosts, f"{family}-{part}{suffix}"),
-        part=part,
-    )
-
-
-def with_part(part: str) -> dict[str, Board]:
-    """The boards that carry this part besides the PPMC-104."""
-    boards = (
-        carrying(part, "icebreaker", ("uart",)),
-        carrying(part, "ulx3s-25f"),
-        carrying(part, "ulx3s-85f"),
-    )
-    return {board.name: board for board in boards}
-
-
-TANGNANO20K = Board(
-    name="tangnano20k",
-    title="Tang Nano 20K",
-    device="GW2AR-LV18QN88C8/I7",
-    family="gowin",
-    top={"uart": "board_tangnano20k_ppmc312"},
-    constraints={"uart": "tangnano20k-ppmc312.cst"},
-    oscillator=("clk_27m", 27),
-    clk_hz=54_000_000,
-    goal_mhz=50,
-    suffix=".fs",
-    loader="tangnano20k",
-    route=("--device", "GW2AR-LV18QN88C8/I7", "--vopt", "family=GW2A-18C"),
-    part="ppmc312",
-    chip="GW2A-18C",
-    seeds=1,
-)
-
-
-def with_ppmc312() -> dict[str, Board]:
-    """The boards that carry a PPMC-312: it is too large for an iCE40 and a Tang Nano 9K."""
-    boards = (
-        replace(carrying("ppmc312", name), clk_hz=50_000_000, goal_mhz=50, seeds=3)
-        for name in ("ulx3s-25f", "ulx3s-85f")
-    )
-    return {board.name: board for board in (*boards, TANGNANO20K)}
-
-
-def with_ppmc312_serial() -> dict[str, Board]:
-    """The boards that carry a PPMC-312 in serial mode. Its host is a serial line: there is no bus."""
-    part, hosts = "ppmc312-serial", ("uart",)
-    larger = (
-        replace(carrying(part, on.name, hosts), clk_hz=on.clk_hz, goal_mhz=on.goal_mhz, seeds=on.seeds)
-        for on in with_ppmc312().values()
-        if on.name in BOARDS
-    )
-    nano = replace(
-        TANGNANO20K,
-        top={"uart": "board_tangnano20k_ppmc312_serial"},
-        constraints={"uart": "tangnano20k-ppmc312-serial.cst"},
-        part=part,
-        recipe="default",  # abc9 fails with flow2: "Boxes are not in a topological order"
-    )
-    return {board.name: board for board in (*larger, nano)}
-
-
-def with_pmc006() -> dict[str, Board]:
-    """The boards that carry a PMC006B4. Its host is a serial line: there is no bus."""
-    larger = (
-        replace(carrying("pmc006", name, ("uart",)), clk_hz=50_000_000, goal_mhz=50)
-        for name in ("ulx3s-25f", "ulx3s-85f")
-    )
-    # The UP5K reaches 22 to 26 MHz with it.
-    small = replace(carrying("pmc006", "icebreaker", ("uart",)), clk_hz=18_000_000, goal_mhz=18)
-    boards = (small, *larger)
-    return {board.name: board for board in boards}
-
-
-BY_PART = {
-    "ppmc104": BOARDS,
-    "ppmc2104": with_part("ppmc2104"),
-    "stmc": with_part("stmc"),
-    "ppmc312": with_ppmc312(),
-    "ppmc312-serial": with_ppmc312_serial(),
-    "pmc006": with_pmc006(),
-}
+try:
+    DESCRIPTIONS = load_all()
+except ProjectError as error:  # one line, whichever script asks
+    raise SystemExit(project.fail(str(error))) from None
+BY_PART = by_part(DESCRIPTIONS)
+BOARDS = BY_PART["ppmc104"]
+PART_OF = {of.top(on): on.part for of in DESCRIPTIONS for on in of.parts}
+"""Top -> what it carries."""
 
 
 def board(name: str, part: str = "ppmc104") -> Board:
@@ -236,18 +129,15 @@ def check_host(on: Board, host: str) -> str:
     return host
 
 
-def part_of(top: str) -> str:
-    """The part of a top in rtl/boards: the longest one that its name has, else ppmc104."""
-    return max((part for part in BY_PART if part.replace("-", "_") in top), key=len, default="ppmc104")
+def part_of(module: str) -> str:
+    """The part of a top, or of a carrier."""
+    return PART_OF.get(module) or module.removesuffix("_carrier")
 
 
 def sources(top: str) -> list[Path]:
     """The sources of a board top in compile order, the declarations of the vendors' cells first."""
-    part = part_of(top).split("-")[0]  # its RTL; what follows is a mode of it
-    shared = project.file_groups().get("boards", [])
-    other = tuple(f"{name}_" for name in BY_PART if name != part)
-    files = [path for path in shared if not path.stem.startswith(("board_", *other)) or path.stem == top]
-    return [VENDOR_CELLS, *project.sources(project.part(part)), *files]
+    part = project.part(table.part(part_of(top)).folder)
+    return [VENDOR_CELLS, *project.sources(part), *project.built_from(top)]
 
 
 def parameters(top: str) -> set[str]:

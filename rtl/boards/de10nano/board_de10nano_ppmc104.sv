@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_de10nano: PPMC-104 on a Terasic DE10-Nano (Cyclone V 5CSEBA6U23I7), clk 50 MHz, its oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/de10nano.qsf, de10nano.sdc.
-//         For Quartus; linted, but not built or run by this project.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/de10nano/board.yml and ppmc104_carrier.sv; change those, not this.
+// board_de10nano_ppmc104: PPMC-104 with UART or bus host on DE10-Nano (5CSEBA6U23I7), clk 50 MHz, its oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/de10nano/ppmc104/pins.qsf. For Quartus; linted, but not
+//         built or run by this project.
+// Timing: of ppmc104_carrier.
 `default_nettype none
 
-module board_de10nano #(
+module board_de10nano_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // 0: for drivers that are on with H, 1: on with L
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
     input  wire logic       clk,         // 50 MHz
     input  wire logic       key_n,       // 0: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // host: bus of the old chip
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -25,8 +27,7 @@ module board_de10nano #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    input  wire logic       host_rst_n,
-    // straps and external base clock
+    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,
@@ -46,33 +47,47 @@ module board_de10nano #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps
+    // lamps, 1 = on
     output logic      [3:0] led
 );
 
   localparam int unsigned ClkHz = 50_000_000;
 
+  logic rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
   logic [7:0] part_d;
 
-  ppmc104_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (1'b1),
+      .req_ni  (key_n && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc104_carrier #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
       .BAUD      (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock (1'b1),
-      .req_n(host_rst_n && key_n),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .a0,
       .cs_n,
       .rd_n,
       .wr_n,
-      .d_i  (d),
-      .d_o  (part_d),
+      .d_i(d),
+      .d_o(part_d),
       .d_oe,
       .int_n,
       .csel,
@@ -91,10 +106,13 @@ module board_de10nano #(
       .hold,
       .pout_n,
       .dir,
-      .lamps(led)
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign d = d_oe ? part_d : 'z;
+  assign d   = d_oe ? part_d : 'z;
+  assign led = lamps;
 
 endmodule
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_icebreaker_pmc006: PMC006B4 on an iCEBreaker (iCE40UP5K-SG48), clk 18 MHz. Its pins have room for three of the
-//                          five inputs and outputs each, and for no converter: no analog speed, no stall.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker-pmc006.pcf.
+// Written by `make boards` from constraints/icebreaker/board.yml and pmc006_carrier.sv; change those, not this.
+// board_icebreaker_pmc006: PMC006B4 on iCEBreaker (iCE40UP5K-SG48), clk 18 MHz from the 12 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/pmc006/pins.pcf. The pins have room for three
+//         of the five inputs and outputs each, and for no converter: no analog speed, no stall.
 // Timing: of pmc006_carrier.
 `default_nettype none
 
@@ -12,34 +13,35 @@ module board_icebreaker_pmc006 #(
     parameter int unsigned T_OFF_NS   = 20_000,
     parameter int unsigned T_BLANK_NS = 1_000
 ) (
-    input  wire logic       clk_12m,
+    input  wire logic       clk_12m,      // 12 MHz
     input  wire logic       btn_n,        // 0: reset
     // host: USB-UART
     input  wire logic       uart_rxd,
     output logic            uart_txd,
-    // PMOD 1A: H-bridges and references of the motor
+    // host: RS-485 transceiver
+    input  wire logic       rs485_rxd,    // RO
+    output logic            rs485_txd,    // DI
+    output logic            rs485_de,     // DE
+    // H-bridges of the motor
     output logic            m10,
     output logic            m11,
     output logic            bridge_a_en,
-    output logic            pwm_a_ref,
     output logic            m20,
     output logic            m21,
     output logic            bridge_b_en,
+    output logic            pwm_a_ref,    // to the comparator through a low-pass filter
     output logic            pwm_b_ref,
-    // PMOD 1B: comparators, EEPROM, RS-485 transceiver, factory restore
-    input  wire logic       cmp_a,
+    input  wire logic       cmp_a,        // 1: the current has reached the reference
     input  wire logic       cmp_b,
-    inout  wire logic       scl,
-    inout  wire logic       sda,
-    input  wire logic       rs485_rxd,
-    output logic            rs485_txd,
-    output logic            rs485_de,
-    input  wire logic       fset_n,
-    // PMOD 2: switches, inputs, outputs
+    // switches, inputs, outputs
     input  wire logic       ext1,
     input  wire logic       ext2,
+    input  wire logic       fset_n,
     input  wire logic [2:0] gpi,
     output logic      [2:0] gpo,
+    // EEPROM: 1 pulls low
+    inout  wire logic       scl,
+    inout  wire logic       sda,
     // lamps, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
@@ -47,13 +49,12 @@ module board_icebreaker_pmc006 #(
 
   localparam int unsigned ClkHz = 18_000_000;
 
-  logic clk, lock, scl_oe, sda_oe, moving, line;
-  logic [4:0] gpo_all;
-  logic unused;
-  logic [1:0] unused_lamps;
+  logic clk, lock, scl_oe, sda_oe, unused;
+  logic [3:0] lamps;
+  logic [4:0] part_gpo;
 
   ppmc_clock_icebreaker #(
-      .Divf(7'd47)
+      .Divf(47)
   ) u_clock (
       .clk_12m_i(clk_12m),
       .clk_o    (clk),
@@ -67,7 +68,7 @@ module board_icebreaker_pmc006 #(
       .I2C_HZ    (I2C_HZ),
       .T_OFF_NS  (T_OFF_NS),
       .T_BLANK_NS(T_BLANK_NS)
-  ) u_board (
+  ) u_carrier (
       .clk,
       .lock,
       .req_n   (btn_n),
@@ -92,8 +93,8 @@ module board_icebreaker_pmc006 #(
       .ext2_pu (),
       .fset_n,
       .gpi     ({2'b11, gpi}),
-      .gpo     (gpo_all),
-      .conv    (10'd0),
+      .gpo     (part_gpo),
+      .conv    ('0),
       .adc_stb (1'b0),
       .bemf_stb(1'b0),
       .scl_i   (scl),
@@ -102,15 +103,16 @@ module board_icebreaker_pmc006 #(
       .sda_oe,
       .mon_step(),
       .mon_dir (),
-      .lamps   ({unused_lamps, moving, line})
+      .lamps
   );
 
-  assign scl = scl_oe ? 1'b0 : 'z;
-  assign sda = sda_oe ? 1'b0 : 'z;
-  assign gpo = gpo_all[2:0];
-  assign ledg_n = !line;
-  assign ledr_n = !moving;
-  assign unused = &{1'b0, gpo_all[4:3]};
+  assign scl    = scl_oe ? 1'b0 : 'z;
+  assign sda    = sda_oe ? 1'b0 : 'z;
+  assign gpo    = part_gpo[2:0];
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{part_gpo[4:3], lamps[3:2]};
 
 endmodule
 

@@ -1,36 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_icebreaker: PPMC-104 with the UART bridge on an iCEBreaker (iCE40UP5K-SG48), clk 24 MHz.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker.pcf. CSEL and VSEL are straps of the bridge.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
+// board_icebreaker_ppmc104: PPMC-104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
+//         the bridge.
+// Timing: of ppmc104_carrier.
 `default_nettype none
 
-module board_icebreaker #(
+module board_icebreaker_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // 0: for drivers that are on with H, 1: on with L
-    parameter int unsigned BAUD       = 115_200
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_12m,
+    input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // PMOD 1A: motor
-    output logic      [5:1] s,
-    output logic            hold,
-    output logic            pout_n,
-    output logic            dir,
-    // PMOD 1B: switches, 0 = active; external base clock
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    input  wire logic       clock,
+    // switches, 0 = active
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
     input  wire logic       l4_n,
     input  wire logic       cnp_n,
     input  wire logic       alm_n,
-    input  wire logic       clock,
-    output logic            aux_n,
-    // PMOD 2: auxiliary
+    // auxiliary
     input  wire logic [3:0] auxi,
     output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir,
     // lamps, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
@@ -38,9 +43,8 @@ module board_icebreaker #(
 
   localparam int unsigned ClkHz = 24_000_000;
 
-  logic clk, lock;
-  logic moving, link;
-  logic [1:0] unused_lamps;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
+  logic [3:0] lamps;
 
   ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
@@ -48,24 +52,36 @@ module board_icebreaker #(
       .lock_o   (lock)
   );
 
-  ppmc104_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc104_carrier #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      ("UART"),
       .BAUD      (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n(btn_n),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .a0   (1'b1),
       .cs_n (1'b1),
       .rd_n (1'b1),
       .wr_n (1'b1),
-      .d_i  (8'd0),
+      .d_i  ('1),
       .d_o  (),
       .d_oe (),
       .int_n(),
@@ -85,11 +101,15 @@ module board_icebreaker #(
       .hold,
       .pout_n,
       .dir,
-      .lamps   ({unused_lamps, moving, link})
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign ledg_n = !link;
-  assign ledr_n = !moving;
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{lamps[3:2]};
 
 endmodule
 

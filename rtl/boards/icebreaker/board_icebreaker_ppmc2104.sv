@@ -1,33 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_icebreaker_ppmc2104: PPMC-2104 with the UART bridge on an iCEBreaker (iCE40UP5K-SG48), clk 24 MHz.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker-ppmc2104.pcf. CSEL, RUN and ERRINT are straps
-//         of the bridge; the phases of axis 2, the external base clocks and AUXI have no pins.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/icebreaker/board.yml and ppmc2104_carrier.sv; change those, not this.
+// board_icebreaker_ppmc2104: PPMC-2104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc2104/pins.pcf. CSEL, RUN and ERRINT are
+//         straps of the bridge; S5 of axis 1, the phases of axis 2, the external base clocks and AUXI have no pins.
+//         The break-off section must be off.
+// Timing: of ppmc2104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter string       TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1 that switches a winding on
-    parameter int unsigned BAUD     = 115_200
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
+    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_12m,
+    input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // PMOD 1A: motors
-    output logic      [2:1] pout_n,
-    output logic      [2:1] dir,
-    output logic      [4:1] s1,
-    // PMOD 1B: axis 1, PMOD 2: axis 2; switches, 0 = active
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // switches, 0 = active
     input  wire logic [2:1] fl_n,
     input  wire logic [2:1] bl_n,
     input  wire logic [2:1] fhl_n,
     input  wire logic [2:1] bhl_n,
     input  wire logic [2:1] org_n,
     input  wire logic [2:1] alm_n,
-    output logic      [2:1] hold,
+    // auxiliary
     output logic      [1:0] auxo,
+    // motors
+    output logic      [4:1] s1,
+    output logic      [2:1] hold,
+    output logic      [2:1] pout_n,
+    output logic      [2:1] dir,
     // lamps, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
@@ -35,9 +40,9 @@ module board_icebreaker_ppmc2104 #(
 
   localparam int unsigned ClkHz = 24_000_000;
 
-  logic clk, lock;
-  logic moving, link, unused_s5;
-  logic [1:0] unused_lamps;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
+  logic [3:0] lamps;
+  logic [5:1] part_s1;
 
   ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
@@ -45,17 +50,29 @@ module board_icebreaker_ppmc2104 #(
       .lock_o   (lock)
   );
 
-  ppmc2104_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc2104_carrier #(
       .CLK_HZ  (ClkHz),
       .XTAL_HZ (XTAL_HZ),
       .TIMING  (TIMING),
       .PHASE_ON(PHASE_ON),
       .HOST    ("UART"),
       .BAUD    (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n   (btn_n),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .cs_n    (1'b1),
@@ -63,7 +80,7 @@ module board_icebreaker_ppmc2104 #(
       .busc    (1'b0),
       .ds_wrs_n(1'b1),
       .rw_rds_n(1'b1),
-      .d_i     (8'd0),
+      .d_i     ('1),
       .d_o     (),
       .d_oe    (),
       .int_n   (),
@@ -80,16 +97,21 @@ module board_icebreaker_ppmc2104 #(
       .auxi    ('0),
       .auxo,
       .clk_o   (),
-      .s1      ({unused_s5, s1}),
+      .s1      (part_s1),
       .s2      (),
       .hold,
       .pout_n,
       .dir,
-      .lamps   ({unused_lamps, moving, link})
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign ledg_n = !link;
-  assign ledr_n = !moving;
+  assign s1     = part_s1[4:1];
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{part_s1[5], lamps[3:2]};
 
 endmodule
 

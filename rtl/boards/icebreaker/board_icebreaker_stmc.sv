@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_icebreaker_stmc: STMC with the UART bridge on an iCEBreaker (iCE40UP5K-SG48), clk 24 MHz.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker-stmc.pcf.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/icebreaker/board.yml and stmc_carrier.sv; change those, not this.
+// board_icebreaker_stmc: J105 STMC with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/stmc/pins.pcf.
+// Timing: of stmc_carrier.
 `default_nettype none
 
 module board_icebreaker_stmc #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
     parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
-    parameter bit          PHASE_IDLE = 1'b0,        // 0: for drivers that are on with H, 1: on with L
-    parameter int unsigned BAUD       = 115_200
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_12m,
+    input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // PMOD 1A: motor
-    output logic      [5:1] s,
-    output logic            hold,
-    // PMOD 1B: switches, 0 = active
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // switches, 0 = active
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
     input  wire logic       l4_n,
     input  wire logic       cnp_n,
     input  wire logic       mon,       // 1 = the motor may run
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
     // lamps, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
@@ -32,9 +36,8 @@ module board_icebreaker_stmc #(
 
   localparam int unsigned ClkHz = 24_000_000;
 
-  logic clk, lock;
-  logic moving, link;
-  logic [1:0] unused_lamps;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
+  logic [3:0] lamps;
 
   ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
@@ -42,25 +45,38 @@ module board_icebreaker_stmc #(
       .lock_o   (lock)
   );
 
-  stmc_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  stmc_carrier #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .READ_MAP  (READ_MAP),
       .PHASE_IDLE(PHASE_IDLE),
+      .EXT_HZ    (EXT_HZ),
       .HOST      ("UART"),
       .BAUD      (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n(btn_n),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .cs_n (1'b1),
       .a0   (1'b1),
       .rd_n (1'b1),
       .wr_n (1'b1),
-      .d_i  (8'd0),
+      .d_i  ('1),
       .d_o  (),
       .d_oe (),
       .int_n(),
@@ -72,11 +88,15 @@ module board_icebreaker_stmc #(
       .mon,
       .s,
       .hold,
-      .lamps({unused_lamps, moving, link})
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign ledg_n = !link;
-  assign ledr_n = !moving;
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{lamps[3:2]};
 
 endmodule
 

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_tangnano20k_ppmc312: PPMC-312 on a Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from its 27 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k-ppmc312.cst. UART host only; two general inputs
-//         and two general outputs: the header has no more pins.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/tangnano20k/board.yml and ppmc312_carrier.sv; change those, not this.
+// board_tangnano20k_ppmc312: PPMC-312 with UART host on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from the 27
+//         MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k/ppmc312/pins.cst. Two general inputs and two
+//         general outputs only, and no bus; the header has no more pins.
+// Timing: of ppmc312_carrier.
 `default_nettype none
 
 module board_tangnano20k_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter string       TIMING  = "FAST",
-    parameter int unsigned BAUD    = 115_200
+    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_27m,
+    input  wire logic       clk_27m,   // 27 MHz
     input  wire logic       btn,       // 1: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
+    // UART host, or a master of the part itself
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
     // switches, drive and encoder, 0 = active but for epin, epdir and run
     input  wire logic       fl_n,
     input  wire logic       bl_n,
@@ -47,11 +49,9 @@ module board_tangnano20k_ppmc312 #(
 
   localparam int unsigned ClkHz = 54_000_000;
 
-  logic clk, lock, unused;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
   logic [3:0] lamps;
-  logic [5:0] outputs_n;
-  logic [7:0] part_d;
-  logic line, line_de, part_oe, wrq_n, irq_n;
+  logic [5:0] part_auxo_n;
 
   ppmc_clock_tangnano #(
       .Device("GW2A-18C"),
@@ -62,33 +62,45 @@ module board_tangnano20k_ppmc312 #(
       .lock_o   (lock)
   );
 
-  ppmc312_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc312_carrier #(
       .CLK_HZ (ClkHz),
       .XTAL_HZ(XTAL_HZ),
       .TIMING (TIMING),
       .HOST   ("UART"),
       .BAUD   (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n    (!btn),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .rs485_rxd(1'b1),
-      .rs485_txd(line),
-      .rs485_de (line_de),
+      .rs485_txd(),
+      .rs485_de (),
       .hsp      (1'b1),
       .mod      ('1),
       .adr      ('1),
-      .rs       ('0),
+      .rs       ('1),
       .cs_n     (1'b1),
       .oe_n     (1'b1),
       .we_n     (1'b1),
-      .d_i      ('0),
-      .d_o      (part_d),
-      .d_oe     (part_oe),
-      .wrq_n,
-      .irq_n,
+      .d_i      ('1),
+      .d_o      (),
+      .d_oe     (),
+      .wrq_n    (),
+      .irq_n    (),
       .fl_n,
       .bl_n,
       .fhl_n,
@@ -103,7 +115,7 @@ module board_tangnano20k_ppmc312 #(
       .evt0_n,
       .evt1_n,
       .extck,
-      .auxi     ({6'h3F, auxi}),
+      .auxi     ({6'b111111, auxi}),
       .pout,
       .dir,
       .exon_n,
@@ -112,14 +124,17 @@ module board_tangnano20k_ppmc312 #(
       .aclr_n,
       .zclmp_n,
       .intlk_n,
-      .auxo_n   (outputs_n),
-      .lamps
+      .auxo_n   (part_auxo_n),
+      .hold     (),
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign auxo_n = outputs_n[1:0];
+  assign auxo_n = part_auxo_n[1:0];
   assign led_n  = ~lamps;
 
-  assign unused = ^{line, line_de, part_d, part_oe, wrq_n, irq_n, outputs_n[5:2]};
+  assign unused = ^{part_auxo_n[5:2]};
 
 endmodule
 

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_tangnano20k_ppmc312_serial: PPMC-312 in serial mode on a Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from
-//                                   its 27 MHz oscillator.
-// Rules:  pins, wiring: docs/boards.md; constraints/tangnano20k-ppmc312-serial.cst. Frames are taken from the USB-UART
-//         and from the RS-485 line, replies go to both. The header has no pins left for general inputs and outputs, the
-//         external base clock, hsp (no function) and mod[2] (1 at all speeds); adr lies on the lamps.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/tangnano20k/board.yml and ppmc312_carrier.sv; change those, not this.
+// board_tangnano20k_ppmc312_serial: PPMC-312 in serial mode on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from
+//         the 27 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k/ppmc312-serial/pins.cst. Frames are taken from
+//         the USB-UART and from the RS-485 line, replies go to both. The header has no pins left for general inputs
+//         and outputs, the external base clock, hsp (no function) and mod[2] (1 at all speeds); adr lies on the
+//         lamps.
+// Timing: of ppmc312_carrier.
 `default_nettype none
 
 module board_tangnano20k_ppmc312_serial #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter string       TIMING   = "FAST",
-    parameter string       SUM_MODE = "BINARY"     // or "CHARS"
+    parameter string       SUM_MODE = "BINARY"     // of the part's own line; or "CHARS"
 ) (
-    input  wire logic       clk_27m,
+    input  wire logic       clk_27m,    // 27 MHz
     input  wire logic       btn,        // 1: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // host: RS-485 transceiver
+    // UART host, or a master of the part itself
+    input  wire logic       uart_rxd,   // from the PC
+    output logic            uart_txd,   // to the PC
+    // serial line and its straps; it rests with another host
     input  wire logic       rs485_rxd,
     output logic            rs485_txd,
     output logic            rs485_de,
-    // straps of the line, read when a reset ends
     input  wire logic [1:0] mod,
     input  wire logic [3:0] adr,
     // switches, drive and encoder, 0 = active but for epin, epdir and run
@@ -51,11 +52,8 @@ module board_tangnano20k_ppmc312_serial #(
 
   localparam int unsigned ClkHz = 54_000_000;
 
-  logic clk, lock, unused;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
   logic [3:0] lamps;
-  logic [5:0] outputs_n;
-  logic [7:0] part_d;
-  logic part_oe, wrq_n, irq_n;
 
   ppmc_clock_tangnano #(
       .Device("GW2A-18C"),
@@ -66,16 +64,28 @@ module board_tangnano20k_ppmc312_serial #(
       .lock_o   (lock)
   );
 
-  ppmc312_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc312_carrier #(
       .CLK_HZ  (ClkHz),
       .XTAL_HZ (XTAL_HZ),
       .TIMING  (TIMING),
       .SUM_MODE(SUM_MODE),
       .HOST    ("SERIAL")
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n (!btn),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .rs485_rxd,
@@ -84,15 +94,15 @@ module board_tangnano20k_ppmc312_serial #(
       .hsp   (1'b1),
       .mod   ({1'b1, mod}),
       .adr,
-      .rs    ('0),
+      .rs    ('1),
       .cs_n  (1'b1),
       .oe_n  (1'b1),
       .we_n  (1'b1),
-      .d_i   ('0),
-      .d_o   (part_d),
-      .d_oe  (part_oe),
-      .wrq_n,
-      .irq_n,
+      .d_i   ('1),
+      .d_o   (),
+      .d_oe  (),
+      .wrq_n (),
+      .irq_n (),
       .fl_n,
       .bl_n,
       .fhl_n,
@@ -116,11 +126,14 @@ module board_tangnano20k_ppmc312_serial #(
       .aclr_n,
       .zclmp_n,
       .intlk_n,
-      .auxo_n(outputs_n),
-      .lamps
+      .auxo_n(),
+      .hold  (),
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign unused = ^{lamps, part_d, part_oe, wrq_n, irq_n, outputs_n};
+  assign unused = ^{lamps};
 
 endmodule
 

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_ulx3s: PPMC-104 on a ULX3S (ECP5 LFE5U-25F or -85F, CABGA381), clk 100 MHz from its 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s.lpf.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/ulx3s/board.yml and ppmc104_carrier.sv; change those, not this.
+// board_ulx3s_ppmc104: PPMC-104 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
+//         from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc104/pins.lpf.
+// Timing: of ppmc104_carrier.
 `default_nettype none
 
-module board_ulx3s #(
+module board_ulx3s_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // 0: for drivers that are on with H, 1: on with L
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_25m,
+    input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // host: bus of the old chip
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -24,8 +27,7 @@ module board_ulx3s #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    input  wire logic       host_rst_n,
-    // straps and external base clock
+    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,
@@ -45,14 +47,16 @@ module board_ulx3s #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps and the boot pin of the ESP32
+    // lamps, 1 = on
     output logic      [3:0] led,
-    output logic            wifi_gpio0
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
 );
 
   localparam int unsigned ClkHz = 100_000_000;
 
-  logic clk, lock;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s u_clock (
@@ -61,25 +65,37 @@ module board_ulx3s #(
       .lock_o   (lock)
   );
 
-  ppmc104_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc104_carrier #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
       .BAUD      (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n(host_rst_n && !btn_f1),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .a0,
       .cs_n,
       .rd_n,
       .wr_n,
-      .d_i  (d),
-      .d_o  (part_d),
+      .d_i(d),
+      .d_o(part_d),
       .d_oe,
       .int_n,
       .csel,
@@ -98,10 +114,13 @@ module board_ulx3s #(
       .hold,
       .pout_n,
       .dir,
-      .lamps(led)
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign d = d_oe ? part_d : 'z;
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

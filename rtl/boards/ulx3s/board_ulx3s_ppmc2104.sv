@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_ulx3s_ppmc2104: PPMC-2104 on a ULX3S (ECP5 LFE5U-25F or -85F, CABGA381), clk 100 MHz from its 25 MHz
-//         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s-ppmc2104.lpf.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/ulx3s/board.yml and ppmc2104_carrier.sv; change those, not this.
+// board_ulx3s_ppmc2104: PPMC-2104 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
+//         from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc2104/pins.lpf.
+// Timing: of ppmc2104_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter string       TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 that switches a winding on
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
     parameter string       HOST     = "UART",      // or "BUS"
-    parameter int unsigned BAUD     = 115_200
+    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_25m,
+    input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // host: bus of the old chip
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       busc,
@@ -26,8 +28,7 @@ module board_ulx3s_ppmc2104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    input  wire logic       host_rst_n,
-    // straps and external base clocks
+    // with the UART host the straps can pull these to 0 as well
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,
@@ -49,14 +50,16 @@ module board_ulx3s_ppmc2104 #(
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps and the boot pin of the ESP32
+    // lamps, 1 = on
     output logic      [3:0] led,
-    output logic            wifi_gpio0
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
 );
 
   localparam int unsigned ClkHz = 100_000_000;
 
-  logic clk, lock;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s u_clock (
@@ -65,17 +68,29 @@ module board_ulx3s_ppmc2104 #(
       .lock_o   (lock)
   );
 
-  ppmc2104_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc2104_carrier #(
       .CLK_HZ  (ClkHz),
       .XTAL_HZ (XTAL_HZ),
       .TIMING  (TIMING),
       .PHASE_ON(PHASE_ON),
       .HOST    (HOST),
       .BAUD    (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n(host_rst_n && !btn_f1),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .cs_n,
@@ -83,8 +98,8 @@ module board_ulx3s_ppmc2104 #(
       .busc,
       .ds_wrs_n,
       .rw_rds_n,
-      .d_i  (d),
-      .d_o  (part_d),
+      .d_i(d),
+      .d_o(part_d),
       .d_oe,
       .int_n,
       .errint_n,
@@ -105,10 +120,13 @@ module board_ulx3s_ppmc2104 #(
       .hold,
       .pout_n,
       .dir,
-      .lamps(led)
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign d = d_oe ? part_d : 'z;
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_ulx3s_ppmc312: PPMC-312 on a ULX3S (ECP5 LFE5U-25F or -85F, CABGA381), clk 50 MHz from its 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s-ppmc312.lpf.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/ulx3s/board.yml and ppmc312_carrier.sv; change those, not this.
+// board_ulx3s_ppmc312: PPMC-312 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz
+//         from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc312/pins.lpf.
+// Timing: of ppmc312_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter string       TIMING  = "FAST",
-    parameter string       HOST    = "UART",      // or "BUS"
-    parameter int unsigned BAUD    = 115_200
+    parameter string       HOST    = "UART",      // or "BUS", "SERIAL"
+    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_25m,
+    input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // host: bus of the old chip
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host, or a master of the part itself
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,
@@ -24,7 +27,6 @@ module board_ulx3s_ppmc312 #(
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            wrq_n,
     output logic            irq_n,
-    input  wire logic       host_rst_n,
     // switches, drive and encoder, 0 = active but for epin, epdir and run
     input  wire logic       fl_n,
     input  wire logic       bl_n,
@@ -51,48 +53,62 @@ module board_ulx3s_ppmc312 #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    // lamps and the boot pin of the ESP32
+    // lamps, 1 = on
     output logic      [3:0] led,
-    output logic            wifi_gpio0
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
 );
 
   localparam int unsigned ClkHz = 50_000_000;
 
-  logic clk, lock, line, line_de, unused;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s #(
-      .Divisor(600_000_000 / ClkHz)
+      .Divisor(12)
   ) u_clock (
       .clk_25m_i(clk_25m),
       .clk_o    (clk),
       .lock_o   (lock)
   );
 
-  ppmc312_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc312_carrier #(
       .CLK_HZ (ClkHz),
       .XTAL_HZ(XTAL_HZ),
       .TIMING (TIMING),
       .HOST   (HOST),
       .BAUD   (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n(host_rst_n && !btn_f1),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .rs485_rxd(1'b1),
-      .rs485_txd(line),
-      .rs485_de(line_de),
-      .hsp(1'b1),
-      .mod('1),
-      .adr('1),
+      .rs485_txd(),
+      .rs485_de (),
+      .hsp      (1'b1),
+      .mod      ('1),
+      .adr      ('1),
       .rs,
       .cs_n,
       .oe_n,
       .we_n,
-      .d_i(d),
-      .d_o(part_d),
+      .d_i      (d),
+      .d_o      (part_d),
       .d_oe,
       .wrq_n,
       .irq_n,
@@ -120,12 +136,14 @@ module board_ulx3s_ppmc312 #(
       .zclmp_n,
       .intlk_n,
       .auxo_n,
-      .lamps(led)
+      .hold     (),
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign d = d_oe ? part_d : 'z;
-
-  assign unused = ^{line, line_de};
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

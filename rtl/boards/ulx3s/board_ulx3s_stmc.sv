@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_ulx3s_stmc: STMC on a ULX3S (ECP5 LFE5U-25F or -85F, CABGA381), clk 100 MHz from its 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s-stmc.lpf.
-// Timing: the part's inputs are synchronised inside it.
+// Written by `make boards` from constraints/ulx3s/board.yml and stmc_carrier.sv; change those, not this.
+// board_ulx3s_stmc: J105 STMC with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
+//         from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/stmc/pins.lpf.
+// Timing: of stmc_carrier.
 `default_nettype none
 
 module board_ulx3s_stmc #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
     parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
-    parameter bit          PHASE_IDLE = 1'b0,        // 0: for drivers that are on with H, 1: on with L
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
-    input  wire logic       clk_25m,
+    input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
-    // host: USB-UART
-    input  wire logic       uart_rxd,
-    output logic            uart_txd,
-    // host: bus
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       rd_n,
@@ -25,7 +29,6 @@ module board_ulx3s_stmc #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    input  wire logic       host_rst_n,
     // switches, 0 = active
     input  wire logic       l1_n,
     input  wire logic       l2_n,
@@ -36,14 +39,16 @@ module board_ulx3s_stmc #(
     // motor
     output logic      [5:1] s,
     output logic            hold,
-    // lamps and the boot pin of the ESP32
+    // lamps, 1 = on
     output logic      [3:0] led,
-    output logic            wifi_gpio0
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
 );
 
   localparam int unsigned ClkHz = 100_000_000;
 
-  logic clk, lock;
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s u_clock (
@@ -52,26 +57,39 @@ module board_ulx3s_stmc #(
       .lock_o   (lock)
   );
 
-  stmc_station #(
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  stmc_carrier #(
       .CLK_HZ    (ClkHz),
       .XTAL_HZ   (XTAL_HZ),
       .TIMING    (TIMING),
       .READ_MAP  (READ_MAP),
       .PHASE_IDLE(PHASE_IDLE),
+      .EXT_HZ    (EXT_HZ),
       .HOST      (HOST),
       .BAUD      (BAUD)
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock,
-      .req_n(host_rst_n && !btn_f1),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .cs_n,
       .a0,
       .rd_n,
       .wr_n,
-      .d_i  (d),
-      .d_o  (part_d),
+      .d_i(d),
+      .d_o(part_d),
       .d_oe,
       .int_n,
       .l1_n,
@@ -82,10 +100,13 @@ module board_ulx3s_stmc #(
       .mon,
       .s,
       .hold,
-      .lamps(led)
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
-  assign d = d_oe ? part_d : 'z;
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;
