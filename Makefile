@@ -1,9 +1,20 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-# Two parts are other parts in a frame: they have no demo, no virtual board and no bitstream of their own.
-FRAMES := $(if $(filter demo board soak bench bitstream flash trace,$(MAKECMDGOALS)),,isa_4axis j105_stmc)
-PARTS := ppmc104 ppmc2104 $(FRAMES) stmc ppmc312 pmc006 \
-         $(if $(filter demo board soak bench bitstream flash,$(MAKECMDGOALS)),ppmc312-serial)
+comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
+quote = '$(subst ','\'',$1)'
+# Names from the table of parts, openppmc/parts.py; none without a Python, which preflight.sh then asks for.
+names = $(shell for python in .venv/bin/python $(call quote,$(PYTHON)) python3; do \
+          "$$python" openppmc/parts.py names $1 2>/dev/null && break; done)
+# Which parts a goal has: those with such a column, or those with a top module of their own.
+WITH_demo := --with demo
+WITH_bench := --with demo
+WITH_soak := --with soak
+WITH_board := --any carrier line
+WITH_bitstream := --any carrier line
+WITH_flash := --any carrier line
+WITH_trace := --folders
+SPECIAL := $(firstword $(foreach goal,$(MAKECMDGOALS),$(if $(WITH_$(goal)),$(goal))))
+PARTS := $(call names,$(or $(WITH_$(SPECIAL)),--tops))
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
@@ -40,8 +51,6 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
-comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
-quote = '$(subst ','\'',$1)'
 NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards
 CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
@@ -99,7 +108,7 @@ bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine
 
 trace: $(ENVSIM) ## docs/<part>/traceability.md: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
-	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104 stmc ppmc312 pmc006); do $(PY) -m scripts.trace $$part || exit 1; done
+	@for part in $(or $(GIVEN_PART),$(call names,--folders)); do $(PY) -m scripts.trace $$part || exit 1; done
 
 test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))

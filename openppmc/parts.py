@@ -3,8 +3,12 @@
 Needs the standard library only and imports nothing of the project, so that `make` can ask it before there is
 an environment:
 
-    python3 openppmc/parts.py names [--with FIELD]     names of all parts, or of those that have this
-    python3 openppmc/parts.py show NAME                one row, a field a line
+    python3 openppmc/parts.py names                      all parts; those …
+    python3 openppmc/parts.py names --with COLUMN …      … that have something in each of these columns
+    python3 openppmc/parts.py names --any COLUMN …       … in one of them at least
+    python3 openppmc/parts.py names --folders            … with folders of their own
+    python3 openppmc/parts.py names --tops               … with a top module of their own
+    python3 openppmc/parts.py show NAME                  one row, a column a line
 
 Places in the columns `model`, `driver`, `kind`, `commands` and `machine` are "module:name" below the part's
 folder in that layer; `load` imports them when they are asked for.
@@ -144,7 +148,7 @@ ROWS = (
         driver="driver:Ppmc312",
         kind="kind:KIND",
         machine="machine:MACHINE",
-        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "rulings.md"),
+        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
         carrier=True,
         demo=True,
         soak=True,
@@ -172,7 +176,7 @@ ROWS = (
         kind="kind:KIND",
         commands="app:app",
         machine="line_spec:MACHINE",
-        docs=("rulings.md",),
+        docs=("design.md", "rulings.md"),
         carrier=True,
         line=True,
         demo=True,
@@ -219,24 +223,45 @@ def folders() -> tuple[Row, ...]:
     return tuple(row for row in PARTS.values() if not row.of)
 
 
+def tops() -> tuple[Row, ...]:
+    """The parts with a top module of their own, those in another one's folder among them."""
+    return tuple(row for row in PARTS.values() if row.top == row.name)
+
+
 def by_number(number: int) -> Row | None:
     """The part that tells this number over the UART bridge, or None."""
     return next((row for row in having("number") if row.number == number), None)
 
 
+def _chosen(options: list[str]) -> tuple[Row, ...] | None:
+    """The rows that the options of `names` choose; None for options that there are not."""
+    if not options:
+        return tuple(PARTS.values())
+    if options in (["--folders"], ["--tops"]):
+        return folders() if options == ["--folders"] else tops()
+    if options[0] == "--with" and options[1:]:
+        return having(*options[1:])
+    if options[0] == "--any" and options[1:]:
+        found = [row for column in options[1:] for row in having(column)]
+        return tuple(row for row in PARTS.values() if row in found)
+    return None
+
+
 def main(arguments: list[str]) -> int:
     """Command line, for make and shell scripts; returns the exit code."""
     try:
-        if arguments == ["names"]:
-            print(*PARTS)
-        elif arguments[:2] == ["names", "--with"] and arguments[2:]:
-            print(*(row.name for row in having(*arguments[2:])))
+        rows = _chosen(arguments[1:]) if arguments[:1] == ["names"] else None
+        if rows is not None:
+            print(*(row.name for row in rows))
         elif arguments[:1] == ["show"] and len(arguments) == 2:
             for f in fields(Row):
                 value = getattr(part(arguments[1]), f.name)
                 print(f"{f.name}: {' '.join(value) if isinstance(value, tuple) else value}")
         else:
-            print("expected: names [--with COLUMN…] or show NAME", file=sys.stderr)
+            print(
+                "expected: names [--with COLUMN… | --any COLUMN… | --folders | --tops] or show NAME",
+                file=sys.stderr,
+            )
             return 2
     except UnknownPartError as error:
         print(error, file=sys.stderr)

@@ -149,10 +149,10 @@ add_file -type verilog $root/rtl/stmc/stmc.sv
 add_file -type verilog $root/rtl/stmc/j105_stmc.sv
 add_file -type verilog $root/rtl/ppmc2104/isa/isa_4axis.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_host.sv
-add_file -type verilog $root/rtl/ppmc104/ppmc104_carrier.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_reset.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_lamp.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_panel.sv
+add_file -type verilog $root/rtl/ppmc104/ppmc104_carrier.sv
 add_file -type verilog $root/rtl/ppmc2104/ppmc2104_carrier.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_steps.sv
 add_file -type verilog $root/rtl/stmc/stmc_carrier.sv

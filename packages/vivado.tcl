@@ -148,10 +148,10 @@ set files [list \
   $root/rtl/stmc/j105_stmc.sv \
   $root/rtl/ppmc2104/isa/isa_4axis.sv \
   $root/rtl/boards/common/ppmc_board_host.sv \
-  $root/rtl/ppmc104/ppmc104_carrier.sv \
   $root/rtl/boards/common/ppmc_board_reset.sv \
   $root/rtl/boards/common/ppmc_board_lamp.sv \
   $root/rtl/boards/common/ppmc_board_panel.sv \
+  $root/rtl/ppmc104/ppmc104_carrier.sv \
   $root/rtl/ppmc2104/ppmc2104_carrier.sv \
   $root/rtl/boards/common/ppmc_board_steps.sv \
   $root/rtl/stmc/stmc_carrier.sv \

@@ -14,10 +14,12 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
-from scripts.pictures import plots, tables, waves
+from scripts.pictures import house, plots, tables, waves
 from scripts.pmc006 import currents
+from scripts.pmc006 import diagram as diagram_006
 from scripts.pmc006 import plots as plots_006
 from scripts.pmc006 import tables as tables_006
+from scripts.ppmc312 import diagram as diagram_312
 from scripts.ppmc312 import plots as plots_312
 from scripts.ppmc312 import tables as tables_312
 from scripts.ppmc312 import waves as waves_312
@@ -46,13 +48,22 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "times-table": tables_006.times_table,
     },
 }
-PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS, **plots_006.PLOTS, **currents.PLOTS}
+PLOTS = {
+    **house.PLOTS,
+    **diagram_312.PLOTS,
+    **diagram_006.PLOTS,
+    **plots.PLOTS,
+    **plots_stmc.PLOTS,
+    **plots_312.PLOTS,
+    **plots_006.PLOTS,
+    **currents.PLOTS,
+}
 DIAGRAMS = {**waves_stmc.DIAGRAMS, **waves_312.DIAGRAMS}
 
 
 def image(name: str) -> Path:
-    """Where the picture "<part>/<what>" stands."""
-    part, what = name.split("/")
+    """Where the picture "<part>/<what>", or "<what>" of pages about the whole, stands."""
+    part, _, what = name.rpartition("/")
     return DOCS / part / "img" / f"{what}.svg"
 
 
@@ -79,7 +90,7 @@ def wanted() -> dict[Path, bytes]:
 def stale(files: dict[Path, bytes]) -> list[Path]:
     """Generated files that are missing or differ, and pictures of a part that have lost their source."""
     changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
-    kept = sorted(DOCS.glob("*/img/*.svg"))
+    kept = sorted(DOCS.glob("**/img/*.svg"))
     return changed + [path for path in kept if path not in files]
 
 

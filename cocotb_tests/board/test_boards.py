@@ -7,13 +7,13 @@ import pytest
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import board_files, built_from
+from cocotb_tests.harness.project import board_files
 from cocotb_tests.harness.runner import Design, part_design, run_item
 from cocotb_tests.harness.wrapper import area_design
 
 from .tb_blocks import BLOCKS
 
-PART = Part("boards", "BRD", {})
+PART = Part("boards", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
@@ -38,7 +38,8 @@ def test_board_block(item, sim_options):
 def test_board_top(item, sim_options):
     """Run one simulation of a board top; the test's name says with which host."""
     part = part_design("ppmc104", item.config)
-    files = [*built_from("board_de10nano_ppmc104"), HERE / "bus_bench.sv"]
+    tops = [RTL / "de10nano" / "board_de10nano_ppmc104.sv", HERE / "bus_bench.sv"]
+    files = [*board_files("ppmc104"), *SHARED, *tops]
     params = {"HOST": item.test.split("_")[0].upper()}
     design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS, ports="*")
     run_item(item, sim_options, design=design)

@@ -20,21 +20,21 @@ from cocotb.triggers import First, Timer
 
 from . import native
 from .config import F16, Config
-from .part import PPMC104, Part
+from .part import Part
 from .stimulus import Access, Change, Edge, Recording, level_at
 
 TIMEOUT = 1_000_000
 
 
 class Bench:
-    """A part on the bench. Make one with `await Bench.start(dut)`.
+    """A part on the bench. Make one with `await Bench.start(dut, part)`.
 
     Attributes: `config` (Config), `part` (Part), `seed` (int), `rng` (random.Random(seed)), `out`
     (Path for files of this run), `host` (set by the caller's bus; see `bus.HostBus`), `stimulus`
     (list[Change]), `accesses` (list[Access]).
     """
 
-    def __init__(self, dut: Any, part: Part = PPMC104, seed: int | None = None) -> None:
+    def __init__(self, dut: Any, part: Part, seed: int | None = None) -> None:
         self.dut = dut
         self.part = part
         text = os.environ.get("OPENPPMC_CONFIG", "")
@@ -61,7 +61,7 @@ class Bench:
     async def start(
         cls,
         dut: Any,
-        part: Part = PPMC104,
+        part: Part,
         reset_clk: int = 4,
         settle: int = 4,
         seed: int | None = None,

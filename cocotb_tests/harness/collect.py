@@ -1,7 +1,7 @@
 """Turns the cocotb tests of tb_* modules into pytest items: one item a test and build configuration.
 
-# test_ppmc104.py
-ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_bus", "tb_status")
+# test_part.py
+ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_bus", "tb_status", part=PPMC104)
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_ppmc104(item, sim_options):
@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 from .config import F16, Config
-from .part import PPMC104, Part
+from .part import Part
 from .verifies import rules_of
 
 
@@ -48,7 +48,7 @@ class Item:
         return replace(self, seed=seed)
 
 
-def cocotb_items(package: str, *modules: str, part: Part = PPMC104) -> list[Any]:
+def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
     """pytest.param list of every cocotb test in `package`'s modules, under the configs each one names.
 
     Raises ValueError if a module has no cocotb test or two tests share a name.

@@ -100,3 +100,13 @@ def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
             break
         level = value
     return level
+
+
+def steps(changes: list[tuple[int, int]]) -> list[int]:
+    """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
+    found, last = [], 0
+    for t, pattern in changes:
+        if pattern and last and pattern != last:
+            found.append(t)
+        last = pattern or last
+    return found

@@ -12,10 +12,14 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any, TypeVar
 
-from .part import PREFIXES
+from openppmc import parts
+
 from .paths import ROOT
 
 F = TypeVar("F")
+
+PREFIXES = {prefix: row.name for row in parts.folders() for prefix in row.rules}
+"""First word of a rule ID -> the part that it belongs to."""
 
 RULE_ID = re.compile(
     r"^(?:(?P<prefix>(?:P104|P2104|STMC|P312|P006)(?=-[A-Z])|J105(?=-\d))(?:-[A-Z]+)?-\d\d"

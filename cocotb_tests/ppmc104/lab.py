@@ -8,6 +8,7 @@ from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import BUSY, HostBus
 from cocotb_tests.harness.drive import Drive
 
+from .bench import PPMC104
 from .figures import INIT_A
 
 Init = tuple[int, int, int, int]
@@ -27,7 +28,7 @@ class Lab(Drive):
     @classmethod
     async def start(cls, dut: Any, init: Init | None = INIT_A, **pins: int) -> Lab:
         """Reset, input levels `pins`, then an initialisation (code, RL, RH, PA) if one is given."""
-        lab = cls(await Bench.start(dut, **pins))
+        lab = cls(await Bench.start(dut, PPMC104, **pins))
         if init:
             await lab.init(*init)
         return lab

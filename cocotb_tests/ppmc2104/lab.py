@@ -20,8 +20,8 @@ from cocotb_tests.harness.bus import IBF, HostBus
 from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.drive import Drive
 from cocotb_tests.harness.judged import judged_test
-from cocotb_tests.harness.part import PPMC2104
 
+from .bench import PPMC2104
 from .figures import ALL, BUSY1, CMND1, INIT_A, Init
 
 # Windows of the rules, in clk, counted from edge 0 of a host write (P2104-BUS-05, P2104-HSK-03).

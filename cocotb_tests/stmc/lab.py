@@ -22,8 +22,8 @@ from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.drive import Drive
 from cocotb_tests.harness.figures import differences
 from cocotb_tests.harness.judged import judged_test
-from cocotb_tests.harness.part import STMC
 
+from .bench import STMC
 from .figures import STANDARD, TICK, Init, internal_offsets
 
 # Windows of the rules, in clk, counted from edge 0 of a host write (STMC-BUS-12, -13).

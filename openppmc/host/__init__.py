@@ -45,7 +45,6 @@ from .basis.errors import (
     UnknownCode,
     WrongDevice,
 )
-from .basis.kind import BOARD_CLOCK
 from .bridge.link import Link
 from .opening import AnyPart, open_part
 from .pmc006.axis import BACKWARD, FORWARD
@@ -60,6 +59,7 @@ from .ppmc312.line.station import Station312
 from .ppmc2104.axis import Axis2104
 from .ppmc2104.driver import Ppmc2104
 from .stmc.driver import Stmc
+from .stmc.kind import BOARD_CLOCK
 
 __all__ = [
     "BACKWARD",

@@ -11,8 +11,8 @@ module ppmc312
   import ppmc312_serial_pkg::*;
   import ppmc312_stage_pkg::*;
 #(
-    parameter int unsigned CLK_HZ   = 16_000_000,  // 8e6 .. 200e6, at least XTAL_HZ / 2
-    parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter int unsigned CLK_HZ   = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
+    parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter string       TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
     parameter int unsigned VERSION  = 'h12,        // what the version instruction answers, 0 .. 255
     parameter string       SUM_MODE = "BINARY"     // or "CHARS": checksum of the serial mode

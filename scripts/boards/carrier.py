@@ -7,25 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.header import Parameter, parameters
 from cocotb_tests.harness.project import ProjectError
 
-PARAMETER = re.compile(
-    r"^ +parameter (?P<type>[^=]*?) +(?P<name>\w+) *= (?P<value>[^,/]*?),? *(?://(?P<text>.*))?$"
-)
 PORT = re.compile(
     r"^ +(?P<way>input|output) +(?:wire )?logic *(?:\[ *(?P<high>\d+): *(?P<low>\d+)\])? +(?P<name>\w+),?"
     r" *(?://(?P<text>.*))?$"
 )
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter with its type, default value and comment, as they are written."""
-
-    type: str
-    name: str
-    value: str
-    text: str
 
 
 @dataclass(frozen=True)
@@ -53,12 +41,8 @@ class Carrier:
     """The header of a module."""
 
     name: str
-    parameters: tuple[Parameter, ...]
+    parameters: dict[str, Parameter]
     ports: dict[str, Port]
-
-    def has(self, name: str) -> bool:
-        """Whether it has a parameter of this name."""
-        return any(parameter.name == name for parameter in self.parameters)
 
     def two_way(self) -> dict[str, str]:
         """Pins that are driven and read: name -> port that drives it, "" if it is only pulled low."""
@@ -78,15 +62,12 @@ def read(path: Path) -> Carrier:
     """The header of the carrier in this file."""
     if not path.is_file():
         raise ProjectError(f"{project.relative(path)} is not there: a board cannot carry the part")
-    parameters, ports, group = [], {}, ""
+    ports, group = dict[str, Port](), ""
     for line in path.read_text(encoding="utf-8").split(");\n", 1)[0].splitlines():
-        if found := PARAMETER.match(line):
-            text = (found["text"] or "").strip()
-            parameters.append(Parameter(found["type"], found["name"], found["value"].strip(), text))
-        elif found := PORT.match(line):
+        if found := PORT.match(line):
             bits = range(int(found["low"]), int(found["high"]) + 1) if found["high"] else None
             text = (found["text"] or "").strip()
             ports[found["name"]] = Port(found["name"], found["way"] == "output", bits, group, text)
         elif line.startswith("    // "):
             group = line.strip()[3:]
-    return Carrier(path.stem, tuple(parameters), ports)
+    return Carrier(path.stem, parameters(path), ports)

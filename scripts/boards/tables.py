@@ -58,7 +58,9 @@ def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) ->
     files = [project.RTL / _clock(module) for module in clocks]
     names = [path.relative_to(project.RTL).as_posix() for path in files]
     names += [f"boards/{one.board.name}/{one.top}.sv" for one in fitted]
-    body = "\n".join(f"  - {name}" for name in names)
+    carriers = dict.fromkeys(f"{one.on.row.rtl}_carrier" for one in fitted)
+    order = [group for group in project.listed() if group in ("panel", *carriers)]
+    body = "\n".join([f"  needs: [{', '.join(order)}]", "  files:", *(f"    - {name}" for name in names)])
     return put(text, "  # written by `make boards`", "  # end", body, "rtl/files.yml")
 
 

@@ -7,9 +7,10 @@ import textwrap
 from typing import Any
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.header import Parameter
 from cocotb_tests.harness.project import ProjectError
 
-from .carrier import Parameter, Port
+from .carrier import Port
 from .description import SHOWS, Description
 from .pads import HOST_RESET, Fitted
 from .words import clk, head, hosts
@@ -59,7 +60,7 @@ class Top:
     def parameters(self) -> list[Parameter]:
         """What the top lets one choose: the carrier's parameters with the defaults of this board."""
         hidden = {"CLK_HZ", *self.fixed, *(self.on.omit or {})}
-        return [parameter for parameter in self.carrier.parameters if parameter.name not in hidden]
+        return [parameter for parameter in self.carrier.parameters.values() if parameter.name not in hidden]
 
     def comment(self) -> list[str]:
         """What the file is, in the form of all headers."""
@@ -80,7 +81,7 @@ class Top:
         for parameter in self.parameters():
             value = self.board.defaults.get(parameter.name)
             default = parameter.value if value is None else literal(value, parameter.type)
-            text = f"  // {parameter.text}" if parameter.text else ""
+            text = f"  // {parameter.about}" if parameter.about else ""
             chosen.append((f"    parameter {parameter.type} {parameter.name} = {default}", text))
         last = len(chosen) - 1
         lines = [f"{line}{'' if n == last else ','}{text}" for n, (line, text) in enumerate(chosen)]
@@ -213,7 +214,7 @@ class Top:
 
     def part(self) -> list[str]:
         """The carrier."""
-        names = [p.name for p in self.carrier.parameters if p.name not in (self.on.omit or {})]
+        names = [name for name in self.carrier.parameters if name not in (self.on.omit or {})]
         params = {name: self.fixed.get(name, "ClkHz" if name == "CLK_HZ" else name) for name in names}
         ports = {port.name: self.connection(port) for port in self.carrier.ports.values()}
         return self.instance(self.carrier.name, params, "u_carrier", ports)

@@ -16,7 +16,7 @@ def head(fitted: Fitted, mark: str) -> list[str]:
 
 def hosts(fitted: Fitted) -> str:
     """Its host, as titles say it; nothing for a part with a line of its own."""
-    if fitted.on.set or not fitted.carrier.has("HOST"):
+    if fitted.on.set or "HOST" not in fitted.carrier.parameters:
         return ""
     names = {"uart": "UART", "bus": "bus"}
     return f"{' or '.join(names[host] for host in fitted.on.hosts)} host"

@@ -14,13 +14,14 @@ from rich import box
 from rich.table import Table
 
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.compare import Comparison, compare_recording, write_report
+from cocotb_tests.harness.compare import compare_recording, write_report
+from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.project import BUILD, ProjectError, console, fail, relative, run
 from cocotb_tests.harness.runner import SimError, build, part_design, run_sim
-from cocotb_tests.harness.steps import Steps
 from cocotb_tests.harness.stimulus import Recording
 from scripts.demo import waves
 from scripts.demo.demos import DEMOS, Demo
+from scripts.demo.steps import Steps
 from scripts.ppmc312.line import demo as line_demo
 
 FOLDER = BUILD / "demo"

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.stimulus import steps as phase_steps
 from cocotb_tests.pmc006.story import BUILD
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
 from scripts.demo.scenes import Changes, access_text, falls, frame_text, register_text, rises
-from scripts.demo.scenes import steps as phase_steps
 from scripts.demo.words import Words
 from scripts.pmc006 import picture
 from scripts.pmc006.words import Words006

@@ -44,16 +44,6 @@ def frame_text(access: Any) -> str:
     return f"{access.kind} {access.byte:X}"
 
 
-def steps(changes: Changes) -> list[int]:
-    """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
-    found, last = [], 0
-    for t, pattern in changes:
-        if pattern and last and pattern != last:
-            found.append(t)
-        last = pattern or last
-    return found
-
-
 def pin(stimulus: Sequence[Any], name: str) -> Changes:
     """Changes of an input pin."""
     return [(change.t, change.value) for change in stimulus if change.pin == name]

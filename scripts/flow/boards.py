@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.header import parameters as parameters_of
 from cocotb_tests.harness.project import ProjectError
 from openppmc import parts as table
 from scripts.boards.description import HOSTS, Carried, Description, Device, load_all
@@ -136,14 +137,16 @@ def part_of(module: str) -> str:
 
 def sources(top: str) -> list[Path]:
     """The sources of a board top in compile order, the declarations of the vendors' cells first."""
-    part = project.part(table.part(part_of(top)).folder)
-    return [VENDOR_CELLS, *project.sources(part), *project.built_from(top)]
+    own = project.files(f"{table.part(part_of(top)).rtl}_carrier", "panel")
+    on_board = project.listed()["boards"].files
+    text = "".join(path.read_text(encoding="utf-8") for path in on_board if path.stem == top)
+    files = [path for path in on_board if re.search(rf"^(?:module| ) {path.stem} ", text, re.M)]
+    return [VENDOR_CELLS, *own, *files]
 
 
 def parameters(top: str) -> set[str]:
     """Names of the parameters of a board top."""
-    text = next(path for path in project.file_groups()["boards"] if path.stem == top).read_text()
-    return set(re.findall(r"^ *parameter +[^=]*?(\w+) *=", text, re.MULTILINE))
+    return set(parameters_of(next(path for path in project.files("boards") if path.stem == top)))
 
 
 def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:

@@ -18,14 +18,15 @@ from cocotb_tests.harness.runner import Design
 from cocotb_tests.pmc006 import test_random as test_random_006
 from cocotb_tests.pmc006 import test_scripts as test_pmc006
 from cocotb_tests.pmc006.modules import F8B
-from cocotb_tests.ppmc104 import test_ppmc104, test_random
+from cocotb_tests.ppmc104 import test_part as test_ppmc104
+from cocotb_tests.ppmc104 import test_random
 from cocotb_tests.ppmc312 import test_random as test_random_312
 from cocotb_tests.ppmc312 import test_scripts as test_ppmc312
-from cocotb_tests.ppmc2104 import test_ppmc2104
+from cocotb_tests.ppmc2104 import test_part as test_ppmc2104
 from cocotb_tests.ppmc2104 import test_random as test_random_2104
 from cocotb_tests.stmc import test_board as test_j105_stmc
+from cocotb_tests.stmc import test_part as test_stmc
 from cocotb_tests.stmc import test_random as test_random_stmc
-from cocotb_tests.stmc import test_stmc
 from scripts.flow import gates
 
 QUICK = "quick"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.ppmc312.host import Host312, clean
+from cocotb_tests.ppmc312.host import Host, clean
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 
 DOCS = ROOT / "docs"
@@ -32,7 +32,7 @@ class Player:
     }
 
     def __init__(self) -> None:
-        self.host = Host312()
+        self.host = Host()
 
     def play(self, lines: list[str], where: str) -> None:
         """All lines; an AssertionError names the first that is not as printed."""

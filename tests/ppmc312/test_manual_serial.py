@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from cocotb_tests.ppmc312.serial_host import SPEEDS, Serial312, clean, summed
+from cocotb_tests.ppmc312.serial_host import SPEEDS, SerialHost, clean, summed
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.ppmc312.test_manual import DOCS, Player, chapters
 
@@ -23,7 +23,7 @@ class Line(Player):
     KINDS = Player.KINDS | {"m": "raw", "s": "reply", "?": "poll"}
 
     def __init__(self) -> None:
-        self.host = Serial312()
+        self.host = SerialHost()
 
     def raw(self, words: str) -> None:
         self.host.raw(words)

@@ -10,7 +10,7 @@ from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
 from cocotb_tests.harness import native
 from cocotb_tests.harness.config import Config, configs
-from cocotb_tests.harness.part import PPMC2104, BusStyle
+from cocotb_tests.harness.part import PARTS, BusStyle
 
 from .bench import SECOND, same
 
@@ -62,7 +62,7 @@ async def start(dut: Any, busc: int) -> Host:
     """Power-on with idle pins; the station lets its part out of reset by itself."""
     dut.clk.set(Immediate(0))
     dut.lock.set(Immediate(1))
-    idle = {**PPMC2104.inputs, "busc": busc, "req_n": 1, "uart_rxd": 1}
+    idle = {**PARTS["ppmc2104"].inputs, "busc": busc, "req_n": 1, "uart_rxd": 1}
     for pin, level in idle.items():
         getattr(dut, pin).value = level
     await Timer(PERIOD // 2, "ps")
@@ -72,7 +72,7 @@ async def start(dut: Any, busc: int) -> Host:
     same("lamps in reset", int(dut.lamps.value), 0)
     dut.lock.value = 1
     await released(dut)
-    return Host(dut, PPMC2104.styles[busc])
+    return Host(dut, PARTS["ppmc2104"].styles[busc])
 
 
 async def released(dut: Any) -> None:

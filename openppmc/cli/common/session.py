@@ -11,12 +11,13 @@ from typing import Any
 import typer
 
 from ...host import AnyPart, Axis, open_part
-from ...host.basis.kind import BY_WORD, PPMC104, Kind
+from ...host.basis.kind import Kind, kind_of
 from ...host.bridge.link import DEFAULT_BAUD
 from ...host.ports.transport import MODEL, SIM
+from ...parts import PARTS
 from . import show
 from .guard import Guard, Interrupted
-from .options import SetupValues
+from .options import USUAL, SetupValues
 from .state import recall
 
 INTERRUPTED = 130
@@ -35,7 +36,7 @@ class PartName(str, Enum):
     @property
     def kind(self) -> Kind:
         """What it can do."""
-        return BY_WORD[self.value]
+        return kind_of(self.value)
 
 
 @dataclass
@@ -62,10 +63,10 @@ class Board:
         if self.part is not None:
             return self.part.kind
         if not self.port.startswith((MODEL, SIM)):
-            return PPMC104
+            return USUAL
         words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
         named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
-        return BY_WORD.get(named[-1], PPMC104) if named else PPMC104
+        return kind_of(named[-1]) if named and named[-1] in PARTS else USUAL
 
 
 BOARD = Board()

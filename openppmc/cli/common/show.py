@@ -17,7 +17,7 @@ from ...host.basis.kind import AnySetup, name_of
 from ...host.bridge.link import Link
 from ...host.bridge.script import RATES
 from ...host.ppmc312.answers import Alarm, Failed
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup as Setup312
 from ...host.ppmc2104.registers import Status as Status2104
 from ..ppmc312 import show
 

@@ -8,7 +8,7 @@ from typing import Any
 from ...host.basis import units
 from ...host.basis.errors import OutOfRange
 from ...host.ppmc312.motion import SHAPES
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup as Setup312
 from ...model.ppmc312.stages.plan import Plan, constant, ramped
 
 LONGEST_MOVE = (1 << 32) - 1

@@ -17,7 +17,7 @@ from ...host.ppmc312.answers import (
     Stopped,
 )
 from ...host.ppmc312.axis import Axis312
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup as Setup312
 from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source
 

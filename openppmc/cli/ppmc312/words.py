@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from ...host import Ppmc312
-from ...host.basis.kind import PPMC312, Kind
+from ...host.basis.kind import Kind
 from ...host.ppmc312 import blocks
+from ...host.ppmc312.kind import KIND
 from ..common.options import Side
 from .overrides import Override, parse_override, register, watch
 
@@ -77,7 +78,7 @@ def _count(words: list[str], wanted: int) -> None:
 
 def lacks(word: str, kind: Kind) -> str:
     """Why another part cannot do it; empty for a PPMC-312."""
-    return "" if kind is PPMC312 or word not in WORDS else f"a {kind} has neither overrides nor events"
+    return "" if kind is KIND or word not in WORDS else f"a {kind} has neither overrides nor events"
 
 
 def do(part: Ppmc312, word: str, values: dict[str, Any]) -> None:

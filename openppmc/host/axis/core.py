@@ -8,9 +8,10 @@ from ..basis import units
 from ..basis.arguments import Checked
 from ..basis.ending import End
 from ..basis.errors import NotWhileBusy, OutOfRange, ProtocolError
-from ..basis.kind import COILS_OFF, Kind
+from ..basis.kind import COILS_OFF, Wanted
 from ..bridge.link import Link
 from ..bridge.script import Script
+from .kind import RateKind
 from .motion import Motion
 from .registers import Outputs, ReadCodes, Switches
 
@@ -22,7 +23,7 @@ class AxisCore(Checked):
     its command codes have set; busy: its bit in the status register.
     """
 
-    kind: Kind
+    kind: RateKind
     number = 1
     bit = 0
     busy = 0x04
@@ -72,11 +73,20 @@ class AxisCore(Checked):
         what stays as it is until `reset`. Raises OutOfRange, also for what the part does not have, and
         NotWhileBusy.
         """
-        motor = (phases, half_step, positive_logic, chop)
-        clocks = (base_clock, external_clock, long_intervals)
-        speeds = (start_pps, high_pps, ramp_pulses)
-        xtal_hz = self.link.identity.xtal_hz
-        return self.apply(self.kind.plan(xtal_hz, *speeds, *motor, *clocks, self.number))
+        wanted = Wanted(
+            start_pps,
+            high_pps,
+            ramp_pulses,
+            phases,
+            half_step,
+            positive_logic,
+            chop,
+            base_clock,
+            external_clock,
+            long_intervals,
+            self.number,
+        )
+        return self.apply(self.kind.plan(self.link.identity.xtal_hz, wanted))
 
     # ------------------------------------------------------------------ for the parts
 

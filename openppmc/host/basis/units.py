@@ -12,7 +12,8 @@ from fractions import Fraction
 
 from ...model.motion.codes import ENDLESS, PA_MAX, PA_MIN
 from ...model.motion.ramp import Ramp
-from .arguments import Number, exact
+from .arguments import Number as Number
+from .arguments import exact as exact
 from .errors import OutOfRange
 
 SLOWEST_RATE = 255

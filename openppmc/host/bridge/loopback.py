@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from ...model.carrier.bridge import Bridge
 from ...model.carrier.bridge_ops import RATES
-from ...model.carrier.carrier import Board
+from ...model.carrier.carrier import Carrier
 from ...model.carrier.plant import PLANT_WORDS, parse_machine, stmc_read_map
-from ...model.ppmc104.carrier import Board104
-from ...model.ppmc312.carrier import Board312
-from ...model.ppmc2104.carrier import Board2104
-from ...model.stmc.carrier import BoardStmc
+from ...model.ppmc104.carrier import Carrier as Board104
+from ...model.ppmc312.carrier import Carrier as Board312
+from ...model.ppmc2104.carrier import Carrier as Board2104
+from ...model.stmc.carrier import Carrier as BoardStmc
 from ..basis.errors import Disconnected, PortError
 from ..ports.pacer import Pacer
 
@@ -46,7 +46,7 @@ class ModelPort:
             if options:
                 known = ", ".join((*PLANT_WORDS, *OPTIONS))
                 raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
-            board: Board
+            board: Carrier
             settings = (clk_hz, xtal_hz, timing, self._interrupt)
             if machine.part == "ppmc104":
                 board = Board104(machine.plants[0], *settings)
@@ -58,7 +58,7 @@ class ModelPort:
                 board = Board2104(machine.plants, *settings)
         except ValueError as error:
             raise PortError(f"{self.name}: {error}") from error
-        self.board: Board = board
+        self.board: Carrier = board
         axes = len(machine.plants)
         self.bridge = Bridge(board, board.NUMBER, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes)
 

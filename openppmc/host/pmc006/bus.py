@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 
 from serial.rs485 import RS485Settings
 
-from ..basis.kind import PMC006
 from ..line.bus import LineBus
 from ..line.errors import GarbledReply, StationSilent
 from ..line.faults import Counters
@@ -20,6 +19,7 @@ from ..line.master import PATIENCE
 from ..ports.transport import Port
 from .codes import Flags, Modes
 from .driver import Pmc006, scan
+from .kind import KIND
 from .line import BAUD, Line006
 from .wire import ADDRESSES, address_number
 
@@ -42,7 +42,7 @@ class Pmc006Bus(LineBus):
     """A line (`line006.Line006`) with controllers; see `line_bus.LineBus`. `axis(5)` is the `Pmc006` with
     that address, whether it is there or not."""
 
-    kind = PMC006
+    kind = KIND
 
     @classmethod
     def open(  # type: ignore[override]

@@ -16,7 +16,6 @@ from ..axis.device import Device
 from ..axis.moves import OnProgress
 from ..basis.arguments import within
 from ..basis.errors import OutOfRange
-from ..basis.kind import PMC006
 from ..line.errors import DuplicateAddress, GarbledReply, StationSilent
 from ..line.faults import Miss
 from ..line.master import PATIENCE
@@ -24,6 +23,7 @@ from ..ports.transport import Port
 from .axis import BACKWARD
 from .codes import Code
 from .homing import Homing006
+from .kind import KIND
 from .line import BAUD, Line006
 from .memory import Memory006
 from .motion import End006
@@ -42,7 +42,7 @@ class Pmc006(Memory006, Device):
     started.
     """
 
-    kind = PMC006
+    kind = KIND
 
     @classmethod
     def open(  # type: ignore[override]

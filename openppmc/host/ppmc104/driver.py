@@ -8,8 +8,8 @@ from ..axis.registers import Inputs
 from ..axis.single import OneAxis
 from ..basis import units
 from ..basis.errors import NotWhileBusy, OutOfRange
-from ..basis.kind import PPMC104
 from ..bridge.script import Result, Script
+from .kind import KIND
 
 SWITCHING, READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x84, 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
@@ -25,7 +25,7 @@ class Ppmc104(OneAxis):
     `excitation_off` or `reset`.
     """
 
-    kind = PPMC104
+    kind = KIND
 
     def straps(self, clock: units.BaseClock | None) -> Script:
         script = Script()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
 from ..axis.axis import CCW, Axis, Order
+from ..axis.kind import AXIS_BIT
 from ..axis.motion import Motion
 from ..axis.registers import Inputs
 from ..basis import units
@@ -20,8 +21,8 @@ from ..basis.errors import (
     StartRefused,
     Timeout,
 )
-from ..basis.kind import AXIS_BIT, PPMC2104
 from ..bridge.script import Script
+from .kind import KIND
 
 if TYPE_CHECKING:
     from .driver import Ppmc2104
@@ -41,7 +42,7 @@ class Axis2104(Axis):
     until `excitation_off` or `reset` (P2104-INI-05).
     """
 
-    kind = PPMC2104
+    kind = KIND
 
     def __init__(self, part: Ppmc2104, number: int) -> None:
         super().__init__(part.link)

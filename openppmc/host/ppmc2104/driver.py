@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from ...model.ppmc2104.codes import CMND
 from ..axis.axis import Axis
 from ..axis.device import Device
+from ..axis.kind import AXIS_BIT
 from ..axis.motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
 from ..axis.moves import OnProgress
 from ..basis import units
@@ -20,10 +21,10 @@ from ..basis.errors import (
     ProtocolError,
     refused2104,
 )
-from ..basis.kind import AXIS_BIT, PPMC2104
 from ..bridge.link import Link
 from ..bridge.script import Answer, Script
 from .axis import Axis2104
+from .kind import KIND
 from .registers import Status
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
@@ -37,7 +38,7 @@ class Axes(dict[int, Axis2104]):
     """Axes by number."""
 
     def __missing__(self, number: object) -> Axis2104:
-        return self[PPMC2104.check_axis(whole(number, "axis"))]
+        return self[KIND.check_axis(whole(number, "axis"))]
 
 
 class Ppmc2104(Device):
@@ -47,7 +48,7 @@ class Ppmc2104(Device):
     runs goes on.
     """
 
-    kind = PPMC2104
+    kind = KIND
 
     def __init__(self, link: Link) -> None:
         self.link = link

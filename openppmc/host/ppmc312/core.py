@@ -10,12 +10,12 @@ from ...model.ppmc312.codes import Code
 from ..basis.arguments import Checked
 from ..basis.ending import End
 from ..basis.errors import ProtocolError
-from ..basis.kind import Kind
 from ..bridge.link import Link
 from . import blocks
 from .answers import BadResponse, Executed, Report, Response, Stopped, signed
+from .kind import TableKind
 from .motion import Motion312
-from .profile import Setup312
+from .profile import Setup
 from .registers import Inputs312, Status312
 from .window import ANSWER_MS, SHORTEST, Window
 
@@ -49,14 +49,14 @@ class Core312(Checked):
     oldest first (stops of this object's own motions are in their `end`); beyond 1000 the oldest are dropped.
     """
 
-    kind: Kind
+    kind: TableKind
     number = 1
     busy = 0x2C
     who = ""
 
     def __init__(self, link: Link) -> None:
         self.link = link
-        self.setup: Setup312 | None = None
+        self.setup: Setup | None = None
         self.reports: deque[Report] = deque(maxlen=MOST_KEPT)
         self._motion: Motion312 | None = None
         self._mark = 0

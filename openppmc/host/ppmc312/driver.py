@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ..axis.device import Device
-from ..basis.kind import PPMC312
 from ..bridge.link import Link
 from ..bridge.script import Script
 from . import blocks
 from .axis import Axis312
+from .kind import KIND
 
 RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
 """Strap bits of the board: RUN, and the event inputs (0 = active)."""
@@ -22,7 +22,7 @@ class Ppmc312(Axis312, Device):
     events: `overrides312`, registers and outputs: `core312`.
     """
 
-    kind = PPMC312
+    kind = KIND
 
     def __init__(self, link: Link) -> None:
         self._straps = 0xFF

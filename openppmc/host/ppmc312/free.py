@@ -12,7 +12,7 @@ from ...model.ppmc312.stages.tables import STAGES, SettingError
 from ..basis import units
 from ..basis.errors import OutOfRange
 from .errors import refused312
-from .profile import Setup312, choose_clock
+from .profile import Setup, choose_clock
 
 LEAST_TICKS = 256
 """Ticks that a stage lasts at least (pulses times rate), as the sheet asks for."""
@@ -27,7 +27,7 @@ class Stage(NamedTuple):
     down: int | None = None
 
 
-def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup312:
+def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup:
     """A free curve from its stages, slowest first: (pps, pulses) or (pps, pulses up, pulses down).
 
     Without pulses down in any stage the deceleration is the acceleration backwards. OutOfRange.
@@ -59,7 +59,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
         table = curve.curve(rates, up, down if separate else None, clock.clk)
     except SettingError as error:
         raise OutOfRange(f"free curve: {refused312(0xF0, bytes([error.number]))}") from None
-    return Setup312(
+    return Setup(
         clock,
         speeds[len(rows) - len(up)],
         speeds[len(rows) - len(down or up)],
@@ -74,7 +74,7 @@ def plan_file(
     path: Path,
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
-) -> Setup312:
+) -> Setup:
     """A free curve from a file; clocks as for `choose_clock`. OutOfRange."""
     return plan_stages(xtal_hz, read_stages(path), base_clock, external_clock)
 
@@ -84,7 +84,7 @@ def plan_stages(
     stages: Iterable[Sequence[float | int | None]],
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
-) -> Setup312:
+) -> Setup:
     """`plan_curve` with the base clock that the stages want."""
     rows = [tuple(row) for row in stages]
     slowest = min((float(row[0] or 0) for row in rows), default=0.0)

@@ -70,7 +70,7 @@ def choose_clock(
 
 
 @dataclass(frozen=True)
-class Setup312:
+class Setup:
     """A table and its instruction blocks. start, stop, high: its end speeds as asked for and as reached."""
 
     clock: units.BaseClock = field(repr=False)
@@ -131,7 +131,7 @@ def plan_setup(
     stop_pps: units.Number | None = None,
     down: int | None = None,
     sigmoid: bool = False,
-) -> Setup312:
+) -> Setup:
     """A linear or sigmoid table. up, down: pulses of acceleration and deceleration, 24 bits; stop_pps and
     down default to start_pps and up. OutOfRange for what the part would refuse.
 
@@ -161,7 +161,7 @@ pulses: 1143 or more
             which = f"{least[0]} up and {least[1]} down" if separate else f"{least[0]}"
             raise OutOfRange(f"{up} pulses: {text}: {which} or more") from None
         raise OutOfRange(f"start {start}, stop {stop}, high {high}: {text}") from None
-    return Setup312(clock, start, stop, high, table, "sigmoid" if sigmoid else "linear")
+    return Setup(clock, start, stop, high, table, "sigmoid" if sigmoid else "linear")
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from ..axis.registers import InputsStmc, ReadCodes
 from ..axis.single import OneAxis
 from ..basis.errors import refused_stmc
-from ..basis.kind import STMC
 from ..bridge.link import Link
 from ..bridge.script import Result, Script
+from .kind import KIND
 
 READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": ReadCodes()}
 """What the codes of its read commands may be (ruling R-01)."""
@@ -26,7 +26,7 @@ class Stmc(OneAxis):
     A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
     """
 
-    kind = STMC
+    kind = KIND
 
     def __init__(self, link: Link) -> None:
         super().__init__(link)

@@ -1,4 +1,4 @@
-"""A board in Python: golden part, pulse counters and plants, in virtual time. The bridge's `Bus`."""
+"""A carrier in Python: golden part, pulse counters and plants, in virtual time. The bridge's `Bus`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WRITE_STROBE, READ_STROBE, PAUSE = 4, 6, 4
 RESET_CLK = 16
 
 
-class Board(ABC):
+class Carrier(ABC):
     """A part whose motors follow `pout_n` and `dir`, one plant an axis.
 
     part: `Ppmc104`, `Ppmc2104` or `Stmc`. `t` is the next free clk edge. `positions` are the motors',

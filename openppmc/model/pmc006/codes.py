@@ -8,12 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from .desk import Desk
 from .settings import LEGAL
-
-if TYPE_CHECKING:
-    from .instructions.desk import Desk
 
 STEPS = range(1, 0x8000_0000)
 

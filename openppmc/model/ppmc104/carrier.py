@@ -1,17 +1,17 @@
-"""The modelled board with a PPMC-104."""
+"""The modelled carrier with a PPMC-104."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from .part import Ppmc104
 
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
-class Board104(Board):
+class Carrier(carrier.Carrier):
     """Wired as ppmc104_carrier: straps bit 0 is csel, bit 1 vsel."""
 
     NUMBER = 104

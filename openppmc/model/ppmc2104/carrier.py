@@ -1,17 +1,17 @@
-"""The modelled board with a PPMC-2104."""
+"""The modelled carrier with a PPMC-2104."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from .part import Ppmc2104
 
 _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"), strict=True))
 
 
-class Board2104(Board):
+class Carrier(carrier.Carrier):
     """Wired as ppmc2104_carrier: straps bits 1..0 are csel, 3..2 run, 4 errint_n; bit 7 chooses the pins in
     PINS, 1 for those of axis 1."""
 

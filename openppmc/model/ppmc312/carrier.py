@@ -1,10 +1,10 @@
-"""The modelled board with a PPMC-312 and a motor with an encoder."""
+"""The modelled carrier with a PPMC-312 and a motor with an encoder."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from ..common.edges import Edge
 from .part import Ppmc312
@@ -12,7 +12,7 @@ from .part import Ppmc312
 _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"), strict=True))
 
 
-class Board312(Board):
+class Carrier(carrier.Carrier):
     """Wired as ppmc312_carrier: straps bit 0 is RUN, bits 1 and 2 are the event inputs 1 and 2.
 
     The encoder gives a pulse for each one that the axle follows; the drive says END at once. `positions` is

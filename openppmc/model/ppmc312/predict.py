@@ -12,7 +12,7 @@ from .stages.tables import DIVIDERS, SettingError, Table, build
 
 
 @dataclass(frozen=True)
-class Move312:
+class TableMove:
     """A predicted move. `clk[j]` is pulse j+1 in clk after pulse 1; `rates[j]` in ticks and `indices[j]`
     (table stage, None at constant speed) belong to the interval that follows it; kind: status bits of the
     answer."""
@@ -42,7 +42,7 @@ class Move312:
 
 def predict_table(
     table: Table, n: int, rate: int = 0, flat: bool = False, timebase: Timebase | None = None
-) -> Move312:
+) -> TableMove:
     """Undisturbed move of n pulses with an internal base clock.
 
     rate: speed aimed at, 0 for the high speed. flat: without ramps (83). Raises ValueError for a base clock
@@ -60,7 +60,7 @@ def predict_table(
     steps = plan.steps()
     divider = DIVIDERS[table.clk]
     ticks = accumulate((step.rate for step in steps[:-1]), initial=0)
-    return Move312(
+    return TableMove(
         timebase,
         divider,
         tuple(timebase.cyc(divider * t) for t in ticks),
@@ -72,7 +72,7 @@ def predict_table(
 
 def predict_setting(
     parameters: bytes, n: int, rate: int | None = None, timebase: Timebase | None = None
-) -> Move312:
+) -> TableMove:
     """The same from the parameters of an initial setting (8 or 13 bytes after its code); rate: of a move at
     constant speed, None for one with ramps. Raises ValueError for what the part refuses."""
     if len(parameters) not in (8, 13):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..common.timebase import Timebase
 from ..motion.codes import PA_MAX, PA_MIN
 from ..motion.ramp import BaseClock, Ramp, profile_index
-from ..ppmc312.predict import Move312, predict_setting
+from ..ppmc312.predict import TableMove, predict_setting
 from ..stmc.codes import TICK_XT
 from ..stmc.commands import profile
 
@@ -51,7 +51,7 @@ def predict_move(
     vsel: int = 1,
     timebase: Timebase | None = None,
     part: str = "ppmc104",
-) -> Move | Move312:
+) -> Move | TableMove:
     """Undisturbed move of n pulses with the internal clock.
 
     init: the four initialisation bytes RL, RH, PA low, PA high. rate: None for an acceleration /

@@ -1,10 +1,10 @@
-"""The modelled board with an STMC and the step clock of the J105 board."""
+"""The modelled carrier with an STMC and the step clock of the J105 board."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from ..common.edges import Edge
 from ..motion.excitation import ALL_PHASES, step_directions
@@ -14,7 +14,7 @@ from .part import Stmc
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), strict=True))
 
 
-class BoardStmc(Board):
+class Carrier(carrier.Carrier):
     """Wired as stmc_carrier: no straps, MON in the place of the alarm. The motor follows the phases.
 
     The step clock only ticks while a motion counts it.

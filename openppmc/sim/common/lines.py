@@ -55,15 +55,15 @@ class LineKind:
 
 
 def _stations312(spec: line_spec.LineSpec) -> VirtualLine:
-    from ..ppmc312.line_board import LineBoard
+    from ..ppmc312.line import StationLine
 
-    return LineBoard(spec)
+    return StationLine(spec)
 
 
-def _nodes006(spec: line_spec006.LineSpec006) -> VirtualLine:
-    from ..pmc006.line_board import LineBoard006
+def _nodes006(spec: line_spec006.LineSpec) -> VirtualLine:
+    from ..pmc006.line import NodeLine
 
-    return LineBoard006(spec)
+    return NodeLine(spec)
 
 
 LINES = {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from vcd import VCDWriter
 
-from cocotb_tests.harness.compare import Comparison
+from cocotb_tests.harness.comparison import Comparison
 from scripts.demo import waves
 from scripts.demo.demos import View
 from scripts.demo.scenes import pin

@@ -7,11 +7,11 @@ import pytest
 from cocotb_tests.harness.compare import compare_recording, new_model, replay
 from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.stimulus import Access, Change, Recording
+from cocotb_tests.harness.stimulus import Access, Change, Recording, steps
 from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import DEMOS, VIEW_312, VIEW_2104, VIEW_STMC
-from scripts.demo.scenes import register_text, steps
+from scripts.demo.scenes import register_text
 from scripts.demo.words import exchanges
 from scripts.ppmc104.words import Words104
 from scripts.ppmc312.words import Words312

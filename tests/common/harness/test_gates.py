@@ -8,7 +8,7 @@ import pytest
 
 from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.runner import repro_line
-from cocotb_tests.ppmc104 import test_ppmc104
+from cocotb_tests.ppmc104 import test_part
 from scripts.flow import gate_suite, gates
 from scripts.pool import as_done
 
@@ -68,7 +68,7 @@ def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [name.split(" in ")[0] for name in builds] == ["stmc", "j105_stmc", "ppmc312", "pmc006"]
     tests = {param.values[0].test for part in gate_suite.PARTS for param in part.directed.ITEMS}
     assert set(gate_suite.TOO_LONG) <= tests
-    monkeypatch.setattr(test_ppmc104, "test_something_new", lambda: None, raising=False)
+    monkeypatch.setattr(test_part, "test_something_new", lambda: None, raising=False)
     with pytest.raises(ProjectError, match="does not say why test_something_new is left out"):
         gate_suite.left_out()
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.part import PPMC312
 from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.ppmc312.bench import PPMC312
 from cocotb_tests.ppmc312.line.demo import PULSES, SETTING
 from cocotb_tests.ppmc312.line.master import Master, NoFrameError, Reply, at_once, understood
 from cocotb_tests.ppmc312.line.models import ModelLine, heard

@@ -26,14 +26,14 @@ from tests.pmc006.host.line_ports import (
     LOSE_FRAME,
     LOSE_REPLY,
     UNHEARD,
-    Spoiled006,
+    SpoiledLine,
     once,
     one,
 )
 from tests.ppmc312.line.line_ports import Played
 
 
-def quick(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pmc006]:
+def quick(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
     """A controller with quick steps."""
     port, part = one(text, address)
     for name in ("max_speed", "start_speed", "stop_speed"):
@@ -42,7 +42,7 @@ def quick(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pm
     return port, part
 
 
-def count(port: Spoiled006, letter: str) -> int:
+def count(port: SpoiledLine, letter: str) -> int:
     return sum(frame[2] == ord(letter) for frame in port.frames)
 
 
@@ -193,7 +193,7 @@ def test_a_program_that_does_not_stay() -> None:
 
 def test_half_a_frame_is_forgotten_before_the_next() -> None:
     """At 1200 bit/s a controller waits longer for the rest of a frame than the master for a reply."""
-    port = Spoiled006("eeprom=none", 1200)
+    port = SpoiledLine("eeprom=none", 1200)
     with Pmc006(Line006(port, 1200, patience=0.03)) as part:
         port.plan = once("n", CUT_FRAME)
         assert part.current == 800 and part.counters.faults == 1

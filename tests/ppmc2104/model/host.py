@@ -19,7 +19,7 @@ def clk(rates: list[int], base: int = 32) -> list[int]:
     return [base * (rate + 1) for rate in rates]
 
 
-class Host2104(ModelHost):
+class Host(ModelHost):
     """As ModelHost. Scripts may also say e1, e2 (error code read), idle (both axes at rest), ready (no CMND).
 
     `axis` (1 or 2) is the one that pulses(), intervals(), lows(), fall() look at.

@@ -8,19 +8,19 @@ from cocotb_tests.harness.verifies import verifies
 from openppmc.model.common.edges import Edge
 from openppmc.model.motion.codes import Kind
 from openppmc.model.ppmc2104.codes import decode
-from tests.ppmc2104.model.host import B1, B2, LONG, Host2104
+from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
 HIGH = range(80, 83)
 
 
-def releases(host: Host2104, since: int = 0) -> list[tuple[int, int]]:
+def releases(host: Host, since: int = 0) -> list[tuple[int, int]]:
     """(edge, level) of INT*."""
     return host.model.log.of("int_n", since)
 
 
 @verifies("P2104-PORT-01", "P2104-PORT-03")
 def test_ac_01_reset_levels():
-    host = Host2104()
+    host = Host()
     levels = {"int_n": 1, "pout_n": 3, "hold": 3, "dir": 0, "s1_n": 31, "s2_n": 31, "auxo": 3, "d_oe": 0}
     assert {name: host.model.outputs[name] for name in levels} == levels
     assert host.status() == 0 and host.read(0) == 0
@@ -29,7 +29,7 @@ def test_ac_01_reset_levels():
 @verifies("P2104-RD-01", "P2104-RD-04", "P2104-RD-05", "P2104-RD-06", "P2104-RD-07", "P2104-PHS-02")
 @pytest.mark.parametrize("base", [0x80, 0xA0])
 def test_ac_02_registers_after_reset(base):
-    host = Host2104()
+    host = Host()
     script = " ".join(f"c {base + low:02X} {'rrr' if low == 3 else 'r'}" for low in (0, 1, 2, 3, 6))
     assert host.run(script) == [0, 0xCF, 0xFC, 0, 0, 0, 0]
 
@@ -39,7 +39,7 @@ def test_ac_02_registers_after_reset(base):
 def test_ac_06_all_codes(busc):
     undefined = asking = refused = quiet = 0
     for code in range(256):
-        host = Host2104(busc=busc)
+        host = Host(busc=busc)
         status = host.command(code)
         axis = code >> 5 & 1
         command = decode(code)
@@ -66,7 +66,7 @@ def test_ac_06_all_codes(busc):
 @verifies("P2104-STA-05", "P2104-HSK-05")
 @pytest.mark.parametrize("code, shown", [("02", 0x10), ("22", 0x20)])
 def test_ac_07_cmnd(code, shown):
-    host = Host2104()
+    host = Host()
     assert host.statuses(f"c {code} d 63 d 13 d 0A d 00") == [shown] * 5
     stored = host.written
     host.poll(0xFF, 0)
@@ -75,14 +75,14 @@ def test_ac_07_cmnd(code, shown):
 
 @verifies("P2104-INI-04", "P2104-RD-05")
 def test_ac_08_pattern_after_setting():
-    host = Host2104(B1)
+    host = Host(B1)
     assert (host.out("s1_n"), host.out("s2_n")) == (0b11100, 0b11111)
     assert host.run("c 82 r") == [0x3C]
 
 
 @verifies("P2104-END-01", "P2104-RD-03", "P2104-CMD-02")
 def test_ac_16_17_end_interrupt():
-    host = Host2104(B1 + " ready c 42 idle")
+    host = Host(B1 + " ready c 42 idle")
     host.pause(3)
     assert host.out("int_n") == 0
     rise = [t for t, level in host.model.bits("pout_n", 1) if level][-1]
@@ -95,7 +95,7 @@ def test_ac_16_17_end_interrupt():
 
 @verifies("P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
 def test_ac_18_19_release_windows():
-    host = Host2104(B1 + " ready " + B2 + " ready c 42 c 62 idle")
+    host = Host(B1 + " ready " + B2 + " ready c 42 c 62 idle")
     host.pause(500)
     assert host.out("int_n") == 0
     (answer,) = host.run("c 80 r")
@@ -107,7 +107,7 @@ def test_ac_18_19_release_windows():
     host.pause(500)
     assert host.out("int_n") == 1
 
-    host = Host2104(B1 + " ready " + B2 + " ready c 42 c 62 idle")
+    host = Host(B1 + " ready " + B2 + " ready c 42 c 62 idle")
     host.pins(errint_n=0)
     host.run("c 87 c A7")
     since, answers = host.t, []
@@ -123,7 +123,7 @@ def test_ac_18_19_release_windows():
 
 @verifies("P2104-INT-04")
 def test_ac_20_reads_that_clear_nothing():
-    host = Host2104()
+    host = Host()
     host.pins(errint_n=0)
     host.run("c 87 c 80 r c A0 r c A6 r")
     assert [level for _, level in releases(host)] == [0]
@@ -132,7 +132,7 @@ def test_ac_20_reads_that_clear_nothing():
 
 @verifies("P2104-INT-01", "P2104-INT-02")
 def test_ac_21_errint_is_looked_at_when_the_error_arises():
-    host = Host2104("c 87")
+    host = Host("c 87")
     assert host.status() == 0x80 and host.out("int_n") == 1
     host.pins(errint_n=0)
     host.pause(100)
@@ -146,7 +146,7 @@ def test_ac_21_errint_is_looked_at_when_the_error_arises():
 
 @verifies("P2104-AUX-02", "P2104-AUX-03")
 def test_ac_56_auxiliary_pins():
-    host = Host2104()
+    host = Host()
     levels = []
     for code in ("C1", "D1", "E1", "F1"):
         host.run(f"c {code}")
@@ -161,7 +161,7 @@ def test_ac_56_auxiliary_pins():
 @verifies("P2104-BUS-08")
 @pytest.mark.parametrize("busc", [0, 1])
 def test_ac_79_three_bytes(busc):
-    host = Host2104(B1 + " ready c 43 d E8 d 03 d 00 c 40 idle c 83", busc=busc)
+    host = Host(B1 + " ready c 43 d E8 d 03 d 00 c 40 idle c 83", busc=busc)
     got = []
     for _ in range(3):
         got.append(host.model.read(host.t, 0, 2))
@@ -179,7 +179,7 @@ def test_ac_79_three_bytes(busc):
 def test_what_makes_a_strobe():
     def shows(busc: int, first: int, second: int) -> tuple[int, int]:
         """d_oe in a strobe with these levels, error after it (the byte is an undefined code)."""
-        host = Host2104(busc=busc)
+        host = Host(busc=busc)
         host.pins(cs_n=0, ds_wrs_n=first, rw_rds_n=second, a0=1, d_i=0x87)
         host.pause(6)
         driven = host.out("d_oe")
@@ -194,7 +194,7 @@ def test_what_makes_a_strobe():
 
 @verifies("P2104-RD-04")
 def test_ac_81_control_inputs():
-    host = Host2104()
+    host = Host()
     got = []
     for pin in ("org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n"):
         host.pin(pin, 0)
@@ -209,7 +209,7 @@ def test_ac_81_control_inputs():
 
 @verifies("P2104-BAD-23")
 def test_ac_78_reset_in_motion():
-    host = Host2104(B1 + " ready " + B2 + " ready " + LONG + " c 65 d 31 c F1 c 84 d 40 d 40 c 85 d 05")
+    host = Host(B1 + " ready " + B2 + " ready " + LONG + " c 65 d 31 c F1 c 84 d 40 d 40 c 85 d 05")
     host.fall(3, after=20)
     host.pins(rst_n=0)
     host.sync()
@@ -228,7 +228,7 @@ def test_ac_78_reset_in_motion():
 
 
 def test_edges_are_ordered_and_single():
-    host = Host2104(B1 + " ready " + B2 + " ready c 43 d 05 d 00 d 00 c 63 d 05 d 00 d 00 idle")
+    host = Host(B1 + " ready " + B2 + " ready c 43 d 05 d 00 d 00 c 63 d 05 d 00 d 00 idle")
     edges: list[Edge] = host.model.edges
     assert all(a.t <= b.t for a, b in zip(edges, edges[1:], strict=False))
     assert len({(e.t, e.signal) for e in edges}) == len(edges)

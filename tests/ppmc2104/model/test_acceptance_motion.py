@@ -6,11 +6,11 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.motion.excitation import step_list
-from tests.ppmc2104.model.host import B1, B2, LONG, Host2104
+from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
 
-def ready(script: str = B1) -> Host2104:
-    return Host2104(script + " ready ")
+def ready(script: str = B1) -> Host:
+    return Host(script + " ready ")
 
 
 @verifies("P2104-TIM-01", "P2104-TIM-04", "P2104-TIM-05", "P2104-PHS-04")
@@ -69,7 +69,7 @@ def test_ac_52_pulse_only():
 )
 def test_ac_53_step_tables(code, phases, half, axis):
     base = 0x20 * (axis - 1)
-    host = Host2104(f"c {code + base:02X} d 63 d 13 d 0A d 00 ready")
+    host = Host(f"c {code + base:02X} d 63 d 13 d 0A d 00 ready")
     host.axis = axis
     steps = step_list(phases, bool(half))
     host.mark = start = host.t
@@ -85,7 +85,7 @@ def test_ac_53_step_tables(code, phases, half, axis):
 
 @verifies("P2104-SW-01", "P2104-SW-02", "P2104-SW-03", "P2104-SW-04", "P2104-SW-05", "P2104-AUX-06")
 def test_ac_54_switching():
-    host = Host2104("c 12 d 63 d 13 d 0A d 00 ready")
+    host = Host("c 12 d 63 d 13 d 0A d 00 ready")
     host.pause(10_000)
     host.sync()
     log = host.model.log
@@ -112,7 +112,7 @@ def test_ac_54_switching():
 
 @verifies("P2104-SW-01", "P2104-SW-02", "P2104-AUX-01")
 def test_switching_survives_a_setting_and_ends_with_the_excitation():
-    host = Host2104("c 12 d 63 d 13 d 0A d 00 ready")
+    host = Host("c 12 d 63 d 13 d 0A d 00 ready")
     host.pause(20_000)
     host.run("c 12 d 63 d 12 d 0A d 00 ready")
     host.pause(20_000)
@@ -172,7 +172,7 @@ def test_ac_58_setting_again():
 
 @verifies("P2104-GEN-03")
 def test_ac_65_slower_crystal():
-    host = Host2104(B1 + " ready c 43 d 18 d 00 d 00 idle", xtal_hz=8_000_000)
+    host = Host(B1 + " ready c 43 d 18 d 00 d 00 idle", xtal_hz=8_000_000)
     assert host.intervals()[:2] == [6400, 3456] and sum(host.intervals()) == 2 * 27_008
     host.run("c 42 idle")
     host.pause(103_000)
@@ -183,7 +183,7 @@ def test_ac_65_slower_crystal():
 
 @verifies("P2104-HSK-05")
 def test_shared_builder_queues():
-    host = Host2104(B1 + " " + B2)
+    host = Host(B1 + " " + B2)
     first = second = None
     while second is None:
         host.step()
@@ -197,11 +197,11 @@ def test_shared_builder_queues():
 @pytest.mark.parametrize("early, taken", [(0, 1), (1, 1), (-1, 1), (-2, 2)])
 def test_code_that_meets_the_end_of_the_build(early, taken):
     """CMND falls on one edge, a code that waited is taken on the next; later ones are not delayed."""
-    host = Host2104(B1)
+    host = Host(B1)
     while host.model.status & 0x10:
         host.step()
     ready_at = host.model.now
-    host = Host2104(B1)
+    host = Host(B1)
     host.go(ready_at - early - 6)
     assert host.write(1, 0xC0) + 2 == ready_at - early
     host.model.run_until(ready_at + taken - 1)

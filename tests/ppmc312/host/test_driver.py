@@ -59,7 +59,7 @@ from openppmc.host.ppmc312.errors import (
 )
 from openppmc.host.ppmc312.registers import EventBuffer
 from openppmc.model.carrier.plant import parse_machine
-from openppmc.model.ppmc312.carrier import Board312
+from openppmc.model.ppmc312.carrier import Carrier
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Code, Source, State
 
@@ -82,10 +82,10 @@ def part() -> Iterator[Ppmc312]:
         yield ready
 
 
-def model(part: Ppmc312) -> Board312:
+def model(part: Ppmc312) -> Carrier:
     """The modelled board."""
     assert isinstance(part.link.port, ModelPort)
-    assert isinstance(part.link.port.board, Board312)
+    assert isinstance(part.link.port.board, Carrier)
     return part.link.port.board
 
 

@@ -25,6 +25,7 @@ from openppmc.host import (
     Timeout,
 )
 from openppmc.host.basis.errors import StartRefused
+from openppmc.host.basis.kind import Wanted
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,
@@ -197,7 +198,7 @@ def test_only_the_bus_can() -> None:
     with line() as bus:
         axis = bus.axis(1)
         with pytest.raises(OutOfRange, match="free curves: a PPMC-312 in serial mode"):
-            axis.kind.plan(16_000_000, curve="x.csv")
+            axis.kind.plan(16_000_000, Wanted(curve="x.csv"))
         with pytest.raises(OutOfRange, match="free curves: only on the parallel bus"):
             axis.load_curve([(2500, 3), (5000, 4), (10_000, 5)])
         with pytest.raises(OutOfRange, match="deceleration of its own"):

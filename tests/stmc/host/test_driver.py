@@ -32,11 +32,12 @@ from openppmc.host import (
 )
 from openppmc.host.basis import units
 from openppmc.host.basis.errors import CommandRefused, refused_stmc
-from openppmc.host.basis.kind import STMC
+from openppmc.host.basis.kind import Wanted
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
+from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.carrier.plant import Plant
-from openppmc.model.stmc.carrier import BoardStmc
+from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
@@ -66,10 +67,10 @@ def axis() -> Iterator[Stmc]:
         yield ready
 
 
-def model(axis: Stmc) -> BoardStmc:
+def model(axis: Stmc) -> Carrier:
     """The modelled board."""
     assert isinstance(axis.link.port, ModelPort)
-    assert isinstance(axis.link.port.board, BoardStmc)
+    assert isinstance(axis.link.port.board, Carrier)
     return axis.link.port.board
 
 
@@ -118,7 +119,7 @@ def test_bytes_of_an_initialisation() -> None:
         ({"start_pps": 345, "high_pps": 345, "phases": 3}, "19 8D 8D C8 00"),
     ]
     for arguments, wanted in examples:
-        setup = STMC.plan(XTAL, **arguments)  # type: ignore[arg-type]
+        setup = STMC.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
         assert bytes([setup.code]) + setup.data == bytes.fromhex(wanted), arguments
 
 

@@ -26,7 +26,7 @@ STANDARD = init(0x1A, 20, 5, 8)
 INTERNAL = init(0x0A, 20, 5, 8)
 
 
-class ClockedStmc(Stmc):
+class Clocked(Stmc):
     """The model with an external clock that runs by itself; `ext` = 0: the pin is left alone."""
 
     def __init__(self, ext: int = EXT16, **parameters: object) -> None:
@@ -48,10 +48,10 @@ class ClockedStmc(Stmc):
         super().run_until(t)
 
 
-class HostStmc(ModelHost):
+class Host(ModelHost):
     """As ModelHost. The script is run at once; scripts may also say idle (wait for BUSY = 0)."""
 
-    MODEL = ClockedStmc
+    MODEL = Clocked
 
     def __init__(self, script: str = STANDARD, **parameters: object) -> None:
         super().__init__(**parameters)

@@ -8,12 +8,12 @@ from cocotb_tests.harness.verifies import verifies
 from openppmc.model.motion.codes import Kind
 from openppmc.model.stmc.codes import decode
 from openppmc.model.stmc.part import Stmc
-from tests.stmc.model.host import INTERNAL, STANDARD, SWITCHES, HostStmc, count, init
+from tests.stmc.model.host import INTERNAL, STANDARD, SWITCHES, Host, count, init
 
 
 @verifies("AC-01", "STMC-ST-01", "STMC-FIN-01", "STMC-INP-01", "STMC-OUT-01", "STMC-REM-02")
 def test_reset_values():
-    host = HostStmc("")
+    host = Host("")
     assert dict(host.model.outputs) == {"d_o": 0, "d_oe": 0, "int_n": 1, "s": 0, "hold": 1}
     assert host.status() == 0
     assert host.run("c 80 r c 83 r c 82 r c 84 rrr") == [0x80, 0x04, 0xCF, 0, 0, 0]
@@ -21,21 +21,21 @@ def test_reset_values():
 
 @verifies("AC-02", "STMC-MOT-01", "STMC-STP-05")
 def test_before_the_first_initialisation():
-    host = HostStmc("")
+    host = Host("")
     assert host.statuses("c 42 c 40 d 55 c C0") == [0xA0, 0x80, 0xB0, 0x80]
     assert host.model.log.of("s") == []
 
 
 @verifies("AC-03", "STMC-ST-02", "STMC-INI-06", "STMC-INI-08")
 def test_initialisation_counts_down():
-    host = HostStmc("")
+    host = Host("")
     assert host.statuses("c 0A d 14 d 05 d 08 d 00") == [0x40, 0x30, 0x20, 0x10, 0x00]
     assert host.out("s") == 0b00011 and not host.model.busy
 
 
 @verifies("AC-04", "STMC-INI-05", "STMC-BAD-06")
 def test_motor_type_00():
-    host = HostStmc("")
+    host = Host("")
     assert host.statuses("c 08 d 14") == [0x80, 0xB0] and host.out("s") == 0
     assert host.statuses("c 42") == [0xA0]
     host.run(STANDARD)
@@ -45,7 +45,7 @@ def test_motor_type_00():
 
 @verifies("AC-05", "STMC-MOT-08")
 def test_normal_end():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 d 13 d 00 d 00")
     host.idle()
     host.pause(5)
@@ -55,7 +55,7 @@ def test_normal_end():
 
 @verifies("AC-18", "STMC-INI-04")
 def test_second_initialisation_keeps_the_frozen_bits():
-    host = HostStmc()
+    host = Host()
     assert host.statuses("c 05 d 14 d 05 d 08 d 00")[-1] == 0
     host.move("c 42")
     assert host.phases() == ["00110"]
@@ -65,7 +65,7 @@ def test_second_initialisation_keeps_the_frozen_bits():
 
 @verifies("AC-20", "STMC-MOT-03", "STMC-BAD-07")
 def test_divisor_0():
-    host = HostStmc()
+    host = Host()
     assert host.statuses("c 44 d 00 d 04 d 00 d 00") == [0x40, 0x30, 0x20, 0x10, 0xD0]
     assert host.statuses("c 45 d 00") == [0x10, 0xD0]
     assert host.statuses("c 47 d 00 d 01") == [0x10, 0xD0, 0xB0]
@@ -74,7 +74,7 @@ def test_divisor_0():
 
 @verifies("AC-31", "STMC-MOT-05", "STMC-SGL-02", "STMC-MOT-10")
 def test_start_against_a_limit():
-    host = HostStmc()
+    host = Host()
     host.pins(l1_n=0)
     host.pause(5_000)
     host.start("c 42")
@@ -88,7 +88,7 @@ def test_start_against_a_limit():
 
 @verifies("AC-34", "STMC-IN-05")
 def test_motor_off():
-    host = HostStmc()
+    host = Host()
     host.start("c 44 d 0A " + count(0x63))
     host.in_gap(9)
     host.pins(mon=0)
@@ -99,7 +99,7 @@ def test_motor_off():
 
 @verifies("AC-35", "STMC-FIN-05", "STMC-MOT-09", "STMC-MOT-10")
 def test_interrupt():
-    host = HostStmc()
+    host = Host()
     host.move("c 53 " + count(0))
     assert host.model.log.of("int_n") == []
     host.run("c 43 " + count(0) + "idle")
@@ -113,7 +113,7 @@ def test_interrupt():
 
 @verifies("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17")
 def test_bytes_during_a_move():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(99))
     mark = host.mark
     codes = host.statuses("c 80 c 0A c C0 c 42 d 00")
@@ -124,7 +124,7 @@ def test_bytes_during_a_move():
 
 @verifies("AC-37", "AC-51", "STMC-CMD-01", "STMC-BAD-11", "STMC-BUS-22")
 def test_half_read_answer():
-    host = HostStmc()
+    host = Host()
     assert host.run("c 84 r c 82 r") == [0, 0xCF]
     assert host.status() == 0 and host.read(0) == 0xCF
     host.start("c 43 " + count(99))
@@ -135,7 +135,7 @@ def test_half_read_answer():
 
 @verifies("AC-38", "STMC-BAD-04", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-03")
 def test_command_instead_of_data():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 d 05 c 42")
     host.idle()
     assert len(host.model.log.of("s", host.mark)) == 1
@@ -145,18 +145,18 @@ def test_command_instead_of_data():
 @verifies("AC-39", "STMC-INI-02", "STMC-BAD-05")
 @pytest.mark.parametrize("d1, d2", [(5, 20), (0, 0), (20, 0), (0, 5), (254, 255)])
 def test_refused_divisors(d1, d2):
-    host = HostStmc()
+    host = Host()
     host.run(init(0x1A, d1, d2, 8))
     assert host.status() == 0xD0
     host.move("c 43 " + count(3))
     assert host.gaps() == [20, 12, 20]
-    host = HostStmc(init(0x1A, d1, d2, 8))
+    host = Host(init(0x1A, d1, d2, 8))
     assert host.statuses("c 42") == [0xA0] and host.out("s") == 0
 
 
 @verifies("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
 def test_bytes_meet_the_table_build():
-    host = HostStmc()
+    host = Host()
     host.run(init(0x1A, 255, 5, 400))
     host.write(1, 0x40, gap=12)
     host.write(1, 0x80)
@@ -167,22 +167,22 @@ def test_bytes_meet_the_table_build():
 
 @verifies("AC-43", "STMC-RUN-01")
 def test_bit_5_of_a_motion_byte():
-    host = HostStmc()
+    host = Host()
     assert host.move("c 63 " + count(0)) == (0x83, 0) and host.phases() == ["00110"]
 
 
 @verifies("AC-44", "AC-45", "STMC-BAD-01")
 def test_read_maps():
-    family = HostStmc(read_map="FAMILY")
+    family = Host(read_map="FAMILY")
     assert family.run("c 81 r c 82 r c 83 rrr") == [0xCF, 0xC4, 0, 0, 0]
     assert family.statuses("c 84") == [0x80]
-    sheet = HostStmc()
+    sheet = Host()
     assert sheet.statuses("c 81") == [0x80] and sheet.run("c 84 rrr") == [0, 0, 0]
 
 
 @verifies("AC-49", "STMC-BAD-16")
 def test_reset_in_motion():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(99))
     host.in_gap(5)
     host.model.pins(host.t, rst_n=0)
@@ -215,7 +215,7 @@ def test_every_code():
 
 @verifies("STMC-INP-01")
 def test_inputs_one_by_one():
-    host = HostStmc(INTERNAL)
+    host = Host(INTERNAL)
     for pin, bit in zip(SWITCHES, (3, 2, 1, 0, 7, 6), strict=True):
         host.pins(**{pin: 0})
         host.pause(4)
@@ -225,7 +225,7 @@ def test_inputs_one_by_one():
 
 @verifies("AC-52", "STMC-BUS-06", "STMC-BAD-12")
 def test_both_strobes():
-    host = HostStmc()
+    host = Host()
     before = host.status()
     since = host.t
     host.model.pins(host.t, cs_n=0, rd_n=0, wr_n=0, a0=1, d_i=0x42)

@@ -6,7 +6,7 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.motion.excitation import step_list
-from tests.stmc.model.host import EXT16, INTERNAL, STANDARD, HostStmc, count, init
+from tests.stmc.model.host import EXT16, INTERNAL, STANDARD, Host, count, init
 
 ALL = 0xFFFFFF
 TICK = 1280
@@ -14,14 +14,14 @@ TICK = 1280
 
 @verifies("AC-09", "STMC-RMP-01")
 def test_tie_rounds_up():
-    host = HostStmc(init(0x1A, 15, 5, 8))
+    host = Host(init(0x1A, 15, 5, 8))
     host.move("c 43 " + count(11))
     assert host.gaps()[3] == 8
 
 
 @verifies("AC-10", "STMC-MOT-06", "STMC-CLK-01")
 def test_internal_clock_at_16_mhz():
-    host = HostStmc(init(0x0A, 5, 5, 0))
+    host = Host(init(0x0A, 5, 5, 0))
     host.move("c 43 " + count(4))
     assert host.intervals() == [6400] * 4
     assert 80 <= host.pulses()[0] - host.model.log.falls("hold")[0] <= 82
@@ -30,7 +30,7 @@ def test_internal_clock_at_16_mhz():
 @verifies("AC-11", "AC-12", "STMC-CLK-01")
 @pytest.mark.parametrize("clk_hz, first, n", [(10_000_000, (50, 52), 4), (12_345_678, (62, 64), 101)])
 def test_internal_clock_at_other_clocks(clk_hz, first, n):
-    host = HostStmc(INTERNAL, clk_hz=clk_hz, ext=0)
+    host = Host(INTERNAL, clk_hz=clk_hz, ext=0)
     host.move("c 44 d 0A " + count(n - 1))
     falls = host.pulses()
     exact = [-(-i * 12800 * clk_hz // 16_000_000) for i in range(n)]
@@ -41,7 +41,7 @@ def test_internal_clock_at_other_clocks(clk_hz, first, n):
 
 @verifies("AC-13", "STMC-EXC-04", "STMC-SGL-01", "STMC-SGL-03")
 def test_single_steps():
-    host = HostStmc()
+    host = Host()
     seen = []
     for code, outputs in ((0x42, None), (0x42, None), (0x42, 0x90), (0x4A, 0x32)):
         assert host.move(f"c {code:02X}") == (0x82, 0)
@@ -60,7 +60,7 @@ def test_single_steps():
 def test_excitation(code, phases, half):
     table = step_list(phases, half)
     for logic in (8, 0):
-        host = HostStmc(init(code & ~8 | logic, 20, 5, 8))
+        host = Host(init(code & ~8 | logic, 20, 5, 8))
         mask = 0 if logic else 0b11111
         assert host.out("s") == table[0] ^ mask
         host.move("c 44 d 01 " + count(len(table) - 1))
@@ -71,13 +71,13 @@ def test_excitation(code, phases, half):
 
 @verifies("AC-19")
 def test_constant_speed():
-    host = HostStmc()
+    host = Host()
     assert host.move("c 44 d 07 " + count(4)) == (0x84, 0) and host.gaps() == [7] * 4
 
 
 @verifies("AC-21", "STMC-REM-01")
 def test_the_rest_of_a_stopped_move():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(99))
     host.in_gap(3)
     mark = host.mark
@@ -90,7 +90,7 @@ def test_the_rest_of_a_stopped_move():
 @verifies("AC-23", "STMC-DEC-01", "STMC-STP-04")
 @pytest.mark.parametrize("gap, status", [(5, 0x04), (6, 0xF4)])
 def test_command_1_around_the_turn(gap, status):
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(11))
     host.in_gap(gap)
     mark = host.mark
@@ -106,7 +106,7 @@ def test_command_1_around_the_turn(gap, status):
     ("c 44 d 14 " + count(0xFF), 2, 0x40, 3, (0xC4, 0xFC)),
 ])  # fmt: skip
 def test_stop_commands(move, gap, code, steps, result):
-    host = HostStmc()
+    host = Host()
     host.start(move)
     host.in_gap(gap)
     mark = host.mark
@@ -117,7 +117,7 @@ def test_stop_commands(move, gap, code, steps, result):
 
 @verifies("AC-26", "STMC-IN-01", "STMC-DEC-05")
 def test_deceleration_limit_pulse():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(0x63))
     host.in_gap(10)
     host.blip(4, l3_n=0)
@@ -126,14 +126,14 @@ def test_deceleration_limit_pulse():
 
 @verifies("AC-27", "STMC-IN-03")
 def test_limits_of_the_other_direction():
-    host = HostStmc()
+    host = Host()
     host.pins(l4_n=0, l2_n=0)
     assert host.move("c 43 " + count(0x63)) == (0x83, 0) and len(host.pulses()) == 100
 
 
 @verifies("AC-28", "STMC-DEC-06", "STMC-FIN-02")
 def test_stop_limit_during_the_ramp_down():
-    host = HostStmc()
+    host = Host()
     host.start("c 46")
     host.in_gap(30)
     host.pins(l3_n=0)
@@ -144,7 +144,7 @@ def test_stop_limit_during_the_ramp_down():
 
 @verifies("AC-29")
 def test_accelerated_to_limit_ccw():
-    host = HostStmc()
+    host = Host()
     host.start("c 4E")
     host.in_gap(12)
     host.pins(l4_n=0)
@@ -153,7 +153,7 @@ def test_accelerated_to_limit_ccw():
 
 @verifies("AC-30")
 def test_constant_speed_to_limit():
-    host = HostStmc()
+    host = Host()
     host.start("c 45 d 0A")
     host.in_gap(20)
     host.pins(l3_n=0)
@@ -164,7 +164,7 @@ def test_constant_speed_to_limit():
 
 @verifies("AC-32", "STMC-RUN-03")
 def test_reference_point():
-    host = HostStmc()
+    host = Host()
     host.start("c 47 d 0A")
     host.in_gap(19)
     host.pins(cnp_n=0)
@@ -174,7 +174,7 @@ def test_reference_point():
 
 @verifies("AC-33", "STMC-IN-04")
 def test_deceleration_limit_stops_command_7():
-    host = HostStmc()
+    host = Host()
     host.start("c 47 d 0A")
     host.in_gap(5)
     host.pins(l3_n=0)
@@ -183,7 +183,7 @@ def test_deceleration_limit_stops_command_7():
 
 @verifies("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02")
 def test_chopper_and_hold():
-    host = HostStmc(init(0x3A, 20, 5, 8), hold_xt=1600)
+    host = Host(init(0x3A, 20, 5, 8), hold_xt=1600)
     done = host.model.next_event
     host.pause(20_000)
     host.sync()
@@ -210,7 +210,7 @@ def test_chopper_and_hold():
 
 @verifies("AC-42", "STMC-CLK-05")
 def test_clock_that_stands_still():
-    host = HostStmc(ext=0)
+    host = Host(ext=0)
     host.start("c 43 " + count(5))
     host.pause(100_000)
     host.command(0x40)
@@ -225,7 +225,7 @@ def test_clock_that_stands_still():
 
 @verifies("AC-50", "STMC-DEC-03", "STMC-IN-04")
 def test_starts_at_the_deceleration_limit():
-    host = HostStmc()
+    host = Host()
     host.pins(l3_n=0)
     for script, result, steps in (
         ("c 43 " + count(0x63), (0x8B, 0x62), 1),
@@ -240,7 +240,7 @@ def test_starts_at_the_deceleration_limit():
 
 @verifies("STMC-BAD-14")
 def test_all_switches_active():
-    host = HostStmc()
+    host = Host()
     host.pins(l1_n=0, l2_n=0, l3_n=0, l4_n=0, cnp_n=0)
     for code, number in ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7)):
         for ccw in (0, 8):
@@ -253,7 +253,7 @@ def test_all_switches_active():
 @pytest.mark.parametrize("stop", ["c 41", "l3_n"])
 def test_request_in_the_first_levels_of_a_flat_start(stop):
     """x(v) = D1 also for levels above 0: the request stops at once there, too."""
-    host = HostStmc(init(0x1A, 10, 9, 16))
+    host = Host(init(0x1A, 10, 9, 16))
     host.start("c 43 " + count(99))
     host.in_gap(3)
     mark = host.mark
@@ -268,7 +268,7 @@ def test_request_in_the_first_levels_of_a_flat_start(stop):
 
 @verifies("STMC-HLD-01", "STMC-HLD-02")
 def test_hold_default():
-    host = HostStmc(STANDARD)
+    host = Host(STANDARD)
     host.move("c 42")
     fall = host.model.log.falls("int_n")[0]
     host.pause(560_000)

@@ -15,7 +15,6 @@ from dataclasses import dataclass, field
 from serial.rs485 import RS485Settings
 
 from ...basis.errors import CommandRefused
-from ...basis.kind import PPMC312_SERIAL
 from ...line.bus import LineBus
 from ...line.errors import DuplicateAddress, GarbledReply, StationSilent
 from ...line.faults import Counters
@@ -24,6 +23,7 @@ from ...ports.transport import Port
 from ..answers import Report
 from ..registers import Status312
 from .ascii import SPEEDS, STATIONS, SumMode
+from .kind import KIND
 from .line import XTAL_HZ, Line
 from .serial import VERSION
 from .station import ErrorCounts, Station312
@@ -52,7 +52,7 @@ class Found:
 class Ppmc312Bus(LineBus):
     """A line (`line312.Line`) with stations 0 to 15; see `line_bus.LineBus`."""
 
-    kind = PPMC312_SERIAL
+    kind = KIND
 
     @classmethod
     def open(  # type: ignore[override]

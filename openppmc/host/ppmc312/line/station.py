@@ -9,7 +9,6 @@ from ....model.ppmc312.codes import Cause, Code, Source, State
 from ...axis.motion import Progress
 from ...basis.ending import End
 from ...basis.errors import ProtocolError
-from ...basis.kind import PPMC312_SERIAL
 from ...line.errors import StationSilent
 from ...line.faults import Counters
 from ...line.motion import POLL_EVERY, wait_all
@@ -18,6 +17,7 @@ from ..axis import Axis312
 from ..motion import Motion312
 from ..registers import Status312
 from .ascii import station_number
+from .kind import KIND
 from .line import Line
 from .serial import ERROR_CODE, ERROR_COUNTS
 from .talk import ATTEMPTS, Talk
@@ -102,7 +102,7 @@ class Station312(Axis312):
     nobody can know.
     """
 
-    kind = PPMC312_SERIAL
+    kind = KIND
     make_motion = SerialMotion  # type: ignore[assignment]
     link: Line  # type: ignore[assignment]
     window: Talk  # type: ignore[assignment]

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Container
 from dataclasses import dataclass
 from enum import Enum, auto
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ..codes import LETTERS, Effect
+from ..desk import Desk
 from ..settings import BOTH
-
-if TYPE_CHECKING:
-    from .desk import Desk
 
 COUNT = 100
 TARGETS = range(COUNT)

@@ -7,9 +7,10 @@ import pytest
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.elaborate import check_ranges, ports
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.runner import part_design, run_item
 from cocotb_tests.harness.verifies import verifies
+
+from .bench import PPMC2104
 
 ITEMS = cocotb_items(
     "cocotb_tests.ppmc2104",

@@ -6,22 +6,22 @@ stations cost nothing.
 
 from __future__ import annotations
 
-from ...model.carrier.carrier import Board
+from ...model.carrier import carrier
 from ...model.carrier.plant import Plant
-from ...model.ppmc312.carrier import Board312
+from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation
 from .line_spec import SPEEDS, LineSpec
 
 
-class StationBoard(LineStation, Board312):
+class Station(LineStation, Carrier):
     """A station with motor and encoder; `straps` sets RUN and the event inputs."""
 
     def __init__(self, plant: Plant, number: int, spec: LineSpec) -> None:
         self._moved = False
         straps = {"mode": 0, "mod": SPEEDS[spec.baud], "adr": number}
         part = Ppmc312(spec.clk_hz, spec.xtal_hz, spec.timing, sum_mode=spec.sum_mode, straps=straps)
-        Board.__init__(self, part, [plant], lambda: None)
+        carrier.Carrier.__init__(self, part, [plant], lambda: None)
         self.number = number
         self.part.pins(self.t - 3, end_n=0, auxi=0xFF)
 
@@ -33,14 +33,14 @@ class StationBoard(LineStation, Board312):
         return f"{self.number}:{self.position}:{self.part.state.name}"
 
 
-class LineBoard(CharLine):
+class StationLine(CharLine):
     """The line. Only the station that was addressed last runs with it."""
 
     spec: LineSpec
 
     def __init__(self, spec: LineSpec) -> None:
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
-        boards = [StationBoard(plant, number, spec) for number, plant in numbered]
+        boards = [Station(plant, number, spec) for number, plant in numbered]
         super().__init__(spec, boards, spec.clk_hz * 16_000_000 / (spec.baud * spec.xtal_hz))
         self.hearing = []
 
