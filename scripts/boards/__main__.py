@@ -33,7 +33,9 @@ def all_files() -> dict[Path, str]:
     every = fitted_parts(boards)
     found = {path: text for one in every for path, text in own_files(one).items()}
     docs, sources = project.DOCS / "boards.md", project.RTL / "files.yml"
+    readme = project.ROOT / "README.md"
     found[docs] = tables.page(boards, every, docs.read_text(encoding="utf-8"))
+    found[readme] = tables.readme(boards, readme.read_text(encoding="utf-8"))
     found[sources] = tables.listing(boards, every, sources.read_text(encoding="utf-8"))
     return found
 

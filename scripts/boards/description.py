@@ -29,7 +29,7 @@ LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cy
 KEYS = {
     "board": (
         "title place chip family clock reset lamps uart pads headers parts",
-        "devices vendor suffix loader ties defaults statements",
+        "devices vendor suffix loader port ties defaults statements",
     ),
     "device": ("title device route", "chip"),
     "vendor": ("tool target device", "family"),
@@ -101,6 +101,7 @@ class Description:
     vendor: Mapping[str, str]
     suffix: str
     loader: str
+    port: str
     clock: Mapping[str, Any]
     reset: Mapping[str, Any]
     lamps: Mapping[str, Any]
@@ -185,7 +186,12 @@ def load(path: Path) -> Description:
     """One board.yml; the board is called as its folder."""
     name = path.parent.name
     where = f"constraints/{name}/board.yml"
-    keys = dict(checked(where, "board", yaml.safe_load(path.read_text(encoding="utf-8"))))
+    try:
+        found = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        raise ProjectError(f"{where}: line {line}: {error.problem}") from None
+    keys = dict(checked(where, "board", found))
     if ("devices" in keys) == ("vendor" in keys):
         raise ProjectError(f"{where}: expected either devices (built here) or vendor (by the vendor's tool)")
     if keys["family"] not in LANGUAGES:
@@ -205,14 +211,14 @@ def load(path: Path) -> Description:
         Device(name=str(known), **{**checked(f"{where}: devices: {known}", "device", found)})
         for known, found in keys.pop("devices", {}).items()
     ]
-    for key in ("suffix", "loader"):
+    for key in ("suffix", "loader", "port"):
         if devices and key not in keys:
             raise ProjectError(f"{where}: {key} is missing")
     keys["headers"] = headers(f"{where}: headers", keys["headers"])
     keys["parts"] = tuple(
         carried(f"{where}: parts: {part}", part, found) for part, found in keys["parts"].items()
     )
-    optional: dict[str, Any] = {"suffix": "", "loader": "", "defaults": {}}
+    optional: dict[str, Any] = {"suffix": "", "loader": "", "port": "", "defaults": {}}
     return Description(name=name, path=path, devices=tuple(devices), **{**optional, **keys})
 
 

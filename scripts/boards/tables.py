@@ -1,4 +1,4 @@
-"""Tables written between markers: pins and boards in docs/boards.md, tops in rtl/files.yml."""
+"""Tables written between markers: pins and boards in pages, tops in rtl/files.yml."""
 
 from __future__ import annotations
 
@@ -34,6 +34,19 @@ def board_table(boards: tuple[Description, ...]) -> str:
     return "\n".join(rows)
 
 
+def flash_table(boards: tuple[Description, ...]) -> str:
+    """Boards that `make flash` loads, with the first part of each."""
+    rows = ["| board | FPGA | bitstream and load | port |", "| --- | --- | --- | --- |"]
+    for board in boards:
+        first = board.parts[0]
+        part = "" if first.part == "ppmc104" else f" PART={first.part}"
+        loads = [f"`make flash BOARD={device.name}{part}`" for device in board.devices]
+        if loads:
+            clk = f"{board.chip}, `clk` {first.mhz:g} MHz"
+            rows.append(f"| {board.title} | {clk} | {' or '.join(loads)} | {board.port} |")
+    return "\n".join(rows)
+
+
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
     """`text` with `body` between the lines `begin` and `end`; ProjectError if they are not there."""
     head, found, rest = text.partition(f"{begin}\n")
@@ -50,6 +63,11 @@ def page(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> st
         name = f"pins {one.board.constraints(one.on)}"
         text = put(text, f"<!-- {name} -->", f"<!-- /{name} -->", pin_table(one), "docs/boards.md")
     return text
+
+
+def readme(boards: tuple[Description, ...], text: str) -> str:
+    """The README with its table of boards anew."""
+    return put(text, "<!-- boards -->", "<!-- /boards -->", flash_table(boards), "README.md")
 
 
 def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
