@@ -51,7 +51,7 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
-NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards
+NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
 CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
@@ -71,7 +71,7 @@ export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help setup demo test test-gates test-board soak lint format synth report size yardsticks bench trace waves docs board \
-        bitstream flash packages boards clean distclean
+        bitstream flash packages boards rom clean distclean
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -140,6 +140,9 @@ packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from r
 
 boards: $(ENVDEV) ## write tops, constraint files and tables of the FPGA boards anew from constraints/<board>/board.yml
 	@$(PY) -m scripts.boards
+
+rom: $(ENVDEV) ## assemble the planner's program of the PMC006B4 (pmc006_calc.asm) into its ROM
+	@$(PY) -m scripts.pmc006.calc_rom
 
 waves: ## open the demo's waveforms in GTKWave or Surfer
 	@./scripts/waves.sh

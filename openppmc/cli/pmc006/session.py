@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from ...host import Pmc006, Pmc006Bus
-from ...host.pmc006.bus import Found006
+from ...host.pmc006.bus import Found as Found006
 from ...host.pmc006.driver import find
 from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST
 from ..common.guard import Guard

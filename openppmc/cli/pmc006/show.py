@@ -9,9 +9,9 @@ from typing import Any
 from rich.table import Table
 
 from ...host import Pmc006
-from ...host.pmc006.bus import Found006
+from ...host.pmc006.bus import Found as Found006
 from ...host.pmc006.codes import Flags, Modes
-from ...host.pmc006.motion import End006
+from ...host.pmc006.motion import End as End006
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
 
 _HEADS = ("address", "version", "state", "position", "line faults")

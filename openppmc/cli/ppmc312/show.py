@@ -16,7 +16,7 @@ from ...host.ppmc312.answers import (
     Report,
     Stopped,
 )
-from ...host.ppmc312.axis import Axis312
+from ...host.ppmc312.axis import Axis as Axis312
 from ...host.ppmc312.profile import Setup as Setup312
 from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source

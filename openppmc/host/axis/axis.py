@@ -17,8 +17,9 @@ from ...model.motion.codes import (
 from ..basis import units
 from ..basis.arguments import side
 from ..basis.ending import Cause, End
-from ..basis.errors import AlreadyDecelerating, NothingToStop, OutOfRange
+from ..basis.errors import OutOfRange
 from ..basis.kind import PULSE_ONLY
+from ..basis.refusals import AlreadyDecelerating, NothingToStop
 from ..bridge.script import Script
 from .core import AxisCore
 from .homing import Homing

@@ -7,8 +7,9 @@ from dataclasses import replace
 from ..basis import units
 from ..basis.arguments import Checked
 from ..basis.ending import End
-from ..basis.errors import NotWhileBusy, OutOfRange, ProtocolError
+from ..basis.errors import OutOfRange, ProtocolError
 from ..basis.kind import COILS_OFF, Wanted
+from ..basis.refusals import NotWhileBusy
 from ..bridge.link import Link
 from ..bridge.script import Script
 from .kind import RateKind

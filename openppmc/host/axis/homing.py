@@ -7,8 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..basis.arguments import side, within
-from ..basis.ending import Cause, End
-from ..basis.errors import OriginNotFound
+from ..basis.ending import Cause, End, OriginNotFound
 from .motion import Progress
 
 if TYPE_CHECKING:

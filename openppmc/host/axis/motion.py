@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from ...model.motion.codes import ENDLESS
 from ..basis.arguments import Checked
 from ..basis.ending import End, decode_end
-from ..basis.errors import NotWhileBusy, Timeout
+from ..basis.errors import Timeout
+from ..basis.refusals import NotWhileBusy
 from ..bridge.script import Script
 
 if TYPE_CHECKING:

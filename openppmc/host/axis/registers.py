@@ -74,13 +74,6 @@ class Inputs(Switches):
 
 
 @dataclass(frozen=True)
-class InputsStmc(Switches):
-    """Switches of an STMC; motor_off: MON is low."""
-
-    motor_off: bool
-
-
-@dataclass(frozen=True)
 class Outputs:
     """Motor outputs. phases: levels of S1 to S5; hold: the motor has rested for 34 ms; ccw: level of DIR."""
 

@@ -1,4 +1,6 @@
-"""How a motion ended: the finish status and the remaining pulses, decoded. Pure."""
+"""How a motion ended: finish status and remaining pulses, decoded, and what is raised for it. Pure."""
+
+# ruff: noqa: N818
 
 from __future__ import annotations
 
@@ -6,10 +8,34 @@ from dataclasses import dataclass, field
 from enum import Flag
 
 from ...model.motion.codes import FINISH_ALARM, FINISH_LIMIT, FINISH_SLOW, FINISH_STOP, ORIGIN
-from .errors import AlarmStop, LimitReached, MotionError, StoppedEarly
+from .errors import PpmcError
 
 ALARM_INPUT = ("alarm input", "clear the drive's alarm")
 """What that input is called where it is one, and what to do about it."""
+
+
+class MotionError(PpmcError):
+    """A motion ended other than asked for; `end` says where and why."""
+
+    def __init__(self, message: str, end: End) -> None:
+        super().__init__(message)
+        self.end = end
+
+
+class LimitReached(MotionError):
+    """A hard or slow-down limit switch ended the motion."""
+
+
+class AlarmStop(MotionError):
+    """The alarm input ended the motion."""
+
+
+class StoppedEarly(MotionError):
+    """A stop command ended a motion that was to be complete."""
+
+
+class OriginNotFound(MotionError):
+    """Homing ended without the origin switch."""
 
 
 class Cause(Flag):

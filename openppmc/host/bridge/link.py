@@ -13,9 +13,9 @@ from ..basis.errors import (
     ProtocolError,
     Timeout,
     WrongDevice,
-    refused,
 )
 from ..basis.kind import name_of
+from ..basis.refusals import refused
 from ..ports.transport import BASE_BAUD, Port, open_port
 from .script import (
     PROTOCOL_VERSION,

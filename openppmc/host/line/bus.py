@@ -9,7 +9,8 @@ from typing import Any
 from ..axis.device import Device
 from ..axis.motion import Progress
 from ..basis.ending import End
-from ..basis.errors import NothingToStop, NotInitialised, OutOfRange, PpmcError
+from ..basis.errors import OutOfRange, PpmcError
+from ..basis.refusals import NothingToStop, NotInitialised
 from .master import Master
 from .motion import POLL_EVERY, wait_all
 

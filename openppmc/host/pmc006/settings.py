@@ -1,4 +1,4 @@
-"""Settings of a PMC006B4: codes, ranges, units, what is saved. Each is a property of `Settings006`."""
+"""Settings of a PMC006B4: codes, ranges, units, what is saved. Each is a property of `Settings`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..basis.arguments import whole
 from ..basis.errors import OutOfRange
 from .codes import STATUS_1_BITS, STATUS_2_BITS, Code
 from .errors import SettingRefused
-from .talk import Talk006
+from .talk import Talk
 
 MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
 DRIVE_FIRST, DRIVE_STEP = 400, 150
@@ -63,7 +63,7 @@ class Setting:
     name = ""
     hint = ""
 
-    def __get__(self, node: Talk006 | None, owner: type) -> int:
+    def __get__(self, node: Talk | None, owner: type) -> int:
         if node is None:
             return self  # type: ignore[return-value]
         if self.read is None:
@@ -71,7 +71,7 @@ class Setting:
         got = node.ask(self.read, good=self._plausible)
         return self.known(got >> self.shift & (1 << self.bits) - 1)
 
-    def __set__(self, node: Talk006, value: int) -> None:
+    def __set__(self, node: Talk, value: int) -> None:
         if isinstance(value, bool) and self.accepts == range(2):
             value = int(value)
         value = whole(value, self.name)
@@ -113,7 +113,7 @@ _STATUS_2 = {"word": STATUS_2_BITS, "saved": False}
 _SPEED = (range(65, 3001), "65 to 3000")
 
 
-class Settings006(Talk006):
+class Settings(Talk):
     """Each assignment is checked against the reply. Values that are out of range raise OutOfRange before they
     are sent; what the part refuses raises SettingRefused."""
 
@@ -218,7 +218,7 @@ class Settings006(Talk006):
 
 
 SETTINGS: dict[str, Setting] = {
-    name: value for name, value in vars(Settings006).items() if isinstance(value, Setting)
+    name: value for name, value in vars(Settings).items() if isinstance(value, Setting)
 }
 """All of them by name."""
 

@@ -7,7 +7,8 @@ from fractions import Fraction
 from ..axis.registers import Inputs
 from ..axis.single import OneAxis
 from ..basis import units
-from ..basis.errors import NotWhileBusy, OutOfRange
+from ..basis.errors import OutOfRange
+from ..basis.refusals import NotWhileBusy
 from ..bridge.script import Result, Script
 from .kind import KIND
 
@@ -18,7 +19,7 @@ _START_XT = 1792
 
 
 class Ppmc104(OneAxis):
-    """One PPMC-104; see `one_axis.OneAxis`.
+    """One PPMC-104; see `axis.single.OneAxis`.
 
     `initialise`, figures for a 16 MHz crystal: speeds 488.3 to 500 000 pps; ramp_pulses 4 to 11 220;
     base_clock 500 000 or 125 000 Hz. phases, half_step and positive_logic of an initialised part stay until

@@ -13,15 +13,10 @@ from ..axis.motion import Motion
 from ..axis.registers import Inputs
 from ..basis import units
 from ..basis.ending import Cause, End
-from ..basis.errors import (
-    AlreadyDecelerating,
-    CutCommand,
-    NothingToStop,
-    NotInitialised,
-    StartRefused,
-    Timeout,
-)
+from ..basis.errors import Timeout
+from ..basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused
 from ..bridge.script import Script
+from .errors import CutCommand
 from .kind import KIND
 
 if TYPE_CHECKING:

@@ -13,17 +13,12 @@ from ..axis.moves import OnProgress
 from ..basis import units
 from ..basis.arguments import whole, within
 from ..basis.ending import End
-from ..basis.errors import (
-    BY_NUMBER_2104,
-    AlreadyDecelerating,
-    CommandRefused,
-    PpmcError,
-    ProtocolError,
-    refused2104,
-)
+from ..basis.errors import PpmcError, ProtocolError
+from ..basis.refusals import AlreadyDecelerating, CommandRefused
 from ..bridge.link import Link
 from ..bridge.script import Answer, Script
 from .axis import Axis2104
+from .errors import BY_NUMBER, refused
 from .kind import KIND
 from .registers import Status
 
@@ -253,9 +248,9 @@ class Ppmc2104(Device):
         place = int(bool(code & AXIS_BIT))
         if not numbers[place]:
             place = 1 - place
-        if numbers[place] not in BY_NUMBER_2104:
+        if numbers[place] not in BY_NUMBER:
             return ProtocolError(f"{self.link.name}: the part told of an error and then of none: try again")
-        return refused2104(numbers[place], answer.last, place + 1)
+        return refused(numbers[place], answer.last, place + 1)
 
 
 def _with_csel(levels: int, number: int, clock: units.BaseClock | None) -> int:

@@ -14,16 +14,16 @@ from ..bridge.link import Link
 from . import blocks
 from .answers import BadResponse, Executed, Report, Response, Stopped, signed
 from .kind import TableKind
-from .motion import Motion312
+from .motion import Motion
 from .profile import Setup
-from .registers import Inputs312, Status312
+from .registers import Inputs, Status
 from .window import ANSWER_MS, SHORTEST, Window
 
 MOST_KEPT = 1000
 
 
 class Instructions(Protocol):
-    """What carries instructions to a part; `window312.Window` does by the bridge, `serial312` by a line."""
+    """What carries instructions to a part; `window.Window` does by the bridge, `line.talk.Talk` by a line."""
 
     @property
     def answers(self) -> int:
@@ -42,7 +42,7 @@ class Instructions(Protocol):
         """Read what waits."""
 
 
-class Core312(Checked):
+class Core(Checked):
     """See `ppmc312.Ppmc312`.
 
     setup: the table that this object made, if any. reports: what the part said by itself and nobody took yet,
@@ -58,7 +58,7 @@ class Core312(Checked):
         self.link = link
         self.setup: Setup | None = None
         self.reports: deque[Report] = deque(maxlen=MOST_KEPT)
-        self._motion: Motion312 | None = None
+        self._motion: Motion | None = None
         self._mark = 0
         self.window = self._make_window()
         self.window.open()
@@ -68,7 +68,7 @@ class Core312(Checked):
         return Window(self.link, self._arrived)
 
     @property
-    def motion(self) -> Motion312 | None:
+    def motion(self) -> Motion | None:
         """The motion that was started last, None before the first."""
         return self._motion
 
@@ -133,13 +133,13 @@ class Core312(Checked):
 
     # ------------------------------------------------------------------ registers
 
-    def status(self) -> Status312:
+    def status(self) -> Status:
         """State, monitors, registered instructions; allowed at any time."""
-        return Status312.parse(self._plain(Code.STATUS, 3))
+        return Status.parse(self._plain(Code.STATUS, 3))
 
-    def inputs(self) -> Inputs312:
+    def inputs(self) -> Inputs:
         """Switches and other inputs; allowed at any time."""
-        return Inputs312.parse(self._plain(Code.TERMINALS, 2))
+        return Inputs.parse(self._plain(Code.TERMINALS, 2))
 
     def version(self) -> int:
         """Version byte of the part."""

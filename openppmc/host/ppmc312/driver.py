@@ -6,20 +6,20 @@ from ..axis.device import Device
 from ..bridge.link import Link
 from ..bridge.script import Script
 from . import blocks
-from .axis import Axis312
+from .axis import Axis
 from .kind import KIND
 
 RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
 """Strap bits of the board: RUN, and the event inputs (0 = active)."""
 
 
-class Ppmc312(Axis312, Device):
+class Ppmc312(Axis, Device):
     """One PPMC-312: part and axis in one object; see `device.Device`.
 
     Directions: 0 or CW, 1 or CCW. Speeds in pulses per second, those of motions within the table; pulses and
     positions signed, CW positive. Any method may raise LinkErrors; instructions raise what the part refuses
-    (CommandRefused, `errors312`). Motions: `axis312`, settings and tables: `settings312`, overrides and
-    events: `overrides312`, registers and outputs: `core312`.
+    (CommandRefused, `errors`). Motions: `axis`, settings and tables: `settings`, overrides and events:
+    `overrides`, registers and outputs: `core`.
     """
 
     kind = KIND

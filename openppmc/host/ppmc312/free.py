@@ -11,7 +11,7 @@ from ...model.ppmc312.stages import curve
 from ...model.ppmc312.stages.tables import STAGES, SettingError
 from ..basis import units
 from ..basis.errors import OutOfRange
-from .errors import refused312
+from .errors import refused
 from .profile import Setup, choose_clock
 
 LEAST_TICKS = 256
@@ -58,7 +58,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     try:
         table = curve.curve(rates, up, down if separate else None, clock.clk)
     except SettingError as error:
-        raise OutOfRange(f"free curve: {refused312(0xF0, bytes([error.number]))}") from None
+        raise OutOfRange(f"free curve: {refused(0xF0, bytes([error.number]))}") from None
     return Setup(
         clock,
         speeds[len(rows) - len(up)],

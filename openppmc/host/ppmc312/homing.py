@@ -5,22 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from ..axis.homing import Homing
+from ..axis import homing
 from ..axis.motion import Progress
-from ..basis.ending import Cause, End
-from ..basis.errors import OriginNotFound
+from ..basis.ending import Cause, End, OriginNotFound
 
 if TYPE_CHECKING:
     from ..basis.units import Number
-    from .axis import Axis312
+    from .axis import Axis
 
 
-class Homing312(Homing):
-    """One homing run; see `Axis312.home`. index: searches end at an index of the encoder."""
+class Homing(homing.Homing):
+    """One homing run; see `Axis.home`. index: searches end at an index of the encoder."""
 
     def __init__(
         self,
-        axis: Axis312,
+        axis: Axis,
         direction: int,
         search_pps: Number | None,
         back_off: int,

@@ -13,7 +13,7 @@ from ..basis.errors import ProtocolError, Timeout
 from .answers import Stopped, signed
 
 if TYPE_CHECKING:
-    from .core import Core312
+    from .core import Core
 
 _CAUSES = {
     Bit.NORMAL: Cause.COMPLETE,
@@ -28,7 +28,7 @@ _CAUSES = {
 SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
 
 
-class Motion312(Checked):
+class Motion(Checked):
     """Handle of an operation that was started; `end` is its End once it is known.
 
     asked: pulses, None for endless ones. direction: 0 CW, 1 CCW. begin: position before, None if another
@@ -36,7 +36,7 @@ class Motion312(Checked):
     ramps. stop_ordered: a stop was sent, so that an end below the stop speed is its work.
     """
 
-    def __init__(self, part: Core312, asked: int | None, direction: int, begin: int | None) -> None:
+    def __init__(self, part: Core, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self._link = part.link
         self.asked = asked

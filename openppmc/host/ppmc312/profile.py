@@ -17,7 +17,7 @@ from ...model.ppmc312.stages.tables import DIVIDERS, LEAST_PULSES, STAGES, Setti
 from ..basis import units
 from ..basis.errors import OutOfRange
 from . import blocks
-from .errors import refused312
+from .errors import refused
 
 SLOWEST_RATE, FASTEST_RATE = 0xFFFF, 2
 RISING = 6
@@ -155,7 +155,7 @@ pulses: 1143 or more
     try:
         table = tables.build(*numbers, up, down, clock.clk, sigmoid, separate)
     except SettingError as error:
-        text = str(refused312(0xF0, bytes([error.number])))
+        text = str(refused(0xF0, bytes([error.number])))
         if error.number == 5:
             least = _least(numbers, sigmoid)
             which = f"{least[0]} up and {least[1]} down" if separate else f"{least[0]}"

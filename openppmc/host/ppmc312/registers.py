@@ -8,7 +8,7 @@ from ...model.ppmc312.codes import State
 
 
 @dataclass(frozen=True)
-class Status312:
+class Status:
     """Answer of 4D. raw: its condition byte.
 
     run_monitored: starts wait for RUN. interlock: its control runs. encoder_watched, position_watched: the
@@ -31,10 +31,10 @@ class Status312:
     events: tuple[int, ...]
 
     @classmethod
-    def parse(cls, data: bytes) -> Status312:
+    def parse(cls, data: bytes) -> Status:
         """From operation, condition and buffer byte.
 
-        >>> Status312.parse(bytes.fromhex("00 02 00")).state.name
+        >>> Status.parse(bytes.fromhex("00 02 00")).state.name
         'NOR'
         """
         operation, condition, buffers = data
@@ -60,7 +60,7 @@ class Status312:
 
 
 @dataclass(frozen=True)
-class Inputs312:
+class Inputs:
     """Switches and other inputs; True: active (pin low), run: True = starts are permitted."""
 
     limit_cw: bool
@@ -76,10 +76,10 @@ class Inputs312:
     event2: bool
 
     @classmethod
-    def parse(cls, data: bytes) -> Inputs312:
+    def parse(cls, data: bytes) -> Inputs:
         """From the two bytes of 27; the part gives levels.
 
-        >>> Inputs312.parse(bytes.fromhex("FD E0")).active
+        >>> Inputs.parse(bytes.fromhex("FD E0")).active
         ['limit cw', 'run']
         """
         levels, other = data

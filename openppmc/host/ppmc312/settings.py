@@ -11,7 +11,7 @@ from ..basis import units
 from ..basis.errors import OutOfRange, ProtocolError
 from ..basis.kind import Wanted
 from . import blocks
-from .core import Core312
+from .core import Core
 from .free import plan_stages, read_stages
 from .kind import KIND
 from .profile import Setup
@@ -31,7 +31,7 @@ class TableRead:
     down: tuple[int, ...]
 
 
-class Settings312(Core312):
+class Settings(Core):
     """See `ppmc312.Ppmc312`."""
 
     # ------------------------------------------------------------------ tables

@@ -11,7 +11,7 @@ from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc0
 from openppmc.host.line.errors import GarbledReply, LostReply, StationSilent
 from openppmc.host.pmc006.codes import Flags
 from openppmc.host.pmc006.errors import LockedByExt, ProgramDiffers, ProgramRuns, StorageBusy
-from openppmc.host.pmc006.line import Line006
+from openppmc.host.pmc006.line import Line
 from openppmc.host.pmc006.wire import Receiver, Reply, command, reply
 from openppmc.model.pmc006.program import Program, assemble
 from tests.pmc006.host.line_ports import (
@@ -112,7 +112,7 @@ def test_an_implausible_reply_to_a_start_is_looked_into() -> None:
         assert part.move(5).position == 5
     played = Played(*[reply(255, value).hex() for value in (8, 1, 7)], reply(255, 77).hex())
     played.replies += [reply(255, value) for value in (9, 8, 12)]
-    with Pmc006(Line006(played)) as part:
+    with Pmc006(Line(played)) as part:
         assert part.start_move(5).wait().pulses == 5
     assert [frame[2] for frame in played.frames] == [ord(letter) for letter in "jdcsjjc"]
 
@@ -194,7 +194,7 @@ def test_a_program_that_does_not_stay() -> None:
 def test_half_a_frame_is_forgotten_before_the_next() -> None:
     """At 1200 bit/s a controller waits longer for the rest of a frame than the master for a reply."""
     port = SpoiledLine("eeprom=none", 1200)
-    with Pmc006(Line006(port, 1200, patience=0.03)) as part:
+    with Pmc006(Line(port, 1200, patience=0.03)) as part:
         port.plan = once("n", CUT_FRAME)
         assert part.current == 800 and part.counters.faults == 1
 
@@ -240,10 +240,10 @@ def test_programs_are_not_disturbed() -> None:
 
 
 def test_the_eeprom_takes_its_time() -> None:
-    with Pmc006(Line006(Played(reply(5, 0).hex())), 5) as part:
+    with Pmc006(Line(Played(reply(5, 0).hex())), 5) as part:
         with pytest.raises(StorageBusy, match="the EEPROM is still being written"):
             part.burn_program()
-    with Pmc006(Line006(Played(*[reply(5, 1).hex()] * 11)), 5) as part:
+    with Pmc006(Line(Played(*[reply(5, 1).hex()] * 11)), 5) as part:
         with pytest.raises(StorageBusy, match="the EEPROM is still being written"):
             part.save()
 
@@ -270,7 +270,7 @@ def test_the_eeprom_takes_its_time() -> None:
     ],
 )
 def test_what_is_told(replies: list[str], error: type[Exception], text: str) -> None:
-    with pytest.raises(error, match=text), Pmc006(Line006(Played(*replies)), 5) as part:
+    with pytest.raises(error, match=text), Pmc006(Line(Played(*replies)), 5) as part:
         part.flags()
 
 
@@ -323,7 +323,7 @@ def test_late_replies_do_not_answer_the_next_question() -> None:
 def test_the_port_goes_away() -> None:
     with Pmc006Bus.open("model:speed=max,address=3,unplug=0.05") as bus, pytest.raises(Disconnected):
         bus.axis(3).jog(FORWARD).wait()
-    with Pmc006(Line006(Played()), 3) as part:
+    with Pmc006(Line(Played()), 3) as part:
         part.line.close()
         with pytest.raises(Disconnected, match="the line is closed"):
             part.flags()

@@ -9,8 +9,14 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, CW, OutOfRange
-from openppmc.host.basis.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
 from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import (
+    CommandRefused,
+    NotInitialised,
+    NotWhileBusy,
+    StartRefused,
+    UnknownCode,
+)
 from openppmc.host.ppmc312 import answers, errors, free, profile, registers
 from openppmc.host.ppmc312 import blocks as blocks312
 from openppmc.host.ppmc312.answers import BadResponse, Response
@@ -18,7 +24,7 @@ from openppmc.host.ppmc312.blocks import Trigger
 from openppmc.host.ppmc312.free import plan_curve, read_stages
 from openppmc.host.ppmc312.kind import KIND as PPMC312
 from openppmc.host.ppmc312.profile import base_clocks, plan_setup
-from openppmc.host.ppmc312.registers import EventBuffer, Inputs312, Status312
+from openppmc.host.ppmc312.registers import EventBuffer, Inputs, Status
 from openppmc.model import Timebase, predict_move
 from openppmc.model.ppmc312.codes import Cause, State
 from openppmc.model.ppmc312.predict import TableMove
@@ -224,23 +230,23 @@ def test_responses_whose_length_is_wrong() -> None:
 
 def test_status_and_inputs() -> None:
     """Each bit where the rules have it (P312-CMD-4D, -27)."""
-    rest = Status312.parse(bytes([0x00, 0x02, 0x00]))
+    rest = Status.parse(bytes([0x00, 0x02, 0x00]))
     assert (rest.state, rest.busy, rest.run_monitored, rest.overrides) == (State.NOR, False, True, 0)
     names = ("interlock", None, "encoder_watched", "position_watched", "end_monitored")
     for bit, name in enumerate((*names, "encoder_outside", "position_outside")):
-        now = Status312.parse(bytes([0x40 >> bit, 0x20, 0x00]))
+        now = Status.parse(bytes([0x40 >> bit, 0x20, 0x00]))
         on = [field for field in vars(now) if vars(now)[field] is True and field != "run_monitored"]
         assert on == ([name] if name else []) and now.busy
-    assert not Status312.parse(bytes([0x80, 0x10, 0x00])).run_monitored
-    assert Status312.parse(bytes([0x00, 0x10, 0x00])).in_alarm
-    full = Status312.parse(bytes([0x00, 0x02, 0x68]))
+    assert not Status.parse(bytes([0x80, 0x10, 0x00])).run_monitored
+    assert Status.parse(bytes([0x00, 0x10, 0x00])).in_alarm
+    full = Status.parse(bytes([0x00, 0x02, 0x68]))
     assert (full.overrides, full.override_events, full.events) == (8, (2,), (1,))
     places = ("limit_ccw", "limit_cw", "slow_ccw", "slow_cw", "origin", "index", "end", "alarm")
     for bit, place in enumerate(places):
-        now = Inputs312.parse(bytes([0xFF & ~(1 << bit), 0xC0]))
+        now = Inputs.parse(bytes([0xFF & ~(1 << bit), 0xC0]))
         assert [name for name, active in vars(now).items() if active] == [place]
-    assert Inputs312.parse(bytes([0xFF, 0xE0])).active == ["run"]
-    assert Inputs312.parse(bytes([0xFF, 0x40])).active == ["event2"]
+    assert Inputs.parse(bytes([0xFF, 0xE0])).active == ["run"]
+    assert Inputs.parse(bytes([0xFF, 0x40])).active == ["event2"]
     assert EventBuffer.parse(bytes.fromhex("02 01 26 84 00 00")) == EventBuffer(1, (0x26, 0x84))
 
 

@@ -29,7 +29,7 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.errors import StartRefused
+from openppmc.host.basis.refusals import StartRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
 from openppmc.host.ppmc312 import blocks

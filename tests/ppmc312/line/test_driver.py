@@ -24,8 +24,8 @@ from openppmc.host import (
     StoppedEarly,
     Timeout,
 )
-from openppmc.host.basis.errors import StartRefused
 from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import StartRefused
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,

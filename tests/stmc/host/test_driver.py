@@ -31,10 +31,11 @@ from openppmc.host import (
     open_part,
 )
 from openppmc.host.basis import units
-from openppmc.host.basis.errors import CommandRefused, refused_stmc
 from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
+from openppmc.host.stmc.errors import refused as refused_stmc
 from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.carrier.plant import Plant
 from openppmc.model.stmc.carrier import Carrier

@@ -14,14 +14,14 @@ from dataclasses import dataclass, field
 
 from serial.rs485 import RS485Settings
 
-from ...basis.errors import CommandRefused
+from ...basis.refusals import CommandRefused
 from ...line.bus import LineBus
 from ...line.errors import DuplicateAddress, GarbledReply, StationSilent
 from ...line.faults import Counters
 from ...line.master import PATIENCE
 from ...ports.transport import Port
 from ..answers import Report
-from ..registers import Status312
+from ..registers import Status
 from .ascii import SPEEDS, STATIONS, SumMode
 from .kind import KIND
 from .line import XTAL_HZ, Line
@@ -42,7 +42,7 @@ class Found:
 
     station: int
     version: int | None
-    status: Status312 | None
+    status: Status | None
     position: int | None
     errors: ErrorCounts | None
     counters: Counters = field(repr=False)
@@ -50,7 +50,7 @@ class Found:
 
 
 class Ppmc312Bus(LineBus):
-    """A line (`line312.Line`) with stations 0 to 15; see `line_bus.LineBus`."""
+    """A line (`line.Line`) with stations 0 to 15; see `host.line.bus.LineBus`."""
 
     kind = KIND
 
@@ -65,7 +65,7 @@ class Ppmc312Bus(LineBus):
         patience: float = PATIENCE,
         xtal_hz: int = XTAL_HZ,
     ) -> Ppmc312Bus:
-        """Open a port; arguments as those of `line312.Line`. Says nothing on the line."""
+        """Open a port; arguments as those of `line.Line`. Says nothing on the line."""
         return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
 
     def make(self, station: int) -> Station312:

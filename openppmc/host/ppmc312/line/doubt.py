@@ -9,9 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ....model.ppmc312.codes import MOTION_STARTS, OV, Code
-from ...basis.errors import CommandRefused, NoAnswer
+from ...basis.errors import NoAnswer
+from ...basis.refusals import CommandRefused
 from ...line.errors import LostReply
-from ..registers import Status312
+from ..registers import Status
 
 if TYPE_CHECKING:
     from .station import Station312
@@ -31,7 +32,7 @@ class Doubt:
         motion = station.motion
         self._motion = motion if motion is not None and motion.end is None else None
         self._was_busy = station.window.busy
-        self._before: Status312 | None = None
+        self._before: Status | None = None
         if block[2] in _TOGGLES or block[2] == Code.EVENT_SET or self._is_override:
             self._before = station.window.status()
 
@@ -74,7 +75,7 @@ class Doubt:
         station.window.collect()
         return motion.end is not None or station.position != motion.begin
 
-    def _registered(self, now: Status312) -> bool:
+    def _registered(self, now: Status) -> bool:
         assert self._before is not None
         added = now.overrides - self._before.overrides
         if added == 1:
@@ -83,7 +84,7 @@ class Doubt:
             return False  # nothing can have happened meanwhile
         raise self._lost("overrides may have happened meanwhile")
 
-    def _buffered(self, now: Status312) -> bool:
+    def _buffered(self, now: Status) -> bool:
         assert self._before is not None
         number = (self._block[3] & 1) + 1
         filled, was = number in now.events, number in self._before.events

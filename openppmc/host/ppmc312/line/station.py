@@ -13,9 +13,9 @@ from ...line.errors import StationSilent
 from ...line.faults import Counters
 from ...line.motion import POLL_EVERY, wait_all
 from ..answers import Executed, Report, Stopped, signed
-from ..axis import Axis312
-from ..motion import Motion312
-from ..registers import Status312
+from ..axis import Axis
+from ..motion import Motion
+from ..registers import Status
 from .ascii import station_number
 from .kind import KIND
 from .line import Line
@@ -36,7 +36,7 @@ class ErrorCounts(NamedTuple):
     checksum: int
 
 
-class SerialMotion(Motion312):
+class SerialMotion(Motion):
     """A motion whose end shows when its station is polled. damaged: what is wrong with a complete one."""
 
     _part: Station312  # type: ignore[assignment]
@@ -94,11 +94,11 @@ class SerialMotion(Motion312):
         return wait_all([self], timeout, progress)[0]
 
 
-class Station312(Axis312):
+class Station312(Axis):
     """See `ppmc312.Ppmc312`, whose methods it has; free curves, tables and event buffers cannot be read or
     written on the line (OutOfRange), and reports come when the station is polled. number: 0 to 15.
 
-    Instructions whose reply is lost are repeated only where that does no harm (`doubt312`); LostReply where
+    Instructions whose reply is lost are repeated only where that does no harm (`doubt`); LostReply where
     nobody can know.
     """
 
@@ -160,7 +160,7 @@ class Station312(Axis312):
         self.window.collect()
         return self.window.busy
 
-    def status(self) -> Status312:
+    def status(self) -> Status:
         """As on the bus, but read until two readings in a row are the same."""
         return self.window.twice(super().status)
 
@@ -223,7 +223,7 @@ class Station312(Axis312):
         self.instruct(block)
         self._slow_override |= block[2] == Code.SLOW_STOP
 
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion312:
+    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion:
         # What waits is older than this motion.
         self.window.collect()
         return super()._start(block, direction, asked)

@@ -1,5 +1,5 @@
 """Instructions to one station of a line: replies to responses, refusals to exceptions, repeats where they do
-no harm. `Window` of `window312` is the same for the parallel bus."""
+no harm. `ppmc312.window.Window` is the same for the parallel bus."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from ..answers import (
     Response,
     Stopped,
 )
-from ..registers import Status312
+from ..registers import Status
 from ..window import ANSWER_MS, SHORTEST
 from .ascii import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Reply
 from .doubt import Doubt
@@ -56,7 +56,7 @@ _OTHERS = "noise, another speed or checksum rule, or two stations with this addr
 
 
 class Talk:
-    """See `core312.Instructions`. answers: of the station so far. busy: a motion, says the last poll."""
+    """See `ppmc312.core.Instructions`. answers: of the station so far. busy: a motion, says the last poll."""
 
     def __init__(self, line: Line, station: Station312) -> None:
         self._line = line
@@ -209,9 +209,9 @@ class Talk:
         self._alarmed |= isinstance(report, Alarm)
         return report
 
-    def status(self) -> Status312:
+    def status(self) -> Status:
         """Without the counting of `ask`: for looks in between."""
-        return self.twice(lambda: Status312.parse(self.request(bytes([Code.STATUS])).data))
+        return self.twice(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
 
 
 _REPORTS: dict[int, Report] = {
