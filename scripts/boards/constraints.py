@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .pads import Fitted, Pad
-from .words import head
+from .words import head, title, wrapped
 
 
 def pcf(fitted: Fitted, pad: Pad) -> list[str]:
@@ -60,7 +60,7 @@ def preamble(fitted: Fitted) -> list[str]:
     if board.language == "qsf":
         lines += [
             "",
-            "# To be sourced into a project; packages/quartus.qsf adds the sources.",
+            "# To be sourced into a project: device, top, pins. The sources are listed by rtl/files.yml.",
             f'set_global_assignment -name FAMILY "{board.vendor["family"]}"',
             f"set_global_assignment -name DEVICE {board.vendor['device']}",
             f"set_global_assignment -name TOP_LEVEL_ENTITY {fitted.top}",
@@ -97,14 +97,15 @@ def files(fitted: Fitted) -> dict[str, str]:
     """The constraint files of a board with a part: name below constraints/ -> text."""
     board, on = fitted.board, fitted.on
     language = board.language
-    title = f"{fitted.top}: {on.row.title} on {board.title}. Wiring: docs/boards.md."
-    lines = [*head(fitted, COMMENT[language]), f"{COMMENT[language]} {title}"]
+    mark = COMMENT[language]
+    about = f"{fitted.top}: {title(fitted)}. Wiring: docs/boards.md."
+    lines = [*head(fitted, mark), *wrapped(mark, about, on.note)]
     lines += preamble(fitted)
     for group in fitted.groups:
-        lines += ["", f"{COMMENT[language]} {group.title}"]
+        lines += ["", f"{mark} {group.title}"]
         lines += [line.rstrip() for pad in group.pads for line in PADS[language](fitted, pad)]
     name = board.constraints(on)
     if language not in APART:
         return {name: "\n".join([*lines, "", *clock(fitted), ""])}
-    clocks = [*head(fitted, "#"), f"# {title}", "", *clock(fitted), ""]
+    clocks = [*head(fitted, "#"), *wrapped("#", about), "", *clock(fitted), ""]
     return {name: "\n".join([*lines, ""]), f"{board.name}/{on.name}/clocks.sdc": "\n".join(clocks)}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
-
 from cocotb_tests.harness.header import Parameter
 from cocotb_tests.harness.project import ProjectError
 
@@ -11,7 +9,7 @@ from .carrier import Port
 from .description import SHOWS, Description
 from .pads import HOST_RESET, Fitted
 from .verilog import declaration, instance, laid_out, literal, part_select, without_comma
-from .words import clk, head, hosts
+from .words import clk, head, title, wrapped
 
 OWN_PANEL = ("lock", "req_n", "lamps")
 """Ports of a carrier that has reset and lamps inside; around the others the top puts ppmc_board_panel."""
@@ -40,16 +38,9 @@ class Top:
 
     def comment(self) -> list[str]:
         """What the file is, in the form of all headers."""
-        host = hosts(self.fitted)
-        said = f"{self.on.row.title} with {host}" if host else self.on.row.title
-        lines = [f"{self.fitted.top}: {said} on {self.board.title} ({self.board.chip}), {clk(self.fitted)}."]
+        what = f"{self.fitted.top}: {title(self.fitted)} ({self.board.chip}), {clk(self.fitted)}."
         pages = f"Rules:  pins, lamps, wiring: docs/boards.md; constraints/{self.board.constraints(self.on)}."
-        lines += [f"{pages} {self.on.note}", f"Timing: of {self.carrier.name}."]
-        return [
-            f"// {line}"
-            for text in lines
-            for line in textwrap.wrap(text.strip(), 115, subsequent_indent=" " * 8, break_on_hyphens=False)
-        ]
+        return wrapped("//", what, f"{pages} {self.on.note}", f"Timing: of {self.carrier.name}.")
 
     def header(self) -> list[str]:
         """The module's name, parameters and ports."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+
 from .pads import Fitted
 
 
@@ -14,12 +16,22 @@ def head(fitted: Fitted, mark: str) -> list[str]:
     ]
 
 
-def hosts(fitted: Fitted) -> str:
-    """Its host, as titles say it; nothing for a part with a line of its own."""
-    if fitted.on.set or "HOST" not in fitted.carrier.parameters:
-        return ""
+def title(fitted: Fitted) -> str:
+    """The part, with its host unless it has a line of its own, and the board."""
     names = {"uart": "UART", "bus": "bus"}
-    return f"{' or '.join(names[host] for host in fitted.on.hosts)} host"
+    host = f" with {' or '.join(names[host] for host in fitted.on.hosts)} host"
+    own_line = fitted.on.set or "HOST" not in fitted.carrier.parameters
+    return f"{fitted.on.row.title}{'' if own_line else host} on {fitted.board.title}"
+
+
+def wrapped(mark: str, *texts: str) -> list[str]:
+    """Texts as comment lines of a head, each from a line of its own."""
+    lines = [
+        line
+        for text in texts
+        for line in textwrap.wrap(text, 115, subsequent_indent=" " * 8, break_on_hyphens=False)
+    ]
+    return [f"{mark} {line}" for line in lines]
 
 
 def clk(fitted: Fitted) -> str:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Written by `make boards` from constraints/de10nano/board.yml and ppmc104_carrier.sv; change those, not this.
-# board_de10nano_ppmc104: PPMC-104 on DE10-Nano. Wiring: docs/boards.md.
+# board_de10nano_ppmc104: PPMC-104 with UART or bus host on DE10-Nano. Wiring: docs/boards.md.
 
 # oscillator
 create_clock -name clk -period 20.000 [get_ports {clk}]
