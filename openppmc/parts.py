@@ -29,6 +29,7 @@ class UnknownPartError(ValueError):
 
 LAYER_OF = {
     "model": "openppmc.model",
+    "predict": "openppmc.model",
     "driver": "openppmc.host",
     "kind": "openppmc.host",
     "commands": "openppmc.cli",
@@ -69,6 +70,7 @@ class Row:
     top: str = ""
     families: tuple[str, ...] = ()
     model: str = ""
+    predict: str = ""
     driver: str = ""
     kind: str = ""
     commands: str = ""
@@ -107,6 +109,7 @@ ROWS = (
         rules=("P104",),
         families=BOTH,
         model="part:Ppmc104",
+        predict="predict:predict",
         driver="driver:Ppmc104",
         kind="kind:KIND",
         machine="machine:MACHINE",
@@ -123,6 +126,7 @@ ROWS = (
         rules=("P2104",),
         families=BOTH,
         model="part:Ppmc2104",
+        predict="predict:predict",
         driver="driver:Ppmc2104",
         kind="kind:KIND",
         view="view:VIEW",
@@ -141,6 +145,7 @@ ROWS = (
         rules=("STMC", "J105"),
         families=BOTH,
         model="part:Stmc",
+        predict="predict:predict",
         driver="driver:Stmc",
         kind="kind:KIND",
         machine="machine:MACHINE",
@@ -166,6 +171,7 @@ ROWS = (
         rules=("P312",),
         families=("ecp5",),
         model="part:Ppmc312",
+        predict="predict:predict",
         driver="driver:Ppmc312",
         kind="kind:KIND",
         view="view:VIEW",
@@ -184,7 +190,7 @@ ROWS = (
         driver="line.bus:Ppmc312Bus",
         kind="line.kind:KIND",
         commands="line.app:app",
-        machine="line_spec:MACHINE",
+        machine="line:MACHINE",
         line=True,
         demo="line.demo:main",
         bench="line.bench:main",
@@ -199,7 +205,7 @@ ROWS = (
         driver="bus:Pmc006Bus",
         kind="kind:KIND",
         commands="app:app",
-        machine="line_spec:MACHINE",
+        machine="line:MACHINE",
         docs=("design.md", "rulings.md"),
         carrier=True,
         line=True,
