@@ -11,7 +11,6 @@ module board_ulx3s_stmc #(
     parameter string       TIMING     = "FAST",
     parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
     parameter string       HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
@@ -76,7 +75,6 @@ module board_ulx3s_stmc #(
       .TIMING    (TIMING),
       .READ_MAP  (READ_MAP),
       .PHASE_IDLE(PHASE_IDLE),
-      .EXT_HZ    (EXT_HZ),
       .HOST      (HOST),
       .BAUD      (BAUD)
   ) u_carrier (
