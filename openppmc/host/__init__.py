@@ -15,6 +15,8 @@ called "Pure" in its first line does neither.
 
 from .axis.axis import CCW, CW, Axis
 from .axis.motion import Motion, Progress
+from .axis.part import Part as AnyPart
+from .basis import units as units
 from .basis.ending import AlarmStop, Cause, End, LimitReached, MotionError, OriginNotFound, StoppedEarly
 from .basis.errors import (
     Disconnected,
@@ -43,11 +45,12 @@ from .basis.refusals import (
     UnknownCode,
 )
 from .bridge.link import Link
-from .opening import AnyPart, open_part
+from .bridge.port import open_port
+from .opening import open_part
 from .pmc006.axis import BACKWARD, FORWARD
 from .pmc006.bus import Pmc006Bus
 from .pmc006.driver import Pmc006
-from .ports.transport import open_port, serial_ports
+from .ports.transport import serial_ports
 from .ppmc104.driver import Ppmc104
 from .ppmc312.driver import Ppmc312
 from .ppmc312.line.ascii import SumMode
@@ -115,4 +118,5 @@ __all__ = [
     "open_part",
     "open_port",
     "serial_ports",
+    "units",
 ]

@@ -14,7 +14,7 @@ from ..bridge.link import Link
 from ..bridge.script import Script
 from .kind import RateKind
 from .motion import Motion
-from .registers import Outputs, ReadCodes, Switches
+from .registers import FAMILY, Outputs, ReadCodes, Switches
 
 EXCITATION_OFF = 0xC0
 
@@ -28,7 +28,6 @@ class AxisCore(Checked):
     number = 1
     bit = 0
     busy = 0x04
-    codes = ReadCodes()
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -39,6 +38,11 @@ class AxisCore(Checked):
     def motion(self) -> Motion | None:
         """The motion that was started last, None before the first."""
         return self._motion
+
+    @property
+    def codes(self) -> ReadCodes:
+        """Of the read commands that differ from part to part."""
+        return FAMILY
 
     @property
     def who(self) -> str:

@@ -45,6 +45,10 @@ class ReadCodes:
     remaining: int = 0x83
 
 
+FAMILY = ReadCodes()
+"""Those of most parts."""
+
+
 @dataclass(frozen=True)
 class Switches:
     """Switches of an axis; True: active (pin low). The sixth one is the part's."""

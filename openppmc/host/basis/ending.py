@@ -103,8 +103,8 @@ class End:
         where = "" if self.position is None else f" at position {self.position}"
         of = "" if asked is None else f" of {asked}"
         kind, advice = self.trouble()
-        made = f"{abs(self.pulses)}{of} {self.unit}"
-        raise kind(f"{self.who}{self.why} ended the motion{where} after {made}: {advice}", self)
+        made = "" if self.pulses is None else f" after {abs(self.pulses)}{of} {self.unit}"
+        raise kind(f"{self.who}{self.why} ended the motion{where}{made}: {advice}", self)
 
     def trouble(self) -> tuple[type[MotionError], str]:
         """What to raise if it is not complete, and what to do about it."""

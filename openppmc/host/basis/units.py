@@ -222,6 +222,16 @@ def choose_clock(
     )
 
 
+def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
+    """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
+    clocks = [BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (first, 1 - first)]
+    for clock in clocks:
+        if clock.reaches(pps):
+            return clock
+    low, high = min(clock.slowest for clock in clocks), max(clock.fastest for clock in clocks)
+    raise OutOfRange(f"speed {nearby(pps)} pps is outside {nearby(low)} to {nearby(high)} pps")
+
+
 def plan_setup(
     clock: BaseClock,
     start_pps: Number,
@@ -248,58 +258,3 @@ def plan_setup(
             f"steps of its rate between them (rates {start.rate} and {high.rate} here)"
         )
     return Setup(start, high, ramp_pulses, code)
-
-
-def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tuple[int, Fraction]:
-    """Parameter byte of the chopper nearest to a time, and the time it makes in us (P104-SW-04).
-
-    phase: "on" or "off". Raises OutOfRange with the possible range.
-    """
-    quantum = Fraction(4_000_000, xtal_hz)
-    offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
-    unit = 12 * quantum
-    low, high = offset, offset + 255 * unit
-    asked = exact(microseconds, f"{phase} time")
-    if not low <= asked <= high:
-        raise OutOfRange(
-            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
-        )
-    byte = min(255, int((asked - offset) / unit + Fraction(1, 2)))
-    return byte, offset + byte * unit
-
-
-def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, Fraction]:
-    """Parameter byte of the PPMC-2104's chopper nearest to a time, and the time it makes in us
-    (P2104-AUX-04): 0.5 us a unit at 16 MHz, 64 to 255 units. Raises OutOfRange with the possible range."""
-    unit = Fraction(8_000_000, xtal_hz)
-    asked = exact(microseconds, f"{phase} time")
-    low, high = 64 * unit, 255 * unit
-    if not low <= asked <= high:
-        raise OutOfRange(
-            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
-        )
-    byte = int(asked / unit + Fraction(1, 2))
-    return byte, byte * unit
-
-
-def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
-    """Parameter byte of the PPMC-2104's hold delay nearest to a time, and the time it makes in us
-    (P2104-AUX-05): 128 to 32 768 us at 16 MHz. Raises OutOfRange with the possible range."""
-    unit = Fraction(2048_000_000, xtal_hz)
-    asked = exact(microseconds, "hold delay")
-    if not unit <= asked <= 256 * unit:
-        raise OutOfRange(
-            f"hold delay {nearby(microseconds)} us is outside {nearby(unit)} to {nearby(256 * unit)} us"
-        )
-    byte = int(asked / unit + Fraction(1, 2)) - 1
-    return byte, (byte + 1) * unit
-
-
-def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
-    """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
-    clocks = [BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (first, 1 - first)]
-    for clock in clocks:
-        if clock.reaches(pps):
-            return clock
-    low, high = min(clock.slowest for clock in clocks), max(clock.fastest for clock in clocks)
-    raise OutOfRange(f"speed {nearby(pps)} pps is outside {nearby(low)} to {nearby(high)} pps")

@@ -16,17 +16,10 @@ from ..basis.errors import (
 )
 from ..basis.kind import name_of
 from ..basis.refusals import refused
-from ..ports.transport import BASE_BAUD, Port, open_port
-from .script import (
-    PROTOCOL_VERSION,
-    RATES,
-    Answer,
-    BadAnswer,
-    Identity,
-    Result,
-    Script,
-    parse_answer,
-)
+from ..ports.transport import BASE_BAUD, Port
+from .answer import PROTOCOL_VERSION, Answer, BadAnswer, Identity, Result, parse_answer
+from .port import open_port
+from .script import RATES, Script
 from .session import WAKE_UP, GaveUp, Nak, Session
 
 DEFAULT_BAUD = 1_000_000

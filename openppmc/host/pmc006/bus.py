@@ -38,14 +38,14 @@ class Found:
     trouble: str = ""
 
 
-class Pmc006Bus(LineBus):
+class Pmc006Bus(LineBus[Line, Pmc006]):
     """A line (`line.Line`) with controllers; see `host.line.bus.LineBus`. `axis(5)` is the `Pmc006` with
     that address, whether it is there or not."""
 
     kind = KIND
 
     @classmethod
-    def open(  # type: ignore[override]
+    def open(
         cls,
         spec: str | Port,
         baud: int = BAUD,

@@ -43,9 +43,10 @@ class Pmc006(Memory, Device):
     """
 
     kind = KIND
+    link: Line
 
     @classmethod
-    def open(  # type: ignore[override]
+    def open(
         cls,
         spec: str | Port,
         address: int | None = None,
@@ -63,17 +64,12 @@ class Pmc006(Memory, Device):
             raise
 
     @property
-    def link(self) -> Line:  # type: ignore[override]
-        """Where it is."""
-        return self.line
-
-    @property
     def number(self) -> int:
         """Its address."""
         return self.address
 
     @property
-    def axes(self) -> tuple[Pmc006, ...]:  # type: ignore[override]
+    def axes(self) -> tuple[Pmc006, ...]:
         """Itself."""
         return (self,)
 

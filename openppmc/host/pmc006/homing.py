@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from ..axis.motion import Progress
 from ..basis.arguments import within
 from ..basis.ending import OriginNotFound
 from ..basis.errors import OutOfRange
-
-if TYPE_CHECKING:
-    from .axis import Axis
-    from .motion import End
+from .axis import Axis
+from .motion import End
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from ..axis.motion import Progress
 from ..basis import ending
@@ -13,9 +12,7 @@ from ..basis.ending import AlarmStop, Cause, LimitReached, MotionError, StoppedE
 from ..line.motion import wait_all
 from .codes import Code, Flags
 from .line import Line
-
-if TYPE_CHECKING:
-    from .axis import Axis
+from .settings import Settings
 
 
 class End(ending.End):
@@ -52,7 +49,7 @@ class Motion(Checked):
 
     damaged = ""
 
-    def __init__(self, part: Axis, asked: int | None, direction: int, begin: int | None) -> None:
+    def __init__(self, part: Settings, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self.asked, self.direction, self.begin = asked, direction, begin
         self.stop_ordered = False

@@ -22,7 +22,7 @@ class Talk(Checked):
     that messages need not name it."""
 
     def __init__(self, line: Line, address: int = FACTORY, alone: bool = True) -> None:
-        self.line = line
+        self.line = self.link = line
         self.address = address_number(address)
         self.alone = alone
         self._mark = 0
@@ -139,11 +139,13 @@ class Talk(Checked):
 
     def is_there(self) -> bool:
         """Whether it answers, asked once or, if noise comes, twice. Raises GarbledReply."""
-        for _ in range(2):
+        misses: list[Miss] = []
+        while len(misses) < 2:
             got = self.line.exchange(self.address, Code.STATUS_1)
             if not isinstance(got, Miss):
                 return True
             if not got.heard:
                 return False
+            misses.append(got)
             self.line.settle()
-        raise unanswered(self.where, [got, got], 2, _CHECK, _OTHERS)
+        raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)

@@ -9,7 +9,9 @@ from ..axis.single import OneAxis
 from ..basis import units
 from ..basis.errors import OutOfRange
 from ..basis.refusals import NotWhileBusy
-from ..bridge.script import Result, Script
+from ..bridge.answer import Result
+from ..bridge.script import Script
+from . import times
 from .kind import KIND
 
 SWITCHING, READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x84, 0x85, 0x86, 0xC1, 0xC2
@@ -64,7 +66,7 @@ class Ppmc104(OneAxis):
     def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: on 27 to 792, off 33 to 798); returns those reached."""
         vsel = self.setup.clock.vsel if self.setup else 1
-        on = units.chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
-        off = units.chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
+        on = times.chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
+        off = times.chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
         self.link.execute(Script().call(SWITCHING, on[0], off[0]))
         return on[1], off[1]

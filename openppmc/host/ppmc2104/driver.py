@@ -6,17 +6,18 @@ from collections.abc import Mapping
 
 from ...model.ppmc2104.codes import CMND
 from ..axis.axis import Axis
-from ..axis.device import Device
 from ..axis.kind import AXIS_BIT
 from ..axis.motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
 from ..axis.moves import OnProgress
+from ..axis.part import Part
 from ..basis import units
 from ..basis.arguments import whole, within
 from ..basis.ending import End
 from ..basis.errors import PpmcError, ProtocolError
 from ..basis.refusals import AlreadyDecelerating, CommandRefused
+from ..bridge.answer import Answer
 from ..bridge.link import Link
-from ..bridge.script import Answer, Script
+from ..bridge.script import Script
 from .axis import Axis2104
 from .errors import BY_NUMBER, refused
 from .kind import KIND
@@ -36,8 +37,8 @@ class Axes(dict[int, Axis2104]):
         return self[KIND.check_axis(whole(number, "axis"))]
 
 
-class Ppmc2104(Device):
-    """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `device.Device`.
+class Ppmc2104(Part):
+    """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `part.Part`.
 
     Opening it reads and clears the errors that others left, and ends their unfinished commands; a motion that
     runs goes on.

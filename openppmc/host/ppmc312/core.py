@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import replace
-from typing import Protocol
+from typing import Generic, Protocol, TypeVar
 
 from ...model.ppmc312.codes import Code
 from ..basis.arguments import Checked
 from ..basis.ending import End
 from ..basis.errors import ProtocolError
-from ..bridge.link import Link
 from . import blocks
 from .answers import BadResponse, Executed, Report, Response, Stopped, signed
 from .kind import TableKind
-from .motion import Motion
+from .motion import Motion, Way
 from .profile import Setup
 from .registers import Inputs, Status
-from .window import ANSWER_MS, SHORTEST, Window
+from .window import ANSWER_MS, SHORTEST
 
 MOST_KEPT = 1000
+MotionT = TypeVar("MotionT", bound=Motion)
 
 
 class Instructions(Protocol):
@@ -42,7 +42,7 @@ class Instructions(Protocol):
         """Read what waits."""
 
 
-class Core(Checked):
+class Core(Checked, Generic[MotionT]):
     """See `ppmc312.Ppmc312`.
 
     setup: the table that this object made, if any. reports: what the part said by itself and nobody took yet,
@@ -53,22 +53,28 @@ class Core(Checked):
     number = 1
     busy = 0x2C
     who = ""
+    link: Way
+    window: Instructions
 
-    def __init__(self, link: Link) -> None:
+    def __init__(self, link: Way) -> None:
         self.link = link
         self.setup: Setup | None = None
         self.reports: deque[Report] = deque(maxlen=MOST_KEPT)
-        self._motion: Motion | None = None
+        self._motion: MotionT | None = None
         self._mark = 0
         self.window = self._make_window()
         self.window.open()
 
     def _make_window(self) -> Instructions:
         """The way of instructions to the part and of responses back."""
-        return Window(self.link, self._arrived)
+        raise NotImplementedError
+
+    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> MotionT:
+        """The handle of a motion; see `motion.Motion`."""
+        raise NotImplementedError
 
     @property
-    def motion(self) -> Motion | None:
+    def motion(self) -> MotionT | None:
         """The motion that was started last, None before the first."""
         return self._motion
 

@@ -37,7 +37,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     >>> [block.hex(" ") for block in setup.blocks]
     ['02 03 01 01 03', '00 06 00 64 00 c8 01 90', '01 09 00 00 05 00 00 04 00 00 03']
     """
-    rows = [Stage(*row) for row in stages]  # type: ignore[arg-type]
+    rows = [Stage(*row) for row in stages]  # type: ignore[arg-type] # users give rows of two or three
     if not 2 <= len(rows) <= STAGES:
         raise OutOfRange(f"a free curve of {len(rows)} stages: 2 to {STAGES} are possible")
     speeds = [clock.choose(row.pps, f"stage {place}: speed") for place, row in enumerate(rows, 1)]
@@ -107,7 +107,7 @@ def _side(values: Sequence[int | None], name: str) -> list[int]:
 def read_stages(path: Path) -> list[Stage]:
     """Stages from a CSV file: speed in pps, pulses up[, pulses down], slowest first. A first line of names
     and lines that begin with # are passed over. OutOfRange with file and line."""
-    stages = []
+    stages: list[Stage] = []
     try:
         with path.open(newline="", encoding="utf-8") as file:
             for place, row in enumerate(csv.reader(file), 1):

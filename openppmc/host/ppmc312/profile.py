@@ -96,9 +96,10 @@ class Setup:
                 for values, first in zip(lists, (table.first, table.sa, table.sd), strict=True)
             )
             return blocks.free_curve(clk, rates, up, down if table.separate else None)
-        own = (self.stop.rate, table.nd) if table.separate else ()
-        sigmoid = self.shape == "sigmoid"
-        return [blocks.initial_setting(clk, self.start.rate, self.high.rate, table.na, *own, sigmoid=sigmoid)]
+        speeds, sigmoid = (self.start.rate, self.high.rate), self.shape == "sigmoid"
+        if not table.separate:
+            return [blocks.initial_setting(clk, *speeds, table.na, sigmoid=sigmoid)]
+        return [blocks.initial_setting(clk, *speeds, table.na, self.stop.rate, table.nd, sigmoid)]
 
     @property
     def ramp_pulses(self) -> int:

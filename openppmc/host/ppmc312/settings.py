@@ -11,7 +11,7 @@ from ..basis import units
 from ..basis.errors import OutOfRange, ProtocolError
 from ..basis.kind import Wanted
 from . import blocks
-from .core import Core
+from .core import Core, MotionT
 from .free import plan_stages, read_stages
 from .kind import KIND
 from .profile import Setup
@@ -31,7 +31,7 @@ class TableRead:
     down: tuple[int, ...]
 
 
-class Settings(Core):
+class Settings(Core[MotionT]):
     """See `ppmc312.Ppmc312`."""
 
     # ------------------------------------------------------------------ tables
@@ -153,5 +153,5 @@ class Settings(Core):
         self.instruct(blocks.input_mask(mask, auto))
 
 
-def _numbers(data: bytes, width: int) -> tuple[int, ...]:
+def _numbers(data: bytes | bytearray, width: int) -> tuple[int, ...]:
     return tuple(int.from_bytes(data[k : k + width], "big") for k in range(0, len(data), width))

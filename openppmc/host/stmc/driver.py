@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from ..axis.registers import ReadCodes
+from ..axis.registers import FAMILY, ReadCodes
 from ..axis.single import OneAxis
+from ..bridge.answer import Result
 from ..bridge.link import Link
-from ..bridge.script import Result, Script
+from ..bridge.script import Script
 from .errors import refused
 from .kind import KIND
 from .registers import Inputs
 
-READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": ReadCodes()}
+READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": FAMILY}
 """What the codes of its read commands may be (ruling R-01)."""
 
 
@@ -48,7 +49,7 @@ class Stmc(OneAxis):
         return self._read_map
 
     @property
-    def codes(self) -> ReadCodes:  # type: ignore[override]
+    def codes(self) -> ReadCodes:
         return READ_MAPS[self.read_map]
 
     def inputs(self) -> Inputs:

@@ -9,11 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from openppmc.cli.common.forecast import Course, key_figures
-from openppmc.host.basis import units
+from openppmc.host import units
 from openppmc.host.basis.errors import OutOfRange, PpmcError
 from openppmc.host.basis.kind import Wanted
 from openppmc.host.ppmc104.kind import KIND as PPMC104
+from openppmc.host.ppmc104.times import chop_byte
 from openppmc.host.ppmc2104.kind import KIND as PPMC2104
+from openppmc.host.ppmc2104.times import half_us_byte, hold_byte
 from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.single.predict import predict_move
 
@@ -134,9 +136,9 @@ def test_half_us_bytes(asked: float) -> None:
     """P2104-AUX-04: 0.5 us a unit, 40h to FFh."""
     if not 32 <= asked <= 127.5:
         with pytest.raises(OutOfRange, match="32 to 127.5 us"):
-            units.half_us_byte(XTAL, asked, "on")
+            half_us_byte(XTAL, asked, "on")
         return
-    byte, reached = units.half_us_byte(XTAL, asked, "on")
+    byte, reached = half_us_byte(XTAL, asked, "on")
     assert 0x40 <= byte <= 0xFF and reached == Fraction(byte, 2) and abs(reached - Fraction(asked)) <= 0.25
 
 
@@ -145,9 +147,9 @@ def test_hold_bytes(asked: float) -> None:
     """P2104-AUX-05: 128 us a unit, 1 to 256 units."""
     if not 128 <= asked <= 32_768:
         with pytest.raises(OutOfRange, match="128 to 32768 us"):
-            units.hold_byte(XTAL, asked)
+            hold_byte(XTAL, asked)
         return
-    byte, reached = units.hold_byte(XTAL, asked)
+    byte, reached = hold_byte(XTAL, asked)
     assert 0 <= byte <= 0xFF and reached == 128 * (byte + 1) and abs(reached - Fraction(asked)) <= 64
 
 
@@ -178,9 +180,9 @@ def test_chopper_times(vsel: int, phase: str, asked: float) -> None:
     times = [offset + 3 * n for n in range(256)]
     if not times[0] <= Fraction(asked) <= times[-1]:
         with pytest.raises(OutOfRange, match="us is outside"):
-            units.chop_byte(XTAL, asked, phase, vsel)
+            chop_byte(XTAL, asked, phase, vsel)
         return
-    byte, reached = units.chop_byte(XTAL, asked, phase, vsel)
+    byte, reached = chop_byte(XTAL, asked, phase, vsel)
     assert reached == times[byte]
     assert abs(reached - Fraction(asked)) <= Fraction(3, 2)
 

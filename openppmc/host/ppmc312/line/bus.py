@@ -49,13 +49,13 @@ class Found:
     trouble: str = ""
 
 
-class Ppmc312Bus(LineBus):
+class Ppmc312Bus(LineBus[Line, Station312]):
     """A line (`line.Line`) with stations 0 to 15; see `host.line.bus.LineBus`."""
 
     kind = KIND
 
     @classmethod
-    def open(  # type: ignore[override]
+    def open(
         cls,
         spec: str | Port,
         speed: int = SPEEDS[0],

@@ -39,7 +39,7 @@ class ErrorCounts(NamedTuple):
 class SerialMotion(Motion):
     """A motion whose end shows when its station is polled. damaged: what is wrong with a complete one."""
 
-    _part: Station312  # type: ignore[assignment]
+    _part: Station312
     damaged = ""
 
     @property
@@ -94,7 +94,7 @@ class SerialMotion(Motion):
         return wait_all([self], timeout, progress)[0]
 
 
-class Station312(Axis):
+class Station312(Axis[SerialMotion]):
     """See `ppmc312.Ppmc312`, whose methods it has; free curves, tables and event buffers cannot be read or
     written on the line (OutOfRange), and reports come when the station is polled. number: 0 to 15.
 
@@ -103,15 +103,17 @@ class Station312(Axis):
     """
 
     kind = KIND
-    make_motion = SerialMotion  # type: ignore[assignment]
-    link: Line  # type: ignore[assignment]
-    window: Talk  # type: ignore[assignment]
+    link: Line
+    window: Talk
 
     def __init__(self, line: Line, number: int) -> None:
         self.number = station_number(number)
         self.who = f"station {number}: "
         self._slow_override = False
-        super().__init__(line)  # type: ignore[arg-type]
+        super().__init__(line)
+
+    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> SerialMotion:
+        return SerialMotion(self, asked, direction, begin)
 
     def _make_window(self) -> Talk:
         return Talk(self.link, self)
@@ -212,8 +214,8 @@ class Station312(Axis):
             way = abs(signed((now - last) % (1 << 32)))
             if not way or (encoder and way <= _ENCODER_SLACK):
                 return True
-            clock = self.setup.clock if self.setup else None
-            fastest = float(clock.speed(self.setup.table.high)) if clock else _MOST_PPS
+            setup = self.setup
+            fastest = float(setup.clock.speed(setup.table.high)) if setup else _MOST_PPS
             return way <= 1 + fastest * (self.link.clock() - times[-2]) and self.window.status().busy
 
         return self.window.twice(read, agree)
@@ -223,7 +225,7 @@ class Station312(Axis):
         self.instruct(block)
         self._slow_override |= block[2] == Code.SLOW_STOP
 
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion:
+    def _start(self, block: bytes, direction: int, asked: int | None = None) -> SerialMotion:
         # What waits is older than this motion.
         self.window.collect()
         return super()._start(block, direction, asked)
