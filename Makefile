@@ -50,7 +50,7 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
-NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages
+NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages rom
 CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
@@ -70,7 +70,7 @@ export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help setup demo test test-gates test-board soak lint format synth report size yardsticks bench trace waves docs board \
-        bitstream flash packages clean distclean
+        bitstream flash packages rom clean distclean
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -136,6 +136,9 @@ flash: ## load that bitstream into the board with openFPGALoader
 
 packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from rtl/files.yml
 	@$(PY) -m scripts.packages
+
+rom: $(ENVDEV) ## assemble the planner's program of the PMC006B4 (pmc006_calc.asm) into its ROM
+	@$(PY) -m scripts.pmc006.calc_rom
 
 waves: ## open the demo's waveforms in GTKWave or Surfer
 	@./scripts/waves.sh

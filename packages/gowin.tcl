@@ -52,6 +52,7 @@ add_file -type verilog $root/rtl/host/ppmc_wishbone.sv
 add_file -type verilog $root/rtl/host/ppmc_axil.sv
 add_file -type verilog $root/rtl/host/ppmc_isa.sv
 add_file -type verilog $root/rtl/single/ppmc_code_pkg.sv
+add_file -type verilog $root/rtl/single/ppmc_single_pkg.sv
 add_file -type verilog $root/rtl/single/ppmc_command.sv
 add_file -type verilog $root/rtl/single/ppmc_setup.sv
 add_file -type verilog $root/rtl/single/ppmc_pace.sv

@@ -51,6 +51,7 @@ set files [list \
   $root/rtl/host/ppmc_axil.sv \
   $root/rtl/host/ppmc_isa.sv \
   $root/rtl/single/ppmc_code_pkg.sv \
+  $root/rtl/single/ppmc_single_pkg.sv \
   $root/rtl/single/ppmc_command.sv \
   $root/rtl/single/ppmc_setup.sv \
   $root/rtl/single/ppmc_pace.sv \

@@ -28,7 +28,7 @@ from scripts.flow.boards import sources as board_sources
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
-TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json"}
+TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
 BUILT = {".venv", "build", ".git"}
 MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
 
@@ -241,6 +241,11 @@ def checks() -> list[Check]:
             "docs",
             "pictures and tables fresh",
             lambda: tool(sys.executable, "-m", "scripts.docs", "--check", ok_output=True),
+        ),
+        Check(
+            "rom",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.pmc006.calc_rom", "--check", ok_output=True),
         ),
         Check(
             "packages",

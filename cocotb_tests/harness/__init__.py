@@ -33,8 +33,8 @@ In short, for someone who writes tests:
     def test_ppmc104(item, sim_options):
         run_item(item, sim_options)                           # from cocotb_tests.harness.runner
 
-The first line of each module says what it is for (`head -qn1 cocotb_tests/harness/*.py`); docs/testing.md says
-how they work together. No module here knows a part: `part.PARTS` come from each part's `bench.py`.
+The first line of each module says what it is for (`head -qn1 cocotb_tests/harness/*.py`); docs/testing.md
+says how they work together. No module here knows a part: `part.PARTS` come from each part's `bench.py`.
 
 Time: everything is counted in rising clk edges; edge 0 is the first that sees rst_n = 1. Pin levels change on
 falling edges and are stamped with the rising edge that samples them first; an output edge is stamped with the

@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from ..host.basis.errors import PpmcError
+from ..errors import PpmcError
 
 _USAGE_ERROR = typer.BadParameter.__bases__[0]  # UsageError of the click that typer brings along
 _CLICK_ERROR = _USAGE_ERROR.__bases__[0]

@@ -46,6 +46,14 @@ package ppmc_motion_pkg;
     logic alarm;
   } switches_t;
 
+  // Times of the chopper: a phase lasts its base time and as many units; it is looked at when the phase begins.
+  typedef struct packed {
+    logic [31:0] on_base;    // quanta, at least 1
+    logic [31:0] off_base;   // the same for the OFF phase
+    logic [7:0]  on_units;   // units set by the host
+    logic [7:0]  off_units;
+  } chop_t;
+
 endpackage
 
 `default_nettype wire

@@ -9,6 +9,7 @@ module ppmc104
   import ppmc104_pkg::*;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
+  import ppmc_single_pkg::*;
 #(
     parameter int unsigned CLK_HZ     = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
@@ -94,78 +95,70 @@ module ppmc104
 
   // ---- meaning of the bytes, everything that the parts with one axis share -------------------------
 
-  logic [7:0] in_byte, code, code_held, rate;
-  logic [2:0] unused_left;
-  logic [31:0] params, params_late;
-  logic slow_seen, slow_take, stops_only, moving, running, top, unused_bits;
-  setup_t setup;
-  chop_t chop;
+  sent_t sent;
+  meaning_t meaning;
+  asked_t asked;
+  verdict_t verdict;
+  logic [31:0] params_late;
+  logic slow_seen, slow_take, stops_only, unused_bits;
+  setup_t  setup;
+  chop_t   chop;
   action_t act;
-  op_t op_run;
-  base_t base_now, base_run;
+  motion_t motion;
+  motor_t  motor;
+  base_t   base_now;
 
-  assign unused_bits = &{1'b0, code, code_held, params_late, setup};
+  assign meaning = '{decoded: decode(sent.data), data: sent.data};
+  assign verdict = '{
+          value: judge(asked.params),
+          judged: sent.held[7:6] == 2'b00,
+          select: asked.code[2:0],
+          setup: asked.params
+      };
   assign base_now = '{external: setup.external, slow: !csel_s, extra: !vsel_s};
+  assign unused_bits = &{1'b0, sent, asked, params_late, setup};
 
   ppmc_single #(
-      .ClkHz      (CLK_HZ),
-      .XtalHz     (XTAL_HZ),
-      .Datasheet  (TIMING == "DATASHEET"),
-      .PhaseIdle  (PHASE_IDLE),
-      .StepBits   (STEP_BITS),
-      .StepsMin   (STEPS_MIN),
-      .StepsMax   (STEPS_MAX),
-      .QuantumXtal(QUANTUM_XTAL),
-      .HoldQuanta (HOLD_QUANTA),
-      .ChopUnit   (CHOP_UNIT)
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .PhaseIdle(PHASE_IDLE),
+      .Traits   (TRAITS)
   ) u_single (
-      .clk_i         (clk),
-      .rst_ni        (rst),
-      .cs_ni         (cs_n),
-      .rd_ni         (rd_n),
-      .wr_ni         (wr_n),
-      .a0_i          (a0),
+      .clk_i        (clk),
+      .rst_ni       (rst),
+      .cs_ni        (cs_n),
+      .rd_ni        (rd_n),
+      .wr_ni        (wr_n),
+      .a0_i         (a0),
       .d_i,
       .d_o,
-      .d_oe_o        (d_oe),
-      .int_no        (int_n),
-      .byte_o        (in_byte),
-      .left_o        (unused_left),
-      .code_o        (code),
-      .code_held_o   (code_held),
-      .params_o      (params),
-      .decoded_i     (decode(in_byte)),
-      .data_i        (in_byte),
-      .value_i       (judge(params)),
-      .judged_i      (code_held[7:6] == 2'b00),
-      .select_i      (code[2:0]),
-      .setup_params_i(params),
-      .stops_only_i  (stops_only),
-      .act_o         (act),
-      .params_late_o (params_late),
-      .base_i        (base_now),
-      .setup_o       (setup),
-      .clock_pin_i   (clock),
-      .switches_i    (switches),
-      .slow_i        (slow_take),
-      .slow_seen_o   (slow_seen),
-      .moving_o      (moving),
-      .running_o     (running),
-      .top_o         (top),
-      .op_o          (op_run),
-      .base_o        (base_run),
-      .rate_o        (rate),
-      .inputs_i      ({cnp, alm, 2'b00, l1, l2, l3, l4}),
-      .auxi_i        (auxi_s),
-      .on_base_i     (chop.on_base),
-      .off_base_i    (chop.off_base),
-      .on_units_i    (chop.on_units),
-      .off_units_i   (chop.off_units),
-      .s_o           (s),
-      .hold_o        (hold),
-      .pout_no       (pout_n),
-      .dir_o         (dir)
+      .d_oe_o       (d_oe),
+      .int_no       (int_n),
+      .sent_o       (sent),
+      .meaning_i    (meaning),
+      .asked_o      (asked),
+      .verdict_i    (verdict),
+      .stops_only_i (stops_only),
+      .act_o        (act),
+      .params_late_o(params_late),
+      .base_i       (base_now),
+      .setup_o      (setup),
+      .clock_pin_i  (clock),
+      .switches_i   (switches),
+      .slow_i       (slow_take),
+      .slow_seen_o  (slow_seen),
+      .motion_o     (motion),
+      .inputs_i     ({cnp, alm, 2'b00, l1, l2, l3, l4}),
+      .auxi_i       (auxi_s),
+      .chop_i       (chop),
+      .motor_o      (motor)
   );
+
+  assign s = motor.s;
+  assign hold = motor.hold;
+  assign pout_n = motor.pout_n;
+  assign dir = motor.dir;
 
   // ---- what this part alone has --------------------------------------------------------------------
 
@@ -173,7 +166,7 @@ module ppmc104
       .clk_i   (clk),
       .rst_ni  (rst),
       .act_i   (act),
-      .params_i(params),
+      .params_i(asked.params),
       .aux_i   (params_late[27:24]),
       .vsel_i  (vsel_s),
       .chop_o  (chop),
@@ -188,12 +181,7 @@ module ppmc104
   ) u_own_pace (
       .clk_i       (clk),
       .rst_ni      (rst),
-      .moving_i    (moving),
-      .running_i   (running),
-      .top_i       (top),
-      .op_run_i    (op_run),
-      .base_run_i  (base_run),
-      .rate_i      (rate),
+      .motion_i    (motion),
       .slow_seen_i (slow_seen),
       .slow_o      (slow_take),
       .stops_only_o(stops_only)

@@ -6,24 +6,18 @@
 `default_nettype none
 
 module ppmc104_pace
-  import ppmc104_pkg::*;
-  import ppmc_motion_pkg::*;
+  import ppmc_single_pkg::motion_t;
 #(
     parameter bit          Datasheet = 1'b0,
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000
 ) (
-    input  wire logic                  clk_i,
-    input  wire logic                  rst_ni,
-    input  wire logic                  moving_i,
-    input  wire logic                  running_i,
-    input  wire logic                  top_i,
-    input  wire op_t                   op_run_i,
-    input  wire base_t                 base_run_i,
-    input  wire logic  [RATE_BITS-1:0] rate_i,
-    input  wire logic                  slow_seen_i,
-    output logic                       slow_o,       // act on a slow-down limit
-    output logic                       stops_only_o  // the mailbox gives stop commands only
+    input  wire logic    clk_i,
+    input  wire logic    rst_ni,
+    input  wire motion_t motion_i,     // the motion as it stands
+    input  wire logic    slow_seen_i,  // the axis sees a slow-down limit
+    output logic         slow_o,       // act on a slow-down limit
+    output logic         stops_only_o  // the mailbox gives stop commands only
 );
 
   // Crystal cycles; microseconds times 16.
@@ -37,7 +31,7 @@ module ppmc104_pace
   if (!Datasheet) begin : g_fast
     logic unused_bits;
 
-    assign unused_bits = &{1'b0, clk_i, rst_ni, moving_i, running_i, top_i, op_run_i, base_run_i, rate_i};
+    assign unused_bits = &{1'b0, clk_i, rst_ni, motion_i};
     assign slow_o = slow_seen_i;
     assign stops_only_o = 1'b0;
   end else begin : g_datasheet
@@ -48,11 +42,11 @@ module ppmc104_pace
       if (!rst_ni) begin
         slow_busy_q <= 1'b0;
         slow_top_q  <= 1'b0;
-      end else if (!moving_i) begin
+      end else if (!motion_i.moving) begin
         slow_busy_q <= 1'b0;
       end else if (!slow_busy_q) begin
         slow_busy_q <= slow_seen_i;
-        slow_top_q  <= top_i;
+        slow_top_q  <= motion_i.top;
       end else if (slow_past) begin
         slow_busy_q <= 1'b0;
       end
@@ -75,13 +69,13 @@ module ppmc104_pace
     logic [13:0] interval;  // quanta of the running interval
     logic unused_bits;
 
-    assign unused_bits = &{1'b0, op_run_i};
+    assign unused_bits = &{1'b0, motion_i};
 
     always_comb begin
-      interval = (14'(rate_i) + 14'd1) << (base_run_i.slow ? 5 : 3);
-      if (base_run_i.extra) interval = interval + 14'd30;
-      stops_only_o = running_i && !base_run_i.external &&
-        interval < (op_run_i.pout_only ? 14'(BRISK_POUT) : 14'(BRISK_PHASE));
+      interval = (14'(motion_i.rate) + 14'd1) << (motion_i.base.slow ? 5 : 3);
+      if (motion_i.base.extra) interval = interval + 14'd30;
+      stops_only_o = motion_i.running && !motion_i.base.external &&
+        interval < (motion_i.op.pout_only ? 14'(BRISK_POUT) : 14'(BRISK_PHASE));
     end
   end
 

@@ -7,14 +7,17 @@ package ppmc104_pkg;
 
   import ppmc_code_pkg::*;
   import ppmc_op_pkg::*;
+  import ppmc_single_pkg::*;
 
-  localparam int unsigned RATE_BITS = 8;
   localparam int unsigned STEP_BITS = 14;
 
   localparam int unsigned STEPS_MIN = 4;  // acceleration pulses PA
   localparam int unsigned STEPS_MAX = 11_220;
 
   localparam int unsigned QUANTUM_XTAL = 4;  // crystal cycles a quantum
+  localparam int unsigned FAST_QUANTA = 8;  // internal base clocks, quanta a period: 500 kHz
+  localparam int unsigned SLOW_QUANTA = 32;  // 125 kHz
+  localparam int unsigned EXTRA_QUANTA = 30;  // extra time of an interval: 7.5 us
   localparam int unsigned HOLD_QUANTA = 136_000;  // 34 ms
 
   // Chopper times in quanta (P104-SW-04).
@@ -25,6 +28,21 @@ package ppmc104_pkg;
   localparam int unsigned CHOP_OFF_VSEL_H = 132;
   localparam int unsigned CHOP_ON_VSEL_L = 100;
   localparam int unsigned CHOP_OFF_VSEL_L = 115;
+
+  localparam traits_t TRAITS = '{
+      step_bits: STEP_BITS,
+      steps_min: STEPS_MIN,
+      steps_max: STEPS_MAX,
+      quantum_xtal: QUANTUM_XTAL,
+      fast_quanta: FAST_QUANTA,
+      slow_quanta: SLOW_QUANTA,
+      extra_quanta: EXTRA_QUANTA,
+      hold_quanta: HOLD_QUANTA,
+      hold_rest: 0,
+      chop_unit: CHOP_UNIT,
+      chop_bits: 9,
+      stmc_ends: 1'b0
+  };
 
   // Low three bits of the codes 10 000 xxx that are no reads.
   localparam logic [2:0] SEL_SWITCHING = 3'b100;
@@ -67,14 +85,6 @@ package ppmc104_pkg;
     if (params[15:8] > params[7:0] || params[31:16] < 16'(STEPS_MIN)) return ErrRates;
     return ErrUndefined;
   endfunction
-
-  // Times of the chopper (ppmc104_setup).
-  typedef struct packed {
-    logic [8:0] on_base;    // quanta
-    logic [8:0] off_base;
-    logic [7:0] on_units;   // units of CHOP_UNIT quanta
-    logic [7:0] off_units;
-  } chop_t;
 
 endpackage
 

@@ -7,6 +7,7 @@
 module ppmc104_setup
   import ppmc104_pkg::*;
   import ppmc_code_pkg::action_t;
+  import ppmc_motion_pkg::chop_t;
 (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
@@ -44,11 +45,11 @@ module ppmc104_setup
 
   // The fixed part of the chopper's times; the chopper samples it with the beginning of each phase.
   always_comb begin
-    chop_o.on_base  = vsel_i ? 9'(CHOP_ON_VSEL_H) : 9'(CHOP_ON_VSEL_L);
-    chop_o.off_base = vsel_i ? 9'(CHOP_OFF_VSEL_H) : 9'(CHOP_OFF_VSEL_L);
+    chop_o.on_base  = vsel_i ? CHOP_ON_VSEL_H : CHOP_ON_VSEL_L;
+    chop_o.off_base = vsel_i ? CHOP_OFF_VSEL_H : CHOP_OFF_VSEL_L;
     if (!programmed_q) begin
-      chop_o.on_base  = 9'(CHOP_ON_DEFAULT);
-      chop_o.off_base = 9'(CHOP_OFF_DEFAULT);
+      chop_o.on_base  = CHOP_ON_DEFAULT;
+      chop_o.off_base = CHOP_OFF_DEFAULT;
     end
   end
 

@@ -3,84 +3,55 @@
 // pins. What differs comes in by parameters and by the meaning of the bytes, which the part works out itself.
 // Rules:  those of its blocks.
 // Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
-//         one clk later. decoded_i, data_i, value_i, select_i and setup_params_i are combinational.
+//         one clk later. meaning_i and verdict_i are combinational from sent_o and asked_o.
 `default_nettype none
 
 module ppmc_single
   import ppmc_code_pkg::*;
   import ppmc_op_pkg::*;
   import ppmc_motion_pkg::*;
+  import ppmc_single_pkg::*;
 #(
-    parameter int unsigned ClkHz       = 16_000_000,
-    parameter int unsigned XtalHz      = 16_000_000,
-    parameter bit          Datasheet   = 1'b0,
-    parameter bit          PhaseIdle   = 1'b1,        // level of s_o until the first initialisation
-    parameter int unsigned StepBits    = 14,          // of PA
-    parameter int unsigned StepsMin    = 4,           // smallest PA
-    parameter int unsigned StepsMax    = 11_220,
-    parameter bit          PulsePin    = 1'b1,        // 0: the J105 STMC's rules of stops and ends
-    parameter int unsigned QuantumXtal = 4,           // crystal cycles a quantum
-    parameter int unsigned FastQuanta  = 8,           // fast internal base clock
-    parameter int unsigned SlowQuanta  = 32,
-    parameter int unsigned ExtraQuanta = 30,
-    parameter int unsigned HoldQuanta  = 136_000,
-    parameter int unsigned HoldRest    = 0,           // clk more
-    parameter int unsigned ChopUnit    = 12,          // quanta a unit of the chopper's times
-    parameter int unsigned ChopBits    = 9
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0,        // with the old chip's processing times
+    parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
+    parameter traits_t     Traits                   // of the part
 ) (
-    input wire logic clk_i,
-    input wire logic rst_ni,
-    // host bus
-    input wire logic cs_ni,
-    input wire logic rd_ni,
-    input wire logic wr_ni,
-    input wire logic a0_i,
-    input wire logic [7:0] d_i,
-    output logic [7:0] d_o,
-    output logic d_oe_o,
-    output logic int_no,
-    // meaning of a byte
-    output logic [7:0] byte_o,
-    output logic [2:0] left_o,  // parameters to come, this byte included
-    output logic [7:0] code_o,  // code that act_o belongs to, FAST or at its C-event
-    output logic [7:0] code_held_o,  // code that parameters are collected for
-    output logic [31:0] params_o,
-    input wire decoded_t decoded_i,  // byte_o as a code
-    input wire logic [7:0] data_i,  // byte_o as a parameter is kept
-    input wire error_e value_i,  // what is wrong with params_o
-    input wire logic judged_i,  // value_i counts for the code code_held_o
-    input wire logic [2:0] select_i,  // what the read code code_o shows
-    input wire logic [31:0] setup_params_i,  // params_o as an initialisation sets them
-    input wire logic stops_only_i,
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    // host bus: pins of the part
+    input  wire logic             cs_ni,          // the part is addressed
+    input  wire logic             rd_ni,          // read strobe
+    input  wire logic             wr_ni,          // write strobe
+    input  wire logic             a0_i,           // 0 data, 1 status or command
+    input  wire logic      [ 7:0] d_i,            // what the host writes
+    output logic           [ 7:0] d_o,            // what it reads
+    output logic                  d_oe_o,         // it is reading
+    output logic                  int_no,         // L: a motion has ended
+    // meaning of the bytes, worked out by the part
+    output sent_t                 sent_o,         // the byte at hand
+    input  wire meaning_t         meaning_i,      // what it means
+    output asked_t                asked_o,        // what the host asks for with it
+    input  wire verdict_t         verdict_i,      // whether that is right
+    input  wire logic             stops_only_i,   // stop commands alone may be taken
     // what happens
-    output action_t act_o,
-    output logic [31:0] params_late_o,  // with act_o
-    input wire base_t base_i,  // base clock of the next operation
-    output setup_t setup_o,
+    output action_t               act_o,          // takes effect at the coming edge
+    output logic           [31:0] params_late_o,  // parameters that act_o belongs to
+    input  wire base_t            base_i,         // base clock of the next operation
+    output setup_t                setup_o,        // what the initialisation has set
     // motion
-    input wire logic clock_pin_i,
-    input wire switches_t switches_i,
-    input wire logic slow_i,  // act on a slow-down limit; slow_seen_o, or later
-    output logic slow_seen_o,
-    output logic moving_o,
-    output logic running_o,
-    output logic top_o,
-    output op_t op_o,
-    output base_t base_o,
-    output logic [7:0] rate_o,
+    input  wire logic             clock_pin_i,    // external base clock, asynchronous
+    input  wire switches_t        switches_i,     // synchronous levels
+    input  wire logic             slow_i,         // act on a slow-down limit; slow_seen_o, or later
+    output logic                  slow_seen_o,    // a slow-down limit counts
+    output motion_t               motion_o,       // how the motion stands
     // answers
-    input wire logic [7:0] inputs_i,
-    input wire logic [3:0] auxi_i,
-    // chopper
-    input wire logic [ChopBits-1:0] on_base_i,
-    input wire logic [ChopBits-1:0] off_base_i,
-    input wire logic [7:0] on_units_i,
-    input wire logic [7:0] off_units_i,
-    // pins
-    output logic [5:1] s_o,
-    output logic hold_o,
-    output logic pout_no,
-    output logic dir_o
+    input  wire logic      [ 7:0] inputs_i,       // levels of the inputs as the host reads them
+    input  wire logic      [ 3:0] auxi_i,         // auxiliary inputs
+    // motor
+    input  wire chop_t            chop_i,         // times of the chopper at rest
+    output motor_t                motor_o         // its pins
 );
 
   // ---- host ----------------------------------------------------------------------------------------
@@ -92,7 +63,7 @@ module ppmc_single
   logic [23:0] answer, remaining;
   action_t act_taken;  // what a byte asks for at its C-event; act_o: when it happens
 
-  assign left_o = judgement[2:0];
+  assign sent_o.left = judgement[2:0];
 
   ppmc_host_port u_host (
       .clk_i,
@@ -108,10 +79,10 @@ module ppmc_single
       .state_i  ({judgement, 1'b0, busy}),
       .ready_o  (ready),
       .command_o(is_command),
-      .byte_o,
+      .byte_o   (sent_o.data),
       .take_i   (take),
       .load_i   (act_taken.read),
-      .long_i   (select_i == SEL_REMAINING),
+      .long_i   (verdict_i.select == SEL_REMAINING),
       .answer_i (answer)
   );
 
@@ -120,23 +91,23 @@ module ppmc_single
       .rst_ni,
       .ready_i       (ready),
       .command_i     (is_command),
-      .byte_i        (byte_o),
+      .byte_i        (sent_o.data),
       .open_i        (open),
       .stops_only_i,
       .take_o        (take),
-      .decoded_i,
-      .data_i,
-      .value_i,
-      .judged_i,
+      .decoded_i     (meaning_i.decoded),
+      .data_i        (meaning_i.data),
+      .value_i       (verdict_i.value),
+      .judged_i      (verdict_i.judged),
       .busy_i        (busy),
-      .ramp_i        (op_o.ramp),
-      .decelerating_i(decelerating || !moving_o),
+      .ramp_i        (motion_o.op.ramp),
+      .decelerating_i(decelerating || !motion_o.moving),
       .initialised_i (initialised),
       .status_o      (judgement),
       .act_o         (act_taken),
-      .code_o,
-      .params_o,
-      .code_held_o,
+      .code_o        (asked_o.code),
+      .params_o      (asked_o.params),
+      .code_held_o   (sent_o.held),
       .params_held_o (params_held)
   );
 
@@ -145,23 +116,23 @@ module ppmc_single
   op_code_t   op_code;
   init_code_t init_late;
   logic home, ready_init, unused_bits;
-  logic [StepBits-1:0] steps, lut_data;
+  logic [Traits.step_bits-1:0] steps, lut_data;
   logic [7:0] lut_addr;
 
   assign op_code     = op_code_t'(code_late);  // a code, read as one or as the other
   assign init_late   = init_code_t'(code_late);
-  assign steps       = setup_o.steps[StepBits-1:0];
-  assign unused_bits = &{1'b0, op_code, init_late};
+  assign steps       = setup_o.steps[Traits.step_bits-1:0];
+  assign unused_bits = &{1'b0, op_code, init_late, chop_i};
 
   ppmc_setup #(
-      .StepBits (StepBits),
+      .StepBits (Traits.step_bits),
       .PhaseIdle(PhaseIdle)
   ) u_setup (
       .clk_i,
       .rst_ni,
       .init_i       (act_o.init),
-      .code_i       (init_code_t'(code_o)),
-      .params_i     (setup_params_i),
+      .code_i       (init_code_t'(asked_o.code)),
+      .params_i     (verdict_i.setup),
       .home_i       (home),
       .positive_i   (init_late.positive),
       .ready_i      (ready_init),
@@ -171,7 +142,7 @@ module ppmc_single
   );
 
   ppmc_ramp_table #(
-      .StepBits(StepBits)
+      .StepBits(Traits.step_bits)
   ) u_table (
       .clk_i,
       .rst_ni,
@@ -201,7 +172,7 @@ module ppmc_single
   ppmc_tick_gen #(
       .ClkHz   (ClkHz),
       .XtalHz  (XtalHz),
-      .TickXtal(QuantumXtal)
+      .TickXtal(Traits.quantum_xtal)
   ) u_quantum (
       .clk_i,
       .rst_ni,
@@ -212,14 +183,14 @@ module ppmc_single
   ppmc_axis #(
       .ClkHz      (ClkHz),
       .XtalHz     (XtalHz),
-      .StepBits   (StepBits),
-      .ClimbBits  (ppmc_pkg::cnt_width(StepsMax + 1)),
-      .FastQuanta (FastQuanta),
-      .SlowQuanta (SlowQuanta),
-      .ExtraQuanta(ExtraQuanta),
-      .StopAtSlow (!PulsePin),
-      .SlowOrigin (!PulsePin),
-      .PulsePin   (PulsePin)
+      .StepBits   (Traits.step_bits),
+      .ClimbBits  (ppmc_pkg::cnt_width(Traits.steps_max + 1)),
+      .FastQuanta (Traits.fast_quanta),
+      .SlowQuanta (Traits.slow_quanta),
+      .ExtraQuanta(Traits.extra_quanta),
+      .StopAtSlow (Traits.stmc_ends),
+      .SlowOrigin (Traits.stmc_ends),
+      .PulsePin   (!Traits.stmc_ends)
   ) u_axis (
       .clk_i,
       .rst_ni,
@@ -245,14 +216,14 @@ module ppmc_single
       .clock_pin_i,
       .restart_o  (restart),
       .busy_o     (busy),
-      .moving_o,
+      .moving_o   (motion_o.moving),
       .gated_o    (unused_gated),
       .decel_o    (decelerating),
-      .top_o,
-      .op_o,
-      .base_o,
-      .rate_o,
-      .running_o,
+      .top_o      (motion_o.top),
+      .op_o       (motion_o.op),
+      .base_o     (motion_o.base),
+      .rate_o     (motion_o.rate),
+      .running_o  (motion_o.running),
       .low_o      (low),
       .pulse_o    (pulse),
       .last_o     (last),
@@ -267,17 +238,17 @@ module ppmc_single
       .Datasheet(Datasheet),
       .ClkHz    (ClkHz),
       .XtalHz   (XtalHz),
-      .StepBits (StepBits),
-      .StepsMin (StepsMin),
-      .StepsMax (StepsMax),
-      .RampTimes(PulsePin)
+      .StepBits (Traits.step_bits),
+      .StepsMin (Traits.steps_min),
+      .StepsMax (Traits.steps_max),
+      .RampTimes(!Traits.stmc_ends)
   ) u_pace (
       .clk_i,
       .rst_ni,
       .act_i        (act_taken),
-      .code_i       (code_o),
-      .params_i     (params_o),
-      .code_held_i  (code_held_o),
+      .code_i       (asked_o.code),
+      .params_i     (asked_o.params),
+      .code_held_i  (sent_o.held),
       .params_held_i(params_held),
       .base_i,
       .open_o       (open),
@@ -290,8 +261,8 @@ module ppmc_single
       .steps_i      (steps),
       .home_o       (home),
       .ready_o      (ready_init),
-      .ramp_i       (op_o.ramp),
-      .single_i     (op_o.single),
+      .ramp_i       (motion_o.op.ramp),
+      .single_i     (motion_o.op.single),
       .stop_i       (stop),
       .pulse_i      (pulse),
       .last_i       (last),
@@ -303,7 +274,7 @@ module ppmc_single
   // ---- end of a motion, answers, pins --------------------------------------------------------------
 
   ppmc_finish #(
-      .Fresh(PulsePin)
+      .Fresh(!Traits.stmc_ends)
   ) u_finish (
       .clk_i,
       .rst_ni,
@@ -312,28 +283,28 @@ module ppmc_single
       .done_i     (done),
       .cause_i    (cause),
       .read_i     (act_taken.read),
-      .select_i,
+      .select_i   (verdict_i.select),
       .remaining_i(remaining),
       .inputs_i,
-      .outputs_i  ({levels[1], levels[2], levels[3], levels[4], levels[5], hold_o, dir_o, 1'b0}),
+      .outputs_i  ({levels[1], levels[2], levels[3], levels[4], levels[5], motor_o.hold, motor_o.dir, 1'b0}),
       .auxi_i,
       .answer_o   (answer),
       .int_no
   );
 
   ppmc_motor_port #(
-      .HoldQuanta(HoldQuanta),
-      .HoldRest  (HoldRest),
-      .UnitQuanta(ChopUnit),
-      .BaseBits  (ChopBits),
+      .HoldQuanta(Traits.hold_quanta),
+      .HoldRest  (Traits.hold_rest),
+      .UnitQuanta(Traits.chop_unit),
+      .BaseBits  (Traits.chop_bits),
       .PhaseIdle (PhaseIdle)
   ) u_motor (
       .clk_i,
       .rst_ni,
       .busy_i        (busy),
       .low_i         (low),
-      .step_i        (pulse && !op_o.pout_only),
-      .ccw_i         (op_o.ccw),
+      .step_i        (pulse && !motion_o.op.pout_only),
+      .ccw_i         (motion_o.op.ccw),
       .quantum_i     (quantum),
       .motor_i       (motor_e'(setup_o.motor)),
       .half_i        (setup_o.half),
@@ -342,16 +313,16 @@ module ppmc_single
       .off_i         (act_o.exc_off),
       .chop_i        (setup_o.chop),
       .chop_restart_i(ready_init),
-      .on_base_i,
-      .off_base_i,
-      .on_units_i,
-      .off_units_i,
+      .on_base_i     (chop_i.on_base[Traits.chop_bits-1:0]),
+      .off_base_i    (chop_i.off_base[Traits.chop_bits-1:0]),
+      .on_units_i    (chop_i.on_units),
+      .off_units_i   (chop_i.off_units),
       .hold_units_i  (1'b0),
       .levels_o      (levels),
-      .s_o,
-      .hold_o,
-      .pout_no,
-      .dir_o
+      .s_o           (motor_o.s),
+      .hold_o        (motor_o.hold),
+      .pout_no       (motor_o.pout_n),
+      .dir_o         (motor_o.dir)
   );
 
 endmodule

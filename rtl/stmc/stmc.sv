@@ -9,6 +9,7 @@ module stmc
   import stmc_pkg::*;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
+  import ppmc_single_pkg::*;
 #(
     parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
@@ -108,88 +109,91 @@ module stmc
 
   // ---- meaning of the bytes, everything else -------------------------------------------------------
 
-  logic [7:0] in_byte, code, code_held;
-  logic [2:0] left;
-  logic [31:0] params, unused_params;
-  logic slow, unused_moving, unused_running, unused_top, unused_pout, unused_dir, unused_bits;
-  setup_t setup;
+  localparam traits_t Traits = '{
+      step_bits: STEP_BITS,
+      steps_min: 0,
+      steps_max: STEPS_MAX,
+      quantum_xtal: QuantumXtal,
+      fast_quanta: STEP_XTAL / QuantumXtal,
+      slow_quanta: STEP_XTAL / QuantumXtal,
+      extra_quanta: 0,
+      hold_quanta: HoldQuanta,
+      hold_rest: HoldRest,
+      chop_unit: 1,
+      chop_bits: ChopBits,
+      stmc_ends: 1'b1
+  };
+  localparam chop_t Chop = '{on_base: OnQuanta, off_base: OffQuanta, on_units: '0, off_units: '0};
+
+  sent_t sent;
+  meaning_t meaning;
+  asked_t asked;
+  verdict_t verdict;
+  error_e fault;
+  logic [31:0] unused_params;
+  logic slow, unused_bits;
+  setup_t  setup;
   action_t unused_act;
-  op_t unused_op;
-  base_t base, unused_base;
-  logic [RATE_BITS-1:0] unused_rate;
+  motion_t unused_motion;
+  motor_t  motor;
+  base_t   base;
 
-  assign unused_bits = &{1'b0, code, code_held, setup};
+  assign unused_bits = &{1'b0, asked, setup, motor, sent};
 
-  always_comb begin
-    base          = '0;
-    base.external = setup.external;
-  end
+  assign meaning = '{
+          decoded: decode(Sheet, sent.data),
+          data: sent.data - 8'(is_divisor(sent.held[6], sent.held[2:0], sent.left))
+      };
+  assign fault = judge(
+      sent.held[6], sent.held[2:0], asked.params[7:0], asked.params[15:8], asked.params[31:24]
+  );
+  assign verdict = '{
+          value: fault,
+          judged: 1'b1,
+          select: selected(Sheet, asked.code[2:0]),
+          setup: levelled(asked.params)
+      };
+  assign base = '{external: setup.external, default: 1'b0};
 
   ppmc_single #(
-      .ClkHz      (CLK_HZ),
-      .XtalHz     (XTAL_HZ),
-      .Datasheet  (TIMING == "DATASHEET"),
-      .PhaseIdle  (PHASE_IDLE),
-      .StepBits   (STEP_BITS),
-      .StepsMin   (0),
-      .StepsMax   (STEPS_MAX),
-      .PulsePin   (1'b0),
-      .QuantumXtal(QuantumXtal),
-      .FastQuanta (STEP_XTAL / QuantumXtal),
-      .SlowQuanta (STEP_XTAL / QuantumXtal),
-      .ExtraQuanta(0),
-      .HoldQuanta (HoldQuanta),
-      .HoldRest   (HoldRest),
-      .ChopUnit   (1),
-      .ChopBits   (ChopBits)
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .Datasheet(TIMING == "DATASHEET"),
+      .PhaseIdle(PHASE_IDLE),
+      .Traits   (Traits)
   ) u_single (
-      .clk_i         (clk),
-      .rst_ni        (rst),
-      .cs_ni         (cs_n),
-      .rd_ni         (rd_n),
-      .wr_ni         (wr_n),
-      .a0_i          (a0),
+      .clk_i        (clk),
+      .rst_ni       (rst),
+      .cs_ni        (cs_n),
+      .rd_ni        (rd_n),
+      .wr_ni        (wr_n),
+      .a0_i         (a0),
       .d_i,
       .d_o,
-      .d_oe_o        (d_oe),
-      .int_no        (int_n),
-      .byte_o        (in_byte),
-      .left_o        (left),
-      .code_o        (code),
-      .code_held_o   (code_held),
-      .params_o      (params),
-      .decoded_i     (decode(Sheet, in_byte)),
-      .data_i        (in_byte - 8'(is_divisor(code_held[6], code_held[2:0], left))),
-      .value_i       (judge(code_held[6], code_held[2:0], params[7:0], params[15:8], params[31:24])),
-      .judged_i      (1'b1),
-      .select_i      (selected(Sheet, code[2:0])),
-      .setup_params_i(levelled(params)),
-      .stops_only_i  (1'b0),
-      .act_o         (unused_act),
-      .params_late_o (unused_params),
-      .base_i        (base),
-      .setup_o       (setup),
-      .clock_pin_i   (ext_clk),
-      .switches_i    (switches),
-      .slow_i        (slow),
-      .slow_seen_o   (slow),
-      .moving_o      (unused_moving),
-      .running_o     (unused_running),
-      .top_o         (unused_top),
-      .op_o          (unused_op),
-      .base_o        (unused_base),
-      .rate_o        (unused_rate),
-      .inputs_i      ({cnp, mon_s, 2'b00, l1, l2, l3, l4}),
-      .auxi_i        ('0),
-      .on_base_i     (ChopBits'(OnQuanta)),
-      .off_base_i    (ChopBits'(OffQuanta)),
-      .on_units_i    ('0),
-      .off_units_i   ('0),
-      .s_o           (s),
-      .hold_o        (hold),
-      .pout_no       (unused_pout),
-      .dir_o         (unused_dir)
+      .d_oe_o       (d_oe),
+      .int_no       (int_n),
+      .sent_o       (sent),
+      .meaning_i    (meaning),
+      .asked_o      (asked),
+      .verdict_i    (verdict),
+      .stops_only_i (1'b0),
+      .act_o        (unused_act),
+      .params_late_o(unused_params),
+      .base_i       (base),
+      .setup_o      (setup),
+      .clock_pin_i  (ext_clk),
+      .switches_i   (switches),
+      .slow_i       (slow),
+      .slow_seen_o  (slow),
+      .motion_o     (unused_motion),
+      .inputs_i     ({cnp, mon_s, 2'b00, l1, l2, l3, l4}),
+      .auxi_i       ('0),
+      .chop_i       (Chop),
+      .motor_o      (motor)
   );
+
+  assign s = motor.s;
+  assign hold = motor.hold;
 
 endmodule
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from matplotlib.axes import Axes
+
+from openppmc.plot.motion import INK
+
 Changes = list[tuple[int, int]]
 Levels = Mapping[str, Changes]
 
@@ -57,6 +61,11 @@ def micros(clk: int, clk_hz: int) -> str:
 def spans(edges: Sequence[int], clk_hz: int) -> list[tuple[int, int, str]]:
     """Dimension lines from edge to edge."""
     return [(a, b, micros(b - a, clk_hz)) for a, b in zip(edges, edges[1:], strict=False)]
+
+
+def heading(axes: Axes, text: str) -> None:
+    """A title in the style of the close-ups."""
+    axes.set_title(text, loc="left", fontsize=10.5, fontweight="bold", color=INK)
 
 
 def subtitle(comparison: Any, clk_hz: int) -> str:

@@ -12,12 +12,21 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ...host.basis.errors import PpmcError
+from ...errors import PpmcError
 from ...host.basis.kind import AnySetup, Kind, Wanted, kind_of
 
 USUAL = kind_of("ppmc104")
-"""The part for plans where nobody has named one."""
+"""The part where nobody has named one: of plans, and of virtual boards."""
+NUMBERS = {"ignore_unknown_options": True}
+"""Settings of a command with signed numbers, so that `move -200` is a number and not an option."""
+Json = Annotated[bool, typer.Option("--json", help="for programs")]
 _PANEL = "Set-up (remembered by init)"
+
+
+def check_seconds(seconds: float | None) -> None:
+    """BadParameter for a value of --seconds that is no time."""
+    if seconds is not None and not 0 <= seconds < float("inf"):
+        raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
 
 
 class Logic(str, Enum):
@@ -166,7 +175,8 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
         for name, annotation in _OPTIONS.items()
     ]
-    del wrapper.__wrapped__  # type: ignore[attr-defined]
-    wrapper.__signature__ = inspect.Signature([*own, *added])  # type: ignore[attr-defined]
-    wrapper.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}
+    seen: Any = wrapper  # by typer, which reads the signature
+    del seen.__wrapped__
+    seen.__signature__ = inspect.Signature([*own, *added])
+    seen.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}
     return wrapper

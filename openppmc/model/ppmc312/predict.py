@@ -6,38 +6,23 @@ from dataclasses import dataclass
 from itertools import accumulate
 
 from ..common.timebase import Timebase
+from ..single.predict import Move
 from .codes import FO, LE
 from .stages.plan import constant, ramped
 from .stages.tables import DIVIDERS, SettingError, Table, build
 
 
 @dataclass(frozen=True)
-class TableMove:
-    """A predicted move. `clk[j]` is pulse j+1 in clk after pulse 1; `rates[j]` in ticks and `indices[j]`
-    (table stage, None at constant speed) belong to the interval that follows it; kind: status bits of the
-    answer."""
+class TableMove(Move):
+    """Rates are in ticks of the base clock, `divider` crystal periods each; indices are stages of the table,
+    None at constant speed; kind: status bits of the answer."""
 
-    timebase: Timebase
     divider: int
-    clk: tuple[int, ...]
-    indices: tuple[int | None, ...]
-    rates: tuple[int, ...]
     kind: int
 
     @property
-    def seconds(self) -> list[float]:
-        """Pulse times in s after pulse 1."""
-        return [self.timebase.seconds(t) for t in self.clk]
-
-    @property
     def speeds(self) -> list[float]:
-        """Speed of each interval in pulses per second."""
         return [self.timebase.xtal_hz / (self.divider * rate) for rate in self.rates]
-
-    @property
-    def intervals(self) -> list[int]:
-        """Length of each interval between two pulses in clk."""
-        return [b - a for a, b in zip(self.clk, self.clk[1:], strict=False)]
 
 
 def predict_table(
@@ -62,10 +47,10 @@ def predict_table(
     ticks = accumulate((step.rate for step in steps[:-1]), initial=0)
     return TableMove(
         timebase,
-        divider,
         tuple(timebase.cyc(divider * t) for t in ticks),
         tuple(step.stage for step in steps[:-1]),
         tuple(step.rate for step in steps[:-1]),
+        divider,
         plan.kind,
     )
 
@@ -95,3 +80,10 @@ def predict_setting(
     except SettingError as error:
         raise ValueError(f"refused setting: {error}") from None
     return predict_table(table, n, rate or 0, rate is not None, timebase)
+
+
+def predict(
+    init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
+) -> TableMove:
+    """See `single.predict.predict_move`; csel and vsel, which the part has not, are not looked at."""
+    return predict_setting(init, n, rate, timebase)

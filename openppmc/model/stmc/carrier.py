@@ -14,13 +14,12 @@ from .part import Stmc
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), strict=True))
 
 
-class Carrier(carrier.Carrier):
+class Carrier(carrier.Carrier[Stmc]):
     """Wired as stmc_carrier: no straps, MON in the place of the alarm. The motor follows the phases.
 
     The step clock only ticks while a motion counts it.
     """
 
-    NUMBER = 105
     _directions_of = step_directions()
 
     def __init__(
@@ -41,6 +40,9 @@ class Carrier(carrier.Carrier):
 
     def straps(self, levels: int) -> None:
         """None are wired."""
+
+    def shown(self) -> object:
+        return self.part.status
 
     def pins(self) -> int:
         self._settle()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import os
 import shutil
@@ -160,6 +159,8 @@ def _locked(path: Path) -> Iterator[None]:
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
+    import fcntl  # not on every system; whoever only names a virtual board does not need it
+
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)
         yield

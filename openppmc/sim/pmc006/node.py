@@ -49,18 +49,16 @@ class Part(Pmc006):
         return QuickBus(self._eeprom, shared, levels, self._i2c_hz)
 
 
-class Node(LineStation, Carrier):
+class Node(Carrier[Part], LineStation[Part]):
     """number: its address at first. `position` is the carriage's in 1/16 full steps, the part itself counts
     steps. The switches are optical: they do not bounce. It has been on for a while: it has booted."""
-
-    NUMBER = 6
 
     def __init__(self, carriage: Carriage, number: int, spec: LineSpec) -> None:
         self.number, self.carriage = number, carriage
         self.eeprom = Eeprom(first_content(number, carriage), carriage.eeprom, carriage.no_eeprom)
         self._way = carriage.start * FULL_STEP // UNIT
         part = Part(self.eeprom, spec, carriage.gpi)
-        super().__init__(part, [carriage], lambda: None)  # type: ignore[list-item]
+        super().__init__(part, [carriage], lambda: None)
         while part.booting:
             self.run_until(self.t + self.clk_hz // 10_000)
 

@@ -6,24 +6,22 @@ stations cost nothing.
 
 from __future__ import annotations
 
-from ...model.carrier import carrier
 from ...model.carrier.plant import Plant
 from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation
-from .line_spec import SPEEDS, LineSpec
+from ..common.lines import LineKind
+from .line_spec import KNOWN, SPEEDS, LineSpec, at_rate, parse_line
 
 
-class Station(LineStation, Carrier):
+class Station(Carrier, LineStation[Ppmc312]):
     """A station with motor and encoder; `straps` sets RUN and the event inputs."""
 
     def __init__(self, plant: Plant, number: int, spec: LineSpec) -> None:
-        self._moved = False
         straps = {"mode": 0, "mod": SPEEDS[spec.baud], "adr": number}
         part = Ppmc312(spec.clk_hz, spec.xtal_hz, spec.timing, sum_mode=spec.sum_mode, straps=straps)
-        carrier.Carrier.__init__(self, part, [plant], lambda: None)
+        super().__init__(plant, part=part)
         self.number = number
-        self.part.pins(self.t - 3, end_n=0, auxi=0xFF)
 
     def shown(self) -> object:
         return None
@@ -33,17 +31,18 @@ class Station(LineStation, Carrier):
         return f"{self.number}:{self.position}:{self.part.state.name}"
 
 
-class StationLine(CharLine):
+class StationLine(CharLine[Station]):
     """The line. Only the station that was addressed last runs with it."""
-
-    spec: LineSpec
 
     def __init__(self, spec: LineSpec) -> None:
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
-        boards = [Station(plant, number, spec) for number, plant in numbered]
-        super().__init__(spec, boards, spec.clk_hz * 16_000_000 / (spec.baud * spec.xtal_hz))
+        stations = [Station(plant, number, spec) for number, plant in numbered]
+        super().__init__(spec, stations, spec.clk_hz * 16_000_000 / (spec.baud * spec.xtal_hz))
         self.hearing = []
 
     def heard(self, byte: int) -> None:
         if byte & 0x80:
-            self.hearing = [board for board in self.boards if board.number == byte & 15]
+            self.hearing = [one for one in self.stations if one.number == byte & 15]
+
+
+MACHINE = LineKind(parse_line, at_rate, KNOWN, StationLine)

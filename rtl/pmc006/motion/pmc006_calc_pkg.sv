@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_calc_pkg: the language of the planner: instructions of pmc006_calc, its operands and conditions.
-// Rules:  P006-MOT-10..23, P006-EXC-20..23 (what the program in pmc006_calc_rom computes).
+// Rules:  P006-MOT-10..23, P006-EXC-20..23 (what the program in pmc006_calc.asm computes).
 // How:    an instruction is {operation, aux, operand} or {jump, condition, target}. hi and lo are the accumulator
 //         pair of the one adder; hi alone takes part in sums.
 `default_nettype none
@@ -124,72 +124,20 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
+  // Of a set: bit 3 of aux says that the ramp is over, bits 2..0 which of phase, up and smooth are set to what low holds.
   typedef struct packed {
     op_e op;
-    logic [3:0] aux;
-    logic [8:0] low;  // operand, jump target or set_t
+    logic [3:0] aux;  // as where_e, steps_e, out_e or cond_e
+    logic [8:0] low;  // operand, jump target or {phase_e, up, smooth}
   } instr_t;
 
-  function automatic instr_t code(op_e op, logic [3:0] aux, operand_e operand);
-    return '{op: op, aux: aux, low: 9'(operand)};
-  endfunction
+  // ---- written by `make rom` from pmc006_calc.asm: where the program is entered, how long it is ------------------
 
-  function automatic instr_t jump(cond_e cond, logic [8:0] target);
-    return '{op: OpJump, aux: cond, low: target};
-  endfunction
+  localparam logic [8:0] EntryPlan = 9'd0;
+  localparam logic [8:0] EntryTick = 9'd1;
+  localparam int unsigned ProgramWords = 280;
 
-  // puts: which of phase, up and s to set, and (first) whether the ramp is over.
-  function automatic instr_t set(logic [3:0] puts, phase_e phase, logic [1:0] up_s);
-    return '{op: OpSet, aux: puts, low: {4'd0, phase, up_s}};
-  endfunction
-
-  // ---- where the parts of the program begin; they follow each other without gap ------------------------------------
-
-  localparam logic [8:0] AtEntry = 9'd0;
-  localparam logic [8:0] EntryPlan = AtEntry;
-  localparam logic [8:0] EntryTick = AtEntry + 9'd1;
-  localparam logic [8:0] AtPlan = AtEntry + 9'd2;
-  localparam logic [8:0] AtTarget = AtPlan + 9'd2;
-  localparam logic [8:0] AtTargetAdc = AtTarget + 9'd3;
-  localparam logic [8:0] AtTargetDone = AtTargetAdc + 9'd4;
-  localparam logic [8:0] AtRetarget = AtTargetDone + 9'd9;
-  localparam logic [8:0] AtStraight = AtRetarget + 9'd5;
-  localparam logic [8:0] AtReached = AtStraight + 9'd2;
-  localparam logic [8:0] AtPlanTarget = AtReached + 9'd2;
-  localparam logic [8:0] AtPlanFast = AtPlanTarget + 9'd7;
-  localparam logic [8:0] AtWay = AtPlanFast + 9'd17;
-  localparam logic [8:0] AtPlanWay = AtWay + 9'd17;
-  localparam logic [8:0] AtPlanNeed = AtPlanWay + 9'd3;
-  localparam logic [8:0] AtPlanDec = AtPlanNeed + 9'd14;
-  localparam logic [8:0] AtPlanDecMore = AtPlanDec + 9'd1;
-  localparam logic [8:0] AtPlanPeak = AtPlanDecMore + 9'd6;
-  localparam logic [8:0] AtPlanFree = AtPlanPeak + 9'd28;
-  localparam logic [8:0] AtPlanGoal = AtPlanFree + 9'd1;
-  localparam logic [8:0] AtPlanShort = AtPlanGoal + 9'd4;
-  localparam logic [8:0] AtCruise = AtPlanShort + 9'd9;
-  localparam logic [8:0] AtPlanned = AtCruise + 9'd1;
-  localparam logic [8:0] AtCoef = AtPlanned + 9'd3;
-  localparam logic [8:0] AtCoefWhole = AtCoef + 9'd13;
-  localparam logic [8:0] AtRamp = AtCoefWhole + 9'd1;
-  localparam logic [8:0] AtRampPlanned = AtRamp + 9'd7;
-  localparam logic [8:0] AtFit = AtRampPlanned + 9'd2;
-  localparam logic [8:0] AtFitSome = AtFit + 9'd4;
-  localparam logic [8:0] AtFitExact = AtFitSome + 9'd12;
-  localparam logic [8:0] AtFitShort = AtFitExact + 9'd9;
-  localparam logic [8:0] AtAdvance = AtFitShort + 9'd7;
-  localparam logic [8:0] AtStopping = AtAdvance + 9'd5;
-  localparam logic [8:0] AtLive = AtStopping + 9'd4;
-  localparam logic [8:0] AtStop = AtLive + 9'd7;
-  localparam logic [8:0] AtStopped = AtStop + 9'd7;
-  localparam logic [8:0] AtWalk = AtStopped + 9'd1;
-  localparam logic [8:0] AtClimb = AtWalk + 9'd5;
-  localparam logic [8:0] AtSmooth = AtClimb + 9'd12;
-  localparam logic [8:0] AtShaped = AtSmooth + 9'd9;
-  localparam logic [8:0] AtClimbed = AtShaped + 9'd3;
-  localparam logic [8:0] AtApply = AtClimbed + 9'd2;
-  localparam logic [8:0] AtApplyUp = AtApply + 9'd5;
-  localparam logic [8:0] AtApplied = AtApplyUp + 9'd1;
-  localparam logic [8:0] AtCompensate = AtApplied + 9'd1;
+  // ---- end of what is written --------------------------------------------------------------------------------
 
 endpackage
 

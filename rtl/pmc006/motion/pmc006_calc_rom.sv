@@ -1,319 +1,348 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_calc_rom: the planner's program: planning of a motion, the update tick, compensation.
 // Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
-// Entry:  address 0 with a start, 1 with an update tick.
 // Timing: code_o is the word of addr_i one clk later, while fetch_i.
-// Note:   a part of the program is named by its first address (pmc006_calc_pkg); a part that grows changes the
-//         next address only.
+// Note:   written by `make rom` from pmc006_calc.asm, where the program can be read and changed; not by hand.
 `default_nettype none
 
 module pmc006_calc_rom
   import pmc006_calc_pkg::*;
 (
     input  wire logic       clk_i,
-    input  wire logic       fetch_i,
-    input  wire logic [8:0] addr_i,
-    output instr_t          code_o
+    input  wire logic       fetch_i,  // read a word
+    input  wire logic [8:0] addr_i,   // its address
+    output instr_t          code_o    // the word; it stands until the next one
 );
 
   (* rom_style = "block" *)
   instr_t rom[512];
 
   initial begin
-    for (int unsigned i = 0; i < 512; i++) rom[i] = code(OpHalt, Plain, K0);
-    // ---- where a start and an update tick enter
-    rom[AtEntry+0] = jump(Always, AtPlan);
-    rom[AtEntry+1] = jump(Always, AtAdvance);
-    // ---- a motion has been accepted: V = VSTART
-    rom[AtPlan+0] = code(OpLoad, Plain, RLeft);
-    rom[AtPlan+1] = code(OpStore, Plain, MLeft);
-    // live target
-    rom[AtTarget+0] = jump(IfAnalog, AtTargetAdc);
-    rom[AtTarget+1] = code(OpLoad, Plain, RVmax);
-    rom[AtTarget+2] = jump(Always, AtTargetDone);
-    rom[AtTargetAdc+0] = code(OpLoad, Plain, RAdc);
-    rom[AtTargetAdc+1] = code(OpAdd, Low, RAdc9);  // (h + h[9]) << 6
-    rom[AtTargetAdc+2] = code(OpMul, N32, RVmax);
-    rom[AtTargetAdc+3] = code(OpLoad, Plain, RMid);
-    rom[AtTargetDone+0] = jump(IfPlan, AtPlanTarget);
-    rom[AtTargetDone+1] = code(OpSub, Plain, MLt);  // retarget if it has changed
-    rom[AtTargetDone+2] = jump(IfZero, AtWalk);
-    rom[AtTargetDone+3] = code(OpAdd, Plain, MLt);
-    rom[AtTargetDone+4] = code(OpStore, Plain, MLt);
-    rom[AtTargetDone+5] = code(OpSub, Plain, RV);
-    rom[AtTargetDone+6] = jump(IfZero, AtReached);
-    rom[AtTargetDone+7] = set(4'b0111, PhRamp, 2'b11);
-    rom[AtTargetDone+8] = jump(IfAnalog, AtStraight);
-    rom[AtRetarget+0] = jump(IfCarry, AtCoef);
-    rom[AtRetarget+1] = set(4'b0010, PhCruise, 2'b00);
-    rom[AtRetarget+2] = code(OpLoad, Plain, RV);
-    rom[AtRetarget+3] = code(OpSub, Plain, MLt);
-    rom[AtRetarget+4] = jump(Always, AtCoef);
-    rom[AtStraight+0] = set(4'b0001, PhCruise, 2'b00);
-    rom[AtStraight+1] = jump(Always, AtRetarget);
-    rom[AtReached+0] = set(4'b0100, PhCruise, 2'b00);
-    rom[AtReached+1] = jump(Always, AtWalk);
-    rom[AtPlanTarget+0] = code(OpStore, Plain, MLt);
-    rom[AtPlanTarget+1] = jump(IfShort, AtPlanShort);
-    rom[AtPlanTarget+2] = code(OpSub, Plain, RV);
-    rom[AtPlanTarget+3] = jump(IfCarry, AtPlanFast);
-    rom[AtPlanTarget+4] = code(OpLoad, Plain, MLt);  // below VSTART: the target itself, all the way
-    rom[AtPlanTarget+5] = code(OpOut, OutSpeed, K0);
-    rom[AtPlanTarget+6] = jump(Always, AtCruise);
-    rom[AtPlanFast+0] = jump(IfSpeed, AtPlanFree);
-    rom[AtPlanFast+1] = code(OpLoad, Plain, MLt);
-    rom[AtPlanFast+2] = code(OpSub, Plain, RVe);
-    rom[AtPlanFast+3] = jump(IfNotCarry, AtPlanFree);
-    rom[AtPlanFast+4] = code(OpLoad, Plain, MLt);  // ways of both ramps at the coefficients set
-    rom[AtPlanFast+5] = code(OpAdd, Plain, RV);
-    rom[AtPlanFast+6] = code(OpStore, Plain, MT);
-    rom[AtPlanFast+7] = code(OpLoad, Plain, MLt);
-    rom[AtPlanFast+8] = code(OpSub, Low, RV);
-    rom[AtPlanFast+9] = code(OpMul, N16, MT);
-    rom[AtPlanFast+10] = code(OpLoad, Plain, RMid);
-    rom[AtPlanFast+11] = code(OpAdd, Plain, RWay);
-    rom[AtPlanFast+12] = code(OpSub, Low, K1);
-    rom[AtPlanFast+13] = code(OpDiv, Plain, RWay);
-    rom[AtPlanFast+14] = code(OpLoad, Plain, RLo);
-    rom[AtPlanFast+15] = code(OpStore, Plain, MWay1);
-    rom[AtPlanFast+16] = code(OpLoad, Plain, MLt);
-    // way from speed hi down to VSTOP
-    rom[AtWay+0] = code(OpStore, Plain, MX);
-    rom[AtWay+1] = code(OpAdd, Plain, RVe);
-    rom[AtWay+2] = code(OpStore, Plain, MT);
-    rom[AtWay+3] = code(OpLoad, Plain, MX);
-    rom[AtWay+4] = code(OpSub, Low, RVe);
-    rom[AtWay+5] = code(OpMul, N16, MT);
-    rom[AtWay+6] = code(OpLoad, Plain, RMid);
-    rom[AtWay+7] = code(OpAdd, Dec, RWay);
-    rom[AtWay+8] = code(OpSub, Low, K1);
-    rom[AtWay+9] = code(OpDiv, Dec, RWay);
-    rom[AtWay+10] = code(OpLoad, Plain, MX);
-    rom[AtWay+11] = code(OpLoad, Plain, RMargin);
-    rom[AtWay+12] = jump(IfPlan, AtPlanWay);
-    rom[AtWay+13] = code(OpAdd, Plain, RLo);
-    rom[AtWay+14] = code(OpSub, Plain, MLeft);
-    rom[AtWay+15] = jump(IfCarry, AtFit);
-    rom[AtWay+16] = jump(Always, AtTarget);
-    rom[AtPlanWay+0] = code(OpStore, Plain, MSlack);
-    rom[AtPlanWay+1] = code(OpLoad, Plain, RLo);
-    rom[AtPlanWay+2] = code(OpStore, Plain, MWay2);
-    rom[AtPlanNeed+0] = code(OpLoad, Plain, MWay1);
-    rom[AtPlanNeed+1] = code(OpAdd, Plain, MWay2);
-    rom[AtPlanNeed+2] = code(OpAdd, Plain, MSlack);
-    rom[AtPlanNeed+3] = code(OpAdd, Plain, K3);
-    rom[AtPlanNeed+4] = code(OpSub, Plain, RLeft);  // carry: need > N
-    rom[AtPlanNeed+5] = jump(IfNotCarry, AtPlanFree);
-    rom[AtPlanNeed+6] = jump(IfAcc5, AtPlanDec);
-    rom[AtPlanNeed+7] = code(OpOut, OutAcc, K0);  // na + 1 halves the way
-    rom[AtPlanNeed+8] = code(OpLoad, Plain, MWay1);
-    rom[AtPlanNeed+9] = code(OpAdd, Plain, K1);
-    rom[AtPlanNeed+10] = code(OpMul, N1, K0);
-    rom[AtPlanNeed+11] = code(OpStore, Plain, MWay1);
-    rom[AtPlanNeed+12] = jump(IfDec5, AtPlanNeed);
-    rom[AtPlanNeed+13] = jump(Always, AtPlanDecMore);
-    rom[AtPlanDec+0] = jump(IfDec5, AtPlanPeak);
-    rom[AtPlanDecMore+0] = code(OpOut, OutDec, K0);
-    rom[AtPlanDecMore+1] = code(OpLoad, Plain, MWay2);
-    rom[AtPlanDecMore+2] = code(OpAdd, Plain, K1);
-    rom[AtPlanDecMore+3] = code(OpMul, N1, K0);
-    rom[AtPlanDecMore+4] = code(OpStore, Plain, MWay2);
-    rom[AtPlanDecMore+5] = jump(Always, AtPlanNeed);
-    // too short even so: the peak speed is lowered
-    rom[AtPlanPeak+0] = code(OpLoad, Low, RV);
-    rom[AtPlanPeak+1] = code(OpMul, N16, RV);
-    rom[AtPlanPeak+2] = code(OpLoad, Plain, RMid);
-    rom[AtPlanPeak+3] = code(OpStore, Plain, MT);
-    rom[AtPlanPeak+4] = code(OpLoad, Low, RVe);
-    rom[AtPlanPeak+5] = code(OpLoad, Plain, MT);
-    rom[AtPlanPeak+6] = code(OpMul, N16, RVe);
-    rom[AtPlanPeak+7] = code(OpLoad, Plain, RMid);
-    rom[AtPlanPeak+8] = code(OpMul, N1, K0);
-    rom[AtPlanPeak+9] = code(OpStore, Plain, MT);
-    rom[AtPlanPeak+10] = code(OpLoad, Plain, RLeft);
-    rom[AtPlanPeak+11] = code(OpSub, Plain, MSlack);
-    rom[AtPlanPeak+12] = code(OpSub, Plain, K4);
-    rom[AtPlanPeak+13] = code(OpStore, Plain, MX);
-    rom[AtPlanPeak+14] = code(OpLoad, Low, K54400);
-    rom[AtPlanPeak+15] = code(OpLoad, Plain, MT);
-    rom[AtPlanPeak+16] = code(OpMul, N16, MX);
-    rom[AtPlanPeak+17] = code(OpLoad, Low, RMid);
-    rom[AtPlanPeak+18] = code(OpOut, OutNext, K0);  // 0
-    rom[AtPlanPeak+19] = code(OpRoot, Plain, RRoot);
-    rom[AtPlanPeak+20] = code(OpLoad, Plain, RRoot);
-    rom[AtPlanPeak+21] = code(OpMul, N2, K0);
-    rom[AtPlanPeak+22] = code(OpStore, Plain, MT);
-    rom[AtPlanPeak+23] = code(OpLoad, Plain, MLt);
-    rom[AtPlanPeak+24] = code(OpSub, Plain, MT);
-    rom[AtPlanPeak+25] = jump(IfNotCarry, AtPlanFree);
-    rom[AtPlanPeak+26] = code(OpLoad, Plain, MT);
-    rom[AtPlanPeak+27] = jump(Always, AtPlanGoal);
-    rom[AtPlanFree+0] = code(OpLoad, Plain, MLt);
-    // hi = speed to go to, not below V
-    rom[AtPlanGoal+0] = code(OpSub, Plain, RV);
-    rom[AtPlanGoal+1] = jump(IfZero, AtCruise);
-    rom[AtPlanGoal+2] = set(4'b0100, PhRamp, 2'b00);
-    rom[AtPlanGoal+3] = jump(Always, AtCoef);
-    // fewer than 256 steps: one straight ramp to VSTOP
-    rom[AtPlanShort+0] = code(OpLoad, Plain, RVe);
-    rom[AtPlanShort+1] = code(OpSub, Plain, RV);
-    rom[AtPlanShort+2] = jump(IfZero, AtCruise);
-    rom[AtPlanShort+3] = set(4'b0101, PhRamp, 2'b00);
-    rom[AtPlanShort+4] = jump(IfCarry, AtCoef);
-    rom[AtPlanShort+5] = set(4'b0010, PhCruise, 2'b00);
-    rom[AtPlanShort+6] = code(OpLoad, Plain, RV);
-    rom[AtPlanShort+7] = code(OpSub, Plain, RVe);
-    rom[AtPlanShort+8] = jump(Always, AtCoef);
-    rom[AtCruise+0] = set(4'b0100, PhCruise, 2'b00);
-    rom[AtPlanned+0] = code(OpLoad, Plain, RV);
-    rom[AtPlanned+1] = code(OpOut, OutNext, K0);
-    rom[AtPlanned+2] = code(OpHalt, Plain, K0);
-    // ---- ramp of height hi from V on: the increment of its coefficient
-    rom[AtCoef+0] = code(OpStore, Plain, MDv);
-    rom[AtCoef+1] = code(OpLoad, Low, K100);
-    rom[AtCoef+2] = code(OpMul, N16, MDv);
-    rom[AtCoef+3] = code(OpLoad, Plain, RMid);
-    rom[AtCoef+4] = code(OpStore, Plain, MT);
-    rom[AtCoef+5] = code(OpLoad, Low, K0);
-    rom[AtCoef+6] = code(OpLoad, Plain, RRate);
-    rom[AtCoef+7] = code(OpSub, Plain, MT);
-    rom[AtCoef+8] = jump(IfCarry, AtCoefWhole);
-    rom[AtCoef+9] = code(OpAdd, Plain, MT);
-    rom[AtCoef+10] = code(OpDiv, Plain, MT);
-    rom[AtCoef+11] = code(OpLoad, Plain, RLo);
-    rom[AtCoef+12] = jump(Always, AtRamp);
-    rom[AtCoefWhole+0] = code(OpLoad, Plain, K0);  // 2^32
-    rom[AtRamp+0] = code(OpStore, Plain, MDu);
-    rom[AtRamp+1] = code(OpLoad, Plain, RV);
-    rom[AtRamp+2] = code(OpStore, Plain, MV1);
-    rom[AtRamp+3] = code(OpLoad, Plain, K0);
-    rom[AtRamp+4] = code(OpStore, Plain, MU);
-    rom[AtRamp+5] = jump(IfPlan, AtRampPlanned);
-    rom[AtRamp+6] = jump(Always, AtWalk);
-    rom[AtRampPlanned+0] = jump(IfShort, AtFit);
-    rom[AtRampPlanned+1] = jump(Always, AtPlanned);
-    // ---- increment of a ramp from V to VSTOP within the steps left
-    rom[AtFit+0] = code(OpLoad, Plain, MLeft);
-    rom[AtFit+1] = code(OpSub, Plain, K4);
-    rom[AtFit+2] = jump(IfCarry, AtFitSome);
-    rom[AtFit+3] = code(OpLoad, Plain, K0);
-    rom[AtFitSome+0] = code(OpAdd, Plain, K1);
-    rom[AtFitSome+1] = code(OpStore, Plain, MX);  // max(1, R - 3)
-    rom[AtFitSome+2] = code(OpLoad, Low, K20000);
-    rom[AtFitSome+3] = code(OpMul, N16, MX);
-    rom[AtFitSome+4] = code(OpLoad, Plain, RMid);
-    rom[AtFitSome+5] = code(OpStore, Plain, MT);
-    rom[AtFitSome+6] = code(OpLoad, Low, K0);
-    rom[AtFitSome+7] = code(OpLoad, Plain, RV);
-    rom[AtFitSome+8] = code(OpAdd, Plain, RVe);
-    rom[AtFitSome+9] = code(OpDiv, Plain, MT);
-    rom[AtFitSome+10] = jump(IfZero, AtFitExact);
-    rom[AtFitSome+11] = code(OpLoad, Plain, K1);
-    rom[AtFitExact+0] = code(OpAdd, Plain, RLo);
-    rom[AtFitExact+1] = code(OpStore, Plain, MT);
-    rom[AtFitExact+2] = jump(IfPlan, AtFitShort);
-    rom[AtFitExact+3] = set(4'b0111, PhDec, 2'b01);
-    rom[AtFitExact+4] = code(OpLoad, Plain, RV);
-    rom[AtFitExact+5] = code(OpSub, Plain, RVe);
-    rom[AtFitExact+6] = code(OpStore, Plain, MDv);
-    rom[AtFitExact+7] = code(OpLoad, Plain, MT);
-    rom[AtFitExact+8] = jump(Always, AtRamp);
-    // the greater of both increments
-    rom[AtFitShort+0] = code(OpLoad, Plain, MDu);
-    rom[AtFitShort+1] = jump(IfZero, AtPlanned);
-    rom[AtFitShort+2] = code(OpSub, Plain, MT);
-    rom[AtFitShort+3] = jump(IfCarry, AtPlanned);
-    rom[AtFitShort+4] = code(OpLoad, Plain, MT);
-    rom[AtFitShort+5] = code(OpStore, Plain, MDu);
-    rom[AtFitShort+6] = jump(Always, AtPlanned);
-    // ---- an update tick
-    rom[AtAdvance+0] = code(OpLoad, Plain, RLeft);
-    rom[AtAdvance+1] = code(OpStore, Plain, MLeft);
-    rom[AtAdvance+2] = jump(IfEnding, AtStopping);
-    rom[AtAdvance+3] = jump(IfLive, AtLive);
-    rom[AtAdvance+4] = jump(Always, AtWalk);
-    rom[AtStopping+0] = jump(IfStop, AtWalk);
-    rom[AtStopping+1] = set(4'b0100, PhCruise, 2'b00);  // the stop request is withdrawn
-    rom[AtStopping+2] = code(OpLoad, Plain, RV);
-    rom[AtStopping+3] = code(OpStore, Plain, MLt);
-    rom[AtLive+0] = jump(IfStop, AtStop);
-    rom[AtLive+1] = jump(IfSpeed, AtTarget);
-    rom[AtLive+2] = code(OpLoad, Plain, RVe);
-    rom[AtLive+3] = code(OpSub, Plain, RV);
-    rom[AtLive+4] = jump(IfCarry, AtTarget);
-    rom[AtLive+5] = code(OpLoad, Plain, RV);
-    rom[AtLive+6] = jump(Always, AtWay);
-    rom[AtStop+0] = code(OpLoad, Plain, RVe);
-    rom[AtStop+1] = code(OpSub, Plain, RV);
-    rom[AtStop+2] = jump(IfCarry, AtStopped);
-    rom[AtStop+3] = set(4'b0111, PhStop, 2'b01);
-    rom[AtStop+4] = code(OpLoad, Plain, RV);
-    rom[AtStop+5] = code(OpSub, Plain, RVe);
-    rom[AtStop+6] = jump(Always, AtCoef);
-    rom[AtStopped+0] = set(4'b0100, PhEnd, 2'b00);
-    // ---- the next speed
-    rom[AtWalk+0] = jump(IfRamp, AtClimb);
-    rom[AtWalk+1] = jump(IfEnding, AtCompensate);
-    rom[AtWalk+2] = code(OpLoad, Plain, RV);
-    rom[AtWalk+3] = code(OpOut, OutNext, K0);
-    rom[AtWalk+4] = jump(Always, AtCompensate);
-    rom[AtClimb+0] = code(OpLoad, Plain, MDu);
-    rom[AtClimb+1] = jump(IfZero, AtClimbed);
-    rom[AtClimb+2] = code(OpAdd, Plain, MU);
-    rom[AtClimb+3] = jump(IfCarry, AtClimbed);
-    rom[AtClimb+4] = code(OpStore, Plain, MU);
-    rom[AtClimb+5] = code(OpMul, N16, K0);
-    rom[AtClimb+6] = code(OpStore, Plain, MX);
-    rom[AtClimb+7] = jump(IfSmooth, AtSmooth);
-    rom[AtClimb+8] = code(OpLoad, Low, K0);  // straight
-    rom[AtClimb+9] = code(OpLoad, Plain, MX);
-    rom[AtClimb+10] = code(OpLoad, Low, RMid);
-    rom[AtClimb+11] = jump(Always, AtShaped);
-    rom[AtSmooth+0] = code(OpLoad, Low, MX);
-    rom[AtSmooth+1] = code(OpMul, N16, MX);
-    rom[AtSmooth+2] = code(OpLoad, Plain, RMid);
-    rom[AtSmooth+3] = code(OpStore, Plain, MT);
-    rom[AtSmooth+4] = code(OpLoad, Plain, K3x2p16);
-    rom[AtSmooth+5] = code(OpSub, Plain, MX);
-    rom[AtSmooth+6] = code(OpSub, Low, MX);
-    rom[AtSmooth+7] = code(OpMul, N32, MT);
-    rom[AtSmooth+8] = code(OpLoad, Low, RMid);
-    rom[AtShaped+0] = code(OpLoad, Plain, K2p31);
-    rom[AtShaped+1] = code(OpMul, N32, MDv);
-    rom[AtShaped+2] = jump(Always, AtApply);
-    rom[AtClimbed+0] = set(4'b1000, PhCruise, 2'b00);
-    rom[AtClimbed+1] = code(OpLoad, Plain, MDv);
-    rom[AtApply+0] = code(OpStore, Plain, MT);
-    rom[AtApply+1] = code(OpLoad, Plain, MV1);
-    rom[AtApply+2] = jump(IfUp, AtApplyUp);
-    rom[AtApply+3] = code(OpSub, Plain, MT);
-    rom[AtApply+4] = jump(Always, AtApplied);
-    rom[AtApplyUp+0] = code(OpAdd, Plain, MT);
-    rom[AtApplied+0] = code(OpOut, OutNext, K0);
-    // ---- full-step speed, base code, Bn and Wn
-    rom[AtCompensate+0] = code(OpLoad, Low, RV);
-    rom[AtCompensate+1] = code(OpDiv, Plain, RMstep);
-    rom[AtCompensate+2] = code(OpLoad, Plain, RLo);
-    rom[AtCompensate+3] = code(OpStore, Plain, MX);
-    rom[AtCompensate+4] = code(OpLoad, Plain, RCur);
-    rom[AtCompensate+5] = code(OpSub, Low, K325);
-    rom[AtCompensate+6] = code(OpDiv, Plain, K150);
-    rom[AtCompensate+7] = code(OpLoad, Low, RLo);
-    rom[AtCompensate+8] = code(OpLoad, Plain, K416);
-    rom[AtCompensate+9] = code(OpMul, N16, K153);
-    rom[AtCompensate+10] = code(OpLoad, Plain, RMid);
-    rom[AtCompensate+11] = code(OpMul, N4, K0);
-    rom[AtCompensate+12] = code(OpAdd, Low, K0);
-    rom[AtCompensate+13] = code(OpMul, N16, RCcomp);
-    rom[AtCompensate+14] = code(OpLoad, Plain, RMid);
-    rom[AtCompensate+15] = code(OpStore, Plain, MT);
-    rom[AtCompensate+16] = code(OpLoad, Low, MX);
-    rom[AtCompensate+17] = code(OpMul, N16, MT);
-    rom[AtCompensate+18] = code(OpOut, OutBump, K0);
-    rom[AtCompensate+19] = code(OpLoad, Low, MX);
-    rom[AtCompensate+20] = code(OpMul, N16, RScomp);
-    rom[AtCompensate+21] = code(OpOut, OutLead, K0);
-    rom[AtCompensate+22] = code(OpHalt, Plain, K0);
+    for (int unsigned i = ProgramWords; i < 512; i++) rom[i] = 17'h00010;  // halt
+    // EntryPlan:
+    rom[0]   = 17'h14002;  // jump Plan
+    // EntryTick:
+    rom[1]   = 17'h140c3;  // jump Advance
+    // Plan:
+    rom[2]   = 17'h02022;  // load RLeft
+    rom[3]   = 17'h08005;  // store MLeft
+    // Target:
+    rom[4]   = 17'h14e07;  // jump TargetAdc if Analog
+    rom[5]   = 17'h02023;  // load RVmax
+    rom[6]   = 17'h1400b;  // jump TargetDone
+    // TargetAdc:
+    rom[7]   = 17'h02024;  // load RAdc
+    rom[8]   = 17'h04425;  // add.lo RAdc9
+    rom[9]   = 17'h0a823;  // mul.32 RVmax
+    rom[10]  = 17'h0202b;  // load RMid
+    // TargetDone:
+    rom[11]  = 17'h1501d;  // jump PlanTarget if Plan
+    rom[12]  = 17'h06000;  // sub MLt
+    rom[13]  = 17'h146db;  // jump Walk if Zero
+    rom[14]  = 17'h04000;  // add MLt
+    rom[15]  = 17'h08000;  // store MLt
+    rom[16]  = 17'h06020;  // sub RV
+    rom[17]  = 17'h1461b;  // jump Reached if Zero
+    rom[18]  = 17'h12e13;  // set phase=Ramp up=1 smooth=1
+    rom[19]  = 17'h14e19;  // jump Straight if Analog
+    // Retarget:
+    rom[20]  = 17'h1428c;  // jump Coef if Carry
+    rom[21]  = 17'h12400;  // set up=0
+    rom[22]  = 17'h02020;  // load RV
+    rom[23]  = 17'h06000;  // sub MLt
+    rom[24]  = 17'h1408c;  // jump Coef
+    // Straight:
+    rom[25]  = 17'h12200;  // set smooth=0
+    rom[26]  = 17'h14014;  // jump Retarget
+    // Reached:
+    rom[27]  = 17'h12800;  // set phase=Cruise
+    rom[28]  = 17'h140db;  // jump Walk
+    // PlanTarget:
+    rom[29]  = 17'h08000;  // store MLt
+    rom[30]  = 17'h1487f;  // jump PlanShort if Short
+    rom[31]  = 17'h06020;  // sub RV
+    rom[32]  = 17'h14224;  // jump PlanFast if Carry
+    rom[33]  = 17'h02000;  // load MLt
+    rom[34]  = 17'h10210;  // out Speed
+    rom[35]  = 17'h14088;  // jump Cruise
+    // PlanFast:
+    rom[36]  = 17'h14a7a;  // jump PlanFree if Speed
+    rom[37]  = 17'h02000;  // load MLt
+    rom[38]  = 17'h06021;  // sub RVe
+    rom[39]  = 17'h1447a;  // jump PlanFree if NotCarry
+    rom[40]  = 17'h02000;  // load MLt
+    rom[41]  = 17'h04020;  // add RV
+    rom[42]  = 17'h08006;  // store MT
+    rom[43]  = 17'h02000;  // load MLt
+    rom[44]  = 17'h06420;  // sub.lo RV
+    rom[45]  = 17'h0a606;  // mul.16 MT
+    rom[46]  = 17'h0202b;  // load RMid
+    rom[47]  = 17'h0402f;  // add RWay
+    rom[48]  = 17'h06411;  // sub.lo K1
+    rom[49]  = 17'h0c02f;  // div RWay
+    rom[50]  = 17'h0202a;  // load RLo
+    rom[51]  = 17'h08008;  // store MWay1
+    rom[52]  = 17'h02000;  // load MLt
+    // Way:
+    rom[53]  = 17'h08007;  // store MX
+    rom[54]  = 17'h04021;  // add RVe
+    rom[55]  = 17'h08006;  // store MT
+    rom[56]  = 17'h02007;  // load MX
+    rom[57]  = 17'h06421;  // sub.lo RVe
+    rom[58]  = 17'h0a606;  // mul.16 MT
+    rom[59]  = 17'h0202b;  // load RMid
+    rom[60]  = 17'h0422f;  // add.dec RWay
+    rom[61]  = 17'h06411;  // sub.lo K1
+    rom[62]  = 17'h0c22f;  // div.dec RWay
+    rom[63]  = 17'h02007;  // load MX
+    rom[64]  = 17'h0202c;  // load RMargin
+    rom[65]  = 17'h15046;  // jump PlanWay if Plan
+    rom[66]  = 17'h0402a;  // add RLo
+    rom[67]  = 17'h06005;  // sub MLeft
+    rom[68]  = 17'h142a3;  // jump Fit if Carry
+    rom[69]  = 17'h14004;  // jump Target
+    // PlanWay:
+    rom[70]  = 17'h0800a;  // store MSlack
+    rom[71]  = 17'h0202a;  // load RLo
+    rom[72]  = 17'h08009;  // store MWay2
+    // PlanNeed:
+    rom[73]  = 17'h02008;  // load MWay1
+    rom[74]  = 17'h04009;  // add MWay2
+    rom[75]  = 17'h0400a;  // add MSlack
+    rom[76]  = 17'h0401c;  // add K3
+    rom[77]  = 17'h06022;  // sub RLeft
+    rom[78]  = 17'h1447a;  // jump PlanFree if NotCarry
+    rom[79]  = 17'h15c57;  // jump PlanDec if Acc5
+    rom[80]  = 17'h10810;  // out Acc
+    rom[81]  = 17'h02008;  // load MWay1
+    rom[82]  = 17'h04011;  // add K1
+    rom[83]  = 17'h0a010;  // shift.1
+    rom[84]  = 17'h08008;  // store MWay1
+    rom[85]  = 17'h15e49;  // jump PlanNeed if Dec5
+    rom[86]  = 17'h14058;  // jump PlanDecMore
+    // PlanDec:
+    rom[87]  = 17'h15e5e;  // jump PlanPeak if Dec5
+    // PlanDecMore:
+    rom[88]  = 17'h10a10;  // out Dec
+    rom[89]  = 17'h02009;  // load MWay2
+    rom[90]  = 17'h04011;  // add K1
+    rom[91]  = 17'h0a010;  // shift.1
+    rom[92]  = 17'h08009;  // store MWay2
+    rom[93]  = 17'h14049;  // jump PlanNeed
+    // PlanPeak:
+    rom[94]  = 17'h02420;  // load.lo RV
+    rom[95]  = 17'h0a620;  // mul.16 RV
+    rom[96]  = 17'h0202b;  // load RMid
+    rom[97]  = 17'h08006;  // store MT
+    rom[98]  = 17'h02421;  // load.lo RVe
+    rom[99]  = 17'h02006;  // load MT
+    rom[100] = 17'h0a621;  // mul.16 RVe
+    rom[101] = 17'h0202b;  // load RMid
+    rom[102] = 17'h0a010;  // shift.1
+    rom[103] = 17'h08006;  // store MT
+    rom[104] = 17'h02022;  // load RLeft
+    rom[105] = 17'h0600a;  // sub MSlack
+    rom[106] = 17'h06012;  // sub K4
+    rom[107] = 17'h08007;  // store MX
+    rom[108] = 17'h02419;  // load.lo K54400
+    rom[109] = 17'h02006;  // load MT
+    rom[110] = 17'h0a607;  // mul.16 MX
+    rom[111] = 17'h0242b;  // load.lo RMid
+    rom[112] = 17'h10010;  // out Next
+    rom[113] = 17'h0e02d;  // root
+    rom[114] = 17'h0202d;  // load RRoot
+    rom[115] = 17'h0a210;  // shift.2
+    rom[116] = 17'h08006;  // store MT
+    rom[117] = 17'h02000;  // load MLt
+    rom[118] = 17'h06006;  // sub MT
+    rom[119] = 17'h1447a;  // jump PlanFree if NotCarry
+    rom[120] = 17'h02006;  // load MT
+    rom[121] = 17'h1407b;  // jump PlanGoal
+    // PlanFree:
+    rom[122] = 17'h02000;  // load MLt
+    // PlanGoal:
+    rom[123] = 17'h06020;  // sub RV
+    rom[124] = 17'h14688;  // jump Cruise if Zero
+    rom[125] = 17'h12810;  // set phase=Ramp
+    rom[126] = 17'h1408c;  // jump Coef
+    // PlanShort:
+    rom[127] = 17'h02021;  // load RVe
+    rom[128] = 17'h06020;  // sub RV
+    rom[129] = 17'h14688;  // jump Cruise if Zero
+    rom[130] = 17'h12a10;  // set phase=Ramp smooth=0
+    rom[131] = 17'h1428c;  // jump Coef if Carry
+    rom[132] = 17'h12400;  // set up=0
+    rom[133] = 17'h02020;  // load RV
+    rom[134] = 17'h06021;  // sub RVe
+    rom[135] = 17'h1408c;  // jump Coef
+    // Cruise:
+    rom[136] = 17'h12800;  // set phase=Cruise
+    // Planned:
+    rom[137] = 17'h02020;  // load RV
+    rom[138] = 17'h10010;  // out Next
+    rom[139] = 17'h00010;  // halt
+    // Coef:
+    rom[140] = 17'h08004;  // store MDv
+    rom[141] = 17'h02413;  // load.lo K100
+    rom[142] = 17'h0a604;  // mul.16 MDv
+    rom[143] = 17'h0202b;  // load RMid
+    rom[144] = 17'h08006;  // store MT
+    rom[145] = 17'h02410;  // load.lo K0
+    rom[146] = 17'h0202e;  // load RRate
+    rom[147] = 17'h06006;  // sub MT
+    rom[148] = 17'h14299;  // jump CoefWhole if Carry
+    rom[149] = 17'h04006;  // add MT
+    rom[150] = 17'h0c006;  // div MT
+    rom[151] = 17'h0202a;  // load RLo
+    rom[152] = 17'h1409a;  // jump Ramp
+    // CoefWhole:
+    rom[153] = 17'h02010;  // load K0
+    // Ramp:
+    rom[154] = 17'h08002;  // store MDu
+    rom[155] = 17'h02020;  // load RV
+    rom[156] = 17'h08003;  // store MV1
+    rom[157] = 17'h02010;  // load K0
+    rom[158] = 17'h08001;  // store MU
+    rom[159] = 17'h150a1;  // jump RampPlanned if Plan
+    rom[160] = 17'h140db;  // jump Walk
+    // RampPlanned:
+    rom[161] = 17'h148a3;  // jump Fit if Short
+    rom[162] = 17'h14089;  // jump Planned
+    // Fit:
+    rom[163] = 17'h02005;  // load MLeft
+    rom[164] = 17'h06012;  // sub K4
+    rom[165] = 17'h142a7;  // jump FitSome if Carry
+    rom[166] = 17'h02010;  // load K0
+    // FitSome:
+    rom[167] = 17'h04011;  // add K1
+    rom[168] = 17'h08007;  // store MX
+    rom[169] = 17'h02418;  // load.lo K20000
+    rom[170] = 17'h0a607;  // mul.16 MX
+    rom[171] = 17'h0202b;  // load RMid
+    rom[172] = 17'h08006;  // store MT
+    rom[173] = 17'h02410;  // load.lo K0
+    rom[174] = 17'h02020;  // load RV
+    rom[175] = 17'h04021;  // add RVe
+    rom[176] = 17'h0c006;  // div MT
+    rom[177] = 17'h146b3;  // jump FitExact if Zero
+    rom[178] = 17'h02011;  // load K1
+    // FitExact:
+    rom[179] = 17'h0402a;  // add RLo
+    rom[180] = 17'h08006;  // store MT
+    rom[181] = 17'h150bc;  // jump FitShort if Plan
+    rom[182] = 17'h12e15;  // set phase=Dec up=0 smooth=1
+    rom[183] = 17'h02020;  // load RV
+    rom[184] = 17'h06021;  // sub RVe
+    rom[185] = 17'h08004;  // store MDv
+    rom[186] = 17'h02006;  // load MT
+    rom[187] = 17'h1409a;  // jump Ramp
+    // FitShort:
+    rom[188] = 17'h02002;  // load MDu
+    rom[189] = 17'h14689;  // jump Planned if Zero
+    rom[190] = 17'h06006;  // sub MT
+    rom[191] = 17'h14289;  // jump Planned if Carry
+    rom[192] = 17'h02006;  // load MT
+    rom[193] = 17'h08002;  // store MDu
+    rom[194] = 17'h14089;  // jump Planned
+    // Advance:
+    rom[195] = 17'h02022;  // load RLeft
+    rom[196] = 17'h08005;  // store MLeft
+    rom[197] = 17'h152c8;  // jump Stopping if Ending
+    rom[198] = 17'h156cc;  // jump Live if Live
+    rom[199] = 17'h140db;  // jump Walk
+    // Stopping:
+    rom[200] = 17'h14cdb;  // jump Walk if Stop
+    rom[201] = 17'h12800;  // set phase=Cruise
+    rom[202] = 17'h02020;  // load RV
+    rom[203] = 17'h08000;  // store MLt
+    // Live:
+    rom[204] = 17'h14cd3;  // jump Stop if Stop
+    rom[205] = 17'h14a04;  // jump Target if Speed
+    rom[206] = 17'h02021;  // load RVe
+    rom[207] = 17'h06020;  // sub RV
+    rom[208] = 17'h14204;  // jump Target if Carry
+    rom[209] = 17'h02020;  // load RV
+    rom[210] = 17'h14035;  // jump Way
+    // Stop:
+    rom[211] = 17'h02021;  // load RVe
+    rom[212] = 17'h06020;  // sub RV
+    rom[213] = 17'h142da;  // jump Stopped if Carry
+    rom[214] = 17'h12e19;  // set phase=Stop up=0 smooth=1
+    rom[215] = 17'h02020;  // load RV
+    rom[216] = 17'h06021;  // sub RVe
+    rom[217] = 17'h1408c;  // jump Coef
+    // Stopped:
+    rom[218] = 17'h12808;  // set phase=End
+    // Walk:
+    rom[219] = 17'h154e0;  // jump Climb if Ramp
+    rom[220] = 17'h15301;  // jump Compensate if Ending
+    rom[221] = 17'h02020;  // load RV
+    rom[222] = 17'h10010;  // out Next
+    rom[223] = 17'h14101;  // jump Compensate
+    // Climb:
+    rom[224] = 17'h02002;  // load MDu
+    rom[225] = 17'h146f8;  // jump Climbed if Zero
+    rom[226] = 17'h04001;  // add MU
+    rom[227] = 17'h142f8;  // jump Climbed if Carry
+    rom[228] = 17'h08001;  // store MU
+    rom[229] = 17'h0a610;  // shift.16
+    rom[230] = 17'h08007;  // store MX
+    rom[231] = 17'h15aec;  // jump Smooth if Smooth
+    rom[232] = 17'h02410;  // load.lo K0
+    rom[233] = 17'h02007;  // load MX
+    rom[234] = 17'h0242b;  // load.lo RMid
+    rom[235] = 17'h140f5;  // jump Shaped
+    // Smooth:
+    rom[236] = 17'h02407;  // load.lo MX
+    rom[237] = 17'h0a607;  // mul.16 MX
+    rom[238] = 17'h0202b;  // load RMid
+    rom[239] = 17'h08006;  // store MT
+    rom[240] = 17'h0201a;  // load K3x2p16
+    rom[241] = 17'h06007;  // sub MX
+    rom[242] = 17'h06407;  // sub.lo MX
+    rom[243] = 17'h0a806;  // mul.32 MT
+    rom[244] = 17'h0242b;  // load.lo RMid
+    // Shaped:
+    rom[245] = 17'h0201b;  // load K2p31
+    rom[246] = 17'h0a804;  // mul.32 MDv
+    rom[247] = 17'h140fa;  // jump Apply
+    // Climbed:
+    rom[248] = 17'h13000;  // set over
+    rom[249] = 17'h02004;  // load MDv
+    // Apply:
+    rom[250] = 17'h08006;  // store MT
+    rom[251] = 17'h02003;  // load MV1
+    rom[252] = 17'h158ff;  // jump ApplyUp if Up
+    rom[253] = 17'h06006;  // sub MT
+    rom[254] = 17'h14100;  // jump Applied
+    // ApplyUp:
+    rom[255] = 17'h04006;  // add MT
+    // Applied:
+    rom[256] = 17'h10010;  // out Next
+    // Compensate:
+    rom[257] = 17'h02420;  // load.lo RV
+    rom[258] = 17'h0c029;  // div RMstep
+    rom[259] = 17'h0202a;  // load RLo
+    rom[260] = 17'h08007;  // store MX
+    rom[261] = 17'h02026;  // load RCur
+    rom[262] = 17'h06416;  // sub.lo K325
+    rom[263] = 17'h0c014;  // div K150
+    rom[264] = 17'h0242a;  // load.lo RLo
+    rom[265] = 17'h02017;  // load K416
+    rom[266] = 17'h0a615;  // mul.16 K153
+    rom[267] = 17'h0202b;  // load RMid
+    rom[268] = 17'h0a410;  // shift.4
+    rom[269] = 17'h04410;  // add.lo K0
+    rom[270] = 17'h0a627;  // mul.16 RCcomp
+    rom[271] = 17'h0202b;  // load RMid
+    rom[272] = 17'h08006;  // store MT
+    rom[273] = 17'h02407;  // load.lo MX
+    rom[274] = 17'h0a606;  // mul.16 MT
+    rom[275] = 17'h10410;  // out Bump
+    rom[276] = 17'h02407;  // load.lo MX
+    rom[277] = 17'h0a628;  // mul.16 RScomp
+    rom[278] = 17'h10610;  // out Lead
+    rom[279] = 17'h00010;  // halt
   end
 
   always_ff @(posedge clk_i) if (fetch_i) code_o <= rom[addr_i];

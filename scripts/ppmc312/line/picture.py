@@ -12,10 +12,9 @@ from matplotlib.axes import Axes
 from cocotb_tests.harness.comparison import Comparison
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up
 from openppmc.plot.signals import Run, Section, Trace
-from scripts.demo.scenes import pin
+from scripts.demo.scenes import heading, pin
 from scripts.ppmc312.line.talk import Exchange
 from scripts.ppmc312.line.waves import positions
-from scripts.ppmc312.picture import heading
 
 if TYPE_CHECKING:
     from scripts.ppmc312.line.demo import LineRun

@@ -101,7 +101,7 @@ def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.Monkey
     port = loopback.ModelLine("speed=max,address=1", 9600, "pmc006")
     port.close = lambda: None  # type: ignore[method-assign]
     monkeypatch.setattr(Pmc006Bus, "open", lambda spec, **options: Pmc006Bus(Line(port)))
-    part = port.line.boards[0].part
+    part = port.line.stations[0].part
     for pps, forward in ((700, 1), (900, 1), (-650, 0)):
         assert run(*PART, "speed", str(pps), *ONE).out == f"runs at {pps} steps/s\n"
         port.read(0.3)

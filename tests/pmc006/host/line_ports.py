@@ -60,7 +60,7 @@ class SpoiledLine(Spoiled):
 
     def node(self, number: int = 255) -> Node:
         """The model of a controller."""
-        node: Node = self.line.board(number)
+        node: Node = self.line.station(number)
         return node
 
 

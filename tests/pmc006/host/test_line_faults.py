@@ -300,7 +300,7 @@ def test_two_with_one_address() -> None:
     """Equal replies lie over each other; as soon as they differ there is garbage."""
     with Pmc006Bus.open("model:speed=max,address=3,twin=3") as bus:
         assert bus.scan([3])[0].trouble == ""
-        for number, board in enumerate(bus.line.port.line.boards):  # type: ignore[attr-defined]
+        for number, board in enumerate(bus.line.port.line.stations):  # type: ignore[attr-defined]
             board.part.desk.settings.exten = 1 + number
         found = bus.scan([3, 4])
         assert len(found) == 1 and "two controllers with this address" in found[0].trouble
@@ -353,7 +353,7 @@ def test_noise(seed: int) -> None:
                 wanted = part.position
                 continue
             wanted += steps
-            assert part.position == wanted == part.line.port.line.boards[0].part.position  # type: ignore[attr-defined]
+            assert part.position == wanted == part.line.port.line.stations[0].part.position  # type: ignore[attr-defined]
         assert part.counters.faults
 
 

@@ -58,10 +58,10 @@ from openppmc.host.ppmc312.errors import (
     TableRefused,
 )
 from openppmc.host.ppmc312.registers import EventBuffer
-from openppmc.model.carrier.plant import parse_machine
 from openppmc.model.ppmc312.carrier import Carrier
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Code, Source, State
+from openppmc.sim.common.machine import parse_machine
 
 TF = ((2500, 3), (5000, 4), (10_000, 5))
 """Rates 400, 200, 100 with 3, 4, 5 pulses at 1 MHz (table TF of the rules)."""

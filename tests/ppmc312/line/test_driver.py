@@ -67,7 +67,7 @@ def line(text: str = "stations=2", initialised: int | None = 1) -> Iterator[Ppmc
 
 def pins(bus: Ppmc312Bus, station: int, **levels: int) -> None:
     """Pins of a station's part; the others are those of the plant."""
-    bus.line.port.line.board(station).set_pins(**levels)  # type: ignore[attr-defined]
+    bus.line.port.line.station(station).set_pins(**levels)  # type: ignore[attr-defined]
 
 
 def test_moves_of_one_station() -> None:
@@ -292,7 +292,7 @@ def test_terminals() -> None:
         axis.auxo(0x15)
         axis.counter_clear()
         axis.zero_clamp()
-        outputs = bus.line.port.line.board(1).part.outputs  # type: ignore[attr-defined]
+        outputs = bus.line.port.line.station(1).part.outputs  # type: ignore[attr-defined]
         levels = [outputs[name] for name in ("exon_n", "auxo_n", "cclr_n", "zclmp_n")]
         assert levels == [0, 0x2A, 0, 0]
 

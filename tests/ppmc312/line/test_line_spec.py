@@ -93,7 +93,7 @@ def test_stations_run_while_others_are_asked() -> None:
         line.run(320_000)
     line.write(frame(0x91, b"\x42"))
     line.run(16_000_000)
-    assert line.boards[0].position < 4100 and 5010 < line.board(0).position < 5030
+    assert line.stations[0].position < 4100 and 5010 < line.station(0).position < 5030
 
 
 def test_the_master_hears_itself_if_asked_for() -> None:

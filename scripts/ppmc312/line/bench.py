@@ -24,6 +24,7 @@ from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.master import Master, at_once
 from cocotb_tests.ppmc312.line.models import ModelLine
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
+from scripts.flow.machine import machine
 from scripts.flow.report import markdown_table
 
 NAME = "ppmc312-serial"
@@ -91,8 +92,6 @@ def rows_of(measured: list[tuple[str, int, float, float]], clk_hz: int) -> list[
 
 def main() -> int:
     """Measure, print, write docs/benchmarks.md."""
-    from scripts.bench import machine
-
     try:
         measured = measure()
     except SimError as error:

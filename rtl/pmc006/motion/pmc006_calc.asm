@@ -1,0 +1,377 @@
+; SPDX-License-Identifier: Apache-2.0
+; The planner's program of the PMC006B4: planning of a motion, the update tick, compensation.
+; Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
+; `make rom` writes pmc006_calc_rom.sv and the entries in pmc006_calc_pkg.sv from it; `make lint` compares them.
+;
+; hi and lo are the accumulator pair of pmc006_calc, 32 bits each. Names of words (M…), constants (K…), registers (R…),
+; conditions, outputs and phases are those of pmc006_calc_pkg, there with their meaning.
+;
+;   load X           hi = X
+;   add X            hi = hi + X; Carry: it did not fit
+;   sub X            hi = hi - X; Carry: X was not greater
+;   load.lo, add.lo, sub.lo    the same, but the result goes to lo, and hi = 0
+;   mul.N X          {hi, lo} = hi + X * (the lowest N bits of lo); N = 1, 2, 4, 16, 32. After 16 the product is RMid
+;   shift.N          {hi, lo} moves right by N bits; it is mul.N K0
+;   div X            lo = {hi, lo} / X, hi = the remainder
+;   add.dec, sub.dec, div.dec  with RWay of the deceleration
+;   root             VN = square root of lo, hi = 0; VN must be 0 before
+;   store M          word M = hi
+;   out O            output O = hi; out Acc, out Dec: that coefficient goes up by one
+;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp is over
+;   jump L [if C]    go on at label L; without a condition always
+;   halt             the run is over
+;
+; Shorthand: V speed in force, VN the next one, LT live target, VE = VSTOP, R steps left, na, nd the coefficients.
+
+; ---- where a start and an update tick enter: labels Entry… go into the package
+
+EntryPlan:
+        jump Plan
+EntryTick:
+        jump Advance
+
+; ---- a motion has been accepted: V = VSTART
+
+Plan:
+        load RLeft              ; R does not stand still for long
+        store MLeft
+
+Target: ; the live target
+        jump TargetAdc if Analog
+        load RVmax              ; LT = VMAX
+        jump TargetDone
+TargetAdc:
+        load RAdc               ; h << 6
+        add.lo RAdc9            ; (h + h[9]) << 6: the largest h is all of VMAX
+        mul.32 RVmax
+        load RMid               ; LT = VMAX * (h + h[9]) / 1024
+TargetDone:
+        jump PlanTarget if Plan
+        sub MLt                 ; retarget if it has changed
+        jump Walk if Zero
+        add MLt
+        store MLt               ; the new target
+        sub RV
+        jump Reached if Zero    ; it is the speed in force
+        set phase=Ramp up=1 smooth=1
+        jump Straight if Analog
+Retarget:                       ; hi = LT - V, with its carry
+        jump Coef if Carry
+        set up=0                ; downwards: its height is V - LT
+        load RV
+        sub MLt
+        jump Coef
+Straight:
+        set smooth=0            ; analog targets are followed without S
+        jump Retarget
+Reached:
+        set phase=Cruise        ; no ramp is left to do
+        jump Walk
+
+PlanTarget: ; hi = the target that planning begins with
+        store MLt
+        jump PlanShort if Short
+        sub RV
+        jump PlanFast if Carry
+        load MLt                ; below VSTART: the target itself, all the way
+        out Speed
+        jump Cruise
+PlanFast:
+        jump PlanFree if Speed  ; speed mode has no way to fit into
+        load MLt
+        sub RVe
+        jump PlanFree if NotCarry ; below VSTOP: nothing to slow down
+        load MLt                ; ways of both ramps at the coefficients set
+        add RV
+        store MT                ; LT + V
+        load MLt
+        sub.lo RV               ; LT - V
+        mul.16 MT
+        load RMid               ; LT^2 - V^2
+        add RWay
+        sub.lo K1               ; to round up
+        div RWay
+        load RLo
+        store MWay1             ; way of the acceleration
+        load MLt                ; and that of the deceleration follows
+
+Way:    ; way from speed hi down to VSTOP
+        store MX
+        add RVe
+        store MT                ; hi + VE
+        load MX
+        sub.lo RVe              ; hi - VE
+        mul.16 MT
+        load RMid               ; hi^2 - VE^2
+        add.dec RWay
+        sub.lo K1               ; to round up
+        div.dec RWay
+        load MX
+        load RMargin            ; margin(hi)
+        jump PlanWay if Plan
+        add RLo                 ; stopping distance
+        sub MLeft
+        jump Fit if Carry       ; it is time to slow down
+        jump Target
+PlanWay:
+        store MSlack            ; margin(LT)
+        load RLo
+        store MWay2             ; way of the deceleration
+
+PlanNeed: ; do both ways fit? else steeper ramps, up to 5
+        load MWay1
+        add MWay2
+        add MSlack
+        add K3
+        sub RLeft               ; Carry: more than there is
+        jump PlanFree if NotCarry
+        jump PlanDec if Acc5
+        out Acc                 ; na + 1 halves the way
+        load MWay1
+        add K1                  ; rounded up
+        shift.1
+        store MWay1
+        jump PlanNeed if Dec5
+        jump PlanDecMore
+PlanDec:
+        jump PlanPeak if Dec5
+PlanDecMore:
+        out Dec                 ; nd + 1 halves the other
+        load MWay2
+        add K1                  ; rounded up
+        shift.1
+        store MWay2
+        jump PlanNeed
+
+PlanPeak: ; too short even so: the peak speed is lowered
+        load.lo RV
+        mul.16 RV
+        load RMid               ; V^2
+        store MT
+        load.lo RVe
+        load MT
+        mul.16 RVe
+        load RMid               ; V^2 + VE^2
+        shift.1
+        store MT                ; half of it
+        load RLeft
+        sub MSlack
+        sub K4
+        store MX                ; steps for both ramps
+        load.lo K54400          ; the steepest acceleration, 1700 << 5
+        load MT
+        mul.16 MX
+        load.lo RMid            ; square of the peak speed
+        out Next                ; VN = 0 for the root
+        root
+        load RRoot              ; 4 * VN + 1
+        shift.2
+        store MT                ; peak speed
+        load MLt
+        sub MT
+        jump PlanFree if NotCarry ; above the target: that counts
+        load MT
+        jump PlanGoal
+PlanFree:
+        load MLt                ; up to the target
+
+PlanGoal: ; hi = speed to go to, not below V
+        sub RV
+        jump Cruise if Zero     ; it is there already
+        set phase=Ramp          ; a start has set up and smooth
+        jump Coef
+
+PlanShort: ; fewer than 256 steps: one straight ramp to VSTOP
+        load RVe
+        sub RV
+        jump Cruise if Zero     ; VSTART = VSTOP: no ramp
+        set phase=Ramp smooth=0
+        jump Coef if Carry      ; upwards
+        set up=0
+        load RV                 ; downwards
+        sub RVe
+        jump Coef
+Cruise:
+        set phase=Cruise
+Planned:
+        load RV
+        out Next                ; the first interval has the speed in force
+        halt
+
+; ---- ramp of height hi from V on: the increment of its coefficient
+
+Coef:
+        store MDv               ; height
+        load.lo K100
+        mul.16 MDv
+        load RMid
+        store MT                ; 100 * height
+        load.lo K0              ; lo = 0
+        load RRate              ; 17 << coefficient
+        sub MT
+        jump CoefWhole if Carry ; the whole ramp in one update
+        add MT
+        div MT                  ; 2^32 * rate / (100 * height)
+        load RLo
+        jump Ramp
+CoefWhole:
+        load K0                 ; stands for 2^32
+
+Ramp:   ; hi = increment; the ramp begins at V
+        store MDu
+        load RV
+        store MV1               ; first speed
+        load K0
+        store MU                ; no progress yet
+        jump RampPlanned if Plan
+        jump Walk
+RampPlanned:
+        jump Fit if Short       ; VSTOP must be reached within the steps
+        jump Planned
+
+; ---- increment of a ramp from V to VSTOP within the steps left
+
+Fit:
+        load MLeft
+        sub K4
+        jump FitSome if Carry
+        load K0                 ; fewer than 4 steps are left
+FitSome:
+        add K1
+        store MX                ; max(1, R - 3)
+        load.lo K20000
+        mul.16 MX
+        load RMid
+        store MT                ; 20000 * steps
+        load.lo K0              ; lo = 0
+        load RV
+        add RVe
+        div MT                  ; 2^32 * (V + VE) / (20000 * steps)
+        jump FitExact if Zero
+        load K1                 ; to round up
+FitExact:
+        add RLo
+        store MT                ; increment
+        jump FitShort if Plan
+        set phase=Dec up=0 smooth=1
+        load RV
+        sub RVe
+        store MDv               ; height
+        load MT
+        jump Ramp
+FitShort: ; the greater of both increments
+        load MDu
+        jump Planned if Zero    ; 2^32 is the greater one
+        sub MT
+        jump Planned if Carry
+        load MT
+        store MDu
+        jump Planned
+
+; ---- an update tick
+
+Advance:
+        load RLeft              ; R of this tick
+        store MLeft
+        jump Stopping if Ending
+        jump Live if Live
+        jump Walk               ; DEC, CREEP: nothing to decide
+Stopping:
+        jump Walk if Stop       ; the request stands
+        set phase=Cruise        ; the stop request is withdrawn
+        load RV
+        store MLt               ; the target is looked at anew
+Live:
+        jump Stop if Stop
+        jump Target if Speed    ; no way to keep
+        load RVe
+        sub RV
+        jump Target if Carry    ; not above VSTOP: nothing to slow down
+        load RV
+        jump Way                ; is it time to slow down?
+Stop:
+        load RVe
+        sub RV
+        jump Stopped if Carry   ; slow enough to stand still at once
+        set phase=Stop up=0 smooth=1
+        load RV
+        sub RVe                 ; height
+        jump Coef
+Stopped:
+        set phase=End           ; and on to the next speed
+
+; ---- the next speed
+
+Walk:
+        jump Climb if Ramp
+        jump Compensate if Ending ; VN stands
+        load RV
+        out Next                ; VN = V
+        jump Compensate
+Climb:
+        load MDu
+        jump Climbed if Zero    ; 2^32: the ramp is over with its first update
+        add MU
+        jump Climbed if Carry   ; progress has passed 2^32
+        store MU
+        shift.16
+        store MX                ; x = progress / 2^16
+        jump Smooth if Smooth
+        load.lo K0              ; straight: x * 2^16
+        load MX
+        load.lo RMid            ; lo = part of the way, of 2^32
+        jump Shaped
+Smooth:                         ; (3 * x^2 * 2^16 - 2 * x^3) / 2^16
+        load.lo MX
+        mul.16 MX
+        load RMid               ; x^2
+        store MT
+        load K3x2p16            ; 3 * 2^16
+        sub MX
+        sub.lo MX               ; 3 * 2^16 - 2 * x
+        mul.32 MT
+        load.lo RMid            ; lo = part of the way, of 2^32
+Shaped:
+        load K2p31              ; to round to the nearest
+        mul.32 MDv              ; hi = height * part / 2^32
+        jump Apply
+Climbed:
+        set over                ; what follows the ramp
+        load MDv                ; all of its height
+Apply:                          ; hi = change of speed since the ramp began
+        store MT
+        load MV1
+        jump ApplyUp if Up
+        sub MT
+        jump Applied
+ApplyUp:
+        add MT
+Applied:
+        out Next                ; VN
+
+; ---- full-step speed, base code, Bn and Wn
+
+Compensate:
+        load.lo RV
+        div RMstep
+        load RLo
+        store MX                ; full-step speed, steps/s
+        load RCur
+        sub.lo K325
+        div K150
+        load.lo RLo             ; k = (current - 325 mA) / 150 mA
+        load K416
+        mul.16 K153
+        load RMid               ; 416 + 153 * k
+        shift.4                 ; base code RB
+        add.lo K0               ; lo = RB
+        mul.16 RCcomp
+        load RMid               ; RB * CCOMP
+        store MT
+        load.lo MX
+        mul.16 MT
+        out Bump                ; Bn = speed * RB * CCOMP / 2^22
+        load.lo MX
+        mul.16 RScomp
+        out Lead                ; Wn = speed * SCOMP / 2^16, 64 at most
+        halt

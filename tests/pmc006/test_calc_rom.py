@@ -1,0 +1,161 @@
+"""The assembler of the planner's program (`make rom`): words, labels, one line for each mistake."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.project import ProjectError
+from scripts.pmc006 import calc_rom
+from scripts.pmc006.calc_asm import WORDS, AsmError, Program, assemble, names_of
+
+NAMES = names_of(calc_rom.PACKAGE.read_text())
+FORMS = [
+    ("load RLeft", "Load Plain RLeft"),
+    ("add.dec RWay", "Add Dec RWay"),
+    ("sub.lo K1", "Sub Low K1"),
+    ("div.lo.dec RWay", "Div LowDec RWay"),
+    ("store MWay1", "Store Plain MWay1"),
+    ("mul.16 RVe", "Mul N16 RVe"),
+    ("shift.4", "Mul N4 K0"),
+    ("root", "Root Plain RRoot"),
+    ("halt", "Halt Plain K0"),
+    ("out Lead", "Out OutLead K0"),
+]
+MISTAKES = [
+    ("lod RLeft", "lod is no instruction"),
+    ("load RLeeft", "there is no operand RLeeft, but RLeft"),
+    ("load", "load takes one word, not 0"),
+    ("load.hi RV", "load has no variant .hi"),
+    ("halt.lo", "halt has no variant .lo"),
+    ("store RV", "store wants a word M…, not RV"),
+    ("store MZ", "there is no operand MZ"),
+    ("mul RV", "mul, behind a point, takes one word, not 0"),
+    ("mul.8 RV", "there is no number of steps 8, but 1, 2, 4, 16, 32"),
+    ("shift.4 RV", "shift stands alone, without RV"),
+    ("root RV", "root stands alone, without RV"),
+    ("out Nxt", "there is no output Nxt, but Next"),
+    ("set", "set wants over, or phase=…, up=…, smooth=…"),
+    ("set up=2", "up is 0 or 1, not 2"),
+    ("set up=1 up=0", "set takes over, or once each phase, up, smooth with =, not up=0"),
+    ("set phase=Rmp", "there is no phase Rmp, but Ramp"),
+    ("jump", "a jump is `jump Label` or `jump Label if Condition`"),
+    ("jump Here on Zero", "a jump is `jump Label` or `jump Label if Condition`"),
+    ("jump There", "there is no label There"),
+    ("jump Here if Zer", "there is no condition Zer, but Zero"),
+    ("Here:", "label Here stands twice"),
+    ("2nd:", "'2nd' is no name of a label"),
+    ("halt\nLoose:", "nothing leads to label Loose"),
+    ("halt\n" * WORDS, f"the program is too long: more than {WORDS} words"),
+]
+
+
+def program(*lines: str) -> Program:
+    """A program of these lines, with the package's names."""
+    return assemble("\n".join(lines), NAMES)
+
+
+def code(told: str) -> int:
+    """Code of "operation aux operand" by the names of the package."""
+    op, aux, operand = told.split()
+    enums = ("where_e", "steps_e", "out_e")
+    return (
+        NAMES["op_e"][f"Op{op}"] << 13
+        | next(NAMES[enum][aux] for enum in enums if aux in NAMES[enum]) << 9
+        | NAMES["operand_e"][operand]
+    )
+
+
+def test_enumerations() -> None:
+    """Given an enumeration with and without numbers, then the codes count on as in SystemVerilog."""
+    text = "\n".join(f"typedef enum logic [3:0] {{ A, B = 4'h7,  // b\n C }} {name};" for name in NAMES)
+    assert all(codes == {"A": 0, "B": 7, "C": 8} for codes in names_of(text).values())
+
+
+def test_package_without_enumeration() -> None:
+    """Given a package that lacks an enumeration, then that is told."""
+    with pytest.raises(AsmError, match="the package has no op_e"):
+        names_of("package p; endpackage")
+
+
+@pytest.mark.parametrize(("line", "told"), FORMS)
+def test_instructions(line: str, told: str) -> None:
+    """Given an instruction, then its word is that of the package's names; comment and spaces do not count."""
+    words = program(f"   {line}   ; as told: here", "halt").words
+    assert (words[0].code, words[0].text, words[0].line) == (code(told), line, 1)
+
+
+@pytest.mark.parametrize(
+    ("line", "puts", "low"),
+    [
+        ("set over", 0b1000, 0),
+        ("set phase=Stop up=0 smooth=1", 0b0111, 6 << 2 | 1),
+        ("set smooth=0 phase=Ramp", 0b0101, 4 << 2),
+        ("set up=1", 0b0010, 0b10),
+    ],
+)
+def test_shapes(line: str, puts: int, low: int) -> None:
+    """Given a set, then aux says what is set and the operand to what."""
+    assert program(line, "halt").words[0].code == NAMES["op_e"]["OpSet"] << 13 | puts << 9 | low
+
+
+def test_labels_and_jumps() -> None:
+    """Given labels before and behind their jumps, then targets are addresses; Entry… are entries."""
+    made = program(
+        "EntryA: ; first", " jump End if NotCarry", "Back:", " load RV", " jump Back", "End:", " halt"
+    )
+    assert made.labels == {"EntryA": 0, "Back": 1, "End": 3}
+    assert made.entries() == {"EntryA": 0}
+    jump = NAMES["op_e"]["OpJump"] << 13
+    assert made.words[0].code == jump | NAMES["cond_e"]["IfNotCarry"] << 9 | 3
+    assert made.words[2].code == jump | NAMES["cond_e"]["Always"] << 9 | 1
+
+
+@pytest.mark.parametrize(("line", "told"), MISTAKES)
+def test_mistakes(line: str, told: str) -> None:
+    """Given a wrong line, then one line says where it is and what is wrong."""
+    with pytest.raises(AsmError) as caught:
+        program("EntryA:", "jump Here", "Here:", line, "halt")
+    where, _, text = str(caught.value).partition(": ")
+    assert text == told
+    assert int(where) >= 4
+    assert "\n" not in text
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        ((), "1: the program is empty"),
+        (("load RV",), "1: the program runs on behind its last word"),
+        (("EntryA:", "jump EntryA if Zero"), "2: the program runs on behind its last word"),
+        (("jump Out", "Out:"), "1: nothing follows label Out"),
+    ],
+)
+def test_ends(lines: tuple[str, ...], told: str) -> None:
+    """Given a program that runs out of its words, then it is refused."""
+    with pytest.raises(AsmError) as caught:
+        program(*lines)
+    assert str(caught.value) == told
+
+
+def test_full_rom() -> None:
+    """Given as many words as the ROM has, then they are taken."""
+    assert len(program(*["load RV"] * (WORDS - 1), "halt").words) == WORDS
+
+
+def test_files_are_fresh() -> None:
+    """Given the files of the tree, then they are what `make rom` writes."""
+    for path, text in calc_rom.wanted().items():
+        assert path.read_text() == text, path
+
+
+def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Given a mistake in the listing, then file, line and what is wrong come in one line."""
+    monkeypatch.setattr(calc_rom, "ASM", calc_rom.PACKAGE)
+    with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is no instruction$"):
+        calc_rom.wanted()
+
+
+def test_package_without_marks() -> None:
+    """Given a package without the marks, then it is not touched."""
+    with pytest.raises(ProjectError, match="the marks of `make rom` are gone"):
+        calc_rom.package_text("package p; endpackage", program("halt"))
