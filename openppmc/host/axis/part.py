@@ -33,6 +33,10 @@ class AnyAxis(Turning, Protocol):
     @property
     def busy(self) -> int: ...
     @property
+    def busy(self) -> int:
+        """Its bits in the raw status of the part: it moves."""
+
+    @property
     def kind(self) -> Kind: ...
     @property
     def link(self) -> Link: ...
