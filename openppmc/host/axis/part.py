@@ -31,8 +31,6 @@ class AnyAxis(Turning, Protocol):
     @property
     def number(self) -> int: ...
     @property
-    def busy(self) -> int: ...
-    @property
     def busy(self) -> int:
         """Its bits in the raw status of the part: it moves."""
 
