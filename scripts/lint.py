@@ -27,6 +27,7 @@ from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
+CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
 BUILT = {".venv", "build", ".git"}
@@ -235,6 +236,10 @@ def checks() -> list[Check]:
             "Python",
             lambda: ruff("format", "--check"),
         ),
+        Check(
+            "import-linter", "Python", lambda: tool(project.tool("lint-imports"), *CONTRACTS, ok_output=True)
+        ),
+        Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
         Check("rtl/files.yml", "complete", listed),
         Check("rtl/files.yml", "walls between groups", walled),
         Check(
