@@ -52,7 +52,7 @@ def groups(root: Path) -> dict[str, Group]:
     name, about, needs = "", "", tuple[str, ...]()
     files: list[Path] = []
     for number, line in enumerate(listing.read_text(encoding="utf-8").splitlines(), 1):
-        if not line.strip() or line.startswith("#"):
+        if not line.strip() or line.lstrip().startswith("#"):
             continue
         if match := re.fullmatch(r"(\w+):", line):
             name, about, needs, files = match[1], "", (), []

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Mapping
 
 from ..common.blocks import Context, Phase, PinRegister
 from ..common.chip import Chip
-from ..common.scheduler import Callback, Event, Scheduler
 from ..common.timebase import Latency, QuantumCounter
 from .codes import Source, State
 from .core import Core
@@ -23,37 +22,11 @@ from .front.station import Log, Station
 from .motion.motion import Motion
 from .pace import READY, Pace
 from .pins import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS
+from .scope import Scope
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
 """What the inside sees of the pins before it has sampled them."""
-
-
-class _Asked(Event):
-    """What a block has asked for; only the present blocks have any in the queue."""
-
-    __slots__ = ()
-
-
-class Scope(Scheduler):
-    """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
-
-    def __init__(self, queue: Scheduler) -> None:
-        super().__init__()
-        self._queue = queue
-        self._alive = True
-
-    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _Asked) -> Event:
-        """Call `action(t)` unless the blocks have been replaced by then."""
-        event = self._queue.at(t, phase, action, kind)
-        if not self._alive:
-            event.cancel()
-        return event
-
-    def close(self) -> None:
-        """The blocks are replaced."""
-        self._alive = False
-        self._queue.cancel(_Asked)
 
 
 class Ppmc312(Chip):

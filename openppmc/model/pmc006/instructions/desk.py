@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ...common.blocks import Phase
-from ..codes import Effect
+from ..effects import Effect
 from ..memory.eeprom import Engine
 from ..motion.guard import Guard
 from ..motion.motion import Motion

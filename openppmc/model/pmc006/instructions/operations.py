@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import NamedTuple
 
-from ..codes import LETTERS, Effect
+from ..codes import LETTERS
 from ..desk import Desk
+from ..effects import Effect
 from ..settings import BOTH
 
 COUNT = 100

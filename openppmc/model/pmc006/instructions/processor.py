@@ -6,8 +6,8 @@ from enum import Enum, auto
 from typing import Protocol
 
 from ...common.blocks import Phase
-from ..codes import Effect
 from ..desk import Desk
+from ..effects import Effect
 from .operations import COUNT, Operation, Outcome, Then, decode, waited
 
 WORDS = 2 * COUNT
