@@ -38,6 +38,7 @@ LAYER_OF = {
     "machine": "openppmc.sim",
     "soak": "cocotb_tests",
     "gates": "cocotb_tests",
+    "manual": "scripts",
     "demo": "scripts",
     "bench": "scripts",
 }
@@ -53,9 +54,9 @@ class Row:
     those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
     its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
     rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
-    docs: pages of its folder in docs/ beside README.md and traceability.md. carrier: there is a
-    <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
-    own.
+    docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and
+    computed for them. carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
+    on a serial line, with commands of its own.
     demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
     on the pins of a part. soak: what makes the test of a seed for `make soak`, or a campaign of many a seed.
     gates: which tests `make test-gates` runs.
@@ -78,6 +79,7 @@ class Row:
     words: str = ""
     machine: str = ""
     docs: tuple[str, ...] = ()
+    manual: str = ""
     carrier: bool = False
     line: bool = False
     demo: str = ""
@@ -114,6 +116,7 @@ ROWS = (
         kind="kind:KIND",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -132,6 +135,7 @@ ROWS = (
         view="view:VIEW",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -150,6 +154,7 @@ ROWS = (
         kind="kind:KIND",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -178,6 +183,7 @@ ROWS = (
         words="words:WORDS",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
@@ -207,6 +213,7 @@ ROWS = (
         commands="app:app",
         machine="line:MACHINE",
         docs=("design.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         line=True,
         demo="demo:DEMO",
@@ -214,7 +221,7 @@ ROWS = (
         gates="gates:PART",
     ),
 )
-OWN = ("name", "of", "number", "rules", "docs", "carrier", "line", "demo", "bench", "soak", "gates")
+OWN = ("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "demo", "bench", "soak", "gates")
 """Columns that a row does not take from the one it is `of`."""
 
 

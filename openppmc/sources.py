@@ -22,6 +22,9 @@ LIST = "rtl/files.yml"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
 _OWN = re.compile(r"^\s*(?:module|package|interface)\s+(?:automatic\s+|static\s+)?(\w+)", re.M)
 
+# A package before `::`, a module before its parameters or its instance's name.
+_USED = re.compile(r"\b(\w+)(?=\s*::|\s*#\s*\(|\s+\w+\s*\()")
+
 
 class SourcesError(PpmcError):
     """The list is missing or wrong, or names what is not there. One line."""
@@ -49,7 +52,7 @@ def groups(root: Path) -> dict[str, Group]:
     name, about, needs = "", "", tuple[str, ...]()
     files: list[Path] = []
     for number, line in enumerate(listing.read_text(encoding="utf-8").splitlines(), 1):
-        if not line.strip() or line.startswith("#"):
+        if not line.strip() or line.lstrip().startswith("#"):
             continue
         if match := re.fullmatch(r"(\w+):", line):
             name, about, needs, files = match[1], "", (), []
@@ -111,7 +114,7 @@ def walls(listed: Mapping[str, Group]) -> list[str]:
     for group in listed.values():
         used = set[str]()
         for path in group.files:
-            for name in sorted(set(re.findall(r"\w+", texts.get(path, ""))) & owner.keys()):
+            for name in sorted(set(_USED.findall(texts.get(path, ""))) & owner.keys()):
                 used.add(owner[name])
                 if owner[name] not in (group.name, *group.needs):
                     wrong.append(

@@ -68,10 +68,12 @@ add_file -type verilog $root/rtl/ppmc312/stages/ppmc312_stage_unit.sv
 add_file -type verilog $root/rtl/ppmc312/stages/ppmc312_stage_seq.sv
 add_file -type verilog $root/rtl/ppmc312/stages/ppmc312_interval.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_pkg.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_link_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_serial_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_bus.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_mailbox.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_reports.sv
+add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_instr_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_store.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_fetch.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv

@@ -67,10 +67,12 @@ set files [list \
   $root/rtl/ppmc312/stages/ppmc312_stage_seq.sv \
   $root/rtl/ppmc312/stages/ppmc312_interval.sv \
   $root/rtl/ppmc312/ppmc312_pkg.sv \
+  $root/rtl/ppmc312/ppmc312_link_pkg.sv \
   $root/rtl/ppmc312/front/ppmc312_serial_pkg.sv \
   $root/rtl/ppmc312/front/ppmc312_bus.sv \
   $root/rtl/ppmc312/front/ppmc312_mailbox.sv \
   $root/rtl/ppmc312/front/ppmc312_reports.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_instr_pkg.sv \
   $root/rtl/ppmc312/instructions/ppmc312_store.sv \
   $root/rtl/ppmc312/instructions/ppmc312_fetch.sv \
   $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv \

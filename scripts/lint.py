@@ -257,6 +257,11 @@ def checks() -> list[Check]:
             "templates and FuseSoC run",
             lambda: tool(sys.executable, "-m", "scripts.packages", "--try", ok_output=True),
         ),
+        Check(
+            "boards",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.boards", "--check", ok_output=True),
+        ),
         Check("texts", "marks, tabs, line ends", texts),
     ]
 

@@ -98,7 +98,7 @@ def report(part: str, wanted: list[Target], seeds: int, tell: Tell) -> None:
         else:
             rows += device_rows(target, count, netlist, seeds, tell)
     split = {}
-    if part in targets.BOARD_TOPS:
+    if part in targets.CARRIERS:
         base = targets.base_job(part, True)
         folder = targets.FOLDER / "breakdown"
         families = project.part(part).families

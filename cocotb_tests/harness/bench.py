@@ -120,14 +120,11 @@ class Bench(Side):
 
     @property
     def now(self) -> int:
-        """Index of the next rising clk edge: the stamp of a pin change made at this moment."""
+        """As `Side.now`."""
         return (native.now() - self._t0) // self.period + 1
 
     async def until(self, edge: int) -> int:
-        """Go to the falling clk edge before rising edge `edge` (then now == edge).
-
-        Raises ValueError if that moment has passed.
-        """
+        """As `Side.until`."""
         target = self._t0 + (edge - 1) * self.period + self.half
         delta = target - native.now()
         if delta < 0:
@@ -139,7 +136,7 @@ class Bench(Side):
         return edge
 
     async def align(self) -> int:
-        """Go to the next falling edge if just after a rising one; returns `now`."""
+        """As `Side.align`."""
         target = self._t0 + (self.now - 1) * self.period + self.half
         delta = target - native.now()
         if delta > 0:
@@ -149,11 +146,7 @@ class Bench(Side):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """Drive input pins now (falling-edge half only) and log them; returns the stamp.
-
-        A name such as "fl_n[2]" drives one bit of a port. Raises RuntimeError in the high half of clk,
-        KeyError for an unknown pin. Unchanged levels are neither driven nor logged.
-        """
+        """As `Side.set`."""
         stamp = self.now
         if self._t0 + (stamp - 1) * self.period + self.half > native.now():
             raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
@@ -208,7 +201,7 @@ class Bench(Side):
         native.tape(rows)
 
     def at(self, edge: int, **levels: int) -> Any:
-        """Schedule pin levels so that rising edge `edge` is the first to sample them; returns the task."""
+        """As `Side.at`; returns the task."""
 
         async def later() -> None:
             await self.until(edge)
@@ -217,11 +210,7 @@ class Bench(Side):
         return cocotb.start_soon(later())
 
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Any:
-        """Run the external clock: each item is the clk count from one rising edge to the next.
-
-        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
-        with the iterable. Each high time is `high` clk. Returns the task (cancel() stops it).
-        """
+        """As `Side.external_clock`; returns the task."""
         name = pin or self.part.clock
 
         async def run() -> None:
@@ -247,7 +236,7 @@ class Bench(Side):
         return -((self._t0 - time) // self.period)
 
     def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """Changes (edge, level) of all watched outputs up to now, the last one of each edge."""
+        """As `Side._seen`."""
         t0, period, watched = self._t0, self.period, self._watched
         for time, port, value in native.seen():
             changes, t = watched[port], -((t0 - time) // period)
@@ -281,10 +270,7 @@ class Bench(Side):
     # ---------------------------------------------------------------- waiting for outputs
 
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """Wait for the next change (to `level` if given); returns its edge, aligned so that set() works.
-
-        Raises TimeoutError after `timeout` clk.
-        """
+        """As `Side.edge`."""
         end = self.now + timeout
         handle = self._handles[self.part.locate(output)[0]]
         before = self.level(output)

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Protocol
 
 from .config import Config
 from .part import Part
-from .stimulus import Access, Change, Edge, Recording, level_at
+from .stimulus import Access, Change, Edge, Recording, bit_changes, level_at
 
 TIMEOUT = 1_000_000
 """clk that a wait lasts at most, if nobody says otherwise."""
@@ -141,7 +141,7 @@ class Side(ABC):
         """Stamps of the rising edges driven on an input of one bit from edge `since` on."""
         port, place = self.part.locate(pin)
         changes = [(c.t, c.value) for c in self.stimulus if c.pin == port]
-        return [t for t, v in _bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
+        return [t for t, v in bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
 
     def _levelled(self, pin: str, level: int) -> tuple[str, int]:
         """Port of a pin and the port's level with the pin at `level`."""
@@ -170,7 +170,7 @@ class Side(ABC):
         port, place = self.part.locate(output)
         changes = self._seen()[port]
         if place is not None:
-            changes = _bit_changes(changes, place, self.initial[port])
+            changes = bit_changes(changes, place, self.initial[port])
         return [(t, value) for t, value in changes if t >= since]
 
     def falls(self, output: str, since: int = 0) -> list[int]:
@@ -257,16 +257,6 @@ class Side(ABC):
     def _all_edges(self) -> list[Edge]:
         rows = (Edge(t, name, value) for name, changes in self._seen().items() for t, value in changes)
         return sorted(rows, key=lambda edge: edge.t)
-
-
-def _bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:
-    """Changes (edge, level) of one bit of a port."""
-    level, rows = initial >> place & 1, []
-    for t, value in changes:
-        if value >> place & 1 != level:
-            level ^= 1
-            rows.append((t, level))
-    return rows
 
 
 def _show(value: Any) -> str:

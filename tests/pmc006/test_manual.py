@@ -10,7 +10,7 @@ from cocotb_tests.pmc006.script_host import Host
 from openppmc.model.pmc006.codes import LETTERS
 from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
-from tests.ppmc312.test_manual import DOCS, chapters
+from tests.common.pages import DOCS, chapters
 
 TEXT = (DOCS / "pmc006/README.md").read_text(encoding="utf-8")
 LONG = 60_000_000

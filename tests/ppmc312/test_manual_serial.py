@@ -9,7 +9,8 @@ import pytest
 
 from cocotb_tests.ppmc312.serial_host import SPEEDS, SerialHost, clean, summed
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
-from tests.ppmc312.test_manual import DOCS, Player, chapters
+from tests.common.pages import DOCS, chapters
+from tests.ppmc312.test_manual import Player
 
 PAGE = DOCS / "ppmc312/serial.md"
 TEXT = PAGE.read_text(encoding="utf-8")

@@ -43,9 +43,8 @@ class Streams:
     def summary(self, first: int, count: int) -> str:
         """What has been done when all seeds have passed."""
         samples = sum(not seed % RTL_EACH for seed in range(first, first + count))
-        text = (
-            f"one poll at most brought every station back: {count * (SIZE + SINGLE):,} bytes on golden models"
-        )
+        text = "at most one poll brought every station back: "
+        text += f"{count * (SIZE + SINGLE):,} bytes on golden models"
         if samples:
             text += f", {samples * SIZE:,} on the RTL, every output edge as in the golden models"
         return text

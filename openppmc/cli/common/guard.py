@@ -12,8 +12,8 @@ from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bars
 
 from ...host import PpmcError
+from ...host.axis.device import Device
 from ...host.axis.motion import Progress
-from .needs import Attended, Moving
 
 BAR_AFTER = 0.6
 """Seconds that a motion runs before it gets a bar."""
@@ -57,7 +57,7 @@ class Guard:
         self.check()
         self.bar(now)
 
-    def pause(self, part: Attended, seconds: float) -> None:
+    def pause(self, part: Device, seconds: float) -> None:
         """Let time pass on the board's clock."""
         link = part.link
         end = link.clock() + seconds
@@ -106,7 +106,7 @@ class Guard:
 
     # ------------------------------------------------------------------ what Ctrl-C does
 
-    def bring_to_rest(self, part: Moving) -> str:
+    def bring_to_rest(self, part: Device) -> str:
         """Decelerate all axes, wait; at once on the next Ctrl-C. Returns where they stand, for the user."""
         self.bar_off()
         how = "nothing was moving"

@@ -5,27 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Container, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 import typer
 from serial.rs485 import RS485Settings
 
+from ...host.axis.device import Turning
 from ...host.axis.motion import Progress
 from ...host.line.bus import LineBus
 from . import output
 from .guard import Guard, Interrupted
 from .session import INTERRUPTED
 
-Bus = TypeVar("Bus", bound=LineBus)
+Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
 """All words of --line; each line takes some of them."""
-
-
-class Brakes(Protocol):
-    """A station that can be told to stop."""
-
-    def brake(self) -> None:
-        """Begin to stop what this program started, without waiting."""
 
 
 def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
@@ -76,7 +70,7 @@ def _number(word: str, value: str) -> float | int:
 
 
 def ending_after(
-    seconds: float | None, bus: LineBus, guard: Guard, stations: Sequence[Brakes]
+    seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Turning]
 ) -> Callable[[Progress], None]:
     """A progress callback that shows a bar and brakes after so many seconds of the line's time."""
     clock = bus.line.clock

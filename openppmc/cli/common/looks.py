@@ -11,7 +11,7 @@ from rich.live import Live
 
 from ...host import PpmcError
 from . import output
-from .moves import AnyAxis
+from .moves import AxisOrAll
 from .options import Json, with_setup
 from .session import Session, opened, ready
 
@@ -35,7 +35,7 @@ def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
     }
 
 
-def status(axis: AnyAxis = None, as_json: Json = False) -> None:
+def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
     """Position, switches, state. Disturbs nothing."""
     with opened() as session:
         looks = _looks(session, axis)
@@ -48,7 +48,7 @@ def status(axis: AnyAxis = None, as_json: Json = False) -> None:
 
 
 def monitor(
-    axis: AnyAxis = None,
+    axis: AxisOrAll = None,
     count: Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")] = None,
     every: Annotated[
         float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")

@@ -13,7 +13,7 @@ from .options import Side, check_seconds, with_setup
 from .override import Override, parse_override
 from .session import opened, ready, stop_all
 
-AnyAxis = Annotated[
+AxisOrAll = Annotated[
     int | None,
     typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2 (all)", show_default=False),
 ]
@@ -41,7 +41,7 @@ def move(
     pulses: Annotated[
         list[int], typer.Argument(help="pulses, CW positive; with --to a position; two numbers: both axes")
     ],
-    axis: AnyAxis = None,
+    axis: AxisOrAll = None,
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
     pulse_only: Annotated[bool, typer.Option("--pulse-only", help="the phases stand still")] = False,
@@ -57,7 +57,7 @@ def move(
     both = len(pulses) == 2
     with ready(typed, (1, 2) if both else (axis or 1,)) as session:
         guard, part, view = session.guard, session.part, session.view
-        chosen = part.axes if both else (session.axis(axis or 1),)
+        chosen = part.axes[:2] if both else (session.axis(axis or 1),)
         away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
         view.prepare(part, wanted, encoder)
         if both:
@@ -131,7 +131,7 @@ def home(
 
 
 def stop(
-    axis: AnyAxis = None,
+    axis: AxisOrAll = None,
     now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
 ) -> None:
     """Stop a motion that was left running."""

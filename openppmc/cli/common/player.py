@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from ...host import PpmcError
+from ...host.axis.part import AnyAxis
 from ...host.basis.kind import COILS_OFF, Kind
-from .needs import Axis
 from .options import SetupValues
 from .program import OF_ALL_AXES, OF_AXES, ScriptError, Step
 from .session import Session, stop_all
 from .words import own_words
 
 
-def positions(axes: Iterable[Axis]) -> str:
+def positions(axes: Iterable[AnyAxis]) -> str:
     """Where they stand, in words."""
     at = [str(axis.position) for axis in axes]
     return f"position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
@@ -79,18 +79,18 @@ class Player:
         else:
             self._say(f"{self._name}:{step.line}: {positions(self._chosen(step))}")
 
-    def _chosen(self, step: Step) -> tuple[Axis, ...]:
+    def _chosen(self, step: Step) -> tuple[AnyAxis, ...]:
         """The axis that a line names, or all that the program uses."""
         numbers = sorted(self._values) if step.axis is None else [step.axis]
         return tuple(self._session.axis(number) for number in numbers)
 
-    def _move(self, step: Step, axis: Axis) -> None:
+    def _move(self, step: Step, axis: AnyAxis) -> None:
         """move and goto, one axis or both."""
         values, progress = step.values, self._guard.progress
         absolute, speed = step.word == "goto", values.get("speed")
         first, second = values["position" if absolute else "pulses"], values["second"]
         if second is not None:
-            x, y = (motor.position if absolute else 0 for motor in self._part.axes)
+            x, y = (motor.position if absolute else 0 for motor in self._part.axes[:2])
             self._session.view.together(self._part, (first - x, second - y), speed, progress)
             return
         pulses = first - (axis.position if absolute else 0)

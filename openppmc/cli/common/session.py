@@ -12,12 +12,12 @@ import typer
 
 from ... import parts
 from ...host import End, NothingToStop, PpmcError, open_part
+from ...host.axis.part import AnyAxis, Part
 from ...host.basis.kind import Kind, kind_of
 from ...host.bridge.link import DEFAULT_BAUD
 from ...host.ports.transport import MODEL, SIM
 from . import output
 from .guard import Guard, Interrupted
-from .needs import Axis, Part
 from .options import USUAL, SetupValues
 from .state import recall
 from .view import AnyView, view_of
@@ -93,11 +93,11 @@ class Session:
         """Its crystal."""
         return self.part.link.identity.xtal_hz
 
-    def axis(self, number: int = 1) -> Axis:
+    def axis(self, number: int = 1) -> AnyAxis:
         """One axis; OutOfRange if the part does not have it."""
         return self.part.axes[self.kind.check_axis(number) - 1]
 
-    def chosen(self, number: int | None) -> tuple[Axis, ...]:
+    def chosen(self, number: int | None) -> Sequence[AnyAxis]:
         """That axis, or all."""
         return self.part.axes if number is None else (self.axis(number),)
 
@@ -139,7 +139,7 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
     return [session.part.axes[axis - 1].apply(plan) for axis, plan in plans.items()]
 
 
-def stop_all(axes: Sequence[Axis], now: bool = False) -> list[End]:
+def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[End]:
     """Stop motions, perhaps of another program, and wait for their ends. All are stopped before an error is
     told; that one rests already is none as long as another moves."""
     errors: list[PpmcError] = []

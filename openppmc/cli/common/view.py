@@ -10,11 +10,13 @@ from collections.abc import Callable, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from ...host import End, OutOfRange
+from ...host.axis.moves import OnProgress
+from ...host.axis.part import AnyAxis
 from ...host.basis import units
 from ...host.basis.kind import Kind
+from ...host.bridge.link import Link
 from . import forecast, show
 from .forecast import Course
-from .needs import Axis, OnProgress, Part
 from .override import Override
 
 
@@ -26,25 +28,29 @@ class Status(Protocol):
         """As it was read."""
 
 
-class Told(Part, Protocol):
+class WithStatus(Protocol):
     """A part that tells its status."""
 
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def link(self) -> Link: ...
     def status(self) -> Status:
         """Read it; disturbs nothing."""
 
 
-AnyPart = TypeVar("AnyPart", bound=Told)
-AnySetup = TypeVar("AnySetup")
+PartT = TypeVar("PartT", bound=WithStatus)
+SetupT = TypeVar("SetupT")
 
 
-class View(ABC, Generic[AnyPart, AnySetup]):
-    """AnyPart: its driver. AnySetup: what its kind plans. All speeds in pps, times in s. A method that is not
+class View(ABC, Generic[PartT, SetupT]):
+    """PartT: its driver. SetupT: what its kind plans. All speeds in pps, times in s. A method that is not
     abstract raises OutOfRange or does nothing: the part does not have that."""
 
     # ------------------------------------------------------------------ looking
 
     @abstractmethod
-    def status_values(self, part: AnyPart, axis: Axis) -> dict[str, Any]:
+    def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
         """Everything that may be read of an axis at any time: position, moving, error, status, inputs."""
 
     def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
@@ -57,35 +63,35 @@ class View(ABC, Generic[AnyPart, AnySetup]):
             "last byte": "good" if error is None else f"error {error}",
         }
 
-    def busy(self, part: AnyPart, axes: Sequence[Axis]) -> tuple[Axis, ...]:
+    def busy(self, part: PartT, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
         """Those of these axes that move."""
         status = part.status().raw
         return tuple(axis for axis in axes if status & axis.busy)
 
-    def reports(self, part: AnyPart, tell: Callable[[str], None]) -> None:
+    def reports(self, part: PartT, tell: Callable[[str], None]) -> None:
         """What the part said meanwhile, a line each. Raises what went wrong, after all of it."""
 
     # ------------------------------------------------------------------ plans
 
     @abstractmethod
-    def setup_rows(self, setup: AnySetup) -> dict[str, str]:
+    def setup_rows(self, setup: SetupT) -> dict[str, str]:
         """Asked and reached speeds, ramp, bytes."""
 
     @abstractmethod
-    def setup_values(self, setup: AnySetup) -> dict[str, Any]:
+    def setup_values(self, setup: SetupT) -> dict[str, Any]:
         """For JSON."""
 
     @abstractmethod
-    def figures(self, setup: AnySetup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+    def figures(self, setup: SetupT, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
         """Key figures of a move before it is made, see `forecast.key_figures`. speed: constant, or None."""
 
     @abstractmethod
-    def course(self, setup: AnySetup, pulses: int, speed: units.Speed | None) -> Course:
+    def course(self, setup: SetupT, pulses: int, speed: units.Speed | None) -> Course:
         """The move to draw, pulses from 1 on."""
 
     # ------------------------------------------------------------------ what not all parts have
 
-    def prepare(self, part: AnyPart, overrides: Sequence[Override], encoder: int | None) -> None:
+    def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
         """What the next move shall do on its way, and how far the encoder may be off in pulses."""
         if encoder is not None:
             raise OutOfRange(f"encoder: a {part.kind} does not have one")
@@ -94,7 +100,7 @@ class View(ABC, Generic[AnyPart, AnySetup]):
 
     def together(
         self,
-        part: AnyPart,
+        part: PartT,
         pulses: tuple[int, int],
         pps: float | None,
         progress: OnProgress,
@@ -105,8 +111,8 @@ class View(ABC, Generic[AnyPart, AnySetup]):
 
     def home(
         self,
-        part: AnyPart,
-        axis: Axis,
+        part: PartT,
+        axis: AnyAxis,
         direction: int,
         pps: float | None,
         fast: bool,
@@ -119,15 +125,15 @@ class View(ABC, Generic[AnyPart, AnySetup]):
             raise OutOfRange(f"index: a {part.kind} does not have that")
         axis.home(direction, pps, fast, to_limit, progress=progress)
 
-    def table_lines(self, part: AnyPart) -> list[str]:
+    def table_lines(self, part: PartT) -> list[str]:
         """The ramps that the part has, as the CSV that --curve takes."""
         raise OutOfRange(f"table: a {part.kind} cannot be asked for it")
 
 
-class RampView(View[AnyPart, units.Setup]):
+class RampView(View[PartT, units.Setup]):
     """Parts with the one ramp of the family."""
 
-    def status_values(self, part: AnyPart, axis: Axis) -> dict[str, Any]:
+    def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
         status: Any = part.status()
         moving, error = self.moving(status, axis.number)
         return {
@@ -157,7 +163,7 @@ class RampView(View[AnyPart, units.Setup]):
 
 AnyView = View[Any, Any]
 """Of a part that is known by its name only."""
-_USUAL: AnyView = RampView[Told]()
+_USUAL: AnyView = RampView[WithStatus]()
 
 
 def view_of(kind: Kind) -> AnyView:

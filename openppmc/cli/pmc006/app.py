@@ -24,4 +24,4 @@ app.command()(looks.io)
 app.command()(looks.address)
 app.command()(looks.save)
 app.command("reset-flags")(looks.reset_flags)
-app.command()(ports)
+app.command()(ports)  # shared: it opens no board

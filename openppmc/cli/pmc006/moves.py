@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 from ...host import BACKWARD, FORWARD, Pmc006
+from ...host.axis.moves import OnProgress
 from ...host.pmc006.motion import Motion
 from ..common import output
 from ..common.line_session import ending_after
-from ..common.needs import OnProgress
 from ..common.options import check_seconds
 from . import show
 from .session import Address, Session, opened

@@ -30,7 +30,7 @@ _DONE = {
 }
 
 
-def status_values(part: Axis) -> dict[str, Any]:
+def status_values(part: Axis[Any]) -> dict[str, Any]:
     """Everything that may be read at any time."""
     status = part.status()
     return {

@@ -6,11 +6,12 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...host import Ppmc312
+from ...host.axis.moves import OnProgress
+from ...host.axis.part import AnyAxis
 from ...host.basis import units
 from ...host.ppmc312.answers import Alarm, Failed
 from ...host.ppmc312.profile import Setup
 from ..common.forecast import Course
-from ..common.needs import Axis, OnProgress
 from ..common.override import Override
 from ..common.view import View
 from . import forecast, show
@@ -20,7 +21,7 @@ from .overrides import register
 class PartView(View[Ppmc312, Setup]):
     """Tables of ramps, an encoder, overrides, and reports that the part sends by itself."""
 
-    def status_values(self, part: Ppmc312, axis: Axis) -> dict[str, Any]:
+    def status_values(self, part: Ppmc312, axis: AnyAxis) -> dict[str, Any]:
         return show.status_values(part)
 
     def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
@@ -58,7 +59,7 @@ class PartView(View[Ppmc312, Setup]):
     def home(
         self,
         part: Ppmc312,
-        axis: Axis,
+        axis: AnyAxis,
         direction: int,
         pps: float | None,
         fast: bool,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from types import TracebackType
 from typing import Protocol, TypeVar
 
@@ -47,7 +46,7 @@ class Device(Checked):
     link: Way
 
     @property
-    def axes(self) -> Sequence[Turning]:
+    def axes(self) -> tuple[Turning, ...]:
         """Its axes, number 1 first."""
         raise NotImplementedError
 

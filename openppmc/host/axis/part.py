@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, Protocol, TypeVar
 
 from ..basis import units
@@ -29,7 +28,11 @@ class AnyInputs(Protocol):
 class AnyAxis(Turning, Protocol):
     """An axis behind a bridge; see `axis.Axis`."""
 
-    number: int
+    @property
+    def number(self) -> int: ...
+    @property
+    def busy(self) -> int:
+        """Its bits in the raw status of the part: it moves."""
 
     @property
     def kind(self) -> Kind: ...
@@ -75,7 +78,7 @@ class Part(Device):
         raise NotImplementedError
 
     @property
-    def axes(self) -> Sequence[AnyAxis]:
+    def axes(self) -> tuple[AnyAxis, ...]:
         raise NotImplementedError
 
     @classmethod

@@ -1,8 +1,8 @@
 """Pulses per second to the rate bytes of the part and back, exactly (P104-INT-01, -02, STMC-INI-01). Pure.
 
-All speeds are in pulses per second (pps), as exact fractions; on the STMC a pulse is a step. The part cannot
-make every speed: it makes base clock / (rate + 1) with rate 0 to 255, the STMC base clock / divisor with
-divisors up to 255, so a speed that was asked for is rounded to the nearest interval.
+All speeds are in pulses per second (pps), as exact fractions; where a part gives no pulses, a pulse is a
+step. A part cannot make every speed: it makes base clock / (rate + 1) with rate 0 to 255, or base clock /
+divisor, so a speed that was asked for is rounded to the nearest interval.
 """
 
 from __future__ import annotations
@@ -19,8 +19,6 @@ from .errors import OutOfRange
 SLOWEST_RATE = 255
 LONGEST_MOVE = ENDLESS
 QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
-LEAST_DIVISOR = 5
-"""The sheet of the STMC advises against lower ones; the part would take them."""
 
 
 def nearby(speed: Fraction | float | int) -> str:
@@ -35,7 +33,7 @@ class BaseClock:
     period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
     the strap pins that choose it. external: it comes in at the `clock` pin. least_rate: lowest rate byte
     that the driver uses with it. beyond: base clocks of an interval beyond its rate byte.
-    slowest_rate: the highest rate. clk: number of the base clock on a PPMC-312.
+    slowest_rate: the highest rate. clk: its number on parts that number them.
     """
 
     period: Fraction
@@ -62,29 +60,7 @@ class BaseClock:
     @classmethod
     def external_pin(cls, hertz: Number) -> BaseClock:
         """A steady clock on the `clock` pin, 0 < hertz <= 1e6; vsel is kept high. OutOfRange otherwise."""
-        return cls(_pin_period(hertz), external=True)
-
-    @classmethod
-    def divided(cls, hertz: Number, external: bool = True) -> BaseClock:
-        """Step clock of an STMC, 0 < hertz <= 1e6 (else OutOfRange); rate bytes are divisors. external: it is
-        the one that the board makes, or the `ext_clk` pin.
-
-        The worked examples of the sheet, with the external clock of its board:
-
-        >>> clock = BaseClock.divided(48_675)
-        >>> clock.choose(345).rate, clock.choose(825).rate
-        (141, 59)
-        >>> clock.speed(59)
-        Fraction(825, 1)
-
-        Divisors below 5 are left out, as the sheet advises:
-
-        >>> float(clock.slowest), float(clock.fastest)
-        (190.88235294117646, 9735.0)
-        >>> float(BaseClock.divided(12_500, external=False).fastest)
-        2500.0
-        """
-        return cls(_pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
+        return cls(pin_period(hertz), external=True)
 
     @property
     def hertz(self) -> Fraction:
@@ -126,7 +102,7 @@ class BaseClock:
         return Speed(asked, rate, self.speed(rate), self)
 
 
-def _pin_period(hertz: Number) -> Fraction:
+def pin_period(hertz: Number) -> Fraction:
     """Period of a clock that comes from outside in s. OutOfRange."""
     if not 0 < exact(hertz, "external clock") <= 1_000_000:
         raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")

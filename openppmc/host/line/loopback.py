@@ -11,7 +11,7 @@ class ModelLine:
     """A line that needs no hardware. text: words of the part's virtual line. baud: line rate. part:
     of the stations. Raises PortError for a bad text."""
 
-    def __init__(self, text: str, baud: int, part: str = "ppmc312-serial") -> None:
+    def __init__(self, text: str, baud: int, part: str) -> None:
         self.name = "model:" + text
         kind = line_kind(part)
         try:

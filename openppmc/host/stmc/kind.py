@@ -10,6 +10,7 @@ from ..axis.kind import RateKind
 from ..basis import units
 from ..basis.errors import OutOfRange
 from ..basis.kind import POSITIVE, Kind, Wanted
+from .clock import divided
 
 BOARD_CLOCK = BOARD_CLOCK_HZ
 """Second step clock of the J105 board: 48 675 Hz."""
@@ -25,9 +26,9 @@ class StmcKind(RateKind):
 
     def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> units.BaseClock:
         if wanted.external_clock is not None:
-            return units.BaseClock.divided(wanted.external_clock)
-        internal = units.BaseClock.divided(Fraction(xtal_hz, TICK_XT), external=False)
-        board = units.BaseClock.divided(BOARD_CLOCK)
+            return divided(wanted.external_clock)
+        internal = divided(Fraction(xtal_hz, TICK_XT), external=False)
+        board = divided(BOARD_CLOCK)
         if wanted.base_clock is None:
             return board if board.slowest <= units.exact(wanted.start_pps, "start speed") else internal
         for clock in (internal, board):

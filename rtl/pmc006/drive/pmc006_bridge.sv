@@ -13,12 +13,12 @@ module pmc006_bridge #(
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic       on_i,
-    input  wire logic [7:0] ref_i,
-    input  wire logic       sign_i,
+    input  wire logic       on_i,     // 0: the bridge is off
+    input  wire logic [7:0] ref_i,    // current reference
+    input  wire logic       sign_i,   // direction of the current
     input  wire logic       cmp_i,    // raw pin
-    output logic            pwm_o,
-    output logic            en_o,
+    output logic            pwm_o,    // bit stream of the reference
+    output logic            en_o,     // the bridge is enabled
     output logic            high0_o,  // m10, m20
     output logic            high1_o   // m11, m21
 );

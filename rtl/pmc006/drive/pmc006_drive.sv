@@ -14,31 +14,31 @@ module pmc006_drive
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             us_i,
-    input  wire logic             boot_i,
-    input  wire settings_t        settings_i,
+    input  wire logic             us_i,            // one clk every microsecond
+    input  wire logic             boot_i,          // the part is not ready yet: no current
+    input  wire settings_t        settings_i,      // parameter registers
     // motion
-    input  wire logic             busy_i,
-    input  wire logic             step_i,
-    input  wire logic             forward_i,
-    input  wire logic      [ 7:0] increment_i,
-    input  wire logic      [10:0] bump_i,
-    input  wire logic      [ 6:0] lead_i,
+    input  wire logic             busy_i,          // a motion is under way
+    input  wire logic             step_i,          // a step is made at the coming edge
+    input  wire logic             forward_i,       // its direction
+    input  wire logic      [ 7:0] increment_i,     // angle of a step
+    input  wire logic      [10:0] bump_i,          // B
+    input  wire logic      [ 6:0] lead_i,          // W
     // pins
-    input  wire logic             cmp_a_i,
-    input  wire logic             cmp_b_i,
-    output logic           [ 7:0] phase_a_ref_o,
-    output logic                  phase_a_sign_o,
-    output logic           [ 7:0] phase_b_ref_o,
-    output logic                  phase_b_sign_o,
-    output logic                  pwm_a_ref_o,
-    output logic                  pwm_b_ref_o,
-    output logic                  bridge_a_en_o,
-    output logic                  bridge_b_en_o,
-    output logic                  m10_o,
-    output logic                  m11_o,
-    output logic                  m20_o,
-    output logic                  m21_o
+    input  wire logic             cmp_a_i,         // comparator of phase A, raw pin
+    input  wire logic             cmp_b_i,         // of phase B
+    output logic           [ 7:0] phase_a_ref_o,   // current reference of phase A
+    output logic                  phase_a_sign_o,  // its sign
+    output logic           [ 7:0] phase_b_ref_o,   // of phase B
+    output logic                  phase_b_sign_o,  // its sign
+    output logic                  pwm_a_ref_o,     // bit stream of the reference
+    output logic                  pwm_b_ref_o,     // of phase B
+    output logic                  bridge_a_en_o,   // the bridge of phase A is enabled
+    output logic                  bridge_b_en_o,   // of phase B
+    output logic                  m10_o,           // phase A, one half bridge: 1 = high side
+    output logic                  m11_o,           // phase A, the other one
+    output logic                  m20_o,           // phase B, one half bridge
+    output logic                  m21_o            // phase B, the other one
 );
 
   localparam int unsigned IdleUs = 100_000;

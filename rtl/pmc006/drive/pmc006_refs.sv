@@ -11,17 +11,17 @@ module pmc006_refs (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        off_i,      // BOOT or FREE
-    input  wire logic        decay_i,
+    input  wire logic        decay_i,    // the idle time is over: less current
     input  wire logic [ 2:0] att_i,      // 1 .. 4
     input  wire logic [11:0] cur_i,      // mA, 400 .. 4000
     input  wire logic [10:0] bump_i,     // B
     input  wire logic [ 6:0] lead_i,     // W
-    input  wire logic        forward_i,
+    input  wire logic        forward_i,  // direction of the motion
     input  wire logic [ 8:0] angle_i,    // TH
-    output logic      [ 7:0] a_ref_o,
-    output logic             a_sign_o,
-    output logic      [ 7:0] b_ref_o,
-    output logic             b_sign_o
+    output logic      [ 7:0] a_ref_o,    // current reference of phase A
+    output logic             a_sign_o,   // its sign
+    output logic      [ 7:0] b_ref_o,    // current reference of phase B
+    output logic             b_sign_o    // its sign
 );
 
   logic [4:0] at_q, at_d;

@@ -7,7 +7,7 @@
 module pmc006_sine_rom (
     input  wire logic       clk_i,
     input  wire logic [7:0] index_i,  // 0 .. 128
-    output logic      [8:0] sine_o
+    output logic      [8:0] sine_o    // 256 at most
 );
 
   localparam logic [128:0][8:0] Wave = {  // the last one first

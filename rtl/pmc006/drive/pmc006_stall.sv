@@ -5,21 +5,22 @@
 //         already comes in that clk, so that no step follows the position of the stall.
 `default_nettype none
 
-module pmc006_stall (
-    input  wire logic       clk_i,
-    input  wire logic       rst_ni,
-    input  wire logic [9:0] level_i,
-    input  wire logic       valid_i,
-    input  wire logic [2:0] config_i,  // STCFG
-    input  wire logic [6:0] length_i,  // STLEN
-    input  wire logic [8:0] limit_i,   // STLVL
-    input  wire logic       busy_i,
-    input  wire logic       steady_i,  // constant speed above 0
-    input  wire logic       start_i,   // of a motion
-    input  wire logic       clear_i,
-    output logic            stop_o,    // of the motion
-    output logic            mark_o,    // note the position
-    output logic            stall_o
+module pmc006_stall
+  import pmc006_pkg::sample_t;
+(
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    input  wire sample_t       sample_i,  // of the back EMF
+    input  wire logic    [2:0] config_i,  // STCFG
+    input  wire logic    [6:0] length_i,  // STLEN
+    input  wire logic    [8:0] limit_i,   // STLVL
+    input  wire logic          busy_i,    // a motion is under way
+    input  wire logic          steady_i,  // constant speed above 0
+    input  wire logic          start_i,   // of a motion
+    input  wire logic          clear_i,   // STALL := 0
+    output logic               stop_o,    // of the motion
+    output logic               mark_o,    // note the position
+    output logic               stall_o    // register STALL
 );
 
   logic sample_q, low_q, counts;
@@ -36,13 +37,13 @@ module pmc006_stall (
       sample_q <= 1'b0;
       stall_o  <= 1'b0;
     end else begin
-      sample_q <= valid_i;
+      sample_q <= sample_i.valid;
       stall_o  <= mark_o || (stall_o && !clear_i && !start_i);
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (valid_i) low_q <= level_i < {1'b0, limit_i};
+    if (sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};
     if (start_i) count_q <= '0;
     else if (sample_q) count_q <= counts ? up[6:0] : '0;
   end

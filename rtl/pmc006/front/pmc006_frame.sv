@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_frame: puts the bytes of the host together to frames of eight and judges them.
 // Rules:  P006-FRM-01/02/04/06/08, P006-UART-03, P006-BAD-01..05.
-// Timing: go_o comes in the clk of the last byte; code_o and data_o stand from then until the next frame.
+// Timing: frame_o.go comes in the clk of the last byte; code and data stand from then until the next frame.
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module pmc006_frame (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic [ 7:0] addr_i,
-    input  wire logic [ 7:0] byte_i,
-    input  wire logic        valid_i,
-    input  wire logic        error_i,  // a byte without a stop bit
-    input  wire logic        late_i,   // too long after the byte before
-    output logic             go_o,
-    output logic      [ 7:0] code_o,
-    output logic      [31:0] data_o
+module pmc006_frame
+  import pmc006_pkg::frame_t;
+(
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic [7:0] addr_i,   // address of the part
+    input  wire logic [7:0] byte_i,   // a byte of the line
+    input  wire logic       valid_i,  // it has come, one clk
+    input  wire logic       error_i,  // a byte without a stop bit
+    input  wire logic       late_i,   // too long after the byte before
+    output frame_t          frame_o   // for this part, without fault
 );
 
   localparam logic [7:0] Head = 8'ha5;
@@ -24,8 +24,8 @@ module pmc006_frame (
   logic mine_q;
   logic [7:0] sum_q;
 
-  assign at   = late_i ? 3'd0 : at_q;
-  assign go_o = valid_i && at == 3'd7 && mine_q && byte_i == sum_q;
+  assign at = late_i ? 3'd0 : at_q;
+  assign frame_o.go = valid_i && at == 3'd7 && mine_q && byte_i == sum_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) at_q <= '0;
@@ -37,13 +37,13 @@ module pmc006_frame (
     if (valid_i) begin
       sum_q <= byte_i + ((at == '0) ? 8'd0 : sum_q);
       if (at == 3'd1) mine_q <= byte_i == addr_i;
-      if (at == 3'd2) code_o <= byte_i;
-      if (at inside {[3'd3 : 3'd6]}) data_o <= {byte_i, data_o[31:8]};
+      if (at == 3'd2) frame_o.code <= byte_i;
+      if (at inside {[3'd3 : 3'd6]}) frame_o.data <= {byte_i, frame_o.data[31:8]};
     end
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p006_frm_02, !go_o || !error_i)
+  `PPMC_ASSERT(p006_frm_02, !frame_o.go || !error_i)
 `endif
 
 endmodule

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_serial: the line to the host: frames in, one reply out for each that is executed.
 // Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
-// Timing: with e = the edge of the last stop-bit sample: go_o in the clk after e, de_o rises ceil(1 bit) after e, bit
+// Timing: with e = the edge of the last stop-bit sample: frame_o.go in the clk after e, de_o rises ceil(1 bit) after e, bit
 //         edge n comes ceil((2 + n) bits) after e, de_o falls ceil(82 bits) after e. Deaf from e + 1 until
 //         ceil(81.5 bits) after e, the middle of the last stop bit: there a host has the whole reply.
 // Rate:   bits last whole phases of an accumulator with an exact modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module pmc006_serial #(
+module pmc006_serial
+  import pmc006_pkg::frame_t;
+#(
     parameter int unsigned ClkHz = 16_000_000,
     parameter int unsigned Baud  = 9600
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        ready_i,  // 0: hears nothing yet
-    input  wire logic [ 7:0] addr_i,
+    input  wire logic [ 7:0] addr_i,   // address of the part
     input  wire logic        rxd_i,    // raw pin
-    output logic             txd_o,
-    output logic             de_o,
-    output logic             go_o,
-    output logic      [ 7:0] code_o,
-    output logic      [31:0] data_o,
-    input  wire logic [31:0] reply_i   // steady from half a bit after go_o on
+    output logic             txd_o,    // to the host, idle high
+    output logic             de_o,     // the line driver is on
+    output frame_t           frame_o,  // to be executed
+    input  wire logic [31:0] reply_i   // steady from half a bit after frame_o.go on
 );
 
   localparam longint unsigned Common = ppmc_pkg::gcd(64'(ClkHz), 64'(Baud));
@@ -88,15 +88,13 @@ module pmc006_serial #(
       .valid_i(valid && listen),
       .error_i(error),
       .late_i (late_q),
-      .go_o,
-      .code_o,
-      .data_o
+      .frame_o
   );
 
   // ---- bits since the last byte ----------------------------------------------------------------------------------
 
   always_ff @(posedge clk_i) begin
-    if (valid) {over_q, phase_q} <= {1'b0, go_o ? Zero : Half};
+    if (valid) {over_q, phase_q} <= {1'b0, frame_o.go ? Zero : Half};
     else {over_q, phase_q} <= {1'b0, phase_q} + {1'b0, !over_q ? Step : stop ? WrapHalf : Wrap};
     if (valid) count_q <= '0;
     else if (over_q) count_q <= count_q + 1'b1;
@@ -131,7 +129,7 @@ module pmc006_serial #(
       deaf_q <= 1'b0;
       de_o   <= 1'b0;
       txd_o  <= 1'b1;
-    end else if (go_o) deaf_q <= 1'b1;
+    end else if (frame_o.go) deaf_q <= 1'b1;
     else if (over_q && (deaf_q || de_o)) begin
       de_o <= deaf_q;
       if (de_o && left_q != '0) txd_o <= bits_q[0];
@@ -141,7 +139,7 @@ module pmc006_serial #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (go_o) begin
+    if (frame_o.go) begin
       left_q <= '0;
       at_q   <= '0;
       sum_q  <= '0;

@@ -11,19 +11,19 @@ module pmc006_accept
 (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
-    input  wire order_t    order_i,
-    input  wire logic      legal_i,
-    input  wire logic      act_i,
-    input  wire settings_t settings_i,
-    input  wire logic      busy_i,
+    input  wire order_t    order_i,     // what is carried out
+    input  wire logic      legal_i,     // its data are in range
+    input  wire logic      act_i,       // it is carried out in this clk
+    input  wire settings_t settings_i,  // parameter registers
+    input  wire logic      busy_i,      // a motion is under way
     input  wire logic      locked_i,    // a flag of EXT is set
     input  wire logic      ext_i,       // one is being set
     input  wire logic      stall_i,     // stop for a stall
     input  wire logic      key_i,       // RESET key
-    output logic           start_o,
-    output logic           run_o,
-    output logic           halt_o,
-    output logic           speed_o,
+    output logic           start_o,     // a motion of counted steps begins
+    output logic           run_o,       // a run at constant speed begins
+    output logic           halt_o,      // the motion stops at once
+    output logic           speed_o,     // 0: stop request for a speed run
     output logic           mode_o       // register SPEED_MODE
 );
 

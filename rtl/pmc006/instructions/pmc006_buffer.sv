@@ -8,16 +8,16 @@
 module pmc006_buffer (
     input  wire logic        clk_i,
     // executor: words of the program
-    input  wire logic        claim_i,
+    input  wire logic        claim_i,    // the address is word_at_i
     input  wire logic [ 7:0] word_at_i,  // 0 .. 199, 200 is harmless
     input  wire logic        put_i,      // word_at_i := data_i
-    input  wire logic [31:0] data_i,
-    output logic      [31:0] word_o,
+    input  wire logic [31:0] data_i,     // of put_i
+    output logic      [31:0] word_o,     // word of the program
     // EEPROM: bytes
-    input  wire logic [ 9:0] byte_at_i,
-    input  wire logic        we_i,
-    input  wire logic [ 7:0] byte_i,
-    output logic      [ 7:0] byte_o,
+    input  wire logic [ 9:0] byte_at_i,  // byte of the image
+    input  wire logic        we_i,       // byte_at_i := byte_i
+    input  wire logic [ 7:0] byte_i,     // of we_i
+    output logic      [ 7:0] byte_o,     // at byte_at_i
     output logic      [15:0] pair_o      // from an even address
 );
 

@@ -2,7 +2,7 @@
 // pmc006_control: everything between the line to the host and the motor: executor, registers, user program, EEPROM,
 //         guards.
 // Rules:  sections 3, 4, 7, 12 and 13, through its blocks.
-// Timing: start_o, run_o and halt_o are combinational, in the clk before the edge on which BUSY changes.
+// Timing: launch_o and halt_o are combinational, in the clk before the edge on which BUSY changes.
 `default_nettype none
 
 module pmc006_control
@@ -14,39 +14,31 @@ module pmc006_control
     parameter bit                 Echo    = 1'b0,
     parameter logic        [31:0] Version = 32'h0000_0123
 ) (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        us_i,
-    output logic             boot_o,
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire logic           us_i,        // one clk every microsecond
+    output logic                boot_o,      // the part is not ready yet
     // host
-    input  wire logic        go_i,
-    input  wire logic [ 7:0] code_i,
-    input  wire logic [31:0] data_i,
-    output logic      [31:0] reply_o,
-    output logic      [ 7:0] addr_o,
+    input  wire frame_t         frame_i,     // to be executed
+    output logic         [31:0] reply_o,     // data of its reply
+    output logic         [ 7:0] addr_o,      // address of the part
     // pins, inputs synchronised
-    input  wire logic        fset_ni,
-    input  wire logic [ 1:0] ext_i,
-    input  wire logic [ 4:0] gpi_i,
-    output logic      [ 1:0] pull_up_o,     // EXT1, EXT2
-    output logic      [ 4:0] gpo_o,
-    input  wire logic [ 9:0] bemf_level_i,
-    input  wire logic        bemf_valid_i,
-    input  wire logic        scl_i,
-    input  wire logic        sda_i,
-    output logic             scl_oe_o,
-    output logic             sda_oe_o,
+    input  wire logic           fset_ni,     // factory settings
+    input  wire logic    [ 1:0] ext_i,       // EXT1, EXT2
+    input  wire logic    [ 4:0] gpi_i,       // general inputs
+    output logic         [ 1:0] pull_up_o,   // of EXT1, EXT2
+    output logic         [ 4:0] gpo_o,       // general outputs
+    input  wire sample_t        bemf_i,      // back EMF
+    input  wire logic           scl_i,       // bus of the EEPROM
+    input  wire logic           sda_i,       // its data
+    output logic                scl_oe_o,    // pull it low
+    output logic                sda_oe_o,    // pull the data low
     // motion
-    output settings_t        settings_o,
-    output logic             start_o,
-    output logic      [30:0] count_o,
-    output logic             run_o,
-    output logic             speed_o,
-    output logic             halt_o,
-    input  wire logic        busy_i,
-    input  wire logic        step_i,
-    input  wire logic        forward_i,
-    input  wire logic        steady_i
+    output settings_t           settings_o,  // registers that motion and drive look at
+    output launch_t             launch_o,    // a motion to begin
+    output logic                halt_o,      // stop at once
+    input  wire motion_t        motion_i,    // how it stands
+    input  wire logic           step_i       // a step is made at the coming edge
 );
 
   order_t   order;
@@ -68,9 +60,7 @@ module pmc006_control
   pmc006_exec u_exec (
       .clk_i,
       .rst_ni,
-      .go_i,
-      .code_i,
-      .data_i,
+      .frame_i,
       .next_i     (next),
       .cancel_i   (cancel),
       .begin_o    (begins),
@@ -126,7 +116,7 @@ module pmc006_control
       .stop_o     (key_stop),
       .gpi_i,
       .flags_i    (flags),
-      .busy_i,
+      .busy_i     (motion_i.busy),
       .stall_i    (stall)
   );
 
@@ -206,15 +196,15 @@ module pmc006_control
       .legal_i   (legal),
       .act_i     (act),
       .settings_i(settings_o),
-      .busy_i,
+      .busy_i    (motion_i.busy),
       .locked_i  (|flags),
       .ext_i     (ext_event),
       .stall_i   (stall_stop),
       .key_i     (key_stop),
-      .start_o,
-      .run_o,
+      .start_o   (launch_o.start),
+      .run_o     (launch_o.run),
       .halt_o,
-      .speed_o,
+      .speed_o   (launch_o.speed),
       .mode_o    (mode)
   );
 
@@ -222,11 +212,11 @@ module pmc006_control
       .clk_i,
       .rst_ni,
       .step_i,
-      .forward_i,
-      .set_i  (place),
-      .data_i (order.data),
-      .mark_i (stall_mark),
-      .pos_o  (position),
+      .forward_i(motion_i.forward),
+      .set_i(place),
+      .data_i(order.data),
+      .mark_i(stall_mark),
+      .pos_o(position),
       .stall_o(stall_position)
   );
 
@@ -246,14 +236,13 @@ module pmc006_control
   pmc006_stall u_stall (
       .clk_i,
       .rst_ni,
-      .level_i (bemf_level_i),
-      .valid_i (bemf_valid_i),
+      .sample_i(bemf_i),
       .config_i(control.stcfg),
       .length_i(control.stlen),
       .limit_i (control.stlvl),
-      .busy_i,
-      .steady_i,
-      .start_i (start_o || run_o),
+      .busy_i  (motion_i.busy),
+      .steady_i(motion_i.steady),
+      .start_i (launch_o.start || launch_o.run),
       .clear_i (act && order.op == I_STALL),
       .stop_o  (stall_stop),
       .mark_o  (stall_mark),
@@ -270,7 +259,7 @@ module pmc006_control
       .gpo_o
   );
 
-  assign took = program_took || save || burn || start_o;
+  assign took = program_took || save || burn || launch_o.start;
 
   pmc006_answer #(
       .Echo(Echo),
@@ -283,7 +272,7 @@ module pmc006_control
       .settings_i(settings_o),
       .control_i (control),
       .speed_i   (mode),
-      .busy_i,
+      .busy_i    (motion_i.busy),
       .stall_i   (stall),
       .flags_i   (flags),
       .ext_i,
@@ -302,7 +291,7 @@ module pmc006_control
   always_ff @(posedge clk_i) took_q <= took;
 
   assign addr_o = control.addr;
-  assign count_o = order.data[30:0];
+  assign launch_o.count = order.data[30:0];
   assign pull_up_o = ~control.trigm;
 
 endmodule

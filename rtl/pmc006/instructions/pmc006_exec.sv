@@ -9,33 +9,31 @@
 module pmc006_exec
   import pmc006_pkg::*;
 (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
     // frames
-    input  wire logic        go_i,
-    input  wire logic [ 7:0] code_i,
-    input  wire logic [31:0] data_i,
+    input  wire frame_t        frame_i,      // instruction of the host
     // user program
-    input  wire logic        next_i,       // its next instruction is due
-    input  wire logic        cancel_i,     // forget the one under way
-    output logic             begin_o,      // it is under way
-    output logic             claim_o,      // the buffer's address is the executor's
-    output logic             second_o,     // word W1 instead of W0
-    output logic             trial_o,      // of the instruction at PP
-    input  wire logic [31:0] word_i,       // two clk after the address
+    input  wire logic          next_i,       // its next instruction is due
+    input  wire logic          cancel_i,     // forget the one under way
+    output logic               begin_o,      // it is under way
+    output logic               claim_o,      // the buffer's address is the executor's
+    output logic               second_o,     // word W1 instead of W0
+    output logic               trial_o,      // of the instruction at PP
+    input  wire logic   [31:0] word_i,       // two clk after the address
     // EEPROM
-    input  wire logic        load_i,
-    input  wire logic [ 7:0] load_op_i,
-    input  wire logic [15:0] load_data_i,
-    input  wire logic        store_i,      // carry out; else only look whether it is legal
+    input  wire logic          load_i,       // a parameter is there, while the boot lasts
+    input  wire logic   [ 7:0] load_op_i,    // instruction that loads it
+    input  wire logic   [15:0] load_data_i,  // its data
+    input  wire logic          store_i,      // carry out; else only look whether it is legal
     // what is carried out
-    output order_t           order_o,
-    output logic             legal_o,      // its data are in range
-    output logic             act_o,
-    output logic             place_o,      // the same for the position
-    input  wire logic        step_i,       // a step is counted in this clk
-    input  wire logic        try_i,        // E has been accepted
-    output logic             reply_o       // take the reply
+    output order_t             order_o,      // what is carried out
+    output logic               legal_o,      // its data are in range
+    output logic               act_o,        // order_o is carried out in this clk
+    output logic               place_o,      // the same for the position
+    input  wire logic          step_i,       // a step is counted in this clk
+    input  wire logic          try_i,        // E has been accepted
+    output logic               reply_o       // take the reply
 );
 
   typedef enum logic [2:0] {
@@ -69,7 +67,7 @@ module pmc006_exec
   assign claim_o = source_q != FromBoot && state_q inside {StFirst, StSecond, StDecode, StLook, StAct};
 
   always_comb begin
-    order_o = '{op: op_q, option: option_q, source: source_q, data: data_i};
+    order_o = '{op: op_q, option: option_q, source: source_q, data: frame_i.data};
     if (program_q) order_o.data = word_i;
     if (source_q == FromBoot) order_o.data = {16'd0, load_data_i};
   end
@@ -85,7 +83,7 @@ module pmc006_exec
       source_q <= FromBoot;
       ask_q    <= 1'b0;
     end else begin
-      if (go_i) ask_q <= 1'b1;
+      if (frame_i.go) ask_q <= 1'b1;
       unique case (state_q)
         StIdle:
         if (ask_q) begin
@@ -118,7 +116,7 @@ module pmc006_exec
 
   always_ff @(posedge clk_i) begin
     if (state_q == StIdle) begin
-      op_q     <= load_i ? load_op_i : code_i[7] ? I_NONE : code_i;
+      op_q     <= load_i ? load_op_i : frame_i.code[7] ? I_NONE : frame_i.code;
       option_q <= '0;
     end else if (state_q == StDecode) begin
       op_q     <= op_of(word_i[7:0]);
@@ -130,7 +128,7 @@ module pmc006_exec
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p006_sta_15, !(place_o && step_i) && !(place_o && act_o))
-  `PPMC_ASSERT(p006_frm_07, !(go_i && ask_q))
+  `PPMC_ASSERT(p006_frm_07, !(frame_i.go && ask_q))
 `endif
 
 endmodule

@@ -12,9 +12,9 @@ module pmc006_key #(
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic us_i,
+    input  wire logic us_i,    // one clk every microsecond
     input  wire logic pin_i,   // synchronised
-    output logic      hit_o,
+    output logic      hit_o,   // low long enough: the event
     output logic      armed_o  // being armed
 );
 

@@ -9,7 +9,7 @@ module pmc006_ports
 (
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
-    input  wire order_t       order_i,
+    input  wire order_t       order_i,  // what is carried out
     input  wire logic         write_i,  // order_i is carried out, its data are legal
     input  wire logic         pull_i,   // of the stall on GPO5
     output logic        [4:0] out_o,    // register GPO

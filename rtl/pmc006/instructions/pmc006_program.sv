@@ -10,28 +10,28 @@ module pmc006_program
 (
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
-    input  wire logic         autostart_i,
+    input  wire logic         autostart_i,  // the program begins by itself, one clk
     // executor
-    input  wire order_t       order_i,
-    input  wire logic         legal_i,
-    input  wire logic         act_i,
+    input  wire order_t       order_i,      // what is carried out
+    input  wire logic         legal_i,      // its data are in range
+    input  wire logic         act_i,        // it is carried out in this clk
     input  wire logic         begin_i,      // next_o has been taken
-    output logic              next_o,
-    output logic              cancel_o,
+    output logic              next_o,       // its next instruction is due
+    output logic              cancel_o,     // the one under way is to be forgotten
     input  wire logic         second_i,     // address of W1
     input  wire logic         trial_i,      // of the instruction at PP
-    output logic        [7:0] word_at_o,
+    output logic        [7:0] word_at_o,    // address of a word in the buffer
     output logic              try_o,        // E is accepted
     output logic              put_o,        // a word is written
     output logic              took_o,       // A word instruction, z or E is accepted
-    input  wire logic         burning_i,
-    output logic        [7:0] pp_o,
+    input  wire logic         burning_i,    // the EEPROM takes the program: no word may change
+    output logic        [7:0] pp_o,         // where the program stands, a line
     // what it looks at
-    input  wire logic         us_i,
-    input  wire logic   [4:0] gpi_i,
-    input  wire logic   [1:0] flags_i,
-    input  wire logic         busy_i,
-    input  wire logic         stall_i,
+    input  wire logic         us_i,         // one clk every microsecond
+    input  wire logic   [4:0] gpi_i,        // general inputs, synchronised
+    input  wire logic   [1:0] flags_i,      // of EXT1, EXT2
+    input  wire logic         busy_i,       // a motion is under way
+    input  wire logic         stall_i,      // register STALL
     output logic              stop_o        // of the motion, by the RESET key
 );
 

@@ -7,8 +7,8 @@
 module pmc006_range
   import pmc006_pkg::*;
 (
-    input  wire order_t order_i,
-    output logic        ok_o
+    input  wire order_t order_i,  // the instruction
+    output logic        ok_o      // its data are accepted
 );
 
   logic frame, listed, inner;

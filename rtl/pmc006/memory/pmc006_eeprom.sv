@@ -19,33 +19,33 @@ module pmc006_eeprom
     input  wire logic            fset_ni,      // synchronised
     input  wire logic            restore_i,    // it has been low long enough
     // requests
-    input  wire logic            save_i,
-    input  wire logic            burn_i,
+    input  wire logic            save_i,       // write the parameters
+    input  wire logic            burn_i,       // write the program
     output logic                 free_o,       // one can be taken
     output logic                 failed_o,     // the last one has, or a restore; while free_o
-    output logic                 burning_o,
-    output logic                 boot_o,
-    output logic                 autostart_o,
+    output logic                 burning_o,    // the program is being written
+    output logic                 boot_o,       // registers and program are not there yet
+    output logic                 autostart_o,  // the program begins by itself, one clk
     output logic                 rst_set_no,   // reset of the parameter registers: a restore during the boot
     // registers
-    input  wire settings_t       settings_i,
-    input  wire control_t        control_i,
+    input  wire settings_t       settings_i,   // parameter registers
+    input  wire control_t        control_i,    // registers of the control
     output logic                 load_o,       // carry out load_op_o with the pair or byte of the buffer
-    output logic           [7:0] load_op_o,
-    output logic                 load_wide_o,
+    output logic           [7:0] load_op_o,    // instruction that loads a parameter
+    output logic                 load_wide_o,  // it takes a pair
     output logic                 store_o,      // else only look whether it is legal
-    input  wire logic            legal_i,
+    input  wire logic            legal_i,      // its data are in range
     // buffer
     input  wire logic            claim_i,      // the executor reads it
-    output logic           [9:0] byte_at_o,
-    output logic                 we_o,
-    output logic           [7:0] byte_o,
-    input  wire logic      [7:0] byte_i,
+    output logic           [9:0] byte_at_o,    // place of the byte
+    output logic                 we_o,         // byte_o goes into the buffer
+    output logic           [7:0] byte_o,       // a byte of the EEPROM
+    input  wire logic      [7:0] byte_i,       // byte of the buffer at byte_at_o
     // bus, synchronised
-    input  wire logic            scl_i,
-    input  wire logic            sda_i,
-    output logic                 scl_oe_o,
-    output logic                 sda_oe_o
+    input  wire logic            scl_i,        // clock of the bus
+    input  wire logic            sda_i,        // data of the bus
+    output logic                 scl_oe_o,     // pull the clock low
+    output logic                 sda_oe_o      // pull the data low
 );
 
   localparam int unsigned PollTicks = 4 * I2cHz / 100;

@@ -11,18 +11,18 @@ module pmc006_page
 (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [9:0] at_i,
+    input wire logic [9:0] at_i,  // address in the EEPROM
     input wire logic sent_i,  // byte_o is taken
     input wire logic got_i,  // received_i has come
-    input wire logic [7:0] received_i,
+    input wire logic [7:0] received_i,  // the byte that has come
     input wire logic clear_i,  // the sum
-    input wire logic burn_i,
+    input wire logic burn_i,  // the program is written, not the parameters
     input wire logic mark_i,  // the program is going to change
     input wire logic [7:0] ahead_i,  // byte of the program
-    input wire logic factory_i,
-    input wire settings_t settings_i,
-    input wire control_t control_i,
-    output logic [7:0] byte_o,
+    input wire logic factory_i,  // factory values instead of the registers
+    input wire settings_t settings_i,  // parameter registers
+    input wire control_t control_i,  // registers of the control
+    output logic [7:0] byte_o,  // byte to be sent, or expected
     output logic wrong_o,  // what has come is not what it must be
     output logic [7:0] op_o,  // instruction that loads the byte or pair, I_NONE if there is none
     output logic wide_o  // a pair

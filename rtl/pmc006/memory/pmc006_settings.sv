@@ -9,10 +9,10 @@ module pmc006_settings
 (
     input  wire logic   clk_i,
     input  wire logic   rst_ni,
-    input  wire order_t order_i,
+    input  wire order_t order_i,  // what is carried out
     input  wire logic   write_i,     // order_i is carried out, its data are legal
-    output settings_t   settings_o,
-    output control_t    control_o
+    output settings_t   settings_o,  // what motion and drive look at
+    output control_t    control_o  // what only the control looks at
 );
 
   logic [13:0] data;

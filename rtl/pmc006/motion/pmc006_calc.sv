@@ -14,26 +14,26 @@ module pmc006_calc
     input  wire logic        rst_ni,
     input  wire logic        plan_i,     // a motion begins: plan it
     input  wire logic        advance_i,  // an update tick
-    output logic             busy_o,
+    output logic             busy_o,     // a run is going on
     // the motion; steady while busy
     input  wire logic        short_i,    // kind L
     input  wire logic        speed_i,    // kind V
     input  wire logic        stop_i,     // stop request, as sampled
-    input  wire logic        analog_i,
+    input  wire logic        analog_i,   // the target is analog
     input  wire logic [ 2:0] acc_i,      // taken with plan_i
-    input  wire logic [ 2:0] dec_i,
-    input  wire logic [13:0] v_i,
-    input  wire logic [11:0] ve_i,
+    input  wire logic [ 2:0] dec_i,      // the same for the deceleration
+    input  wire logic [13:0] v_i,        // V
+    input  wire logic [11:0] ve_i,       // VSTOP
     input  wire logic [30:0] left_i,     // until 6 clk after the start
     input  wire logic [ 7:0] mstep_i,    // 1, 2, 4, .. 128
     // settings, as sampled
-    input  wire logic [13:0] vmax_i,
-    input  wire logic [ 9:0] adc_i,
-    input  wire logic [11:0] cur_i,
-    input  wire logic [10:0] ccomp_i,
-    input  wire logic [10:0] scomp_i,
+    input  wire logic [13:0] vmax_i,     // VMAX
+    input  wire logic [ 9:0] adc_i,      // h
+    input  wire logic [11:0] cur_i,      // current, mA
+    input  wire logic [10:0] ccomp_i,    // CCOMP
+    input  wire logic [10:0] scomp_i,    // SCOMP
     // results
-    output phase_e           phase_o,
+    output phase_e           phase_o,    // phase of the motion
     output logic      [13:0] next_o,     // Vn
     output logic             start_v_o,  // one clk: V is Vn now
     output logic      [10:0] bump_o,     // Bn

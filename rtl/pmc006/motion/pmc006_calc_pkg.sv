@@ -124,7 +124,7 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
-  // Of a set: bit 3 of aux says that the ramp is over, bits 2..0 which of phase, up and smooth are set to what low holds.
+  // Of a set: bit 3 of aux says that the ramp is over, bits 2..0 which of phase, up and smooth are set.
   typedef struct packed {
     op_e op;
     logic [3:0] aux;  // as where_e, steps_e, out_e or cond_e

@@ -11,9 +11,9 @@ module pmc006_guard (
     input  wire logic [1:0] ext_i,     // synchronised; bit 0 EXT1
     input  wire logic [1:0] rising_i,  // TRIGM
     input  wire logic [1:0] enable_i,  // EXTEN
-    input  wire logic [1:0] clear_i,
+    input  wire logic [1:0] clear_i,   // the flag goes
     output logic            event_o,   // a flag is being set
-    output logic      [1:0] flags_o
+    output logic      [1:0] flags_o    // of EXT1, EXT2
 );
 
   logic [1:0] before_q, hit;

@@ -3,8 +3,8 @@
 //         target, compensation.
 // Rules:  P006-STA-10, P006-CMD-54, P006-MOT-01..05, P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42,
 //         P006-MOT-50..52, P006-EXC-21..24.
-// Timing: busy_o rises at the edge s of start_i or run_i, t = 0 is the first us tick at or after s + 800, a step due
-//         at t is made two clk after its us tick. step_o is combinational: high in the clk whose edge makes the
+// Timing: motion_o.busy rises at the edge s of start or run, t = 0 is the first us tick at or after s + 800, a step
+//         due at t is made two clk after its us tick. step_o is combinational: high in the clk whose edge makes the
 //         step.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -13,29 +13,21 @@ module pmc006_motion
   import pmc006_pkg::*;
   import pmc006_calc_pkg::*;
 (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire logic             us_i,
-    input  wire settings_t        settings_i,
+    input  wire logic      clk_i,
+    input  wire logic      rst_ni,
+    input  wire logic      us_i,        // one clk every microsecond
+    input  wire settings_t settings_i,  // parameter registers
     // instructions, already judged
-    input  wire logic             start_i,       // s, ROT
-    input  wire logic      [30:0] count_i,       // steps, at least 1
-    input  wire logic             run_i,         // N = 1 at rest
-    input  wire logic             speed_mode_i,  // 0: stop request for a speed run
-    input  wire logic             halt_i,        // stop at once; no step in this clk
-    input  wire logic      [ 9:0] adc_data_i,
-    input  wire logic             adc_valid_i,
-    output logic                  busy_o,
-    output logic                  step_o,
-    output logic                  forward_o,     // of this motion or of the last one
-    output logic                  steady_o,      // constant speed, not 0
-    output logic           [ 7:0] increment_o,   // angle of a step
-    output logic           [10:0] bump_o,        // B
-    output logic           [ 6:0] lead_o         // W
+    input  wire launch_t   launch_i,    // a motion to begin
+    input  wire logic      halt_i,      // stop at once; no step in this clk
+    input  wire sample_t   adc_i,       // h of the analog target
+    output motion_t        motion_o,    // how it stands
+    output logic           step_o,      // a step is made at the coming edge
+    output thrust_t        thrust_o     // what the drive needs
 );
 
   logic load, load_q, launch, update, sample, advance, stop, start_v, calc_busy;
-  logic short_q, speed_q, stop_q, analog_q, rest, steady_q;
+  logic short_q, speed_q, stop_q, analog_q, rest, busy_q, forward_q, steady_q;
   logic [11:0] ve_q, cur_q;
   logic [2:0] acc_q, dec_q;
   logic [10:0] ccomp_q, scomp_q, bump;
@@ -46,25 +38,25 @@ module pmc006_motion
   logic [7:0] mstep;
   phase_e phase;
 
-  assign load = start_i || run_i;
-  assign rest = speed_q && phase == PhEnd && !speed_mode_i;
-  assign steady_o = steady_q && busy_o;
+  assign load = launch_i.start || launch_i.run;
+  assign rest = speed_q && phase == PhEnd && !launch_i.speed;
+  assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q && busy_q};
 
-  always_comb for (int unsigned i = 0; i < 8; i++) mstep[i] = increment_o[7-i];
+  always_comb for (int unsigned i = 0; i < 8; i++) mstep[i] = thrust_o.increment[7-i];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      busy_o    <= 1'b0;
+      busy_q    <= 1'b0;
       load_q    <= 1'b0;
-      forward_o <= 1'b1;
+      forward_q <= 1'b1;
       adc_q     <= '0;
       h_q       <= '0;
     end else begin
       load_q <= load;
-      if (load) busy_o <= 1'b1;
-      else if (stop) busy_o <= 1'b0;
-      if (load) forward_o <= settings_i.dir;
-      if (adc_valid_i) adc_q <= adc_data_i;
+      if (load) busy_q <= 1'b1;
+      else if (stop) busy_q <= 1'b0;
+      if (load) forward_q <= settings_i.dir;
+      if (adc_i.valid) adc_q <= adc_i.level;
       if (load || sample) h_q <= adc_q;
     end
   end
@@ -72,18 +64,18 @@ module pmc006_motion
   // No reset: an accepted motion sets what follows.
   always_ff @(posedge clk_i) begin
     if (load) begin
-      speed_q <= run_i;
-      short_q <= start_i && count_i[30:8] == '0;
+      speed_q <= launch_i.run;
+      short_q <= launch_i.start && launch_i.count[30:8] == '0;
       ve_q    <= settings_i.vstop;
       acc_q   <= settings_i.acc;
       dec_q   <= settings_i.dec;
-      for (int unsigned i = 1; i < 8; i++) increment_o[7-i] <= settings_i.mstep[i];
-      increment_o[7] <= settings_i.mstep == '0;
+      for (int unsigned i = 1; i < 8; i++) thrust_o.increment[7-i] <= settings_i.mstep[i];
+      thrust_o.increment[7] <= settings_i.mstep == '0;
     end
     if (load || launch || update) begin
       vmax_q   <= settings_i.vmax;
       analog_q <= settings_i.regulate;
-      stop_q   <= !speed_mode_i;
+      stop_q   <= !launch_i.speed;
       cur_q    <= settings_i.cur;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
@@ -95,7 +87,7 @@ module pmc006_motion
       .clk_i,
       .rst_ni,
       .plan_i   (load_q),
-      .advance_i(advance && busy_o),
+      .advance_i(advance && busy_q),
       .busy_o   (calc_busy),
       .short_i  (short_q),
       .speed_i  (speed_q),
@@ -124,10 +116,10 @@ module pmc006_motion
       .rst_ni,
       .us_i,
       .load_i   (load),
-      .count_i,
+      .count_i  (launch_i.count),
       .vstart_i (settings_i.vstart),
       .endless_i(speed_q),
-      .busy_i   (busy_o),
+      .busy_i   (busy_q),
       .halt_i,
       .rest_i   (rest),
       .start_v_i(start_v),
@@ -142,8 +134,8 @@ module pmc006_motion
       .stop_o   (stop),
       .v_o      (v),
       .left_o   (left),
-      .bump_o,
-      .lead_o
+      .bump_o   (thrust_o.bump),
+      .lead_o   (thrust_o.lead)
   );
 
   logic unused_settings;
@@ -151,7 +143,7 @@ module pmc006_motion
   assign unused_settings = &{1'b0, settings_i.autodec, settings_i.att, settings_i.free, settings_i.mstep[0]};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(motion_start_at_rest, !(load && busy_o))
+  `PPMC_ASSERT(motion_start_at_rest, !(load && busy_q))
   `PPMC_ASSERT(motion_planned_in_time, !(launch && calc_busy))
 `endif
 

@@ -8,13 +8,13 @@
 module pmc006_position (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        step_i,
-    input  wire logic        forward_i,
-    input  wire logic        set_i,
-    input  wire logic [31:0] data_i,
+    input  wire logic        step_i,     // a step is counted
+    input  wire logic        forward_i,  // upwards
+    input  wire logic        set_i,      // pos_o := data_i
+    input  wire logic [31:0] data_i,     // of set_i
     input  wire logic        mark_i,     // a stall
-    output logic      [31:0] pos_o,
-    output logic      [31:0] stall_o
+    output logic      [31:0] pos_o,      // position
+    output logic      [31:0] stall_o     // position of the last stall
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

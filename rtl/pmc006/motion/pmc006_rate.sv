@@ -9,13 +9,13 @@
 module pmc006_rate (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        us_i,
+    input  wire logic        us_i,       // one clk every microsecond
     input  wire logic        load_i,     // a motion is accepted
     input  wire logic [30:0] count_i,    // its steps
-    input  wire logic [11:0] vstart_i,
+    input  wire logic [11:0] vstart_i,   // VSTART, its first V
     input  wire logic        endless_i,  // kind V
-    input  wire logic        busy_i,
-    input  wire logic        halt_i,
+    input  wire logic        busy_i,     // it is under way
+    input  wire logic        halt_i,     // stop at once
     input  wire logic        rest_i,     // end at this update tick
     input  wire logic        start_v_i,  // V = Vn
     input  wire logic [13:0] next_i,     // Vn
@@ -27,7 +27,7 @@ module pmc006_rate (
     output logic             advance_o,  // start of advance()
     output logic             step_o,     // combinational
     output logic             stop_o,     // combinational: the motion ends, halted or by itself
-    output logic      [13:0] v_o,
+    output logic      [13:0] v_o,        // V
     output logic      [30:0] left_o,     // R
     output logic      [10:0] bump_o,     // B
     output logic      [ 6:0] lead_o      // W

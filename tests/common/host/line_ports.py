@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from openppmc.host import Ppmc312Bus
 from openppmc.host.line.loopback import ModelLine
 
 LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "break reply", "break frame"
-BAUD = 38_400
 
 
 class Spoiled(ModelLine):
     """A modelled line. frames: all that was sent. plan: says what happens to a frame, or None."""
 
-    def __init__(self, text: str, baud: int = BAUD, part: str = "ppmc312-serial") -> None:
+    def __init__(self, text: str, baud: int, part: str) -> None:
         super().__init__(text, baud, part)
         self.frames: list[bytes] = []
         self.plan: Callable[[bytes], str | None] = lambda frame: None
@@ -51,20 +49,6 @@ class Spoiled(ModelLine):
         return data
 
 
-def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
-    """A plan: the first `times` frames with this serial code meet that fate."""
-    left = times
-
-    def plan(frame: bytes) -> str | None:
-        nonlocal left
-        if left and frame[1:3] == f"{code:02x}".encode():
-            left -= 1
-            return fate
-        return None
-
-    return plan
-
-
 class Played:
     """A port that answers each frame with the next text, whatever it was. Time passes only here."""
 
@@ -96,9 +80,3 @@ class Played:
 
     def close(self) -> None:
         pass
-
-
-def spoiled(text: str = "stations=2") -> tuple[Spoiled, Ppmc312Bus]:
-    """Such a port, and a bus on it."""
-    port = Spoiled("speed=max," + text)
-    return port, Ppmc312Bus.open(port, BAUD)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from openppmc.host import Pmc006, Pmc006Bus
 from openppmc.host.pmc006.wire import reply
 from openppmc.sim.pmc006.node import Node
-from tests.ppmc312.line.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
+from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
 
 CUT_FRAME, CUT_REPLY, DOUBLE_REPLY = "cut frame", "cut reply", "double reply"
 MERGED_REPLY, CHANGED_REPLY, LATE_REPLY = "merged reply", "changed reply", "late reply"

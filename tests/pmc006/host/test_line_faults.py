@@ -14,6 +14,7 @@ from openppmc.host.pmc006.errors import LockedByExt, ProgramDiffers, ProgramRuns
 from openppmc.host.pmc006.line import Line
 from openppmc.host.pmc006.wire import Receiver, Reply, command, reply
 from openppmc.model.pmc006.program import Program, assemble
+from tests.common.host.line_ports import Played
 from tests.pmc006.host.line_ports import (
     CHANGED_REPLY,
     CUT_FRAME,
@@ -30,7 +31,6 @@ from tests.pmc006.host.line_ports import (
     once,
     one,
 )
-from tests.ppmc312.line.line_ports import Played
 
 
 def quick(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:

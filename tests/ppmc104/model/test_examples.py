@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from tests.ppmc104.model.host import INIT_A, ModelHost
+from tests.ppmc104.model.host import INIT_A, Host
 
 CHOPPED = "c 2A d 09 d 04 d 04 d 00"
 
 
-def started(script: str, **parameters: object) -> ModelHost:
-    host = ModelHost(**parameters)
+def started(script: str, **parameters: object) -> Host:
+    host = Host(**parameters)
     host.run(script)
     return host
 
 
-def with_pins(script: str, move: str, **levels: int) -> ModelHost:
+def with_pins(script: str, move: str, **levels: int) -> Host:
     host = started(script)
     host.pins(**levels)
     host.pause(8)
@@ -56,7 +56,7 @@ def test_ex_11_flat_ramp():
 
 
 def test_ac_47_reinitialisation_without_chopping():
-    host = ModelHost()
+    host = Host()
     host.run(CHOPPED)
     host.pause(5000)
     host.run(INIT_A)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from tests.ppmc104.model.host import INIT_A, INIT_B, ModelHost
+from tests.ppmc104.model.host import INIT_A, INIT_B, Host
 
 EXTERNAL = "c 1A d 09 d 04 d 04 d 00"
 
 
-def clock_run(host: ModelHost, period: int, edges: int, phase: int = 0) -> None:
+def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
     """So many periods of the external clock, high for half of each."""
     start = host.t + phase
     for i in range(edges):
@@ -26,22 +26,22 @@ def test_tim_05_external_pulse_width():
         (0, 128, 80),
         (1, 100, 80),
     ):
-        host = ModelHost()
+        host = Host()
         host.run(EXTERNAL + f" c 44 d {rate:02X} d 03 d 00 d 00")
         clock_run(host, period, 30)
         assert host.finish() == (0x84, 0), (rate, period)
         assert host.lows() == [low, low, low, 80], (rate, period)
 
 
-def datasheet(init: str) -> ModelHost:
-    host = ModelHost(timing="DATASHEET")
+def datasheet(init: str) -> Host:
+    host = Host(timing="DATASHEET")
     host.run(init)
     host.pause(270_000)
     return host
 
 
 def test_ds_01_pattern_and_ds_11_delays():
-    host = ModelHost(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     for byte in (9, 4, 4, 0):
         if byte == 9:
             host.command(0x0A)

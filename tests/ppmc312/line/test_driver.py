@@ -49,7 +49,7 @@ from openppmc.host.ppmc312.errors import (
 from openppmc.host.ppmc312.line.ascii import SumMode
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Source, State
-from tests.ppmc312.line.line_ports import Played
+from tests.common.host.line_ports import Played
 
 FAST = (4000, 8000, 600)
 """Start speed, high speed, ramp: a table whose motions cost the model little."""

@@ -12,15 +12,8 @@ from openppmc.host.basis.refusals import NothingToStop, UnknownCode
 from openppmc.host.line.errors import DuplicateAddress, GarbledReply, LineEcho, LostReply, StationSilent
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import Alarm
-from tests.ppmc312.line.line_ports import (
-    BREAK_FRAME,
-    BREAK_REPLY,
-    LOSE_FRAME,
-    LOSE_REPLY,
-    Played,
-    once,
-    spoiled,
-)
+from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Played
+from tests.ppmc312.line.line_ports import once, spoiled
 
 FAST = (4000, 8000, 600)
 ANY_FATE = (LOSE_FRAME, LOSE_REPLY, BREAK_FRAME, BREAK_REPLY)

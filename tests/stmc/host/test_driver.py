@@ -35,6 +35,7 @@ from openppmc.host.basis.kind import Wanted
 from openppmc.host.basis.refusals import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
+from openppmc.host.stmc import clock
 from openppmc.host.stmc.errors import refused as refused_stmc
 from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.carrier.plant import Plant
@@ -100,8 +101,8 @@ def gaps(axis: Stmc, steps: int, pps: units.Number | None = None) -> list[int]:
 
 
 def test_the_worked_examples_of_the_sheet() -> None:
-    """345/s and 825/s at 48 675 Hz: the doctests of `units` are run, and there are some."""
-    failed, attempted = doctest.testmod(units)
+    """345/s and 825/s at 48 675 Hz: the doctests of `clock` are run, and there are some."""
+    failed, attempted = doctest.testmod(clock)
     assert not failed and attempted >= 5
 
 

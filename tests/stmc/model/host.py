@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from openppmc.model.common.square import Square
 from openppmc.model.stmc.part import Stmc
-from tests.ppmc104.model.host import ModelHost
+from tests.common.model.host import ModelHost
 
 # Period of the external clock of the acceptance checks, in clk.
 EXT16 = 16

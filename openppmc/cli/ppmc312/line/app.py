@@ -230,5 +230,6 @@ def _list(axes: list[Station312]) -> str:
     return ", ".join(str(one.number) for one in axes)
 
 
+# Shared: they open no board.
 app.command()(ports)
 app.command(context_settings=NUMBERS)(plan)
