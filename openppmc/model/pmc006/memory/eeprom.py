@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from ...common.blocks import Phase
-from ...common.scheduler import Callback
 from ..desk import Desk
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 from .i2c import Bus, BusError, Course
