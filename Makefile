@@ -1,13 +1,25 @@
 # OpenPPMC. `make help` lists the targets; the environment (.venv) makes itself when a target needs it.
 
-# Two parts are other parts in a frame: they have no demo, no virtual board and no bitstream of their own.
-FRAMES := $(if $(filter demo board soak bench bitstream flash trace,$(MAKECMDGOALS)),,isa_4axis j105_stmc)
-PARTS := ppmc104 ppmc2104 $(FRAMES) stmc ppmc312 pmc006 \
-         $(if $(filter demo board soak bench bitstream flash,$(MAKECMDGOALS)),ppmc312-serial)
+comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
+quote = '$(subst ','\'',$1)'
+# Names from the table of parts, openppmc/parts.py; none without a Python, which preflight.sh then asks for.
+names = $(shell for python in .venv/bin/python $(call quote,$(PYTHON)) python3; do \
+          "$$python" openppmc/parts.py names $1 2>/dev/null && break; done)
+# Which parts a goal has: those with such a column, or those with a top module of their own.
+WITH_demo := --with demo
+WITH_bench := --with demo
+WITH_soak := --with soak
+WITH_board := --any carrier line
+WITH_bitstream := --any carrier line
+WITH_flash := --any carrier line
+WITH_trace := --folders
+SPECIAL := $(firstword $(foreach goal,$(MAKECMDGOALS),$(if $(WITH_$(goal)),$(goal))))
+PARTS := $(call names,$(or $(WITH_$(SPECIAL)),--tops))
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
-BOARDS := icebreaker ulx3s-25f ulx3s-85f tangnano9k tangnano20k
+# Names below `devices:` of each description.
+BOARDS := $(shell awk 'FNR == 1 { on = 0 } /^[^ ]/ { on = /^devices:/; next } on && /^  [^ ]/ { sub(":.*", ""); print $$1 }' constraints/*/board.yml)
 BOARD ?= icebreaker
 HOST  ?= uart
 J     ?= 2
@@ -39,9 +51,7 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
-comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
-quote = '$(subst ','\'',$1)'
-NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages rom
+NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
 CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
@@ -61,7 +71,7 @@ export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help setup demo test test-gates test-board soak lint format synth report size yardsticks bench trace waves docs board \
-        bitstream flash packages rom clean distclean
+        bitstream flash packages boards rom clean distclean
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -98,7 +108,7 @@ bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine
 
 trace: $(ENVSIM) ## docs/<part>/traceability.md: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
-	@for part in $(or $(GIVEN_PART),ppmc104 ppmc2104 stmc ppmc312 pmc006); do $(PY) -m scripts.trace $$part || exit 1; done
+	@for part in $(or $(GIVEN_PART),$(call names,--folders)); do $(PY) -m scripts.trace $$part || exit 1; done
 
 test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
@@ -118,7 +128,7 @@ size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth 
 yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose sources and peers.json lie in PEERS=folder, into docs/benchmarks.md
 	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
-bitstream: $(ENVDEV) ## bitstream of BOARD=icebreaker, ulx3s-25f, ulx3s-85f, tangnano9k or (PPMC-312, also in serial mode) tangnano20k with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
+bitstream: $(ENVDEV) ## bitstream of BOARD=… (docs/boards.md: which carries which part) with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \
 	  $(foreach v,$(GIVEN_TOP),-G $v=$($v))
 
@@ -127,6 +137,9 @@ flash: ## load that bitstream into the board with openFPGALoader
 
 packages: $(ENVDEV) ## write the FuseSoC cores and vendor file lists anew from rtl/files.yml
 	@$(PY) -m scripts.packages
+
+boards: $(ENVDEV) ## write tops, constraint files and tables of the FPGA boards anew from constraints/<board>/board.yml
+	@$(PY) -m scripts.boards
 
 rom: $(ENVDEV) ## assemble the planner's program of the PMC006B4 (pmc006_calc.asm) into its ROM
 	@$(PY) -m scripts.pmc006.calc_rom

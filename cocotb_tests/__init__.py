@@ -1,1 +1,1 @@
-"""Simulations: one folder a part, and the shared harness in `common`."""
+"""Simulations of the RTL: a folder a part, a room for the blocks and boards that parts share, the harness."""

@@ -1,4 +1,4 @@
-"""The base of all errors that users see; `host.errors` has most of them."""
+"""The base of all errors that users see; most of them are in `host.basis.errors`."""
 
 
 class PpmcError(Exception):

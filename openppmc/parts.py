@@ -3,11 +3,16 @@
 Needs the standard library only and imports nothing of the project, so that `make` can ask it before there is
 an environment:
 
-    python3 openppmc/parts.py names [--with FIELD]     names of all parts, or of those that have this
-    python3 openppmc/parts.py show NAME                one row, a field a line
+    python3 openppmc/parts.py names                      all parts; those …
+    python3 openppmc/parts.py names --with COLUMN …      … that have something in each of these columns
+    python3 openppmc/parts.py names --any COLUMN …       … in one of them at least
+    python3 openppmc/parts.py names --folders            … with folders of their own
+    python3 openppmc/parts.py names --tops               … with a top module of their own
+    python3 openppmc/parts.py show NAME                  one row, a column a line
 
-Places in the columns `model`, `driver`, `kind`, `commands` and `machine` are "module:name" below the part's
-folder in that layer; `load` imports them when they are asked for.
+Places in the columns of LAYER_OF are "module:name" below the part's folder in that layer; `load` imports them
+when they are asked for. commands: a command line of its own; view: what it shows on the shared one; words:
+those of its own in script files.
 """
 
 from __future__ import annotations
@@ -22,8 +27,22 @@ class UnknownPartError(ValueError):
     """A name or number that is not in the table, or a part without what was asked for. One line."""
 
 
-LAYER_OF = {"model": "model", "driver": "host", "kind": "host", "commands": "cli", "machine": "sim"}
-"""Column with places -> folder of openppmc in which they are."""
+LAYER_OF = {
+    "model": "openppmc.model",
+    "predict": "openppmc.model",
+    "driver": "openppmc.host",
+    "kind": "openppmc.host",
+    "commands": "openppmc.cli",
+    "view": "openppmc.cli",
+    "words": "openppmc.cli",
+    "machine": "openppmc.sim",
+    "soak": "cocotb_tests",
+    "gates": "cocotb_tests",
+    "manual": "scripts",
+    "demo": "scripts",
+    "bench": "scripts",
+}
+"""Column with places -> package in which each part has its folder."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +51,15 @@ class Row:
 
     name: `PART=`, `--part`, `part=` and the folder in every layer. title: in messages, on pages and pictures.
     of: the part whose folder it shares and whose columns it takes over where it has none of its own (but for
-    the yes-or-no ones). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes
-    of its rule IDs. rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
-    docs: pages of its folder in docs/ beside README.md and traceability.md. carrier: there is a
-    <part>_carrier, so a virtual board and bitstreams. line: stations on a serial line, with commands of its
-    own. demo, soak, gates: `make demo`, `make soak`, `make test-gates` have it.
+    those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
+    its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
+    rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
+    docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and
+    computed for them. carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
+    on a serial line, with commands of its own.
+    demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
+    on the pins of a part. soak: what makes the test of a seed for `make soak`, or a campaign of many a seed.
+    gates: which tests `make test-gates` runs.
     """
 
     name: str
@@ -48,16 +71,21 @@ class Row:
     top: str = ""
     families: tuple[str, ...] = ()
     model: str = ""
+    predict: str = ""
     driver: str = ""
     kind: str = ""
     commands: str = ""
+    view: str = ""
+    words: str = ""
     machine: str = ""
     docs: tuple[str, ...] = ()
+    manual: str = ""
     carrier: bool = False
     line: bool = False
-    demo: bool = False
-    soak: bool = False
-    gates: bool = False
+    demo: str = ""
+    bench: str = ""
+    soak: str = ""
+    gates: str = ""
 
     @property
     def folder(self) -> str:
@@ -70,7 +98,7 @@ class Row:
         if not place:
             raise UnknownPartError(f"part {self.name} has no {column}")
         module, _, name = place.partition(":")
-        package = f"openppmc.{LAYER_OF[column]}.{self.folder}"
+        package = f"{LAYER_OF[column]}.{self.folder}"
         return getattr(importlib.import_module(f"{package}.{module}"), name)
 
 
@@ -83,14 +111,16 @@ ROWS = (
         rules=("P104",),
         families=BOTH,
         model="part:Ppmc104",
+        predict="predict:predict",
         driver="driver:Ppmc104",
         kind="kind:KIND",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
-        demo=True,
-        soak=True,
-        gates=True,
+        demo="demo:DEMO",
+        soak="test_random:random_item",
+        gates="gates:PART",
     ),
     Row(
         name="ppmc2104",
@@ -99,14 +129,17 @@ ROWS = (
         rules=("P2104",),
         families=BOTH,
         model="part:Ppmc2104",
+        predict="predict:predict",
         driver="driver:Ppmc2104",
         kind="kind:KIND",
+        view="view:VIEW",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
+        manual="manual:MANUAL",
         carrier=True,
-        demo=True,
-        soak=True,
-        gates=True,
+        demo="demo:DEMO",
+        soak="test_random:random_item",
+        gates="gates:PART",
     ),
     Row(name="isa_4axis", title="four axes on an ISA bus", of="ppmc2104", rtl="isa_4axis", top="isa_4axis"),
     Row(
@@ -116,14 +149,16 @@ ROWS = (
         rules=("STMC", "J105"),
         families=BOTH,
         model="part:Stmc",
+        predict="predict:predict",
         driver="driver:Stmc",
         kind="kind:KIND",
         machine="machine:MACHINE",
         docs=("replace.md", "examples.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
-        demo=True,
-        soak=True,
-        gates=True,
+        demo="demo:DEMO",
+        soak="test_random:random_item",
+        gates="gates:PART",
     ),
     Row(
         name="j105_stmc",
@@ -132,7 +167,7 @@ ROWS = (
         rtl="j105_stmc",
         top="j105_stmc",
         model="pc104_board:J105Stmc",
-        gates=True,
+        gates="gates:BOARD",
     ),
     Row(
         name="ppmc312",
@@ -141,14 +176,18 @@ ROWS = (
         rules=("P312",),
         families=("ecp5",),
         model="part:Ppmc312",
+        predict="predict:predict",
         driver="driver:Ppmc312",
         kind="kind:KIND",
+        view="view:VIEW",
+        words="words:WORDS",
         machine="machine:MACHINE",
-        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "rulings.md"),
+        docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
-        demo=True,
-        soak=True,
-        gates=True,
+        demo="demo:DEMO",
+        soak="test_random:random_item",
+        gates="gates:PART",
     ),
     Row(
         name="ppmc312-serial",
@@ -157,10 +196,11 @@ ROWS = (
         driver="line.bus:Ppmc312Bus",
         kind="line.kind:KIND",
         commands="line.app:app",
-        machine="line_spec:MACHINE",
+        machine="line:MACHINE",
         line=True,
-        demo=True,
-        soak=True,
+        demo="line.demo:main",
+        bench="line.bench:main",
+        soak="line.soak:SOAK",
     ),
     Row(
         name="pmc006",
@@ -171,17 +211,17 @@ ROWS = (
         driver="bus:Pmc006Bus",
         kind="kind:KIND",
         commands="app:app",
-        machine="line_spec:MACHINE",
-        docs=("rulings.md",),
+        machine="line:MACHINE",
+        docs=("design.md", "rulings.md"),
+        manual="manual:MANUAL",
         carrier=True,
         line=True,
-        demo=True,
-        soak=True,
-        gates=True,
+        demo="demo:DEMO",
+        soak="test_random:random_item",
+        gates="gates:PART",
     ),
 )
-YES_OR_NO = ("carrier", "line", "demo", "soak", "gates")
-OWN = ("name", "of", "number", "rules", "docs", *YES_OR_NO)
+OWN = ("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "demo", "bench", "soak", "gates")
 """Columns that a row does not take from the one it is `of`."""
 
 
@@ -219,24 +259,45 @@ def folders() -> tuple[Row, ...]:
     return tuple(row for row in PARTS.values() if not row.of)
 
 
+def tops() -> tuple[Row, ...]:
+    """The parts with a top module of their own, those in another one's folder among them."""
+    return tuple(row for row in PARTS.values() if row.top == row.name)
+
+
 def by_number(number: int) -> Row | None:
     """The part that tells this number over the UART bridge, or None."""
     return next((row for row in having("number") if row.number == number), None)
 
 
+def _chosen(options: list[str]) -> tuple[Row, ...] | None:
+    """The rows that the options of `names` choose; None for options that there are not."""
+    if not options:
+        return tuple(PARTS.values())
+    if options in (["--folders"], ["--tops"]):
+        return folders() if options == ["--folders"] else tops()
+    if options[0] == "--with" and options[1:]:
+        return having(*options[1:])
+    if options[0] == "--any" and options[1:]:
+        found = [row for column in options[1:] for row in having(column)]
+        return tuple(row for row in PARTS.values() if row in found)
+    return None
+
+
 def main(arguments: list[str]) -> int:
     """Command line, for make and shell scripts; returns the exit code."""
     try:
-        if arguments == ["names"]:
-            print(*PARTS)
-        elif arguments[:2] == ["names", "--with"] and arguments[2:]:
-            print(*(row.name for row in having(*arguments[2:])))
+        rows = _chosen(arguments[1:]) if arguments[:1] == ["names"] else None
+        if rows is not None:
+            print(*(row.name for row in rows))
         elif arguments[:1] == ["show"] and len(arguments) == 2:
             for f in fields(Row):
                 value = getattr(part(arguments[1]), f.name)
                 print(f"{f.name}: {' '.join(value) if isinstance(value, tuple) else value}")
         else:
-            print("expected: names [--with COLUMN…] or show NAME", file=sys.stderr)
+            print(
+                "expected: names [--with COLUMN… | --any COLUMN… | --folders | --tops] or show NAME",
+                file=sys.stderr,
+            )
             return 2
     except UnknownPartError as error:
         print(error, file=sys.stderr)

@@ -68,10 +68,12 @@ add_file -type verilog $root/rtl/ppmc312/stages/ppmc312_stage_unit.sv
 add_file -type verilog $root/rtl/ppmc312/stages/ppmc312_stage_seq.sv
 add_file -type verilog $root/rtl/ppmc312/stages/ppmc312_interval.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_pkg.sv
+add_file -type verilog $root/rtl/ppmc312/ppmc312_link_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_serial_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_bus.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_mailbox.sv
 add_file -type verilog $root/rtl/ppmc312/front/ppmc312_reports.sv
+add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_instr_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_store.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_fetch.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv
@@ -150,10 +152,10 @@ add_file -type verilog $root/rtl/stmc/stmc.sv
 add_file -type verilog $root/rtl/stmc/j105_stmc.sv
 add_file -type verilog $root/rtl/ppmc2104/isa/isa_4axis.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_host.sv
-add_file -type verilog $root/rtl/ppmc104/ppmc104_carrier.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_reset.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_lamp.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_panel.sv
+add_file -type verilog $root/rtl/ppmc104/ppmc104_carrier.sv
 add_file -type verilog $root/rtl/ppmc2104/ppmc2104_carrier.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_steps.sv
 add_file -type verilog $root/rtl/stmc/stmc_carrier.sv

@@ -58,10 +58,12 @@
 ../rtl/ppmc312/stages/ppmc312_stage_seq.sv
 ../rtl/ppmc312/stages/ppmc312_interval.sv
 ../rtl/ppmc312/ppmc312_pkg.sv
+../rtl/ppmc312/ppmc312_link_pkg.sv
 ../rtl/ppmc312/front/ppmc312_serial_pkg.sv
 ../rtl/ppmc312/front/ppmc312_bus.sv
 ../rtl/ppmc312/front/ppmc312_mailbox.sv
 ../rtl/ppmc312/front/ppmc312_reports.sv
+../rtl/ppmc312/instructions/ppmc312_instr_pkg.sv
 ../rtl/ppmc312/instructions/ppmc312_store.sv
 ../rtl/ppmc312/instructions/ppmc312_fetch.sv
 ../rtl/ppmc312/instructions/ppmc312_arbiter.sv

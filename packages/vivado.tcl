@@ -67,10 +67,12 @@ set files [list \
   $root/rtl/ppmc312/stages/ppmc312_stage_seq.sv \
   $root/rtl/ppmc312/stages/ppmc312_interval.sv \
   $root/rtl/ppmc312/ppmc312_pkg.sv \
+  $root/rtl/ppmc312/ppmc312_link_pkg.sv \
   $root/rtl/ppmc312/front/ppmc312_serial_pkg.sv \
   $root/rtl/ppmc312/front/ppmc312_bus.sv \
   $root/rtl/ppmc312/front/ppmc312_mailbox.sv \
   $root/rtl/ppmc312/front/ppmc312_reports.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_instr_pkg.sv \
   $root/rtl/ppmc312/instructions/ppmc312_store.sv \
   $root/rtl/ppmc312/instructions/ppmc312_fetch.sv \
   $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv \
@@ -149,10 +151,10 @@ set files [list \
   $root/rtl/stmc/j105_stmc.sv \
   $root/rtl/ppmc2104/isa/isa_4axis.sv \
   $root/rtl/boards/common/ppmc_board_host.sv \
-  $root/rtl/ppmc104/ppmc104_carrier.sv \
   $root/rtl/boards/common/ppmc_board_reset.sv \
   $root/rtl/boards/common/ppmc_board_lamp.sv \
   $root/rtl/boards/common/ppmc_board_panel.sv \
+  $root/rtl/ppmc104/ppmc104_carrier.sv \
   $root/rtl/ppmc2104/ppmc2104_carrier.sv \
   $root/rtl/boards/common/ppmc_board_steps.sv \
   $root/rtl/stmc/stmc_carrier.sv \

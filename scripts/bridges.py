@@ -6,9 +6,6 @@ Part of `make report`. No place and route: a bridge runs at the clock rate of th
 from __future__ import annotations
 
 import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import console
@@ -31,11 +28,10 @@ TEXT = (
 
 def size(top: str, family: str) -> Count:
     """LUT, FF and block RAM of a bridge by itself."""
-    groups = project.file_groups()
     job = {
         "top": top,
         "include": [project.relative(path) for path in project.include_dirs()],
-        "sources": [project.relative(path) for group in ("common", "host") for path in groups[group]],
+        "sources": [project.relative(path) for path in project.files("host")],
         "params": {},
         "family": family,
         "recipe": BEST[family],

@@ -1,6 +1,6 @@
 """Redraw the pictures of docs/: WaveDrom JSON and plots to docs/<part>/img/, computed tables into the manual.
 
-``python scripts/docs.py`` (or ``make docs``) writes; ``--check`` writes nothing, lists what is stale and
+`python -m scripts.docs` (`make docs`) writes; `--check` writes nothing, lists what is stale and
 exits with 1 if anything is. The files are the same byte for byte on each run.
 """
 
@@ -8,51 +8,17 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between  # noqa: E402
-from scripts.pictures import plots, tables, waves
-from scripts.pmc006 import currents
-from scripts.pmc006 import plots as plots_006
-from scripts.pmc006 import tables as tables_006
-from scripts.ppmc312 import plots as plots_312
-from scripts.ppmc312 import tables as tables_312
-from scripts.ppmc312 import waves as waves_312
-from scripts.stmc import plots as plots_stmc
-from scripts.stmc import tables as tables_stmc
-from scripts.stmc import waves as waves_stmc
-
-# Tables inside hand-written pages: page -> marker -> text.
-TABLES: dict[str, dict[str, Callable[[], str]]] = {
-    "ppmc104/README.md": {"speed-table": tables.speed_table_104},
-    "ppmc2104/README.md": {"speed-table": tables.speed_table_2104},
-    "stmc/README.md": {
-        "speed-table": tables_stmc.speed_table,
-        "ramp-table": tables_stmc.ramp_table,
-        "moves-table": tables_stmc.moves_table,
-        "times-table": tables_stmc.times_table,
-    },
-    "ppmc312/README.md": {
-        "table-table": tables_312.table_table,
-        "moves-table": tables_312.moves_table,
-        "times-table": tables_312.times_table,
-    },
-    "pmc006/README.md": {
-        "moves-table": tables_006.moves_table,
-        "currents-table": currents.currents_table,
-        "times-table": tables_006.times_table,
-    },
-}
-PLOTS = {**plots.PLOTS, **plots_stmc.PLOTS, **plots_312.PLOTS, **plots_006.PLOTS, **currents.PLOTS}
-DIAGRAMS = {**waves_stmc.DIAGRAMS, **waves_312.DIAGRAMS}
+from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between
+from openppmc import parts
+from scripts.pictures import house, plots, waves
+from scripts.pictures.manual import Manual
 
 
 def image(name: str) -> Path:
-    """Where the picture "<part>/<what>" stands."""
-    part, what = name.split("/")
+    """Where the picture "<part>/<what>", or "<what>" of pages about the whole, stands."""
+    part, _, what = name.rpartition("/")
     return DOCS / part / "img" / f"{what}.svg"
 
 
@@ -64,22 +30,27 @@ def wanted() -> dict[Path, bytes]:
             files[source.parents[1] / "img" / f"{source.stem}.svg"] = waves.render(source)
         except ValueError as error:
             raise ProjectError(str(error)) from None
-    for name, diagram in DIAGRAMS.items():
-        files[image(name)] = waves.draw(diagram(), name)
-    for name, plot in PLOTS.items():
+    for name, plot in house.PLOTS.items():
         files[image(name)] = plots.render(plot)
-    for page, wanted_tables in TABLES.items():
-        text = (DOCS / page).read_text(encoding="utf-8")
-        for marker, table in wanted_tables.items():
+    for row in parts.having("manual"):
+        manual: Manual = row.load("manual")
+        for what, diagram in manual.diagrams.items():
+            name = f"{row.folder}/{what}"
+            files[image(name)] = waves.draw(diagram(), name)
+        for what, plot in manual.plots.items():
+            files[image(f"{row.folder}/{what}")] = plots.render(plot)
+        page = DOCS / row.folder / "README.md"
+        text = page.read_text(encoding="utf-8")
+        for marker, table in manual.tables.items():
             text = replace_between(text, marker, table())
-        files[DOCS / page] = text.encode()
+        files[page] = text.encode()
     return files
 
 
 def stale(files: dict[Path, bytes]) -> list[Path]:
     """Generated files that are missing or differ, and pictures of a part that have lost their source."""
     changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
-    kept = sorted(DOCS.glob("*/img/*.svg"))
+    kept = sorted(DOCS.glob("**/img/*.svg"))
     return changed + [path for path in kept if path not in files]
 
 

@@ -7,9 +7,6 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console

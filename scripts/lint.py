@@ -16,13 +16,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
 from rich.markup import escape
 
-from cocotb_tests.harness import project
+from cocotb_tests.harness import header, project
 from cocotb_tests.harness.project import ProjectError, console, relative
+from openppmc.parts import tops
 from openppmc.sim.common import verilator as start
+from openppmc.sources import needed, walls
 from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources
 
@@ -136,8 +136,8 @@ def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
 
 def listed() -> str:
     """Every RTL file is in rtl/files.yml, once, and every listed one exists."""
-    groups = project.file_groups()
-    names = [path for files in groups.values() for path in files]
+    groups = project.listed()
+    names = [path for group in groups.values() for path in group.files]
     found = [
         f"rtl/files.yml does not list {relative(p)}"
         for p in sorted(project.RTL.rglob("*.sv"))
@@ -149,9 +149,14 @@ def listed() -> str:
     found += [
         f"rtl/files.yml lists {relative(path)}, which does not exist" for path in names if not path.is_file()
     ]
-    known = {group for part in project.PARTS.values() for group in part.groups} | {"boards"}
+    known = set(needed(groups, "boards", *(row.rtl for row in tops())))
     found += [f"rtl/files.yml: group {group} belongs to no part" for group in groups if group not in known]
     return "\n".join(found)
+
+
+def walled() -> str:
+    """No file names a module or package of a group that its own does not need; no need is for nothing."""
+    return "\n".join(walls(project.listed()))
 
 
 def text_files() -> list[Path]:
@@ -192,8 +197,8 @@ def texts() -> str:
 def board_checks() -> list[Check]:
     """The board tops and what they share, with each host that they can be built for."""
     every = []
-    tops = [path.stem for path in project.file_groups().get("boards", []) if path.stem.startswith("board_")]
-    for top in ["ppmc104_carrier", *tops]:
+    on_boards = [path.stem for path in project.listed()["boards"].files if path.stem.startswith("board_")]
+    for top in ["ppmc104_carrier", *on_boards]:
         hosts = HOSTS if "HOST" in parameters(top) else ("",)
         for host in hosts:
             params: dict[str, int | str] = {"HOST": host.upper()} if host else {}
@@ -206,18 +211,19 @@ def board_checks() -> list[Check]:
 def checks() -> list[Check]:
     """All checks, the slow ones first so that two workers end together."""
     every = []
-    for part in project.PARTS.values():
+    for part in tops():
+        phase_idle = "PHASE_IDLE" in header.parameters(project.top_file(part))
         files = project.sources(part)
         for index, clk_hz in enumerate(CLOCKS):
             for timing in ("FAST", "DATASHEET"):
                 params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
                 label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
-                if part.phase_idle:
+                if phase_idle:
                     # Both levels with both timings without doubling the runs.
                     params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
                     label += f" PHASE_IDLE={params['PHASE_IDLE']}"
-                every.append(Check("verilator -Wall", label, partial(verilator, part.name, files, params)))
-                every.append(Check("read_slang", label, partial(slang, part.name, files, params)))
+                every.append(Check("verilator -Wall", label, partial(verilator, part.top, files, params)))
+                every.append(Check("read_slang", label, partial(slang, part.top, files, params)))
     every += board_checks()
     return [
         *every,
@@ -230,6 +236,7 @@ def checks() -> list[Check]:
             lambda: ruff("format", "--check"),
         ),
         Check("rtl/files.yml", "complete", listed),
+        Check("rtl/files.yml", "walls between groups", walled),
         Check(
             "docs",
             "pictures and tables fresh",
@@ -249,6 +256,11 @@ def checks() -> list[Check]:
             "packages",
             "templates and FuseSoC run",
             lambda: tool(sys.executable, "-m", "scripts.packages", "--try", ok_output=True),
+        ),
+        Check(
+            "boards",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.boards", "--check", ok_output=True),
         ),
         Check("texts", "marks, tabs, line ends", texts),
     ]

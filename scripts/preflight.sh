@@ -19,6 +19,13 @@ parts=''
 boards=''
 most_xtal=16000000
 most_baud=3000000
+
+# limit PARAMETER DEFAULT: the last figure of "1e6 .. 20e6" beside a parameter in the header of the part's top
+limit() {
+    said=$(sed -n "s/^ *parameter .* $1 .*\/\/.*\.\. *\([0-9][0-9e_ ]*\).*/\1/p" "$here"/../rtl/*/"$part".sv 2>/dev/null)
+    [ -n "$said" ] || said=$2
+    echo "$said" | tr -d ' _' | awk '{ printf "%d", $1 }'
+}
 for word in "$@"; do
     name=${word%%=*}
     value=${word#*=}
@@ -28,8 +35,11 @@ for word in "$@"; do
         boards=*) boards=${value%,} ;;
         python=*) python=$value ;;
         PART=*)
-            case ",$parts," in *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac
-            case $value in stmc) most_xtal=20000000 ;; pmc006) most_baud=115200 ;; esac ;;
+            # Without a Python there is no list, and that is the problem to tell.
+            case ",$parts," in ,,) ;; *",$value,"*) ;; *) problem "PART=$value: no such part (known: $parts)" ;; esac
+            part=${value%%-*} # its RTL; what follows is a mode of it
+            most_xtal=$(limit XTAL_HZ $most_xtal)
+            most_baud=$(limit BAUD $most_baud) ;;
         BOARD=*) case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
         HOST=*) case $value in uart | bus) ;; *) problem "HOST=$value: expected uart or bus" ;; esac ;;
         TIMING=*) case $value in FAST | DATASHEET) ;; *) problem "TIMING=$value: expected FAST or DATASHEET" ;; esac ;;

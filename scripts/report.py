@@ -14,12 +14,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import console, fail
+from openppmc.parts import tops
 from scripts import bridges
 from scripts.flow import size_page, sizes, targets
 from scripts.flow.netlist import Count
@@ -99,7 +98,7 @@ def report(part: str, wanted: list[Target], seeds: int, tell: Tell) -> None:
         else:
             rows += device_rows(target, count, netlist, seeds, tell)
     split = {}
-    if part in targets.BOARD_TOPS:
+    if part in targets.CARRIERS:
         base = targets.base_job(part, True)
         folder = targets.FOLDER / "breakdown"
         families = project.part(part).families
@@ -131,8 +130,9 @@ def arguments() -> argparse.Namespace:
 def main() -> int:
     """Entry point."""
     args = arguments()
-    parts = [project.part(args.part).name] if args.part else list(project.PARTS)
-    every = {part: targets.targets(part) for part in project.PARTS}
+    every_part = [row.name for row in tops()]
+    parts = [project.part(args.part).name] if args.part else every_part
+    every = {part: targets.targets(part) for part in every_part}
     # A board's netlist is a board top's for other pins: the check of all parts does without it.
     boards = not args.check or bool(args.part)
     wanted = [target for part in parts for target in every[part] if boards or not target.board]

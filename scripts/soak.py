@@ -1,6 +1,6 @@
 """`make soak SEED= COUNT=`: random hosts without end, each against the golden model, edge by edge.
 
-With PART=ppmc312-serial: random streams on a line of stations (`soak_line`).
+What a seed is, each part says in its column `soak` of the table of parts.
 Seeds S, S+1, … S+N-1 run on J worker processes. A failure does not stop the rest; at the end the failing
 seeds are listed with the line that repeats each. Exit code 1 if any failed.
 """
@@ -8,11 +8,12 @@ seeds are listed with the line that repeats each. Exit code 1 if any failed.
 from __future__ import annotations
 
 import argparse
-import importlib
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
+from typing import Protocol
 
 from rich.progress import (
     BarColumn,
@@ -23,19 +24,54 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from cocotb_tests.harness.project import ProjectError, console, part
-from scripts import soak_line
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.runner import attempt
+from openppmc import parts
 from scripts.pool import as_done
 
 
-def one(part_name: str, seed: int) -> tuple[int, str, str]:
-    """Run one seed in this process; returns (seed, test id, message or "")."""
-    if part_name == soak_line.NAME:
-        return soak_line.one(seed)
-    from cocotb_tests.harness.runner import attempt
+class Campaign(Protocol):
+    """What a part may have in its column `soak`, if a seed is more than one simulation."""
 
-    item = importlib.import_module(f"cocotb_tests.{part_name}.test_random").random_item(seed)
-    return seed, item.id, attempt(item)
+    def one(self, seed: int) -> tuple[int, str, str]:
+        """Run one seed in this process; returns (seed, test id, message or "")."""
+        ...
+
+    def summary(self, first: int, count: int) -> str:
+        """What has been done when all seeds have passed."""
+        ...
+
+
+@dataclass(frozen=True)
+class Simulations:
+    """The usual campaign: each seed is one simulation, whose item `make` makes."""
+
+    make: Callable[[int], Item]
+
+    def one(self, seed: int) -> tuple[int, str, str]:
+        """Run one seed."""
+        item = self.make(seed)
+        return seed, item.id, attempt(item)
+
+    def summary(self, first: int, count: int) -> str:
+        """What has been done."""
+        return "every output edge as in the golden model"
+
+
+def campaign(part_name: str) -> Campaign:
+    """That of a part; ProjectError if it has none."""
+    known = [row.name for row in parts.having("soak")]
+    if part_name not in known:
+        raise ProjectError(f"PART={part_name}: no random hosts of it (there are of {', '.join(known)})")
+    found = parts.part(part_name).load("soak")
+    usual: Campaign = Simulations(found) if callable(found) else found
+    return usual
+
+
+def one(part_name: str, seed: int) -> tuple[int, str, str]:
+    """Run one seed in this process, which may be a new one; returns (seed, test id, message or "")."""
+    return campaign(part_name).one(seed)
 
 
 def soak(part_name: str, first: int, count: int, jobs: int) -> int:
@@ -69,10 +105,7 @@ def soak(part_name: str, first: int, count: int, jobs: int) -> int:
         for seed, name in sorted(failures):
             console.print(f"  make test T={name} SEED={seed}", markup=False)
         return 1
-    told = "every output edge as in the golden model"
-    if part_name == soak_line.NAME:
-        told = soak_line.summary(first, done)
-    console.print(f"{done} seeds passed: {told}")
+    console.print(f"{done} seeds passed: {campaign(part_name).summary(first, done)}")
     return 0 if done == count else 130
 
 
@@ -87,8 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2, help="worker processes")
     given = parser.parse_args(arguments)
     try:
-        if given.part != soak_line.NAME:
-            part(given.part)
+        campaign(given.part)
         if given.count < 1 or given.jobs < 1:
             raise ProjectError("--count and --jobs must be 1 or more")
     except ProjectError as error:

@@ -20,11 +20,10 @@ from typing import Any
 
 from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part
 from cocotb_tests.harness.verifies import manual_rules, part_of_rule
+from openppmc.parts import PARTS
 
-CHECK = re.compile(r"AC-|P312-CHK-|P006-AC-")
+CHECK = re.compile(r"AC-|\w+-(?:CHK|AC)-")
 RESULTS = BUILD / "trace" / "results.jsonl"
-# Designs whose rules and acceptance checks are in the manual of another part.
-MANUAL_OF = {"j105_stmc": "stmc"}
 
 Record = Mapping[str, Any]
 
@@ -62,7 +61,8 @@ class Trace:
 
 def _part(record: Record) -> str:
     """Part whose manual a record is about, as far as its rules do not say so."""
-    return MANUAL_OF.get(record["part"], record["part"])
+    row = PARTS.get(record["part"])
+    return row.folder if row else str(record["part"])
 
 
 def load_records(path: Path, part_name: str) -> list[Record]:

@@ -28,7 +28,7 @@ module bus_bench #(
   assign bus = d;
   assign running = led[3];
 
-  board_de10nano #(
+  board_de10nano_ppmc104 #(
       .HOST(HOST)
   ) u_top (
       .clk,

@@ -13,7 +13,7 @@ from cocotb_tests.harness.wrapper import area_design
 
 from .tb_blocks import BLOCKS
 
-PART = Part("boards", "BRD", {})
+PART = Part("boards", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
@@ -38,7 +38,7 @@ def test_board_block(item, sim_options):
 def test_board_top(item, sim_options):
     """Run one simulation of a board top; the test's name says with which host."""
     part = part_design("ppmc104", item.config)
-    tops = [RTL / "ppmc104_station.sv", RTL / "board_de10nano.sv", HERE / "bus_bench.sv"]
+    tops = [RTL / "de10nano" / "board_de10nano_ppmc104.sv", HERE / "bus_bench.sv"]
     files = [*board_files("ppmc104"), *SHARED, *tops]
     params = {"HOST": item.test.split("_")[0].upper()}
     design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS, ports="*")
@@ -49,8 +49,8 @@ def test_board_top(item, sim_options):
 def test_board_ppmc312_serial(item, sim_options):
     """Run one simulation of what the board tops with a PPMC-312 share, with its serial line as host."""
     part = part_design("ppmc312", item.config)
-    bench = [RTL / "ppmc312_station.sv", ROOT / "cocotb_tests/ppmc312/line/board_bench.sv"]
-    files = [*part.sources, *board_files("ppmc312"), *SHARED, *bench]
+    bench = ROOT / "cocotb_tests/ppmc312/line/board_bench.sv"
+    files = [*part.sources, *board_files("ppmc312"), *SHARED, bench]
     run_item(
         item, sim_options, design=Design("ppmc312_board_bench", files, part.includes, {}, ARGS, ports="*")
     )

@@ -1,1 +1,1 @@
-"""cocotb_tests/common"""
+"""Simulations of the blocks in rtl/common: synchronisers, memories, time bases, I2C."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from cocotb_tests.harness import project
 from cocotb_tests.harness.collect import Item, cocotb_items
 from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.part import PARTS
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
@@ -26,4 +27,5 @@ def params(config: Config) -> dict[str, object]:
 
 def items() -> list[Item]:
     """The tests of the board."""
-    return [param.values[0] for param in cocotb_items("cocotb_tests.gates", "tb_board")]
+    params = cocotb_items("cocotb_tests.gates", "tb_board", part=PARTS["ppmc104"])
+    return [param.values[0] for param in params]

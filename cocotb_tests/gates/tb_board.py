@@ -12,8 +12,10 @@ from cocotb_tests.gates.board import B24
 from cocotb_tests.gates.uart import Uart
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.config import configs
+from cocotb_tests.harness.part import PARTS
+from openppmc.host.bridge.answer import Identity, Result
 from openppmc.host.bridge.frames import encode
-from openppmc.host.bridge.script import RATES, Identity, Result, Script
+from openppmc.host.bridge.script import RATES, Script
 from openppmc.model.ppmc104.part import Ppmc104
 
 INIT = (0x0A, 9, 4, 4, 0)
@@ -25,7 +27,7 @@ EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
 async def start(dut: Any, code: int = 0) -> tuple[Bench, Uart]:
     """Reset, then the line rate of that code."""
     uart = Uart(dut)
-    bench = await Bench.start(dut)
+    bench = await Bench.start(dut, PARTS["ppmc104"])
     uart.listen()
     await Timer(100, "us")
     answer = await uart.ask(Script().rate(code))

@@ -1,6 +1,5 @@
-"""`Bench`: clock, reset, pin driver, edge monitors and time arithmetic around one part.
+"""`Bench`: the RTL of one part in a simulation, with clock, reset, pin driver and edge monitors.
 
-Time is the index of rising clk edges; edge 0 is the first one that sees rst_n = 1 after the first reset.
 Pins are driven on falling edges: a change made now is stamped `bench.now`, the next rising edge. Clock, pins
 and the recorder of output edges are those of the simulation's main program (`native`), which needs no Python.
 """
@@ -8,7 +7,6 @@ and the recorder of output edges are those of the simulation's main program (`na
 from __future__ import annotations
 
 import os
-import random
 import signal as unix_signal
 from collections.abc import Iterable
 from pathlib import Path
@@ -20,48 +18,42 @@ from cocotb.triggers import First, Timer
 
 from . import native
 from .config import F16, Config
-from .part import PPMC104, Part
-from .stimulus import Access, Change, Edge, Recording, level_at
+from .part import Part
+from .side import TIMEOUT, Side
+from .stimulus import Change
 
-TIMEOUT = 1_000_000
 
+class Bench(Side):
+    """A part on the bench. Make one with `await Bench.start(dut, part)`.
 
-class Bench:
-    """A part on the bench. Make one with `await Bench.start(dut)`.
-
-    Attributes: `config` (Config), `part` (Part), `seed` (int), `rng` (random.Random(seed)), `out`
-    (Path for files of this run), `host` (set by the caller's bus; see `bus.HostBus`), `stimulus`
-    (list[Change]), `accesses` (list[Access]).
+    Beside what a `Side` has: `out` (Path for files of this run), `repro` (the line that repeats it).
     """
 
-    def __init__(self, dut: Any, part: Part = PPMC104, seed: int | None = None) -> None:
-        self.dut = dut
-        self.part = part
+    def __init__(self, dut: Any, part: Part, seed: int | None = None) -> None:
         text = os.environ.get("OPENPPMC_CONFIG", "")
-        self.config = Config.from_json(text) if text else F16
-        self.seed = int(os.environ.get("OPENPPMC_SEED", "1")) if seed is None else seed
-        self.rng = random.Random(self.seed)
+        super().__init__(
+            part,
+            Config.from_json(text) if text else F16,
+            int(os.environ.get("OPENPPMC_SEED", "1")) if seed is None else seed,
+        )
+        self.dut = dut
         self.out = Path(os.environ.get("OPENPPMC_OUT", "."))
         self.repro = os.environ.get("OPENPPMC_REPRO", "")
         self.period = self.config.period_ps
         self.half = self.period // 2
-        self.pins: dict[str, int] = {}
-        self.stimulus: list[Change] = []
-        self.accesses: list[Access] = []
-        self.initial: dict[str, int] = {}
         self._edges: dict[str, list[tuple[int, int]]] = {}
         self._watched: dict[int, list[tuple[int, int]]] = {}
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
         self._ports = {name: native.port(name) for name in self._handles}
         self._t0 = 0
 
-    # ---------------------------------------------------------------- start, reset
+    # ---------------------------------------------------------------- start
 
     @classmethod
     async def start(
         cls,
         dut: Any,
-        part: Part = PPMC104,
+        part: Part,
         reset_clk: int = 4,
         settle: int = 4,
         seed: int | None = None,
@@ -116,20 +108,6 @@ class Bench:
         """End this simulator process if it runs away (a test of seconds that takes minutes)."""
         unix_signal.alarm(int(os.environ.get("OPENPPMC_WALL_S", "300")))
 
-    async def reset(self, clocks: int = 4, settle: int = 4) -> int:
-        """Pulse rst_n low for some clk; returns the stamp of the release (first edge that sees 1).
-
-        Time goes on for `settle` clk after it (P104-PORT-03: bytes are taken from then on).
-        """
-        await self.align()
-        self.set(rst_n=0)
-        await self.clocks(clocks)
-        self.set(rst_n=1)
-        release = self.now
-        if settle:
-            await self.clocks(settle)
-        return release
-
     # ---------------------------------------------------------------- time
 
     def sim_time(self) -> int:
@@ -142,14 +120,11 @@ class Bench:
 
     @property
     def now(self) -> int:
-        """Index of the next rising clk edge: the stamp of a pin change made at this moment."""
+        """As `Side.now`."""
         return (native.now() - self._t0) // self.period + 1
 
     async def until(self, edge: int) -> int:
-        """Go to the falling clk edge before rising edge `edge` (then now == edge).
-
-        Raises ValueError if that moment has passed.
-        """
+        """As `Side.until`."""
         target = self._t0 + (edge - 1) * self.period + self.half
         delta = target - native.now()
         if delta < 0:
@@ -160,12 +135,8 @@ class Bench:
             await Timer(delta, "ps")
         return edge
 
-    async def clocks(self, n: int) -> int:
-        """Wait n clk; returns `now`."""
-        return await self.until(self.now + n)
-
     async def align(self) -> int:
-        """Go to the next falling edge if just after a rising one; returns `now`."""
+        """As `Side.align`."""
         target = self._t0 + (self.now - 1) * self.period + self.half
         delta = target - native.now()
         if delta > 0:
@@ -175,11 +146,7 @@ class Bench:
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """Drive input pins now (falling-edge half only) and log them; returns the stamp.
-
-        A name such as "fl_n[2]" drives one bit of a port. Raises RuntimeError in the high half of clk,
-        KeyError for an unknown pin. Unchanged levels are neither driven nor logged.
-        """
+        """As `Side.set`."""
         stamp = self.now
         if self._t0 + (stamp - 1) * self.period + self.half > native.now():
             raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
@@ -187,17 +154,6 @@ class Bench:
             if self.pin(pin) != level:
                 self._drive(stamp, pin, level)
         return stamp
-
-    def pin(self, name: str) -> int:
-        """Level of an input as driven last, of a whole port or of one bit."""
-        port, place = self.part.locate(name)
-        return self.pins[port] if place is None else self.pins[port] >> place & 1
-
-    def pin_rises(self, pin: str, since: int = 0) -> list[int]:
-        """Stamps of the rising edges driven on an input of one bit from edge `since` on."""
-        port, place = self.part.locate(pin)
-        changes = [(c.t, c.value) for c in self.stimulus if c.pin == port]
-        return [t for t, v in _bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
 
     def _drive(self, stamp: int, pin: str, level: int) -> None:
         port, level = self._levelled(pin, level)
@@ -209,16 +165,19 @@ class Bench:
             native.put(number, level)
         self.stimulus.append(Change(stamp, port, level))
 
-    def _levelled(self, pin: str, level: int) -> tuple[str, int]:
-        """Port of a pin and the port's level with the pin at `level`."""
-        port, place = self.part.locate(pin)
-        return port, level if place is None else self.pins[port] & ~(1 << place) | level << place
-
     def set_between_edges(self, **levels: int) -> int:
         """As `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
         stamp = self.now
         for pin, level in levels.items():
             self._drive(stamp, pin, level)
+        return stamp
+
+    async def set_between(self, **levels: int) -> int:
+        """As `Side.set_between`: three quarters of a clk after an edge."""
+        await self.align()
+        await Timer(self.period // 4 // 2 * 2, "ps")
+        stamp = self.set_between_edges(**levels)
+        await Timer(2, "ps")
         return stamp
 
     def play(self, changes: Iterable[Change]) -> None:
@@ -242,7 +201,7 @@ class Bench:
         native.tape(rows)
 
     def at(self, edge: int, **levels: int) -> Any:
-        """Schedule pin levels so that rising edge `edge` is the first to sample them; returns the task."""
+        """As `Side.at`; returns the task."""
 
         async def later() -> None:
             await self.until(edge)
@@ -250,21 +209,8 @@ class Bench:
 
         return cocotb.start_soon(later())
 
-    async def pulse_pin(self, pin: str, level: int, clocks: int) -> int:
-        """Hold a pin at `level` for some clk, then put the old level back; returns the first stamp."""
-        await self.align()
-        before, stamp = self.pin(pin), self.now
-        self.set(**{pin: level})
-        await self.clocks(clocks)
-        self.set(**{pin: before})
-        return stamp
-
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Any:
-        """Run the external clock: each item is the clk count from one rising edge to the next.
-
-        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
-        with the iterable. Each high time is `high` clk. Returns the task (cancel() stops it).
-        """
+        """As `Side.external_clock`; returns the task."""
         name = pin or self.part.clock
 
         async def run() -> None:
@@ -290,7 +236,7 @@ class Bench:
         return -((self._t0 - time) // self.period)
 
     def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """Changes (edge, level) of all watched outputs up to now, the last one of each edge."""
+        """As `Side._seen`."""
         t0, period, watched = self._t0, self.period, self._watched
         for time, port, value in native.seen():
             changes, t = watched[port], -((t0 - time) // period)
@@ -312,61 +258,19 @@ class Bench:
             else:
                 changes.append((t, value))
 
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """All outputs of the part."""
+        return tuple(self.part.outputs)
+
     def _port_level(self, port: str) -> int:
         number = self._ports[port]
         return int(self._handles[port].value) if number < 0 else native.read(number)
 
-    def level(self, output: str) -> int:
-        """Present level of an output, or of one bit of it ("pout_n[2]")."""
-        port, place = self.part.locate(output)
-        level = self._port_level(port)
-        return level if place is None else level >> place & 1
-
-    def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
-        port, place = self.part.locate(output)
-        changes = self._seen()[port]
-        if place is not None:
-            changes = _bit_changes(changes, place, self.initial[port])
-        return [(t, value) for t, value in changes if t >= since]
-
-    def falls(self, output: str, since: int = 0) -> list[int]:
-        """Edges on which an output of one bit fell."""
-        return [t for t, value in self.edges(output, since) if value == 0]
-
-    def rises(self, output: str, since: int = 0) -> list[int]:
-        """Edges on which an output of one bit rose."""
-        return [t for t, value in self.edges(output, since) if value == 1]
-
-    def pulses(self, since: int = 0, pin: str = "pout_n") -> list[int]:
-        """Pulses (P104-GEN-05): falling edges of pout_n."""
-        return self.falls(pin, since)
-
-    def intervals(self, since: int = 0, pin: str = "pout_n") -> list[int]:
-        """Distances of successive pulses in clk."""
-        pulses = self.pulses(since, pin)
-        return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
-
-    def low_times(self, since: int = 0, pin: str = "pout_n") -> list[int]:
-        """Low time of each complete pulse in clk."""
-        changes = self.edges(pin, since)
-        return [
-            b - a for (a, low), (b, high) in zip(changes, changes[1:], strict=False) if low == 0 and high == 1
-        ]
-
-    def level_at(self, output: str, edge: int) -> int:
-        """Level of an output just after rising edge `edge`."""
-        port, place = self.part.locate(output)
-        level = level_at(self._seen()[port], edge, self.initial[port])
-        return level if place is None else level >> place & 1
-
     # ---------------------------------------------------------------- waiting for outputs
 
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """Wait for the next change (to `level` if given); returns its edge, aligned so that set() works.
-
-        Raises TimeoutError after `timeout` clk.
-        """
+        """As `Side.edge`."""
         end = self.now + timeout
         handle = self._handles[self.part.locate(output)[0]]
         before = self.level(output)
@@ -386,72 +290,3 @@ class Bench:
                 return t
         want = "a change" if level is None else f"level {level}"
         raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
-
-    async def nth_fall(self, n: int, since: int = 0, pin: str = "pout_n", timeout: int = TIMEOUT) -> int:
-        """Wait until `pin` has fallen n times from edge `since` on; returns the edge of the n-th fall."""
-        end = self.now + timeout
-        while len(self.falls(pin, since)) < n:
-            await self.edge(pin, 0, max(1, end - self.now))
-        await self.align()
-        return self.falls(pin, since)[n - 1]
-
-    async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
-        """Wait until an output has this level (returns at once if it has); returns `now`."""
-        if self.level(output) != level:
-            await self.edge(output, level, timeout)
-        return await self.align()
-
-    # ---------------------------------------------------------------- checking and reporting
-
-    def context(self, last: int = 8) -> str:
-        """The last output edges, pin changes and host accesses, for messages."""
-        usual = {*self.part.bus_pins, self.part.clock}
-        pins = [c for c in self.stimulus if c.pin not in usual]
-        shown = [edge for edge in self._all_edges() if edge.signal not in ("d_o", "d_oe")]
-        lines = [f"now: edge {self.now}, config {self.config.name}, seed {self.seed}", "last output edges:"]
-        lines += [f"  {e.t:>9} {e.signal} = {e.value:#x}" for e in shown[-last:]]
-        lines += ["last pin changes:"] + [f"  {c.t:>9} {c.pin} = {c.value:#x}" for c in pins[-last:]]
-        lines += ["last host accesses:"] + [f"  {a}" for a in self.accesses[-last:]]
-        return "\n".join(lines)
-
-    def check(self, rule: str, what: str, got: Any, expected: Any) -> None:
-        """Assert got == expected; the message carries rule, edge and context."""
-        assert got == expected, (
-            f"{rule}: {what}: expected {_show(expected)}, got {_show(got)}\n{self.context()}"
-        )
-
-    def check_window(self, rule: str, what: str, got: int, low: int, high: int) -> None:
-        """Assert low <= got <= high; the message carries rule, edge and context."""
-        assert low <= got <= high, f"{rule}: {what}: expected {low}..{high}, got {got}\n{self.context()}"
-
-    def recording(self) -> Recording:
-        """Everything up to now, for `compare`; the last complete clk edge is `now` - 1."""
-        return Recording(
-            part=self.part.name,
-            params=self.part.params(self.config),
-            seed=self.seed,
-            end=self.now - 1,
-            stimulus=list(self.stimulus),
-            edges=self._all_edges(),
-            accesses=list(self.accesses),
-        )
-
-    def _all_edges(self) -> list[Edge]:
-        rows = (Edge(t, name, value) for name, changes in self._seen().items() for t, value in changes)
-        return sorted(rows, key=lambda edge: edge.t)
-
-
-def _bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:
-    """Changes (edge, level) of one bit of a port."""
-    level, rows = initial >> place & 1, []
-    for t, value in changes:
-        if value >> place & 1 != level:
-            level ^= 1
-            rows.append((t, level))
-    return rows
-
-
-def _show(value: Any) -> str:
-    if isinstance(value, int) and not isinstance(value, bool):
-        return f"{value} ({value:#x})"
-    return str(value)

@@ -9,7 +9,7 @@ from .part import Part
 from .runner import SimOptions, run_item
 from .wrapper import GROUPS, area_design
 
-BLOCKS = Part("blocks", "BLK", {})
+BLOCKS = Part("blocks", {})
 
 
 def run_block(item: Item, options: SimOptions) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from .bench import Bench
 from .part import BusStyle
+from .side import Side
 from .stimulus import Access
 
 DATA = 0
@@ -31,7 +31,7 @@ class HostBus:
 
     def __init__(
         self,
-        bench: Bench,
+        bench: Side,
         strobe: int = 2,
         read_strobe: int = 4,
         gap: int = 2,

@@ -1,7 +1,7 @@
 """Turns the cocotb tests of tb_* modules into pytest items: one item a test and build configuration.
 
-# test_ppmc104.py
-ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_bus", "tb_status")
+# test_part.py
+ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_bus", "tb_status", part=PPMC104)
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_ppmc104(item, sim_options):
@@ -12,12 +12,13 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass, replace
+from types import ModuleType
 from typing import Any
 
 import pytest
 
 from .config import F16, Config
-from .part import PPMC104, Part
+from .part import Part
 from .verifies import rules_of
 
 
@@ -48,7 +49,7 @@ class Item:
         return replace(self, seed=seed)
 
 
-def cocotb_items(package: str, *modules: str, part: Part = PPMC104) -> list[Any]:
+def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
     """pytest.param list of every cocotb test in `package`'s modules, under the configs each one names.
 
     Raises ValueError if a module has no cocotb test or two tests share a name.
@@ -56,13 +57,9 @@ def cocotb_items(package: str, *modules: str, part: Part = PPMC104) -> list[Any]
     params, seen = [], set()
     for name in modules:
         module = importlib.import_module(f"{package}.{name}")
-        tests = [obj for obj in vars(module).values() if _is_cocotb_test(obj, module.__name__)]
-        if not tests:
-            raise ValueError(f"{package}.{name} holds no cocotb test")
-        for test in tests:
-            wanted: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
+        for test in all_tests(module):
             for case in test.generate_tests():
-                for config in wanted:
+                for config in configs_of(test):
                     item = Item(module.__name__, case.name, config, part.name, rules_of(test))
                     if item.id in seen:
                         raise ValueError(f"{package}.{name}: second test called {item.id}")
@@ -71,5 +68,19 @@ def cocotb_items(package: str, *modules: str, part: Part = PPMC104) -> list[Any]
     return params
 
 
-def _is_cocotb_test(obj: Any, module: str) -> bool:
-    return hasattr(obj, "generate_tests") and hasattr(obj, "func") and obj.func.__module__ == module
+def all_tests(module: ModuleType) -> list[Any]:
+    """The cocotb tests that a module defines, in order; ValueError if it has none."""
+    found = [
+        obj
+        for obj in vars(module).values()
+        if hasattr(obj, "generate_tests") and hasattr(obj, "func") and obj.func.__module__ == module.__name__
+    ]
+    if not found:
+        raise ValueError(f"{module.__name__} holds no cocotb test")
+    return found
+
+
+def configs_of(test: Any) -> tuple[Config, ...]:
+    """The build configurations that a cocotb test names, or the default one."""
+    wanted: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
+    return wanted

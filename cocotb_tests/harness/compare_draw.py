@@ -1,59 +1,17 @@
-"""Draws a comparison: VCD of both sides, and a PNG of the surroundings of the first difference."""
+"""Draws a comparison: a PNG of the surroundings of the first difference."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from .compare_vcd import clk_ps
+from .comparison import Comparison, differing_spans
 from .part import PARTS
 from .stimulus import Access, level_at
 
-if TYPE_CHECKING:
-    from .compare import Comparison
-
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#c65d00", "#6b6b6b", "#d62728"
 SHADE = "#f7c9c9"
-
-
-def _clk_ps(params: Any) -> int:
-    return round(1e12 / int(params.get("CLK_HZ", 16_000_000)))
-
-
-def write_vcd(comparison: Comparison, path: Path) -> None:
-    """VCD with scopes `expected`, `actual`, `differs` (1 where the two levels differ) and `pins`."""
-    from vcd import VCDWriter
-
-    recording = comparison.recording
-    part = PARTS[recording.part]
-    scale = _clk_ps(recording.params)
-    rows: list[tuple[int, Any, int]] = []
-    with open(path, "w", encoding="ascii") as handle, VCDWriter(handle, timescale="1 ps", date="") as writer:
-        for scope, waves in (("expected", comparison.expected), ("actual", comparison.actual)):
-            for name, changes in waves.items():
-                width, level = part.width(name), comparison.initial[name]
-                var = writer.register_var(scope, name, "wire", size=width, init=level)
-                rows += [(t, var, value) for t, value in changes]
-        for name in comparison.expected:
-            var = writer.register_var("differs", name, "wire", size=1, init=0)
-            rows += [(t, var, value) for t, value in differing_spans(comparison, name)]
-        for pin, level in {"rst_n": 1, **part.inputs}.items():
-            var = writer.register_var("pins", pin, "wire", size=part.width(pin), init=level)
-            rows += [(c.t, var, c.value) for c in recording.stimulus if c.pin == pin]
-        for t, var, value in sorted(rows, key=lambda row: row[0]):
-            writer.change(var, max(0, t) * scale, value)
-        writer.close(max(0, recording.end) * scale)
-
-
-def differing_spans(comparison: Comparison, name: str) -> list[tuple[int, int]]:
-    """Changes (t, 1 = the sides differ from here on) of one output."""
-    expected, actual = comparison.expected[name], comparison.actual[name]
-    initial, spans, state = comparison.initial[name], [], 0
-    for t in sorted({t for t, _ in expected} | {t for t, _ in actual}):
-        now = int(level_at(expected, t, initial) != level_at(actual, t, initial))
-        if now != state:
-            spans.append((t, now))
-            state = now
-    return spans
 
 
 def window(comparison: Comparison) -> tuple[int, int]:
@@ -96,7 +54,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     for number, (axes, (start, stop)) in enumerate(zip(panels, views, strict=True)):
         _panel(axes, comparison, outputs, pins, start, stop, labels=number == 0)
         axes.set_xlabel(
-            f"clk edge   (1 clk = {_clk_ps(recording.params) / 1000:g} ns)"
+            f"clk edge   (1 clk = {clk_ps(recording.params) / 1000:g} ns)"
             if number == 0
             else f"zoom: {stop - start} clk"
         )

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from .bench import Bench
 from .bus import BUSY, COMMAND, DATA, HostBus
 from .config import Config
 from .figures import bytes_of, differences, low_times, offsets
+from .side import Side
 
 
 class Drive:
@@ -21,7 +21,7 @@ class Drive:
 
     def __init__(
         self,
-        bench: Bench,
+        bench: Side,
         host: HostBus,
         pout: str = "pout_n",
         phases: str = "s",

@@ -1,4 +1,4 @@
-"""Pins of the parts as the harness sees them: idle levels of inputs, reset levels of outputs, bus styles.
+"""`Part`: the pins of a part as benches see them, and where to find those of each.
 
 A port of several bits is one number, as in the simulator. One bit of it has a name of its own: "pout_n[2]"
 is bit 2 of a port declared `[2:1]`, whose lowest bit is number 1.
@@ -6,11 +6,14 @@ is bit 2 of a port declared `[2:1]`, whose lowest bit is number 1.
 
 from __future__ import annotations
 
+import importlib
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
+
+from openppmc import parts
 
 if TYPE_CHECKING:
     from .config import Config
@@ -40,53 +43,35 @@ STROBES_RD_WR = BusStyle(
     read_on={"cs_n": 0, "rd_n": 0},
     read_off={"cs_n": 1, "rd_n": 1},
 )
-# The same two pins in both styles of the PPMC-2104AFP: WRS*/RDS*, or DS* with R/W*.
-STROBES_WRS_RDS = BusStyle(
-    write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
-    write_off={"cs_n": 1, "ds_wrs_n": 1},
-    read_on={"cs_n": 0, "ds_wrs_n": 1, "rw_rds_n": 0},
-    read_off={"cs_n": 1, "rw_rds_n": 1},
-)
-# R/W* keeps its level after the strobe, as a processor's does until its next access.
-STROBES_DS_RW = BusStyle(
-    write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 0},
-    write_off={"cs_n": 1, "ds_wrs_n": 1},
-    read_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
-    read_off={"cs_n": 1, "ds_wrs_n": 1},
-)
-# The PPMC-312: eight registers, chosen by rs.
-STROBES_WE_OE = BusStyle(
-    write_on={"cs_n": 0, "we_n": 0},
-    write_off={"cs_n": 1, "we_n": 1},
-    read_on={"cs_n": 0, "oe_n": 0},
-    read_off={"cs_n": 1, "oe_n": 1},
-    address="rs",
-)
-# 8-bit ISA cycles: the address says which register, no chip select of its own.
-STROBES_ISA = BusStyle(
-    write_on={"iow_n": 0},
-    write_off={"iow_n": 1},
-    read_on={"ior_n": 0},
-    read_off={"ior_n": 1},
-    address="sa",
-)
+
+
+class PinTable(Protocol):
+    """Pins as a golden model names them: idle levels, levels in reset, bits where not 1."""
+
+    @property
+    def INPUTS(self) -> Mapping[str, int]: ...  # noqa: N802
+
+    @property
+    def OUTPUTS(self) -> Mapping[str, int]: ...  # noqa: N802
+
+    @property
+    def WIDTHS(self) -> Mapping[str, int]: ...  # noqa: N802
 
 
 @dataclass(frozen=True)
 class Part:
     """One part.
 
-    `name` is the top module and the folder name, `prefix` the first word of its rule IDs.
-    `inputs` maps every input pin except clk/rst_n to its idle level; `outputs` maps every output to
-    (width, reset level). `widths` are those of inputs wider than one bit. `lowest` names ports whose lowest
-    bit is not number 0. `parameters` are those of the top module. `styles` are the styles of the host bus by
-    the level of `style_pin`; a part with one style has no such pin, one without a bus has none at all.
-    `clock` is the external base clock. `unwatched` outputs run freely all the time: only tests that ask for
-    them record their edges. `defaults` are the parameters of a build that names none.
+    `name` is that in the table of parts and of the top module. `inputs` maps every input pin except clk/rst_n
+    to its idle level; `outputs` maps every output to (width, reset level). `widths` are those of inputs wider
+    than one bit. `lowest` names ports whose lowest bit is not number 0. `parameters` are those of the top
+    module. `styles` are the styles of the host bus by the level of `style_pin`; a part with one style has no
+    such pin, one without a bus has none at all. `clock` is the external base clock. `unwatched` outputs run
+    freely all the time: only tests that ask for them record their edges. `defaults` are the parameters of a
+    build that names none. `idle`: parameters of one bit that choose the level of an output in reset.
     """
 
     name: str
-    prefix: str
     inputs: Mapping[str, int]
     outputs: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     widths: Mapping[str, int] = field(default_factory=dict)
@@ -97,6 +82,24 @@ class Part:
     lowest: Mapping[str, int] = field(default_factory=dict)
     unwatched: frozenset[str] = frozenset()
     defaults: Mapping[str, object] = field(default_factory=dict)
+    idle: Mapping[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def of_model(
+        cls, name: str, pins: PinTable, more: Mapping[str, tuple[int, int]] | None = None, **rest: Any
+    ) -> Part:
+        """A part with the pins of its golden model (and `more` outputs that this leaves out)."""
+        widths = pins.WIDTHS
+        return cls(
+            name,
+            inputs={pin: level for pin, level in pins.INPUTS.items() if pin != "rst_n"},
+            outputs={
+                **{pin: (widths.get(pin, 1), level) for pin, level in pins.OUTPUTS.items()},
+                **(more or {}),
+            },
+            widths={pin: width for pin, width in widths.items() if pin in pins.INPUTS},
+            **rest,
+        )
 
     @property
     def watched(self) -> tuple[str, ...]:
@@ -111,8 +114,9 @@ class Part:
     def reset_levels(self, params: Mapping[str, object] | None = None) -> dict[str, int]:
         """Output levels during reset under the given parameters (P104-PORT-01, P104-PHS-02)."""
         levels = {name: level for name, (_, level) in self.outputs.items()}
-        if params and "PHASE_IDLE" in params:
-            levels["s"] = 0x1F if int(str(params["PHASE_IDLE"])) else 0
+        for parameter, name in self.idle.items():
+            if params and parameter in params:
+                levels[name] = (1 << self.width(name)) - 1 if int(str(params[parameter])) else 0
         return levels
 
     def width(self, pin: str) -> int:
@@ -146,238 +150,25 @@ class Part:
         return frozenset(used | {pin for pin in data if pin in self.inputs})
 
 
-PPMC104 = Part(
-    name="ppmc104",
-    prefix="P104",
-    inputs={
-        "a0": 0,
-        "cs_n": 1,
-        "rd_n": 1,
-        "wr_n": 1,
-        "d_i": 0,
-        "csel": 1,
-        "vsel": 1,
-        "clock": 0,
-        "l1_n": 1,
-        "l2_n": 1,
-        "l3_n": 1,
-        "l4_n": 1,
-        "cnp_n": 1,
-        "alm_n": 1,
-        "auxi": 0,
-    },
-    outputs={
-        "d_o": (8, 0x00),
-        "d_oe": (1, 0),
-        "int_n": (1, 1),
-        "auxo": (4, 0xF),
-        "aux_n": (1, 1),
-        "s": (5, 0x1F),
-        "hold": (1, 1),
-        "pout_n": (1, 1),
-        "dir": (1, 0),
-    },
-    widths={"d_i": 8, "auxi": 4},
-    parameters=("CLK_HZ", "XTAL_HZ", "TIMING", "PHASE_IDLE"),
-    lowest={"s": 1},
-)
+class _Benches(Mapping[str, Part]):
+    """The parts with a `bench.py` of their own, loaded when they are asked for.
 
-# Per axis, bit 1 for axis 1 and bit 2 for axis 2.
-_AXIS_INPUTS = ("run", "extck", "csel", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
+    That module, in the part's folder below cocotb_tests, lists in PARTS what stands in the folder.
+    """
 
-PPMC2104 = Part(
-    name="ppmc2104",
-    prefix="P2104",
-    inputs={
-        "a0": 0,
-        "cs_n": 1,
-        "busc": 0,
-        "ds_wrs_n": 1,
-        "rw_rds_n": 1,
-        "d_i": 0,
-        "errint_n": 1,
-        **{pin: 0 if pin == "extck" else 0b11 for pin in _AXIS_INPUTS},
-        "auxi": 0,
-    },
-    outputs={
-        "d_o": (8, 0x00),
-        "d_oe": (1, 0),
-        "int_n": (1, 1),
-        "pout_n": (2, 0b11),
-        "dir": (2, 0b00),
-        "hold": (2, 0b11),
-        "s1_n": (5, 0x1F),
-        "s2_n": (5, 0x1F),
-        "auxo": (2, 0b11),
-        "clk_o": (1, 0),
-    },
-    widths={"d_i": 8, "auxi": 2, **dict.fromkeys(_AXIS_INPUTS, 2)},
-    styles=(STROBES_WRS_RDS, STROBES_DS_RW),
-    style_pin="busc",
-    clock="extck",
-    lowest=dict.fromkeys((*_AXIS_INPUTS, "pout_n", "dir", "hold", "s1_n", "s2_n"), 1),
-    unwatched=frozenset({"clk_o"}),
-)
+    def __getitem__(self, name: str) -> Part:
+        row = parts.PARTS[name]
+        module = importlib.import_module(f"cocotb_tests.{row.folder}.bench")
+        found: dict[str, Part] = {part.name: part for part in module.PARTS}
+        return found[name]
 
-_SWITCHES = {"l1_n": 1, "l2_n": 1, "l3_n": 1, "l4_n": 1, "cnp_n": 1, "mon": 1}
+    def __iter__(self) -> Iterator[str]:
+        for row in parts.folders():
+            module = importlib.import_module(f"cocotb_tests.{row.name}.bench")
+            yield from (part.name for part in module.PARTS)
 
-STMC = Part(
-    name="stmc",
-    prefix="STMC",
-    inputs={"ext_clk": 0, "cs_n": 1, "a0": 0, "rd_n": 1, "wr_n": 1, "d_i": 0, **_SWITCHES},
-    outputs={"d_o": (8, 0x00), "d_oe": (1, 0), "int_n": (1, 1), "s": (5, 0x00), "hold": (1, 1)},
-    widths={"d_i": 8},
-    clock="ext_clk",
-    lowest={"s": 1},
-)
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
-J105_STMC = Part(
-    name="j105_stmc",
-    prefix="J105",
-    inputs={"sa": 0, "aen": 0, "ior_n": 1, "iow_n": 1, "sd_i": 0, **_SWITCHES},
-    outputs={
-        "sd_o": (8, 0x00),
-        "sd_oe": (1, 0),
-        "irq": (1, 0),
-        "s": (5, 0x00),
-        "drv": (4, 0x0),
-        "hold": (1, 1),
-    },
-    widths={"sa": 10, "sd_i": 8},
-    styles=(STROBES_ISA,),
-    lowest={"s": 1, "drv": 1},
-)
 
-PPMC312 = Part(
-    name="ppmc312",
-    prefix="P312",
-    inputs={
-        "mode": 1,
-        "d_i": 0,
-        "rs": 0,
-        "cs_n": 1,
-        "we_n": 1,
-        "oe_n": 1,
-        "rxd": 1,
-        "hsp": 0,
-        "mod": 0,
-        "adr": 0,
-        "evt0_n": 1,
-        "evt1_n": 1,
-        "auxi": 0,
-        "alm_n": 1,
-        "end_n": 1,
-        "epin": 0,
-        "epdir": 0,
-        "index_n": 1,
-        "org_n": 1,
-        "fl_n": 1,
-        "bl_n": 1,
-        "fhl_n": 1,
-        "bhl_n": 1,
-        "extck": 0,
-        "run": 1,
-    },
-    outputs={
-        "d_o": (8, 0x00),
-        "d_oe": (1, 0),
-        "wrq_n": (1, 1),
-        "irq_n": (1, 1),
-        "txd": (1, 1),
-        "snd": (1, 0),
-        "auxo_n": (6, 0x3F),
-        "exon_n": (1, 1),
-        "cclr_n": (1, 1),
-        "aclr_n": (1, 1),
-        "zclmp_n": (1, 1),
-        "cd_n": (1, 1),
-        "pout": (1, 0),
-        "dir": (1, 0),
-        "intlk_n": (1, 1),
-        "out_oe": (1, 0),
-    },
-    widths={"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8},
-    styles=(STROBES_WE_OE,),
-    clock="extck",
-    defaults={
-        "CLK_HZ": 16_000_000,
-        "XTAL_HZ": 16_000_000,
-        "TIMING": "FAST",
-        "VERSION": 0x12,
-        "SUM_MODE": "BINARY",
-    },
-)
-
-PMC006 = Part(
-    name="pmc006",
-    prefix="P006",
-    inputs={
-        "rxd": 1,
-        "ext1": 1,
-        "ext2": 1,
-        "fset_n": 1,
-        "gpi": 0x1F,
-        "adc_data": 0,
-        "adc_valid": 0,
-        "bemf_level": 0,
-        "bemf_valid": 0,
-        "cmp_a": 0,
-        "cmp_b": 0,
-        "scl_i": 1,
-        "sda_i": 1,
-    },
-    outputs={
-        "txd": (1, 1),
-        "de": (1, 0),
-        "ext1_pu": (1, 1),
-        "ext2_pu": (1, 1),
-        "gpo": (5, 0),
-        "phase_a_ref": (8, 0),
-        "phase_a_sign": (1, 0),
-        "phase_b_ref": (8, 0),
-        "phase_b_sign": (1, 0),
-        "pwm_a_ref": (1, 0),
-        "pwm_b_ref": (1, 0),
-        "bridge_a_en": (1, 0),
-        "bridge_b_en": (1, 0),
-        "m10": (1, 0),
-        "m11": (1, 0),
-        "m20": (1, 0),
-        "m21": (1, 0),
-        "scl_o": (1, 0),
-        "scl_oe": (1, 0),
-        "sda_o": (1, 0),
-        "sda_oe": (1, 0),
-        "mon_step": (1, 0),
-        "mon_dir": (1, 1),
-        "mon_busy": (1, 0),
-    },
-    widths={"gpi": 5, "adc_data": 10, "bemf_level": 10},
-    styles=(),
-    clock="",
-    unwatched=frozenset({"pwm_a_ref", "pwm_b_ref"}),
-    defaults={
-        "CLK_HZ": 16_000_000,
-        "XTAL_HZ": 16_000_000,
-        "TIMING": "FAST",
-        "STEP_ACK": "MANUAL",
-        "BAUD": 9600,
-        "I2C_HZ": 400_000,
-        "EE_DEV": 0x50,
-        "T_OFF_NS": 20_000,
-        "T_BLANK_NS": 1_000,
-        "FW_VERSION": 0x123,
-    },
-)
-
-PARTS: dict[str, Part] = {part.name: part for part in (PPMC104, PPMC2104, STMC, J105_STMC, PPMC312, PMC006)}
-
-# Also parts whose RTL does not exist yet, so that their rule IDs already sort to the right table.
-PREFIXES = {
-    "P104": "ppmc104",
-    "P2104": "ppmc2104",
-    "STMC": "stmc",
-    "J105": "stmc",
-    "P312": "ppmc312",
-    "P006": "pmc006",
-}
+PARTS: Mapping[str, Part] = _Benches()

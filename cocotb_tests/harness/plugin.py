@@ -12,10 +12,9 @@ from typing import Any
 import pytest
 
 from . import native
-from .part import PREFIXES
 from .paths import TRACE
 from .runner import SimOptions, locked
-from .verifies import part_of_rule, rules_of, unknown_rules
+from .verifies import PREFIXES, part_of_rule, rules_of, unknown_rules
 
 RESULTS = TRACE / "results.jsonl"
 

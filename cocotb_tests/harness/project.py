@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
 from rich.console import Console
 from rich.markup import escape
+
+from openppmc import sources as rtl_list
+from openppmc.parts import PARTS, Row
+from openppmc.sources import Group
 
 ROOT = Path(__file__).resolve().parents[2]
 RTL = ROOT / "rtl"
@@ -32,74 +33,49 @@ class ProjectError(Exception):
     """A mistake of the user or of the set-up; its text is the one line that is shown."""
 
 
-@dataclass(frozen=True)
-class Part:
-    """One part of the family: its top module and the groups of rtl/files.yml that it is built of.
-
-    `phase_idle`: the top has the parameter PHASE_IDLE. `families`: what it is made for; an iCE40 is too small
-    for some.
-    """
-
-    name: str
-    groups: tuple[str, ...]
-    clk_hz: int = 16_000_000
-    phase_idle: bool = False
-    families: tuple[str, ...] = ("ecp5", "ice40")
+def part(name: str) -> Row:
+    """The part called `name`, from the table of parts; ProjectError lists those that there are."""
+    if name not in PARTS:
+        raise ProjectError(f"PART={name}: no such part (known: {', '.join(PARTS)})")
+    return PARTS[name]
 
 
-SHARED = ("common", "motion", "host")
-SINGLE = (*SHARED, "single")  # what the parts with one axis share
-PARTS = {
-    "ppmc104": Part("ppmc104", (*SINGLE, "ppmc104"), phase_idle=True),
-    "ppmc2104": Part("ppmc2104", (*SHARED, "ppmc2104")),
-    "isa_4axis": Part("isa_4axis", (*SHARED, "ppmc2104", "isa_4axis")),
-    "stmc": Part("stmc", (*SINGLE, "stmc"), phase_idle=True),
-    "ppmc312": Part("ppmc312", (*SHARED, "stage", "ppmc312"), families=("ecp5",)),
-    "pmc006": Part("pmc006", ("common", "motion", "pmc006")),
-    "j105_stmc": Part("j105_stmc", (*SINGLE, "stmc", "j105_stmc")),
-}
-
-
-def part(name: str) -> Part:
-    """The part called `name`; ProjectError lists the known ones when there is no such part."""
+def listed() -> dict[str, Group]:
+    """rtl/files.yml: the groups of RTL sources, in compile order, with absolute paths."""
     try:
-        return PARTS[name]
-    except KeyError:
-        raise ProjectError(f"PART={name}: no such part (known: {', '.join(PARTS)})") from None
+        return rtl_list.groups(ROOT)
+    except rtl_list.SourcesError as error:
+        raise ProjectError(str(error)) from None
 
 
-def file_groups() -> dict[str, list[Path]]:
-    """rtl/files.yml: the groups of RTL sources, each in compile order, as absolute paths."""
-    listing = RTL / "files.yml"
-    if not listing.is_file():
-        raise ProjectError("rtl/files.yml is missing: there is no list of RTL sources")
-    groups: dict[str, list[str]] = yaml.safe_load(listing.read_text()) or {}
-    return {group: [RTL / name for name in names or []] for group, names in groups.items()}
+def files(*groups: str) -> list[Path]:
+    """The RTL of these groups and of what they need, in compile order; ProjectError for a missing file."""
+    try:
+        return rtl_list.files(listed(), *groups)
+    except rtl_list.SourcesError as error:
+        raise ProjectError(str(error)) from None
 
 
-def sources(of: Part) -> list[Path]:
-    """The RTL sources of a part in compile order; ProjectError when a listed file is not there."""
-    groups = file_groups()
-    files = [path for group in of.groups for path in groups.get(group, [])]
-    missing = [path.relative_to(ROOT).as_posix() for path in files if not path.is_file()]
-    if missing:
-        raise ProjectError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")
-    return files
+def sources(of: Row) -> list[Path]:
+    """The RTL of a part in compile order; ProjectError when a listed file is not there."""
+    return files(of.rtl)
 
 
 def board_files(part_name: str) -> list[Path]:
-    """The board module of a part and the files beside it that it is built from; none if it has no board.
+    """What a part's carrier is made of besides the part, in compile order; none if it has no carrier."""
+    of = part(part_name)
+    if not of.carrier:
+        return []
+    own = set(sources(of))
+    return [path for path in files(f"{of.rtl}_carrier") if path not in own]
 
-    In compile order.
-    """
-    files = file_groups().get("boards", [])
-    found = {path for path in files if path.stem == f"{part_name}_carrier"}
-    while True:
-        text = "\n".join(path.read_text(encoding="utf-8") for path in found)
-        more = {path for path in files if re.search(rf"^\s*{path.stem}\s", text, re.M)} - found
-        if not more:
-            return [path for path in files if path in found]
-        found |= more
+
+def top_file(of: Row) -> Path:
+    """The file of a part's top module; ProjectError when it is not in rtl/files.yml."""
+    found = next((path for path in sources(of) if path.stem == of.top), None)
+    if found is None:
+        raise ProjectError(f"rtl/files.yml: the files of {of.name} lack its top, {of.top}")
+    return found
 
 
 def include_dirs() -> list[Path]:

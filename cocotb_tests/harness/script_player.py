@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import cocotb
+
+from openppmc import parts
 
 from .bench import Bench
 from .config import Config, configs
@@ -20,11 +21,11 @@ from .tape import play, taping
 from .verifies import verifies
 
 
-async def play_module(dut: Any, part: Part, path: str, builds: Sequence[Config]) -> None:
+async def play_module(dut: Any, part: Part, script: str, builds: Sequence[Config]) -> None:
     """Run all scripts of a module on the model and play their tapes; AssertionError tells all failures."""
     bench = await Bench.start(dut, part)
     played, failed = 0, []
-    for case in cases(path, os.environ.get("OPENPPMC_SCRIPT", "")):
+    for case in cases(script, os.environ.get("OPENPPMC_SCRIPT", "")):
         with taping() as tapes, building(bench.config):
             try:
                 case.call()
@@ -39,29 +40,29 @@ async def play_module(dut: Any, part: Part, path: str, builds: Sequence[Config])
                 await play(bench, tape, case.name)
             except AssertionError as error:
                 failed.append(str(error))
-    assert played, f"{path}: nothing to play in {bench.config.name}"
+    assert played, f"{script}: nothing to play in {bench.config.name}"
     every = [f"  {text.splitlines()[0]}: {text.splitlines()[1]}" for text in failed]
     assert not failed, "\n".join(
         [f"{len(failed)} failures, {played} tapes played; the first one:", failed[0], "all of them:", *every]
     )
 
 
-def _test(part: Part, path: str, builds: tuple[Config, ...], name: str) -> Any:
+def _test(part: Part, script: str, builds: tuple[Config, ...], name: str) -> Any:
     async def run(dut: Any) -> None:
-        await play_module(dut, part, path, builds)
+        await play_module(dut, part, script, builds)
 
     run.__name__ = run.__qualname__ = name
-    run.__doc__ = f"Given the scripts of {path}, when the RTL gets their pins, then all outputs agree."
-    return cocotb.test()(verifies(*rules(path))(configs(*builds)(run)))
+    run.__doc__ = f"Given the scripts of {script}, when the RTL gets their pins, then all outputs agree."
+    return cocotb.test()(verifies(*rules(script))(configs(*builds)(run)))
 
 
 def module_tests(part: Part, modules: Mapping[str, tuple[Config, ...]], module: str) -> dict[str, Any]:
     """The cocotb tests of all script modules, by name, as globals of the Python module called `module`."""
     tests = {}
-    for path, builds in modules.items():
-        stem = Path(path).stem.removeprefix("test_").removeprefix("script_")
-        name = f"{part.prefix.lower()}_{stem}"
-        assert name not in tests, f"{path}: second module called {name}"
-        tests[name] = _test(part, path, builds, name)
+    for script, builds in modules.items():
+        stem = script.rpartition(".")[2].removeprefix("test_").removeprefix("script_")
+        name = f"{parts.part(part.name).rules[0].lower()}_{stem}"
+        assert name not in tests, f"{script}: second module called {name}"
+        tests[name] = _test(part, script, builds, name)
         tests[name].func.__module__ = module
     return tests

@@ -8,12 +8,10 @@ parameters may ask for those of the build that is simulated (`parameters`).
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import inspect
 import itertools
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple, TypeVar
 
@@ -34,11 +32,6 @@ class Case(NamedTuple):
     call: Callable[[], None]
 
 
-def load(path: str) -> ModuleType:
-    """The module in a file, named from the project's root."""
-    return importlib.import_module(path.removesuffix(".py").replace("/", "."))
-
-
 def functions(module: ModuleType) -> list[Any]:
     """The test functions of a script module, in order."""
     return [
@@ -48,9 +41,10 @@ def functions(module: ModuleType) -> list[Any]:
     ]
 
 
-def rules(path: str) -> tuple[str, ...]:
-    """All rules that the scripts of a module check."""
-    return tuple(dict.fromkeys(rule for function in functions(load(path)) for rule in rules_of(function)))
+def rules(module: str) -> tuple[str, ...]:
+    """All rules that the scripts of a module check, which is named as in an import."""
+    scripts = functions(importlib.import_module(module))
+    return tuple(dict.fromkeys(rule for function in scripts for rule in rules_of(function)))
 
 
 def model_only(why: str) -> Callable[[F], F]:
@@ -63,9 +57,9 @@ def model_only(why: str) -> Callable[[F], F]:
     return mark
 
 
-def cases(path: str, word: str = "") -> Iterator[Case]:
-    """Every call that pytest would make of what is played, those with `word` in their name."""
-    for function in functions(load(path)):
+def cases(module: str, word: str = "") -> Iterator[Case]:
+    """Every call that pytest would make of what is played of a module, those with `word` in their name."""
+    for function in functions(importlib.import_module(module)):
         if hasattr(function, "_openppmc_model_only"):
             continue
         sets = [
@@ -78,7 +72,7 @@ def cases(path: str, word: str = "") -> Iterator[Case]:
             for (names, _), value in zip(sets, chosen, strict=True):
                 row = getattr(value, "values", value) if not isinstance(value, dict) else value
                 arguments |= zip(names, row if len(names) > 1 else (row,), strict=True)
-            name = f"{Path(path).stem}.{function.__name__}" + (f"[{number}]" if sets else "")
+            name = f"{module.rpartition('.')[2]}.{function.__name__}" + (f"[{number}]" if sets else "")
             if word in name:
                 yield Case(name, lambda f=function, a=arguments: f(**a))  # type: ignore[misc]
 

@@ -100,3 +100,23 @@ def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
             break
         level = value
     return level
+
+
+def bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:
+    """Changes (edge, level) of one bit of a port."""
+    level, rows = initial >> place & 1, []
+    for t, value in changes:
+        if value >> place & 1 != level:
+            level ^= 1
+            rows.append((t, level))
+    return rows
+
+
+def steps(changes: list[tuple[int, int]]) -> list[int]:
+    """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
+    found, last = [], 0
+    for t, pattern in changes:
+        if pattern and last and pattern != last:
+            found.append(t)
+        last = pattern or last
+    return found

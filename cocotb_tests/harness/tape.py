@@ -12,7 +12,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from .bench import Bench
-from .compare import Comparison, compare_edges, write_report
+from .compare import write_report
+from .comparison import Comparison, compare_edges
 from .part import PARTS
 from .stimulus import Access, Change, Edge, Recording
 

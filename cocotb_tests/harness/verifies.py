@@ -12,13 +12,20 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any, TypeVar
 
-from .part import PREFIXES
+from openppmc import parts
+
 from .paths import ROOT
 
 F = TypeVar("F")
 
+PREFIXES = {prefix: row.name for row in parts.folders() for prefix in row.rules}
+"""First word of a rule ID -> the part that it belongs to."""
+
+# A part's first prefix has subjects (P104-CMD-07), another one numbers alone (J105-07).
+_SUBJECTS = "|".join(row.rules[0] for row in parts.folders() if row.rules)
+_NUMBERS = "|".join(prefix for row in parts.folders() for prefix in row.rules[1:]) or "(?!)"
 RULE_ID = re.compile(
-    r"^(?:(?P<prefix>(?:P104|P2104|STMC|P312|P006)(?=-[A-Z])|J105(?=-\d))(?:-[A-Z]+)?-\d\d"
+    rf"^(?:(?P<prefix>(?:{_SUBJECTS})(?=-[A-Z])|(?:{_NUMBERS})(?=-\d))(?:-[A-Z]+)?-\d\d"
     # Rules about an instruction of the PPMC-312 have its code, those about free curves a number.
     r"|(?P<code>P312)-CMD-(?:(?!FC)[0-9A-F]{2}|8L|8V|FC-\d{1,2})|AC-\d\d)$"
 )

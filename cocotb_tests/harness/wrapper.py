@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-import yaml
-
 from cocotb_tests.harness.paths import BUILD, ROOT
+from cocotb_tests.harness.project import files
 from cocotb_tests.harness.runner import Design, locked
 
 GROUPS = ("common", "motion", "host", "single")
@@ -59,14 +58,12 @@ def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
 def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
     """Design of all instances of one area; writes the top module below build/.
 
-    groups: keys of rtl/files.yml that hold what the area needs.
+    groups: those of rtl/files.yml that hold what the area needs.
     """
-    lists = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
-    files = [ROOT / "rtl" / name for key in groups for name in lists[key]]
     top = f"blocks_{area}"
     path = BUILD / "blocks" / f"{top}.sv"
     text = wrapper_text(top, blocks)
     with locked(path.with_suffix(".lock")):
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
-    return Design(top, [*files, path], [ROOT / "rtl" / "common"], ports="*")
+    return Design(top, [*files(*groups), path], [ROOT / "rtl" / "common"], ports="*")

@@ -1,1 +1,1 @@
-"""cocotb_tests/host"""
+"""Simulations of the blocks in rtl/host: the strobe bus, the UART bridge, the on-chip buses."""

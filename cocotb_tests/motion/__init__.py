@@ -1,1 +1,1 @@
-"""cocotb_tests/motion"""
+"""Simulations of the blocks in rtl/motion: ramp, rate, excitation, guard."""

@@ -8,9 +8,10 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.tape import record
-from cocotb_tests.pmc006.story import Story006
+from cocotb_tests.pmc006.story import Story
+
+from .bench import PMC006
 
 
 @cocotb.test()
@@ -20,7 +21,7 @@ async def demo_program(dut: Any) -> None:
     with (bench.out / "progress").open("a") as progress:
         progress.write("on the golden model, with a motor\n")
         progress.flush()
-        story = Story006(**{name.lower(): value for name, value in PMC006.params(bench.config).items()})
+        story = Story(**{name.lower(): value for name, value in PMC006.params(bench.config).items()})
         story.tell()
         progress.write("the same pins on the RTL\n")
     recording = await record(bench, story.host.tape)

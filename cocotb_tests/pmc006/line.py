@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .script_host import Host006
+from .script_host import Host
 
 
 class Line:
@@ -68,7 +68,7 @@ class Line:
                 model.pins(t, rxd=level)
 
 
-class Node(Host006):
+class Node(Host):
     """The host, talking to one of the parts on the line."""
 
     def __init__(self, line: Line, **given: Any) -> None:

@@ -11,7 +11,7 @@ from cocotb_tests.harness.background import Background
 
 from .frames import command
 from .random_program import SPEEDS
-from .script_host import Host006
+from .script_host import Host
 
 EDGES = (-1, 0x100, 0x10000, 0x7FFFFFFF, -0x80000000)
 DATA: dict[str, tuple[int, ...]] = {
@@ -44,7 +44,7 @@ class Frames:
     """A random host's mouth. `seen` counts what it did and found, `left` is how much it has still to do."""
 
     rng: random.Random
-    host: Host006
+    host: Host
     model: Any
     background: Background
     seen: Counter[str]

@@ -20,7 +20,7 @@ from .random_meeting import Meetings
 from .random_pins import Pins
 from .random_program import some_program
 from .scenes import device, image, page
-from .script_host import Host006
+from .script_host import Host
 
 BUILDS: tuple[tuple[Config, int], ...] = ((F8B, 80), (ODD, 12), (D8E, 8))
 
@@ -50,9 +50,7 @@ class Talker(Meetings, Pins, Faults):
         levels = {} if memory else {"sda_i": 0}
         if rng.random() < 0.2:
             levels |= {"ext1": rng.getrandbits(1), "ext2": rng.getrandbits(1), "gpi": rng.randrange(32)}
-        self.host = Host006(
-            eeprom=memory, levels=levels, boot=False, error=rng.choice((0, 0, 0, 0.02, -0.02))
-        )
+        self.host = Host(eeprom=memory, levels=levels, boot=False, error=rng.choice((0, 0, 0, 0.02, -0.02)))
         self.model = self.host.model
         self.background = Background(self.model, ("sda_i", "scl_i", "fset_n"))
         self.host.boot()

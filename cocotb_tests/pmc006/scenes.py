@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.scripts import parameters
 from openppmc.model.carrier.eeprom import Eeprom24C32
 
-from .script_host import Host006
+from .bench import PMC006
+from .script_host import Host
 
 EXT1, EXT2, DECAY, STALL = 0x02, 0x04, 0x08, 0x10
 """Bits of status 1 beside BUSY."""
@@ -19,44 +19,44 @@ FREE_RUN, EXT1_EN, EXT2_EN, SPEED_MODE, FORWARD, OFFLINE = 0x01, 0x02, 0x04, 0x0
 FACTORY_PAGE = bytes.fromhex("503601FF1000000001010000580258022C01E2042003") + bytes(9) + b"\x82"
 
 
-def setup(host: Host006) -> Host006:
+def setup(host: Host) -> Host:
     """SETUP: e 1000, u 3, o 3, v 3200."""
     host.ok(e=1000, u=3, o=3, v=3200)
     return host
 
 
-def ready(**given: object) -> Host006:
+def ready(**given: object) -> Host:
     """A host behind SETUP."""
-    return setup(Host006(**given))  # type: ignore[arg-type]
+    return setup(Host(**given))  # type: ignore[arg-type]
 
 
-def brisk(host: Host006, speed: int = 3000, **settings: int) -> Host006:
+def brisk(host: Host, speed: int = 3000, **settings: int) -> Host:
     """Constant speed from the first step to the last."""
     host.ok(v=speed, L=speed, S=speed, **settings)
     return host
 
 
-def quick(speed: int = 3000, **given: object) -> Host006:
+def quick(speed: int = 3000, **given: object) -> Host:
     """A host whose motions are `brisk`."""
-    return brisk(Host006(**given), speed)  # type: ignore[arg-type]
+    return brisk(Host(**given), speed)  # type: ignore[arg-type]
 
 
-def start(host: Host006, count: int) -> None:
+def start(host: Host, count: int) -> None:
     """An accepted s."""
     assert host.ask("s", count) == host.accepted(count)
 
 
-def run(host: Host006, on: int = 1) -> None:
+def run(host: Host, on: int = 1) -> None:
     """N 1 or N 0 with the reply that says so."""
     assert host.ask("N", on) == on
 
 
-def rest(host: Host006, limit_us: float = 10_000_000) -> int:
+def rest(host: Host, limit_us: float = 10_000_000) -> int:
     """Run to the end of motion; returns its edge."""
     return host.until("mon_busy", 0, limit_us)
 
 
-def move(host: Host006, count: int) -> list[int]:
+def move(host: Host, count: int) -> list[int]:
     """A whole move; returns its intervals in us. The number of steps is checked."""
     start(host, count)
     rest(host)
@@ -64,7 +64,7 @@ def move(host: Host006, count: int) -> list[int]:
     return host.intervals()
 
 
-def after_steps(host: Host006, count: int, limit_us: float = 20_000_000) -> int:
+def after_steps(host: Host, count: int, limit_us: float = 20_000_000) -> int:
     """Run until so many steps have been made since `mark`; returns the edge of that step."""
     end = host.t + host.us(limit_us)
     while host.made() < count:
@@ -73,7 +73,7 @@ def after_steps(host: Host006, count: int, limit_us: float = 20_000_000) -> int:
     return host.steps()[count - 1]
 
 
-def cruise(host: Host006, interval: float, limit_us: float = 1_000_000) -> None:
+def cruise(host: Host, interval: float, limit_us: float = 1_000_000) -> None:
     """Run until the last two intervals are this one, rounded up or down."""
     end = host.t + host.us(limit_us)
     seen = host.made()
@@ -87,7 +87,7 @@ def cruise(host: Host006, interval: float, limit_us: float = 1_000_000) -> None:
             last = [host.in_us(b - a) for a, b in zip(steps, steps[1:], strict=False)]
 
 
-def still(host: Host006, clk: int | None = None) -> bool:
+def still(host: Host, clk: int | None = None) -> bool:
     """Whether no step is made for so long (10 ms)."""
     host.sync()
     since = host.t
@@ -150,7 +150,7 @@ def words(program: Iterable[Op]) -> list[int]:
     return [word for op in program for word in op.words]
 
 
-def download(host: Host006, program: Iterable[Op], first: int = 0) -> None:
+def download(host: Host, program: Iterable[Op], first: int = 0) -> None:
     """Write a program from instruction `first` on and point to it."""
     assert host.ask("A", 2 * first) == 2 * first
     for word in words(program):
@@ -158,7 +158,7 @@ def download(host: Host006, program: Iterable[Op], first: int = 0) -> None:
     assert host.ask("A", 2 * first) == 2 * first
 
 
-def load(host: Host006, *program: Op) -> None:
+def load(host: Host, *program: Op) -> None:
     """Write a program and run it."""
     download(host, program)
     assert host.ask("z") == 1
@@ -188,6 +188,6 @@ def device(content: bytes = b"", **more: int) -> Eeprom24C32:
     return Eeprom24C32(values["clk_hz"], content, **{"device": values["ee_dev"], **more})  # type: ignore[arg-type]
 
 
-def with_eeprom(content: bytes = b"", address: int = 0xFF, write_us: int = 5_000, **levels: int) -> Host006:
+def with_eeprom(content: bytes = b"", address: int = 0xFF, write_us: int = 5_000, **levels: int) -> Host:
     """A host on a part with an EEPROM."""
-    return Host006(address=address, eeprom=device(content, write_us=write_us), levels=levels)
+    return Host(address=address, eeprom=device(content, write_us=write_us), levels=levels)

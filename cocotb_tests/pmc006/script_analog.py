@@ -7,10 +7,10 @@ import pytest
 from cocotb_tests.harness.verifies import verifies
 
 from .scenes import END, Op, after_steps, cruise, download, load, quick, rest, rot, run, start, still
-from .script_host import Host006
+from .script_host import Host
 
 
-def regulated(full: int, value: int) -> Host006:
+def regulated(full: int, value: int) -> Host:
     """A host on a part with ANALOG = 1, made so by E; `value` is the last sample."""
     host = quick()
     host.ok(u=5, o=5)

@@ -8,14 +8,14 @@ from cocotb_tests.harness.verifies import verifies
 
 from .reference import HOME, boost, code, increment, lead, sines
 from .scenes import after_steps, brisk, move, quick, rest, run, start
-from .script_host import EXECUTE, Host006
+from .script_host import EXECUTE, Host
 
 REFS = 64
 """clk from a cause to the references."""
 NAMES = ("phase_a_ref", "phase_a_sign", "phase_b_ref", "phase_b_sign")
 
 
-def shown(host: Host006, t: int) -> tuple[int, ...]:
+def shown(host: Host, t: int) -> tuple[int, ...]:
     """References after edge t."""
     return tuple(host.level_at(name, t) for name in NAMES)
 
@@ -26,7 +26,7 @@ def shown(host: Host006, t: int) -> tuple[int, ...]:
 )
 def test_angle_of_every_step(m: int) -> None:
     """A full step at least, both ways, with all four outputs within 64 clk of the step and in one clk."""
-    host = brisk(Host006(), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300)
+    host = brisk(Host(), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300)
     angle = HOME
     for direction in (1, 0):
         host.ok(d=direction)
@@ -60,7 +60,7 @@ def test_table_of_angles() -> None:
         (320, 255): (180, 1, 180, 1),
     }
     assert all(sines(angle, peak) == row for (angle, peak), row in table.items())
-    host = brisk(Host006(), 3000, m=4, a=0)
+    host = brisk(Host(), 3000, m=4, a=0)
     for current, peak in ((1000, 64), (4000, 255)):
         host.ok(e=current)
         for number in range(16):
@@ -74,7 +74,7 @@ def test_table_of_angles() -> None:
 @verifies("P006-EXC-03", "P006-CMD-54")
 def test_nothing_but_steps_moves_the_angle() -> None:
     """From fine to coarse the grid is the angle's own; settings and stops leave it."""
-    host = brisk(Host006(), 3000, m=128, a=0)
+    host = brisk(Host(), 3000, m=128, a=0)
     move(host, 5)
     host.pause(REFS)
     held = host.refs()
@@ -94,7 +94,7 @@ def test_nothing_but_steps_moves_the_angle() -> None:
 @verifies("P006-EXC-20", "P006-CMD-26", "P006-CMD-35")
 def test_currents() -> None:
     """Both sides of borders between drive indices, the ends included."""
-    host = Host006()
+    host = Host()
     host.ok(a=0)
     printed = (26, 35, 45, 54, 64, 73, 83, 92, 102, 112, 121, 131, 140, 150, 159, 169, 179, 188, 198, 207)
     printed += (217, 226, 236, 245, 255)
@@ -120,7 +120,7 @@ def test_currents() -> None:
 )
 def test_compensation(m: int, e: int, ccomp: int, scomp: int, speed: int, forward: int) -> None:
     """0 up to the first update tick, then that of the speed in force, 0 again at rest."""
-    host = brisk(Host006(), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
+    host = brisk(Host(), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
     run(host)
     mark = host.mark
     after_steps(host, 9)
@@ -140,7 +140,7 @@ def test_compensation(m: int, e: int, ccomp: int, scomp: int, speed: int, forwar
 @verifies("P006-EXC-22", "P006-EXC-23", "P006-CMD-54", "P006-CMD-10", "P006-CMD-13")
 def test_factors_act_at_once() -> None:
     """CCOMP, SCOMP, CUR of a running motion; MSTEP is its own."""
-    host = brisk(Host006(), 2000, m=0, a=0, e=1000)
+    host = brisk(Host(), 2000, m=0, a=0, e=1000)
     run(host)
     mark = host.mark
     for settings in ({"M": 1200}, {"P": 300}, {"e": 2500}, {"m": 128}):

@@ -9,13 +9,13 @@ from math import ceil
 from cocotb_tests.harness.verifies import verifies
 
 from .scenes import after_steps, brisk, rest, run, start
-from .script_host import Host006
+from .script_host import Host
 
 
 class Times:
     """TOFF, BL, TF of chapter 6.6 in clk."""
 
-    def __init__(self, host: Host006) -> None:
+    def __init__(self, host: Host) -> None:
         params = host.tape.params
         hz = host.clk_hz
         self.off, self.blank = (
@@ -24,14 +24,14 @@ class Times:
         self.fast = max(self.blank, self.off >> 1)
 
 
-def ready() -> tuple[Host006, Times]:
+def ready() -> tuple[Host, Times]:
     """A part that holds its full current."""
-    host = Host006()
+    host = Host()
     host.ok(a=0, e=4000)
     return host, Times(host)
 
 
-def never_both(host: Host006) -> bool:
+def never_both(host: Host) -> bool:
     """Whether the two halves of a bridge are never high together."""
     for pair in (("m10", "m11"), ("m20", "m21")):
         times = sorted({t for name in pair for t, _ in host.edges(name)})

@@ -8,13 +8,13 @@ from cocotb_tests.harness.verifies import verifies
 
 from .reference import HOME, code, sines
 from .scenes import Op, after_steps, image, load, page, quick, rest, run, start, with_eeprom
-from .script_host import Host006
+from .script_host import Host
 
 
 @verifies("P006-PAR-01", "P006-MOT-03", "P006-MOT-20", "P006-MOT-05", "P006-AC-45")
 def test_intervals() -> None:
     """M13; `intervals` looks at every one, the sum at the drift."""
-    host = Host006()
+    host = Host()
     host.ok(u=3, o=3, v=3200)
     start(host, 256)
     rest(host)

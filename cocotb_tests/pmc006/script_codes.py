@@ -30,7 +30,7 @@ from .scenes import (
     still,
     with_eeprom,
 )
-from .script_host import EXECUTE, Host006
+from .script_host import EXECUTE, Host
 
 BEYOND = (0x7FFFFFFF, -0x80000000, -1, 0x10000, 0x100)
 """Data that few registers take; their low bytes would be legal in many."""
@@ -79,7 +79,7 @@ IDS += tuple(f"P006-CMD-{n:02}" for n in (30, 32, 34, 35, 36, 38, 39, 42, 43, 49
 @verifies(*IDS, "P006-BAD-08", "P006-BAD-09")
 def test_register(row: Row) -> None:
     """What is taken is echoed; what is not leaves the register and shows it; the reads show the same."""
-    host = Host006()
+    host = Host()
 
     def shown(value: int) -> None:
         if row.read:
@@ -103,7 +103,7 @@ def test_register(row: Row) -> None:
 def test_unknown_codes() -> None:
     """All codes that mean nothing, with data that would be legal for many: one reply each, no effect."""
     known = {ord(letter) for letter in "ABEFGIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"}
-    host = Host006()
+    host = Host()
     unknown = [code for code in range(256) if code not in known]
     assert len(unknown) == 256 - 49
     for code in unknown[::7]:
@@ -114,7 +114,7 @@ def test_unknown_codes() -> None:
 
 @verifies("P006-CMD-15", "P006-CMD-12", "P006-CMD-31", "P006-CMD-45", "P006-CMD-19", "P006-CMD-57")
 def test_reads_do_not_look_at_their_data() -> None:
-    host = Host006()
+    host = Host()
     for data in (0, -1):
         assert [host.ask(code, data) for code in "ROjxXKcknqrh"] == [
             *(0x123, 0x10, 8, 0xF07, 0, 0, 0, 16, 800, 1000, 0, 0)
@@ -124,7 +124,7 @@ def test_reads_do_not_look_at_their_data() -> None:
 
 @verifies("P006-CMD-44", "P006-FRM-05", "P006-BAD-08")
 def test_addresses() -> None:
-    host = Host006()
+    host = Host()
     for data in (0, 121, 122, 255, 256, 257, -1, 0x101):
         assert host.ask("w", data) == 255
     for data in (1, 120, 64):
@@ -135,7 +135,7 @@ def test_addresses() -> None:
 
 @verifies("P006-CMD-46", "P006-IO-02", "P006-IO-03")
 def test_outputs() -> None:
-    host = Host006()
+    host = Host()
     for data in (0x08, 0xF8, 0x07, -1, 0x150, 0xFFFFFF07, 0, 0xA8):
         assert host.ask("y", data) == data & 0xF8
         assert host.out("gpo") == (data & 0xF8) >> 3
@@ -145,7 +145,7 @@ def test_outputs() -> None:
 
 @verifies("P006-CMD-23", "P006-CMD-33", "P006-CMD-37", "P006-CMD-06", "P006-STA-17", "P006-BAD-25")
 def test_clearing_what_is_not_set() -> None:
-    host = Host006()
+    host = Host()
     for data in (0, 1, -1):
         assert [host.ask(code, data) for code in "blpI"] == [0, 0, 0, data & 0xFFFFFFFF]
         assert host.ask("N", 0) == 0
@@ -217,7 +217,7 @@ def test_abort() -> None:
 
 @verifies("P006-CMD-01", "P006-CMD-05", "P006-CMD-18", "P006-PRG-02", "P006-BAD-11")
 def test_program_words() -> None:
-    host = Host006()
+    host = Host()
     values = (0x12345678, 0xFFFFFFFF, 0, 0x80000001)
     assert host.ask("A", 196) == 196
     for value in values:
@@ -298,7 +298,7 @@ def test_values_of_the_next_motion() -> None:
 
 @verifies("P006-CMD-04", "P006-CMD-12")
 def test_offline_flag() -> None:
-    host = Host006()
+    host = Host()
     host.ok(F=1)
     assert host.ask("O") == FORWARD | OFFLINE and still(host, 1_000)
     load(host, rot(1), END)

@@ -8,17 +8,17 @@ from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.bench.motor import Motor, Plant
 
 from .scenes import brisk, run, start
-from .script_host import Host006
+from .script_host import Host
 
 
-def ready(motor: Motor | None = None, **settings: int) -> tuple[Host006, Plant]:
+def ready(motor: Motor | None = None, **settings: int) -> tuple[Host, Plant]:
     """A part that holds its full current in a motor."""
-    host = Host006()
+    host = Host()
     host.ok(a=0, **settings)
     return host, Plant(host.model, host.clk_hz, motor)
 
 
-def off_by(host: Host006, plant: Plant, since: int, until: int | None = None) -> float:
+def off_by(host: Host, plant: Plant, since: int, until: int | None = None) -> float:
     """Largest difference of a current and its reference between two edges, ampere."""
     host.sync()
     times = [t / host.clk_hz for t in range(since, until or host.t, 40)]

@@ -7,7 +7,7 @@ import pytest
 from cocotb_tests.harness.verifies import verifies
 
 from .scenes import DECAY, FACTORY_PAGE, OFFLINE, Op, device, goto, image, out, page, quick, start, words
-from .script_host import Host006
+from .script_host import Host
 
 SAVED = page(
     a03=0x78, a04=0, a06=5, a07=4, a08=0, a09=4, a0A=3, a0B=0, a0C=0xB8, a0D=0x0B, a0E=65, a0F=0,
@@ -20,17 +20,17 @@ BLINK = (out(1, 1), goto(1))
 """A program that shows itself and does not end."""
 
 
-def values(host: Host006) -> dict[str | int, int]:
+def values(host: Host) -> dict[str | int, int]:
     """Registers that are saved."""
     return {code: host.ask(code) for code in FACTORY}
 
 
-def booted(content: bytes, address: int = 0xFF, **more: int) -> Host006:
+def booted(content: bytes, address: int = 0xFF, **more: int) -> Host:
     """A host on a part with that EEPROM."""
-    return Host006(address=address, eeprom=device(content, write_us=500, **more))
+    return Host(address=address, eeprom=device(content, write_us=500, **more))
 
 
-def unread(host: Host006) -> bool:
+def unread(host: Host) -> bool:
     """Whether nothing has been written, and the page is not in force."""
     assert host.eeprom is not None
     return not host.eeprom.writes and host.ask("k") == 16 and host.replied == 0xFF
@@ -139,7 +139,7 @@ def test_without_a_device(fault: str) -> None:
     chip = device(image(SAVED), missing=fault == "missing")
     chip.device ^= fault == "other"
     chip.stuck_scl = fault == "scl"
-    host = Host006(eeprom=chip)
+    host = Host(eeprom=chip)
     assert host.us(1_000 if fault == "scl" else 10_000) <= host.t <= host.us(15_000)
     assert values(host) == FACTORY and host.ask("W", 5) == 5
     assert host.ask("V") == 0
@@ -168,7 +168,7 @@ def test_a_device_that_holds_sda() -> None:
         assert host.ask("k") == 0 and host.replied == 120
     chip = device(image(SAVED))
     chip.stuck_sda = True
-    host = Host006(eeprom=chip)
+    host = Host(eeprom=chip)
     assert host.t < host.us(500)
     assert [t for t, level in host.edges("scl_oe") if level][9:] == []
     assert unread(host)
@@ -178,7 +178,7 @@ def test_a_device_that_holds_sda() -> None:
 def test_a_device_that_stretches_and_one_that_is_busy() -> None:
     assert booted(image(SAVED), 120, stretch_us=3).ask("n") == 4000
     chip = device(image(SAVED), write_us=6_000)
-    host = Host006(address=120, eeprom=chip, boot=False)
+    host = Host(address=120, eeprom=chip, boot=False)
     chip.occupy(host.us(6_000))
     up = host.boot()
     assert host.us(6_000 + 18_000) < up < host.us(60_000) and host.ask("n") == 4000

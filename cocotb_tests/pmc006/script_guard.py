@@ -21,7 +21,7 @@ from .scenes import (
     start,
     still,
 )
-from .script_host import EXECUTE, Host006
+from .script_host import EXECUTE, Host
 
 STOP = 5
 FLAGS = {"ext1": EXT1, "ext2": EXT2}
@@ -179,7 +179,7 @@ def test_flag_set_and_cleared_in_one_clk() -> None:
 # ---------------------------------------------------------------------- stall
 
 
-def cruising(level: int = 256, length: int = 5, y: int = 1) -> Host006:
+def cruising(level: int = 256, length: int = 5, y: int = 1) -> Host:
     """A host on a part in speed mode at constant speed, with the stall detector on."""
     host = quick()
     host.ok(Z=level, T=length, Y=y)
@@ -188,7 +188,7 @@ def cruising(level: int = 256, length: int = 5, y: int = 1) -> Host006:
     return host
 
 
-def samples(host: Host006, *levels: int) -> None:
+def samples(host: Host, *levels: int) -> None:
     """Strobes of the BEMF."""
     for level in levels:
         host.strobe(bemf_level=level)
@@ -232,7 +232,7 @@ def test_stall_after_reset_and_level_0() -> None:
 @verifies("P006-STL-01", "P006-STL-02", "P006-BAD-20")
 def test_samples_off_constant_speed() -> None:
     """In a ramp nothing counts, and the count begins anew; a strobe that stays is a sample every clk."""
-    host = Host006()
+    host = Host()
     host.ok(L=1000, S=1000, v=1500, u=5, o=5, Z=100, T=3, Y=1)
     run(host)
     samples(host, *[50] * 20)
@@ -319,7 +319,7 @@ def test_stall_stops_at_once() -> None:
 
 @verifies("P006-IO-01", "P006-IO-02", "P006-IO-03", "P006-IO-04", "P006-PORT-03")
 def test_port_word() -> None:
-    host = Host006()
+    host = Host()
     host.ok(J=3, f=3)
     for number, gpi in enumerate((0, 1, 2, 4, 8, 16, 21, 31)):
         for ext in (number % 4, 3 - number % 4):

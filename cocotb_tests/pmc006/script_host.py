@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.script import Script
 from cocotb_tests.harness.scripts import parameters, simulating
 from cocotb_tests.harness.serial_line import SerialLine, characters
@@ -17,6 +16,7 @@ from cocotb_tests.harness.stimulus import Access
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.part import Pmc006
 
+from .bench import PMC006
 from .frames import command, number, of_reply
 from .i2c_bus import I2cBus
 from .watch import Watch
@@ -34,7 +34,7 @@ START = 1024
 """clk from the end of a frame to t = 0 of a motion, beside 1 us."""
 
 
-class Host006(Watch, SerialLine, Script):
+class Host(Watch, SerialLine, Script):
     """The host of one part, just booted.
 
     address: of the part, as the host knows it. levels: of input pins from edge 0 on. eeprom: the device on

@@ -7,7 +7,7 @@ import pytest
 from cocotb_tests.harness.verifies import verifies
 
 from .scenes import END, Op, after_steps, load, out, quick, rest, rot, start, still
-from .script_host import Host006
+from .script_host import Host
 
 RESET_TO = 3
 HIGH, KEY1, KEY2, BOTH = 0x1F, 0x1E, 0x1D, 0x1C
@@ -26,13 +26,13 @@ PAUSE_EN = Op(0x14, 1)
 WAIT_GPI3 = Op(0x10, 3, 0)
 
 
-def level(host: Host006, gpi: int) -> int:
+def level(host: Host, gpi: int) -> int:
     """Set the inputs; returns the edge that samples them."""
     host.pins(gpi=gpi)
     return host.t - 1
 
 
-def press(host: Host006, gpi: int, us: int = FILTER + 10) -> int:
+def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
     """Press for so long, then release and let the filter see that; returns the edge of the fall."""
     edge = level(host, gpi)
     host.wait_us(us)
@@ -41,7 +41,7 @@ def press(host: Host006, gpi: int, us: int = FILTER + 10) -> int:
     return edge
 
 
-def armed(**given: object) -> Host006:
+def armed(**given: object) -> Host:
     """A host whose keys are armed by now."""
     host = quick(2500, **given)
     host.wait_us(FILTER + 10)

@@ -8,7 +8,7 @@ from cocotb_tests.harness.verifies import verifies
 
 from .frames import command
 from .scenes import DECAY, EXT1, Op, after_steps, brisk, download, goto, load, out, quick, run, start
-from .script_host import ACT, EXECUTE, Host006
+from .script_host import ACT, EXECUTE, Host
 
 NEAR = range(-3, 4)
 """Distances in clk."""
@@ -17,7 +17,7 @@ TICKS = 1001
 HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
 
 
-def meet(host: Host006, code: str, data: int, shift: int, **levels: int) -> int:
+def meet(host: Host, code: str, data: int, shift: int, **levels: int) -> int:
     """A frame, and pins whose effect inside is so many clk behind that of the frame. Returns the reply."""
     begin = host.t
     host.say(code, data)
@@ -25,19 +25,19 @@ def meet(host: Host006, code: str, data: int, shift: int, **levels: int) -> int:
     return host.hear()
 
 
-def frame_clk(host: Host006) -> int:
+def frame_clk(host: Host) -> int:
     """clk from the begin of a frame to its e: the start of the last byte is seen, then its stop bit."""
     return 7 * ceil(10 * host.bit) + 2 + ceil(9.5 * host.bit) - 1
 
 
-def say_at(host: Host006, t: int, code: str, data: int = 0) -> int:
+def say_at(host: Host, t: int, code: str, data: int = 0) -> int:
     """A frame whose effect would be at edge t, if nothing is under way. Returns the reply."""
     host.go(t - ACT - frame_clk(host))
     host.say(code, data)
     return host.hear()
 
 
-def key_event(host: Host006, edge: int) -> int:
+def key_event(host: Host, edge: int) -> int:
     """Edge of the event of a key that edge `edge` has sampled low."""
     first = -(-(edge + 2 - 1) * 1_000_000 // host.clk_hz)
     return 1 - (-(first + TICKS - 1) * host.clk_hz // 1_000_000)
@@ -67,7 +67,7 @@ def test_start_and_emergency_stop() -> None:
 @verifies("P006-STA-14", "P006-EXT-08", "P006-CMD-23", "P006-CMD-27")
 def test_flag_and_its_clearing() -> None:
     """Setting wins in the same clk; so does the enable of the clk itself."""
-    host = Host006()
+    host = Host()
     host.ok(f=1)
     left = []
     for shift in NEAR:
@@ -109,7 +109,7 @@ def test_position_and_step() -> None:
 @verifies("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
 def test_speed_mode_taken_up_again_at_its_end() -> None:
     """Up to the edge on which it would end N=1 prolongs the motion; behind it a new one begins."""
-    host = Host006()
+    host = Host()
     host.ok(v=300, L=300, S=65, o=5)
     length = 0
     for shift in (None, *NEAR):
@@ -125,7 +125,7 @@ def test_speed_mode_taken_up_again_at_its_end() -> None:
         assert host.ask("O") & 8 and host.ask("I") == 0
 
 
-def ready_for_reset(host: Host006) -> int:
+def ready_for_reset(host: Host) -> int:
     """Run the program from its begin, press GPI1; returns the edge of the event to come."""
     host.ok(A=0)
     assert host.ask("z") == 1
@@ -180,7 +180,7 @@ def test_keys_in_every_clk_of_an_instruction() -> None:
 @verifies("P006-PRG-15", "P006-PRG-16", "P006-FRM-03", "P006-CMD-46")
 def test_frames_in_every_clk_of_the_program() -> None:
     """y between two OUTs: the pins are what the last one of them said."""
-    host = Host006()
+    host = Host()
     load(host, out(1, 1), out(2, 1), out(1, 0), out(2, 0), goto(0))
     begin = host.t + frame_clk(host) + 100
     for shift in range(0, 49, 2):
@@ -207,7 +207,7 @@ def test_single_try_and_emergency_stop() -> None:
 @verifies("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
 def test_restore_and_save() -> None:
     """The event of FSET about the edge of t: one of them goes first, both are done or t is refused."""
-    host = Host006()
+    host = Host()
     host.wait_us(100)
     replies = []
     for shift in range(-3, 4):
@@ -226,7 +226,7 @@ def test_restore_and_save() -> None:
 def test_bytes_about_the_end_of_a_reply() -> None:
     """A byte that begins before the middle of its last stop bit is not heard, one behind it is; the line need
     not rest."""
-    host = Host006()
+    host = Host()
     heard = []
     for shift in range(-4, 9):
         host.say("j")
@@ -246,7 +246,7 @@ def test_bytes_about_the_end_of_a_reply() -> None:
 @verifies("P006-STA-10", "P006-MOT-05", "P006-EXT-02", "P006-STA-14")
 def test_emergency_stop_and_step() -> None:
     """The edge falls some clk before or behind a step, the last of the move among them."""
-    host = Host006()
+    host = Host()
     brisk(host, 3000, f=1)
     for count in (1, 3):
         for shift in NEAR:

@@ -9,7 +9,7 @@ import pytest
 from cocotb_tests.harness.verifies import verifies
 
 from .scenes import DECAY, after_steps, brisk, cruise, move, quick, rest, run, start, still
-from .script_host import EXECUTE, START, Host006
+from .script_host import EXECUTE, START, Host
 
 
 class Move(NamedTuple):
@@ -38,7 +38,7 @@ PLANNING = tuple(f"P006-MOT-{n}" for n in ("10", "11", "12", "13", "14", "15", "
 @pytest.mark.parametrize("row", MOVES)
 @verifies(*PLANNING, "P006-MOT-01", "P006-MOT-02", "P006-MOT-03", "P006-MOT-04", "P006-MOT-05")
 def test_moves_of_the_table(row: Move) -> None:
-    host = Host006()
+    host = Host()
     low, high, limit, acc, dec = row.settings
     host.ok(L=low, S=high, v=limit, u=acc, o=dec)
     start(host, row.count)
@@ -57,7 +57,7 @@ def test_moves_of_the_table(row: Move) -> None:
 def test_when_a_motion_begins() -> None:
     """BUSY is up before the reply; the first interval counts from t = 0, which comes within 1024 clk."""
     for count, speed in ((1, 3000), (255, 3000), (256, 3000), (100_000, 16_000), (0x7FFFFFFF, 16_000)):
-        host = Host006()
+        host = Host()
         host.ok(L=3000, S=3000, v=speed, u=5, o=5)
         start(host, count)
         e = host.e
@@ -80,7 +80,7 @@ def test_constant_speeds_have_no_jitter() -> None:
 
 @verifies("P006-MOT-01", "P006-MOT-03", "P006-MOT-13", "P006-MOT-14", "P006-MOT-40")
 def test_the_highest_speed() -> None:
-    host = Host006()
+    host = Host()
     host.ok(L=3000, S=3000, v=16_000, u=5, o=5)
     run(host)
     mark = host.mark
@@ -95,7 +95,7 @@ def test_the_highest_speed() -> None:
 @verifies("P006-MOT-40", "P006-MOT-41", "P006-MOT-15", "P006-STA-13")
 def test_stop_in_the_middle_of_the_ramp() -> None:
     """W10: N 0 is seen at t = 100,000."""
-    host = Host006()
+    host = Host()
     host.ok(e=1000, u=3, o=3, v=3200)
     run(host)
     mark = host.mark
@@ -114,7 +114,7 @@ def test_stop_in_the_middle_of_the_ramp() -> None:
 def test_stop_when_already_slow() -> None:
     """W8 and W14: without a ramp the end is the next update tick."""
     for speed, stop in ((50, 600), (2500, 2500)):
-        host = Host006()
+        host = Host()
         host.ok(v=speed, S=stop, L=max(65, speed))
         run(host)
         mark = host.mark
@@ -128,7 +128,7 @@ def test_stop_when_already_slow() -> None:
 @verifies("P006-MOT-30", "P006-MOT-50", "P006-CMD-43", "P006-CMD-54")
 def test_retargets() -> None:
     """A new VMAX is the new goal from the next update on, up and down, in the ramp as in cruise."""
-    host = Host006()
+    host = Host()
     host.ok(L=2000, S=2000, v=2200, u=5, o=5)
     run(host)
     mark = host.mark
@@ -148,7 +148,7 @@ def test_retargets() -> None:
 @verifies("P006-MOT-30", "P006-MOT-15", "P006-MOT-20")
 def test_retargets_of_a_move() -> None:
     """Exactly N steps, whatever VMAX does; below VSTOP the motion keeps the target to its last step."""
-    host = Host006()
+    host = Host()
     host.ok(L=2000, S=2000, v=2600, u=5, o=5)
     start(host, 300)
     mark = host.mark
@@ -192,7 +192,7 @@ def test_motions_that_ignore_a_retarget() -> None:
 @verifies("P006-MOT-42", "P006-STA-16", "P006-CMD-11")
 def test_speed_mode_switched_on_again() -> None:
     """N 1 in STOPPING goes back to the target, once in the ramp and once behind its end."""
-    host = Host006()
+    host = Host()
     host.ok(L=2800, S=2800, v=3000, u=5, o=5)
     run(host)
     mark = host.mark
@@ -228,7 +228,7 @@ def test_position_wraps_and_long_moves() -> None:
 @verifies("P006-MOT-23", "P006-MOT-20", "P006-STA-01", "P006-STA-04")
 def test_the_border_of_short_moves() -> None:
     """255 steps do without VMAX, 256 do not."""
-    host = Host006()
+    host = Host()
     host.ok(L=3000, S=3000, v=3300, u=5, o=5)
     start(host, 255)
     mark = host.mark
@@ -246,7 +246,7 @@ def test_the_border_of_short_moves() -> None:
 @verifies("P006-STA-14", "P006-STA-10", "P006-MOT-04")
 def test_stop_before_the_first_step() -> None:
     """Cancelled between acceptance and t = 0, or in the first interval: no step."""
-    host = brisk(Host006(), 3000, f=1)
+    host = brisk(Host(), 3000, f=1)
     for after in (1, 20, 300, 1000, 2000):
         host.say("s", 1000)
         host.go(host.e + EXECUTE + after)

@@ -24,7 +24,7 @@ from .scenes import (
     rest,
     rot,
 )
-from .script_host import Host006
+from .script_host import Host
 
 JMP, JNE, JEQ, WAIT, OUT, CMP = 0x0D, 0x0E, 0x0F, 0x10, 0x11, 0x12
 HIGH = 0x1F
@@ -32,7 +32,7 @@ SLOT = 64
 """clk that an instruction takes at most, and until WAIT sees its source."""
 
 
-def go(host: Host006, *program: Op) -> int:
+def go(host: Host, *program: Op) -> int:
     """Load and run a short program to its end; returns GPO."""
     load(host, *program)
     host.pause(SLOT * (len(program) + 2))
@@ -77,7 +77,7 @@ CASES = (
 @verifies("P006-BAD-17", "P006-PRG-20", "P006-CMD-03", "P006-BAD-09", "P006-BAD-08")
 def test_operands(part: int) -> None:
     """Each instruction by E: a bad operand changes nothing, and the reply is 1 all the same."""
-    host = Host006()
+    host = Host()
     chosen = CASES[part::2]
     download(host, [case.op for case in chosen])
     for place, case in enumerate(chosen):
@@ -93,7 +93,7 @@ def test_operands(part: int) -> None:
 @verifies("P006-PRG-01", "P006-PRG-02", "P006-CMD-01", "P006-CMD-05", "P006-CMD-18", "P006-BAD-11")
 def test_words_and_pointer() -> None:
     """All zero after reset; the pointer goes on by itself and stops behind the last word."""
-    host = Host006()
+    host = Host()
     values = {0: 0x12345678, 1: 0xFFFFFFFF, 2: 0x80000000, 199: 0xA5A5A5A5}
     for place in (0, 1, 100, 199):
         host.ok(A=place)
@@ -116,7 +116,7 @@ def test_words_and_pointer() -> None:
 @verifies("P006-BAD-11", "P006-CMD-03", "P006-CMD-47", "P006-PRG-12", "P006-PRG-20", "P006-BAD-18")
 def test_what_is_refused_while_a_program_runs() -> None:
     """A jump to itself; G and A work, everything is answered, F 0 ends it."""
-    host = Host006()
+    host = Host()
     load(host, goto(0))
     for code in "WEz":
         assert host.ask(code, 1) == 0
@@ -132,7 +132,7 @@ def test_what_is_refused_while_a_program_runs() -> None:
 
 @verifies("P006-PRG-10", "P006-PRG-13", "P006-CMD-47", "P006-PRG-14")
 def test_jumps() -> None:
-    host = Host006()
+    host = Host()
     assert go(host, goto(2), END, out(1, 1), goto(5, JEQ), goto(6, JNE), END, out(2, 1)) == 0b00011
     assert go(host, Op(CMP, 8, 0), goto(3, JNE), goto(4, JEQ), END, out(3, 1), END) == 0b00111
     host.ok(y=0)
@@ -168,7 +168,7 @@ def test_bad_opcodes(opcode: int) -> None:
 @verifies("P006-PRG-13", "P006-BAD-16", "P006-PRG-12", "P006-CMD-47")
 def test_behind_the_last_instruction() -> None:
     """z starts at PP >> 1; behind instruction 99 there is none."""
-    host = Host006()
+    host = Host()
     download(host, [out(1, 1), out(2, 1)], first=98)
     host.ok(A=199)
     assert host.ask("z") == 1
@@ -184,7 +184,7 @@ def test_behind_the_last_instruction() -> None:
 
 @verifies("P006-PRG-02", "P006-BAD-17")
 def test_spare_fields_are_ignored() -> None:
-    host = Host006()
+    host = Host()
     host.ok(A=0)
     for word in (0xFFFF0111, 1, 0x00FF00FF, 0):
         assert host.ask("W", word) == word
@@ -199,7 +199,7 @@ def test_spare_fields_are_ignored() -> None:
 @verifies("P006-PRG-10", "P006-PRG-20")
 def test_counter_and_flag_between_single_tries() -> None:
     """They last from E to E and are cleared by z; what steers the program does nothing."""
-    host = Host006()
+    host = Host()
     program = (
         Op(0x0B),
         Op(CMP, 8, 3),

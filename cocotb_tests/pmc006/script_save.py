@@ -8,13 +8,13 @@ from cocotb_tests.harness.verifies import verifies
 
 from .scenes import DECAY, FACTORY_PAGE, P1, device, download, image, page, quick, start, words
 from .script_eeprom import BLINK, FACTORY, SAVED, VALUES, booted, values
-from .script_host import Host006
+from .script_host import Host
 
 PAGE, PROGRAM, SUM, MARK, COPY = 32, 0x20, 0x340, 0x342, 0x360
 FSET_US = 20_000
 
 
-def written(host: Host006) -> list[tuple[int, bytes]]:
+def written(host: Host) -> list[tuple[int, bytes]]:
     """Address and bytes of all writes."""
     assert host.eeprom is not None
     return [(write.address, write.data) for write in host.eeprom.writes]
@@ -23,7 +23,7 @@ def written(host: Host006) -> list[tuple[int, bytes]]:
 @verifies("P006-EEP-10", "P006-CMD-41", "P006-BAD-12")
 def test_save() -> None:
     """Two writes of a page with everything that is saved, the copy first, and nothing else."""
-    host = Host006(eeprom=device(write_us=3_000))
+    host = Host(eeprom=device(write_us=3_000))
     host.ok(m=0, u=5, o=4, a=0, Q=4, J=3, L=3000, S=65, M=1200, P=2000, e=4000, w=120)
     host.ok(v=5, d=0, f=3, y=0xF8, T=3, Y=7, Z=99, i=12, A=7)
     assert host.ask("t") == 1
@@ -47,7 +47,7 @@ def test_registers_go_whole_into_a_save() -> None:
 
     The device stretches the clock, so that a byte lasts longer than a frame.
     """
-    host = Host006(eeprom=device(write_us=100))
+    host = Host(eeprom=device(write_us=100))
     assert host.eeprom is not None
     host.eeprom.stretch_clk = host.us(900)
     old, seen = 600, []
@@ -106,7 +106,7 @@ def test_a_device_that_dies_while_burning(count: int) -> None:
 @verifies("P006-BAD-13", "P006-BAD-12", "P006-EEP-10")
 def test_lines_that_stick_while_saving() -> None:
     """SCL low: over after 1 ms; SDA low looks like acknowledges that write nothing; SDA high like none."""
-    host = Host006(eeprom=device(write_us=100))
+    host = Host(eeprom=device(write_us=100))
     chip = host.eeprom
     assert chip is not None and host.bus is not None
     for line, jobs in (("stuck_scl", "tB"), ("stuck_sda", "t")):
@@ -132,7 +132,7 @@ def test_lines_that_stick_while_saving() -> None:
 @verifies("P006-EEP-10", "P006-CMD-41", "P006-CMD-48")
 def test_a_save_that_fails_is_told() -> None:
     """V: 1 while the EEPROM is at work, 2 if it did not answer, 0 if all went well."""
-    host = Host006(eeprom=device(write_us=2_000))
+    host = Host(eeprom=device(write_us=2_000))
     chip = host.eeprom
     assert chip is not None and host.ask("V") == 0
     for count in range(3):
@@ -178,7 +178,7 @@ BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 
 PLACES = 7
 
 
-def answering(host: Host006) -> int:
+def answering(host: Host) -> int:
     """Address that the part has after a boot."""
     for address in (120, 5, 0xFF):
         host.say("k", address=address)
@@ -254,7 +254,7 @@ def test_restore_waits_for_a_job() -> None:
 @pytest.mark.parametrize("low_us", [FSET_US - 100, FSET_US + 100, 60_000])
 def test_restore_at_power_up(low_us: int) -> None:
     """Held for ever it delays the boot by 20 ms and no more; the program is kept but not started."""
-    host = Host006(
+    host = Host(
         eeprom=device(image(page(a0B=1, a04=4), BLINK), write_us=500), levels={"fset_n": 0}, boot=False
     )
     host.wait_us(low_us)
@@ -269,7 +269,7 @@ def test_restore_at_power_up(low_us: int) -> None:
 @verifies("P006-EEP-21", "P006-EEP-22")
 def test_restore_without_a_device() -> None:
     """Nothing lasts, nothing hangs."""
-    host = Host006(levels={"sda_i": 0, "fset_n": 0}, boot=False)
+    host = Host(levels={"sda_i": 0, "fset_n": 0}, boot=False)
     host.boot()
     assert host.us(FSET_US) <= host.t <= host.us(FSET_US + 2_500)
     host.pins(fset_n=1)
@@ -289,12 +289,12 @@ def test_restore_at_the_end_of_power_up() -> None:
     late_us = 6_000
     saved = image(SAVED, BLINK)
     chip = device(saved)
-    host = Host006(address=120, eeprom=chip, boot=False)
+    host = Host(address=120, eeprom=chip, boot=False)
     chip.occupy(host.us(late_us))
     up = host.boot()
     for before in (400, 240, 120, 30, -20):
         chip = device(saved, write_us=500)
-        host = Host006(address=120, eeprom=chip, boot=False)
+        host = Host(address=120, eeprom=chip, boot=False)
         chip.occupy(host.us(late_us))
         host.go(up - before - host.us(FSET_US + 1))
         host.pins(fset_n=0)

@@ -28,7 +28,7 @@ from .scenes import (
     start,
     still,
 )
-from .script_host import EXECUTE, Host006
+from .script_host import EXECUTE, Host
 
 LONG = 50_000
 EXTS = {"ext1": EXT1, "ext2": EXT2}
@@ -53,7 +53,7 @@ STATES = {
 }
 
 
-def enter(host: Host006, state: State) -> None:
+def enter(host: Host, state: State) -> None:
     """From whatever state."""
     for code in "Ibl":
         host.ask(code)
@@ -73,7 +73,7 @@ def enter(host: Host006, state: State) -> None:
             run(host, 0)
 
 
-def seen(host: Host006) -> tuple[int, int]:
+def seen(host: Host) -> tuple[int, int]:
     """Status 1 without the decay, and what says the mode of status 2."""
     return host.status() & ~DECAY, host.ask("O") & (SPEED_MODE | FREE_RUN)
 
@@ -112,7 +112,7 @@ BAD_RULES = ("P006-BAD-10", "P006-BAD-25")
 @pytest.mark.parametrize("name", list(STATES))
 @verifies(*TABLE_RULES, *STATE_RULES, *BAD_RULES, "P006-CMD-25", "P006-CMD-31", "P006-EXT-05")
 def test_every_row_in_every_state(name: str) -> None:
-    host = Host006()
+    host = Host()
     brisk(host, 3000, f=3)
     host.ok(S=65)
     state = STATES[name]
@@ -133,7 +133,7 @@ def test_every_row_in_every_state(name: str) -> None:
 @verifies("P006-PRG-17", "P006-PRG-20", "P006-STA-01")
 def test_rot_is_accepted_like_s(name: str) -> None:
     """By E, whose reply does not tell."""
-    host = Host006()
+    host = Host()
     brisk(host, 3000, f=3)
     download(host, [rot(LONG)])
     enter(host, STATES[name])
@@ -145,7 +145,7 @@ def test_rot_is_accepted_like_s(name: str) -> None:
 @verifies("P006-STA-01", "P006-STA-02", "P006-BAD-10", "P006-CMD-43")
 def test_speeds_against_the_maximum() -> None:
     """Equal is enough; speed mode does not care."""
-    host = Host006()
+    host = Host()
     for low, high, limit, good in (
         (600, 600, 599, False),
         (600, 600, 600, True),
@@ -165,7 +165,7 @@ def test_speeds_against_the_maximum() -> None:
 @verifies("P006-STA-04", "P006-MOT-52", "P006-STA-01")
 def test_analog_speed_does_not_refuse() -> None:
     """The full-scale speed counts, though the momentary one is 0; a full scale of 0 refuses everything."""
-    host = Host006()
+    host = Host()
     download(host, [Op(0x08, 1, 600), Op(0x08, 0, 0)])
     assert host.ask("E") == 1
     start(host, 300)
@@ -238,7 +238,7 @@ def test_busy_is_up_before_the_reply() -> None:
 
 @verifies("P006-CMD-25", "P006-CMD-12", "P006-EXT-11", "P006-CMD-27")
 def test_everything_else_works_while_locked() -> None:
-    host = Host006()
+    host = Host()
     host.ok(f=3)
     host.pins(ext1=0)
     host.pins(ext2=0)

@@ -8,13 +8,13 @@ from cocotb_tests.harness.verifies import verifies
 
 from .frames import command
 from .scenes import DECAY, END, EXT1, Op, after_steps, brisk, load, out, rest, rot, start
-from .script_host import Host006
+from .script_host import Host
 
 
 @verifies("P006-UART-01", "P006-FRM-02", "P006-FRM-03", "P006-MOT-03", "P006-MOT-05", "P006-EXC-12")
 def test_tour() -> None:
     """A register, a frame with an error, a move, a stop by EXT1, a program; every kind of block."""
-    host = Host006()
+    host = Host()
     assert host.ask("R") == 0x123 and host.ask("n") == 800
     host.raw("A5 FF 6A 00 00 00 00 0F")
     assert host.silent(ceil(4 * host.bit))
@@ -35,7 +35,7 @@ def test_tour() -> None:
 
 @verifies("P006-FRM-10", "P006-CMD-44")
 def test_tour_of_another_address() -> None:
-    host = Host006(error=0.01)
+    host = Host(error=0.01)
     assert host.ask("w", 17) == 17
     host.send(command(16, "y", 0xF8))
     assert host.ask("x") == 0xF07

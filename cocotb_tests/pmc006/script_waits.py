@@ -22,7 +22,7 @@ from .scenes import (
     start,
     still,
 )
-from .script_host import Host006
+from .script_host import Host
 from .script_program import CMP, JEQ, JNE, SLOT, WAIT, go
 
 HIGH = 0x1F
@@ -46,7 +46,7 @@ SOURCES = ((1, 0x1E), (2, 0x1D), (3, 0x1B), (4, 0x17), (5, 0x0F))
 @verifies("P006-PRG-16", "P006-BAD-19", "P006-BAD-17", "P006-CMD-31", "P006-IO-01")
 def test_wait_for_pins() -> None:
     """Each input, both levels; bit 0 of the operand counts; a bad option passes at once."""
-    host = Host006()
+    host = Host()
     for option, low in SOURCES:
         program = (
             Op(WAIT, option, 0xFE),
@@ -114,7 +114,7 @@ BAD = ((0, 0), (10, 0), (0x18, 0), (0xFF, 1))
 @verifies("P006-BAD-17", "P006-PRG-33", "P006-IO-01")
 def test_compare(rows: tuple[tuple[int, int], ...], expected: int) -> None:
     """Every source; all 32 bits; a bad option clears FLAG. The program stops at the first surprise."""
-    host = Host006()
+    host = Host()
     host.ok(f=3)
     host.pins(gpi=0b10110, ext1=0)
     host.pause(10)
@@ -157,7 +157,7 @@ def test_offline_0_leaves_everything_else() -> None:
 @verifies("P006-PRG-15", "P006-PRG-16", "P006-CMD-52")
 def test_frames_at_any_time_of_an_instruction() -> None:
     """A frame falls into each clk of the 64; both sources see whole instructions."""
-    host = Host006()
+    host = Host()
     load(host, Op(0x0B), out(1, 1), out(1, 0), goto(0))
     for shift in range(0, 40):
         host.pause(1 + shift % 5)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from cocotb_tests.harness.config import Config
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 from openppmc.model.pmc006.bench.motor import Motor, Plant
 from openppmc.model.pmc006.program import assemble
 
@@ -57,11 +57,11 @@ again:  ROT   {50 * FINE}
 """
 
 
-class Story006:
+class Story:
     """The script; `chapters` as those of `story.Story`."""
 
     def __init__(self, **parameters: object) -> None:
-        self.host = Host006(**parameters)
+        self.host = Host(**parameters)
         self.plant = Plant(self.host.model, self.host.clk_hz, MOTOR)
         self.chapters: list[dict[str, Any]] = []
         self.place = 0.0

@@ -7,12 +7,12 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.tape import play
 from cocotb_tests.harness.verifies import verifies
 
 from . import random_host
+from .bench import PMC006
 
 
 @cocotb.test()

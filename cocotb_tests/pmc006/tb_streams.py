@@ -8,20 +8,20 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.config import configs
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.scripts import building
 from cocotb_tests.harness.stimulus import Edge
 from cocotb_tests.harness.tape import record
 from cocotb_tests.harness.verifies import verifies
 
+from .bench import PMC006
 from .modules import F8B
 from .scenes import after_steps, brisk, run
-from .script_host import Host006
+from .script_host import Host
 
 
-def turning() -> Host006:
+def turning() -> Host:
     """References of many sizes and signs, off and on again."""
-    host = Host006()
+    host = Host()
     host.ok(e=4000)
     brisk(host, 2000, m=8)
     run(host)

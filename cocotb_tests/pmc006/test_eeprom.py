@@ -13,7 +13,7 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 from .tb_eeprom import WRITE_CLK
 
 TOP = "eeprom_24c32"
-ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_eeprom", part=Part(TOP, "P006", {}))
+ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_eeprom", part=Part(TOP, {}))
 ARGS = ("-Wno-fatal", "--public-flat-rw")
 
 

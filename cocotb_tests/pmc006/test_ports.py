@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.elaborate import check_ranges, ports
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.runner import part_design
 from cocotb_tests.harness.verifies import verifies
 
+from .bench import PMC006
 from .modules import F8B
 
 RANGES = {

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.part import PMC006
 from cocotb_tests.harness.runner import SimOptions, run_item
+
+from .bench import PMC006
 
 ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_scripts", "tb_streams", part=PMC006)
 

@@ -11,7 +11,7 @@ from .frames import signed
 
 
 class Watch:
-    """The seeing half of `Host006`."""
+    """The seeing half of `Host`."""
 
     clk_hz: int
     mark: int
@@ -24,7 +24,7 @@ class Watch:
 
     # What the other half has.
     def ask(self, code: str | int, data: int = 0) -> int:
-        """See `Host006`."""
+        """See `Host`."""
         raise NotImplementedError
 
     def _scan(self) -> None:

@@ -10,6 +10,8 @@ from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.story import Story
 
+from .bench import PPMC104
+
 # 4-phase motor, full step, high level = coil on, internal clock, phases chopped at rest.
 INIT = 0x2A
 SLOW, FAST, RAMP = 199, 19, 250  # 2.5 kpps to 25 kpps within 250 pulses
@@ -33,7 +35,7 @@ async def results(host: HostBus) -> None:
 @cocotb.test()
 async def demo_move(dut: Any) -> None:
     """Given a reset chip, when a host moves 1000 pulses and then runs into L1, then all of it is recorded."""
-    bench = await Bench.start(dut)
+    bench = await Bench.start(dut, PPMC104)
     host = HostBus(bench)
     story = Story(bench)
     with story.chapter("reset", "after reset"):

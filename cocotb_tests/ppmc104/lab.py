@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import BUSY, HostBus
 from cocotb_tests.harness.drive import Drive
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 
+from .bench import PPMC104
 from .figures import INIT_A
 
 Init = tuple[int, int, int, int]
@@ -21,13 +23,13 @@ PINS_LATEST = 12
 class Lab(Drive):
     """Bench plus host. Make one with `await Lab.start(dut, INIT_A)`; `None` leaves the core as reset does."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: Side) -> None:
         super().__init__(bench, HostBus(bench))
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = INIT_A, **pins: int) -> Lab:
         """Reset, input levels `pins`, then an initialisation (code, RL, RH, PA) if one is given."""
-        lab = cls(await Bench.start(dut, **pins))
+        lab = cls(await start_bench(dut, PPMC104, **pins))
         if init:
             await lab.init(*init)
         return lab

@@ -7,8 +7,8 @@ from cocotb_tests.harness.single_player import SinglePlayer
 from cocotb_tests.ppmc104.random_host import Scenario
 
 
-class Player104(SinglePlayer):
-    """Plays one scenario: `await Player104(bench, scenario).run()`."""
+class HostPlayer(SinglePlayer):
+    """Plays one scenario: `await HostPlayer(bench, scenario).run()`."""
 
     def __init__(self, bench: Bench, scenario: Scenario) -> None:
         super().__init__(bench, scenario, "P104-BAD-23")

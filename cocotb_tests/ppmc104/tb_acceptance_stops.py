@@ -7,7 +7,7 @@ import cocotb
 from cocotb_tests.harness.bus import ERR, OBF
 from cocotb_tests.harness.verifies import verifies
 
-from .figures import INIT_A, INIT_B, STEP_CODES, steps
+from .figures import INIT_A, INIT_B, STEP_CODES, rates, steps
 from .lab import Lab
 
 A_DATA = "d 09 d 04 d 04 d 00"
@@ -56,6 +56,7 @@ async def p104_ac_28_pout_mode_limit(dut):
     await lab.go(0xC3, 1000)
     await lab.result("AC-28", 22, 0x8B, 0x0003D1)
     lab.check("AC-28", "edges of s", lab.bench.edges("s", lab.since), [])
+    lab.check_train("AC-28", rates(INIT_B[1:], [*range(11), *range(9, -1, -1)]))
 
 
 @cocotb.test()
@@ -82,7 +83,7 @@ async def p104_ac_30_limits_of_the_direction(dut):
     lab.check("AC-30", "dir", lab.bench.level("dir"), 1)
     lab.bench.set(l1_n=1, l3_n=1, l4_n=0)
     await lab.go(0x4B, 30)
-    await lab.result("AC-30", 1, 0x8B)
+    await lab.result("AC-30", 1, 0x8B, 28)
 
 
 @cocotb.test()
@@ -277,9 +278,11 @@ async def p104_ac_44_step_lists(dut):
             table = steps(name, positive)
             length = len(table)
             await lab.bench.clocks(2)
-            since, got = lab.bench.now, [lab.bench.level("s")]
+            since, got, directions = lab.bench.now, [lab.bench.level("s")], []
             for op in [0x52] * (2 * length) + [0x5A] * (2 * length):
                 await lab.move(op)
+                directions.append(lab.bench.level("dir"))
+            lab.check("AC-44", "dir", directions, [0] * (2 * length) + [1] * (2 * length))
             got += [value for _, value in lab.bench.edges("s", since)]
             walk = [*range(2 * length + 1), *range(2 * length - 1, -1, -1)]
             lab.check("AC-44", f"{name}, positive {positive}", got, [table[i % length] for i in walk])

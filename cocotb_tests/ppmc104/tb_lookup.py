@@ -12,13 +12,15 @@ from cocotb_tests.harness.compare import check_against_model
 from cocotb_tests.harness.config import D16, F8, F16, configs
 from cocotb_tests.harness.verifies import verifies
 
+from .bench import PPMC104
+
 
 @cocotb.test()
 @verifies("P104-DS-12")
 @configs(D16)
 async def p104_ds_12_opens_in_a_steep_deceleration(dut):
     """Given DATASHEET and steep ramps, when a byte waits, then it is taken as soon as it may."""
-    bench = await Bench.start(dut)
+    bench = await Bench.start(dut, PPMC104)
     host = HostBus(bench)
     await host.init(0x0A, 120, 3, 12)
     for n in (30, 18, 33, 26):
@@ -36,7 +38,7 @@ async def p104_ds_12_opens_in_a_steep_deceleration(dut):
 @configs(F16, F8)
 async def p104_tim_05_external_cuts_on_steep_ramps(dut):
     """Given external clocks with short high times, when ramps jump, then every low time is right."""
-    bench = await Bench.start(dut)
+    bench = await Bench.start(dut, PPMC104)
     host = HostBus(bench)
     for slow, fast, steps, period, high in (
         (40, 0, 6, 24, 2),

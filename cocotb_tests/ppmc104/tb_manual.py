@@ -9,12 +9,14 @@ from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.config import F16, configs
 from cocotb_tests.harness.sessions import Sessions
 
+from .bench import PPMC104
+
 SESSIONS = Sessions("ppmc104", brief=(0x42, 0x52, 0x5A))  # single steps last 10 µs
 blocks, play = SESSIONS.blocks, SESSIONS.play
 
 
 async def begin(dut, first: bool = True) -> tuple[Bench, HostBus]:
-    bench = await Bench.start(dut)
+    bench = await Bench.start(dut, PPMC104)
     host = HostBus(bench)
     if first:
         await play(bench, host, blocks(1)[0], "example 1")

@@ -14,7 +14,9 @@ from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
-from cocotb_tests.ppmc104.random_player import Player104
+from cocotb_tests.ppmc104.random_player import HostPlayer
+
+from .bench import PPMC104
 
 
 @cocotb.test()
@@ -39,9 +41,9 @@ async def random_host(dut: Any) -> None:
 
     async def play(seed: int) -> None:
         plan = scenario(seed)
-        bench = await Bench.start(dut, seed=seed, **plan.pins)
+        bench = await Bench.start(dut, PPMC104, seed=seed, **plan.pins)
         (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-        await Player104(bench, plan).run()
+        await HostPlayer(bench, plan).run()
         result = check_against_model(bench)
         assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
 
@@ -54,7 +56,7 @@ async def random_chaos(dut: Any) -> None:
     """Given noise on all input pins, when it ends, then 0x40, 0xC0 and an initialisation recover the core."""
 
     async def play(seed: int) -> None:
-        bench = await Bench.start(dut, seed=seed)
+        bench = await Bench.start(dut, PPMC104, seed=seed)
         noise = make_noise(bench)
         await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
         await noise.stop()

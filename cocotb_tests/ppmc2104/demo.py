@@ -8,8 +8,9 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.story import Story
+
+from .bench import PPMC2104
 
 # Axis 1: 4-phase motor, full step; axis 2: half step. Both with the internal clock, switched at rest.
 SETTINGS = {1: (0x12, 127, 39, 200), 2: (0x36, 255, 79, 100)}  # code, RL, RH, PA

@@ -15,13 +15,14 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import IBF, HostBus
 from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.drive import Drive
 from cocotb_tests.harness.judged import judged_test
-from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 
+from .bench import PPMC2104
 from .figures import ALL, BUSY1, CMND1, INIT_A, Init
 
 # Windows of the rules, in clk, counted from edge 0 of a host write (P2104-BUS-05, P2104-HSK-03).
@@ -35,7 +36,7 @@ END_LATEST = 4
 class Axis(Drive):
     """One of the two axes: codes, pins and status bits are its own."""
 
-    def __init__(self, bench: Bench, host: HostBus, n: int) -> None:
+    def __init__(self, bench: Side, host: HostBus, n: int) -> None:
         super().__init__(bench, host, f"pout_n[{n}]", f"s{n}_n", f"extck[{n}]", BUSY1 << n - 1, (n - 1) << 5)
         self.n = n
         self.cmnd = CMND1 << n - 1
@@ -119,7 +120,7 @@ class Axis(Drive):
 class Lab:
     """Bench, host and axes `x1`, `x2`. Made by `part_test`, or with `await Lab.start(dut)`."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: Side) -> None:
         self.bench = bench
         self.host = HostBus(bench)
         self.x1, self.x2 = (Axis(bench, self.host, n) for n in (1, 2))
@@ -134,7 +135,7 @@ class Lab:
     @classmethod
     async def start(cls, dut: Any, **pins: int) -> Lab:
         """Reset with these input levels; nothing is set up."""
-        return cls(await Bench.start(dut, PPMC2104, **pins))
+        return cls(await start_bench(dut, PPMC2104, **pins))
 
     async def ready(self, n: int, init: Init = INIT_A) -> Axis:
         """Axis n with a setting in force."""

@@ -9,8 +9,8 @@ from cocotb_tests.ppmc2104.random_host import Scenario
 BUSY = {1: 0x04, 2: 0x08}
 
 
-class Player2104(Player):
-    """Plays one scenario: `await Player2104(bench, scenario).run()`.
+class HostPlayer(Player):
+    """Plays one scenario: `await HostPlayer(bench, scenario).run()`.
 
     Adds ("finish", axes, clk): poll until BUSY of these axes is 0; after clk give up and stop them.
     """

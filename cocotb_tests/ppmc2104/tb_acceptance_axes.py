@@ -174,9 +174,11 @@ async def p2104_ac_54_switching(lab: Lab) -> None:
     full = [t for t, _ in lab.bench.edges("s1_n", axis.since) if t < pulse]
     lab.window("AC-54", "full pattern before the pulse", pulse - full[-1], 80, 10_000)
     lab.check("AC-54", "pattern before the pulse", lab.bench.level_at("s1_n", pulse - 1), 0b11100)
+    lab.check("AC-54", "edges from the pulse on", lab.bench.edges("s1_n", pulse), [(pulse, 0b11001)])
     end = await axis.ended()
     off = await lab.bench.edge("s1_n", 0b11111)
     lab.window("AC-54", "end to OFF", off - end, 502, 522)
+    lab.check("AC-54", "clk of OFF", await lab.bench.edge("s1_n", 0b11001) - off, 1024)
 
 
 @part_test("AC-55", "P2104-END-07", "P2104-AUX-05", "P2104-HLD-01")

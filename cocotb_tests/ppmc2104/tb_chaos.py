@@ -9,11 +9,12 @@ import cocotb
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import IBF, HostBus
 from cocotb_tests.harness.figures import indices, offsets, rates
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.figures import BUSY1, BUSY2, CMND1, CMND2, OBF
 from cocotb_tests.ppmc2104.random_noise import noise
+
+from .bench import PPMC2104
 
 # Slow enough for both axes in DATASHEET timing, too.
 RAMP = (0x33, 0x25, 4)

@@ -11,10 +11,11 @@ import cocotb
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
+
+from .bench import PPMC2104
 
 WAVES = ("pout_n[2]", "dir[2]", "hold[2]", "s2_n")
 # Table build of axis 2, longest legal one; an instruction of axis 1 with all its bytes.

@@ -13,8 +13,9 @@ from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.compare import check_against_model
 from cocotb_tests.harness.config import F16, configs
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.sessions import Sessions
+
+from .bench import PPMC2104
 
 SESSIONS = Sessions("ppmc2104", brief=(0x42, 0x62))  # single steps last 10 µs
 blocks, play = SESSIONS.blocks, SESSIONS.play

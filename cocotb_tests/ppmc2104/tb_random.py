@@ -8,12 +8,13 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.player import describe
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc2104.random_host import scenario
-from cocotb_tests.ppmc2104.random_player import Player2104
+from cocotb_tests.ppmc2104.random_player import HostPlayer
+
+from .bench import PPMC2104
 
 
 @cocotb.test()
@@ -42,7 +43,7 @@ async def p2104_random_host(dut: Any) -> None:
         plan = scenario(seed)
         bench = await Bench.start(dut, PPMC2104, seed=seed, **plan.pins)
         (bench.out / "scenario.txt").write_text(describe(plan.actions) + "\n", encoding="utf-8")
-        await Player2104(bench, plan).run()
+        await HostPlayer(bench, plan).run()
         result = check_against_model(bench)
         assert result.edges_compared > 10, f"the scenario did next to nothing ({result.edges_compared} edges)"
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.part import PPMC2104
 from cocotb_tests.harness.runner import run_item
+
+from .bench import PPMC2104
 
 ITEMS = cocotb_items("cocotb_tests.ppmc2104", "tb_manual", part=PPMC2104)
 

@@ -9,8 +9,9 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.block_host import CSR, BlockHost
-from cocotb_tests.harness.part import PPMC312
 from cocotb_tests.harness.story import Story
+
+from .bench import PPMC312
 
 START, HIGH, RAMP = 320, 64, 1150  # at 8 MHz: 25 to 125 kpps
 PULSES = 3000

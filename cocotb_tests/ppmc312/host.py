@@ -26,7 +26,7 @@ __all__ = [
     "TICK",
     "WAR",
     "WCR",
-    "Host312",
+    "Host",
     "clean",
 ]
 
@@ -40,7 +40,7 @@ TG = ("02 04 01 11 03 02", RATES, "00 09 000005 000004 000003", "01 06 000006 00
 TH = ("02 04 01 11 02 03", RATES, "00 06 000006 000004", "01 09 000005 000004 000003")
 
 
-class Host312(Script):
+class Host(Script):
     """The host on the parallel bus. Blocks and answers are texts of hexadecimal bytes in logical order."""
 
     def __init__(self, *setting: str, **parameters: object) -> None:
@@ -53,7 +53,7 @@ class Host312(Script):
             self.ask(block)
 
     @classmethod
-    def on(cls, other: Script) -> Host312:
+    def on(cls, other: Script) -> Host:
         """The bus of a part that another host has had so far."""
         host = cls.__new__(cls)
         host.model, host.tape, host.t, host.mark, host.header = other.model, other.tape, other.t, other.t, 0

@@ -10,7 +10,7 @@ import random
 
 from cocotb_tests.harness.config import D16, F16, F50, Config
 
-from .host import Host312
+from .host import Host
 from .lively_host import Lively
 from .rough_host import Player, host_of
 
@@ -28,7 +28,7 @@ def plan(seed: int) -> Config:
     return random.Random(f"p312 build {seed}").choices(builds, weights)[0]
 
 
-def play(seed: int, config: Config) -> Host312:
+def play(seed: int, config: Config) -> Host:
     """Play one seed on the model; AssertionError if the part hangs or answers nonsense."""
     rough = random.Random(f"p312 manners {seed}").random() < ROUGH
     return (Player if rough else Lively)(seed, config).play()

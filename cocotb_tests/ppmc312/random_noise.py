@@ -8,14 +8,14 @@ from cocotb_tests.harness.config import Config
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
-from .host import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host312
+from .host import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host
 from .random_host import host_of
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))
 BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86, 0x80, 0x00, 0x00, 0xFF)
 
 
-def play(seed: int, config: Config) -> Host312:
+def play(seed: int, config: Config) -> Host:
     """Noise on the model, then a host that brings the part back."""
     rng = random.Random(f"p312 noise {seed}")
     host = host_of(config)

@@ -15,7 +15,7 @@ from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
 from .modules import CHARS, F8V, F27X12
-from .serial_host import SILENCE, Serial312, summed
+from .serial_host import SILENCE, SerialHost, summed
 
 BUILDS: tuple[tuple[Config, int], ...] = ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4))
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
@@ -36,7 +36,7 @@ def plan(seed: int) -> Config:
     return random.Random(f"p312 serial build {seed}").choices(builds, weights)[0]
 
 
-def play(seed: int, config: Config) -> Serial312:
+def play(seed: int, config: Config) -> SerialHost:
     """Play one seed on the model; AssertionError if the station hangs or answers nonsense."""
     return Talker(seed, config).play()
 
@@ -52,7 +52,7 @@ class Talker:
             "timing": config.timing,
         }
         parameters |= {name.lower(): value for name, value in config.extra}
-        self.host = Serial312(
+        self.host = SerialHost(
             mod=rng.choice((7, 7, 7, 7, 7, 7, 7, 6)),
             adr=rng.randrange(16),
             error=rng.choice((0, 0, 0, 0.02, -0.02, rng.uniform(-0.03, 0.03))),
@@ -65,7 +65,7 @@ class Talker:
 
     # ------------------------------------------------------------ top level
 
-    def play(self) -> Serial312:
+    def play(self) -> SerialHost:
         """Frames of all kinds; then one poll is enough, whatever has been."""
         rng = self.rng
         if rng.random() < 0.93:

@@ -12,7 +12,7 @@ from cocotb_tests.harness.background import Background
 from cocotb_tests.harness.config import Config
 from openppmc.model.ppmc312.codes import LENGTHS, State
 
-from .host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host312
+from .host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)
@@ -21,9 +21,9 @@ RECOVERY = 3000
 """Polls of a host that reads everything until the part is quiet."""
 
 
-def host_of(config: Config) -> Host312:
+def host_of(config: Config) -> Host:
     """A host on a model with the parameters of a build."""
-    return Host312(clk_hz=config.clk_hz, xtal_hz=config.xtal_hz, timing=config.timing)
+    return Host(clk_hz=config.clk_hz, xtal_hz=config.xtal_hz, timing=config.timing)
 
 
 def some_equal(rates: list[int], share: float) -> list[int]:
@@ -47,7 +47,7 @@ class Player:
 
     # ------------------------------------------------------------ top level
 
-    def play(self) -> Host312:
+    def play(self) -> Host:
         rng = self.rng
         self.disturb_pins()
         self.setting()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, T1, TF, Host312, clean
+from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, T1, TF, Host, clean
 
 STOP = "03 02 80 00"
 AT_REST = {"alm_n": 1, "fl_n": 1, "run": 1}
@@ -95,7 +95,7 @@ PARAMETERS = [
 )
 @verifies("P312-CMD-06", "P312-CMD-42", "P312-CMD-43", "P312-OVR-01", "P312-CHK-18", "P312-CHK-26")
 def test_parameter_abnormality() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     for number, block in PARAMETERS:
         assert host.ask(block) == refused(block, number), block
     # None of them has changed anything.
@@ -105,7 +105,7 @@ def test_parameter_abnormality() -> None:
 
 @verifies("P312-BLK-01", "P312-CMD-49", "P312-GEN-05")
 def test_lengths_that_are_just_right() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     assert host.ask("03 12 49 FC 03 0E" + " 82" * 14) == "03 02 49 00"
     assert host.ask("03 01 47") == "03 07 47 01 00 82 00 00 00"
     assert host.ask("03 02 49 FE") == "03 02 49 04"
@@ -120,7 +120,7 @@ def test_lengths_that_are_just_right() -> None:
     "P312-CHK-51", "P312-BLK-01", "P312-BAD-04", "P312-BAD-05", "P312-BAD-06", "P312-RSP-10", "P312-CMD-FF"
 )
 def test_size_header_and_command_abnormality() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     for block, answer in (
         ("03", "03 02 F6 00"),
         ("01", "03 02 F6 00"),
@@ -161,7 +161,7 @@ def test_size_header_and_command_abnormality() -> None:
 @verifies("P312-BLK-01", "P312-STA-01", "P312-STA-03")
 def test_order_of_checks() -> None:
     """State, length, value, limit, RUN; OV without its byte is 0."""
-    host = Host312(T1)
+    host = Host(T1)
     assert host.ask("03 01 80") == "03 03 F1 00 02"
     assert host.ask("03 03 88 00 00") == "03 03 F1 00 02"
     assert host.ask("03 01 82")[6:11] == "F0 23"
@@ -180,7 +180,7 @@ def test_order_of_checks() -> None:
     "P312-INP-30", "P312-INP-31", "P312-INP-32", "P312-INP-33", "P312-CMD-24", "P312-STA-01", "P312-OVR-05"
 )
 def test_alarm_by_its_pin() -> None:
-    host = Host312(*TF, register(0, "03 01 25"), "03 04 88 07 00C8")
+    host = Host(*TF, register(0, "03 01 25"), "03 04 88 07 00C8")
     host.pins(alm_n=0)
     assert host.response() == "23 02 F4 00"
     assert host.out("cd_n") == 0 and host.condition == 0x10
@@ -207,7 +207,7 @@ def test_alarm_by_its_pin() -> None:
 )
 def test_multiple_occurrence_of_each_kind() -> None:
     # 01 by the host, while something moves; the instruction is not executed.
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 86 00 0190")
     host.pulse(2, 20)
     host.issue("03 01 40")
@@ -229,7 +229,7 @@ def test_multiple_occurrence_of_each_kind() -> None:
     assert host.ask("03 01 24") == "03 01 24" and host.condition == 0x02
     # 01 by an override, by position and by pin: the whole FIFO is emptied.
     for trigger in ("04 00C8 00000003", "05 00C8"):
-        host = Host312(*TF, f"03 {len(bytes.fromhex(trigger)) + 1:02X} 88 {trigger}", "03 04 88 07 0190")
+        host = Host(*TF, f"03 {len(bytes.fromhex(trigger)) + 1:02X} 88 {trigger}", "03 04 88 07 0190")
         host.ask("03 04 86 00 0190")
         host.pulse(2, 20)
         host.issue("03 01 25")
@@ -241,7 +241,7 @@ def test_multiple_occurrence_of_each_kind() -> None:
         assert answers == ["03 02 25 00", "23 02 F4 01", stopped(0x80, 3 if trigger[1] == "4" else 2)]
         assert host.ask("03 01 4D") == "03 04 4D 00 10 00"
     # 01 by an event: its buffer is emptied, the other one is not.
-    host = Host312(*TF, register(0, "03 01 25"), register(1, "03 01 27"))
+    host = Host(*TF, register(0, "03 01 25"), register(1, "03 01 27"))
     host.issue("03 01 40")
     host.pause(200)
     host.blip("evt1_n")
@@ -251,7 +251,7 @@ def test_multiple_occurrence_of_each_kind() -> None:
 
 @verifies("P312-RSP-20", "P312-RSP-11", "P312-CHK-40")
 def test_second_stop_report_while_the_first_is_half_read() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 02 84 00")
     host.wait()
     host.read(7)
@@ -266,7 +266,7 @@ def test_second_stop_report_while_the_first_is_half_read() -> None:
 @verifies("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
 def test_reports_come_in_the_order_of_their_classes() -> None:
     """All classes wait behind one that is being read, created from the last class to the first."""
-    host = Host312(*TF, "03 05 04 00000003", "03 01 44", "03 04 02 03 0001", "03 04 03 03 0001")
+    host = Host(*TF, "03 05 04 00000003", "03 01 44", "03 04 02 03 0001", "03 04 03 03 0001")
     host.ask("03 03 28 01 FF")
     host.issue("03 01 40")
     host.wait()
@@ -313,7 +313,7 @@ def test_interruptions() -> None:
         ("03 04 86 00 0190", {"fl_n": 0}, "02"),
         ("03 01 12", {}, "05"),
     ):
-        host = Host312(*TF, register(1, block), register(1, "03 01 25"), register(0, "03 01 25"))
+        host = Host(*TF, register(1, block), register(1, "03 01 25"), register(0, "03 01 25"))
         host.pins(**levels)
         host.blip("evt1_n")
         if status is None:
@@ -328,7 +328,7 @@ def test_interruptions() -> None:
         ("03 08 82 05 0000 0000001E", {}, "01"),
         ("03 04 87 05 0191", {}, "00"),
     ):
-        host = Host312(*TF, block, "03 04 88 07 00C8")
+        host = Host(*TF, block, "03 04 88 07 00C8")
         host.ask("03 04 86 00 0190")
         host.pins(**levels)
         host.blip("evt0_n")
@@ -341,7 +341,7 @@ def test_interruptions() -> None:
         ("03 02 81 05", {}, "01"),
         ("03 04 86 05 0064", {"alm_n": 0}, "01"),
     ):
-        host = Host312(*TF, block, "03 06 80 04 00000001")
+        host = Host(*TF, block, "03 06 80 04 00000001")
         host.pins(**levels)
         if "alm_n" in levels:
             assert host.response() == "23 02 F4 00"
@@ -352,7 +352,7 @@ def test_interruptions() -> None:
 
 @verifies("P312-OVR-03", "P312-OVR-05", "P312-OVR-02", "P312-INP-20")
 def test_overrides_that_start_motions() -> None:
-    host = Host312(
+    host = Host(
         *TF, "03 08 82 05 0000 00000007", "03 08 83 47 0190 00000002", "03 04 85 05 0000", "03 04 86 07 0190"
     )
     assert host.ask("03 01 4D") == "03 04 4D 00 02 34"
@@ -377,7 +377,7 @@ def test_overrides_that_start_motions() -> None:
 def test_position_triggers_of_all_kinds(order: tuple[int, ...]) -> None:
     """Only the head is armed: positions in the wrong order wait for their turn."""
     blocks = ["03 08 88 04 00C8 00000004", "03 08 87 06 0064 00000008", "03 06 81 04 0000000E"]
-    host = Host312(*TF, *(blocks[n] for n in order))
+    host = Host(*TF, *(blocks[n] for n in order))
     host.ask("03 04 86 00 0190")
     mark = host.mark
     done, pulses = {
@@ -404,7 +404,7 @@ def test_position_triggers_of_all_kinds(order: tuple[int, ...]) -> None:
 @verifies("P312-BAD-09", "P312-RSP-20", "P312-PAR-06", "P312-CHK-62", "P312-CMD-FF")
 def test_hosts_that_never_read() -> None:
     """Whatever waits unread: no hang, stops still work, FF gets through."""
-    host = Host312(*TF, register(0, "03 01 25"))
+    host = Host(*TF, register(0, "03 01 25"))
     host.ask("03 04 86 00 0190")
     host.blip("evt0_n", 20, 300)
     host.issue("03 02 80 00")
@@ -419,7 +419,7 @@ def test_hosts_that_never_read() -> None:
     host.pause(300)
     assert host.response() == "03 01 FF" and host.read(CSR) == MREF and host.condition == 0x01
     # Table read: MWEF opens with its last block; FF may come only then.
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 01 41")
     host.pause(1000)
     assert host.read(CSR) & MWEF

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import T3, TF, Host312, clean
+from cocotb_tests.ppmc312.host import T3, TF, Host, clean
 from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
@@ -25,12 +25,12 @@ def test_ports() -> None:
     assert {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8}.items() <= dict(WIDTHS).items()
     high = {"wrq_n", "irq_n", "txd", "exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "intlk_n"}
     assert OUTPUTS == {name: 0x3F if name == "auxo_n" else int(name in high) for name in outputs.split()}
-    assert Host312().model.log.initial == OUTPUTS
+    assert Host().model.log.initial == OUTPUTS
 
 
 @verifies("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
 def test_answers_come_in_time() -> None:
-    host = Host312()
+    host = Host()
     for setting in (T3, T3.replace("00 11", "00 19")):
         host.issue(setting)
         host.wait()
@@ -56,7 +56,7 @@ def test_answers_come_in_time() -> None:
 @verifies("P312-PRT-04", "P312-MOT-34", "P312-MOT-41", "P312-INP-12", "P312-INP-30")
 def test_stops_come_in_time() -> None:
     for pin in ("fl_n", "alm_n", "org_n"):
-        host = Host312(*BRISK)
+        host = Host(*BRISK)
         host.ask("03 04 10 00 0004")
         for phase in range(3):
             host.pulse(20 + phase)
@@ -65,13 +65,13 @@ def test_stops_come_in_time() -> None:
         host.pins(**{pin: 0})
         host.pause(400)
         assert host.pulses() and low - 16 < host.pulses()[-1] <= low + T_PIN
-    host = Host312(*BRISK)
+    host = Host(*BRISK)
     host.ask("03 04 86 00 0004")
     host.issue("03 02 80 00")
     header = host.header
     host.pause(400)
     assert header - 16 < host.pulses()[-1] <= header + T_STOP
-    host = Host312(*BRISK, "03 02 80 07")
+    host = Host(*BRISK, "03 02 80 07")
     host.ask("03 04 86 00 0004")
     low = host.t
     host.pins(evt1_n=0)
@@ -84,7 +84,7 @@ def test_a_stop_by_an_event_during_an_88() -> None:
     """The 88 is finished first, which takes the stop beyond 64 clk; whatever the host reads, it stops."""
     longest = 0
     for after in range(1, 260, 6):
-        host = Host312(*BRISK, "03 02 80 07")
+        host = Host(*BRISK, "03 02 80 07")
         host.ask("03 04 86 00 0004")
         host.put("03 04 88 00 0005")
         host.go(host.header + after)
@@ -103,7 +103,7 @@ def test_a_stop_by_an_event_during_an_88() -> None:
             assert sorted(answers) == ["03 01 88", "23 02 F4 01", clean(f"23 06 E0 80 {position}")]
     assert T_STOP < longest <= 200
     # A host that reads the answer in time gets its stop.
-    host = Host312(*BRISK, "03 02 80 07")
+    host = Host(*BRISK, "03 02 80 07")
     host.ask("03 04 86 00 0004")
     assert host.ask("03 04 88 00 0005") == "03 01 88"
     low = host.t
@@ -120,7 +120,7 @@ def test_changes_come_in_time() -> None:
             flags, place = {"direct": ("00", ""), "pin": ("05", ""), "position": ("04", "0000000A")}[trigger]
             data = bytes.fromhex(code + flags + rest + place)
             block = f"03 {len(data):02X} {data.hex()}"
-            host = Host312(*BRISK, *(() if trigger == "direct" else (block,)))
+            host = Host(*BRISK, *(() if trigger == "direct" else (block,)))
             host.ask("03 04 86 00 0004")
             mark = host.mark
             if trigger == "direct":
@@ -141,7 +141,7 @@ def test_changes_come_in_time() -> None:
 
 @verifies("P312-OVR-11", "P312-MOT-33", "P312-MOT-31")
 def test_a_position_acts_on_the_next_interval() -> None:
-    host = Host312(*TF, "03 08 88 04 00C8 00000012", "03 08 88 04 0190 00000013")
+    host = Host(*TF, "03 08 88 04 00C8 00000012", "03 08 88 04 0190 00000013")
     host.ask("03 08 82 00 0000 0000001E")
     for _ in range(2):
         assert host.response() == "1B 01 88"

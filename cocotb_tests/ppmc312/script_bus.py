@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, T1, TF, WAR, WCR, Host312
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, T1, TF, WAR, WCR, Host
 
 ADDRESSES = range(8)
 
 
-def strobe(host: Host312, length: int, gap: int = 3, **levels: int) -> None:
+def strobe(host: Host, length: int, gap: int = 3, **levels: int) -> None:
     """Bus pins for some clk, then idle for some."""
     host.model.pins(host.t, **levels)
     host.model.pins(host.t + length, cs_n=1, we_n=1, oe_n=1)
@@ -19,7 +19,7 @@ def strobe(host: Host312, length: int, gap: int = 3, **levels: int) -> None:
 
 @verifies("P312-PAR-10", "P312-GEN-01")
 def test_write_takes_the_last_sample() -> None:
-    host = Host312()
+    host = Host()
     model = host.model
     # Register and data change during the strobe; the last level before its end counts.
     for end, levels in ((2, {"cs_n": 1}), (2, {"we_n": 1}), (1, {"cs_n": 1, "we_n": 1})):
@@ -34,7 +34,7 @@ def test_write_takes_the_last_sample() -> None:
 
 @verifies("P312-PAR-10", "P312-PAR-05", "P312-GEN-04")
 def test_shortest_strobes_back_to_back() -> None:
-    host = Host312()
+    host = Host()
     for _ in range(3):
         for reg, byte in ((WCR, 0x20), (WAR, 0x1C), (DWR, 0x2A), (DWR, 0x26), (DWR, 0x02), (DWR, 0x03)):
             strobe(host, 3, 3, cs_n=0, we_n=0, rs=reg, d_i=byte)
@@ -44,7 +44,7 @@ def test_shortest_strobes_back_to_back() -> None:
 
 @verifies("P312-PAR-11", "P312-PAR-09")
 def test_reads_drive_the_bus() -> None:
-    host = Host312("03 01 20")
+    host = Host("03 01 20")
     host.issue("03 01 40")
     host.wait()
     for reg, value in zip(ADDRESSES, (0x00, 0, 0, 0x3C, 0, 0, 0, 0x12), strict=True):
@@ -63,7 +63,7 @@ def test_reads_drive_the_bus() -> None:
 @verifies("P312-PAR-11", "P312-PAR-08")
 def test_one_value_a_strobe() -> None:
     """A response that comes during a read of CSR, and one that goes, do not change what the strobe shows."""
-    host = Host312(T1)
+    host = Host(T1)
     host.issue("03 01 40")
     mark = host.t
     strobe(host, 400, 6, cs_n=0, oe_n=0, rs=CSR)
@@ -79,7 +79,7 @@ def test_a_read_that_meets_the_software_reset() -> None:
     for reg, most in ((CSR, 40), (DRR, 34)):  # later the answer is there, and it would be read
         seen = []
         for after in range(1, most + 1):
-            host = Host312()
+            host = Host()
             if reg == DRR:
                 host.ask("03 01 20")
                 host.issue("03 01 40")
@@ -109,7 +109,7 @@ def test_a_write_that_meets_the_software_reset() -> None:
     """CSR may be written at any time: before the reset it is cleared, after it it stands."""
     seen = []
     for after in range(1, 41):
-        host = Host312()
+        host = Host()
         host.put("03 01 FF")
         host.go(host.header + after)
         host.write(CSR, 0x70)
@@ -118,7 +118,7 @@ def test_a_write_that_meets_the_software_reset() -> None:
     assert seen[0] == 0 and seen[-1] == 7 and seen == sorted(seen)
     # The wait request of an access during the reset goes with EWRQ.
     for after in range(8, 32):
-        host = Host312()
+        host = Host()
         host.write(CSR, 0x40)
         host.put("03 01 FF")
         host.go(host.header + after)
@@ -131,7 +131,7 @@ def test_a_write_that_meets_the_software_reset() -> None:
 
 @verifies("P312-PAR-09", "P312-BAD-01", "P312-BAD-10")
 def test_no_access() -> None:
-    host = Host312()
+    host = Host()
     mark = host.t
     for levels in (
         {"cs_n": 1, "we_n": 0},
@@ -150,7 +150,7 @@ def test_no_access() -> None:
 
 @verifies("P312-PAR-01", "P312-GEN-05", "P312-PAR-06")
 def test_control_bits() -> None:
-    host = Host312()
+    host = Host()
     for byte in (0xFF, 0x8F, 0x40, 0x20, 0x10, 0x00, 0x70):
         host.write(CSR, byte)
         assert host.read(CSR) == 0x04 | byte & 0x70
@@ -166,7 +166,7 @@ def test_control_bits() -> None:
 
 @verifies("P312-PAR-03", "P312-PAR-04", "P312-PAR-05", "P312-BAD-02", "P312-BAD-03")
 def test_write_window_in_any_order() -> None:
-    host = Host312()
+    host = Host()
 
     def data(*block: int) -> None:
         for byte in block:
@@ -208,7 +208,7 @@ def test_write_window_in_any_order() -> None:
 
 @verifies("P312-PAR-06", "P312-BAD-02")
 def test_writes_while_an_instruction_is_processed() -> None:
-    host = Host312()
+    host = Host()
     host.issue(T1)
     # None of these counts: the window stays armed, the pointer at its end.
     host.write(WCR, 0x00)
@@ -228,7 +228,7 @@ def test_writes_while_an_instruction_is_processed() -> None:
 
 @verifies("P312-PAR-07", "P312-BAD-08")
 def test_reads_in_any_order() -> None:
-    host = Host312("03 06 43 00 12345678")
+    host = Host("03 06 43 00 12345678")
     host.issue("03 02 42 00")
     host.wait()
     want = [0x78, 0x56, 0x34, 0x12, 0x00, 0x42, 0x06, 0x03]
@@ -250,7 +250,7 @@ def test_reads_in_any_order() -> None:
 
 @verifies("P312-PAR-02", "P312-PAR-08")
 def test_interrupt_of_both_kinds() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     for enables, before, busy, waiting in (
         (0x20, 0, 1, 0),
         (0x10, 1, 1, 0),
@@ -274,7 +274,7 @@ def test_interrupt_of_both_kinds() -> None:
 @pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
 @verifies("P312-PAR-12", "P312-TIM-15")
 def test_wait_request_of_reads_and_writes(timing: str) -> None:
-    host = Host312("03 01 40", timing=timing)
+    host = Host("03 01 40", timing=timing)
     window = 6 if timing == "FAST" else 10
     for enabled in (0x40, 0x00):
         host.write(CSR, enabled)
@@ -301,7 +301,7 @@ def test_wait_request_of_reads_and_writes(timing: str) -> None:
 
 @verifies("P312-GEN-12", "P312-GEN-01", "P312-PRT-02")
 def test_reset_in_the_middle_of_a_block() -> None:
-    host = Host312(*TF, "03 02 26 3F", "03 01 20", "03 01 23", "03 06 43 00 00000009", "03 02 06 01")
+    host = Host(*TF, "03 02 26 3F", "03 01 20", "03 01 23", "03 06 43 00 00000009", "03 02 06 01")
     host.ask("03 03 28 01 FF")
     host.ask("03 04 02 01 0001")
     host.pause(500)
@@ -331,7 +331,7 @@ def test_reset_in_the_middle_of_a_block() -> None:
 
 @verifies("P312-CMD-FF", "P312-GEN-12", "P312-CHK-62")
 def test_software_reset_clears_all() -> None:
-    host = Host312(*TF, "03 02 26 3F", "03 01 20", "03 01 23", "03 01 22", "03 01 24", "03 05 04 00000009")
+    host = Host(*TF, "03 02 26 3F", "03 01 20", "03 01 23", "03 01 22", "03 01 24", "03 05 04 00000009")
     for block in (
         "03 06 43 01 00000009",
         "03 02 06 01",
@@ -368,7 +368,7 @@ def test_software_reset_clears_all() -> None:
 
 @verifies("P312-PRT-03", "P312-PRT-01")
 def test_mode_is_taken_at_the_end_of_a_reset() -> None:
-    host = Host312()
+    host = Host()
     host.pins(mode=0, mod=5, adr=9)
     assert host.ask("03 01 40") == "03 02 40 12"
     assert host.ask("03 01 40") == "03 02 40 12"
@@ -391,7 +391,7 @@ def test_mode_is_taken_at_the_end_of_a_reset() -> None:
 
 @verifies("P312-PRT-01")
 def test_the_serial_line_does_nothing_in_parallel_mode() -> None:
-    host = Host312()
+    host = Host()
     for level in (0, 1, 0, 0, 1):
         host.pins(rxd=level, hsp=level, mod=7 * level, adr=15 * level)
         host.pause(40)

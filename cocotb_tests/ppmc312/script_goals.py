@@ -10,7 +10,7 @@ from math import ceil
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.stages.tables import build
 
-from .host import T1, Host312
+from .host import T1, Host
 
 MHZ = 50
 CLK = MHZ * 1_000_000
@@ -23,7 +23,7 @@ FAST = ("02 03 01 00 03", "00 06 0004 0008 0010", "01 09 000032 000014 00000A")
 @verifies("P312-MOT-01", "P312-MOT-02", "P312-MOT-05", "P312-MOT-07", "P312-CHK-63")
 def test_two_million_pulses_a_second() -> None:
     """Given F = 8 MHz and rate 4, when 3000 pulses have been output, then none is a clk off or missing."""
-    host = Host312(*FAST, clk_hz=CLK)
+    host = Host(*FAST, clk_hz=CLK)
     host.ask("03 08 82 00 0000 00000BB8")
     assert host.response() == "23 06 E0 40 00 00 0B B8"
     pulses = host.pulses()
@@ -40,7 +40,7 @@ def test_tables_and_starts_at_50_mhz() -> None:
     """Given tables of all kinds, when they are set and motions started, then within 5 ms and 20 us."""
     longest = 0.0
     for setting in (T1, T1.replace("00 01", "00 09"), "03 0E 00 11 03E8 01F4 00C8 0007D0 0005DC", SIGMOID):
-        host = Host312(clk_hz=CLK)
+        host = Host(clk_hz=CLK)
         host.issue(setting)
         host.wait()
         ms = (host.t - host.header) / CLK * 1e3
@@ -64,7 +64,7 @@ def test_the_longest_plan() -> None:
     """Given a table with two sides of all lengths, when a triangle is planned, then pulse 1 is in time."""
     table = build(1000, 328, 200, 3000, 3000)
     assert table.sa == 0 and table.sd > 0
-    host = Host312("03 0E 00 10 03E8 0148 00C8 000BB8 000BB8", clk_hz=CLK)
+    host = Host("03 0E 00 10 03E8 0148 00C8 000BB8 000BB8", clk_hz=CLK)
     host.issue(f"03 08 82 00 0000 {table.na + table.nd - 1:08X}")
     start = host.header
     host.pulse(1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import TF, TG, TH, TICK, Host312, clean
+from cocotb_tests.ppmc312.host import TF, TG, TH, TICK, Host, clean
 
 STOP, SLOW_STOP = "03 02 80 00", "03 02 81 00"
 ALWAYS = "03 04 86 00"
@@ -54,7 +54,7 @@ def change(code: int, rate: int) -> str:
     return f"03 04 {code:02X} 00 {rate:04X}"
 
 
-def run_out(host: Host312, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
+def run_out(host: Host, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
     """The stop report, all intervals but the last one, and the time from the last pulse to the report."""
     expected = rates(pulses)
     host.wait()
@@ -70,7 +70,7 @@ def run_out(host: Host312, mark: int, cause: int, pulses: str, sign: int = 1) ->
 )
 @verifies("P312-CMD-87", "P312-CMD-88", "P312-GEN-06", "P312-CMD-8V")
 def test_rates_that_may_be_asked_for() -> None:
-    host = Host312(*TG)
+    host = Host(*TG)
     for code, tail in (
         (0x82, "00000001"),
         (0x83, "00000001"),
@@ -103,7 +103,7 @@ def test_rates_that_may_be_asked_for() -> None:
 def test_forms_of_the_starts() -> None:
     # 84 at R[sa]: the end of the motion comes one interval after its pulse.
     for table, rate in ((TF, 400), (TG, 400), (TH, 200), (ODD, 200)):
-        host = Host312(*table)
+        host = Host(*table)
         host.ask("03 02 84 40")
         run_out(host, host.mark, 0x40, f"{rate}x1", -1)
     cases = [
@@ -112,7 +112,7 @@ def test_forms_of_the_starts() -> None:
         ("03 08 83 40 00FA 00000002", "00", "250x2", -1),
     ]
     for block, kind, pulses, sign in cases:
-        host = Host312(*TF)
+        host = Host(*TF)
         assert host.ask(block) == f"03 02 {block[6:8]} {kind}"
         run_out(host, host.mark, 0x40, pulses, sign)
         assert host.out("dir") == (sign < 0)
@@ -123,7 +123,7 @@ def test_forms_of_the_starts() -> None:
         ("03 04 86 40 0000", "100x6"),
         ("03 04 11 00 00C8", "400x3 200x6"),
     ):
-        host = Host312(*TG)
+        host = Host(*TG)
         assert host.ask(block) == f"03 02 {block[6:8]} 00"
         mark, expected = host.mark, rates(begin)
         host.pulse(len(expected) + 1)
@@ -137,7 +137,7 @@ def test_forms_of_the_starts() -> None:
 @verifies("P312-MOT-10", "P312-MOT-11", "P312-MOT-12", "P312-BAD-15", "P312-GEN-06")
 def test_plans_on_an_odd_table() -> None:
     """t(x) is the last stage that is slow enough, whatever comes before it."""
-    host = Host312(*ODD)
+    host = Host(*ODD)
     for n, rate, kind, pulses in (
         (30, 0, "00", "200x3 300x4 100x16 300x7"),
         (10, 0, "10", "200x3 300x7"),
@@ -159,7 +159,7 @@ def test_plans_on_an_odd_table() -> None:
 @verifies("P312-MOT-07", "P312-CMD-82", "P312-CMD-83")
 def test_counts_have_32_bits() -> None:
     for n in (0x0001_0002, 0x0100_0002, 0x8000_0000, 0xFFFF_FFFF):
-        host = Host312("02 03 01 00 02", "00 04 0004 0010", "01 06 000002 000002")
+        host = Host("02 03 01 00 02", "00 04 0004 0010", "01 06 000002 000002")
         for block in (f"03 08 83 00 0004 {n:08X}", f"03 06 82 00 {n:08X}"):
             host.ask(block)
             host.pulse(12)
@@ -169,7 +169,7 @@ def test_counts_have_32_bits() -> None:
 
 @verifies("P312-CMD-8L", "P312-CMD-80", "P312-CMD-81", "P312-CMD-87", "P312-CMD-88")
 def test_positions_that_are_not_needed() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask(f"{ALWAYS} 0064")
     assert host.ask("03 08 88 03 00C8 00000001") == "03 01 88"
     assert host.ask("03 08 87 02 0190 00000001") == "03 01 87"
@@ -307,7 +307,7 @@ WALKS = [
     "P312-MOT-20", "P312-MOT-30", "P312-MOT-31", "P312-MOT-32", "P312-MOT-33", "P312-OVR-11", "P312-CMD-81"
 )
 def test_walks_and_changes(table: tuple[str, ...], start: str, acts: list, pulses: str, cause: int) -> None:
-    host = Host312(*table)
+    host = Host(*table)
     host.ask(start)
     mark = host.mark
     for number, block in acts:
@@ -324,7 +324,7 @@ def test_two_87_across_the_deceleration_point() -> None:
     It is held in the ramp, and dropped where that ends: the rest is not sped up.
     """
     for ahead in (30, 60, 100, 140):
-        host = Host312(*TF)
+        host = Host(*TF)
         host.ask("03 08 82 00 0064 00000028")
         mark = host.mark
         host.pulse(20, 20)
@@ -343,7 +343,7 @@ def test_two_87_across_the_deceleration_point() -> None:
 def test_an_override_with_a_ramp_waits_for_the_end_of_another_ramp() -> None:
     """Accepted before the ramp of a direct 87 begins, it is held over all steps of that ramp."""
     for ahead in (40, 60, 100, 140):
-        host = Host312(*TF, "03 04 87 05 0190")
+        host = Host(*TF, "03 04 87 05 0190")
         host.ask(f"{ALWAYS} 0190")
         mark = host.mark
         edge = host.pulse(4, 20)
@@ -366,7 +366,7 @@ def test_stages_go_on_while_an_88_is_looked_up() -> None:
     pulses = ("00 1E " + "000002" * 10, "00 06 000002 000003", "01 06 000009 000009")
     climb = [rate for rate in reversed(steps) for _ in range(3 if rate == 32 else 2)]
     for after in range(10, 130, 20):
-        host = Host312(*curve, *pulses)
+        host = Host(*curve, *pulses)
         host.ask("03 04 85 00 0000")
         mark = host.mark
         host.pulse(1, after)
@@ -386,7 +386,7 @@ def test_causes_that_come_together() -> None:
         ("03 04 10 00 0064", {"org_n": 0, "fhl_n": 0}, 0x20),
         (f"{ALWAYS} 0190", {"bl_n": 0, "fl_n": 0}, 0x01),
     ):
-        host = Host312(*TF, "03 03 05 FFFF")
+        host = Host(*TF, "03 03 05 FFFF")
         host.ask(start)
         host.pulse(3, 20)  # pout is high, and it stays so for its time
         low = host.t
@@ -396,7 +396,7 @@ def test_causes_that_come_together() -> None:
         assert host.response() == stopped(cause, 3)
         assert host.model.log.falls("pout", low)[0] - host.pulses()[2] == 80
     # 81 and a high-speed limit for one boundary.
-    host = Host312(*TF, "03 03 05 FFFF")
+    host = Host(*TF, "03 03 05 FFFF")
     host.ask(f"{ALWAYS} 0064")
     host.pulse(3, 20)
     host.issue(SLOW_STOP)
@@ -408,7 +408,7 @@ def test_causes_that_come_together() -> None:
 @verifies("P312-MOT-34", "P312-MOT-06", "P312-MOT-35", "P312-PRT-04")
 def test_immediate_stops_cut_the_interval_short() -> None:
     for pin in ("fl_n", "alm_n", "org_n"):
-        host = Host312(*TF, "03 02 06 01")
+        host = Host(*TF, "03 02 06 01")
         host.pins(end_n=0)
         host.ask("03 04 10 00 0190")
         edge = host.pulse(2, 2000)
@@ -417,7 +417,7 @@ def test_immediate_stops_cut_the_interval_short() -> None:
         assert host.condition == (0x10 if pin == "alm_n" else 0x02)
         assert host.pulses()[-1] == edge
     # After the last pulse the cause is NOS, and the interval still ends at once.
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 08 83 00 0190 00000002")
     host.pulse(2, 2000)
     host.pins(fl_n=0)
@@ -435,7 +435,7 @@ def test_limits_of_both_directions() -> None:
     own = {0: ("fl_n", "fhl_n"), 1: ("bl_n", "bhl_n")}
     for ccw in (0, 1):
         sign = -1 if ccw else 1
-        host = Host312(*TF, "03 03 05 00C8")
+        host = Host(*TF, "03 03 05 00C8")
         away = dict.fromkeys(own[1 - ccw], 0)
         host.pins(**away)
         # Starts with the limits of the other direction, and runs past them.
@@ -475,7 +475,7 @@ def test_limits_of_both_directions() -> None:
 
 @verifies("P312-MOT-31", "P312-INP-12", "P312-MOT-30")
 def test_high_speed_limit_and_88() -> None:
-    host = Host312(*TF, "03 03 05 0096")
+    host = Host(*TF, "03 03 05 0096")
     host.ask(f"{ALWAYS} 0064")
     mark = host.mark
     host.pulse(3, 20)
@@ -496,7 +496,7 @@ def test_high_speed_limit_and_88() -> None:
 @verifies("P312-STA-04", "P312-INP-20", "P312-INP-12")
 def test_limits_act_from_the_first_clk_of_a_held_motion() -> None:
     for levels, cause in (({"fl_n": 0}, 0x01), ({"fhl_n": 0}, 0x10), ({"bl_n": 0, "bhl_n": 0}, 0x40)):
-        host = Host312(*TF)
+        host = Host(*TF)
         host.pins(run=0)
         assert host.ask("03 08 83 00 0064 00000002") == "03 02 83 01"
         host.pins(**levels)
@@ -509,7 +509,7 @@ def test_limits_act_from_the_first_clk_of_a_held_motion() -> None:
 
 @verifies("P312-INP-20", "P312-CMD-45", "P312-CHK-32", "P312-CHK-33")
 def test_every_start_is_held() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     for block, answer, cause in (
         ("03 08 82 40 0000 00000002", "03 02 82 11", 0x40),
         ("03 08 82 00 0000 0000001E", "03 02 82 01", 0x40),
@@ -552,7 +552,7 @@ def test_searches_in_every_form() -> None:
         sign = -1 if ccw else 1
         for index in (0, 1):
             flags = f"{ccw << 6 | index << 4:02X}"
-            host = Host312(*TG, "03 04 02 07 FFFF")
+            host = Host(*TG, "03 04 02 07 FFFF")
             host.ask(f"03 04 10 {flags} 00C8")
             assert host.out("dir") == ccw
             host.pulse(2, 20)
@@ -589,7 +589,7 @@ def test_searches_in_every_form() -> None:
 def test_zero_return_that_ends_otherwise() -> None:
     # At the origin before pulse 1, and too slow for a walk: phase 2 at once.
     for rate, number in (("0000", 0), ("0190", 3)):
-        host = Host312(*TF)
+        host = Host(*TF)
         if not number:
             host.pins(org_n=0)
         host.ask(f"03 04 11 00 {rate}")
@@ -606,7 +606,7 @@ def test_zero_return_that_ends_otherwise() -> None:
         (STOP, 0x04),
         (SLOW_STOP, 0x08),
     ):
-        host = Host312(*TF)
+        host = Host(*TF)
         host.ask("03 04 11 00 0000")
         host.pulse(9, 20)
         if isinstance(act, str):
@@ -618,7 +618,7 @@ def test_zero_return_that_ends_otherwise() -> None:
         assert answer[9:11] == f"{cause:02X}" and host.out("dir") == 0
     # Limits of the other direction in phase 2, 80 and 81 there.
     for act, cause in (({"bl_n": 0}, 0x01), ({"fl_n": 0, "fhl_n": 0}, 0x20), (STOP, 0x04), (SLOW_STOP, 0x10)):
-        host = Host312(*TF)
+        host = Host(*TF)
         host.ask("03 04 11 00 0190")
         host.pulse(3, 20)
         host.pins(org_n=0)
@@ -640,7 +640,7 @@ def test_changes_that_wait_for_pulse_1() -> None:
     """The newest one counts, and it starts from the plan's rate, not from that of one which was replaced."""
     setting = ("02 03 01 06 03", "00 06 0008 000C 0010", "01 09 000003 000002 000003")
 
-    def seen(host: Host312) -> list[int]:
+    def seen(host: Host) -> list[int]:
         for _ in range(80):
             host.pins(extck=1)
             host.pause(10)
@@ -654,13 +654,13 @@ def test_changes_that_wait_for_pulse_1() -> None:
         ((change(0x88, 8), change(0x87, 12)), [12] * 6),
         ((change(0x87, 8), change(0x88, 12)), [12] * 6),
     ):
-        host = Host312(*setting)
+        host = Host(*setting)
         host.ask("03 04 86 00 0010")
         for block in changes:
             host.ask(block)
         assert seen(host)[: len(expected)] == expected, changes
     # A high-speed limit is compared with the rate that pulse 1 has without the change.
-    host = Host312(*setting)
+    host = Host(*setting)
     host.ask("03 03 05 000C")
     host.ask("03 04 86 00 0010")
     host.ask(change(0x88, 8))

@@ -6,19 +6,19 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, Serial312
+from .serial_host import TS, SerialHost
 
 PARAMETER, STATE, LIMIT, SIZE, REGISTRATION = "B0 42", "B0 43", "B0 44", "B0 48", "B0 49"
 EVENT = "03 01 20 00 00 00 00 00 00 00"
 STOPPED = "A0 37"
 
 
-def status(host: Serial312) -> str:
+def status(host: SerialHost) -> str:
     """4D."""
     return host.ask("4D").removeprefix("A0 ")
 
 
-def at_rest(host: Serial312) -> None:
+def at_rest(host: SerialHost) -> None:
     """Let a motion end."""
     end = host.t + 4_000_000
     while not host.model.core.operation.at_rest:
@@ -29,7 +29,7 @@ def at_rest(host: Serial312) -> None:
 
 @verifies("P312-CMD-00", "P312-SER-41", "P312-SER-47", "P312-SER-20")
 def test_initial_setting() -> None:
-    host = Serial312()
+    host = SerialHost()
     assert host.ask(TS) == "90" and host.condition == 0x02
     for bad in ("00 00 01F4 0001 000320", "00 00 0064 0096 000320", "00 00 00C8 0096 000320"):
         assert host.ask(bad) == PARAMETER and host.condition == 0x01
@@ -43,7 +43,7 @@ def test_initial_setting() -> None:
 @verifies("P312-CMD-02", "P312-CMD-03", "P312-SER-42", "P312-MON-05")
 def test_monitors() -> None:
     """RES does not count: the monitors go on after a report."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for code, bit, note in (("02", 0x08, 0x26), ("03", 0x10, 0x24)):
         assert host.ask(f"{code} 01 0000") == PARAMETER
         assert host.ask(f"{code} 00 0000") == "90"
@@ -58,7 +58,7 @@ def test_monitors() -> None:
 
 @verifies("P312-CMD-02", "P312-MON-06")
 def test_monitor_with_clamp() -> None:
-    host = Serial312(TS, "02 05 0003")
+    host = SerialHost(TS, "02 05 0003")
     host.pause(40)
     assert host.out("zclmp_n") == 0
     assert host.ask("84 00C8 00000005") == "90" and host.out("zclmp_n") == 1
@@ -74,7 +74,7 @@ def test_monitor_with_clamp() -> None:
 
 @verifies("P312-CMD-04", "P312-CMD-44", "P312-OUT-03", "P312-SER-30")
 def test_interlock() -> None:
-    host = Serial312(TS, "04 00000004")
+    host = SerialHost(TS, "04 00000004")
     assert host.ask("44") == "90" and host.out("intlk_n") == 0 and status(host) == "40 02 00"
     assert host.ask("44") == "90" and host.out("intlk_n") == 1
     assert host.ask("44") == "90"
@@ -86,7 +86,7 @@ def test_interlock() -> None:
 
 @verifies("P312-CMD-05", "P312-INP-11", "P312-SER-47")
 def test_speed_limit() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("05 0001") == PARAMETER and host.ask("05 012C") == "90"
     host.pins(fhl_n=0)
     assert host.ask("84 00C8 00000003") == LIMIT
@@ -99,7 +99,7 @@ def test_speed_limit() -> None:
 
 @verifies("P312-CMD-06", "P312-SER-30", "P312-STA-02", "P312-BAD-18")
 def test_end_terminal() -> None:
-    host = Serial312(TS, "06 01")
+    host = SerialHost(TS, "06 01")
     assert host.ask("06 02") == PARAMETER
     assert host.ask("82") == "90"
     at_rest(host)
@@ -117,7 +117,7 @@ def test_end_terminal() -> None:
 
 @verifies("P312-CMD-20", "P312-CMD-22", "P312-CMD-23", "P312-CMD-24", "P312-CMD-26")
 def test_terminals() -> None:
-    host = Serial312()
+    host = SerialHost()
     for instruction, pin, level in (
         ("20", "exon_n", 0),
         ("21", "exon_n", 1),
@@ -132,7 +132,7 @@ def test_terminals() -> None:
 
 @verifies("P312-CMD-25", "P312-CMD-27", "P312-CMD-40", "P312-SER-44")
 def test_read_outs_of_pins() -> None:
-    host = Serial312()
+    host = SerialHost()
     for level in (0x00, 0xFF, 0x5A):
         host.pins(auxi=level)
         host.pause(5)
@@ -149,7 +149,7 @@ def test_read_outs_of_pins() -> None:
 @verifies("P312-CMD-28", "P312-MON-10", "P312-RSP-21", "P312-SER-21")
 def test_mask() -> None:
     """Always auto; two changes wait, the third one replaces the second."""
-    host = Serial312()
+    host = SerialHost()
     host.pins(auxi=0x32)
     assert host.ask("28 24") == "90"
     for level in (0x66, 0x32, 0x36, 0x12):
@@ -163,7 +163,7 @@ def test_mask() -> None:
 
 @verifies("P312-CMD-42", "P312-CMD-43", "P312-SER-40")
 def test_positions() -> None:
-    host = Serial312("43 12345678", "63 9ABCDEF0")
+    host = SerialHost("43 12345678", "63 9ABCDEF0")
     assert host.ask("42") == "A0 12 34 56 78" and host.ask("62") == "A0 9A BC DE F0"
     host.pins(epin=1, epdir=0)
     assert host.ask("62") == "A0 9A BC DE F1" and host.ask("42") == "A0 12 34 56 78"
@@ -171,7 +171,7 @@ def test_positions() -> None:
 
 @verifies("P312-CMD-45", "P312-INP-20", "P312-SER-30")
 def test_held_operation() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     host.pins(run=0)
     assert host.ask("84 00C8 00000003") == "90" and host.poll() == "80" and host.condition == 0x20
     assert host.ask("42") == "A0 00 00 00 00" and host.ask("4E") == STATE
@@ -186,7 +186,7 @@ def test_held_operation() -> None:
 
 @verifies("P312-CMD-49", "P312-SER-43", "P312-EVT-01", "P312-SER-22")
 def test_event_buffers() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for code, delete, pin, buffers in (("49", "69", "evt0_n", "40"), ("59", "79", "evt1_n", "80")):
         assert host.ask(delete) == REGISTRATION
         assert [host.ask(f"{code} {EVENT}") for _ in range(4)] == ["90"] * 4
@@ -217,7 +217,7 @@ def test_event_buffers() -> None:
 )
 @verifies("P312-SER-43", "P312-SER-47")
 def test_lengths_of_events(data: str, answer: str) -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for code, pin in (("49", "evt0_n"), ("59", "evt1_n")):
         assert host.ask(f"{code} {data}") == answer
         assert host.ask("4E") == ("A0 00" if answer == "90" else f"A0 {answer[3:]}")
@@ -228,7 +228,7 @@ def test_lengths_of_events(data: str, answer: str) -> None:
 @verifies("P312-SER-43", "P312-STA-01")
 def test_events_in_other_states() -> None:
     """The size counts before the state, the state before the header."""
-    host = Serial312()
+    host = SerialHost()
     for data, answer in (
         (EVENT, STATE),
         ("02 01 20 00 00 00 00 00 00 00", STATE),
@@ -241,7 +241,7 @@ def test_events_in_other_states() -> None:
 
 @verifies("P312-SER-40", "P312-CMD-82", "P312-CMD-83", "P312-CMD-84", "P312-CMD-85", "P312-CMD-86")
 def test_motions() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     position = 0
     for code, data, count in (("82", "", 1), ("83", "0000 00000008", 8), ("84", "0190 00000005", 5)):
         for ccw in (0, 1):
@@ -267,7 +267,7 @@ def test_motions() -> None:
 @pytest.mark.parametrize("ccw", [0, 1])
 @verifies("P312-CMD-10", "P312-CMD-11", "P312-SER-40")
 def test_origin(index: int, ccw: int) -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask(f"{0x87 + 0x20 * ccw + 0x10 * index:02X} 0190") == "90"
     host.pulse(5)
     host.pins(org_n=0)
@@ -296,7 +296,7 @@ def test_origin(index: int, ccw: int) -> None:
 
 @verifies("P312-CMD-80", "P312-CMD-81", "P312-MOT-30", "P312-SER-30")
 def test_stops() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for start, stop, end in (("86 0000", "80", "37"), ("86 0000", "81", "36"), ("85 01F4", "81", "39")):
         assert host.ask(start) == "90"
         host.pulse(40)
@@ -309,7 +309,7 @@ def test_stops() -> None:
 
 @verifies("P312-CMD-87", "P312-CMD-88", "P312-SER-40")
 def test_changes() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("85 01F4") == "90"
     assert host.ask("8A 0190") == "90"
     host.mark = host.t
@@ -326,7 +326,7 @@ def test_changes() -> None:
 @verifies("P312-OVR-01", "P312-OVR-02", "P312-SER-40", "P312-SER-22")
 def test_overrides_by_pins(bits: int, pin: str) -> None:
     """80, 81, 89 and 8A wait for their pin, one after the other."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for code, data in ((0x8A, "0190"), (0x89, "01F4"), (0x81, ""), (0x80, "")):
         assert host.ask(f"{code + bits:02X} {data}") == "90"
     assert status(host) == f"00 02 {'24' if bits == 0x30 else '14'}"
@@ -346,7 +346,7 @@ def test_overrides_by_pins(bits: int, pin: str) -> None:
 
 @verifies("P312-OVR-01", "P312-OVR-12", "P312-SER-40")
 def test_overrides_at_positions() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for instruction in ("99 0190 00000005", "9A 01F4 00000008", "91 00000014", "90 00000019"):
         assert host.ask(instruction) == "90"
     assert status(host) == "00 02 04"
@@ -362,7 +362,7 @@ def test_overrides_at_positions() -> None:
 
 @verifies("P312-OVR-01", "P312-SER-47", "P312-CMD-49")
 def test_registrations_that_fail() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert [host.ask("90 00000014") for _ in range(9)] == ["90"] * 8 + [REGISTRATION]
     assert host.ask(TS) == "90"
     assert host.ask("A0") == "90" and host.ask(f"49 {EVENT}") == REGISTRATION
@@ -402,7 +402,7 @@ def test_states() -> None:
         "88 0190",
     )
     always = (("25", "A0 00"), ("26 00", "90"), ("27", "A0 FF E0"), ("41", "A0 12"), ("40", "A0 00"))
-    host = Serial312()
+    host = SerialHost()
     for instruction in initial:
         assert host.ask(instruction) == STATE, instruction
     for instruction, answer in (*always, ("4E", "A0 43"), ("4F", "A0 00 00 00")):

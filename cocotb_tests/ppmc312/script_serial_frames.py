@@ -6,7 +6,7 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import SILENCE, TS, Serial312, summed
+from .serial_host import SILENCE, TS, SerialHost, summed
 
 NONE = "A0 00 00 00"
 
@@ -14,7 +14,7 @@ NONE = "A0 00 00 00"
 @pytest.mark.parametrize("adr", [0, 1, 2, 4, 7, 8, 15])
 @verifies("P312-SER-10", "P312-SER-02")
 def test_addresses(adr: int) -> None:
-    host = Serial312(adr=adr)
+    host = SerialHost(adr=adr)
     assert host.ask("25") == "A0 00"
     other = (adr + 5) % 16
     host.say("25", other)
@@ -26,7 +26,7 @@ def test_addresses(adr: int) -> None:
 @verifies("P312-SER-10", "P312-BAD-16", "P312-CHK-56")
 def test_control_codes() -> None:
     """Only 81 and 91 are for station 1; whatever else has bit 7 ends a frame and begins none."""
-    host = Serial312()
+    host = SerialHost()
     for control in range(0x80, 0x100, 3):
         if control not in (0x81, 0x91):
             host.raw("91 30 36 30")
@@ -39,7 +39,7 @@ def test_control_codes() -> None:
 
 @verifies("P312-SER-10")
 def test_a_control_code_begins_anew() -> None:
-    host = Serial312()
+    host = SerialHost()
     for begin in ("81", "91", "91 32", "91 32 36", "91 32 36 31", "91 32 36 31 35", "91 33 33", "91 4A"):
         host.raw(begin)
         assert host.ask("25") == "A0 00"
@@ -51,7 +51,7 @@ def test_a_control_code_begins_anew() -> None:
 @verifies("P312-SER-11", "P312-SER-13")
 def test_checksums_that_look_like_digits() -> None:
     """26 with any value: the checksum goes through all numbers; the frame ends where it has to."""
-    host = Serial312()
+    host = SerialHost()
     seen = set()
     for value in (*range(0x0C, 0x19), *range(0x62, 0x69), 0x00, 0x47, 0x48, 0x49):
         frame = summed(0x91, bytes([0x26, value]))
@@ -64,7 +64,7 @@ def test_checksums_that_look_like_digits() -> None:
 @verifies("P312-SER-11", "P312-BAD-16")
 def test_short_and_long_frames() -> None:
     """The code says how long a frame is; what comes after the checksum belongs to nothing."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 32 36 31 33 37")
     assert host.hear() == "B0 41"
     host.raw("91 32 35 49 30 31 32 33")
@@ -81,7 +81,7 @@ def test_short_and_long_frames() -> None:
 @pytest.mark.parametrize("mode", ["BINARY", "CHARS"])
 @verifies("P312-SER-13", "P312-SER-14", "P312-CHK-57")
 def test_every_wrong_bit_of_a_checksum(mode: str) -> None:
-    host = Serial312(sum_mode=mode)
+    host = SerialHost(sum_mode=mode)
     good = summed(0x91, b"\x26\x15", mode)
     for bit in range(7):
         host.send(good[:-1] + bytes([good[-1] ^ 1 << bit]))
@@ -98,7 +98,7 @@ def test_every_wrong_bit_of_a_checksum(mode: str) -> None:
 
 @verifies("P312-SER-13")
 def test_sum_of_characters() -> None:
-    host = Serial312(TS, sum_mode="CHARS")
+    host = SerialHost(TS, sum_mode="CHARS")
     assert host.ask("43 89ABCDEF") == "90" and host.ask("42") == "A0 89 AB CD EF"
     assert host.ask("83 0000 00000000") == "B0 42"
     host.raw("81 7E")
@@ -110,7 +110,7 @@ def test_sum_of_characters() -> None:
 @verifies("P312-SER-13")
 def test_the_blind_bit() -> None:
     """Bit 7 of a byte is not in the sum: what one wrong bit makes of it is executed. The manual warns."""
-    host = Serial312()
+    host = SerialHost()
     good = summed(0x91, b"\x43\x00\x00\x00\x14")
     wrong = bytearray(good)
     wrong[-3] ^= 0x08
@@ -127,7 +127,7 @@ BAD_DIGITS = (0x00, 0x2F, 0x3A, 0x3F, 0x40, 0x41, 0x46, 0x60, 0x67, 0x7F, 0x20, 
 @verifies("P312-SER-12", "P312-CHK-73", "P312-BAD-16")
 def test_bad_digits(bad: int) -> None:
     """In the data the frame goes on to its end."""
-    host = Serial312()
+    host = SerialHost()
     frame = bytearray(summed(0x91, b"\x26\x15"))
     for place in (3, 4):
         wrong = bytes([*frame[:place], bad, *frame[place + 1 :]])
@@ -142,7 +142,7 @@ def test_bad_digits(bad: int) -> None:
 @verifies("P312-SER-12", "P312-SER-17")
 def test_bad_digits_in_the_code(line: str) -> None:
     """The length is unknown: the end is 20 ms of silence."""
-    host = Serial312()
+    host = SerialHost()
     host.raw(line)
     assert host.quiet(SILENCE - 2_000)
     assert host.hear(SILENCE + 4_096) == "B0 41"
@@ -155,7 +155,7 @@ UNKNOWN = ("01", "29", "47", "92", "FE")
 @pytest.mark.parametrize("code", UNKNOWN)
 @verifies("P312-SER-17", "P312-SER-44", "P312-BAD-06", "P312-CHK-60")
 def test_unknown_codes(code: str) -> None:
-    host = Serial312()
+    host = SerialHost()
     host.raw("91")
     host.send(code.lower().encode())
     assert host.quiet(SILENCE - 3_000)
@@ -166,7 +166,7 @@ def test_unknown_codes(code: str) -> None:
 @verifies("P312-SER-17")
 def test_unknown_code_with_more() -> None:
     """Everything is swallowed; each character begins the silence anew; a control code ends it all."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 33 33 30 31 32 33 7E")
     host.pause(200_000)
     host.raw("67")
@@ -190,7 +190,7 @@ def test_unknown_code_with_more() -> None:
 def test_silence_in_a_frame(begin: str) -> None:
     """19 ms are nothing; after 21 ms nobody waits for the rest."""
     rest = {"81": "7E"}.get(begin, "91 32 36 31 35 33"[len(begin) + 1 :])
-    host = Serial312()
+    host = SerialHost()
     host.raw(begin)
     host.pause(304_000)
     host.raw(rest)
@@ -210,7 +210,7 @@ def test_silence_in_a_frame(begin: str) -> None:
 @verifies("P312-SER-16")
 def test_the_end_of_the_silence(after: int) -> None:
     """A character whose stop bit comes within 20 ms belongs to the frame."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("81")
     # 10 bits from one stop bit to that of a character that follows at once.
     host.t += SILENCE - 1_920 + after
@@ -222,7 +222,7 @@ def test_the_end_of_the_silence(after: int) -> None:
 @verifies("P312-SER-15", "P312-SER-19")
 def test_a_master_that_talks_out_of_turn() -> None:
     """While a reply is on its way every control code for this station counts, and its frame is ignored."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 34 31 2D")
     host.send(summed(0x81) + summed(0x91, b"\x26\x15"))
     assert host.hear(timed=False) == "A0 12" and host.quiet(4_000)
@@ -234,7 +234,7 @@ def test_a_master_that_talks_out_of_turn() -> None:
 
 @verifies("P312-SER-15", "P312-SER-18")
 def test_out_of_turn_while_a_table_is_built() -> None:
-    host = Serial312()
+    host = SerialHost()
     host.say(TS)
     for _ in range(4):
         host.send(summed(0x81))
@@ -246,7 +246,7 @@ def test_out_of_turn_while_a_table_is_built() -> None:
 @verifies("P312-SER-15")
 def test_a_station_that_hears_itself() -> None:
     """A master without a gate on its receiver: the echo of 91 and 81 counts, those of A1 and B1 do not."""
-    host = Serial312()
+    host = SerialHost()
     for line, echo in (("81 7E", "91 6E"), ("91 34 31 2D", "A1 31 32 4C"), ("81 00", "B1 34 31 0D")):
         host.raw(line)
         rise = host.begin()
@@ -260,7 +260,7 @@ def test_a_station_that_hears_itself() -> None:
 @verifies("P312-SER-15", "P312-SER-19")
 def test_the_end_of_a_turn(clk: int) -> None:
     """The stop bit of a control code is looked at around the fall of snd."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("81 7E")
     rise = host.begin()
     # snd falls 21 bits after its rise; the middle of the next stop bit is 9.5 bits after its start.
@@ -277,7 +277,7 @@ def test_the_end_of_a_turn(clk: int) -> None:
 @pytest.mark.parametrize("kind", ["framing", "overrun", "checksum"])
 @verifies("P312-SER-45", "P312-SER-15", "P312-SER-14")
 def test_counters_saturate(kind: str) -> None:
-    host = Serial312("43 00000000", clk_hz=8_000_000, version=0x34)
+    host = SerialHost("43 00000000", clk_hz=8_000_000, version=0x34)
     if kind == "framing":
         for _ in range(258):
             host.low(9.8)

@@ -9,12 +9,12 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, Serial312, summed
+from .serial_host import TS, SerialHost, summed
 
 PATTERNS = (0x00, 0x55, 0xAA, 0x7F, 0x80, 0xFF, 0x01, 0xFE)
 
 
-def echo(host: Serial312, word: int) -> None:
+def echo(host: SerialHost, word: int) -> None:
     """Write a position and read it back: all bits of eight characters in both directions."""
     assert host.ask(f"43 {word:08X}") == "90"
     assert host.ask("42") == " ".join(
@@ -25,7 +25,7 @@ def echo(host: Serial312, word: int) -> None:
 @pytest.mark.parametrize("mod", [5, 6, 7])
 @verifies("P312-SER-01", "P312-SER-18")
 def test_speeds(mod: int) -> None:
-    host = Serial312(mod=mod)
+    host = SerialHost(mod=mod)
     echo(host, 0x5AC30FF1)
     assert host.poll() == "90"
 
@@ -34,7 +34,7 @@ def test_speeds(mod: int) -> None:
 @pytest.mark.parametrize("clk", [{"clk_hz": 27_000_000}, {"clk_hz": 27_000_000, "xtal_hz": 12_000_000}])
 @verifies("P312-SER-01", "P312-SER-18", "P312-GEN-02")
 def test_bit_times_that_are_no_whole_clk(mod: int, clk: dict[str, int]) -> None:
-    host = Serial312(mod=mod, **clk)
+    host = SerialHost(mod=mod, **clk)
     echo(host, 0x5AC30FF1)
 
 
@@ -48,7 +48,7 @@ REPLIES |= {"91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
 @verifies("P312-SER-18")
 def test_a_reply_leaves_one_pair_of_wires_to_its_master(mod: int, clk: dict[str, int]) -> None:
     """snd rises half a bit after the end of the master's stop bit, and not more than a few clk later."""
-    host = Serial312(mod=mod, **clk)
+    host = SerialHost(mod=mod, **clk)
     for line, answer in REPLIES.items():
         host.raw(line)
         assert host.hear() == answer
@@ -58,7 +58,7 @@ def test_a_reply_leaves_one_pair_of_wires_to_its_master(mod: int, clk: dict[str,
 @verifies("P312-SER-18", "P312-OVR-10")
 def test_a_reply_that_is_ready_about_half_a_bit_after_the_frame() -> None:
     """An event is processed before the frame, a clk later each time: snd waits for whatever is over last."""
-    host = Serial312(TS, "49 03 08 82 00 01 EE 00 00 00 28")
+    host = SerialHost(TS, "49 03 08 82 00 01 EE 00 00 00 28")
     waited = []
     for clk in range(14, 2, -1):
         host.raw("91 32 35")
@@ -77,7 +77,7 @@ def test_a_reply_that_is_ready_about_half_a_bit_after_the_frame() -> None:
 @pytest.mark.parametrize(("mod", "error"), [(7, 0.02), (7, -0.02), (7, 0.03), (7, -0.03)])
 @verifies("P312-SER-01")
 def test_wrong_bit_time(mod: int, error: float) -> None:
-    host = Serial312(mod=mod, error=error)
+    host = SerialHost(mod=mod, error=error)
     for word in (0x00000000, 0xFFFFFFFF, 0x5555AAAA):
         echo(host, word)
     assert [host.poll() for _ in range(2)] == ["90", "90"]
@@ -87,14 +87,14 @@ def test_wrong_bit_time(mod: int, error: float) -> None:
 @pytest.mark.parametrize(("mod", "error"), [(5, 0.03), (5, -0.03), (6, 0.02), (6, -0.02)])
 @verifies("P312-SER-01")
 def test_wrong_bit_time_of_slow_lines(mod: int, error: float) -> None:
-    host = Serial312(mod=mod, error=error)
+    host = SerialHost(mod=mod, error=error)
     assert host.ask("43 0055FFAA") == "90" and host.ask("4F") == "A0 00 00 00"
 
 
 @verifies("P312-SER-01", "P312-SER-15")
 def test_far_too_slow_master() -> None:
     """At 12 % the last data bit is taken for the stop bit: no answer, or a framing error, but no harm."""
-    host = Serial312(error=0.12)
+    host = SerialHost(error=0.12)
     for _ in range(3):
         host.send(summed(0x91, b"\x26\x3f"))
         host.pause(4_000)
@@ -111,7 +111,7 @@ def test_far_too_slow_master() -> None:
 @verifies("P312-SER-01", "P312-BAD-16")
 def test_glitches_between_characters() -> None:
     """A low level that is over in the middle of a start bit is none."""
-    host = Serial312()
+    host = SerialHost()
     for clk in (1, 2, 3, 40, 94):
         host.pins(rxd=0)
         host.pause(clk - 1)
@@ -131,7 +131,7 @@ def test_glitches_between_characters() -> None:
 @verifies("P312-SER-01", "P312-SER-15")
 def test_where_the_start_bit_is_verified(clk: int) -> None:
     """Half a bit are 96 clk; a longer one is a character FF, which nobody has asked for."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91")
     host.pins(rxd=0)
     host.pause(clk - 1)
@@ -144,7 +144,7 @@ def test_where_the_start_bit_is_verified(clk: int) -> None:
 @verifies("P312-SER-01", "P312-BAD-16")
 def test_noise_away_from_the_middle() -> None:
     """Levels are wrong for 30 clk, but not where they are looked at."""
-    host = Serial312()
+    host = SerialHost()
     for byte in b"\x91" + b"26" + b"15" + b"3":
         spikes = [(bit + place, 30) for bit in range(10) for place in (0.05, 0.7) if 0.5 < bit + place < 9.5]
         host.character(byte, spikes=spikes)
@@ -155,7 +155,7 @@ def test_noise_away_from_the_middle() -> None:
 @verifies("P312-SER-14", "P312-BAD-16")
 def test_noise_in_the_middle() -> None:
     """One wrong bit anywhere in a frame is never executed."""
-    host = Serial312()
+    host = SerialHost()
     frame = summed(0x91, b"\x26\x15")
     for place in range(1, len(frame)):
         # The sum does not hold the highest bit of a byte.
@@ -174,7 +174,7 @@ def test_noise_in_the_middle() -> None:
 @verifies("P312-SER-15", "P312-SER-45")
 def test_framing_errors() -> None:
     """The frame is abandoned, whose ever it is; the line has to rest before the next character counts."""
-    host = Serial312()
+    host = SerialHost()
     for adr in (1, 2):
         host.character(0x90 + adr, stop=1)
         host.character(0x32, stop=0)
@@ -191,7 +191,7 @@ def test_framing_errors() -> None:
 @verifies("P312-SER-15", "P312-BAD-16")
 def test_breaks(bits: float) -> None:
     """However long it is: one framing error; none if it ends before the stop bit is looked at."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 32")
     host.low(bits)
     assert host.poll() == "90"
@@ -200,7 +200,7 @@ def test_breaks(bits: float) -> None:
 
 @verifies("P312-SER-15")
 def test_break_in_a_reset() -> None:
-    host = Serial312()
+    host = SerialHost()
     host.pins(rxd=0)
     host.pins(rst_n=0)
     host.pause(10)
@@ -214,7 +214,7 @@ def test_break_in_a_reset() -> None:
 
 @verifies("P312-SER-18", "P312-SER-01")
 def test_characters_without_a_gap_and_with_one() -> None:
-    host = Serial312()
+    host = SerialHost()
     for gap in (0, 0.3, 1, 7.77, 100):
         host.send(summed(0x91, b"\x43\xa5\x5a\x00\xff"), gap)
         host.t -= ceil(Fraction(gap) * host.bit)
@@ -225,5 +225,5 @@ def test_characters_without_a_gap_and_with_one() -> None:
 @pytest.mark.parametrize("byte", PATTERNS)
 @verifies("P312-SER-01")
 def test_all_kinds_of_characters(byte: int) -> None:
-    host = Serial312(f"63 {byte * 0x01010101:08X}")
+    host = SerialHost(f"63 {byte * 0x01010101:08X}")
     assert host.ask("62") == " ".join(("A0", *[f"{byte:02X}"] * 4))

@@ -8,7 +8,7 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, Serial312, summed
+from .serial_host import TS, SerialHost, summed
 
 ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "02 84 00"))
 
@@ -19,7 +19,7 @@ def event(code: str, block: str) -> str:
     return f"{code} {data.ljust(10, b'0').hex()}"
 
 
-def at_rest(host: Serial312) -> None:
+def at_rest(host: SerialHost) -> None:
     """Let a motion end."""
     end = host.t + 4_000_000
     while not host.model.core.operation.at_rest:
@@ -31,7 +31,7 @@ def at_rest(host: Serial312) -> None:
 @verifies("P312-SER-30", "P312-CHK-67", "P312-RSP-10")
 def test_everything_at_once() -> None:
     """All eight classes wait; each poll takes the first."""
-    host = Serial312(TS, "02 01 0002", "03 01 0002", "04 00000004", "90 0000000A", "28 FF", "44")
+    host = SerialHost(TS, "02 01 0002", "03 01 0002", "04 00000004", "90 0000000A", "28 FF", "44")
     host.pins(run=0)
     host.ask("85 01F4")
     host.pins(run=1)
@@ -59,7 +59,7 @@ def test_everything_at_once() -> None:
 
 @verifies("P312-SER-30", "P312-STA-01")
 def test_busy_and_ready() -> None:
-    host = Serial312()
+    host = SerialHost()
     assert host.poll() == "90"
     assert host.ask(TS) == "90" and host.poll() == "90"
     assert host.ask("86 0000") == "90" and host.condition == 0x04 and host.poll() == "80"
@@ -76,7 +76,7 @@ def test_busy_and_ready() -> None:
 
 @verifies("P312-SER-22", "P312-SER-30", "P312-EVT-02", "P312-OVR-04")
 def test_the_newest_of_events_and_overrides() -> None:
-    host = Serial312(TS, event("49", ON), event("59", STOP))
+    host = SerialHost(TS, event("49", ON), event("59", STOP))
     host.blip("evt0_n")
     host.blip("evt1_n")
     assert host.poll() == "B0 4A" and host.poll() == "90"
@@ -112,7 +112,7 @@ def test_the_newest_of_events_and_overrides() -> None:
 @verifies("P312-SER-22", "P312-EVT-03", "P312-SER-43")
 def test_what_events_may_do(block: str, answer: str) -> None:
     """Data of read instructions are dropped; a failure empties the buffer."""
-    host = Serial312(TS, event("49", block))
+    host = SerialHost(TS, event("49", block))
     host.blip("evt0_n")
     assert host.quiet(4_000)
     assert host.poll() == answer and host.poll() == "90"
@@ -123,7 +123,7 @@ def test_what_events_may_do(block: str, answer: str) -> None:
 @verifies("P312-SER-21", "P312-RSP-20")
 def test_newer_reports_replace_older_ones() -> None:
     """No alarm: the newest stop, end of interlock and hold are told, once."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("84 01F4 00000002") == "90"
     at_rest(host)
     assert host.ask("85 01F4") == "90"
@@ -143,7 +143,7 @@ def test_newer_reports_replace_older_ones() -> None:
 @verifies("P312-SER-21", "P312-SER-22", "P312-RSP-20", "P312-OVR-10")
 def test_no_alarm_by_unread_answers() -> None:
     """Overrides and events follow each other, whatever has been polled."""
-    host = Serial312(TS, event("49", ON), event("49", OFF))
+    host = SerialHost(TS, event("49", ON), event("49", OFF))
     for _ in range(6):
         host.blip("evt0_n", gap=300)
     assert host.out("exon_n") == 1 and host.condition == 0x02
@@ -157,7 +157,7 @@ def test_no_alarm_by_unread_answers() -> None:
 @verifies("P312-RSP-22", "P312-MON-05", "P312-SER-42")
 def test_monitors_that_return() -> None:
     """A report nobody has asked for vanishes when the distance returns."""
-    host = Serial312(TS, "02 01 0002", "03 01 0002")
+    host = SerialHost(TS, "02 01 0002", "03 01 0002")
     for far in ("00000010", "00000001"):
         assert host.ask(f"43 {far}") == "90"
     assert host.poll() == "90"
@@ -170,7 +170,7 @@ def test_monitors_that_return() -> None:
 @verifies("P312-SER-46", "P312-SER-30")
 def test_end_status() -> None:
     """40 tells the last stop for ever, polls tell it once."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("40") == "A0 00"
     assert host.ask("82") == "90"
     at_rest(host)
@@ -195,7 +195,7 @@ def test_end_status() -> None:
 @verifies("P312-SER-30", "P312-SER-22", "P312-SER-19")
 def test_an_event_around_a_poll() -> None:
     """Whatever the poll meets, nothing is lost and nothing is told twice."""
-    host = Serial312(TS, event("49", "03 01 20"))
+    host = SerialHost(TS, event("49", "03 01 20"))
     for shift in (*range(-60, -20, 5), *range(-16, 6)):
         last_bit(host, summed(0x81), shift, evt0_n=0)
         first = host.hear()
@@ -203,7 +203,7 @@ def test_an_event_around_a_poll() -> None:
         assert sorted((first, host.poll())) == ["90", "B0 29"] and host.poll() == "90"
 
 
-def last_bit(host: Serial312, frame: bytes, shift: int, **levels: int) -> None:
+def last_bit(host: SerialHost, frame: bytes, shift: int, **levels: int) -> None:
     """A frame, with other pins changing `shift` clk after the middle of its last stop bit."""
     host.send(frame[:-1])
     changes: dict[int, dict[str, int]] = {}
@@ -225,7 +225,7 @@ def test_a_report_around_a_poll(pin: str) -> None:
         "auxi": (0x00, 0x40, "B0 2A 00 40"),
         "run": (0, 1, "B0 23"),
     }[pin]
-    host = Serial312(TS, "28 FF")
+    host = SerialHost(TS, "28 FF")
     for shift in range(-12, 8):
         host.pins(**{pin: before})
         host.pause(1_500)
@@ -248,7 +248,7 @@ def test_a_report_around_a_poll(pin: str) -> None:
 @verifies("P312-OVR-10", "P312-SER-19", "P312-SER-22")
 def test_an_event_around_an_instruction() -> None:
     """The instruction has its reply, the event is done before or after it."""
-    host = Serial312(TS, event("49", "03 01 20"), event("49", "03 01 21"))
+    host = SerialHost(TS, event("49", "03 01 20"), event("49", "03 01 21"))
     for number, shift in enumerate((*range(-60, -10, 6), *range(-10, 12, 2))):
         host.pins(evt0_n=1)
         value = 0x15 + number % 2

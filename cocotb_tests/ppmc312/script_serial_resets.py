@@ -6,11 +6,11 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .host import CSR, Host312
-from .serial_host import TS, Serial312, summed
+from .host import CSR, Host
+from .serial_host import TS, SerialHost, summed
 
 
-def reset(host: Serial312, clk: int = 12) -> None:
+def reset(host: SerialHost, clk: int = 12) -> None:
     """Reset pin."""
     host.pins(rst_n=0)
     host.pause(clk)
@@ -22,7 +22,7 @@ def reset(host: Serial312, clk: int = 12) -> None:
 @pytest.mark.parametrize("characters", [1, 2, 3, 4, 5])
 @verifies("P312-GEN-12", "P312-PRT-02", "P312-PRT-03")
 def test_reset_in_a_frame(characters: int) -> None:
-    host = Serial312()
+    host = SerialHost()
     frame = summed(0x91, b"\x26\x15")
     host.send(frame[:characters])
     reset(host)
@@ -35,7 +35,7 @@ def test_reset_in_a_frame(characters: int) -> None:
 @verifies("P312-GEN-12", "P312-SER-01")
 def test_reset_in_a_character(place: float) -> None:
     """What is left of the character may look like another one, but not like a frame."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 32")
     t = host.t
     host.model.pins(t, rxd=0)
@@ -49,7 +49,7 @@ def test_reset_in_a_character(place: float) -> None:
 @pytest.mark.parametrize("clk", [30, 250, 1_000, 4_000, 6_000])
 @verifies("P312-GEN-12", "P312-PRT-01", "P312-SER-18")
 def test_reset_in_a_reply(clk: int) -> None:
-    host = Serial312("43 12345678")
+    host = SerialHost("43 12345678")
     host.say("42")
     rise = host.begin()
     host.go(max(host.t, rise + clk))
@@ -63,7 +63,7 @@ def test_reset_in_a_reply(clk: int) -> None:
 
 @verifies("P312-CMD-FF", "P312-CHK-62", "P312-GEN-12")
 def test_software_reset() -> None:
-    host = Serial312(TS, "06 01", "26 15", "20", "44", "43 00001000", "90 00002000", "28 FF")
+    host = SerialHost(TS, "06 01", "26 15", "20", "44", "43 00001000", "90 00002000", "28 FF")
     host.raw("81 00")
     assert host.hear() == "B0 41"
     assert host.ask("81") == "B0 43"
@@ -83,7 +83,7 @@ def test_software_reset() -> None:
 
 @verifies("P312-CMD-FF", "P312-STA-01")
 def test_software_reset_in_every_state() -> None:
-    host = Serial312()
+    host = SerialHost()
     for prepare in ("", "86 0000", "85 01F4", "82"):
         assert host.ask(TS) == "90"
         if prepare:
@@ -104,7 +104,7 @@ def test_software_reset_in_every_state() -> None:
 @verifies("P312-CMD-FF", "P312-EVT-03", "P312-SER-19")
 def test_software_reset_by_an_event(clk: int) -> None:
     """Also in the middle of a reply, which ends there."""
-    host = Serial312(TS, "49 03 01 FF 00 00 00 00 00 00 00")
+    host = SerialHost(TS, "49 03 01 FF 00 00 00 00 00 00 00")
     host.say("42")
     host.pause(clk)
     host.pins(evt0_n=0)
@@ -119,7 +119,7 @@ def test_software_reset_by_an_event(clk: int) -> None:
 @verifies("P312-PRT-03", "P312-CMD-FF")
 def test_pins_that_are_latched() -> None:
     """Address and speed count at the end of a reset only, of either kind."""
-    host = Serial312()
+    host = SerialHost()
     host.pins(adr=5, mod=6)
     host.pause(20)
     assert host.poll() == "90"
@@ -141,13 +141,13 @@ def test_pins_that_are_latched() -> None:
 @verifies("P312-PRT-03", "P312-PRT-01", "P312-CMD-FF")
 def test_the_mode_is_latched() -> None:
     """From serial to parallel and back, by resets of both kinds."""
-    host = Serial312()
+    host = SerialHost()
     host.pins(mode=1)
     host.pause(20)
     assert host.poll() == "90"
     host.say("FF")
     host.pause(200)
-    bus = Host312.on(host)
+    bus = Host.on(host)
     assert bus.read(CSR) == 0x00 and bus.response() == "03 01 FF" and bus.ask("03 01 40") == "03 02 40 12"
     host.t = bus.t
     host.raw("81 7E")
@@ -164,7 +164,7 @@ def test_the_mode_is_latched() -> None:
 @verifies("P312-PRT-01", "P312-BAD-17")
 def test_the_bus_does_nothing() -> None:
     """d_oe, irq_n and wrq_n rest whatever the bus pins do."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("82") == "90"
     for write in (True, False, True):
         host.pins(cs_n=0, **{"we_n" if write else "oe_n": 0}, d_i=0xFF, rs=0)
@@ -179,7 +179,7 @@ def test_the_bus_does_nothing() -> None:
 
 @verifies("P312-PRT-01", "P312-PRT-03")
 def test_parallel_parts_do_not_listen() -> None:
-    host = Serial312(mode=1)
+    host = SerialHost(mode=1)
     for line in ("81 7E", "91 34 31 2D"):
         host.raw(line)
         assert host.quiet(5_000)
@@ -190,7 +190,7 @@ def test_parallel_parts_do_not_listen() -> None:
 @verifies("P312-BAD-17", "P312-CHK-61", "P312-PRT-03")
 def test_silent_stations(mod: int) -> None:
     """Speeds without a documented protocol: nothing is sent, the event pins and motions still work."""
-    host = Serial312()
+    host = SerialHost()
     host.pins(mod=mod)
     host.say("FF")
     host.pause(3_000)
@@ -212,7 +212,7 @@ def test_silent_stations(mod: int) -> None:
 @pytest.mark.parametrize("hsp", [0, 1])
 @verifies("P312-PRT-01")
 def test_hsp_has_no_function(hsp: int) -> None:
-    host = Serial312()
+    host = SerialHost()
     host.pins(hsp=hsp)
     assert host.poll() == "90" and host.ask("41") == "A0 12"
 
@@ -220,7 +220,7 @@ def test_hsp_has_no_function(hsp: int) -> None:
 @verifies("P312-PRT-02", "P312-SER-15")
 def test_frames_before_out_oe() -> None:
     """A poll, a framing error, most of an instruction: no reply, effect or count, nothing left for later."""
-    host = Serial312(timing="DATASHEET")
+    host = SerialHost(timing="DATASHEET")
     host.pins(rst_n=0)
     host.pause(12)
     host.pins(rst_n=1)
@@ -240,7 +240,7 @@ def test_frames_before_out_oe() -> None:
 @verifies("P312-PRT-02")
 def test_the_first_character(early: int) -> None:
     """A frame counts when the stop bit of its control code is looked at with out_oe = 1 or later."""
-    host = Serial312(timing="DATASHEET")
+    host = SerialHost(timing="DATASHEET")
     host.pins(rst_n=0)
     host.pause(12)
     host.pins(rst_n=1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, Serial312, summed
+from .serial_host import TS, SerialHost, summed
 
 
 @verifies(
@@ -12,7 +12,7 @@ from .serial_host import TS, Serial312, summed
 )
 def test_tour() -> None:
     """Each kind of frame and of reply, a motion, an event, an override, errors of all three counters."""
-    host = Serial312(adr=10)
+    host = SerialHost(adr=10)
     assert host.poll() == "90" and host.ask("41") == "A0 12" and host.ask("82") == "B0 43"
     assert host.ask(TS) == "90" and host.ask("63 12345678") == "90" and host.ask("62") == "A0 12 34 56 78"
     assert host.ask("90 00000005") == "90" and host.ask("49 03 01 20 00 00 00 00 00 00 00") == "90"
@@ -34,7 +34,7 @@ def test_tour() -> None:
 
 @verifies("P312-SER-01", "P312-SER-12", "P312-SER-17", "P312-CMD-FF")
 def test_bad_frames_and_resets() -> None:
-    host = Serial312(error=0.02)
+    host = SerialHost(error=0.02)
     host.raw("91 32 36 31 4A 33")
     assert host.hear() == "B0 41"
     host.raw("91 33 33 30 92 32 35 48 A1 7E")

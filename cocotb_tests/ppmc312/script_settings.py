@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, MWEF, RATES, T1, T2, T3, T4, TF, TG, TH, Host312, clean
+from cocotb_tests.ppmc312.host import CSR, MWEF, RATES, T1, T2, T3, T4, TF, TG, TH, Host, clean
 from openppmc.model.ppmc312.stages.tables import build
 
 T5 = "03 09 00 09 2000 0040 00EA60"
 
 
-def read_table(host: Host312) -> tuple[list[int], list[list[int]]]:
+def read_table(host: Host) -> tuple[list[int], list[list[int]]]:
     """Head of the table read, and its three lists, fastest stage first."""
     head = bytes.fromhex(host.ask("03 01 41"))
     assert head[:3] == bytes.fromhex("020A41")
@@ -43,11 +43,11 @@ def weighted(values: list[int]) -> int:
 def test_reference_tables_read_back() -> None:
     sums = {T1: (51_297, 2_435_805, 156_518), T2: (56_947, 2_501_371, 162_503)}
     for setting, (total, rates_sum, pulses_sum) in sums.items():
-        head, (rates, up, down) = read_table(Host312(setting))
+        head, (rates, up, down) = read_table(Host(setting))
         assert head == [127, 127, 0, 0, 7, 208, 0, 7, 208] and not down
         assert (sum(rates), weighted(rates), weighted(up)) == (total, rates_sum, pulses_sum)
         assert rates[63] == 333 and rates[-1] == 1000 and rates[0] == 200 and sum(up) == 2000
-    _, (rates, up, _) = read_table(Host312(T5))
+    _, (rates, up, _) = read_table(Host(T5))
     assert weighted(rates) == 1_512_493 and rates[63] == 127 and up[63] == 473
     assert rates[:-7:-1] == [8192, 8036, 7589, 6952, 6226, 5490] and up[:-7:-1] == [7, 7, 8, 9, 9, 11]
     assert up[5::-1] == [934, 935, 937, 937, 937, 938]
@@ -56,7 +56,7 @@ def test_reference_tables_read_back() -> None:
 @verifies("P312-TBL-03", "P312-TBL-04", "P312-TBL-06", "P312-CMD-41", "P312-GEN-03")
 def test_tables_with_two_sides_read_back() -> None:
     for setting, counts in ((T3, [127, 127, 96]), (T4, [127, 96, 127])):
-        head, (rates, up, down) = read_table(Host312(setting))
+        head, (rates, up, down) = read_table(Host(setting))
         assert head[:3] == counts
         long, short = (up, down) if setting == T3 else (down, up)
         assert rates[95] == 504 and short[::-1][:6] == [8, 9, 10, 9, 9, 10]
@@ -65,7 +65,7 @@ def test_tables_with_two_sides_read_back() -> None:
     # The longest numbers: sums beyond 2^38.
     setting = "03 0E 00 18 FFFF FF80 FEFF FFFFFF 8ABCDE"
     table = build(0xFFFF, 0xFF80, 0xFEFF, 0xFFFFFF, 0x8ABCDE, 0, True)
-    head, (rates, up, down) = read_table(Host312(setting))
+    head, (rates, up, down) = read_table(Host(setting))
     assert head[3:] == [0xFF, 0xFF, 0xFF, 0x8A, 0xBC, 0xDE]
     assert rates[::-1] == list(table.rates[table.first :])
     assert up[::-1] == list(table.pa[table.sa :]) and down[::-1] == list(table.pd[table.sd :])
@@ -73,7 +73,7 @@ def test_tables_with_two_sides_read_back() -> None:
 
 @verifies("P312-TBL-02", "P312-TBL-03", "P312-CMD-41")
 def test_sigmoid_tables_keep_stages_that_rounding_makes_equal() -> None:
-    head, (rates, up, _) = read_table(Host312("03 09 00 08 01 2C 00 64 00 0B B8"))
+    head, (rates, up, _) = read_table(Host("03 09 00 08 01 2C 00 64 00 0B B8"))
     assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
     assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
     # Both sides: the slower one has all stages, the other one starts at the last stage that is slow enough.
@@ -83,11 +83,11 @@ def test_sigmoid_tables_keep_stages_that_rounding_makes_equal() -> None:
         (299, 300, [127, 123, 127]),
         (298, 300, [127, 122, 127]),
     ):
-        host = Host312(f"03 0E 00 18 {rs:04X} {rp:04X} 0064 000BB8 000FA0")
+        host = Host(f"03 0E 00 18 {rs:04X} {rp:04X} 0064 000BB8 000FA0")
         head, (rates, up, down) = read_table(host)
         assert head[:3] == counts and (sum(up), sum(down)) == (3000, 4000)
     for rs, second in ((624, 624), (625, 624), (626, 625)):
-        head, (rates, *_) = read_table(Host312(f"03 09 00 08 {rs:04X} 0064 001770"))
+        head, (rates, *_) = read_table(Host(f"03 09 00 08 {rs:04X} 0064 001770"))
         assert head[:2] == [127, 127] and rates[:-3:-1] == [rs, second]
 
 
@@ -102,7 +102,7 @@ def test_an_event_edge_during_00_and_01_is_dropped() -> None:
         ("03 03 01 01 03", "03 05 F0 10 01 01 03", 0x01, 40),
     ):
         for after in (30, 36, most // 2 + 16, most):
-            host = Host312(*filled)
+            host = Host(*filled)
             host.put(block)
             host.go(host.header + after)
             host.pins(evt0_n=0, evt1_n=0)
@@ -113,7 +113,7 @@ def test_an_event_edge_during_00_and_01_is_dropped() -> None:
                 for rest in TF[1:]:
                     host.ask(rest)
             elif cond == 0x01:
-                host = Host312.on(host)
+                host = Host.on(host)
                 for block_ in TF:
                     host.ask(block_)
             assert host.ask("03 01 4D") == "03 04 4D 00 02 00"
@@ -126,19 +126,19 @@ def test_an_event_edge_during_00_and_01_is_dropped() -> None:
 def test_a_combined_curve_may_be_announced_with_four_bytes() -> None:
     """LE = 0 with L = 04: the last byte means nothing, whatever it is; 03 and 04 are the only lengths."""
     for last in ("00", "01", "02", "7F", "80", "FF"):
-        host = Host312()
+        host = Host()
         assert host.ask(f"02 04 01 01 03 {last}") == "03 03 01 00 03"
         assert [host.ask(block) for block in TF[1:]] == ["03 03 01 01 03", "03 08 01 0F 00 00 0C 00 00 0C"]
         head, (rates, up, down) = read_table(host)
         assert head == [3, 3, 0, 0, 0, 12, 0, 0, 12]
         assert (rates, up, down) == ([100, 200, 400], [5, 4, 3], [])
     for block in ("02 02 01 01", "02 05 01 01 03 03 00"):
-        assert Host312().ask(block)[6:11] == "F0 11"
+        assert Host().ask(block)[6:11] == "F0 11"
 
 
 @verifies("P312-CMD-00", "P312-GEN-05", "P312-TBL-05")
 def test_initial_setting_layouts_and_order_of_checks() -> None:
-    host = Host312()
+    host = Host()
     good = [
         T1,
         "03 0E 00 01 03E8 0001 00C8 0007D0 000001",  # LE = 0: RP and ND mean nothing
@@ -176,14 +176,14 @@ def test_initial_setting_layouts_and_order_of_checks() -> None:
 def test_a_setting_empties_the_buffers() -> None:
     filled = (*TF, "03 05 49 00 03 01 25", "03 04 88 07 00C8", "03 06 80 04 0000FFFF")
     for block, state in ((T1, 2), ("03 09 00 01 03E8 03E8 0007D0", 1), (TF[0], 1), ("03 03 01 01 03", 1)):
-        host = Host312(*filled)
+        host = Host(*filled)
         assert host.ask("03 01 4D") == "03 04 4D 00 02 62"
         host.ask(block)
         if block == TF[0]:
             assert host.ask("03 01 4D") == "03 03 F1 02 01"
         assert host.ask("03 01 4D") == f"03 04 4D 00 {state:02X} 00"
     # Refused by the table of states: nothing happens.
-    host = Host312(*filled)
+    host = Host(*filled)
     host.ask("03 04 86 00 0190")
     for block in (T1, TF[0], "03 08 00 01 03E8 00C8 0007"):
         assert host.ask(block) == "03 03 F1 00 08"
@@ -239,7 +239,7 @@ CURVES = [
 )
 def test_free_curves(case: tuple) -> None:
     rates, up, down, step = case
-    host = Host312()
+    host = Host()
     lists = [rates, up, *([down] if down else [])]
     done, item = 0, 0
     blocks = curve(*case)
@@ -297,7 +297,7 @@ FC_ERRORS = [
 @pytest.mark.parametrize(("number", "blocks"), FC_ERRORS)
 @verifies("P312-CMD-FC-4", "P312-CMD-FC-9", "P312-CHK-13", "P312-BAD-11", "P312-BLK-01")
 def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
-    host = Host312(*TF, "03 04 88 07 00C8", *blocks[:-1])
+    host = Host(*TF, "03 04 88 07 00C8", *blocks[:-1])
     echo = bytes.fromhex(blocks[-1])[2:]
     assert (
         host.ask(blocks[-1])
@@ -311,7 +311,7 @@ def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
 @verifies("P312-CMD-FC-8", "P312-RSP-20", "P312-BAD-11", "P312-INP-31", "P312-CMD-FF")
 def test_a_transfer_that_is_disturbed() -> None:
     # The answer to a block is not read: alarm, no transfer any more.
-    host = Host312(T1, TF[0])
+    host = Host(T1, TF[0])
     host.issue(TF[1])
     host.pause(200)
     host.issue(TF[2])

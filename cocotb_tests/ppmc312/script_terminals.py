@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import T1, TF, Host312, clean
+from cocotb_tests.ppmc312.host import T1, TF, Host, clean
 
 CLEAR = 393_216
 
@@ -12,7 +12,7 @@ def stopped(cause: int, position: int) -> str:
     return clean(f"23 06 E0 {cause:02X} {position & 0xFFFFFFFF:08X}")
 
 
-def encoder(host: Host312, count: int) -> None:
+def encoder(host: Host, count: int) -> None:
     """So many edges of the encoder, negative ones CCW, as fast as they may come."""
     for _ in range(abs(count)):
         host.pins(epin=1, epdir=int(count < 0))
@@ -26,7 +26,7 @@ def encoder(host: Host312, count: int) -> None:
 )
 @verifies("P312-CMD-4D")
 def test_pins_and_reads() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     for block, name, level in (
         ("03 01 20", "exon_n", 0),
         ("03 01 20", "exon_n", 0),
@@ -59,7 +59,7 @@ def test_pins_and_reads() -> None:
 
 @verifies("P312-CMD-22", "P312-CMD-24", "P312-INP-33", "P312-CHK-37")
 def test_clear_pulses() -> None:
-    host = Host312("03 01 22", "03 01 24")
+    host = Host("03 01 22", "03 01 24")
     first = {name: host.model.log.falls(name)[0] for name in ("cclr_n", "aclr_n")}
     host.pause(CLEAR + 100)
     for name, fall in first.items():
@@ -81,7 +81,7 @@ def test_clear_pulses() -> None:
 
 @verifies("P312-GEN-02", "P312-CMD-22", "P312-OUT-01", "P312-MOT-01", "P312-MOT-03", "P312-MON-10")
 def test_times_of_the_crystal_at_another_clock() -> None:
-    host = Host312(*TF, clk_hz=27_000_000)
+    host = Host(*TF, clk_hz=27_000_000)
     host.ask("03 01 22")
     host.ask("03 03 28 01 01")
     host.ask("03 08 83 40 0190 00000002")
@@ -100,7 +100,7 @@ def test_times_of_the_crystal_at_another_clock() -> None:
 @verifies("P312-OUT-01", "P312-CHK-45", "P312-MOT-06")
 def test_current_reduction_after_each_kind_of_end() -> None:
     # Counted from the end of pulse output, which an immediate stop does not draw out.
-    host = Host312(*TF, "03 02 06 01")
+    host = Host(*TF, "03 02 06 01")
     host.ask("03 04 86 00 0190")
     host.pulse(2, 2000)
     host.pins(fl_n=0)
@@ -129,7 +129,7 @@ def test_current_reduction_after_each_kind_of_end() -> None:
 
 @verifies("P312-OUT-02", "P312-MON-06", "P312-CHK-47", "P312-CMD-23")
 def test_zero_clamp() -> None:
-    host = Host312(*TF, "03 01 23")
+    host = Host(*TF, "03 01 23")
     host.issue("03 02 84 40")
     host.response()
     turned = host.model.log.rises("dir", host.mark)
@@ -144,7 +144,7 @@ def test_zero_clamp() -> None:
         (4, 9, 0, 1),
         (1, 9, 0, 1),
     ):
-        host = Host312(*TF, f"03 04 02 {flags:02X} {distance:04X}")
+        host = Host(*TF, f"03 04 02 {flags:02X} {distance:04X}")
         host.pins(end_n=end_n)
         host.ask("03 08 83 00 0190 00000003")
         host.pause(12_000)
@@ -155,7 +155,7 @@ def test_zero_clamp() -> None:
 
 @verifies("P312-CMD-42", "P312-CMD-43", "P312-MON-01", "P312-MOT-05", "P312-GEN-03")
 def test_positions() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 06 43 00 01234567")
     host.ask("03 06 43 01 89ABCDEF")
     encoder(host, 5)
@@ -187,7 +187,7 @@ def test_positions() -> None:
 @verifies("P312-CMD-02", "P312-CMD-03", "P312-CHK-46", "P312-CHK-48", "P312-CMD-4D")
 def test_windows_at_their_edges() -> None:
     for code, answer, enabled, outside in (("02", "E4", 0x08, 0x01), ("03", "E3", 0x10, 0x02)):
-        host = Host312(f"03 04 {code} 03 0004")
+        host = Host(f"03 04 {code} 03 0004")
         for edges, value in ((4, None), (1, 1), (-1, 0), (-9, 1), (1, 0), (4, None), (4, None), (1, 1)):
             encoder(host, edges)
             if value is None:
@@ -217,7 +217,7 @@ def test_windows_at_their_edges() -> None:
 
 @verifies("P312-RSP-22", "P312-MON-05", "P312-RSP-10")
 def test_reports_that_vanish_and_that_stay() -> None:
-    host = Host312("03 04 03 03 0002", "03 04 02 01 0002")
+    host = Host("03 04 03 03 0002", "03 04 02 01 0002")
     # Behind an answer: outside and back again leaves nothing of the automatic one; the single one stays.
     host.issue("03 01 40")
     host.wait()
@@ -243,7 +243,7 @@ def test_reports_that_vanish_and_that_stay() -> None:
 
 @verifies("P312-MON-03", "P312-MON-04")
 def test_in_position_keeps_still_during_output() -> None:
-    host = Host312(*TF, "03 04 02 03 0001")
+    host = Host(*TF, "03 04 02 03 0001")
     host.ask("03 08 83 00 0190 00000004")
     mark = host.mark
     host.pulse(3, 20)
@@ -263,7 +263,7 @@ def test_in_position_keeps_still_during_output() -> None:
 
 @verifies("P312-OUT-03", "P312-CMD-04", "P312-CMD-44", "P312-CHK-49", "P312-MOT-05")
 def test_interlock() -> None:
-    host = Host312(*TF, "03 05 04 00000003")
+    host = Host(*TF, "03 05 04 00000003")
     for sign, first in ((0x00, 3), (0x40, 3)):
         # Standing on it at the start does not count; arriving from either side does.
         host.ask(f"03 06 43 00 {first if sign else 0:08X}")
@@ -295,7 +295,7 @@ def test_interlock() -> None:
 
 @verifies("P312-MON-10", "P312-CMD-28", "P312-RSP-21", "P312-CHK-50", "P312-RSP-10")
 def test_input_changes_are_sampled() -> None:
-    host = Host312()
+    host = Host()
     host.pins(auxi=0x0F)
     host.ask("03 03 28 FF 3C")
     base = None
@@ -349,7 +349,7 @@ def test_input_changes_are_sampled() -> None:
     "P312-MOT-35", "P312-STA-02", "P312-CHK-44", "P312-CMD-06", "P312-BAD-18", "P312-BAD-19", "P312-CMD-45"
 )
 def test_end_wait() -> None:
-    host = Host312(*TF, "03 02 06 01")
+    host = Host(*TF, "03 02 06 01")
     assert host.ask("03 01 4D") == "03 04 4D 04 02 00"
     for stop, cause in (("03 02 80 00", 0x04), ("03 02 81 00", 0x10)):
         host.ask("03 04 86 00 0190")
@@ -390,7 +390,7 @@ def test_end_wait() -> None:
 
 @verifies("P312-INP-01", "P312-TIM-14", "P312-TIM-16")
 def test_datasheet_recognition_times() -> None:
-    host = Host312(*TF, "03 02 06 01", timing="DATASHEET")
+    host = Host(*TF, "03 02 06 01", timing="DATASHEET")
     host.ask("03 02 84 00")
     host.pause(16_000)
     assert host.condition == 0x08
@@ -420,7 +420,7 @@ def test_datasheet_recognition_times() -> None:
 @verifies("P312-TIM-12", "P312-TIM-20", "P312-OVR-12", "P312-INP-31")
 def test_datasheet_triggered_stop() -> None:
     """80 by EVT: 350 us after the filtered edge; by position at once."""
-    host = Host312(*TF, "03 02 80 05", timing="DATASHEET")
+    host = Host(*TF, "03 02 80 05", timing="DATASHEET")
     host.ask("03 04 86 00 0064")
     mark = host.mark
     host.pulse(3, 10)
@@ -445,7 +445,7 @@ def test_25_and_27_show_all_pins_at_one_clk() -> None:
         for source, (before, after) in shown.items():
             seen = []
             for clk in range(14, 34):
-                host = Host312(*TF, f"03 05 49 00 03 01 {code}")
+                host = Host(*TF, f"03 05 49 00 03 01 {code}")
                 host.pins(auxi=0xFF)
                 host.pause(800)
                 if source == "03":

@@ -13,7 +13,7 @@ from cocotb_tests.harness.serial_line import SerialLine, characters
 
 from .script_host import TICK, Script
 
-__all__ = ["SPEEDS", "T1", "TICK", "TS", "Serial312", "clean", "summed"]
+__all__ = ["SPEEDS", "T1", "TICK", "TS", "SerialHost", "clean", "summed"]
 
 SPEEDS = {5: Fraction(19_200), 6: Fraction(38_400), 7: Fraction(250_000, 3)}
 """bits/s by mod[2:0], with a crystal of 16 MHz."""
@@ -36,7 +36,7 @@ def summed(control: int, data: bytes = b"", mode: str = "BINARY") -> bytes:
     return bytes([control]) + text + bytes([(total ^ 0xFF) & 0x7F])
 
 
-class Serial312(SerialLine, Script):
+class SerialHost(SerialLine, Script):
     """mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
 
     Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the

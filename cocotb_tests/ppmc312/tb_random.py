@@ -7,12 +7,12 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.part import PPMC312
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.tape import play
 from cocotb_tests.harness.verifies import verifies
 
 from . import random_host, random_noise, random_serial
+from .bench import PPMC312
 
 
 @cocotb.test()

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.part import PPMC312
 from cocotb_tests.harness.script_player import module_tests
 
+from .bench import PPMC312
 from .modules import MODULES
 
 globals().update(module_tests(PPMC312, MODULES, __name__))

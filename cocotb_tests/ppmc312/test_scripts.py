@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.part import PPMC312
 from cocotb_tests.harness.runner import SimOptions, run_item
+
+from .bench import PPMC312
 
 ITEMS = cocotb_items("cocotb_tests.ppmc312", "tb_scripts", part=PPMC312)
 

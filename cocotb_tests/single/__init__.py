@@ -1,1 +1,1 @@
-"""cocotb_tests/single"""
+"""Simulations of what the parts with one axis share, rtl/single."""

@@ -9,9 +9,10 @@ import cocotb
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
-from cocotb_tests.harness.part import J105_STMC
+from cocotb_tests.harness.stimulus import steps
 from cocotb_tests.harness.story import Story
-from scripts.demo.scenes import steps
+
+from .bench import J105_STMC
 
 BASE = 0x3B0
 # 4-phase motor, full step, positive logic for the driver on the board, 48.675 kHz, chopped at rest.

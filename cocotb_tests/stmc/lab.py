@@ -16,14 +16,15 @@ from collections.abc import Awaitable, Callable, Sequence
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bench import TIMEOUT, Bench
 from cocotb_tests.harness.bus import BUSY, IBF, HostBus
 from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.drive import Drive
 from cocotb_tests.harness.figures import differences
 from cocotb_tests.harness.judged import judged_test
-from cocotb_tests.harness.part import STMC
+from cocotb_tests.harness.side import TIMEOUT, Side
+from cocotb_tests.harness.start import start_bench
 
+from .bench import STMC
 from .figures import STANDARD, TICK, Init, internal_offsets
 
 # Windows of the rules, in clk, counted from edge 0 of a host write (STMC-BUS-12, -13).
@@ -41,7 +42,7 @@ BUILD_LATEST = 40_000
 class Lab(Drive):
     """Bench plus host. `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = still."""
 
-    def __init__(self, bench: Bench, host: HostBus | None = None, clock: str = "ext_clk") -> None:
+    def __init__(self, bench: Side, host: HostBus | None = None, clock: str = "ext_clk") -> None:
         limit = max(TIMEOUT, bench.config.cyc(LONGEST))
         super().__init__(bench, host or HostBus(bench, timeout=limit), pout="s", clock=clock)
         self.period = 0
@@ -50,7 +51,7 @@ class Lab(Drive):
     @classmethod
     async def start(cls, dut: Any, period: int = 0, **pins: int) -> Lab:
         """Reset with these input levels, `ext_clk` of that period from then on; nothing is set up."""
-        lab = cls(await Bench.start(dut, STMC, **pins))
+        lab = cls(await start_bench(dut, STMC, **pins))
         if period:
             lab.run_clock(period)
         return lab

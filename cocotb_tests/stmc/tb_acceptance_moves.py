@@ -29,7 +29,7 @@ async def first_step(lab: Lab, rule: str, t0: int) -> None:
 async def stmc_ac_01_reset_values(lab: Lab) -> None:
     """Given a reset, when it ends, then outputs, status and all registers have their reset values."""
     lab.check("AC-01", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
-    lab.check("AC-01", "d_oe", lab.bench.level("d_oe"), 0)
+    lab.check("AC-01", "d_oe, d_o", (lab.bench.level("d_oe"), lab.bench.level("d_o")), (0, 0))
     lab.check("AC-01", "status", await lab.host.status(), 0x00)
     reads = await lab.host.run("c 80 r c 83 r c 82 r c 84 rrr")
     lab.check("AC-01", "registers", reads, [0x80, 0x04, 0xCF, 0, 0, 0])
@@ -64,6 +64,7 @@ async def stmc_ac_04_motor_type_00(lab: Lab) -> None:
     await lab.move(0x43, 4)
     lab.train("AC-04", [20, 12, 20])
     lab.check("AC-04", "patterns", lab.patterns, [0b00110, 0b01100, 0b01001, 0b00011])
+    await lab.result("AC-04", 4, 0x83, 0)
 
 
 @part_test("AC-05", "STMC-MOV-02", "STMC-MOV-03", "STMC-MOT-08")
@@ -121,6 +122,7 @@ async def stmc_ac_11_slow_core_clock(lab: Lab) -> None:
     """Given a core clock of 10 MHz, when 4 steps at divisor 10 run, then each gap is 8000 clk."""
     await lab.move(0x44, 4, 10)
     lab.check("AC-11", "gaps", lab.intervals, [8000] * 3)
+    await first_step(lab, "AC-11", 50)
 
 
 @part_test("AC-12", "STMC-CLK-01", on=(F12,), init=INTERNAL, clock=0)
@@ -150,6 +152,7 @@ async def stmc_ac_13_single_steps(lab: Lab) -> None:
             lab.check("AC-13", "outputs register but HOLD", await lab.out() & ~4, register)
         elif len(seen) == 1:
             await first_step(lab, "AC-13", T0)
+        lab.check("AC-13", "FIN", await lab.finish(), 0x82)
     lab.check("AC-13", "patterns", seen, [0b00110, 0b01100, 0b01001, 0b01100])
 
 
@@ -204,7 +207,9 @@ async def stmc_ac_20_divisor_0(lab: Lab) -> None:
     """Given divisor 0, when the last byte is in, then error 5, no step, FIN as before."""
     got = await lab.statuses("c 44 d 00 d 04 d 00 d 00")
     lab.check("AC-20", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0xD0])
+    lab.check("AC-20", "statuses", await lab.statuses("c 45 d 00"), [0x10, 0xD0])
+    lab.check("AC-20", "statuses", await lab.statuses("c 47 d 00 d 01"), [0x10, 0xD0, 0xB0])
     since = lab.bench.now
     await lab.bench.clocks(500)
     lab.quiet("AC-20", since)
-    lab.check("AC-20", "FIN", await lab.finish(), 0x80)
+    lab.check("AC-20", "FIN, REM", (await lab.finish(), await lab.remaining()), (0x80, 0))

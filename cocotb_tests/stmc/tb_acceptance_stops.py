@@ -51,11 +51,12 @@ async def stmc_ac_24_emergency_stop(lab: Lab) -> None:
 
 @part_test("AC-25", "STMC-STP-02")
 async def stmc_ac_25_command_1_at_constant_speed(lab: Lab) -> None:
-    """Given constant speed, when 41 comes in gap 2, then it stops at once."""
-    await lab.go(0x44, 256, 0x14)
-    await lab.in_gap(2)
-    await lab.command(0x41)
-    await lab.outcome("AC-25", 3, 0xC4, 0xFC, [20, 20])
+    """Given constant speed, when 41 or 40 comes in gap 2, then it stops at once."""
+    for code in (0x41, 0x40):
+        await lab.go(0x44, 256, 0x14)
+        await lab.in_gap(2)
+        await lab.command(code)
+        await lab.outcome("AC-25", 3, 0xC4, 0xFC, [20, 20])
 
 
 @part_test("AC-26", "STMC-IN-01", "STMC-DEC-05")

@@ -10,12 +10,12 @@ from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import BUSY, IBF, OBF, HostBus
 from cocotb_tests.harness.compare import check_against_model
 from cocotb_tests.harness.noise import Noise
-from cocotb_tests.harness.part import STMC
 from cocotb_tests.harness.player import describe
 from cocotb_tests.harness.seeds import each_seed
 from cocotb_tests.harness.single_player import SinglePlayer
 from cocotb_tests.harness.verifies import verifies
 
+from .bench import STMC
 from .figures import gaps, internal_offsets
 from .random_host import scenario
 

@@ -7,9 +7,9 @@ import pytest
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.elaborate import check_ranges
-from cocotb_tests.harness.part import J105_STMC
 from cocotb_tests.harness.runner import run_item
 
+from .bench import J105_STMC
 from .board import design
 
 ITEMS = cocotb_items("cocotb_tests.stmc", "tb_board", part=J105_STMC)

@@ -1,4 +1,10 @@
-"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 130 Ctrl-C."""
+"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 130 Ctrl-C.
+
+`common` has the commands that parts share, and knows no part. What differs stands in the folder of a part,
+and `openppmc.parts` says where. view: what it shows and forecasts, and what only it can do; without one it is
+as a PPMC-104. words: those of its own in script files. commands: a command line of its own, for parts on a
+line. A part behind the bridge with the ramp and the registers of the PPMC-104 needs nothing here.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +13,7 @@ import sys
 
 import typer
 
-from ..host.basis.errors import PpmcError
+from ..errors import PpmcError
 
 _USAGE_ERROR = typer.BadParameter.__bases__[0]  # UsageError of the click that typer brings along
 _CLICK_ERROR = _USAGE_ERROR.__bases__[0]

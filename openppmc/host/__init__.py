@@ -7,51 +7,50 @@
         axis.home(CCW)
         axis.move(2500)
 
-`frames`, `script`, `session`, `units`, `ending`, `registers104` are pure; `transport` and `loopback` do I/O.
+Rooms, from the ground up: `basis` (arguments, units, errors, ends of motions, what a part allows) · `ports` ·
+`bridge` (frames, scripts, the link) · `axis` (what the drivers share) · `line` (several stations on RS-485) ·
+one for each part. `ports.transport` does the I/O; `bridge.loopback` and `line.loopback` play a board. What is
+called "Pure" in its first line does neither.
 """
 
 from .axis.axis import CCW, CW, Axis
 from .axis.motion import Motion, Progress
-from .basis.ending import Cause, End
+from .axis.part import Part as AnyPart
+from .basis import units as units
+from .basis.ending import AlarmStop, Cause, End, LimitReached, MotionError, OriginNotFound, StoppedEarly
 from .basis.errors import (
-    AlarmStop,
-    AlreadyDecelerating,
-    BadRamp,
-    BadSwitching,
-    CommandRefused,
-    CutCommand,
     Disconnected,
-    LimitReached,
     LinkError,
     Misused,
-    MotionError,
     NoAnswer,
     NoSuchName,
-    NothingToStop,
-    NotInitialised,
-    NotWhileBusy,
-    OriginNotFound,
     OutOfRange,
     PortError,
     PpmcError,
     ProtocolError,
+    Timeout,
+    WrongDevice,
+)
+from .basis.refusals import (
+    AlreadyDecelerating,
+    BadRamp,
+    CommandRefused,
+    NothingToStop,
+    NotInitialised,
+    NotWhileBusy,
     RampTooLong,
     StartRefused,
-    StoppedEarly,
-    Timeout,
-    TooFast,
     UnexpectedData,
     UnexpectedDataBusy,
     UnknownCode,
-    WrongDevice,
 )
-from .basis.kind import BOARD_CLOCK
 from .bridge.link import Link
-from .opening import AnyPart, open_part
+from .bridge.port import open_port
+from .opening import open_part
 from .pmc006.axis import BACKWARD, FORWARD
 from .pmc006.bus import Pmc006Bus
 from .pmc006.driver import Pmc006
-from .ports.transport import open_port, serial_ports
+from .ports.transport import serial_ports
 from .ppmc104.driver import Ppmc104
 from .ppmc312.driver import Ppmc312
 from .ppmc312.line.ascii import SumMode
@@ -59,7 +58,9 @@ from .ppmc312.line.bus import Ppmc312Bus
 from .ppmc312.line.station import Station312
 from .ppmc2104.axis import Axis2104
 from .ppmc2104.driver import Ppmc2104
+from .ppmc2104.errors import BadSwitching, CutCommand, TooFast
 from .stmc.driver import Stmc
+from .stmc.kind import BOARD_CLOCK
 
 __all__ = [
     "BACKWARD",
@@ -117,4 +118,5 @@ __all__ = [
     "open_part",
     "open_port",
     "serial_ports",
+    "units",
 ]

@@ -2,30 +2,37 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import cast
 
-from .basis.kind import KINDS, kind_of
+from ..parts import by_number, having
+from .axis.part import Part
+from .basis.errors import WrongDevice
+from .basis.kind import name_of
 from .bridge.link import DEFAULT_BAUD, Link
 from .ports.transport import Port
-from .ppmc104.driver import Ppmc104
-from .ppmc312.driver import Ppmc312
-from .ppmc2104.driver import Ppmc2104
-from .stmc.driver import Stmc
-
-AnyPart: TypeAlias = Ppmc104 | Ppmc2104 | Stmc | Ppmc312
-DRIVERS: dict[int, type[AnyPart]] = {kind.kind.number: kind for kind in (Ppmc104, Ppmc2104, Stmc, Ppmc312)}
-assert set(DRIVERS) == set(KINDS)
 
 
-def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> AnyPart:
+def driver_of(number: int, where: str = "") -> type[Part]:
+    """The driver of the part with this number; WrongDevice if there is none."""
+    row = by_number(number)
+    if row is None or not row.driver:
+        *most, last = (one.title for one in having("number", "driver"))
+        raise WrongDevice(
+            f"{where}: the part is a {name_of(number)}; there are drivers for {', '.join(most)} and {last}: "
+            "renew the package"
+        )
+    return cast("type[Part]", row.load("driver"))
+
+
+def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> Part:
     """Open a port and take the driver of the part that is there (IDENT). number: the part that it must be.
 
     Raises WrongDevice for another part, or one without a driver.
     """
     link = Link(spec, baud, number)
     try:
-        kind_of(link.identity.part, link.name)
+        driver = driver_of(link.identity.part, link.name)
     except BaseException:
         link.close()
         raise
-    return DRIVERS[link.identity.part].on(link)
+    return driver.on(link)

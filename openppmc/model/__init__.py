@@ -1,9 +1,14 @@
 """Golden models: pure Python, integers and fractions, written from the rules and not from the RTL.
 
-`ppmc104.Ppmc104`, `ppmc2104.Ppmc2104`, `ppmc312.Ppmc312`, `pmc006.Pmc006` and `stmc.Stmc` are the parts at
-pin level, `j105_stmc.J105Stmc` is the board around the last, `predict.predict_move` the same arithmetic for
-plots. Modules with a part's number or "stmc" in their name hold what is special to it, the others serve every
-part of the family.
+A folder a part (`ppmc104`, `ppmc2104`, `stmc`, `ppmc312`, `pmc006`); in each, `part` is the part at pin
+level, `pins` its pins and `codes` its codes; where there is such, `carrier` is the part as its UART bridge
+sees it and `predict` the arithmetic of one move for plots and tables. Parts know the shared rooms and not
+each other:
+
+    common      time, events, edges, blocks of a clocked part, UART
+    motion      motion of one axis as the family has it: ramp, guard, excitation, chopper
+    carrier     UART bridge, the carrier around any part, switches along an axis, EEPROM
+    single      parts with one axis on a byte bus: host port, commands, prediction
 """
 
 from .common.edges import Edge

@@ -9,19 +9,18 @@ import time
 from pathlib import Path
 
 from .common.board import AxisStatus, SimBoard, Status, start
-from .common.build import SimError
 from .common.line_child import SimLine, start_line
-from .common.lines import LINES, part_of
-from .common.spec import KNOWN, SpecError
+from .common.lines import line_kind, line_parts, part_of
+from .common.machine import machine_kind
+from .common.spec import SpecError, known_words
+from .common.verilator import SimError
 
 USAGE = (
-    f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {KNOWN}; docs/virtual_board.md\n"
-    + "\n".join(f"part={part}: {kind.known}" for part, kind in LINES.items())
+    f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {known_words()}; docs/virtual_board.md\n"
+    + "\n".join(f"part={part}: {line_kind(part).known}" for part in line_parts())
 )
 LIVE, PLAIN = 0.2, 30.0
 SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp"))
-ALARM = {"stmc": "MON low"}
-"""What is shown for the alarm of other parts than those of the PPMC family."""
 
 
 def split_link(text: str) -> tuple[str, Path | None]:
@@ -55,7 +54,7 @@ def show(board: SimBoard | SimLine) -> None:
         text = (
             board.status().text()
             if isinstance(board, SimLine)
-            else line(board.status(), ALARM.get(board.spec.part, "ALM"))
+            else line(board.status(), machine_kind(board.spec.part).alarm)
         )
         if live:
             columns = shutil.get_terminal_size().columns

@@ -26,9 +26,10 @@ module ppmc104_example_uart #(
     output logic            dir
 );
 
-  logic unused_oe, unused_int, unused_aux, unused_led;
+  logic unused_oe, unused_int, unused_aux;
   logic [7:0] unused_d;
   logic [3:0] unused_auxo;
+  logic [2:0] unused_led;
 
   ppmc104_carrier #(
       .CLK_HZ    (CLK_HZ),
@@ -42,31 +43,33 @@ module ppmc104_example_uart #(
       .rst_n,
       .uart_rxd,
       .uart_txd,
-      .a0      (1'b0),
-      .cs_n    (1'b1),
-      .rd_n    (1'b1),
-      .wr_n    (1'b1),
-      .d_i     (8'h00),
-      .d_o     (unused_d),
-      .d_oe    (unused_oe),
-      .int_n   (unused_int),
-      .csel    (1'b1),
-      .vsel    (1'b1),
-      .clock   (1'b0),
+      .a0        (1'b0),
+      .cs_n      (1'b1),
+      .rd_n      (1'b1),
+      .wr_n      (1'b1),
+      .d_i       (8'h00),
+      .d_o       (unused_d),
+      .d_oe      (unused_oe),
+      .int_n     (unused_int),
+      .csel      (1'b1),
+      .vsel      (1'b1),
+      .clock     (1'b0),
       .l1_n,
       .l2_n,
       .l3_n,
       .l4_n,
       .cnp_n,
       .alm_n,
-      .auxi    (4'b0000),
-      .auxo    (unused_auxo),
-      .aux_n   (unused_aux),
+      .auxi      (4'b0000),
+      .auxo      (unused_auxo),
+      .aux_n     (unused_aux),
       .s,
       .hold,
       .pout_n,
       .dir,
-      .led_link(unused_led)
+      .led_link  (unused_led[0]),
+      .led_moving(unused_led[1]),
+      .led_switch(unused_led[2])
   );
 
 endmodule

@@ -8,16 +8,16 @@
 module pmc006
   import pmc006_pkg::*;
 #(
-    parameter int unsigned CLK_HZ     = 16_000_000,    // 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 16_000_000,    // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,    // without effect
     parameter string       TIMING     = "FAST",        // or "DATASHEET", which behaves alike
     parameter string       STEP_ACK   = "MANUAL",      // what s answers: 3, or with "ECHO" its data
-    parameter int unsigned BAUD       = 9600,          // 1200 .. 115 200
-    parameter int unsigned I2C_HZ     = 400_000,       // 10e3 .. 400e3
-    parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 7 bits
-    parameter int unsigned T_OFF_NS   = 20_000,        // chopper, 1_000 .. 100_000
-    parameter int unsigned T_BLANK_NS = 1_000,         // 100 .. 10_000
-    parameter int unsigned FW_VERSION = 32'h0000_0123
+    parameter int unsigned BAUD       = 9600,          // serial rate, 1200 .. 115 200
+    parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3
+    parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 0 .. 127
+    parameter int unsigned T_OFF_NS   = 20_000,        // off time of the chopper in ns, 1_000 .. 100_000
+    parameter int unsigned T_BLANK_NS = 1_000,         // blanking of its comparator in ns, 100 .. 10_000
+    parameter int unsigned FW_VERSION = 32'h0000_0123  // answer to the version command, 32 bits
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

@@ -11,8 +11,8 @@ module ppmc104
   import ppmc_motion_pkg::*;
   import ppmc_single_pkg::*;
 #(
-    parameter int unsigned CLK_HZ     = 16_000_000,  // 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ    = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter int unsigned CLK_HZ     = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter string       TIMING     = "FAST",      // or "DATASHEET": with the old chip's processing times
     parameter bit          PHASE_IDLE = 1'b1         // level of s until the first initialisation
 ) (

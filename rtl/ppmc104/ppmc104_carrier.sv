@@ -9,23 +9,23 @@ module ppmc104_carrier #(
     parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b1,
+    parameter bit          PHASE_IDLE = 1'b1,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200      // of the bridge after reset
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
-    input  wire logic       uart_rxd,  // from the PC
-    output logic            uart_txd,  // to the PC
-    // bus host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
     input  wire logic       wr_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
-    output logic            d_oe,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
     // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
     input  wire logic       csel,
@@ -47,13 +47,15 @@ module ppmc104_carrier #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps
-    output logic            led_link   // 1: a script is running or an answer is on its way
+    // lamps, 1 = on
+    output logic            led_link,    // a script is running or an answer is on its way
+    output logic            led_moving,
+    output logic            led_switch   // a limit or the alarm is active
 );
 
   logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, part_a0, part_csel, part_vsel;
   logic [7:0] part_d, straps;
-  logic unused_straps;
+  logic part_oe, unused_straps;
 
   ppmc104 #(
       .CLK_HZ    (CLK_HZ),
@@ -69,7 +71,7 @@ module ppmc104_carrier #(
       .wr_n (part_wr_n),
       .d_i  (part_d),
       .d_o,
-      .d_oe,
+      .d_oe  (part_oe),
       .int_n,
       .csel (part_csel),
       .vsel (part_vsel),
@@ -124,6 +126,9 @@ module ppmc104_carrier #(
 
   assign part_csel     = csel && straps[0];
   assign part_vsel     = vsel && straps[1];
+  assign d_oe          = HOST == "BUS" && part_oe;
+  assign led_moving    = !hold;
+  assign led_switch    = !(l1_n && l2_n && l3_n && l4_n && alm_n);
   assign unused_straps = ^straps[7:2];
 
 endmodule

@@ -8,8 +8,8 @@
 module ppmc2104
   import ppmc2104_pkg::*;
 #(
-    parameter int unsigned CLK_HZ  = 16_000_000,  // 8e6 .. 200e6, at least XTAL_HZ / 2
-    parameter int unsigned XTAL_HZ = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter int unsigned CLK_HZ  = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
+    parameter int unsigned XTAL_HZ = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter string       TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
 ) (
     input  wire logic       clk,

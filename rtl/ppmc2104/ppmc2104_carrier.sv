@@ -7,18 +7,19 @@
 `default_nettype none
 
 module ppmc2104_carrier #(
-    parameter int unsigned CLK_HZ  = 24_000_000,  // 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ = 16_000_000,
-    parameter string       TIMING  = "FAST",
-    parameter string       HOST    = "UART",      // or "BUS"
-    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
+    parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ  = 16_000_000,
+    parameter string       TIMING   = "FAST",
+    parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0 as on the old chip
+    parameter string       HOST     = "UART",      // or "BUS"
+    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
-    input  wire logic       uart_rxd,  // from the PC
-    output logic            uart_txd,  // to the PC
-    // bus host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       busc,
@@ -26,7 +27,7 @@ module ppmc2104_carrier #(
     input  wire logic       rw_rds_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
-    output logic            d_oe,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
     // with the UART host the straps can pull these to 0 as well
     input  wire logic       errint_n,
@@ -45,19 +46,22 @@ module ppmc2104_carrier #(
     output logic      [1:0] auxo,
     output logic            clk_o,
     // motors
-    output logic      [5:1] s1_n,
-    output logic      [5:1] s2_n,
+    output logic      [5:1] s1,
+    output logic      [5:1] s2,
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps
-    output logic            led_link   // 1: a script is running or an answer is on its way
+    // lamps, 1 = on
+    output logic            led_link,    // a script is running or an answer is on its way
+    output logic            led_moving,
+    output logic            led_switch   // a limit or an alarm is active
 );
 
   logic part_rst_n, part_cs_n, part_a0, part_busc, part_ds_wrs_n, part_rw_rds_n, part_errint_n;
   logic [2:1] part_run, part_csel;
+  logic [5:1] s1_n, s2_n;
   logic [7:0] part_d, straps;
-  logic unused_straps;
+  logic part_oe, unused_straps;
 
   ppmc2104 #(
       .CLK_HZ (CLK_HZ),
@@ -73,7 +77,7 @@ module ppmc2104_carrier #(
       .rw_rds_n(part_rw_rds_n),
       .d_i     (part_d),
       .d_o,
-      .d_oe,
+      .d_oe    (part_oe),
       .int_n,
       .errint_n(part_errint_n),
       .pout_n,
@@ -136,6 +140,11 @@ module ppmc2104_carrier #(
   assign part_csel     = csel & straps[1:0];
   assign part_run      = run & straps[3:2];
   assign part_errint_n = errint_n && straps[4];
+  assign d_oe          = HOST == "BUS" && part_oe;
+  assign s1            = PHASE_ON ? ~s1_n : s1_n;
+  assign s2            = PHASE_ON ? ~s2_n : s2_n;
+  assign led_moving    = hold != '1;
+  assign led_switch    = (fl_n & bl_n & fhl_n & bhl_n & alm_n) != '1;
   assign unused_straps = ^straps[7:5];
 
 endmodule

@@ -8,11 +8,11 @@
 
 module ppmc312
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
-  import ppmc312_stage_pkg::*;
 #(
-    parameter int unsigned CLK_HZ   = 16_000_000,  // 8e6 .. 200e6, at least XTAL_HZ / 2
-    parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip, 1e6 .. 16e6
+    parameter int unsigned CLK_HZ   = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
+    parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter string       TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
     parameter int unsigned VERSION  = 'h12,        // what the version instruction answers, 0 .. 255
     parameter string       SUM_MODE = "BINARY"     // or "CHARS": checksum of the serial mode
@@ -121,10 +121,7 @@ module ppmc312
 
   // ---- inputs ----------------------------------------------------------------------------------------------------
 
-  levels_t plain, levels;
-  logic [1:0] evt_level, evt_edge;
-  logic run_s, epin_s, epdir_s;
-  logic [7:0] auxi_s;
+  inputs_t inputs;
 
   ppmc312_pins #(
       .ClkHz    (CLK_HZ),
@@ -150,58 +147,49 @@ module ppmc312
       .epin_i(epin),
       .epdir_i(epdir),
       .auxi_i(auxi),
-      .plain_o(plain),
-      .levels_o(levels),
-      .evt_no(evt_level),
-      .edge_o(evt_edge),
-      .run_o(run_s),
-      .epin_o(epin_s),
-      .epdir_o(epdir_s),
-      .auxi_o(auxi_s)
+      .inputs_o(inputs)
   );
 
   // ---- host ------------------------------------------------------------------------------------------------------
 
-  logic answered, line_we, bus_valid, line_valid, blk_done, rd_any, bus_load, line_load, rd_done;
-  logic [BLOCK_BITS:0] bus_size, line_size, rd_size;
-  logic [BLOCK_BITS-1:0] blk_addr, bus_addr, line_addr;
-  logic [7:0] blk_data, line_data, rd_data, answer_code;
-  logic [3:0] line_at;
-  logic [2:0] answer_first;
+  offer_t bus_offer, line_offer, offer;
+  line_byte_t line_byte;
+  answered_t answered;
   status_e status;
   poll_t found;
+  logic blk_done, rd_any, bus_load, line_load, rd_done;
+  logic [BLOCK_BITS:0] rd_size;
+  logic [BLOCK_BITS-1:0] blk_addr, bus_addr, line_addr;
+  logic [7:0] blk_data, rd_data;
 
   ppmc312_mailbox #(
       .WaitClk(WaitClk)
   ) u_mailbox (
-      .clk_i      (clk),
-      .rst_ni     (rst_host),
-      .rst_bus_ni (rst_bus),
-      .ready_i    (open),
-      .off_i      (serial),
-      .rs_i       (rs),
-      .cs_ni      (cs_n),
-      .we_ni      (we_n),
-      .oe_ni      (oe_n),
+      .clk_i     (clk),
+      .rst_ni    (rst_host),
+      .rst_bus_ni(rst_bus),
+      .ready_i   (open),
+      .off_i     (serial),
+      .rs_i      (rs),
+      .cs_ni     (cs_n),
+      .we_ni     (we_n),
+      .oe_ni     (oe_n),
       .d_i,
       .d_o,
-      .d_oe_o     (d_oe),
-      .wrq_no     (wrq_n),
-      .irq_no     (irq_n),
-      .blk_valid_o(bus_valid),
-      .blk_size_o (bus_size),
-      .blk_addr_i (blk_addr),
-      .blk_data_o (blk_data),
-      .blk_done_i (blk_done),
-      .line_we_i  (line_we),
-      .line_at_i  (line_at),
-      .line_data_i(line_data),
-      .rd_any_i   (rd_any && !serial),
-      .rd_load_o  (bus_load),
-      .rd_size_i  (rd_size),
-      .rd_addr_o  (bus_addr),
-      .rd_data_i  (rd_data),
-      .rd_done_o  (rd_done)
+      .d_oe_o    (d_oe),
+      .wrq_no    (wrq_n),
+      .irq_no    (irq_n),
+      .offer_o   (bus_offer),
+      .blk_addr_i(blk_addr),
+      .blk_data_o(blk_data),
+      .blk_done_i(blk_done),
+      .line_i    (line_byte),
+      .rd_any_i  (rd_any && !serial),
+      .rd_load_o (bus_load),
+      .rd_size_i (rd_size),
+      .rd_addr_o (bus_addr),
+      .rd_data_i (rd_data),
+      .rd_done_o (rd_done)
   );
 
   // Binary speeds (bit 2 low) are not documented, and there is no speed 0.
@@ -212,29 +200,33 @@ module ppmc312
       .XtalHz  (XTAL_HZ),
       .CharsSum(SUM_MODE == "CHARS")
   ) u_serial (
-      .clk_i         (clk),
-      .rst_ni        (rst_host),
-      .ready_i       (out_oe),
-      .enable_i      (talks),
-      .rate_i        (speed[1:0]),
-      .adr_i         (number),
-      .rxd_i         (rxd),
-      .txd_o         (txd),
-      .snd_o         (snd),
-      .blk_valid_o   (line_valid),
-      .blk_size_o    (line_size),
-      .blk_we_o      (line_we),
-      .blk_at_o      (line_at),
-      .blk_data_o    (line_data),
-      .answered_i    (answered),
-      .answer_code_i (answer_code),
-      .answer_first_i(answer_first),
-      .rd_addr_o     (line_addr),
-      .rd_data_i     (rd_data),
-      .status_i      (status),
-      .take_o        (line_load),
-      .found_i       (found)
+      .clk_i     (clk),
+      .rst_ni    (rst_host),
+      .ready_i   (out_oe),
+      .enable_i  (talks),
+      .rate_i    (speed[1:0]),
+      .adr_i     (number),
+      .rxd_i     (rxd),
+      .txd_o     (txd),
+      .snd_o     (snd),
+      .offer_o   (line_offer),
+      .byte_o    (line_byte),
+      .answered_i(answered),
+      .rd_addr_o (line_addr),
+      .rd_data_i (rd_data),
+      .status_i  (status),
+      .take_o    (line_load),
+      .found_i   (found)
   );
+
+  assign offer = '{
+          valid: line_offer.valid || bus_offer.valid,
+          size: serial ? line_offer.size : bus_offer.size
+      };
+
+  // ---- core ------------------------------------------------------------------------------------------------------
+
+  outputs_t outputs;
 
   ppmc312_core #(
       .ClkHz    (CLK_HZ),
@@ -242,46 +234,38 @@ module ppmc312
       .Datasheet(Datasheet),
       .Version  (8'(VERSION))
   ) u_core (
-      .clk_i         (clk),
-      .rst_ni        (rst_core),
-      .serial_i      (serial),
-      .boot_i        (boot && !serial),
-      .reset_o       (reset),
-      .blk_valid_i   (line_valid || bus_valid),
-      .blk_size_i    (serial ? line_size : bus_size),
-      .blk_addr_o    (blk_addr),
-      .blk_data_i    (blk_data),
-      .blk_done_o    (blk_done),
-      .rd_any_o      (rd_any),
-      .rd_load_i     (line_load || bus_load),
-      .rd_size_o     (rd_size),
-      .rd_addr_i     (serial ? line_addr : bus_addr),
-      .rd_data_o     (rd_data),
-      .rd_done_i     (rd_done),
-      .answered_o    (answered),
-      .answer_code_o (answer_code),
-      .answer_first_o(answer_first),
-      .status_o      (status),
-      .poll_o        (found),
-      .plain_i       (plain),
-      .levels_i      (levels),
-      .evt_ni        (evt_level),
-      .edge_i        (evt_edge),
-      .run_i         (run_s),
-      .epin_i        (epin_s),
-      .epdir_i       (epdir_s),
-      .auxi_i        (auxi_s),
-      .extck_i       (extck),
-      .pout_o        (pout),
-      .dir_o         (dir),
-      .intlk_no      (intlk_n),
-      .exon_no       (exon_n),
-      .cclr_no       (cclr_n),
-      .aclr_no       (aclr_n),
-      .zclmp_no      (zclmp_n),
-      .cd_no         (cd_n),
-      .auxo_no       (auxo_n)
+      .clk_i     (clk),
+      .rst_ni    (rst_core),
+      .serial_i  (serial),
+      .boot_i    (boot && !serial),
+      .reset_o   (reset),
+      .offer_i   (offer),
+      .blk_addr_o(blk_addr),
+      .blk_data_i(blk_data),
+      .blk_done_o(blk_done),
+      .rd_any_o  (rd_any),
+      .rd_load_i (line_load || bus_load),
+      .rd_size_o (rd_size),
+      .rd_addr_i (serial ? line_addr : bus_addr),
+      .rd_data_o (rd_data),
+      .rd_done_i (rd_done),
+      .answered_o(answered),
+      .status_o  (status),
+      .poll_o    (found),
+      .inputs_i  (inputs),
+      .extck_i   (extck),
+      .outputs_o (outputs)
   );
+
+  assign pout    = outputs.pout;
+  assign dir     = outputs.dir;
+  assign intlk_n = outputs.intlk_n;
+  assign exon_n  = outputs.exon_n;
+  assign cclr_n  = outputs.cclr_n;
+  assign aclr_n  = outputs.aclr_n;
+  assign zclmp_n = outputs.zclmp_n;
+  assign cd_n    = outputs.cd_n;
+  assign auxo_n  = outputs.auxo_n;
 
 endmodule
 

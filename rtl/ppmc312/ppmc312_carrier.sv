@@ -18,8 +18,8 @@ module ppmc312_carrier #(
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host, or a master of the part itself
-    input  wire logic       uart_rxd,   // from the PC
-    output logic            uart_txd,   // to the PC
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
     // serial line and its straps; it rests with another host
     input  wire logic       rs485_rxd,
     output logic            rs485_txd,
@@ -27,14 +27,14 @@ module ppmc312_carrier #(
     input  wire logic       hsp,
     input  wire logic [2:0] mod,
     input  wire logic [3:0] adr,
-    // bus host
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,
     input  wire logic       we_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
-    output logic            d_oe,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            wrq_n,
     output logic            irq_n,
     // switches, drive and encoder, 0 = active but for epin, epdir and run
@@ -63,15 +63,17 @@ module ppmc312_carrier #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    // lamps
-    output logic            hold,       // 1: at rest for 100 ms, or since the reset
-    output logic            led_link    // 1: a script is running or an answer is on its way; rs485_de
+    output logic            hold,        // 1: at rest for 100 ms, or since the reset
+    // lamps, 1 = on
+    output logic            led_link,    // a script is running or an answer is on its way; rs485_de
+    output logic            led_moving,
+    output logic            led_switch   // a limit or the alarm is active
 );
 
   logic part_rst_n, part_cs_n, part_oe_n, part_we_n, moved_q, unused;
   logic [2:0] part_rs;
   logic [7:0] part_d, straps;
-  logic rxd, out_oe;
+  logic rxd, part_oe, out_oe;
 
   ppmc312 #(
       .CLK_HZ  (CLK_HZ),
@@ -84,7 +86,7 @@ module ppmc312_carrier #(
       .mode  (HOST != "SERIAL"),
       .d_i   (part_d),
       .d_o,
-      .d_oe,
+      .d_oe  (part_oe),
       .rs    (part_rs),
       .cs_n  (part_cs_n),
       .we_n  (part_we_n),
@@ -130,7 +132,10 @@ module ppmc312_carrier #(
     else if (pout) moved_q <= 1'b1;
   end
 
-  assign hold = !moved_q || !cd_n;
+  assign hold       = !moved_q || !cd_n;
+  assign d_oe       = HOST == "BUS" && part_oe;
+  assign led_moving = !hold;
+  assign led_switch = !(fl_n && bl_n && fhl_n && bhl_n && alm_n);
 
   if (HOST == "SERIAL") begin : g_serial
     // Both lines rest at 1.

@@ -8,17 +8,18 @@
 
 module ppmc312_pace
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
 #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0
 ) (
-    input  wire logic         clk_i,
-    input  wire logic         rst_ni,
+    input  wire logic         clk_i,    // clock
+    input  wire logic         rst_ni,   // reset, asynchronous
     input  wire logic         idle_i,   // no instruction is being processed
-    input  wire block_t       block_i,
+    input  wire block_t       block_i,  // the instruction; its time begins as idle_i ends
     input  wire logic   [7:0] kind_i,   // of a planned operation; 0 = trapezoid
-    output logic              open_o
+    output logic              open_o    // the time has passed
 );
 
   localparam int unsigned Width = 22;

@@ -10,21 +10,21 @@ module ppmc312_reset #(
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0
 ) (
-    input wire logic clk_i,
+    input wire logic clk_i,  // clock
     input wire logic rst_ni,  // pin
     input wire logic reset_i,  // instruction
-    input wire logic mode_i,
-    input wire logic [2:0] mod_i,
-    input wire logic [3:0] adr_i,
-    output logic rst_core_no,
+    input wire logic mode_i,  // pin: 1 parallel, 0 serial
+    input wire logic [2:0] mod_i,  // pins: speed of the line
+    input wire logic [3:0] adr_i,  // pins: number of the station
+    output logic rst_core_no,  // reset of the core, 0 = active
     output logic rst_host_no,  // registers of the host's side
     output logic rst_bus_no,  // its strobes, which an instruction does not interrupt
     output logic boot_o,  // the core comes back from an instruction
-    output logic ready_o,
+    output logic ready_o,  // the reset is over
     output logic open_o,  // the bus may bring instructions: 3 clk after a reset by one
-    output logic serial_o,
-    output logic [2:0] mod_o,
-    output logic [3:0] adr_o
+    output logic serial_o,  // 1 serial, 0 parallel
+    output logic [2:0] mod_o,  // speed of the line, as taken
+    output logic [3:0] adr_o  // number of the station, as taken
 );
 
   localparam int unsigned StartXtal = 25_600;

@@ -11,14 +11,14 @@ module stmc
   import ppmc_motion_pkg::*;
   import ppmc_single_pkg::*;
 #(
-    parameter int unsigned CLK_HZ      = 16_000_000,  // 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part, 1e6 .. 20e6
+    parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
     parameter string       TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
     parameter string       READ_MAP    = "SHEET",     // or "FAMILY": read codes of the sister parts
     parameter bit          PHASE_IDLE  = 1'b0,        // level of s until the first initialisation
     parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
-    parameter int unsigned CHOP_ON_XT  = 1_040,       // chopper, crystal periods
-    parameter int unsigned CHOP_OFF_XT = 1_740
+    parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper, crystal periods
+    parameter int unsigned CHOP_OFF_XT = 1_740        // off time of the chopper, crystal periods
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

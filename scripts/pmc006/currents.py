@@ -118,4 +118,4 @@ def currents_table() -> str:
     return "\n".join([*lines, "", f"Ripple of a phase at rest, peak to peak: {rest}."])
 
 
-PLOTS = {"pmc006/currents": currents}
+PLOTS = {"currents": currents}

@@ -16,8 +16,7 @@ from matplotlib.axes import Axes
 from cocotb_tests.pmc006.story import FINE, LEAD, MOTOR, MOVES, WAY
 from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare
-from scripts.demo.scenes import Changes, bit, pin, rises, subtitle
-from scripts.ppmc312.picture import heading
+from scripts.demo.scenes import Changes, bit, heading, pin, rises, subtitle
 
 PHASES = {"a": "#0b6fb8", "b": "#c26a1b"}
 REFERENCE, SWITCH, LAMP = "#6b7785", "#8c2d62", "#2f9e6e"

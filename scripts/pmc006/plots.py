@@ -8,7 +8,7 @@ from itertools import pairwise
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 CLK_HZ, BAUD = 8_000_000, 115_200
@@ -17,15 +17,15 @@ Settings = dict[str, int]
 FAST = {"u": 3, "o": 3, "v": 3200}
 
 
-def new(settings: Settings) -> Host006:
+def new(settings: Settings) -> Host:
     """A controller with these settings."""
-    host = Host006(clk_hz=CLK_HZ, baud=BAUD)
+    host = Host(clk_hz=CLK_HZ, baud=BAUD)
     for letter, value in settings.items():
         host.ask(letter, value)
     return host
 
 
-def finish(host: Host006) -> list[int]:
+def finish(host: Host) -> list[int]:
     """Run to the end of the motion; edges of its steps."""
     begin = host.mark
     host.until("mon_busy", 0, LONGEST * 1000)
@@ -92,4 +92,4 @@ def retarget() -> bytes:
     return svg(figure)
 
 
-PLOTS = {"pmc006/moves": moves, "pmc006/speed_mode": retarget}
+PLOTS = {"moves": moves, "speed_mode": retarget}

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR, Host312
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR, Host
 from scripts.pictures.recorded import Levels, Row, Samples, Schedule, clock, labels, record, wave
 
 Drawing = dict[str, Any]
@@ -43,9 +43,9 @@ def during(strobe: str, name: str) -> Callable[[Levels], int | None]:
     return lambda levels: None if levels[strobe] else levels[name]
 
 
-def ready(*setting: str, **parameters: object) -> Host312:
+def ready(*setting: str, **parameters: object) -> Host:
     """A host on a part that has been set up, with interrupts for answers."""
-    host = Host312(*setting, **parameters)
+    host = Host(*setting, **parameters)
     host.write(CSR, ANSWERS)
     host.pause(40)
     return host
@@ -72,7 +72,7 @@ def block_cycles(edge: int, block: str) -> tuple[Schedule, int]:
     return schedule, edge + 6 * len(accesses) - 3
 
 
-def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host312, int]:
+def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, int]:
     """A host shortly before pulse `number` of a motion, and that pulse's edge.
 
     origin: the pulse after which the origin switch closes; it opens again five pulses later.
@@ -92,13 +92,13 @@ def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host312, int]:
         edge = host.pulse(number)
 
 
-def look(host: Host312, schedule: Schedule, columns: Sequence[int | None]) -> Samples:
+def look(host: Host, schedule: Schedule, columns: Sequence[int | None]) -> Samples:
     """The model's pins and flags on the edges of the columns."""
     return record(host.model, host.model.inputs, schedule, columns, flags)
 
 
 def table(
-    host: Host312,
+    host: Host,
     schedule: Schedule,
     base: int,
     columns: Sequence[int | None],
@@ -116,7 +116,7 @@ def table(
 
 
 def cycle(
-    host: Host312,
+    host: Host,
     schedule: Schedule,
     columns: range,
     first: Sequence[tuple[Row, str]],

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up, draw_speed
 from openppmc.plot.signals import Run, Section, Speed, Trace, speeds
-from scripts.demo.scenes import Levels, micros, pin, rises, spans, subtitle
+from scripts.demo.scenes import Levels, heading, micros, pin, rises, spans, subtitle
 
 LINEAR, SIGMOID, FREE = SPEED, "#c0392b", "#2f9e6e"
 RAMPS = (("linear", LINEAR), ("sigmoid", SIGMOID), ("free", FREE))
@@ -24,11 +24,6 @@ Chapters = Mapping[str, Mapping[str, Any]]
 def within(edges: Sequence[int], chapter: Mapping[str, Any]) -> list[int]:
     """Edges of one chapter."""
     return [t for t in edges if chapter["begin"] <= t < chapter["end"]]
-
-
-def heading(axes: Axes, text: str) -> None:
-    """A title in the style of the close-ups."""
-    axes.set_title(text, loc="left", fontsize=10.5, fontweight="bold", color=INK)
 
 
 def kpps(axes: Axes) -> None:

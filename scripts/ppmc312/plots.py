@@ -8,7 +8,7 @@ from itertools import accumulate, pairwise
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.ppmc312.host import TF, Host312
+from cocotb_tests.ppmc312.host import TF, Host
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import ramped
 from openppmc.model.ppmc312.stages.tables import LAST, Table, build
@@ -71,7 +71,7 @@ def shapes() -> bytes:
 
 def _played(block: str, number: int, change: str) -> list[int]:
     """Intervals in ticks of a move during which `change` is given after pulse `number`."""
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask(block)
     if change:
         host.pulse(number, 40)
@@ -117,7 +117,7 @@ def changes() -> bytes:
 def origin() -> bytes:
     """A zero return: speed over time and over position."""
     switch, free = 24, 4  # the switch closes after so many pulses, and is so many pulses wide
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 11 00 0000")
     host.pulse(switch)
     host.pins(org_n=0)
@@ -150,8 +150,8 @@ def origin() -> bytes:
 
 
 PLOTS: dict[str, Callable[[], bytes]] = {
-    "ppmc312/tables": tables,
-    "ppmc312/shapes": shapes,
-    "ppmc312/changes": changes,
-    "ppmc312/return": origin,
+    "tables": tables,
+    "shapes": shapes,
+    "changes": changes,
+    "return": origin,
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from cocotb_tests.ppmc312.host import CSR, T1, T2, T3, Host312
+from cocotb_tests.ppmc312.host import CSR, T1, T2, T3, Host
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import Step, constant, ramped
 from openppmc.model.ppmc312.stages.tables import Table, build
@@ -115,7 +115,7 @@ def _us(clk: int, mode: dict[str, object]) -> str:
 
 def _set_up(mode: dict[str, object], block: str) -> int:
     """clk from the header to the answer."""
-    host = Host312(**mode)
+    host = Host(**mode)
     host.write(CSR, 0x10)
     host.issue(block)
     host.response()
@@ -124,19 +124,19 @@ def _set_up(mode: dict[str, object], block: str) -> int:
 
 def _start(mode: dict[str, object], block: str) -> int:
     """clk from the header to pulse 1."""
-    host = Host312(T1, **mode)
+    host = Host(T1, **mode)
     host.issue(block)
     return host.pulse(1) - host.header
 
 
 def _ready(mode: dict[str, object], _: str) -> int:
     """clk from the release of rst_n to out_oe."""
-    return Host312(**mode).model.log.of("out_oe")[0][0]
+    return Host(**mode).model.log.of("out_oe")[0][0]
 
 
 def _stop(mode: dict[str, object], block: str) -> int:
     """clk from the header, at a constant rate, to the answer: no pulse begins after it."""
-    host = Host312(T1, "03 04 86 00 03E8", **mode)
+    host = Host(T1, "03 04 86 00 03E8", **mode)
     host.write(CSR, 0x10)
     host.pulse(2)
     host.issue(block)
@@ -146,7 +146,7 @@ def _stop(mode: dict[str, object], block: str) -> int:
 
 def _output(mode: dict[str, object], block: str) -> int:
     """clk from the header to the auxiliary output."""
-    host = Host312(**mode)
+    host = Host(**mode)
     host.issue(block)
     host.wait()
     return host.model.log.of("auxo_n")[0][0] - host.header

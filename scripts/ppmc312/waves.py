@@ -220,13 +220,13 @@ def turn() -> Drawing:
 
 
 DIAGRAMS: dict[str, Callable[[], Drawing]] = {
-    "ppmc312/write": write,
-    "ppmc312/read": read,
-    "ppmc312/wrq": wrq,
-    "ppmc312/block": block,
-    "ppmc312/start": start,
-    "ppmc312/end": end,
-    "ppmc312/stop": stop,
-    "ppmc312/hold": hold,
-    "ppmc312/turn": turn,
+    "write": write,
+    "read": read,
+    "wrq": wrq,
+    "block": block,
+    "start": start,
+    "end": end,
+    "stop": stop,
+    "hold": hold,
+    "turn": turn,
 }

@@ -97,4 +97,4 @@ def slowed() -> bytes:
     return svg(figure)
 
 
-PLOTS: dict[str, Callable[[], bytes]] = {"stmc/ramp": ramp, "stmc/moves": moves, "stmc/slowed": slowed}
+PLOTS: dict[str, Callable[[], bytes]] = {"ramp": ramp, "moves": moves, "slowed": slowed}

@@ -282,12 +282,12 @@ def isa() -> Drawing:
 
 
 DIAGRAMS: dict[str, Callable[[], Drawing]] = {
-    "stmc/write": write,
-    "stmc/read": read,
-    "stmc/start": start,
-    "stmc/end": end,
-    "stmc/stop": stop,
-    "stmc/chop": chop,
-    "stmc/datasheet": datasheet,
-    "stmc/isa": isa,
+    "write": write,
+    "read": read,
+    "start": start,
+    "end": end,
+    "stop": stop,
+    "chop": chop,
+    "datasheet": datasheet,
+    "isa": isa,
 }

@@ -77,7 +77,7 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
     top.alm_n = bits(&Plant::alm);
 }
 
-inline unsigned phases(const Vboard& top, unsigned axis) { return axis ? top.s2_n : top.s1_n; }
+inline unsigned phases(const Vboard& top, unsigned axis) { return axis ? top.s2 : top.s1; }
 
 #elif BOARD_PART == 312
 

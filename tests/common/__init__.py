@@ -1,1 +1,1 @@
-"""tests/common"""
+"""Tests of what no part owns."""

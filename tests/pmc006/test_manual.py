@@ -6,11 +6,11 @@ import re
 
 import pytest
 
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 from openppmc.model.pmc006.codes import LETTERS
 from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
-from tests.ppmc312.test_manual import DOCS, chapters
+from tests.common.pages import DOCS, chapters
 
 TEXT = (DOCS / "pmc006/README.md").read_text(encoding="utf-8")
 LONG = 60_000_000
@@ -24,7 +24,7 @@ class Session:
              "pin": "pin", "ms": "ms"}  # fmt: skip
 
     def __init__(self) -> None:
-        self.host = Host006(clk_hz=8_000_000, baud=115_200)
+        self.host = Host(clk_hz=8_000_000, baud=115_200)
         self.since = 0
 
     def play(self, lines: list[str], where: str) -> None:

@@ -1,1 +1,1 @@
-"""tests/ppmc104"""
+"""Tests of the PPMC-104: golden model and host."""

@@ -1,1 +1,1 @@
-"""tests/ppmc2104"""
+"""Tests of the PPMC-2104: golden model, host, command line, virtual board."""

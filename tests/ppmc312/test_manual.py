@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.ppmc312.host import Host312, clean
+from cocotb_tests.ppmc312.host import Host, clean
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
+from tests.common.pages import DOCS, chapters
 
-DOCS = ROOT / "docs"
 PAGE = DOCS / "ppmc312/examples.md"
 MS = 16_000
 LONG = 60_000_000  # clk; nothing on the page takes longer
@@ -32,7 +30,7 @@ class Player:
     }
 
     def __init__(self) -> None:
-        self.host = Host312()
+        self.host = Host()
 
     def play(self, lines: list[str], where: str) -> None:
         """All lines; an AssertionError names the first that is not as printed."""
@@ -79,16 +77,6 @@ class Player:
         found = len(self.host.pulses())
         self.host.mark = self.host.t
         return str(found)
-
-
-def chapters(page: Path) -> dict[str, list[list[str]]]:
-    """Title of a chapter with sessions -> its sessions, one line each access."""
-    parts = re.split(r"^##+ (?=\d)", page.read_text(encoding="utf-8"), flags=re.M)[1:]
-    found = {}
-    for text in parts:
-        blocks = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
-        found[text.splitlines()[0]] = [block.splitlines() for block in blocks]
-    return found
 
 
 CHAPTERS = chapters(PAGE)

@@ -7,9 +7,10 @@ from fractions import Fraction
 
 import pytest
 
-from cocotb_tests.ppmc312.serial_host import SPEEDS, Serial312, clean, summed
+from cocotb_tests.ppmc312.serial_host import SPEEDS, SerialHost, clean, summed
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
-from tests.ppmc312.test_manual import DOCS, Player, chapters
+from tests.common.pages import DOCS, chapters
+from tests.ppmc312.test_manual import Player
 
 PAGE = DOCS / "ppmc312/serial.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -23,7 +24,7 @@ class Line(Player):
     KINDS = Player.KINDS | {"m": "raw", "s": "reply", "?": "poll"}
 
     def __init__(self) -> None:
-        self.host = Serial312()
+        self.host = SerialHost()
 
     def raw(self, words: str) -> None:
         self.host.raw(words)

@@ -6,5 +6,5 @@ settings.py      build configurations
 tb_line.py       UB-LIN; tb_frames.py UB-FRM; tb_ops.py ops, UB-BUS; tb_waits.py UB-WAIT;
 tb_messages.py   UB-SEQ, UB-ANS, UB-MSG; tb_random.py random scripts against the golden model
 tb_board.py      ppmc104_carrier: a real part behind its bridge
-tb_station.py    ppmc2104_station: the old bus as host
+tb_station.py    a board's top with a PPMC-2104: the old bus as host
 """

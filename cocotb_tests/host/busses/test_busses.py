@@ -11,7 +11,7 @@ from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.runner import Design, part_design, run_item
 
-ITEMS = cocotb_items("cocotb_tests.host.busses", "tb_axil", "tb_wishbone", part=Part("busses", "BUS", {}))
+ITEMS = cocotb_items("cocotb_tests.host.busses", "tb_axil", "tb_wishbone", part=Part("busses", {}))
 
 # The wheel's verilated.mk cannot build a design that is split into several C++ files.
 ONE_FILE = ("--output-split", "0")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from itertools import groupby
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.compare import Comparison, compare_recording, write_report
-from cocotb_tests.harness.part import PPMC2104
+from cocotb_tests.harness.compare import compare_recording, write_report
+from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.stimulus import Change, Edge, Recording
 
+from ..bench import PPMC2104
 from .setting import AXIS_INPUTS, AXIS_OUTPUTS, BASE, ISA_4AXIS, PARTS, SOURCE
 
 

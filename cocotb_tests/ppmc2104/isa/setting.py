@@ -7,7 +7,8 @@ from typing import Any
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.drive import Drive
-from cocotb_tests.harness.part import BusStyle, Part
+from cocotb_tests.harness.isa_style import STROBES_ISA
+from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.project import include_dirs, part, sources
 from cocotb_tests.harness.runner import Design
 
@@ -24,7 +25,6 @@ PHASES = ("s1_n", "s2_n", "s3_n", "s4_n")
 
 ISA_4AXIS = Part(
     name="isa_4axis",
-    prefix="ISA",
     inputs={
         "reset_drv": 0,
         "sa": 0,
@@ -51,15 +51,7 @@ ISA_4AXIS = Part(
     },
     widths={"sa": 10, "sd_i": 8, "auxi": 4, **dict.fromkeys(AXIS_INPUTS, 4)},
     parameters=("CLK_HZ", "XTAL_HZ", "TIMING"),
-    styles=(
-        BusStyle(
-            write_on={"iow_n": 0},
-            write_off={"iow_n": 1},
-            read_on={"ior_n": 0},
-            read_off={"ior_n": 1},
-            address="sa",
-        ),
-    ),
+    styles=(STROBES_ISA,),
     clock="extck",
     lowest=dict.fromkeys((*AXIS_INPUTS, *AXIS_OUTPUTS, *PHASES), 1),
     unwatched=frozenset({"clk_o"}),

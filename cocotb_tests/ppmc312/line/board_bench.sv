@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_board_bench: a board with a PPMC-312 on its serial line; what is not of the line is quiet.
+// ppmc312_board_bench: a PPMC-312 on its serial line with reset and lamps of a board; what is not of the line is quiet.
 `default_nettype none
 
 module ppmc312_board_bench (
@@ -22,13 +22,27 @@ module ppmc312_board_bench (
     output logic      [3:0] lamps
 );
 
-  ppmc312_station #(
+  logic rst_n, led_link, led_moving, led_switch;
+
+  ppmc_board_panel #(
+      .ClkHz(8_000_000)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (1'b1),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc312_carrier #(
       .CLK_HZ(8_000_000),
       .HOST  ("SERIAL")
-  ) u_station (
+  ) u_carrier (
       .clk,
-      .lock   (1'b1),
-      .req_n  (btn_n),
+      .rst_n,
       .uart_rxd,
       .uart_txd,
       .rs485_rxd,
@@ -71,7 +85,10 @@ module ppmc312_board_bench (
       .zclmp_n(),
       .intlk_n(),
       .auxo_n,
-      .lamps
+      .hold   (),
+      .led_link,
+      .led_moving,
+      .led_switch
   );
 
 endmodule

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping
 from itertools import groupby, zip_longest
 
 from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.compare import Comparison, compare_recording, write_report
-from cocotb_tests.harness.part import PPMC312
+from cocotb_tests.harness.compare import compare_recording, write_report
+from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.stimulus import Change, Edge, Recording, by_signal
 from openppmc.model.ppmc312.part import Ppmc312
 
+from ..bench import PPMC312
 from .models import heard, straps
 from .setting import ALL, LINE, OUTPUTS, SINGLE, STATIONS
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.part import PPMC312, Part
+from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.runner import Design
 
+from ..bench import PPMC312
 from .library import FOLDER, station_library
 
 STATIONS = 16
@@ -32,7 +33,6 @@ def repeat(level: int, width: int) -> int:
 
 LINE = Part(
     name="ppmc312_line",
-    prefix="P312",
     inputs={
         "master": 1,
         "hear_others": 1,

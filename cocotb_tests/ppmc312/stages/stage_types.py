@@ -23,15 +23,14 @@ BLOCKS = {
     "unit": Block(
         "ppmc312_stage_unit",
         f"drop_i build_i curve_i:101:{PACKAGE}curve_t busy_o thin_o open_i open_acc_i:7 open_dec_i:7"
-        f" entry_i:34:{PACKAGE}entry_t close_i table_o:115 home_o:38 read_side_i read_addr_i:7"
-        " read_rate_o:16 read_pulses_o:24 plan_start_i plan_ramp_i plan_endless_i plan_rate_i:16"
-        " plan_count_i:32 plan_busy_o plan_kind_o:8 plan_o:128 side_i addr_i:7 rate_o:16 pulses_o:24",
+        f" entry_i:34:{PACKAGE}entry_t close_i table_o:115 home_o:38 read_i:8:{PACKAGE}look_t read_o:40"
+        f" plan_i:51:{PACKAGE}plan_order_t plan_busy_o plan_kind_o:8 plan_o:128 look_i:8:{PACKAGE}look_t"
+        " stage_o:40",
     ),
     "seq": Block(
         "ppmc312_stage_seq",
-        f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 side_o addr_o:7"
-        " table_rate_i:16 table_pulses_i:24 load_i endless_i climb_i count_i:32 dec_i:24"
-        f" dec_from_i:32:{PACKAGE}walk_t target_i:38:{PACKAGE}target_t change_i change_ramp_i slow_i"
+        f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 look_o:8 stage_i:40:{PACKAGE}stage_t"
+        f" load_i plan_i:128:{PACKAGE}plan_t change_i change_ramp_i slow_i"
         " next_end_o next_low_o next_count_o next_slow_o next_walk_o next_rate_o:16 step_i rate_o:16 flat_o"
         " walk_o first_o complete_o",
     ),

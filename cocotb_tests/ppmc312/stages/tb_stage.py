@@ -116,12 +116,11 @@ async def _read(u: Unit) -> list[list[tuple[int, ...]]]:
     """Rate, acceleration and deceleration pulses of all stages, from both read ports."""
     words: list[list[tuple[int, ...]]] = []
     for side in (0, 1):
-        u.put(read_side_i=side, side_i=side)
         seen = []
         for i in [*range(STAGES), 0, 0]:
-            u.put(read_addr_i=i, addr_i=LAST - i)
+            u.put(read_i=pack((side, 1), (i, 7)), look_i=pack((side, 1), (LAST - i, 7)))
             await u.clk()
-            seen.append(tuple(u.get(name) for name in ("read_rate_o", "read_pulses_o", "rate_o", "pulses_o")))
+            seen.append((*divmod(u.get("read_o"), 1 << 24), *divmod(u.get("stage_o"), 1 << 24)))
         words.append(seen[1:-1])  # read after the edge: one clk less
     planner = [(*up[:2], down[1]) for up, down in zip(*words, strict=True)]
     motion = [(*up[2:], down[3]) for up, down in zip(*words, strict=True)]
@@ -248,10 +247,9 @@ async def stage_plans_exact(dut):
         for _ in range(14):
             rate, count = operation(rand, table)
             ramp = int(rand.random() < 0.9)
-            u.put(plan_ramp_i=ramp, plan_endless_i=count is None, plan_rate_i=rate)
-            u.put(plan_count_i=count or rand.getrandbits(32))
-            await u.clk(plan_start_i=1)
-            u.put(plan_start_i=0)
+            steady = ((ramp, 1), (count is None, 1), (rate, 16), (count or rand.getrandbits(32), 32))
+            await u.clk(plan_i=pack((1, 1), *steady))
+            u.put(plan_i=pack((0, 1), *steady))
             took = await _idle(u, "plan_busy_o")
             where = f"curve {case} {brief(table)}, rate {rate}, {count} pulses"
             assert 0 < took <= LONGEST_PLAN, f"{where}: {took} clk"

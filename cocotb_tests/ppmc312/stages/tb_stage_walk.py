@@ -65,7 +65,7 @@ class Walker:
         """One clk; returns the watched outputs before it."""
         out = await self.look(**inputs)
         self.asked.popleft()
-        self.asked.append((self.u.get("side_o"), self.u.get("addr_o")))
+        self.asked.append(divmod(self.u.get("look_o"), 128))
         await self.u.clk()
         return out
 
@@ -74,7 +74,7 @@ class Walker:
         side, i = self.asked[0]
         table, i = self.table, min(i, STAGES - 1)
         pulses = table.pd if side else table.pa
-        self.u.put(table_rate_i=table.rates[i], table_pulses_i=pulses[i])
+        self.u.put(stage_i=pack((table.rates[i], 16), (pulses[i], 24)))
         return await self.u.settle(**inputs)
 
     async def load(self) -> None:
@@ -84,12 +84,17 @@ class Walker:
         self.u.put(slow_i=0, change_i=0)
         stage, left = walk_start(table, plan.down) if plan.down else (0, 0)
         part = int(plan.down > 0 and left != table.pd[stage])
-        self.u.put(dec_from_i=pack((stage, 7), (part, 1), (left * part, 24)), dec_i=plan.down)
-        self.u.put(target_i=Target.of(table, plan.rate).packed, endless_i=plan.n is None)
-        await self.clk(load_i=1, climb_i=plan.up > 0, count_i=plan.n or 7)
-        self.u.put(load_i=0, climb_i=self.rand.randrange(2), count_i=self.rand.getrandbits(32), target_i=0)
+        walk = ((plan.down, 24), (stage, 7), (part, 1), (left * part, 24))
+        target = Target.of(table, plan.rate).packed
+        begin = pack((plan.n is None, 1), (plan.up > 0, 1), (plan.n or 7, 32), *walk, (target, 38))
+        await self.clk(load_i=1, plan_i=begin)
+        self.u.put(load_i=0, plan_i=self.plan_word(0))
         for _ in range(12):
             await self.clk()
+
+    def plan_word(self, target: int) -> int:
+        """plan_t after the load: only its target means something."""
+        return self.rand.getrandbits(90) << 38 | target
 
     def plan_requests(self) -> dict[int, str]:
         """Requests in the coming interval, by their lead in clk; at most one change."""
@@ -128,9 +133,9 @@ class Walker:
                 rate = self.aim()
                 self.story[-1] += f" to {rate}"
                 self.sequence.change(Change(rate, what == "ramp"))
-                packed = Target.of(self.table, rate).packed
-                target = {left - TARGET_CLK: {"target_i": packed, "change_ramp_i": what == "ramp"}}
-            self.u.put(target_i=self.rand.getrandbits(38), change_ramp_i=self.rand.randrange(2))
+                plan = self.plan_word(Target.of(self.table, rate).packed)
+                target = {left - TARGET_CLK: {"plan_i": plan, "change_ramp_i": what == "ramp"}}
+            self.u.put(plan_i=self.plan_word(self.rand.getrandbits(38)), change_ramp_i=self.rand.randrange(2))
             await self.clk(slow_i=slow, change_i=bool(what) and what != "slow", **target.get(left, {}))
         self.u.put(change_i=0)
 

@@ -1,32 +1,30 @@
-"""Key figures of a move before it is made, from the golden model's ramp. Pure but for the plot."""
+"""Key figures of a move before it is made, from the golden model's ramp, which most of the family have; and
+the plot of any move. Pure but for the plot."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
+from ...errors import PpmcError
 from ...host.basis import units
-from ...host.basis.errors import OutOfRange, PpmcError
-from ...host.basis.kind import AnySetup
-from ...host.ppmc312.profile import Setup312
+from ...host.basis.errors import OutOfRange
 from ...model.motion.codes import ENDLESS
 from ...model.motion.ramp import profile_index
-from ..ppmc312.forecast import course312, figures312
 
 LONGEST_PLOT = 1_000_000
 
 
-def key_figures(setup: AnySetup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
     """Figures of an undisturbed move; times in s from the first to the last pulse, speeds in pps.
 
     Computed interval by interval along the ramp, in closed form on the plateau. OutOfRange for a number of
     pulses that the part cannot do.
     """
-    if isinstance(setup, Setup312):
-        return figures312(setup, pulses, speed)
     n = abs(pulses)
     if not 1 <= n <= ENDLESS:
         raise OutOfRange(f"{pulses} pulses: a move has 1 to {ENDLESS} pulses either way")
@@ -63,10 +61,8 @@ class Course:
     speeds: list[float]
 
     @classmethod
-    def of(cls, setup: AnySetup, pulses: int, speed: units.Speed | None) -> Course:
+    def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
         """With the ramp of the set-up or at a constant speed, pulses from 1 on."""
-        if isinstance(setup, Setup312):
-            return cls(*course312(setup, pulses, speed))
         if speed is None:
             ramp, clock = setup.ramp(), setup.clock
             counts = [ramp.rate(profile_index(pulses, ramp.pa, j)) + 1 for j in range(1, pulses)]
@@ -79,9 +75,9 @@ class Course:
         return cls(seconds, [speeds[count] for count in counts])
 
 
-def plot_move(setup: AnySetup, pulses: int, speed: units.Speed | None, path: Path) -> None:
-    """Speed over time as PNG, SVG or PDF. OutOfRange for moves too long to draw and for file names that the
-    plotter does not know."""
+def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
+    """Speed over time as PNG, SVG or PDF. course: makes that of so many pulses. OutOfRange for moves too long
+    to draw and for file names that the plotter does not know."""
     try:
         from ...plot.profile import FORMATS, draw_profile
     except ImportError as error:
@@ -90,4 +86,4 @@ def plot_move(setup: AnySetup, pulses: int, speed: units.Speed | None, path: Pat
         raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses: choose a shorter move")
     if path.suffix.lower() not in FORMATS:
         raise OutOfRange(f"{path}: the name of a plot ends in {', '.join(FORMATS)}")
-    draw_profile(Course.of(setup, abs(pulses), speed), f"{pulses} pulses", path)
+    draw_profile(course(abs(pulses)), f"{pulses} pulses", path)

@@ -1,4 +1,4 @@
-"""The command that a name means: parts on a line have their own ones."""
+"""The command that a name means: parts on a line have commands of their own (column `commands`)."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from .session import PartName
+from ... import parts
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
-LINES = {PartName.PPMC312_SERIAL: ("ports", "plan"), PartName.PMC006: ("ports",)}
-"""Parts with commands of their own, and the others that they share: these open no board."""
+LINES = tuple(row.name for row in parts.having("commands"))
+"""Parts with commands of their own. They name the shared ones that they have, too: these open no board."""
 
 
 class PartGroup(TyperGroup):
-    """With --part ppmc312-serial the commands are those of `bus_app`, with pmc006 those of `app006`."""
+    """With --part the commands are those of that part, if it has commands of its own."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         """All, those that only lines have at the end."""
@@ -37,24 +37,19 @@ class PartGroup(TyperGroup):
         name, part = args[0], _part(ctx)
         own = super().get_command(ctx, name)
         have = [one for one in LINES if name in _line_commands(one, ctx)]
-        if part is not None and part not in have and name not in LINES[part] and (own or have):
-            raise _UsageError(f"{name}: not with --part {part.value}", ctx)
+        if part is not None and part not in have and (own or have):
+            raise _UsageError(f"{name}: not with --part {part}", ctx)
         if part is None and own is None and have:
-            words = " or ".join(one.value for one in have)
-            raise _UsageError(f"{name}: only with --part {words}", ctx)
+            raise _UsageError(f"{name}: only with --part {' or '.join(have)}", ctx)
         return super().resolve_command(ctx, args)
 
 
-def _part(ctx: Any) -> PartName | None:
+def _part(ctx: Any) -> str | None:
     """The part that was named, if it has commands of its own."""
-    part = ctx.params.get("part")
-    return part if part in LINES else None
+    named = ctx.params.get("part")
+    return next((part for part in LINES if part == named), None)
 
 
-def _line_commands(part: PartName, ctx: Any) -> dict[str, Any]:
-    if part is PartName.PMC006:
-        from ..pmc006.app import app006 as app
-    else:
-        from ..ppmc312.line.app import bus as app
-    group: Any = typer.main.get_command(app)
+def _line_commands(part: str, ctx: Any) -> dict[str, Any]:
+    group: Any = typer.main.get_command(parts.part(part).load("commands"))
     return {name: group.get_command(ctx, name) for name in group.list_commands(ctx)}

@@ -12,10 +12,21 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from ...host.basis.errors import PpmcError
-from ...host.basis.kind import PPMC104, AnySetup, Kind
+from ...errors import PpmcError
+from ...host.basis.kind import AnySetup, Kind, Wanted, kind_of
 
+USUAL = kind_of("ppmc104")
+"""The part where nobody has named one: of plans, and of virtual boards."""
+NUMBERS = {"ignore_unknown_options": True}
+"""Settings of a command with signed numbers, so that `move -200` is a number and not an option."""
+Json = Annotated[bool, typer.Option("--json", help="for programs")]
 _PANEL = "Set-up (remembered by init)"
+
+
+def check_seconds(seconds: float | None) -> None:
+    """BadParameter for a value of --seconds that is no time."""
+    if seconds is not None and not 0 <= seconds < float("inf"):
+        raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
 
 
 class Logic(str, Enum):
@@ -69,13 +80,12 @@ class SetupValues:
         """For the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int, kind: Kind = PPMC104, axis: int = 1) -> AnySetup:
+    def plan(self, xtal_hz: int, kind: Kind = USUAL, axis: int = 1) -> AnySetup:
         """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
-        return kind.plan(
-            xtal_hz,
+        wanted = Wanted(
             self.start,
             self.high,
-            kind.usual_ramp if self.ramp is None else self.ramp,
+            self.ramp,
             self.phases,
             self.half_step,
             None if self.logic is None else Logic(self.logic) is Logic.POSITIVE,
@@ -89,6 +99,7 @@ class SetupValues:
             self.sigmoid,
             self.curve,
         )
+        return kind.plan(xtal_hz, wanted)
 
 
 def _option(*names: str, text: str, metavar: str | None = None) -> Any:
@@ -164,7 +175,8 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
         for name, annotation in _OPTIONS.items()
     ]
-    del wrapper.__wrapped__  # type: ignore[attr-defined]
-    wrapper.__signature__ = inspect.Signature([*own, *added])  # type: ignore[attr-defined]
-    wrapper.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}
+    seen: Any = wrapper  # by typer, which reads the signature
+    del seen.__wrapped__
+    seen.__signature__ = inspect.Signature([*own, *added])
+    seen.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}
     return wrapper

@@ -4,37 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from ...host import Axis, End, NothingToStop, Ppmc104, Ppmc312, Ppmc2104, PpmcError
-from ...host.basis.kind import AUX, COILS_OFF, Kind
-from ..ppmc312 import words
-from . import show
+from ...host import PpmcError
+from ...host.axis.part import AnyAxis
+from ...host.basis.kind import COILS_OFF, Kind
 from .options import SetupValues
 from .program import OF_ALL_AXES, OF_AXES, ScriptError, Step
-from .session import Session
+from .session import Session, stop_all
+from .words import own_words
 
 
-def positions(axes: Iterable[Axis]) -> str:
+def positions(axes: Iterable[AnyAxis]) -> str:
     """Where they stand, in words."""
     at = [str(axis.position) for axis in axes]
     return f"position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
-
-
-def stop_all(axes: tuple[Axis, ...], now: bool = False) -> list[End]:
-    """Stop motions, perhaps of another program, and wait for their ends. All are stopped before an error is
-    told; that one rests already is none as long as another moves."""
-    errors: list[PpmcError] = []
-    moving = []
-    for axis in axes:
-        try:
-            (axis.halt if now else axis.stop)(wait=False)
-            moving.append(axis)
-        except PpmcError as error:
-            errors.append(error)
-    ends = [axis.motion.wait() for axis in moving if axis.motion is not None]
-    for error in errors:
-        if len(errors) == len(axes) or not isinstance(error, NothingToStop):
-            raise error
-    return ends
 
 
 class Player:
@@ -56,7 +38,7 @@ class Player:
                 continue
             try:
                 self._do(step)
-                show.reports(self._part, self._say)
+                self._session.view.reports(self._part, self._say)
             except ScriptError:
                 raise
             except PpmcError as error:
@@ -86,39 +68,32 @@ class Player:
         elif step.word == "wait":
             self._guard.pause(self._part, values["seconds"])
         elif step.word == "stop":
-            status = self._part.status().raw
-            if busy := tuple(motor for motor in self._session.chosen(step.axis) if status & motor.busy):
-                stop_all(busy)
+            stop_all(self._session.view.busy(self._part, self._session.chosen(step.axis)))
         elif step.word == "zero":
             axis.zero()
-        elif step.word == "aux" and isinstance(self._part, Ppmc104):
-            self._part.aux(values["on"])
-        elif step.word in words.WORDS and isinstance(self._part, Ppmc312):
-            words.do(self._part, step.word, values)
-        elif step.word == "auxo" and isinstance(self._part, (Ppmc104, Ppmc2104, Ppmc312)):
-            self._part.auxo(values["value"])
+        elif own := own_words().get(step.word):
+            own.do(self._part, values)
         elif step.word == "off":
             for motor in self._chosen(step):
                 motor.excitation_off()
         else:
             self._say(f"{self._name}:{step.line}: {positions(self._chosen(step))}")
 
-    def _chosen(self, step: Step) -> tuple[Axis, ...]:
+    def _chosen(self, step: Step) -> tuple[AnyAxis, ...]:
         """The axis that a line names, or all that the program uses."""
         numbers = sorted(self._values) if step.axis is None else [step.axis]
         return tuple(self._session.axis(number) for number in numbers)
 
-    def _move(self, step: Step, axis: Axis) -> None:
+    def _move(self, step: Step, axis: AnyAxis) -> None:
         """move and goto, one axis or both."""
         values, progress = step.values, self._guard.progress
         absolute, speed = step.word == "goto", values.get("speed")
-        wanted = [values["position" if absolute else "pulses"], values["second"]]
-        if wanted[1] is not None and isinstance(self._part, Ppmc2104):
-            at = [motor.position if absolute else 0 for motor in self._part.axes]
-            x, y = (value - begin for value, begin in zip(wanted, at, strict=True))
-            self._part.together(x, y, speed, speed, progress)
+        first, second = values["position" if absolute else "pulses"], values["second"]
+        if second is not None:
+            x, y = (motor.position if absolute else 0 for motor in self._part.axes[:2])
+            self._session.view.together(self._part, (first - x, second - y), speed, progress)
             return
-        pulses = wanted[0] - (axis.position if absolute else 0)
+        pulses = first - (axis.position if absolute else 0)
         if speed is None or pulses == 0:
             axis.move(pulses, progress)
         else:
@@ -148,16 +123,10 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
 
 def _lacks(step: Step, kind: Kind) -> str:
     """What a part does not have for this step, empty if it has all."""
-    if lacks := words.lacks(step.word, kind):
-        return lacks
+    if own := own_words().get(step.word):
+        return own.lacks(kind, step.values)
     if step.word == "off" and COILS_OFF not in kind.has:
         return f"a {kind} cannot switch its coils off"
-    if step.word == "aux" and AUX not in kind.has:
-        return f"a {kind} has no output AUX" + (": use auxo" if kind.outputs else "")
-    if step.word == "auxo" and not kind.outputs:
-        return f"a {kind} has no auxiliary outputs"
-    if step.word == "auxo" and step.values["value"] > kind.outputs:
-        return f"outputs {step.values['value']} is outside 0 to {kind.outputs}"
     return ""
 
 

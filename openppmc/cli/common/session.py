@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
@@ -10,42 +10,42 @@ from typing import Any
 
 import typer
 
-from ...host import AnyPart, Axis, open_part
-from ...host.basis.kind import BY_WORD, PPMC104, Kind
+from ... import parts
+from ...host import End, NothingToStop, PpmcError, open_part
+from ...host.axis.part import AnyAxis, Part
+from ...host.basis.kind import Kind, kind_of
 from ...host.bridge.link import DEFAULT_BAUD
 from ...host.ports.transport import MODEL, SIM
-from . import show
+from . import output
 from .guard import Guard, Interrupted
-from .options import SetupValues
+from .options import USUAL, SetupValues
 from .state import recall
+from .view import AnyView, view_of
 
 INTERRUPTED = 130
 
 
 class PartName(str, Enum):
-    """Parts as users name them."""
+    """The parts of the table that a computer can talk to: behind a bridge, or on a line."""
 
-    PPMC104 = "ppmc104"
-    PPMC2104 = "ppmc2104"
-    STMC = "stmc"
-    PPMC312 = "ppmc312"
-    PPMC312_SERIAL = "ppmc312-serial"
-    PMC006 = "pmc006"
+    _ignore_ = ["members", "row"]
+    members = vars()
+    for row in parts.PARTS.values():
+        if row.number or row.line:
+            members[row.name] = row.name
 
-    @property
-    def kind(self) -> Kind:
-        """What it can do."""
-        return BY_WORD[self.value]
+
+NAMES = frozenset(name.value for name in PartName)
 
 
 @dataclass
 class Board:
-    """Which board, from the options in front of the command. baud: None: what is usual. part: None if the
-    user named none. line: options of a line (ppmc312-serial, pmc006)."""
+    """Which board, from the options in front of the command. baud: None: what is usual. part: its name in the
+    table, None if the user named none. line: options of a line."""
 
     port: str = ""
     baud: int | None = None
-    part: PartName | None = None
+    part: str | None = None
     line: str = ""
 
     @property
@@ -54,18 +54,18 @@ class Board:
         if self.part is None or not self.port.startswith((MODEL, SIM)):
             return self.port
         comma = "" if self.port.endswith(":") else ","
-        return f"{self.port}{comma}part={self.part.value}"
+        return f"{self.port}{comma}part={self.part}"
 
     @property
     def planned(self) -> Kind:
         """The part for plans, which open no board: the one that was named, in the port's text if need be."""
         if self.part is not None:
-            return self.part.kind
+            return kind_of(self.part)
         if not self.port.startswith((MODEL, SIM)):
-            return PPMC104
+            return USUAL
         words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
         named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
-        return BY_WORD.get(named[-1], PPMC104) if named else PPMC104
+        return kind_of(named[-1]) if named and named[-1] in NAMES else USUAL
 
 
 BOARD = Board()
@@ -75,7 +75,7 @@ BOARD = Board()
 class Session:
     """An open board."""
 
-    part: AnyPart
+    part: Part
     guard: Guard
 
     @property
@@ -84,15 +84,20 @@ class Session:
         return self.part.kind
 
     @property
+    def view(self) -> AnyView:
+        """What it shows, and what not all parts have."""
+        return view_of(self.kind)
+
+    @property
     def xtal_hz(self) -> int:
         """Its crystal."""
         return self.part.link.identity.xtal_hz
 
-    def axis(self, number: int = 1) -> Axis:
+    def axis(self, number: int = 1) -> AnyAxis:
         """One axis; OutOfRange if the part does not have it."""
         return self.part.axes[self.kind.check_axis(number) - 1]
 
-    def chosen(self, number: int | None) -> tuple[Axis, ...]:
+    def chosen(self, number: int | None) -> Sequence[AnyAxis]:
         """That axis, or all."""
         return self.part.axes if number is None else (self.axis(number),)
 
@@ -105,13 +110,13 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 @contextmanager
 def opened() -> Iterator[Session]:
     """The board, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
-    number = None if BOARD.part is None else BOARD.part.kind.number
+    number = None if BOARD.part is None else parts.part(BOARD.part).number
     with Guard() as guard, open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part:
         try:
             guard.check()
             yield Session(part, guard)
         except Interrupted:
-            show.note(guard.bring_to_rest(part))
+            output.note(guard.bring_to_rest(part))
             raise typer.Exit(INTERRUPTED) from None
         finally:
             guard.bar_off()
@@ -132,3 +137,21 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
         for axis, table in values.items()
     }
     return [session.part.axes[axis - 1].apply(plan) for axis, plan in plans.items()]
+
+
+def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[End]:
+    """Stop motions, perhaps of another program, and wait for their ends. All are stopped before an error is
+    told; that one rests already is none as long as another moves."""
+    errors: list[PpmcError] = []
+    moving = []
+    for axis in axes:
+        try:
+            (axis.halt if now else axis.stop)(wait=False)
+            moving.append(axis)
+        except PpmcError as error:
+            errors.append(error)
+    ends = [axis.motion.wait() for axis in moving if axis.motion is not None]
+    for told in errors:
+        if len(errors) == len(axes) or not isinstance(told, NothingToStop):
+            raise told
+    return ends

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from ...host.basis.errors import PpmcError
+from ...errors import PpmcError
 from ...host.ports.transport import MODEL, SIM
 
 

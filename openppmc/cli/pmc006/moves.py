@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from ...host import BACKWARD, FORWARD, Pmc006
-from ..common import show
-from ..ppmc312.line.session import check_seconds, ending_after
-from . import show as show006
-from .session import Address, Session006, opened006
+from ...host.axis.moves import OnProgress
+from ...host.pmc006.motion import Motion
+from ..common import output
+from ..common.line_session import ending_after
+from ..common.options import check_seconds
+from . import show
+from .session import Address, Session, opened
 
-app006 = typer.Typer(add_completion=False)
-_NUMBERS = {"ignore_unknown_options": True}
 Speed = Annotated[int | None, typer.Option(metavar="PPS", help="max_speed from now on, in steps/s")]
 
 
@@ -30,7 +31,6 @@ class Way(str, Enum):
         return FORWARD if self is Way.FORWARD else BACKWARD
 
 
-@app006.command(context_settings=_NUMBERS)
 def move(
     steps: Annotated[int, typer.Argument(help="steps, forward positive; with --to a position")],
     address: Address = None,
@@ -38,7 +38,7 @@ def move(
     speed: Speed = None,
 ) -> None:
     """Move controllers so many steps, all at the same time."""
-    with opened006() as session:
+    with opened() as session:
         motions = []
         for part in session.chosen(address):
             session.guard.check()
@@ -46,11 +46,10 @@ def move(
             if away:
                 motions.append(part.start_move(away, speed))
             else:
-                show.say(show006.end_line(part.move(0)))
+                output.say(show.end_line(part.move(0)))
         _finish(session, motions, True)
 
 
-@app006.command()
 def jog(
     direction: Annotated[Way, typer.Argument(help="where to")],
     address: Address = None,
@@ -59,29 +58,28 @@ def jog(
 ) -> None:
     """Run until Ctrl-C, an EXT stop or a stall."""
     check_seconds(seconds)
-    with opened006() as session:
+    with opened() as session:
         parts = session.chosen(address)
         motions = [part.jog(direction.sign, speed) for part in parts]
         _finish(session, motions, False, ending_after(seconds, session.bus, session.guard, parts))
 
 
-def _finish(session: Session006, motions: list[Any], judge: bool, look: Any = None) -> None:
+def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgress | None = None) -> None:
     """Wait for all, print where they stand, tell the first that ended early."""
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        show.say(show006.end_line(end))  # type: ignore[arg-type]
+        output.say(show.end_line(end))
     for motion, end in zip(motions, ends, strict=True):
         if judge:
             end.check(motion.asked)
 
 
-@app006.command(context_settings=_NUMBERS)
 def speed(
     pps: Annotated[int, typer.Argument(help="steps/s, forward positive; 0 stops")], address: Address = None
 ) -> None:
     """Let motors run at this speed, and leave them running; `stop` stops them."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             session.guard.check()
             if pps == 0 or not _goes(part, pps):
@@ -89,7 +87,8 @@ def speed(
                     part.stop()
                 if pps:
                     part.jog(FORWARD if pps > 0 else BACKWARD, abs(pps))
-            show.say(f"{part.who}{f'runs at {pps} steps/s' if pps else f'position {part.position}: stopped'}")
+            state = f"runs at {pps} steps/s" if pps else f"position {part.position}: stopped"
+            output.say(part.who + state)
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
@@ -101,21 +100,19 @@ def _goes(part: Pmc006, pps: int) -> bool:
     return True
 
 
-@app006.command()
 def stop(
     address: Address = None,
     now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
 ) -> None:
     """Stop motors that were left running."""
-    with opened006() as session:
+    with opened() as session:
         ends = session.bus.stop([part.address for part in session.chosen(address)], now)
         for end in ends:
-            show.say(show006.end_line(end))  # type: ignore[arg-type]
+            output.say(show.end_line(end))
         if not ends:
-            show.say("nothing was moving")
+            output.say("nothing was moving")
 
 
-@app006.command()
 def home(
     address: Address = None,
     switch: Annotated[int, typer.Option(min=1, max=2, metavar="N", help="EXT1 or EXT2")] = 1,
@@ -125,8 +122,8 @@ def home(
     off: Annotated[int, typer.Option(metavar="STEPS", help="from the switch to position 0")] = 100,
 ) -> None:
     """Find a switch, move off it, and call that place position 0; one controller after the other."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             part.home(switch, direction.sign, speed, slow, off, session.guard.progress)
             session.guard.bar_off()
-            show.say(f"{part.who}position {part.position}: {off} steps from the edge of EXT{switch}")
+            output.say(f"{part.who}position {part.position}: {off} steps from the edge of EXT{switch}")

@@ -9,8 +9,8 @@ import typer
 
 from ...errors import PpmcError
 from ...model.pmc006.program import BadImage, Program, assemble, disassemble
-from ..common import show
-from .session import Address, opened006
+from ..common import output
+from .session import Address, opened
 
 program = typer.Typer(help="pmc006: user programs.", no_args_is_help=True, add_completion=False)
 File = Annotated[Path, typer.Argument(metavar="FILE", help="a text, or an image (.bin)")]
@@ -37,7 +37,7 @@ def _write(path: Path | None, text: str | bytes) -> None:
     try:
         if path is None:
             assert isinstance(text, str)
-            show.say(text.rstrip("\n"))
+            output.say(text.rstrip("\n"))
         elif isinstance(text, bytes):
             path.write_bytes(text)
         else:
@@ -56,8 +56,8 @@ def assemble_file(file: File, out: Out = None) -> None:
         for number, one in enumerate(made.used):
             first, second = one.words
             name = one.kind.name if one.kind is not None else "?"
-            show.say(f"{number:3}  {first:08X} {second:08X}  {name}")
-    show.note(f"{len(made.used)} instructions")
+            output.say(f"{number:3}  {first:08X} {second:08X}  {name}")
+    output.note(f"{len(made.used)} instructions")
 
 
 @program.command("disassemble")
@@ -75,23 +75,23 @@ def load(
 ) -> None:
     """Load a program into the buffer; it is lost at power-off unless it is burned."""
     made = _read(file)
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             part.load_program(made, session.counting)
             session.guard.bar_off()
-            show.say(f"{part.who}{len(made.used)} instructions loaded and checked")
+            output.say(f"{part.who}{len(made.used)} instructions loaded and checked")
             if burn:
                 part.burn_program()
-                show.say(f"{part.who}burned")
+                output.say(f"{part.who}burned")
             if run:
                 part.run_program()
-                show.say(f"{part.who}running")
+                output.say(f"{part.who}running")
 
 
 @program.command("read")
 def read_back(address: Address = None, out: Out = None) -> None:
     """The program in the buffer as a text, or as an image (--out x.bin)."""
-    with opened006() as session:
+    with opened() as session:
         found = session.one(address).read_program(session.counting)
         session.guard.bar_off()
     if out is not None and out.suffix == ".bin":
@@ -103,42 +103,42 @@ def read_back(address: Address = None, out: Out = None) -> None:
 @program.command()
 def burn(address: Address = None) -> None:
     """Keep the buffer's program for the next power-up; `set offline=1` and `save` let it start by itself."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             part.burn_program()
-            show.say(f"{part.who}burned")
+            output.say(f"{part.who}burned")
 
 
 @program.command()
 def run(address: Address = None, begin: Place = 0) -> None:
     """Start the program in the buffer."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             part.run_program(begin)
-            show.say(f"{part.who}running")
+            output.say(f"{part.who}running")
 
 
 @program.command()
 def halt(address: Address = None) -> None:
     """Halt the program; a motion goes on."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             part.halt_program()
-            show.say(f"{part.who}halted")
+            output.say(f"{part.who}halted")
 
 
 @program.command("try")
 def try_one(address: Address = None, begin: Place = 0) -> None:
     """Carry out one instruction of the buffer."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
             part.try_instruction(begin)
-            show.say(f"{part.who}instruction {begin} carried out")
+            output.say(f"{part.who}instruction {begin} carried out")
 
 
 @program.command()
 def state(address: Address = None) -> None:
     """Whether a program runs."""
-    with opened006() as session:
+    with opened() as session:
         for part in session.chosen(address):
-            show.say(f"{part.who}{'a program runs' if part.program_runs() else 'no program runs'}")
+            output.say(f"{part.who}{'a program runs' if part.program_runs() else 'no program runs'}")

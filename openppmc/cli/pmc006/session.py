@@ -10,12 +10,12 @@ from typing import Annotated
 import typer
 
 from ...host import Pmc006, Pmc006Bus
-from ...host.pmc006.bus import Found006
+from ...host.pmc006.bus import Found
 from ...host.pmc006.driver import find
 from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST
 from ..common.guard import Guard
+from ..common.line_session import guarded, line_options, parse_numbers
 from ..common.session import BOARD
-from ..ppmc312.line.session import guarded, line_options, parse_numbers
 
 LINE_WORDS = "rs485, rts=high, rts=low, patience=SECONDS"
 Address = Annotated[
@@ -37,7 +37,7 @@ def parse_addresses(text: str) -> list[int]:
 
 
 @dataclass
-class Session006:
+class Session:
     """An open line."""
 
     bus: Pmc006Bus
@@ -62,7 +62,7 @@ class Session006:
             raise typer.BadParameter(f"--address {text!r}: this is for one controller at a time")
         return self.chosen(text)[0]
 
-    def scan(self) -> list[Found006]:
+    def scan(self) -> list[Found]:
         """Who is there."""
         found = self.bus.scan(progress=self._scanning)
         self.guard.bar_off()
@@ -79,10 +79,10 @@ class Session006:
 
 
 @contextmanager
-def opened006() -> Iterator[Session006]:
+def opened() -> Iterator[Session]:
     """The line, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
     options = line_options(BOARD.line, LINE_WORDS)
     if BOARD.baud is not None:
         options["baud"] = BOARD.baud
     with guarded(lambda: Pmc006Bus.open(BOARD.port, **options)) as (bus, guard):
-        yield Session006(bus, guard)
+        yield Session(bus, guard)

@@ -8,10 +8,9 @@ from typing import Any
 
 from rich.table import Table
 
-from ...host import Pmc006
-from ...host.pmc006.bus import Found006
+from ...host import End, Pmc006
+from ...host.pmc006.bus import Found
 from ...host.pmc006.codes import Flags, Modes
-from ...host.pmc006.motion import End006
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
 
 _HEADS = ("address", "version", "state", "position", "line faults")
@@ -28,7 +27,7 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
     return ", ".join(words) or "at rest"
 
 
-def found_table(found: Iterable[Found006]) -> Table:
+def found_table(found: Iterable[Found]) -> Table:
     """A line a controller."""
     grid = Table(box=None, pad_edge=False)
     for head in _HEADS:
@@ -44,7 +43,7 @@ def found_table(found: Iterable[Found006]) -> Table:
     return grid
 
 
-def found_values(found: Iterable[Found006]) -> list[dict[str, Any]]:
+def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
     """For JSON."""
     return [
         {
@@ -59,7 +58,7 @@ def found_values(found: Iterable[Found006]) -> list[dict[str, Any]]:
     ]
 
 
-def end_line(end: End006) -> str:
+def end_line(end: End) -> str:
     """Where the motor stands, and why."""
     steps = ""
     if end.pulses is not None:

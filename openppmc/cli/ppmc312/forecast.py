@@ -8,13 +8,14 @@ from typing import Any
 from ...host.basis import units
 from ...host.basis.errors import OutOfRange
 from ...host.ppmc312.motion import SHAPES
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.profile import Setup
 from ...model.ppmc312.stages.plan import Plan, constant, ramped
+from ..common.forecast import Course
 
 LONGEST_MOVE = (1 << 32) - 1
 
 
-def _plan(setup: Setup312, pulses: int, speed: units.Speed | None) -> Plan:
+def _plan(setup: Setup, pulses: int, speed: units.Speed | None) -> Plan:
     if not 1 <= pulses <= LONGEST_MOVE:
         raise OutOfRange(f"{pulses} pulses: a move has 1 to {LONGEST_MOVE} pulses either way")
     if speed is None:
@@ -22,7 +23,7 @@ def _plan(setup: Setup312, pulses: int, speed: units.Speed | None) -> Plan:
     return constant(setup.table, setup.rate_of(speed.asked), pulses)
 
 
-def figures312(setup: Setup312, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+def figures(setup: Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
     """As `forecast.key_figures`: interval by interval on the ramps, in closed form between them."""
     n = abs(pulses)
     plan = _plan(setup, n, speed)
@@ -50,9 +51,9 @@ def figures312(setup: Setup312, pulses: int, speed: units.Speed | None) -> dict[
     return values
 
 
-def course312(setup: Setup312, pulses: int, speed: units.Speed | None) -> tuple[list[float], list[float]]:
-    """Times of the pulses in s, and the speed of each interval in pps."""
+def course(setup: Setup, pulses: int, speed: units.Speed | None) -> Course:
+    """With the table's ramps or at a constant speed, pulses from 1 on."""
     rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
     period = float(setup.clock.period)
     seconds = [ticks * period for ticks in accumulate(rates, initial=0)]
-    return seconds, [1 / (rate * period) for rate in rates]
+    return Course(seconds, [1 / (rate * period) for rate in rates])

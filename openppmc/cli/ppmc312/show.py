@@ -16,10 +16,11 @@ from ...host.ppmc312.answers import (
     Report,
     Stopped,
 )
-from ...host.ppmc312.axis import Axis312
-from ...host.ppmc312.profile import Setup312
+from ...host.ppmc312.axis import Axis
+from ...host.ppmc312.profile import Setup
 from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source
+from ..common import show
 
 _DONE = {
     Code.STOP: "stopped at once",
@@ -29,7 +30,7 @@ _DONE = {
 }
 
 
-def status_values(part: Axis312) -> dict[str, Any]:
+def status_values(part: Axis[Any]) -> dict[str, Any]:
     """Everything that may be read at any time."""
     status = part.status()
     return {
@@ -53,18 +54,13 @@ def state_rows(values: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def setup_rows(setup: Setup312) -> dict[str, str]:
+def setup_rows(setup: Setup) -> dict[str, str]:
     """Asked and reached speeds, ramps, bytes."""
-
-    def speed(value: units.Speed) -> str:
-        text = f"{units.nearby(value.reached)} pps (rate {value.rate})"
-        return text if value.reached == value.asked else f"{text}, asked {units.nearby(value.asked)} pps"
-
     table = setup.table
-    rows = {"start speed": speed(setup.start), "high speed": speed(setup.high)}
+    rows = {"start speed": show.speed(setup.start), "high speed": show.speed(setup.high)}
     rows["ramp"] = f"{setup.shape}, {table.na} pulses, {setup.seconds(table.pa):.4g} s"
     if table.separate:
-        rows["stop speed"] = speed(setup.stop)
+        rows["stop speed"] = show.speed(setup.stop)
         rows["ramp down"] = f"{table.nd} pulses, {setup.seconds(table.pd):.4g} s"
     kind = "external" if setup.clock.external else "internal"
     rows["base clock"] = f"{units.nearby(setup.clock.hertz)} Hz ({kind})"
@@ -73,7 +69,7 @@ def setup_rows(setup: Setup312) -> dict[str, str]:
     return rows
 
 
-def setup_values(setup: Setup312) -> dict[str, Any]:
+def setup_values(setup: Setup) -> dict[str, Any]:
     """For JSON."""
     return {
         "shape": setup.shape,
@@ -87,7 +83,7 @@ def setup_values(setup: Setup312) -> dict[str, Any]:
     }
 
 
-def table_lines(read: TableRead, setup: Setup312) -> list[str]:
+def table_lines(read: TableRead, setup: Setup) -> list[str]:
     """The table as a CSV that `--curve` takes: slowest stage first."""
     lines = ["pps,up,down" if read.down else "pps,up"]
     for place in range(len(read.rates) - 1, -1, -1):

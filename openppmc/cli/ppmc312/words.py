@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ...host import Ppmc312
-from ...host.basis.kind import PPMC312, Kind
+from ...host.basis.kind import Kind
 from ...host.ppmc312 import blocks
+from ...host.ppmc312.kind import KIND
 from ..common.options import Side
-from .overrides import Override, parse_override, register, watch
+from ..common.override import parse_override
+from ..common.reading import Values
+from ..common.words import OwnWord
+from .overrides import register
 
-WORDS = ("at", "event", "pulse", "watch")
 _DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
 
 
-def read_at(words: list[str]) -> dict[str, Any]:
+def read_at(words: list[str]) -> Values:
     """`at POSITION stop|halt|PPS`."""
     if len(words) != 2:
         raise ValueError("at needs: at POSITION stop|halt|PPS")
@@ -22,7 +23,7 @@ def read_at(words: list[str]) -> dict[str, Any]:
     return {"override": override, "speed": override.speed}
 
 
-def read_event(words: list[str]) -> dict[str, Any]:
+def read_event(words: list[str]) -> Values:
     """`event 1|2 WHAT`."""
     if len(words) < 2:
         raise ValueError(f"event needs: event 1|2 {_DOES}")
@@ -42,13 +43,13 @@ def read_event(words: list[str]) -> dict[str, Any]:
     return {"event": event, "what": what}
 
 
-def read_pulse(words: list[str]) -> dict[str, Any]:
+def read_pulse(words: list[str]) -> Values:
     """`pulse 1|2`."""
     _count(words, 1)
     return {"event": _event(words[0])}
 
 
-def read_watch(words: list[str]) -> dict[str, Any]:
+def read_watch(words: list[str]) -> Values:
     """`watch DISTANCE|off`."""
     _count(words, 1)
     distance = None if words[0].lower() == "off" else _whole(words[0])
@@ -75,27 +76,29 @@ def _count(words: list[str], wanted: int) -> None:
         raise ValueError(f"{wanted} word{'s' if wanted != 1 else ''} expected here, not {len(words)}")
 
 
-def lacks(word: str, kind: Kind) -> str:
+def _lacks(kind: Kind, values: Values) -> str:
     """Why another part cannot do it; empty for a PPMC-312."""
-    return "" if kind is PPMC312 or word not in WORDS else f"a {kind} has neither overrides nor events"
+    return "" if kind is KIND else f"a {kind} has neither overrides nor events"
 
 
-def do(part: Ppmc312, word: str, values: dict[str, Any]) -> None:
-    """Carry one of the words out."""
-    if word == "at":
-        override: Override = values["override"]
-        register(part, [override])
-    elif word == "watch":
-        if values["distance"] is None:
-            part.watch_encoder(None)
-        watch(part, values["distance"])
-    elif word == "pulse":
-        part.pulse_event(values["event"])
-    elif values["what"] == "delete":
+def _do_at(part: Ppmc312, values: Values) -> None:
+    register(part, [values["override"]])
+
+
+def _do_event(part: Ppmc312, values: Values) -> None:
+    if values["what"] == "delete":
         while part.event_delete(values["event"]):
             pass
     else:
         part.event_add(values["event"], _block(part, values["what"], values.get("value", 0)))
+
+
+def _do_pulse(part: Ppmc312, values: Values) -> None:
+    part.pulse_event(values["event"])
+
+
+def _do_watch(part: Ppmc312, values: Values) -> None:
+    part.watch_encoder(values["distance"])
 
 
 def _block(part: Ppmc312, what: str, value: int) -> bytes:
@@ -106,3 +109,11 @@ def _block(part: Ppmc312, what: str, value: int) -> bytes:
     if what == "outputs":
         return blocks.outputs(value)
     return blocks.immediate_stop() if what == "halt" else blocks.slow_stop()
+
+
+WORDS = {
+    "at": OwnWord(read_at, _lacks, _do_at),
+    "event": OwnWord(read_event, _lacks, _do_event),
+    "pulse": OwnWord(read_pulse, _lacks, _do_pulse),
+    "watch": OwnWord(read_watch, _lacks, _do_watch),
+}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ...model.motion.codes import (
     ACC_DEC,
     CONSTANT,
@@ -11,47 +9,21 @@ from ...model.motion.codes import (
     ENDLESS,
     HIGH_SPEED,
     ORIGIN,
-    RAMP_OPERATIONS,
     SINGLE_STEP,
 )
 from ..basis import units
-from ..basis.arguments import side
 from ..basis.ending import Cause, End
-from ..basis.errors import AlreadyDecelerating, NothingToStop, OutOfRange
+from ..basis.errors import OutOfRange
 from ..basis.kind import PULSE_ONLY
+from ..basis.refusals import AlreadyDecelerating, NothingToStop
 from ..bridge.script import Script
 from .core import AxisCore
 from .homing import Homing
-from .motion import READ_FINISH, Motion
+from .motion import READ_FINISH, Motion, Order
 from .moves import Moves, OnProgress
 
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
-OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
-
-
-@dataclass(frozen=True)
-class Order:
-    """A motion to start. operation: low three bits of its code. asked: pulses, None for endless ones.
-    clock: base clock, None for that of the ramp."""
-
-    operation: int
-    direction: int
-    data: bytes = b""
-    asked: int | None = None
-    clock: units.BaseClock | None = None
-    pulse_only: bool = False
-
-    @property
-    def code(self) -> int:
-        """Command byte without an axis bit."""
-        group = OPERATION_PULSES if self.pulse_only else OPERATION
-        return group | side(self.direction) << DIRECTION_BIT | self.operation
-
-    @property
-    def ramped(self) -> bool:
-        """With ramps, so a stop may take one as well."""
-        return self.operation in RAMP_OPERATIONS
 
 
 class Axis(Moves, AxisCore):

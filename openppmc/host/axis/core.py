@@ -7,12 +7,14 @@ from dataclasses import replace
 from ..basis import units
 from ..basis.arguments import Checked
 from ..basis.ending import End
-from ..basis.errors import NotWhileBusy, OutOfRange, ProtocolError
-from ..basis.kind import COILS_OFF, Kind
+from ..basis.errors import OutOfRange, ProtocolError
+from ..basis.kind import COILS_OFF, Wanted
+from ..basis.refusals import NotWhileBusy
 from ..bridge.link import Link
 from ..bridge.script import Script
+from .kind import RateKind
 from .motion import Motion
-from .registers import Outputs, ReadCodes, Switches
+from .registers import FAMILY, Outputs, ReadCodes, Switches
 
 EXCITATION_OFF = 0xC0
 
@@ -22,11 +24,10 @@ class AxisCore(Checked):
     its command codes have set; busy: its bit in the status register.
     """
 
-    kind: Kind
+    kind: RateKind
     number = 1
     bit = 0
     busy = 0x04
-    codes = ReadCodes()
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -37,6 +38,11 @@ class AxisCore(Checked):
     def motion(self) -> Motion | None:
         """The motion that was started last, None before the first."""
         return self._motion
+
+    @property
+    def codes(self) -> ReadCodes:
+        """Of the read commands that differ from part to part."""
+        return FAMILY
 
     @property
     def who(self) -> str:
@@ -72,11 +78,20 @@ class AxisCore(Checked):
         what stays as it is until `reset`. Raises OutOfRange, also for what the part does not have, and
         NotWhileBusy.
         """
-        motor = (phases, half_step, positive_logic, chop)
-        clocks = (base_clock, external_clock, long_intervals)
-        speeds = (start_pps, high_pps, ramp_pulses)
-        xtal_hz = self.link.identity.xtal_hz
-        return self.apply(self.kind.plan(xtal_hz, *speeds, *motor, *clocks, self.number))
+        wanted = Wanted(
+            start_pps,
+            high_pps,
+            ramp_pulses,
+            phases,
+            half_step,
+            positive_logic,
+            chop,
+            base_clock,
+            external_clock,
+            long_intervals,
+            self.number,
+        )
+        return self.apply(self.kind.plan(self.link.identity.xtal_hz, wanted))
 
     # ------------------------------------------------------------------ for the parts
 

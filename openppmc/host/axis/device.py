@@ -1,18 +1,41 @@
-"""A part at the end of a link: opening, closing, and no motion of ours left running after an error."""
+"""What a program holds open: closing it, and no motion of ours left running after an error."""
 
 from __future__ import annotations
 
 from types import TracebackType
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from ..basis.arguments import Checked
+from ..basis.ending import End
 from ..basis.errors import Disconnected, PpmcError
 from ..basis.kind import Kind
-from ..bridge.link import DEFAULT_BAUD, Link
-from ..ports.transport import Port
-from .axis import Axis
+from .motion import AnyMotion
 
 Self = TypeVar("Self", bound="Device")
+
+
+class Way(Protocol):
+    """The way to the hardware: a bridge's link or the master's end of a line."""
+
+    @property
+    def name(self) -> str: ...
+    def clock(self) -> float: ...
+    def pause(self, seconds: float) -> None: ...
+    def close(self) -> None: ...
+
+
+class Turning(Protocol):
+    """An axis of any part, as far as it takes to bring it to rest."""
+
+    @property
+    def who(self) -> str: ...
+    @property
+    def position(self) -> int: ...
+    @property
+    def motion(self) -> AnyMotion | None: ...
+    def stop(self, wait: bool = True) -> End | None: ...
+    def halt(self, wait: bool = True) -> End | None: ...
+    def brake(self, now: bool = False) -> None: ...
 
 
 class Device(Checked):
@@ -20,29 +43,12 @@ class Device(Checked):
     leaving it normally lets them go on. Both close the port."""
 
     kind: Kind
-    link: Link
-
-    def __init__(self, link: Link) -> None:
-        raise NotImplementedError
+    link: Way
 
     @property
-    def axes(self) -> tuple[Axis, ...]:
+    def axes(self) -> tuple[Turning, ...]:
         """Its axes, number 1 first."""
         raise NotImplementedError
-
-    @classmethod
-    def open(cls: type[Self], spec: str | Port, baud: int = DEFAULT_BAUD) -> Self:
-        """Open a port (`/dev/ttyUSB0`, `COM3`, `sim:…`, `model:…`) and check what is there."""
-        return cls.on(Link(spec, baud, cls.kind.number))
-
-    @classmethod
-    def on(cls: type[Self], link: Link) -> Self:
-        """On an open link, which is closed if that fails."""
-        try:
-            return cls(link)
-        except BaseException:
-            link.close()
-            raise
 
     def attend(self, seconds: float) -> None:
         """Let time of the board pass, and read what the part says by itself."""

@@ -4,18 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ..basis.arguments import side, within
-from ..basis.ending import Cause, End
-from ..basis.errors import OriginNotFound
-from .motion import Progress
-
-if TYPE_CHECKING:
-    from ..basis.units import Number
-    from .axis import Axis
+from ..basis.ending import Cause, End, OriginNotFound
+from ..basis.kind import Kind
+from ..basis.units import Number
+from .motion import AnyMotion, Progress
 
 LONGEST_BACK_OFF = 200_000
+
+
+class Switched(Protocol):
+    """Switches; True: active."""
+
+    @property
+    def origin(self) -> bool: ...
+
+
+class Searching(Protocol):
+    """What homing needs of an axis, which is an `axis.Axis` or that of a part with other ways."""
+
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def who(self) -> str: ...
+    @property
+    def position(self) -> int: ...
+    @property
+    def search_speed(self) -> Number: ...
+    def inputs(self) -> Switched: ...
+    def counted(self, count: int) -> int | None: ...
+    def search(self, direction: int, pps: Number | None = None) -> AnyMotion: ...
+    def jog(self, direction: int, speed: Number | None = None, high: bool = False) -> AnyMotion: ...
+    def move_constant(
+        self, pulses: int, pps: Number, progress: Callable[[Progress], None] | None = None
+    ) -> End: ...
+    def zero(self) -> None: ...
 
 
 class Homing:
@@ -23,7 +48,7 @@ class Homing:
 
     def __init__(
         self,
-        axis: Axis,
+        axis: Searching,
         direction: int,
         search_pps: Number | None,
         back_off: int,

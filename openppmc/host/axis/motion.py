@@ -4,21 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
-from ...model.motion.codes import ENDLESS
-from ..basis.arguments import Checked
+from ...model.motion.codes import ENDLESS, RAMP_OPERATIONS
+from ..basis import units
+from ..basis.arguments import Checked, side
 from ..basis.ending import End, decode_end
-from ..basis.errors import NotWhileBusy, Timeout
+from ..basis.errors import Timeout
+from ..basis.refusals import NotWhileBusy
+from ..bridge.link import Link
 from ..bridge.script import Script
-
-if TYPE_CHECKING:
-    from .axis import Axis, Order
+from .registers import ReadCodes
 
 READ_FINISH = 0x80
 SAFETY_POLL = 0.5
 """Seconds between looks at BUSY while waiting for the interrupt message, which noise may eat."""
 PROGRESS_POLL = 0.1
+OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
+
+
+@dataclass(frozen=True)
+class Order:
+    """A motion to start. operation: low three bits of its code. asked: pulses, None for endless ones.
+    clock: base clock, None for that of the ramp."""
+
+    operation: int
+    direction: int
+    data: bytes = b""
+    asked: int | None = None
+    clock: units.BaseClock | None = None
+    pulse_only: bool = False
+
+    @property
+    def code(self) -> int:
+        """Command byte without an axis bit."""
+        group = OPERATION_PULSES if self.pulse_only else OPERATION
+        return group | side(self.direction) << DIRECTION_BIT | self.operation
+
+    @property
+    def ramped(self) -> bool:
+        """With ramps, so a stop may take one as well."""
+        return self.operation in RAMP_OPERATIONS
 
 
 @dataclass(frozen=True)
@@ -31,6 +57,34 @@ class Progress:
     seconds: float
 
 
+class AnyMotion(Protocol):
+    """A motion under way on any part; see `Motion`."""
+
+    @property
+    def end(self) -> End | None: ...
+    @property
+    def asked(self) -> int | None: ...
+    def poll(self) -> Progress | None: ...
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> End: ...
+
+
+class Moving(Protocol):
+    """What a motion needs of its axis, which is an `axis.Axis`."""
+
+    link: Link
+    number: int
+    bit: int
+    busy: int
+
+    @property
+    def codes(self) -> ReadCodes: ...
+    def look(self, status: int) -> None: ...
+    def counted(self, count: int) -> int | None: ...
+    def told(self, end: End) -> End: ...
+
+
 class Motion(Checked):
     """Handle of an operation that was started; `end` is its End once it is known.
 
@@ -38,7 +92,7 @@ class Motion(Checked):
     counter before. ours: False for one that another program started.
     """
 
-    def __init__(self, axis: Axis, order: Order, begin: int, ours: bool = True) -> None:
+    def __init__(self, axis: Moving, order: Order, begin: int, ours: bool = True) -> None:
         self._axis = axis
         self._link = axis.link
         self._ours = ours

@@ -45,6 +45,10 @@ class ReadCodes:
     remaining: int = 0x83
 
 
+FAMILY = ReadCodes()
+"""Those of most parts."""
+
+
 @dataclass(frozen=True)
 class Switches:
     """Switches of an axis; True: active (pin low). The sixth one is the part's."""
@@ -71,13 +75,6 @@ class Inputs(Switches):
     """Switches of a PPMC part."""
 
     alarm: bool
-
-
-@dataclass(frozen=True)
-class InputsStmc(Switches):
-    """Switches of an STMC; motor_off: MON is low."""
-
-    motor_off: bool
 
 
 @dataclass(frozen=True)

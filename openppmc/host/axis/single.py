@@ -6,12 +6,15 @@ from ..basis import units
 from ..bridge.link import Link
 from ..bridge.script import Script
 from .axis import Axis
-from .device import Device
+from .kind import RateKind
+from .part import Part
 from .registers import Status
 
 
-class OneAxis(Device, Axis):
-    """Part and axis in one object; see `device.Device` and `axis.Axis`."""
+class OneAxis(Part, Axis):
+    """Part and axis in one object; see `part.Part` and `axis.Axis`."""
+
+    kind: RateKind
 
     def __init__(self, link: Link) -> None:
         Axis.__init__(self, link)

@@ -150,7 +150,7 @@ class Bound:
     def __init__(self, entry: Entry, instance: object) -> None:
         self._entry, self.__self__ = entry, instance
 
-    __doc__ = property(lambda self: self._entry.__doc__)  # type: ignore[assignment]
+    __doc__ = property(lambda self: self._entry.__doc__)
 
     @property
     def __signature__(self) -> inspect.Signature:

@@ -1,4 +1,6 @@
-"""How a motion ended: the finish status and the remaining pulses, decoded. Pure."""
+"""How a motion ended: finish status and remaining pulses, decoded, and what is raised for it. Pure."""
+
+# ruff: noqa: N818
 
 from __future__ import annotations
 
@@ -6,10 +8,34 @@ from dataclasses import dataclass, field
 from enum import Flag
 
 from ...model.motion.codes import FINISH_ALARM, FINISH_LIMIT, FINISH_SLOW, FINISH_STOP, ORIGIN
-from .errors import AlarmStop, LimitReached, MotionError, StoppedEarly
+from .errors import PpmcError
 
 ALARM_INPUT = ("alarm input", "clear the drive's alarm")
 """What that input is called where it is one, and what to do about it."""
+
+
+class MotionError(PpmcError):
+    """A motion ended other than asked for; `end` says where and why."""
+
+    def __init__(self, message: str, end: End) -> None:
+        super().__init__(message)
+        self.end = end
+
+
+class LimitReached(MotionError):
+    """A hard or slow-down limit switch ended the motion."""
+
+
+class AlarmStop(MotionError):
+    """The alarm input ended the motion."""
+
+
+class StoppedEarly(MotionError):
+    """A stop command ended a motion that was to be complete."""
+
+
+class OriginNotFound(MotionError):
+    """Homing ended without the origin switch."""
 
 
 class Cause(Flag):
@@ -77,8 +103,8 @@ class End:
         where = "" if self.position is None else f" at position {self.position}"
         of = "" if asked is None else f" of {asked}"
         kind, advice = self.trouble()
-        made = f"{abs(self.pulses)}{of} {self.unit}"
-        raise kind(f"{self.who}{self.why} ended the motion{where} after {made}: {advice}", self)
+        made = "" if self.pulses is None else f" after {abs(self.pulses)}{of} {self.unit}"
+        raise kind(f"{self.who}{self.why} ended the motion{where}{made}: {advice}", self)
 
     def trouble(self) -> tuple[type[MotionError], str]:
         """What to raise if it is not complete, and what to do about it."""

@@ -1,8 +1,8 @@
 """Pulses per second to the rate bytes of the part and back, exactly (P104-INT-01, -02, STMC-INI-01). Pure.
 
-All speeds are in pulses per second (pps), as exact fractions; on the STMC a pulse is a step. The part cannot
-make every speed: it makes base clock / (rate + 1) with rate 0 to 255, the STMC base clock / divisor with
-divisors up to 255, so a speed that was asked for is rounded to the nearest interval.
+All speeds are in pulses per second (pps), as exact fractions; where a part gives no pulses, a pulse is a
+step. A part cannot make every speed: it makes base clock / (rate + 1) with rate 0 to 255, or base clock /
+divisor, so a speed that was asked for is rounded to the nearest interval.
 """
 
 from __future__ import annotations
@@ -12,14 +12,13 @@ from fractions import Fraction
 
 from ...model.motion.codes import ENDLESS, PA_MAX, PA_MIN
 from ...model.motion.ramp import Ramp
-from .arguments import Number, exact
+from .arguments import Number as Number
+from .arguments import exact as exact
 from .errors import OutOfRange
 
 SLOWEST_RATE = 255
 LONGEST_MOVE = ENDLESS
 QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
-LEAST_DIVISOR = 5
-"""The sheet of the STMC advises against lower ones; the part would take them."""
 
 
 def nearby(speed: Fraction | float | int) -> str:
@@ -34,7 +33,7 @@ class BaseClock:
     period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
     the strap pins that choose it. external: it comes in at the `clock` pin. least_rate: lowest rate byte
     that the driver uses with it. beyond: base clocks of an interval beyond its rate byte.
-    slowest_rate: the highest rate. clk: number of the base clock on a PPMC-312.
+    slowest_rate: the highest rate. clk: its number on parts that number them.
     """
 
     period: Fraction
@@ -61,29 +60,7 @@ class BaseClock:
     @classmethod
     def external_pin(cls, hertz: Number) -> BaseClock:
         """A steady clock on the `clock` pin, 0 < hertz <= 1e6; vsel is kept high. OutOfRange otherwise."""
-        return cls(_pin_period(hertz), external=True)
-
-    @classmethod
-    def divided(cls, hertz: Number, external: bool = True) -> BaseClock:
-        """Step clock of an STMC, 0 < hertz <= 1e6 (else OutOfRange); rate bytes are divisors. external: it is
-        the one that the board makes, or the `ext_clk` pin.
-
-        The worked examples of the sheet, with the external clock of its board:
-
-        >>> clock = BaseClock.divided(48_675)
-        >>> clock.choose(345).rate, clock.choose(825).rate
-        (141, 59)
-        >>> clock.speed(59)
-        Fraction(825, 1)
-
-        Divisors below 5 are left out, as the sheet advises:
-
-        >>> float(clock.slowest), float(clock.fastest)
-        (190.88235294117646, 9735.0)
-        >>> float(BaseClock.divided(12_500, external=False).fastest)
-        2500.0
-        """
-        return cls(_pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
+        return cls(pin_period(hertz), external=True)
 
     @property
     def hertz(self) -> Fraction:
@@ -125,7 +102,7 @@ class BaseClock:
         return Speed(asked, rate, self.speed(rate), self)
 
 
-def _pin_period(hertz: Number) -> Fraction:
+def pin_period(hertz: Number) -> Fraction:
     """Period of a clock that comes from outside in s. OutOfRange."""
     if not 0 < exact(hertz, "external clock") <= 1_000_000:
         raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")
@@ -221,6 +198,16 @@ def choose_clock(
     )
 
 
+def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
+    """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
+    clocks = [BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (first, 1 - first)]
+    for clock in clocks:
+        if clock.reaches(pps):
+            return clock
+    low, high = min(clock.slowest for clock in clocks), max(clock.fastest for clock in clocks)
+    raise OutOfRange(f"speed {nearby(pps)} pps is outside {nearby(low)} to {nearby(high)} pps")
+
+
 def plan_setup(
     clock: BaseClock,
     start_pps: Number,
@@ -247,58 +234,3 @@ def plan_setup(
             f"steps of its rate between them (rates {start.rate} and {high.rate} here)"
         )
     return Setup(start, high, ramp_pulses, code)
-
-
-def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tuple[int, Fraction]:
-    """Parameter byte of the chopper nearest to a time, and the time it makes in us (P104-SW-04).
-
-    phase: "on" or "off". Raises OutOfRange with the possible range.
-    """
-    quantum = Fraction(4_000_000, xtal_hz)
-    offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
-    unit = 12 * quantum
-    low, high = offset, offset + 255 * unit
-    asked = exact(microseconds, f"{phase} time")
-    if not low <= asked <= high:
-        raise OutOfRange(
-            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
-        )
-    byte = min(255, int((asked - offset) / unit + Fraction(1, 2)))
-    return byte, offset + byte * unit
-
-
-def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, Fraction]:
-    """Parameter byte of the PPMC-2104's chopper nearest to a time, and the time it makes in us
-    (P2104-AUX-04): 0.5 us a unit at 16 MHz, 64 to 255 units. Raises OutOfRange with the possible range."""
-    unit = Fraction(8_000_000, xtal_hz)
-    asked = exact(microseconds, f"{phase} time")
-    low, high = 64 * unit, 255 * unit
-    if not low <= asked <= high:
-        raise OutOfRange(
-            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
-        )
-    byte = int(asked / unit + Fraction(1, 2))
-    return byte, byte * unit
-
-
-def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
-    """Parameter byte of the PPMC-2104's hold delay nearest to a time, and the time it makes in us
-    (P2104-AUX-05): 128 to 32 768 us at 16 MHz. Raises OutOfRange with the possible range."""
-    unit = Fraction(2048_000_000, xtal_hz)
-    asked = exact(microseconds, "hold delay")
-    if not unit <= asked <= 256 * unit:
-        raise OutOfRange(
-            f"hold delay {nearby(microseconds)} us is outside {nearby(unit)} to {nearby(256 * unit)} us"
-        )
-    byte = int(asked / unit + Fraction(1, 2)) - 1
-    return byte, (byte + 1) * unit
-
-
-def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
-    """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
-    clocks = [BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (first, 1 - first)]
-    for clock in clocks:
-        if clock.reaches(pps):
-            return clock
-    low, high = min(clock.slowest for clock in clocks), max(clock.fastest for clock in clocks)
-    raise OutOfRange(f"speed {nearby(pps)} pps is outside {nearby(low)} to {nearby(high)} pps")

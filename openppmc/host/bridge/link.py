@@ -13,20 +13,13 @@ from ..basis.errors import (
     ProtocolError,
     Timeout,
     WrongDevice,
-    refused,
 )
 from ..basis.kind import name_of
-from ..ports.transport import BASE_BAUD, Port, open_port
-from .script import (
-    PROTOCOL_VERSION,
-    RATES,
-    Answer,
-    BadAnswer,
-    Identity,
-    Result,
-    Script,
-    parse_answer,
-)
+from ..basis.refusals import refused
+from ..ports.transport import BASE_BAUD, Port
+from .answer import PROTOCOL_VERSION, Answer, BadAnswer, Identity, Result, parse_answer
+from .port import open_port
+from .script import RATES, Script
 from .session import WAKE_UP, GaveUp, Nak, Session
 
 DEFAULT_BAUD = 1_000_000

@@ -8,23 +8,19 @@ from __future__ import annotations
 
 from ...model.carrier.bridge import Bridge
 from ...model.carrier.bridge_ops import RATES
-from ...model.carrier.carrier import Board
-from ...model.carrier.plant import PLANT_WORDS, parse_machine, stmc_read_map
-from ...model.ppmc104.carrier import Board104
-from ...model.ppmc312.carrier import Board312
-from ...model.ppmc2104.carrier import Board2104
-from ...model.stmc.carrier import BoardStmc
+from ...parts import part
+from ...sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
 from ..basis.errors import Disconnected, PortError
 from ..ports.pacer import Pacer
 
 BITS_PER_BYTE = 10
-OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "unplug")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing")
 
 
 class ModelPort:
     """A board that needs no hardware.
 
-    text: words of the machine (`openppmc.model.carrier.plant`) and `speed` (1: real time, 10: ten times as
+    text: words of the machine (`openppmc.sim.common.machine`) and `speed` (1: real time, 10: ten times as
     fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (stmc)
     SHEET or FAMILY, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
     anything else.
@@ -42,25 +38,17 @@ class ModelPort:
             clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
             timing = options.pop("timing", "FAST").upper()
             self._unplug = float(options.pop("unplug", "inf"))
-            read_map = stmc_read_map(machine.part, options.pop("read_map", None))
             if options:
-                known = ", ".join((*PLANT_WORDS, *OPTIONS))
+                known = ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), "unplug"))
                 raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
-            board: Board
-            settings = (clk_hz, xtal_hz, timing, self._interrupt)
-            if machine.part == "ppmc104":
-                board = Board104(machine.plants[0], *settings)
-            elif machine.part == "ppmc312":
-                board = Board312(machine.plants[0], *settings)
-            elif machine.part == "stmc":
-                board = BoardStmc(machine.plants[0], *settings, read_map)
-            else:
-                board = Board2104(machine.plants, *settings)
+            setup = Setup(machine.plants, clk_hz, xtal_hz, timing, machine.own, self._interrupt)
+            self.board = board = machine_kind(machine.part).carrier(setup)
         except ValueError as error:
             raise PortError(f"{self.name}: {error}") from error
-        self.board: Board = board
         axes = len(machine.plants)
-        self.bridge = Bridge(board, board.NUMBER, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes)
+        self.bridge = Bridge(
+            board, part(machine.part).number, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes
+        )
 
     # ------------------------------------------------------------------ port
 

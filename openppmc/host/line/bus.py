@@ -4,36 +4,51 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import Any, Generic, Protocol, TypeVar
 
-from ..axis.device import Device
+from ..axis.device import Device, Turning
 from ..axis.motion import Progress
 from ..basis.ending import End
-from ..basis.errors import NothingToStop, NotInitialised, OutOfRange, PpmcError
+from ..basis.errors import OutOfRange, PpmcError
+from ..basis.refusals import NothingToStop, NotInitialised
 from .master import Master
-from .motion import POLL_EVERY, wait_all
+from .motion import POLL_EVERY, LineMotion, wait_all
 
 
-class LineBus(Device):
+class Station(Turning, Protocol):
+    """One of the line."""
+
+    @property
+    def number(self) -> int: ...
+    @property
+    def motion(self) -> LineMotion | None: ...
+
+
+LineT = TypeVar("LineT", bound=Master[Any])
+StationT = TypeVar("StationT", bound=Station)
+
+
+class LineBus(Device, Generic[LineT, StationT]):
     """A line with its stations, which `axis` gives; see `device.Device`.
 
     Leaving its `with` block by an exception decelerates motions that this object started.
     """
 
-    def __init__(self, line: Master[Any]) -> None:
-        self.line: Any = line
-        self.link = line  # type: ignore[assignment]
-        self._stations: dict[int, Any] = {}
+    link: LineT
+
+    def __init__(self, line: LineT) -> None:
+        self.line = self.link = line
+        self._stations: dict[int, StationT] = {}
 
     @abstractmethod
-    def make(self, station: int) -> Any:
+    def make(self, station: int) -> StationT:
         """The driver of a station."""
 
     @abstractmethod
-    def look_at(self, axis: Any) -> None:
+    def look_at(self, axis: StationT) -> None:
         """Read what a station has to say."""
 
-    def axis(self, station: int) -> Any:
+    def axis(self, station: int) -> StationT:
         """The station with this number, whether it is there or not; always the same object."""
         made = self._stations.get(station)
         if made is None:
@@ -42,13 +57,13 @@ class LineBus(Device):
         return made
 
     @property
-    def axes(self) -> tuple[Any, ...]:
+    def axes(self) -> tuple[StationT, ...]:
         """The stations in use so far."""
         return tuple(self._stations[number] for number in sorted(self._stations))
 
     def wait(
         self,
-        motions: Sequence[Any] | None = None,
+        motions: Sequence[LineMotion | StationT] | None = None,
         timeout: float | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> list[End]:
@@ -88,5 +103,5 @@ class LineBus(Device):
                 self.look_at(axis)
             self.line.pause(min(left, POLL_EVERY))
 
-    def _chosen(self, stations: Iterable[int] | None) -> list[Any]:
+    def _chosen(self, stations: Iterable[int] | None) -> list[StationT]:
         return list(self.axes) if stations is None else [self.axis(number) for number in stations]

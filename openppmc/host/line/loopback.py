@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from ...sim.common.lines import LINES
+from ...sim.common.lines import line_kind
 from ..basis.errors import Disconnected, PortError
 from ..ports.pacer import Pacer
 
 
 class ModelLine:
-    """A line that needs no hardware. text: words of `openppmc.sim.common.lines.LINES`. baud: line rate. part:
+    """A line that needs no hardware. text: words of the part's virtual line. baud: line rate. part:
     of the stations. Raises PortError for a bad text."""
 
-    def __init__(self, text: str, baud: int, part: str = "ppmc312-serial") -> None:
+    def __init__(self, text: str, baud: int, part: str) -> None:
         self.name = "model:" + text
-        kind = LINES[part]
+        kind = line_kind(part)
         try:
             self.spec = kind.parse(kind.at_rate(text, baud))
             self.line = kind.make(self.spec)

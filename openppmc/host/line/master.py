@@ -67,6 +67,11 @@ class Master(Generic[Answer]):
         while (left := end - self.clock()) > 0:
             self.stray += len(self.port.read(left))
 
+    def wait_event(self, timeout: float) -> int | None:
+        """There are none on a line: None after `timeout` seconds, bytes that come are dropped."""
+        self.pause(timeout)
+        return None
+
     def forget_events(self) -> None:
         """There are none on a line."""
 

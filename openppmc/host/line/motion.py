@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
-from ..axis.motion import PROGRESS_POLL, Progress
+from ..axis.motion import PROGRESS_POLL, AnyMotion, Progress
 from ..basis.ending import End
 from ..basis.errors import ProtocolError, Timeout
 from .master import Master
@@ -14,12 +14,9 @@ POLL_EVERY = 0.02
 """Seconds between two rounds of polls."""
 
 
-class LineMotion(Protocol):
-    """A motion under way. asked: steps, None for endless ones. end: its End once it is known. damaged: what
-    is wrong with it although it is complete, empty if nothing is."""
+class LineMotion(AnyMotion, Protocol):
+    """A motion under way. damaged: what is wrong with it although it is complete, empty if nothing is."""
 
-    asked: int | None
-    end: End | None
     damaged: str
 
     @property

@@ -47,9 +47,9 @@ class SimLinePort(SimPort):
 
     def _start(self, text: str) -> Any:
         from ...sim import start_line
-        from ...sim.common.lines import LINES
+        from ...sim.common.lines import line_kind
 
-        return start_line(LINES[self._part].at_rate(text, self._rate), self._part)
+        return start_line(line_kind(self._part).at_rate(text, self._rate), self._part)
 
 
 def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:

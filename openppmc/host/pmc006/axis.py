@@ -7,48 +7,49 @@ from collections.abc import Iterable
 from ..axis.moves import OnProgress
 from ..basis.arguments import whole, within
 from ..basis.ending import Cause
-from ..basis.errors import CommandRefused, NoAnswer, NothingToStop, NotWhileBusy, OutOfRange, StartRefused
+from ..basis.errors import NoAnswer, OutOfRange
+from ..basis.refusals import CommandRefused, NothingToStop, NotWhileBusy, StartRefused
 from .codes import Code, Flags
 from .errors import MotorFree, SpeedRefused, locked
-from .motion import End006, Motion006
-from .settings import Settings006, mean_acceleration
+from .motion import End, Motion
+from .settings import Settings, mean_acceleration
 
 FORWARD, BACKWARD = 1, -1
 LONGEST = 0x7FFFFFFF
 _ACCEPTED, _RUNNING = 3, 1
 
 
-class Axis006(Settings006):
+class Axis(Settings):
     """See `pmc006.Pmc006`. Steps are microsteps of the setting in force, forward positive."""
 
-    _motion: Motion006 | None = None
+    _motion: Motion | None = None
 
     @property
-    def motion(self) -> Motion006 | None:
+    def motion(self) -> Motion | None:
         """The motion that was started last, None before the first."""
         return self._motion
 
     # ------------------------------------------------------------------ motions
 
-    def start_move(self, steps: int, speed: int | None = None) -> Motion006:
+    def start_move(self, steps: int, speed: int | None = None) -> Motion:
         """Begin a move of 1 to 2^31 - 1 steps either way. speed: maximum from now on, in steps/s."""
         if not 1 <= abs(steps) <= LONGEST:
             raise OutOfRange(f"{steps} steps: a move has 1 to {LONGEST} steps either way")
         return self._start(Code.STEP, abs(steps), (_ACCEPTED, abs(steps)), _side(steps), speed)
 
-    def move(self, steps: int, speed: int | None = None, progress: OnProgress | None = None) -> End006:
+    def move(self, steps: int, speed: int | None = None, progress: OnProgress | None = None) -> End:
         """Move and wait. Raises LimitReached (EXT), AlarmStop (stall), StoppedEarly if it ends early."""
         if steps == 0:
-            return End006(Cause.COMPLETE, 0, 0, self.position, 0, self.who)
+            return End(Cause.COMPLETE, 0, 0, self.position, 0, self.who)
         end = self.start_move(steps, speed).wait(progress=progress)
         end.check(abs(steps))
         return end
 
-    def move_to(self, position: int, speed: int | None = None, progress: OnProgress | None = None) -> End006:
+    def move_to(self, position: int, speed: int | None = None, progress: OnProgress | None = None) -> End:
         """Move to a position and wait."""
         return self.move(position - self.position, speed, progress)
 
-    def jog(self, direction: int, speed: int | None = None) -> Motion006:
+    def jog(self, direction: int, speed: int | None = None) -> Motion:
         """Run (speed mode) until a stop, EXT or a stall. direction: FORWARD or BACKWARD. speed: maximum from
         now on, in steps/s."""
         if direction not in (FORWARD, BACKWARD):
@@ -59,7 +60,7 @@ class Axis006(Settings006):
         """Another maximum speed, for a motion that runs too: it gets there by its ramps."""
         self.max_speed = speed
 
-    def stop(self, wait: bool = True) -> End006 | None:
+    def stop(self, wait: bool = True) -> End | None:
         """Stop with a ramp; returns the End, None if not waited for. NothingToStop at rest.
 
         A free run is told to stop. The part has no such instruction for moves: those of 256 steps and more
@@ -67,7 +68,7 @@ class Axis006(Settings006):
         """
         return self._stop(False, wait)
 
-    def halt(self, wait: bool = True) -> End006 | None:
+    def halt(self, wait: bool = True) -> End | None:
         """Stop at once; steps may be lost at high speed. As `stop` otherwise."""
         return self._stop(True, wait)
 
@@ -120,13 +121,13 @@ class Axis006(Settings006):
 
     def _start(
         self, code: Code, data: int, replies: tuple[int, ...], direction: int, speed: int | None
-    ) -> Motion006:
+    ) -> Motion:
         self._at_rest(self.flags())
         if speed is not None:
             self.max_speed = speed
         self.direction = int(direction == FORWARD)
         begin = self.position
-        motion = Motion006(self, data if code is Code.STEP else None, direction, begin)
+        motion = Motion(self, data if code is Code.STEP else None, direction, begin)
         got = self.ask(
             code,
             data,
@@ -172,7 +173,7 @@ class Axis006(Settings006):
             0, f"{self.who}the part refused to start, but nothing is in the way now: try again"
         )
 
-    def _stop(self, now: bool, wait: bool) -> End006 | None:
+    def _stop(self, now: bool, wait: bool) -> End | None:
         motion = self._motion
         if motion is None or motion.end is not None:
             motion = self._strange()
@@ -186,18 +187,18 @@ class Axis006(Settings006):
         self._motion = motion
         return motion.wait() if wait else None
 
-    def _strange(self) -> Motion006:
+    def _strange(self) -> Motion:
         """A motion of another program. NothingToStop at rest."""
         if not self.flags().busy:
             raise NothingToStop(0, f"{self.who}nothing to stop: the motor is at rest")
         running = self.modes().running
-        return Motion006(self, None if running else LONGEST, FORWARD, None)
+        return Motion(self, None if running else LONGEST, FORWARD, None)
 
     def _end_run(self) -> None:
         self.ask(Code.RUN, 0, good=lambda value: value == 0)
 
-    def _slow_move(self, motion: Motion006) -> None:
-        """Bring a move down to its stop speed; `Motion006.look` ends it then."""
+    def _slow_move(self, motion: Motion) -> None:
+        """Bring a move down to its stop speed; `Motion.look` ends it then."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
             motion.slow_down(0, top)

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 
 from serial.rs485 import RS485Settings
 
-from ..basis.kind import PMC006
 from ..line.bus import LineBus
 from ..line.errors import GarbledReply, StationSilent
 from ..line.faults import Counters
@@ -20,12 +19,13 @@ from ..line.master import PATIENCE
 from ..ports.transport import Port
 from .codes import Flags, Modes
 from .driver import Pmc006, scan
-from .line import BAUD, Line006
+from .kind import KIND
+from .line import BAUD, Line
 from .wire import ADDRESSES, address_number
 
 
 @dataclass(frozen=True)
-class Found006:
+class Found:
     """A controller that `scan` has found; version, flags, modes and position are None if its replies are
     garbled, which `trouble` tells. counters: of the master."""
 
@@ -38,22 +38,22 @@ class Found006:
     trouble: str = ""
 
 
-class Pmc006Bus(LineBus):
-    """A line (`line006.Line006`) with controllers; see `line_bus.LineBus`. `axis(5)` is the `Pmc006` with
+class Pmc006Bus(LineBus[Line, Pmc006]):
+    """A line (`line.Line`) with controllers; see `host.line.bus.LineBus`. `axis(5)` is the `Pmc006` with
     that address, whether it is there or not."""
 
-    kind = PMC006
+    kind = KIND
 
     @classmethod
-    def open(  # type: ignore[override]
+    def open(
         cls,
         spec: str | Port,
         baud: int = BAUD,
         rs485: RS485Settings | None = None,
         patience: float = PATIENCE,
     ) -> Pmc006Bus:
-        """Open a port; arguments as those of `line006.Line006`. Says nothing on the line."""
-        return cls(Line006(spec, baud, rs485, patience))
+        """Open a port; arguments as those of `line.Line`. Says nothing on the line."""
+        return cls(Line(spec, baud, rs485, patience))
 
     def make(self, station: int) -> Pmc006:
         return Pmc006(self.line, address_number(station), alone=False)
@@ -65,18 +65,18 @@ class Pmc006Bus(LineBus):
 
     def scan(
         self, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
-    ) -> list[Found006]:
+    ) -> list[Found]:
         """Who is there; progress: called with each address before it is asked. Takes the patience for each
         address without a controller."""
         return [self.look(self.axis(address)) for address in scan(self.line, addresses, progress)]
 
-    def look(self, axis: Pmc006) -> Found006:
+    def look(self, axis: Pmc006) -> Found:
         """A controller that answers."""
         try:
             seen = axis.version(), axis.flags(), axis.modes(), axis.position
         except (GarbledReply, StationSilent) as error:
-            return Found006(axis.address, None, None, None, None, axis.counters, str(error))
-        return Found006(axis.address, *seen, axis.counters)
+            return Found(axis.address, None, None, None, None, axis.counters, str(error))
+        return Found(axis.address, *seen, axis.counters)
 
     def check(self, addresses: Iterable[int]) -> None:
         """All of these answer. Raises StationSilent, GarbledReply."""

@@ -16,36 +16,37 @@ from ..axis.device import Device
 from ..axis.moves import OnProgress
 from ..basis.arguments import within
 from ..basis.errors import OutOfRange
-from ..basis.kind import PMC006
 from ..line.errors import DuplicateAddress, GarbledReply, StationSilent
 from ..line.faults import Miss
 from ..line.master import PATIENCE
 from ..ports.transport import Port
 from .axis import BACKWARD
 from .codes import Code
-from .homing import Homing006
-from .line import BAUD, Line006
-from .memory import Memory006
-from .motion import End006
-from .talk import ATTEMPTS, Talk006
+from .homing import Homing
+from .kind import KIND
+from .line import BAUD, Line
+from .memory import Memory
+from .motion import End
+from .talk import ATTEMPTS, Talk
 from .wire import ADDRESSES, LAST
 
 OUTPUTS = 5
 
 
-class Pmc006(Memory006, Device):
-    """One controller. `open` takes a line for it alone; `pmc006_bus.Pmc006Bus` gives several.
+class Pmc006(Memory, Device):
+    """One controller. `open` takes a line for it alone; `bus.Pmc006Bus` gives several.
 
-    Settings are properties (`settings006.SETTINGS` lists them). Instructions whose reply is lost are repeated
+    Settings are properties (`settings.SETTINGS` lists them). Instructions whose reply is lost are repeated
     only where that does no harm: a start is looked for in status and position first, so nothing moves twice;
     LostReply where nobody can know. Leaving a `with` block by an exception stops a motion that this object
     started.
     """
 
-    kind = PMC006
+    kind = KIND
+    link: Line
 
     @classmethod
-    def open(  # type: ignore[override]
+    def open(
         cls,
         spec: str | Port,
         address: int | None = None,
@@ -53,9 +54,9 @@ class Pmc006(Memory006, Device):
         rs485: RS485Settings | None = None,
         patience: float = PATIENCE,
     ) -> Pmc006:
-        """Open a port; arguments as those of `line006.Line006`. address: None looks for a controller: 255,
+        """Open a port; arguments as those of `line.Line`. address: None looks for a controller: 255,
         then 1 to 120. Raises StationSilent if there is none."""
-        line = Line006(spec, baud, rs485, patience)
+        line = Line(spec, baud, rs485, patience)
         try:
             return cls(line, find(line) if address is None else address)
         except BaseException:
@@ -63,17 +64,12 @@ class Pmc006(Memory006, Device):
             raise
 
     @property
-    def link(self) -> Line006:  # type: ignore[override]
-        """Where it is."""
-        return self.line
-
-    @property
     def number(self) -> int:
         """Its address."""
         return self.address
 
     @property
-    def axes(self) -> tuple[Pmc006, ...]:  # type: ignore[override]
+    def axes(self) -> tuple[Pmc006, ...]:
         """Itself."""
         return (self,)
 
@@ -87,7 +83,7 @@ class Pmc006(Memory006, Device):
         slow: int = 200,
         off: int = 100,
         progress: OnProgress | None = None,
-    ) -> End006:
+    ) -> End:
         """Find the edge of EXT1 or EXT2 and make the place `off` steps away from it position 0.
 
         direction: towards the switch. speed: until it stops the motor, slow: for the second, exact approach,
@@ -95,7 +91,7 @@ class Pmc006(Memory006, Device):
         stops are enabled meanwhile; EXT flags are cleared; speeds, direction and enabled stops are as before
         afterwards. Raises OriginNotFound, also if the other switch comes first.
         """
-        return Homing006(self, switch, direction, speed, slow, off, progress).run()
+        return Homing(self, switch, direction, speed, slow, off, progress).run()
 
     # ------------------------------------------------------------------ outputs, stall
 
@@ -147,7 +143,7 @@ class Pmc006(Memory006, Device):
         raise StationSilent(f"{self.where}: no reply to {ATTEMPTS} frames: is it there and powered?")
 
 
-def find(line: Line006, progress: Callable[[int], None] | None = None) -> int:
+def find(line: Line, progress: Callable[[int], None] | None = None) -> int:
     """The first address that answers: 255, then 1 to 120. StationSilent if none does."""
     for found in scan(line, progress=progress):
         return found
@@ -157,14 +153,14 @@ def find(line: Line006, progress: Callable[[int], None] | None = None) -> int:
 
 
 def scan(
-    line: Line006, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
+    line: Line, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
 ) -> Iterator[int]:
     """Addresses that answer, as they are found. progress: called with each before it is asked."""
     for address in addresses:
         if progress is not None:
             progress(address)
         try:
-            if Talk006(line, address).is_there():
+            if Talk(line, address).is_there():
                 yield address
         except GarbledReply:
             yield address

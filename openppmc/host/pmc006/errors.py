@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from ..basis.errors import CommandRefused
+from ..basis.refusals import CommandRefused
 
 
 class SettingRefused(CommandRefused):

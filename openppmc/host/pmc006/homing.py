@@ -3,27 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from ..axis.motion import Progress
 from ..basis.arguments import within
-from ..basis.errors import OriginNotFound, OutOfRange
-
-if TYPE_CHECKING:
-    from .axis import Axis006
-    from .motion import End006
+from ..basis.ending import OriginNotFound
+from ..basis.errors import OutOfRange
+from .axis import Axis
+from .motion import End
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000
 _KEPT = ("stops", "direction", "start_speed", "stop_speed", "max_speed")
 
 
-class Homing006:
+class Homing:
     """One homing run of a controller; see `pmc006.Pmc006.home`."""
 
     def __init__(
         self,
-        axis: Axis006,
+        axis: Axis,
         switch: int,
         direction: int,
         speed: int,
@@ -39,7 +37,7 @@ class Homing006:
         self._axis, self._switch, self._direction = axis, switch, direction
         self._speed, self._slow, self._off, self._progress = speed, slow, off, progress
 
-    def run(self) -> End006:
+    def run(self) -> End:
         """Off the switch if need be, towards it, off, slowly towards it again, off; zero. Speeds, direction
         and enabled stops are afterwards as they were."""
         axis = self._axis
@@ -80,7 +78,7 @@ class Homing006:
             )
         axis.clear_stops(stops)
 
-    def _leave(self) -> End006:
+    def _leave(self) -> End:
         """Away from the switch in moves of the same length until it is released."""
         axis, gone = self._axis, 0
         self._pace(self._slow)

@@ -17,7 +17,7 @@ DROPPED_AFTER = 200
 """Bit times of silence after which a controller has forgotten half a frame (192, and some for safety)."""
 
 
-class Line006(Master[Reply]):
+class Line(Master[Reply]):
     """The master's end of a line, RS-232 or RS-485. An adapter that hears itself needs no option.
 
     spec: a port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, …), `sim:…` or `model:…`.

@@ -7,7 +7,7 @@ from functools import partial
 
 from ...model.pmc006.program import WORDS, Program, harmless
 from ..basis.errors import NoAnswer, OutOfRange
-from .axis import Axis006
+from .axis import Axis
 from .codes import Code, Storage
 from .errors import ProgramDiffers, ProgramRuns, StorageBusy, StorageFailed
 
@@ -20,7 +20,7 @@ _LOOKS = 10
 _MASK = 0xFFFFFFFF
 
 
-class Memory006(Axis006):
+class Memory(Axis):
     """See `pmc006.Pmc006`."""
 
     _here: int | None = None

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from ..axis.motion import Progress
+from ..basis import ending
 from ..basis.arguments import Checked
-from ..basis.ending import Cause, End
-from ..basis.errors import AlarmStop, LimitReached, MotionError, StoppedEarly
+from ..basis.ending import AlarmStop, Cause, LimitReached, MotionError, StoppedEarly
 from ..line.motion import wait_all
 from .codes import Code, Flags
-from .line import Line006
-
-if TYPE_CHECKING:
-    from .axis import Axis006
+from .line import Line
+from .settings import Settings
 
 
-class End006(End):
+class End(ending.End):
     """LIMIT stands for EXT1 and EXT2, ALARM for a stall. `finish` is status 1 at the end."""
 
     unit = "steps"
 
-    def at(self, position: int) -> End006:
+    def at(self, position: int) -> End:
         """The same end, with this position."""
         return replace(self, position=position)
 
@@ -43,7 +40,7 @@ class End006(End):
         return StoppedEarly, "start again with the steps that are left"
 
 
-class Motion006(Checked):
+class Motion(Checked):
     """Handle of a motion that was started; `end` is its End once it is known.
 
     asked: steps, None for free runs. direction: 1 forward, -1 backward. begin: position before. stop_ordered:
@@ -52,16 +49,16 @@ class Motion006(Checked):
 
     damaged = ""
 
-    def __init__(self, part: Axis006, asked: int | None, direction: int, begin: int | None) -> None:
+    def __init__(self, part: Settings, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self.asked, self.direction, self.begin = asked, direction, begin
         self.stop_ordered = False
-        self.end: End006 | None = None
+        self.end: End | None = None
         self._started = part.line.clock()
         self._abort: tuple[float, int] | None = None
 
     @property
-    def line(self) -> Line006:
+    def line(self) -> Line:
         """Where its controller is."""
         return self._part.line
 
@@ -93,7 +90,7 @@ class Motion006(Checked):
         cause = Cause.COMPLETE if whole else self._cause(flags)
         left = 0 if self.asked is None or made is None else self.asked - abs(made)
         raw = flags.ext1 << 1 | flags.ext2 << 2 | flags.auto_decay << 3 | flags.stall << 4
-        self.end = End006(cause, made, left, position, raw, self._part.who)
+        self.end = End(cause, made, left, position, raw, self._part.who)
 
     def _cause(self, flags: Flags) -> Cause:
         if flags.stops:
@@ -111,10 +108,8 @@ class Motion006(Checked):
         self.look()
         return self.now() if self.end is None else None
 
-    def wait(
-        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
-    ) -> End006:
-        """Wait for the end, without judging it; see `line_motion.wait_all`."""
+    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+        """Wait for the end, without judging it; see `host.line.motion.wait_all`."""
         wait_all([self], timeout, progress)
         assert self.end is not None
         return self.end

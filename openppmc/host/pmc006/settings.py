@@ -1,15 +1,17 @@
-"""Settings of a PMC006B4: codes, ranges, units, what is saved. Each is a property of `Settings006`."""
+"""Settings of a PMC006B4: codes, ranges, units, what is saved. Each is a property of `Settings`."""
 
 from __future__ import annotations
 
 from collections.abc import Container
 from dataclasses import dataclass
+from functools import partial
+from typing import overload
 
 from ..basis.arguments import whole
 from ..basis.errors import OutOfRange
 from .codes import STATUS_1_BITS, STATUS_2_BITS, Code
 from .errors import SettingRefused
-from .talk import Talk006
+from .talk import Talk
 
 MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
 DRIVE_FIRST, DRIVE_STEP = 400, 150
@@ -63,15 +65,19 @@ class Setting:
     name = ""
     hint = ""
 
-    def __get__(self, node: Talk006 | None, owner: type) -> int:
+    @overload
+    def __get__(self, node: None, owner: type) -> Setting: ...
+    @overload
+    def __get__(self, node: Talk, owner: type) -> int: ...
+    def __get__(self, node: Talk | None, owner: type) -> Setting | int:
         if node is None:
-            return self  # type: ignore[return-value]
+            return self
         if self.read is None:
             return self.known(node.ask(self.write, NO_WRITE))
         got = node.ask(self.read, good=self._plausible)
         return self.known(got >> self.shift & (1 << self.bits) - 1)
 
-    def __set__(self, node: Talk006, value: int) -> None:
+    def __set__(self, node: Talk, value: int) -> None:
         if isinstance(value, bool) and self.accepts == range(2):
             value = int(value)
         value = whole(value, self.name)
@@ -108,12 +114,12 @@ class FullSteps(Setting):
         return data or 1
 
 
-_STATUS_1 = {"word": STATUS_1_BITS, "bits": 1}
-_STATUS_2 = {"word": STATUS_2_BITS, "saved": False}
+_InStatus1 = partial(Setting, word=STATUS_1_BITS, bits=1)
+_InStatus2 = partial(Setting, word=STATUS_2_BITS, saved=False)
 _SPEED = (range(65, 3001), "65 to 3000")
 
 
-class Settings006(Talk006):
+class Settings(Talk):
     """Each assignment is checked against the reply. Values that are out of range raise OutOfRange before they
     are sent; what the part refuses raises SettingRefused."""
 
@@ -144,14 +150,8 @@ class Settings006(Talk006):
     deceleration = Setting(
         Code.DECELERATION, Code.READ_DECELERATION, range(6), "0 to 5", "the same for slowing down"
     )
-    auto_decay = Setting(
-        Code.AUTO_DECAY,
-        Code.STATUS_1,
-        range(2),
-        "0 or 1",
-        "less current 100 ms after each motion",
-        shift=3,
-        **_STATUS_1,
+    auto_decay = _InStatus1(
+        Code.AUTO_DECAY, Code.STATUS_1, range(2), "0 or 1", "less current 100 ms after each motion", shift=3
     )
     attenuation = Setting(
         Code.ATTENUATION,
@@ -183,7 +183,7 @@ class Settings006(Talk006):
         shift=5,
         bits=1,
     )
-    stops = Setting(
+    stops = _InStatus2(
         Code.EXT_ENABLE,
         Code.STATUS_2,
         range(4),
@@ -191,9 +191,8 @@ class Settings006(Talk006):
         "emergency stops that work, bit 0 EXT1, bit 1 EXT2",
         shift=1,
         bits=2,
-        **_STATUS_2,
     )
-    direction = Setting(
+    direction = _InStatus2(
         Code.DIRECTION,
         Code.STATUS_2,
         range(2),
@@ -201,11 +200,8 @@ class Settings006(Talk006):
         "of the next motion: 1 forward, 0 backward",
         shift=4,
         bits=1,
-        **_STATUS_2,
     )
-    free = Setting(
-        Code.FREE, Code.STATUS_2, range(2), "0 or 1", "motor off-line, without current", bits=1, **_STATUS_2
-    )
+    free = _InStatus2(Code.FREE, Code.STATUS_2, range(2), "0 or 1", "motor off-line, without current", bits=1)
     stall_length = Setting(
         Code.STALL_LENGTH, None, range(64), "0 to 63", "samples in a row that mean a stall", saved=False
     )
@@ -218,7 +214,7 @@ class Settings006(Talk006):
 
 
 SETTINGS: dict[str, Setting] = {
-    name: value for name, value in vars(Settings006).items() if isinstance(value, Setting)
+    name: value for name, value in vars(Settings).items() if isinstance(value, Setting)
 }
 """All of them by name."""
 

@@ -8,7 +8,7 @@ from ..basis.arguments import Checked
 from ..line.errors import LostReply, unanswered
 from ..line.faults import Counters, Fault, Miss
 from .codes import PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
-from .line import Line006
+from .line import Line
 from .wire import FACTORY, address_number
 
 ATTEMPTS = 5
@@ -17,12 +17,12 @@ _CHECK = "is it there and powered, are address, baud rate and wires right?"
 _OTHERS = "noise, another baud rate, or two controllers with this address"
 
 
-class Talk006(Checked):
+class Talk(Checked):
     """See `pmc006.Pmc006`. address: 1 to 120, or 255. alone: the only controller that this program uses, so
     that messages need not name it."""
 
-    def __init__(self, line: Line006, address: int = FACTORY, alone: bool = True) -> None:
-        self.line = line
+    def __init__(self, line: Line, address: int = FACTORY, alone: bool = True) -> None:
+        self.line = self.link = line
         self.address = address_number(address)
         self.alone = alone
         self._mark = 0
@@ -139,11 +139,13 @@ class Talk006(Checked):
 
     def is_there(self) -> bool:
         """Whether it answers, asked once or, if noise comes, twice. Raises GarbledReply."""
-        for _ in range(2):
+        misses: list[Miss] = []
+        while len(misses) < 2:
             got = self.line.exchange(self.address, Code.STATUS_1)
             if not isinstance(got, Miss):
                 return True
             if not got.heard:
                 return False
+            misses.append(got)
             self.line.settle()
-        raise unanswered(self.where, [got, got], 2, _CHECK, _OTHERS)
+        raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)

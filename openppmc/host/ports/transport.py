@@ -1,4 +1,4 @@
-"""Ports: a serial device, the virtual board (`sim:`), the model (`model:`). The only place with real I/O."""
+"""Ports: a serial device and the virtual board (`sim:`). The only place with real I/O."""
 
 from __future__ import annotations
 
@@ -125,19 +125,6 @@ class SimPort(SerialPort):
     def close(self) -> None:
         super().close()
         self._board.close()
-
-
-def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
-    """Open a port: device path, `sim:plant text` or `model:plant text`. Raises PortError."""
-    if not spec:
-        raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
-    if spec.startswith(MODEL):
-        from ..bridge.loopback import ModelPort
-
-        return ModelPort(spec.removeprefix(MODEL), baud)
-    if spec.startswith(SIM):
-        return SimPort(spec.removeprefix(SIM), baud)
-    return SerialPort(spec, baud)
 
 
 def serial_ports() -> list[tuple[str, str]]:

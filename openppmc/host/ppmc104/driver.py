@@ -7,9 +7,12 @@ from fractions import Fraction
 from ..axis.registers import Inputs
 from ..axis.single import OneAxis
 from ..basis import units
-from ..basis.errors import NotWhileBusy, OutOfRange
-from ..basis.kind import PPMC104
-from ..bridge.script import Result, Script
+from ..basis.errors import OutOfRange
+from ..basis.refusals import NotWhileBusy
+from ..bridge.answer import Result
+from ..bridge.script import Script
+from . import times
+from .kind import KIND
 
 SWITCHING, READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x84, 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
@@ -18,14 +21,14 @@ _START_XT = 1792
 
 
 class Ppmc104(OneAxis):
-    """One PPMC-104; see `one_axis.OneAxis`.
+    """One PPMC-104; see `axis.single.OneAxis`.
 
     `initialise`, figures for a 16 MHz crystal: speeds 488.3 to 500 000 pps; ramp_pulses 4 to 11 220;
     base_clock 500 000 or 125 000 Hz. phases, half_step and positive_logic of an initialised part stay until
     `excitation_off` or `reset`.
     """
 
-    kind = PPMC104
+    kind = KIND
 
     def straps(self, clock: units.BaseClock | None) -> Script:
         script = Script()
@@ -63,7 +66,7 @@ class Ppmc104(OneAxis):
     def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: on 27 to 792, off 33 to 798); returns those reached."""
         vsel = self.setup.clock.vsel if self.setup else 1
-        on = units.chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
-        off = units.chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
+        on = times.chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
+        off = times.chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
         self.link.execute(Script().call(SWITCHING, on[0], off[0]))
         return on[1], off[1]

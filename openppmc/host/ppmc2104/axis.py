@@ -3,33 +3,48 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
-from ..axis.axis import CCW, Axis, Order
-from ..axis.motion import Motion
+from ..axis.axis import CCW, Axis
+from ..axis.kind import AXIS_BIT
+from ..axis.motion import Motion, Order
 from ..axis.registers import Inputs
 from ..basis import units
 from ..basis.ending import Cause, End
-from ..basis.errors import (
-    AlreadyDecelerating,
-    CutCommand,
-    NothingToStop,
-    NotInitialised,
-    StartRefused,
-    Timeout,
-)
-from ..basis.kind import AXIS_BIT, PPMC2104
+from ..basis.errors import Timeout
+from ..basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused
+from ..bridge.link import Link
 from ..bridge.script import Script
-
-if TYPE_CHECKING:
-    from .driver import Ppmc2104
+from . import times
+from .errors import CutCommand
+from .kind import KIND
+from .registers import Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
 """Limit for the end of an initialisation at a 16 MHz crystal: a part needs 0.15 s for both axes, but a
 virtual board may be slow."""
+
+
+class Settling(Protocol):
+    """What an axis needs of the other one."""
+
+    def settle(self, status: int) -> None: ...
+
+
+class Both(Protocol):
+    """What an axis needs of its part, which is a `driver.Ppmc2104`."""
+
+    @property
+    def link(self) -> Link: ...
+    def status(self) -> Status: ...
+    def straps(self, number: int, clock: units.BaseClock | None) -> Script: ...
+    def show(self, number: int) -> Script: ...
+    def other(self, number: int) -> Settling: ...
+    def rests(self, number: int) -> None: ...
+    def settle_foreign(self, number: int) -> None: ...
 
 
 class Axis2104(Axis):
@@ -41,9 +56,9 @@ class Axis2104(Axis):
     until `excitation_off` or `reset` (P2104-INI-05).
     """
 
-    kind = PPMC2104
+    kind = KIND
 
-    def __init__(self, part: Ppmc2104, number: int) -> None:
+    def __init__(self, part: Both, number: int) -> None:
         super().__init__(part.link)
         self.part = part
         self.number = self.kind.check_axis(number)
@@ -135,14 +150,14 @@ class Axis2104(Axis):
     def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: 32 to 127.5 each); returns those reached.
         Only at rest."""
-        on = units.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
-        off = units.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        on = times.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = times.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
         self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
         return on[1], off[1]
 
     def hold_delay(self, microseconds: units.Number) -> Fraction:
         """Time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); returns the one reached. Only
         at rest."""
-        byte, reached = units.hold_byte(self.link.identity.xtal_hz, microseconds)
+        byte, reached = times.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
         return reached

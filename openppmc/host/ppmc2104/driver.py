@@ -6,24 +6,21 @@ from collections.abc import Mapping
 
 from ...model.ppmc2104.codes import CMND
 from ..axis.axis import Axis
-from ..axis.device import Device
+from ..axis.kind import AXIS_BIT
 from ..axis.motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
 from ..axis.moves import OnProgress
+from ..axis.part import Part
 from ..basis import units
 from ..basis.arguments import whole, within
 from ..basis.ending import End
-from ..basis.errors import (
-    BY_NUMBER_2104,
-    AlreadyDecelerating,
-    CommandRefused,
-    PpmcError,
-    ProtocolError,
-    refused2104,
-)
-from ..basis.kind import AXIS_BIT, PPMC2104
+from ..basis.errors import PpmcError, ProtocolError
+from ..basis.refusals import AlreadyDecelerating, CommandRefused
+from ..bridge.answer import Answer
 from ..bridge.link import Link
-from ..bridge.script import Answer, Script
+from ..bridge.script import Script
 from .axis import Axis2104
+from .errors import BY_NUMBER, refused
+from .kind import KIND
 from .registers import Status
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
@@ -37,17 +34,17 @@ class Axes(dict[int, Axis2104]):
     """Axes by number."""
 
     def __missing__(self, number: object) -> Axis2104:
-        return self[PPMC2104.check_axis(whole(number, "axis"))]
+        return self[KIND.check_axis(whole(number, "axis"))]
 
 
-class Ppmc2104(Device):
-    """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `device.Device`.
+class Ppmc2104(Part):
+    """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `part.Part`.
 
     Opening it reads and clears the errors that others left, and ends their unfinished commands; a motion that
     runs goes on.
     """
 
-    kind = PPMC2104
+    kind = KIND
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -252,9 +249,9 @@ class Ppmc2104(Device):
         place = int(bool(code & AXIS_BIT))
         if not numbers[place]:
             place = 1 - place
-        if numbers[place] not in BY_NUMBER_2104:
+        if numbers[place] not in BY_NUMBER:
             return ProtocolError(f"{self.link.name}: the part told of an error and then of none: try again")
-        return refused2104(numbers[place], answer.last, place + 1)
+        return refused(numbers[place], answer.last, place + 1)
 
 
 def _with_csel(levels: int, number: int, clock: units.BaseClock | None) -> int:

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ...model.ppmc312.codes import Answer, Cause, Source
-from ..basis.errors import CommandRefused
-from .errors import refused312
+from ..basis.refusals import CommandRefused
+from .errors import refused
 
 _SPONTANEOUS, _WHO, _HAS_CODE, _LAST = 0x20, 0x18, 0x02, 0x01
 
@@ -81,7 +81,7 @@ class Alarm:
     @property
     def error(self) -> CommandRefused:
         """As an exception."""
-        error = refused312(Answer.ALARM, bytes([self.status]))
+        error = refused(Answer.ALARM, bytes([self.status]))
         assert error is not None
         return error
 
@@ -165,7 +165,7 @@ class Response:
     @property
     def error(self) -> CommandRefused | None:
         """The refusal that it is, if it is one."""
-        return refused312(self.code, self.data) if self.raw[0] & _HAS_CODE else None
+        return refused(self.code, self.data) if self.raw[0] & _HAS_CODE else None
 
     def report(self) -> Report:
         """What it says, for everything that is not an answer to the host. Raises BadResponse."""

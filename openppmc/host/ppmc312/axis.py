@@ -6,28 +6,26 @@ from ..axis.axis import CCW, CW
 from ..axis.moves import Moves, OnProgress
 from ..basis import units
 from ..basis.ending import Cause, End
-from ..basis.errors import NothingToStop
 from ..basis.kind import PULSE_ONLY
+from ..basis.refusals import NothingToStop
 from . import blocks
-from .homing import Homing312
-from .motion import Motion312
-from .overrides import Overrides312
+from .core import MotionT
+from .homing import Homing
+from .overrides import Overrides
 
 
-class Axis312(Moves, Overrides312):
+class Axis(Moves, Overrides[MotionT]):
     """See `ppmc312.Ppmc312`."""
-
-    make_motion = Motion312
 
     # ------------------------------------------------------------------ motions
 
-    def start_move(self, pulses: int, pulse_only: bool = False) -> Motion312:
+    def start_move(self, pulses: int, pulse_only: bool = False) -> MotionT:
         """Begin a move with ramps: 1 to 2^32 - 1 pulses either way."""
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         return self._start(self.move_block(pulses), _side(pulses), abs(pulses))
 
-    def start_constant(self, pulses: int, pps: units.Number) -> Motion312:
+    def start_constant(self, pulses: int, pps: units.Number) -> MotionT:
         """Begin a move at constant speed, without ramps."""
         return self._start(self.move_block(pulses, pps), _side(pulses), abs(pulses))
 
@@ -41,7 +39,7 @@ class Axis312(Moves, Overrides312):
         speed: units.Number | None = None,
         high: bool = False,
         pulse_only: bool = False,
-    ) -> Motion312:
+    ) -> MotionT:
         """Run until a stop, a limit or the alarm. speed: constant, in pps, default the start speed; high:
         with a ramp to `speed`, default the high speed."""
         if pulse_only:
@@ -56,11 +54,11 @@ class Axis312(Moves, Overrides312):
         """One pulse."""
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
-    def search(self, direction: int, pps: units.Number | None = None, index: bool = False) -> Motion312:
+    def search(self, direction: int, pps: units.Number | None = None, index: bool = False) -> MotionT:
         """Run at constant speed (default: start speed) until the origin, or until the index on it."""
         return self._start(blocks.origin_search(direction, self._search_rate(pps), index), direction)
 
-    def zero_return(self, direction: int, pps: units.Number | None = None, index: bool = False) -> Motion312:
+    def zero_return(self, direction: int, pps: units.Number | None = None, index: bool = False) -> MotionT:
         """Run at high speed (or pps) to the origin, slow down past it and come back to it at the start speed.
         Wants an origin switch that is active over a short way only."""
         rate = 0 if pps is None else self.rate_of(pps)
@@ -83,7 +81,7 @@ class Axis312(Moves, Overrides312):
         of each step off the switch when the search would begin on it. index: the origin is the first index of
         the encoder on the switch. Raises OriginNotFound, LimitReached, AlarmStop, StoppedEarly.
         """
-        return Homing312(self, direction, search_pps, back_off, progress, index).run(fast, to_limit)
+        return Homing(self, direction, search_pps, back_off, progress, index).run(fast, to_limit)
 
     # ------------------------------------------------------------------ while it runs
 
@@ -123,7 +121,7 @@ class Axis312(Moves, Overrides312):
         if motion is None or motion.end is not None:
             # Perhaps one that another program, an override or an event started.
             self._mark = self.window.answers
-            self._motion, before = self.make_motion(self, None, CW, None), motion
+            self._motion, before = self._make_motion(None, CW, None), motion
             self._motion.stop_ordered = True
             try:
                 self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())
@@ -136,11 +134,11 @@ class Axis312(Moves, Overrides312):
             self.brake(now)
         return motion.wait() if wait else None
 
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion312:
+    def _start(self, block: bytes, direction: int, asked: int | None = None) -> MotionT:
         """Start a motion; its end may be reported in the same message as its answer."""
         before, begin = self._motion, self.position
         self._mark = self.window.answers
-        self._motion = motion = self.make_motion(self, asked, direction, begin)
+        self._motion = motion = self._make_motion(asked, direction, begin)
         self.link.forget_events()
         try:
             data = self.instruct(block, 4)

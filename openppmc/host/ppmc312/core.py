@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import replace
-from typing import Protocol
+from typing import Generic, Protocol, TypeVar
 
 from ...model.ppmc312.codes import Code
 from ..basis.arguments import Checked
 from ..basis.ending import End
 from ..basis.errors import ProtocolError
-from ..basis.kind import Kind
-from ..bridge.link import Link
 from . import blocks
 from .answers import BadResponse, Executed, Report, Response, Stopped, signed
-from .motion import Motion312
-from .profile import Setup312
-from .registers import Inputs312, Status312
-from .window import ANSWER_MS, SHORTEST, Window
+from .kind import TableKind
+from .motion import Motion, Way
+from .profile import Setup
+from .registers import Inputs, Status
+from .window import ANSWER_MS, SHORTEST
 
 MOST_KEPT = 1000
+MotionT = TypeVar("MotionT", bound=Motion)
 
 
 class Instructions(Protocol):
-    """What carries instructions to a part; `window312.Window` does by the bridge, `serial312` by a line."""
+    """What carries instructions to a part; `window.Window` does by the bridge, `line.talk.Talk` by a line."""
 
     @property
     def answers(self) -> int:
@@ -42,33 +42,39 @@ class Instructions(Protocol):
         """Read what waits."""
 
 
-class Core312(Checked):
+class Core(Checked, Generic[MotionT]):
     """See `ppmc312.Ppmc312`.
 
     setup: the table that this object made, if any. reports: what the part said by itself and nobody took yet,
     oldest first (stops of this object's own motions are in their `end`); beyond 1000 the oldest are dropped.
     """
 
-    kind: Kind
+    kind: TableKind
     number = 1
     busy = 0x2C
     who = ""
+    link: Way
+    window: Instructions
 
-    def __init__(self, link: Link) -> None:
+    def __init__(self, link: Way) -> None:
         self.link = link
-        self.setup: Setup312 | None = None
+        self.setup: Setup | None = None
         self.reports: deque[Report] = deque(maxlen=MOST_KEPT)
-        self._motion: Motion312 | None = None
+        self._motion: MotionT | None = None
         self._mark = 0
         self.window = self._make_window()
         self.window.open()
 
     def _make_window(self) -> Instructions:
         """The way of instructions to the part and of responses back."""
-        return Window(self.link, self._arrived)
+        raise NotImplementedError
+
+    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> MotionT:
+        """The handle of a motion; see `motion.Motion`."""
+        raise NotImplementedError
 
     @property
-    def motion(self) -> Motion312 | None:
+    def motion(self) -> MotionT | None:
         """The motion that was started last, None before the first."""
         return self._motion
 
@@ -133,13 +139,13 @@ class Core312(Checked):
 
     # ------------------------------------------------------------------ registers
 
-    def status(self) -> Status312:
+    def status(self) -> Status:
         """State, monitors, registered instructions; allowed at any time."""
-        return Status312.parse(self._plain(Code.STATUS, 3))
+        return Status.parse(self._plain(Code.STATUS, 3))
 
-    def inputs(self) -> Inputs312:
+    def inputs(self) -> Inputs:
         """Switches and other inputs; allowed at any time."""
-        return Inputs312.parse(self._plain(Code.TERMINALS, 2))
+        return Inputs.parse(self._plain(Code.TERMINALS, 2))
 
     def version(self) -> int:
         """Version byte of the part."""

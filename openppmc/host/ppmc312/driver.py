@@ -2,34 +2,43 @@
 
 from __future__ import annotations
 
-from ..axis.device import Device
-from ..basis.kind import PPMC312
+from ..axis.part import Part
 from ..bridge.link import Link
 from ..bridge.script import Script
 from . import blocks
-from .axis import Axis312
+from .axis import Axis
+from .kind import KIND
+from .motion import Motion
+from .window import Window
 
 RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
 """Strap bits of the board: RUN, and the event inputs (0 = active)."""
 
 
-class Ppmc312(Axis312, Device):
-    """One PPMC-312: part and axis in one object; see `device.Device`.
+class Ppmc312(Axis[Motion], Part):
+    """One PPMC-312: part and axis in one object; see `part.Part`.
 
     Directions: 0 or CW, 1 or CCW. Speeds in pulses per second, those of motions within the table; pulses and
     positions signed, CW positive. Any method may raise LinkErrors; instructions raise what the part refuses
-    (CommandRefused, `errors312`). Motions: `axis312`, settings and tables: `settings312`, overrides and
-    events: `overrides312`, registers and outputs: `core312`.
+    (CommandRefused, `errors`). Motions: `axis`, settings and tables: `settings`, overrides and events:
+    `overrides`, registers and outputs: `core`.
     """
 
-    kind = PPMC312
+    kind = KIND
+    link: Link
 
     def __init__(self, link: Link) -> None:
         self._straps = 0xFF
         super().__init__(link)
 
+    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> Motion:
+        return Motion(self, asked, direction, begin)
+
+    def _make_window(self) -> Window:
+        return Window(self.link, self._arrived)
+
     @property
-    def axes(self) -> tuple[Ppmc312, ...]:  # type: ignore[override]
+    def axes(self) -> tuple[Ppmc312, ...]:
         return (self,)
 
     def reset(self) -> None:

@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 from ...model.ppmc312.codes import Answer, State
-from ..basis.errors import (
+from ..basis.refusals import (
     CommandRefused,
     NothingToStop,
     NotInitialised,
@@ -126,14 +126,14 @@ _FAILURES = {
 }
 
 
-def refused312(code: int, parameters: bytes) -> CommandRefused | None:
+def refused(code: int, parameters: bytes) -> CommandRefused | None:
     """The exception for an answer, None if it is none. parameters: of the response.
 
-    >>> str(refused312(0xF1, bytes([0, 0x10])))
+    >>> str(refused(0xF1, bytes([0, 0x10])))
     'the part is in alarm: remove the cause, then clear the alarm (or reset)'
-    >>> type(refused312(0xF0, bytes([0x18]))).__name__
+    >>> type(refused(0xF0, bytes([0x18]))).__name__
     'CurveRefused'
-    >>> refused312(0x40, bytes([0x12])) is None
+    >>> refused(0x40, bytes([0x12])) is None
     True
     """
     first = parameters[0] if parameters else 0

@@ -11,8 +11,8 @@ from ...model.ppmc312.stages import curve
 from ...model.ppmc312.stages.tables import STAGES, SettingError
 from ..basis import units
 from ..basis.errors import OutOfRange
-from .errors import refused312
-from .profile import Setup312, choose_clock
+from .errors import refused
+from .profile import Setup, choose_clock
 
 LEAST_TICKS = 256
 """Ticks that a stage lasts at least (pulses times rate), as the sheet asks for."""
@@ -27,7 +27,7 @@ class Stage(NamedTuple):
     down: int | None = None
 
 
-def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup312:
+def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup:
     """A free curve from its stages, slowest first: (pps, pulses) or (pps, pulses up, pulses down).
 
     Without pulses down in any stage the deceleration is the acceleration backwards. OutOfRange.
@@ -37,7 +37,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     >>> [block.hex(" ") for block in setup.blocks]
     ['02 03 01 01 03', '00 06 00 64 00 c8 01 90', '01 09 00 00 05 00 00 04 00 00 03']
     """
-    rows = [Stage(*row) for row in stages]  # type: ignore[arg-type]
+    rows = [Stage(*row) for row in stages]  # type: ignore[arg-type] # users give rows of two or three
     if not 2 <= len(rows) <= STAGES:
         raise OutOfRange(f"a free curve of {len(rows)} stages: 2 to {STAGES} are possible")
     speeds = [clock.choose(row.pps, f"stage {place}: speed") for place, row in enumerate(rows, 1)]
@@ -58,8 +58,8 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     try:
         table = curve.curve(rates, up, down if separate else None, clock.clk)
     except SettingError as error:
-        raise OutOfRange(f"free curve: {refused312(0xF0, bytes([error.number]))}") from None
-    return Setup312(
+        raise OutOfRange(f"free curve: {refused(0xF0, bytes([error.number]))}") from None
+    return Setup(
         clock,
         speeds[len(rows) - len(up)],
         speeds[len(rows) - len(down or up)],
@@ -74,7 +74,7 @@ def plan_file(
     path: Path,
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
-) -> Setup312:
+) -> Setup:
     """A free curve from a file; clocks as for `choose_clock`. OutOfRange."""
     return plan_stages(xtal_hz, read_stages(path), base_clock, external_clock)
 
@@ -84,7 +84,7 @@ def plan_stages(
     stages: Iterable[Sequence[float | int | None]],
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
-) -> Setup312:
+) -> Setup:
     """`plan_curve` with the base clock that the stages want."""
     rows = [tuple(row) for row in stages]
     slowest = min((float(row[0] or 0) for row in rows), default=0.0)
@@ -107,7 +107,7 @@ def _side(values: Sequence[int | None], name: str) -> list[int]:
 def read_stages(path: Path) -> list[Stage]:
     """Stages from a CSV file: speed in pps, pulses up[, pulses down], slowest first. A first line of names
     and lines that begin with # are passed over. OutOfRange with file and line."""
-    stages = []
+    stages: list[Stage] = []
     try:
         with path.open(newline="", encoding="utf-8") as file:
             for place, row in enumerate(csv.reader(file), 1):

@@ -3,31 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
-from ..axis.homing import Homing
-from ..axis.motion import Progress
-from ..basis.ending import Cause, End
-from ..basis.errors import OriginNotFound
-
-if TYPE_CHECKING:
-    from ..basis.units import Number
-    from .axis import Axis312
+from ..axis import homing
+from ..axis.motion import AnyMotion, Progress
+from ..basis.ending import Cause, End, OriginNotFound
+from ..basis.units import Number
 
 
-class Homing312(Homing):
-    """One homing run; see `Axis312.home`. index: searches end at an index of the encoder."""
+class Searching(homing.Searching, Protocol):
+    """The same with what only a PPMC-312 can."""
+
+    def search(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
+    def zero_return(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
+
+
+class Homing(homing.Homing):
+    """One homing run; see `Axis.home`. index: searches end at an index of the encoder."""
 
     def __init__(
         self,
-        axis: Axis312,
+        axis: Searching,
         direction: int,
         search_pps: Number | None,
         back_off: int,
         progress: Callable[[Progress], None] | None,
         index: bool,
     ) -> None:
-        super().__init__(axis, direction, search_pps, back_off, progress)  # type: ignore[arg-type]
+        super().__init__(axis, direction, search_pps, back_off, progress)
         self._part = axis
         self._index = index
 

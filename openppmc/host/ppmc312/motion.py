@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ...model.ppmc312.codes import Cause as Bit
+from ..axis import device
 from ..axis.motion import PROGRESS_POLL, SAFETY_POLL, Progress
 from ..basis.arguments import Checked
 from ..basis.ending import Cause, End
 from ..basis.errors import ProtocolError, Timeout
+from ..bridge.answer import Identity
 from .answers import Stopped, signed
-
-if TYPE_CHECKING:
-    from .core import Core312
+from .registers import Status
 
 _CAUSES = {
     Bit.NORMAL: Cause.COMPLETE,
@@ -28,7 +28,35 @@ _CAUSES = {
 SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
 
 
-class Motion312(Checked):
+class Way(device.Way, Protocol):
+    """The way to the part: a bridge's link, or a line."""
+
+    @property
+    def identity(self) -> Identity: ...
+    def wait_event(self, timeout: float) -> int | None: ...
+    def forget_events(self) -> None: ...
+
+
+class Collecting(Protocol):
+    """The way of reports to the part's object."""
+
+    def collect(self) -> None: ...
+
+
+class Moving(Protocol):
+    """What a motion needs of its part, which is a `core.Core`."""
+
+    @property
+    def link(self) -> Way: ...
+    @property
+    def window(self) -> Collecting: ...
+    @property
+    def position(self) -> int: ...
+    def status(self) -> Status: ...
+    def told(self, end: End) -> End: ...
+
+
+class Motion(Checked):
     """Handle of an operation that was started; `end` is its End once it is known.
 
     asked: pulses, None for endless ones. direction: 0 CW, 1 CCW. begin: position before, None if another
@@ -36,7 +64,7 @@ class Motion312(Checked):
     ramps. stop_ordered: a stop was sent, so that an end below the stop speed is its work.
     """
 
-    def __init__(self, part: Core312, asked: int | None, direction: int, begin: int | None) -> None:
+    def __init__(self, part: Moving, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self._link = part.link
         self.asked = asked

@@ -8,15 +8,16 @@ from ..basis import units
 from ..basis.errors import OutOfRange, ProtocolError
 from . import blocks
 from .blocks import Trigger
+from .core import MotionT
 from .errors import RegistrationRefused
 from .registers import EventBuffer
-from .settings import Settings312
+from .settings import Settings
 
 _EVENTS = {1: Trigger.EVENT1, 2: Trigger.EVENT2}
 REGISTERED, IN_USE, FULL, DELETED, EMPTY_NOW, NOTHING = range(6)
 
 
-class Overrides312(Settings312):
+class Overrides(Settings[MotionT]):
     """See `ppmc312.Ppmc312`.
 
     Overrides happen in the order of their registration, up to eight of them; each waits for a position (at)

@@ -17,7 +17,7 @@ from ...model.ppmc312.stages.tables import DIVIDERS, LEAST_PULSES, STAGES, Setti
 from ..basis import units
 from ..basis.errors import OutOfRange
 from . import blocks
-from .errors import refused312
+from .errors import refused
 
 SLOWEST_RATE, FASTEST_RATE = 0xFFFF, 2
 RISING = 6
@@ -70,7 +70,7 @@ def choose_clock(
 
 
 @dataclass(frozen=True)
-class Setup312:
+class Setup:
     """A table and its instruction blocks. start, stop, high: its end speeds as asked for and as reached."""
 
     clock: units.BaseClock = field(repr=False)
@@ -96,9 +96,10 @@ class Setup312:
                 for values, first in zip(lists, (table.first, table.sa, table.sd), strict=True)
             )
             return blocks.free_curve(clk, rates, up, down if table.separate else None)
-        own = (self.stop.rate, table.nd) if table.separate else ()
-        sigmoid = self.shape == "sigmoid"
-        return [blocks.initial_setting(clk, self.start.rate, self.high.rate, table.na, *own, sigmoid=sigmoid)]
+        speeds, sigmoid = (self.start.rate, self.high.rate), self.shape == "sigmoid"
+        if not table.separate:
+            return [blocks.initial_setting(clk, *speeds, table.na, sigmoid=sigmoid)]
+        return [blocks.initial_setting(clk, *speeds, table.na, self.stop.rate, table.nd, sigmoid)]
 
     @property
     def ramp_pulses(self) -> int:
@@ -131,7 +132,7 @@ def plan_setup(
     stop_pps: units.Number | None = None,
     down: int | None = None,
     sigmoid: bool = False,
-) -> Setup312:
+) -> Setup:
     """A linear or sigmoid table. up, down: pulses of acceleration and deceleration, 24 bits; stop_pps and
     down default to start_pps and up. OutOfRange for what the part would refuse.
 
@@ -155,13 +156,13 @@ pulses: 1143 or more
     try:
         table = tables.build(*numbers, up, down, clock.clk, sigmoid, separate)
     except SettingError as error:
-        text = str(refused312(0xF0, bytes([error.number])))
+        text = str(refused(0xF0, bytes([error.number])))
         if error.number == 5:
             least = _least(numbers, sigmoid)
             which = f"{least[0]} up and {least[1]} down" if separate else f"{least[0]}"
             raise OutOfRange(f"{up} pulses: {text}: {which} or more") from None
         raise OutOfRange(f"start {start}, stop {stop}, high {high}: {text}") from None
-    return Setup312(clock, start, stop, high, table, "sigmoid" if sigmoid else "linear")
+    return Setup(clock, start, stop, high, table, "sigmoid" if sigmoid else "linear")
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:

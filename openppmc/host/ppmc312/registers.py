@@ -8,7 +8,7 @@ from ...model.ppmc312.codes import State
 
 
 @dataclass(frozen=True)
-class Status312:
+class Status:
     """Answer of 4D. raw: its condition byte.
 
     run_monitored: starts wait for RUN. interlock: its control runs. encoder_watched, position_watched: the
@@ -31,18 +31,23 @@ class Status312:
     events: tuple[int, ...]
 
     @classmethod
-    def parse(cls, data: bytes) -> Status312:
+    def parse(cls, data: bytes) -> Status:
         """From operation, condition and buffer byte.
 
-        >>> Status312.parse(bytes.fromhex("00 02 00")).state.name
+        >>> Status.parse(bytes.fromhex("00 02 00")).state.name
         'NOR'
         """
         operation, condition, buffers = data
         return cls(
             condition,
             State(condition),
-            not operation & 0x80,
-            *(bool(operation & bit) for bit in (0x40, 0x10, 0x08, 0x04, 0x02, 0x01)),
+            run_monitored=not operation & 0x80,
+            interlock=bool(operation & 0x40),
+            encoder_watched=bool(operation & 0x10),
+            position_watched=bool(operation & 0x08),
+            end_monitored=bool(operation & 0x04),
+            encoder_outside=bool(operation & 0x02),
+            position_outside=bool(operation & 0x01),
             overrides=buffers & 15,
             override_events=tuple(n for n, bit in ((1, 0x10), (2, 0x20)) if buffers & bit),
             events=tuple(n for n, bit in ((1, 0x40), (2, 0x80)) if buffers & bit),
@@ -60,7 +65,7 @@ class Status312:
 
 
 @dataclass(frozen=True)
-class Inputs312:
+class Inputs:
     """Switches and other inputs; True: active (pin low), run: True = starts are permitted."""
 
     limit_cw: bool
@@ -76,15 +81,27 @@ class Inputs312:
     event2: bool
 
     @classmethod
-    def parse(cls, data: bytes) -> Inputs312:
+    def parse(cls, data: bytes) -> Inputs:
         """From the two bytes of 27; the part gives levels.
 
-        >>> Inputs312.parse(bytes.fromhex("FD E0")).active
+        >>> Inputs.parse(bytes.fromhex("FD E0")).active
         ['limit cw', 'run']
         """
         levels, other = data
-        pins = (not levels >> bit & 1 for bit in (1, 0, 3, 2, 4, 5, 6, 7))
-        return cls(*pins, run=bool(other & 0x20), event1=not other & 0x40, event2=not other & 0x80)
+        low = [not levels >> bit & 1 for bit in range(8)]
+        return cls(
+            limit_cw=low[1],
+            limit_ccw=low[0],
+            slow_cw=low[3],
+            slow_ccw=low[2],
+            origin=low[4],
+            index=low[5],
+            end=low[6],
+            alarm=low[7],
+            run=bool(other & 0x20),
+            event1=not other & 0x40,
+            event2=not other & 0x80,
+        )
 
     @property
     def active(self) -> list[str]:

@@ -9,11 +9,12 @@ from pathlib import Path
 from ...model.ppmc312.codes import Code
 from ..basis import units
 from ..basis.errors import OutOfRange, ProtocolError
-from ..basis.kind import PPMC312
+from ..basis.kind import Wanted
 from . import blocks
-from .core import Core312
+from .core import Core, MotionT
 from .free import plan_stages, read_stages
-from .profile import Setup312
+from .kind import KIND
+from .profile import Setup
 from .window import ANSWER_MS
 
 LONGEST_BUILD_MS = 300
@@ -30,7 +31,7 @@ class TableRead:
     down: tuple[int, ...]
 
 
-class Settings312(Core312):
+class Settings(Core[MotionT]):
     """See `ppmc312.Ppmc312`."""
 
     # ------------------------------------------------------------------ tables
@@ -39,13 +40,13 @@ class Settings312(Core312):
         self,
         start_pps: units.Number = 1000,
         high_pps: units.Number = 5000,
-        ramp_pulses: int = PPMC312.usual_ramp,
+        ramp_pulses: int = KIND.usual_ramp,
         stop_pps: units.Number | None = None,
         down_pulses: int | None = None,
         sigmoid: bool = False,
         base_clock: units.Number | None = None,
         external_clock: units.Number | None = None,
-    ) -> Setup312:
+    ) -> Setup:
         """Speeds and ramps; returns what is really reached.
 
         start_pps, high_pps: 0.24 pps to 4 Mpps as the base clock allows (the old part: up to 2 Mpps).
@@ -54,32 +55,30 @@ class Settings312(Core312):
         reaches the start and stop speed. external_clock: frequency at the pin EXTCK in Hz. Overrides and
         event buffers are emptied. Raises OutOfRange, and NotWhileBusy during a motion.
         """
-        return self.apply(
-            self.kind.plan(
-                self.link.identity.xtal_hz,
-                start_pps,
-                high_pps,
-                ramp_pulses,
-                base_clock=base_clock,
-                external_clock=external_clock,
-                stop_pps=stop_pps,
-                down_pulses=down_pulses,
-                sigmoid=sigmoid,
-            )
+        wanted = Wanted(
+            start_pps,
+            high_pps,
+            ramp_pulses,
+            base_clock=base_clock,
+            external_clock=external_clock,
+            stop_pps=stop_pps,
+            down_pulses=down_pulses,
+            sigmoid=sigmoid,
         )
+        return self.apply(self.kind.plan(self.link.identity.xtal_hz, wanted))
 
     def load_curve(
         self,
         stages: Iterable[Sequence[float | int | None]] | str | Path,
         base_clock: units.Number | None = None,
         external_clock: units.Number | None = None,
-    ) -> Setup312:
+    ) -> Setup:
         """A free curve of 2 to 127 stages, slowest first: (pps, pulses up[, pulses down]), or the path of a
         CSV file of such lines. Clocks as for `initialise`. Raises OutOfRange."""
         rows = read_stages(Path(stages)) if isinstance(stages, (str, Path)) else stages
         return self.apply(plan_stages(self.link.identity.xtal_hz, rows, base_clock, external_clock))
 
-    def apply(self, setup: Setup312) -> Setup312:
+    def apply(self, setup: Setup) -> Setup:
         """Initialise with a setup that was planned before, and switch the excitation on."""
         self.setup = None
         milliseconds = ANSWER_MS
@@ -108,7 +107,7 @@ class Settings312(Core312):
         """Rate of a speed of the table. OutOfRange, also without a table of this object."""
         return self.known_setup().rate_of(pps, what)
 
-    def known_setup(self) -> Setup312:
+    def known_setup(self) -> Setup:
         """The table that this object made. OutOfRange if there is none."""
         if self.setup is None:
             raise OutOfRange("a speed needs a base clock, which an initialisation chooses: initialise first")
@@ -154,5 +153,5 @@ class Settings312(Core312):
         self.instruct(blocks.input_mask(mask, auto))
 
 
-def _numbers(data: bytes, width: int) -> tuple[int, ...]:
+def _numbers(data: bytes | bytearray, width: int) -> tuple[int, ...]:
     return tuple(int.from_bytes(data[k : k + width], "big") for k in range(0, len(data), width))

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from ..axis.registers import InputsStmc, ReadCodes
+from ..axis.registers import FAMILY, ReadCodes
 from ..axis.single import OneAxis
-from ..basis.errors import refused_stmc
-from ..basis.kind import STMC
+from ..bridge.answer import Result
 from ..bridge.link import Link
-from ..bridge.script import Result, Script
+from ..bridge.script import Script
+from .errors import refused
+from .kind import KIND
+from .registers import Inputs
 
-READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": ReadCodes()}
+READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": FAMILY}
 """What the codes of its read commands may be (ruling R-01)."""
 
 
 class Stmc(OneAxis):
-    """One STMC; see `one_axis.OneAxis`. It has no pulse output: the board counts the steps of the phases.
+    """One STMC; see `axis.single.OneAxis`. It has no pulse output: the board counts the steps of the phases.
 
     `initialise`: a speed is step clock / divisor, divisors 5 to 255. base_clock: 12 500 Hz (internal, at a
     16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s), None to take
@@ -26,11 +28,11 @@ class Stmc(OneAxis):
     A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
     """
 
-    kind = STMC
+    kind = KIND
 
     def __init__(self, link: Link) -> None:
         super().__init__(link)
-        link.refusal = lambda answer: refused_stmc(answer.last)
+        link.refusal = lambda answer: refused(answer.last)
         self._read_map = ""
 
     @property
@@ -47,8 +49,8 @@ class Stmc(OneAxis):
         return self._read_map
 
     @property
-    def codes(self) -> ReadCodes:  # type: ignore[override]
+    def codes(self) -> ReadCodes:
         return READ_MAPS[self.read_map]
 
-    def inputs(self) -> InputsStmc:
-        return InputsStmc.of_pins(self.pins())
+    def inputs(self) -> Inputs:
+        return Inputs.of_pins(self.pins())

@@ -6,7 +6,9 @@ Every op is checked before it begins (UB-ANS-05): number, operands, length, room
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Protocol, TypeVar
+
+T = TypeVar("T")
 
 IBF, OBF, ERR = 0x02, 0x01, 0x80
 RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
@@ -65,9 +67,9 @@ class Engine:
         self.events = False
         self.rate: int | None = None
 
-    def hook(self, name: str, default: Any, *arguments: Any) -> Any:
+    def hook(self, name: str, default: T, *arguments: object) -> T:
         """Call an optional method of the bus."""
-        method = getattr(self._bus, name, None)
+        method: Callable[..., T] | None = getattr(self._bus, name, None)
         return default if method is None else method(*arguments)
 
     def run(self, script: bytes, interrupted: Callable[[], bool]) -> tuple[int, int, int, bytes]:

@@ -1,22 +1,37 @@
-"""A board in Python: golden part, pulse counters and plants, in virtual time. The bridge's `Bus`."""
+"""A carrier in Python: golden part, pulse counters and plants, in virtual time. The bridge's `Bus`."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Generic, Protocol, TypeVar
 
+from ..common.chip import Chip
 from ..common.edges import Edge
-from .plant import SWITCHES, Plant
+from .plant import SWITCHES
 
 WRITE_STROBE, READ_STROBE, PAUSE = 4, 6, 4
 RESET_CLK = 16
 
 
-class Board(ABC):
+P = TypeVar("P", bound=Chip)
+
+
+class Place(Protocol):
+    """Where the switches of an axis are."""
+
+    @property
+    def start(self) -> int:
+        """Where the motor is at first."""
+
+    def levels(self, position: int) -> dict[str, int]:
+        """Levels of the switches at a position."""
+
+
+class Carrier(ABC, Generic[P]):
     """A part whose motors follow `pout_n` and `dir`, one plant an axis.
 
-    part: `Ppmc104`, `Ppmc2104` or `Stmc`. `t` is the next free clk edge. `positions` are the motors',
+    `t` is the next free clk edge. `positions` are the motors',
     `counts` the pulse counters'. on_interrupt: called when the pin INTERRUPT falls. ADDRESS_BITS: lines of
     the bridge's address that are wired.
     """
@@ -24,7 +39,7 @@ class Board(ABC):
     ADDRESS_BITS = 1
     INTERRUPT = "int_n"
 
-    def __init__(self, part: Any, plants: Sequence[Plant], on_interrupt: Callable[[], None]) -> None:
+    def __init__(self, part: P, plants: Sequence[Place], on_interrupt: Callable[[], None]) -> None:
         self.part = part
         self.clk_hz = part.timebase.clk_hz
         self.plants = tuple(plants)
@@ -60,9 +75,9 @@ class Board(ABC):
         """Virtual time in s."""
         return self.t / self.clk_hz
 
+    @abstractmethod
     def shown(self) -> object:
         """What the register that waits look at would show now."""
-        return self.part.status
 
     def _levels(self) -> list[dict[str, int]]:
         return [plant.levels(at) for plant, at in zip(self.plants, self.positions, strict=True)]
@@ -81,9 +96,8 @@ class Board(ABC):
         self.t = max(self.t, t)
 
     def _next_event(self) -> int | None:
-        """Edge of the next event of part or board."""
-        event: int | None = self.part.next_event
-        return event
+        """Edge of the next event of part or carrier."""
+        return self.part.next_event
 
     def _watch(self) -> None:
         """Follow the outputs: motors, counters, switches, interrupt."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from .edges import EdgeLog
-from .scheduler import Scheduler
+from .scheduler import Callback, Scheduler
 from .timebase import Latency, QuantumCounter, Timebase
 
 Put = Callable[[int, str, int], None]
@@ -75,4 +75,7 @@ class PinRegister:
         for signal, value in internal.items():
             if self._last[signal] != value:
                 self._last[signal] = value
-                self._queue.at(t + self._lag, Phase.PIN, lambda now, s=signal, v=value: self._put(now, s, v))
+                self._queue.at(t + self._lag, Phase.PIN, self._setter(signal, value))
+
+    def _setter(self, signal: str, value: int) -> Callback:
+        return lambda now: self._put(now, signal, value)

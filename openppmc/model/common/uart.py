@@ -1,7 +1,4 @@
-"""UART of the PPMC-312 in serial mode, in time: bit times are exact fractions of a clk.
-
-P312-SER-01, -15, -18.
-"""
+"""UART in time: bit times are exact fractions of a clk (P312-SER-01, -15, -18)."""
 
 from __future__ import annotations
 
@@ -12,18 +9,10 @@ from math import ceil
 from typing import Protocol
 
 from .blocks import Context, Phase
-from .scheduler import Event, Scheduler
+from .scheduler import Callback, Event, Scheduler
 
 BITS = 10
 """Start bit, eight data bits, stop bit."""
-_CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
-"""XTAL cycles of a bit, by mod[2:0]."""
-
-
-def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
-    """clk of a bit; None where mod names no documented speed, and the station is silent."""
-    cycles = _CYCLES.get(mod)
-    return None if cycles is None else cycles * clk_hz / xtal_hz
 
 
 class Queued(Protocol):
@@ -99,22 +88,28 @@ class Transmitter:
         levels = [1]
         for byte in message:
             levels += [0, *(byte >> place & 1 for place in range(8)), 1]
-        steps: list[tuple[Fraction, Callable[[int], None]]] = []
+        steps: list[tuple[Fraction, Callback]] = []
         for number, (before, level) in enumerate(pairwise(levels), 1):
             if level != before:
-                steps.append((Fraction(number), lambda now, v=level: self._log.set(now, "txd", v)))
+                steps.append((Fraction(number), self._level(level)))
         for number, byte in enumerate(message, 1):
             middle = BITS * number + Fraction(1, 2)
-            steps.append((middle, lambda now, b=byte: self._sent.append((now, b))))
+            steps.append((middle, self._character(byte)))
         steps.append((Fraction(len(levels)), lambda now: self._end(now, ended)))
         steps.sort(key=lambda step: step[0])
         self._next([(t + ceil(bits * self._bit), action) for bits, action in steps], 0)
 
-    def _next(self, steps: Sequence[tuple[int, Callable[[int], None]]], number: int) -> None:
+    def _level(self, level: int) -> Callback:
+        return lambda now: self._log.set(now, "txd", level)
+
+    def _character(self, byte: int) -> Callback:
+        return lambda now: self._sent.append((now, byte))
+
+    def _next(self, steps: Sequence[tuple[int, Callback]], number: int) -> None:
         if number < len(steps):
             self._queue.at(steps[number][0], Phase.PIN, lambda now: self._do(now, steps, number))
 
-    def _do(self, t: int, steps: Sequence[tuple[int, Callable[[int], None]]], number: int) -> None:
+    def _do(self, t: int, steps: Sequence[tuple[int, Callback]], number: int) -> None:
         steps[number][1](t)
         self._next(steps, number + 1)
 

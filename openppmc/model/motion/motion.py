@@ -2,13 +2,14 @@
 
 Intervals: P104-BCK-01..03, P104-INT-01..03, P104-PRO-04..06 (P2104-BCK, -INTV, -PRO). Forced deceleration:
 P104-FDC-01..05. Pulse shape: P104-TIM-02..06. Ends: P104-END-01..08. Inputs: P104-LIM-01..09 (which input
-does what: `guard`). When an operation may start, what a stop does and the DATASHEET times: `motion104`,
-`motion2104`.
+does what: `guard`). When an operation may start, what a stop does and the DATASHEET times: the
+part's own `motion`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from ..common.blocks import Context, Phase
@@ -31,7 +32,8 @@ class Setup(NamedTuple):
     chopping: bool
 
 
-class Interval(NamedTuple):
+@dataclass(slots=True)
+class Interval:
     """Interval `number` (from pulse `number` on): ramp index (None: constant speed), rate, length in
     quanta (None: external clock)."""
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Pace006:
+class Pace:
     """Constants of one core.
 
     Reset. reset: first edge with rst_n = 1 to the first one that the inside works on.

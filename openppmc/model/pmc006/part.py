@@ -1,8 +1,8 @@
 """Golden model of the PMC006B4 at pin level, event driven and exact to the clk.
 
-Pins and time: `chip`. Line: `line006`, `frames006`. Instructions: `codes006`, `desk006`, `exec006`,
-`settings006`. Program: `program006`, `processor006`, `keys006`. Inputs: `guard006`. EEPROM: `eeprom006`,
-`i2c006`, `boot006`. Motion: `motion006`, `engine006`, `plan006`. Drive: `drive006`, `angle006`, `chopper006`.
+Pins and time: `common.chip`. Line: room `front`. Instructions: `codes`, `settings`, room `instructions`
+(the user program and its keys, too). Motion, emergency inputs and stall: room `motion`. EEPROM: room
+`memory`. Microsteps and chopper: room `drive`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .memory.boot import Boot
 from .memory.eeprom import Engine
 from .memory.i2c import Bus
 from .motion.motion import Motion
-from .pace import Pace006
+from .pace import Pace
 from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Shared, Ticks
 from .settings import Settings
 
@@ -44,8 +44,6 @@ class Pmc006(Chip):
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, ("rxd",)
-    BUS = Bus
-    """What moves the lines of the EEPROM."""
 
     def __init__(
         self,
@@ -60,7 +58,7 @@ class Pmc006(Chip):
         t_blank_ns: int = 1_000,
         fw_version: int = 0x123,
         straps: Mapping[str, int] | None = None,
-        pace: Pace006 | None = None,
+        pace: Pace | None = None,
     ) -> None:
         del xtal_hz
         super().__init__(clk_hz, 16_000_000, timing, OUTPUTS, None)
@@ -76,7 +74,7 @@ class Pmc006(Chip):
         ):
             if not low <= given <= high:
                 raise ValueError(f"{name} {given} is outside {low}..{high}")
-        self.pace = pace or Pace006()
+        self.pace = pace or Pace()
         self._echo, self._version = step_ack == "ECHO", fw_version
         self._baud, self._i2c_hz, self._ee_dev = baud, i2c_hz, ee_dev
         self._chopper_ns = (t_off_ns, t_blank_ns)
@@ -100,7 +98,7 @@ class Pmc006(Chip):
         self.drive = Drive(shared, self.motion, *self._chopper_ns, origin=first)
         self.executor = Executor(desk, self._answer)
         desk.program = Processor(desk, self.executor)
-        bus = self.BUS(shared, desk.levels, self._i2c_hz)
+        bus = self._bus(shared, desk.levels)
         desk.eeprom = Engine(desk, bus, self._ee_dev)
         self._boot = Boot(desk, desk.eeprom, bus, self._booted, self._changed)
         self.line = Line(shared, self._baud, self._take, self.replies, self.sent)
@@ -109,6 +107,10 @@ class Pmc006(Chip):
         self._pause_key = KeyFilter(shared, ticks, ticks, desk.program.pause_key)
         restore_ticks = RESTORE_MS * MS + self.pace.key_ticks
         self._restore_key = KeyFilter(shared, restore_ticks, 0, self._restore, armed=True)
+
+    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
+        """What moves the lines of the EEPROM."""
+        return Bus(shared, levels, self._i2c_hz)
 
     def _restart(self) -> None:
         self._build(0)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..common.edges import EdgeLog
 from ..common.scheduler import Scheduler
-from .pace import Pace006
+from .pace import Pace
 from .settings import Settings
 
 INPUTS: dict[str, int] = {
@@ -25,7 +25,10 @@ INPUTS: dict[str, int] = {
     "scl_i": 1,
     "sda_i": 1,
 }
-WIDTHS: dict[str, int] = {"gpi": 5, "adc_data": 10, "bemf_level": 10}
+WIDTHS: dict[str, int] = {
+    **{"gpi": 5, "adc_data": 10, "bemf_level": 10},
+    **{"gpo": 5, "phase_a_ref": 8, "phase_b_ref": 8},
+}
 OUTPUTS: dict[str, int] = {
     "txd": 1,
     "de": 0,
@@ -87,5 +90,5 @@ class Shared:
     log: EdgeLog
     clk_hz: int
     us: Ticks
-    pace: Pace006
+    pace: Pace
     settings: Settings

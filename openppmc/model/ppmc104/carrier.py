@@ -1,20 +1,18 @@
-"""The modelled board with a PPMC-104."""
+"""The modelled carrier with a PPMC-104."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from .part import Ppmc104
 
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
-class Board104(Board):
+class Carrier(carrier.Carrier[Ppmc104]):
     """Wired as ppmc104_carrier: straps bit 0 is csel, bit 1 vsel."""
-
-    NUMBER = 104
 
     def __init__(
         self,
@@ -31,6 +29,9 @@ class Board104(Board):
 
     def straps(self, levels: int) -> None:
         self.set_pins(csel=levels & 1, vsel=levels >> 1 & 1)
+
+    def shown(self) -> object:
+        return self.part.status
 
     def pins(self) -> int:
         self._settle()

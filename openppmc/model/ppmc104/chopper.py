@@ -7,7 +7,7 @@ from ..common.blocks import Context
 DEFAULT_QUANTA = (260, 435)
 
 
-class Switching104:
+class Switching:
     """Default times until the first 0x84, then its two values, stretched by vsel = L."""
 
     def __init__(self, context: Context) -> None:

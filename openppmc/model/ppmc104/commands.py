@@ -1,4 +1,4 @@
-"""Command processor of the PPMC-104 model: what each command does. The bytes before that: `commands`.
+"""Command processor of the PPMC-104 model: what each command does. The bytes before that: `single.commands`.
 
 Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary: P104-AUX-01..06,
 P104-DS-11.
@@ -17,8 +17,8 @@ from ..motion.ramp import Ramp
 from ..single.codes import Command, Error, Kind, decode
 from ..single.commands import ByteUnit
 from ..single.hostport import HostPort
-from .chopper import Switching104
-from .motion import Motion104
+from .chopper import Switching
+from .motion import Motion
 from .pins import INPUT_REGISTER
 
 _DS_AUX, _DS_EXCITATION_OFF = 224, 288
@@ -31,10 +31,10 @@ class CommandUnit(ByteUnit):
         self,
         context: Context,
         port: HostPort,
-        motion: Motion104,
+        motion: Motion,
         excitation: Excitation,
         chopper: Chopper,
-        switching: Switching104,
+        switching: Switching,
     ) -> None:
         super().__init__(context, port, motion, excitation, chopper)
         self._switching = switching

@@ -16,7 +16,7 @@ DS_FLAG_COMMAND, DS_FLAG_LIMIT, DS_FLAG_LIMIT_HIGH = 272, 192, 272
 DS_FAST_PULSE, DS_FAST_PHASE = 100, 148
 
 
-class Motion104(TimedMotion):
+class Motion(TimedMotion):
     """The axis of a PPMC-104."""
 
     hold_cycles = 544_000
@@ -78,9 +78,14 @@ class Motion104(TimedMotion):
             passed += 1
         if not passed:
             return latency.ds12_lag
-        slower = len(self.intervals) > 2 and self.intervals[-2].index < self.intervals[-3].index
+        slower = len(self.intervals) > 2 and self._falls(-2)
         look_up = latency.seek_start + latency.seek_per_rate * passed if slower else latency.seek_turn
         return latency.ds12_lag + look_up
+
+    def _falls(self, number: int) -> bool:
+        """Whether this interval of a ramp has a lower index than the one before."""
+        index, before = self.intervals[number].index, self.intervals[number - 1].index
+        return index is not None and before is not None and index < before
 
     # ------------------------------------------------------------------ end
 

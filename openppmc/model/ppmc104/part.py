@@ -1,10 +1,10 @@
 """Golden model of the PPMC-104 at pin level, event driven and exact to the clk.
 
-Pins and time: `chip`, `single`. Blocks: `hostport` and `hostport104` (P104-BUS, -HSK), `commands` and
-`commands104` (P104-CMD, -ERR, -INI, -RD, -AUX), `motion`, `timed_motion` and `motion104` (P104-OPR, -BCK,
--PRO, -FDC, -TIM, -END), `guard` (P104-LIM), `chopper` (P104-SW), `excitation` (P104-PHS), `ramp` (P104-RMP).
-Here: P104-PORT-01..03 (pins, reset), P104-PAR-01 (parameters). The constants that the rules leave open are
-in `timebase.Latency`.
+Pins and time: `common.chip`, `single.single`. Blocks: `hostport` and `strobes` (P104-BUS, -HSK), `commands`
+here and in `single` (P104-CMD, -ERR, -INI, -RD, -AUX), `motion` here and in `motion`, `timed_motion`
+(P104-OPR, -BCK, -PRO, -FDC, -TIM, -END), `guard` (P104-LIM), `chopper` (P104-SW), `excitation` (P104-PHS),
+`ramp` (P104-RMP). Here: P104-PORT-01..03 (pins, reset), P104-PAR-01 (parameters). The constants that the
+rules leave open are in `timebase.Latency`.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from ..motion.chopper import Chopper
 from ..single.hostport import HostPort
 from ..single.single import SingleAxis
 from ..single.strobes import SpeedGate, strobes
-from .chopper import Switching104
+from .chopper import Switching
 from .commands import CommandUnit
-from .motion import Motion104
+from .motion import Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
 
@@ -42,11 +42,11 @@ class Ppmc104(SingleAxis):
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, phase_idle, latency)
 
     def _blocks(self, context: Context) -> None:
-        switching = Switching104(context)
+        switching = Switching(context)
         self._chopper = Chopper(context, switching)
         gate = SpeedGate(lambda t: self._port.retry(t))
         self._port = HostPort(context, self._take, self._state, strobes, gate.waits)
-        self._motion = motion = Motion104(context, self._port, gate, self._excitation, self._chopper)
+        self._motion = motion = Motion(context, self._port, gate, self._excitation, self._chopper)
         self._commands = CommandUnit(context, self._port, motion, self._excitation, self._chopper, switching)
 
     def _motor_levels(self) -> dict[str, int]:

@@ -33,7 +33,7 @@ OUTPUTS: dict[str, int] = {
     "pout_n": 1,
     "dir": 0,
 }
-WIDTHS: dict[str, int] = {"d_i": 8, "auxi": 4}
+WIDTHS: dict[str, int] = {"d_i": 8, "auxi": 4, "d_o": 8, "auxo": 4, "s": 5}
 HOST_PINS = ("a0", "cs_n", "rd_n", "wr_n", "d_i")
 GUARD = GuardPins(limits=("l1_n", "l2_n"), slow_limits=("l3_n", "l4_n"), alarm="alm_n", origin="cnp_n")
 # Levels of the input register (P104-RD-05), bit by bit.

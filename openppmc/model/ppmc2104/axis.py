@@ -13,13 +13,13 @@ from ..motion.guard import input_register
 from ..motion.motion import Setup
 from .codes import CONTROL_INPUT, END_STATUS, ERROR_CODE, OUTPUT_SIGNAL, Error
 from .interrupt import Cause, Interrupt
-from .motion import Motion2104
+from .motion import Motion
 from .pins import CONTROL_INPUT_BITS, MOTOR_AT_REST, axis_levels
 from .windows import Windows
 
 
 @dataclass
-class Switching2104:
+class Switching:
     """Switching times in units of 2 quanta (P2104-SW-04, -05, P2104-AUX-04, -06)."""
 
     on: int = 0x53
@@ -39,9 +39,9 @@ class Axis:
         counter = QuantumCounter(shared.timebase, shared.counter.origin)
         self.context = replace(shared, counter=counter, levels=axis_levels(shared.levels, number))
         self.excitation = Excitation()
-        self.switching = Switching2104()
+        self.switching = Switching()
         self.chopper = Chopper(self.context, self.switching)
-        self.motion = Motion2104(self.context, self.excitation, self.chopper, windows, self._ended)
+        self.motion = Motion(self.context, self.excitation, self.chopper, windows, self._ended)
         self.setup: Setup | None = None
         self.error = Error.NONE
         self.building = False

@@ -1,21 +1,19 @@
-"""The modelled board with a PPMC-2104."""
+"""The modelled carrier with a PPMC-2104."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from .part import Ppmc2104
 
 _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"), strict=True))
 
 
-class Board2104(Board):
+class Carrier(carrier.Carrier[Ppmc2104]):
     """Wired as ppmc2104_carrier: straps bits 1..0 are csel, 3..2 run, 4 errint_n; bit 7 chooses the pins in
     PINS, 1 for those of axis 1."""
-
-    NUMBER = 2104
 
     def __init__(
         self,
@@ -35,6 +33,9 @@ class Board2104(Board):
     def straps(self, levels: int) -> None:
         self._shown = int(not levels & 0x80)
         self.set_pins(csel=levels & 3, run=levels >> 2 & 3, errint_n=levels >> 4 & 1)
+
+    def shown(self) -> object:
+        return self.part.status
 
     def pins(self) -> int:
         self._settle()

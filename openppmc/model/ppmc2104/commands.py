@@ -1,7 +1,7 @@
 """Instruction processor of the PPMC-2104 model: what each byte does, and which error it makes.
 
 Handshake: P2104-HSK-04..08. Errors and their order: P2104-ERR-01..06, P2104-FSM-01..05. Setting:
-P2104-INI-01..07. Reads: P2104-RD-01..08. Auxiliary: P2104-AUX-01..06. Times: `windows2104`.
+P2104-INI-01..07. Reads: P2104-RD-01..08. Auxiliary: P2104-AUX-01..06. Times: `windows`.
 """
 
 from __future__ import annotations
@@ -223,7 +223,7 @@ class CommandUnit:
         """A good setting: store, show the pattern, build the table (P2104-INI-04, -05)."""
         ramp = Ramp(data[0], data[1], data[2] | data[3] << 8)
         fresh = axis.setup is None
-        if fresh:
+        if axis.setup is None:
             axis.setup = Setup(ramp, external=bool(code & 0x08), chopping=bool(code & 0x10))
             axis.excitation.configure((code & 3) + 2, bool(code & 4), positive=False)
         else:

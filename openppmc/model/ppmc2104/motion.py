@@ -7,18 +7,19 @@ P2104-DS-20, -21. The rest is the family's: `motion`.
 from __future__ import annotations
 
 from ..common.blocks import Context, Phase
+from ..motion import motion
 from ..motion.chopper import Chopper
 from ..motion.codes import FINISH_STOP, ORIGIN, Command
 from ..motion.excitation import Excitation
 from ..motion.guard import Seen
-from ..motion.motion import Motion, OnEnd, Setup
+from ..motion.motion import OnEnd, Setup
 from .pins import GUARD
 from .windows import Windows
 
 HOLD_UNIT, HOLD_DEFAULT = 2048, 0x18
 
 
-class Motion2104(Motion):
+class Motion(motion.Motion):
     """One axis of a PPMC-2104. `waiting`: state RUNWAIT."""
 
     stops_at_start_speed = True

@@ -44,7 +44,11 @@ OUTPUTS: dict[str, int] = {
 HOST_PINS = ("a0", "cs_n", "busc", "ds_wrs_n", "rw_rds_n", "d_i")
 GUARD = GuardPins(limits=("fl_n", "bl_n"), slow_limits=("fhl_n", "bhl_n"), alarm="alm_n", origin="org_n")
 AXIS_INPUTS = ("run", "extck", "csel", *GUARD.all)
-WIDTHS: dict[str, int] = {"d_i": 8, "auxi": 2, **dict.fromkeys(AXIS_INPUTS, 2)}
+AXIS_OUTPUTS = ("pout_n", "dir", "hold")
+WIDTHS: dict[str, int] = {
+    **{"d_i": 8, "auxi": 2, "d_o": 8, "s1_n": 5, "s2_n": 5, "auxo": 2},
+    **dict.fromkeys((*AXIS_INPUTS, *AXIS_OUTPUTS), 2),
+}
 # Bits of the control input read (P2104-RD-04).
 CONTROL_INPUT_BITS = {7: "org_n", 6: "alm_n", 3: "fl_n", 2: "fhl_n", 1: "bl_n", 0: "bhl_n"}
 MOTOR_AT_REST = {"s": 0b11111, "pout_n": 1, "hold": 1, "dir": 0}

@@ -1,10 +1,10 @@
-"""The modelled board with a PPMC-312 and a motor with an encoder."""
+"""The modelled carrier with a PPMC-312 and a motor with an encoder."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from ..common.edges import Edge
 from .part import Ppmc312
@@ -12,14 +12,13 @@ from .part import Ppmc312
 _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"), strict=True))
 
 
-class Board312(Board):
+class Carrier(carrier.Carrier[Ppmc312]):
     """Wired as ppmc312_carrier: straps bit 0 is RUN, bits 1 and 2 are the event inputs 1 and 2.
 
     The encoder gives a pulse for each one that the axle follows; the drive says END at once. `positions` is
     the axle's, the part itself counts pulses.
     """
 
-    NUMBER = 312
     ADDRESS_BITS = 3
     INTERRUPT = "irq_n"
 
@@ -30,15 +29,17 @@ class Board312(Board):
         xtal_hz: int = 16_000_000,
         timing: str = "FAST",
         on_interrupt: Callable[[], None] = lambda: None,
+        part: Ppmc312 | None = None,
     ) -> None:
-        self._moved = False
-        super().__init__(Ppmc312(clk_hz, xtal_hz, timing), [plant], on_interrupt)
+        """part: one that has been made already, instead of these figures."""
+        self._moved, self._plant = False, plant
+        super().__init__(part or Ppmc312(clk_hz, xtal_hz, timing), [plant], on_interrupt)
         self.part.pins(self.t - 3, end_n=0, auxi=0xFF)
 
     def switch_pins(self, levels: Sequence[dict[str, int]]) -> dict[str, int]:
         return {
             **{_PINS[name]: level for name, level in levels[0].items()},
-            "index_n": self.plants[0].index_level(self.positions[0]),
+            "index_n": self._plant.index_level(self.positions[0]),
         }
 
     def straps(self, levels: int) -> None:
@@ -58,7 +59,7 @@ class Board312(Board):
 
     def _watch(self) -> None:
         super()._watch()
-        index = self.plants[0].index_level(self.positions[0])
+        index = self._plant.index_level(self.positions[0])
         if index != self.part.inputs["index_n"]:
             self.part.pins(self.part.now + 1, index_n=index)
 
@@ -69,7 +70,7 @@ class Board312(Board):
         ccw = self._directions[0]
         if not edge.value:
             self.part.pins(self.part.now + 1, epin=0)
-        elif self.plants[0].steps(self.positions[0], ccw):
+        elif self._plant.steps(self.positions[0], ccw):
             self.counts[0] += -1 if ccw else 1
             self.positions[0] += -1 if ccw else 1
             self._moved = True

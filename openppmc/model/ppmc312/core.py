@@ -7,12 +7,12 @@ another in.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
 
 from ..common.blocks import Context, Phase
 from .codes import Alarm, Answer, Cause, Source, State, Trigger
 from .front import responses
 from .front.responses import ENCODE, POSITION, Report, Responses
+from .front.side import HostSide
 from .instructions.overrides import EventBuffer, Fifo
 from .instructions.unit import Unit
 from .motion.inputs import EVENT_PINS, Filters, InputChange
@@ -24,27 +24,11 @@ from .stages.curve import FreeCurve
 from .stages.tables import Table
 
 
-class HostSide(Protocol):
-    """What the part needs of the side that the host sees."""
-
-    def levels(self) -> dict[str, int]:
-        """Internal levels behind the pins of this side."""
-
-    def offer(self, t: int) -> None:
-        """A response may wait in the store."""
-
-    def done(self, t: int) -> None:
-        """The host's instruction has been processed and its answer stored."""
-
-    def ready(self, t: int) -> None:
-        """The interface may be used."""
-
-    def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Serial mode only: the answer to an instruction, which no store keeps."""
-
-
 class Core:
     """reset(t, source): the part's software reset, which answers."""
+
+    unit: Unit
+    host: HostSide
 
     def __init__(
         self,

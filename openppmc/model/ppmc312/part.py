@@ -1,9 +1,8 @@
 """Golden model of the PPMC-312 at pin level, event driven and exact to the clk.
 
-Pins and time: `chip`. Host side: `mailbox312` with `responses312`. Instructions: `unit312`, `checks312`,
-`settings312`, `starts312`, `terminals312`, `overrides312`. Tables: `tables312`, `curve312`. Motion:
-`plan312`, `sequence312`, `motion312`, `operation312`. Pins: `inputs312`, `outputs312`, `position312`. Here:
-P312-PRT-01..03, reset, software reset.
+Pins and time: `common.chip`. What the host sees: room `front`. Instructions: room `instructions`. Tables and
+plans: room `stages`. Motion, positions, inputs and outputs: room `motion`. All of them together: `core`.
+Here: P312-PRT-01..03, reset, software reset.
 """
 
 from __future__ import annotations
@@ -12,48 +11,22 @@ from collections.abc import Iterable, Mapping
 
 from ..common.blocks import Context, Phase, PinRegister
 from ..common.chip import Chip
-from ..common.scheduler import Callback, Event, Scheduler
 from ..common.timebase import Latency, QuantumCounter
-from ..common.uart import bit_time
 from .codes import Source, State
-from .core import Core, HostSide
+from .core import Core
 from .front.bus import IDLE, Strobes
 from .front.mailbox import Mailbox
+from .front.serial import bit_time
+from .front.side import HostSide
 from .front.station import Log, Station
 from .motion.motion import Motion
 from .pace import READY, Pace
 from .pins import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS
+from .scope import Scope
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
 """What the inside sees of the pins before it has sampled them."""
-
-
-class _Asked(Event):
-    """What a block has asked for; only the present blocks have any in the queue."""
-
-    __slots__ = ()
-
-
-class Scope(Scheduler):
-    """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
-
-    def __init__(self, queue: Scheduler) -> None:
-        super().__init__()
-        self._queue = queue
-        self._alive = True
-
-    def at(self, t: int, phase: int, action: Callback) -> Event:
-        """Call `action(t)` unless the blocks have been replaced by then."""
-        event = self._queue.at(t, phase, action, _Asked)
-        if not self._alive:
-            event.cancel()
-        return event
-
-    def close(self) -> None:
-        """The blocks are replaced."""
-        self._alive = False
-        self._queue.cancel(_Asked)
 
 
 class Ppmc312(Chip):

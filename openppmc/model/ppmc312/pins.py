@@ -48,6 +48,6 @@ OUTPUTS: dict[str, int] = {
     "intlk_n": 1,
     "out_oe": 0,
 }
-WIDTHS: dict[str, int] = {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8}
+WIDTHS: dict[str, int] = {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8, "d_o": 8, "auxo_n": 6}
 HOST_PINS = ("d_i", "rs", "cs_n", "we_n", "oe_n")
 SERIAL_PINS = ("rxd",)

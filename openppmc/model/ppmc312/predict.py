@@ -6,43 +6,28 @@ from dataclasses import dataclass
 from itertools import accumulate
 
 from ..common.timebase import Timebase
+from ..single.predict import Move
 from .codes import FO, LE
 from .stages.plan import constant, ramped
 from .stages.tables import DIVIDERS, SettingError, Table, build
 
 
 @dataclass(frozen=True)
-class Move312:
-    """A predicted move. `clk[j]` is pulse j+1 in clk after pulse 1; `rates[j]` in ticks and `indices[j]`
-    (table stage, None at constant speed) belong to the interval that follows it; kind: status bits of the
-    answer."""
+class TableMove(Move):
+    """Rates are in ticks of the base clock, `divider` crystal periods each; indices are stages of the table,
+    None at constant speed; kind: status bits of the answer."""
 
-    timebase: Timebase
     divider: int
-    clk: tuple[int, ...]
-    indices: tuple[int | None, ...]
-    rates: tuple[int, ...]
     kind: int
 
     @property
-    def seconds(self) -> list[float]:
-        """Pulse times in s after pulse 1."""
-        return [self.timebase.seconds(t) for t in self.clk]
-
-    @property
     def speeds(self) -> list[float]:
-        """Speed of each interval in pulses per second."""
         return [self.timebase.xtal_hz / (self.divider * rate) for rate in self.rates]
-
-    @property
-    def intervals(self) -> list[int]:
-        """Length of each interval between two pulses in clk."""
-        return [b - a for a, b in zip(self.clk, self.clk[1:], strict=False)]
 
 
 def predict_table(
     table: Table, n: int, rate: int = 0, flat: bool = False, timebase: Timebase | None = None
-) -> Move312:
+) -> TableMove:
     """Undisturbed move of n pulses with an internal base clock.
 
     rate: speed aimed at, 0 for the high speed. flat: without ramps (83). Raises ValueError for a base clock
@@ -60,19 +45,19 @@ def predict_table(
     steps = plan.steps()
     divider = DIVIDERS[table.clk]
     ticks = accumulate((step.rate for step in steps[:-1]), initial=0)
-    return Move312(
+    return TableMove(
         timebase,
-        divider,
         tuple(timebase.cyc(divider * t) for t in ticks),
         tuple(step.stage for step in steps[:-1]),
         tuple(step.rate for step in steps[:-1]),
+        divider,
         plan.kind,
     )
 
 
 def predict_setting(
     parameters: bytes, n: int, rate: int | None = None, timebase: Timebase | None = None
-) -> Move312:
+) -> TableMove:
     """The same from the parameters of an initial setting (8 or 13 bytes after its code); rate: of a move at
     constant speed, None for one with ramps. Raises ValueError for what the part refuses."""
     if len(parameters) not in (8, 13):
@@ -95,3 +80,10 @@ def predict_setting(
     except SettingError as error:
         raise ValueError(f"refused setting: {error}") from None
     return predict_table(table, n, rate or 0, rate is not None, timebase)
+
+
+def predict(
+    init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
+) -> TableMove:
+    """See `single.predict.predict_move`; csel and vsel, which the part has not, are not looked at."""
+    return predict_setting(init, n, rate, timebase)

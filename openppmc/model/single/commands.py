@@ -1,7 +1,7 @@
 """Command processor of the parts with one axis: from bytes to commands, and which error a byte makes.
 
 Errors and their order: P104-ERR-00..03, P104-STA-05/06, P104-FSM-01..03 (STMC-ST-01..03, STMC-CMD-01..03).
-Parameters: P104-HSK-07. What the commands do is the business of `commands104`, `commands_stmc`.
+Parameters: P104-HSK-07. What the commands do is the business of the part's own `commands`.
 """
 
 from __future__ import annotations

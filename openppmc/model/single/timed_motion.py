@@ -1,7 +1,7 @@
 """Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08.
 
-The STMC has the same times under STMC-DS-01 and -04..10. What is special to a part: `motion104`,
-`motion_stmc`.
+The STMC has the same times under STMC-DS-01 and -04..10. What is special to a part: its own
+`motion`.
 """
 
 from __future__ import annotations

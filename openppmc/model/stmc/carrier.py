@@ -1,10 +1,10 @@
-"""The modelled board with an STMC and the step clock of the J105 board."""
+"""The modelled carrier with an STMC and the step clock of the J105 board."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier.carrier import Board
+from ..carrier import carrier
 from ..carrier.plant import SWITCHES, Plant
 from ..common.edges import Edge
 from ..motion.excitation import ALL_PHASES, step_directions
@@ -14,13 +14,12 @@ from .part import Stmc
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), strict=True))
 
 
-class BoardStmc(Board):
+class Carrier(carrier.Carrier[Stmc]):
     """Wired as stmc_carrier: no straps, MON in the place of the alarm. The motor follows the phases.
 
     The step clock only ticks while a motion counts it.
     """
 
-    NUMBER = 105
     _directions_of = step_directions()
 
     def __init__(
@@ -41,6 +40,9 @@ class BoardStmc(Board):
 
     def straps(self, levels: int) -> None:
         """None are wired."""
+
+    def shown(self) -> object:
+        return self.part.status
 
     def pins(self) -> int:
         self._settle()

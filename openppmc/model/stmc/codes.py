@@ -1,6 +1,6 @@
 """Command codes of the STMC (table 3.0 of its rules).
 
-Status bits and error numbers are those of `codes104`.
+Status bits and error numbers are those of `single.codes`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Command processor of the STMC: what each command does. The bytes before that: `commands`.
+"""Command processor of the STMC: what each command does. The bytes before that: `single.commands`.
 
 Initialisation: STMC-INI-01..08, STMC-DS-02/03. Motion commands: STMC-MOT-01..04. Reads: STMC-FIN, -INP,
 -OUT, -REM, -RD.
@@ -16,7 +16,7 @@ from ..single.codes import Command, Error, Kind
 from ..single.commands import ByteUnit
 from ..single.hostport import HostPort
 from .codes import FINISH_STATUS, INPUTS, OUTPUTS, READ_MAPS, decode
-from .motion import MotionStmc
+from .motion import Motion
 from .pins import INPUT_REGISTER
 
 
@@ -25,14 +25,14 @@ def profile(d1: int, d2: int, pa: int) -> Ramp:
     return Ramp(d1 - 1, d2 - 1, pa) if pa and d1 > d2 else Ramp(d2 - 1, d2 - 1, 0)
 
 
-class CommandUnitStmc(ByteUnit):
+class CommandUnit(ByteUnit):
     """Commands of the STMC. read_map: "SHEET" or "FAMILY"."""
 
     def __init__(
         self,
         context: Context,
         port: HostPort,
-        motion: MotionStmc,
+        motion: Motion,
         excitation: Excitation,
         chopper: Chopper,
         read_map: str,

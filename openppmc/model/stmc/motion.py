@@ -21,7 +21,7 @@ from .codes import TICK_XT
 from .pins import GUARD
 
 
-class MotionStmc(TimedMotion):
+class Motion(TimedMotion):
     """The axis of an STMC. hold_xt: crystal periods from the fall of BUSY to `hold`."""
 
     stops_at_start_speed = True

@@ -1,9 +1,9 @@
 """Golden model of the STMC stepper controller core at pin level, event driven and exact to the clk.
 
-Pins and time: `chip`, `single`. Blocks: `hostport` (STMC-BUS), `commands` and `commands_stmc` (STMC-ST, -CMD,
--INI, -RD), `motion`, `timed_motion` and `motion_stmc` (STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS), `chopper`
-(STMC-CHP), `excitation` (STMC-EXC), `ramp` (STMC-RMP). Here: parameters and reset values of chapter 1. The
-constants that the rules leave open are in `timebase.Latency`.
+Pins and time: `common.chip`, `single.single`. Blocks: `hostport` (STMC-BUS), `commands` here and in `single`
+(STMC-ST, -CMD, -INI, -RD), `motion` here and in `motion`, `timed_motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC,
+-IN, -DS), `chopper` (STMC-CHP), `excitation` (STMC-EXC), `ramp` (STMC-RMP). Here: parameters and reset values
+of chapter 1. The constants that the rules leave open are in `timebase.Latency`.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from ..single.hostport import HostPort
 from ..single.single import SingleAxis
 from ..single.strobes import strobes
 from .codes import READ_MAPS
-from .commands import CommandUnitStmc
-from .motion import MotionStmc
+from .commands import CommandUnit
+from .motion import Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
 # The table of 16-bit thresholds takes longer to build than that of the sister parts.
@@ -74,10 +74,8 @@ class Stmc(SingleAxis):
     def _blocks(self, context: Context) -> None:
         self._chopper = Chopper(context, FixedSwitching(*self._chop_xt, self.timebase.quantum))
         self._port = HostPort(context, self._take, self._state, strobes)
-        self._motion = motion = MotionStmc(
-            context, self._port, self._excitation, self._chopper, self._hold_xt
-        )
-        self._commands = CommandUnitStmc(
+        self._motion = motion = Motion(context, self._port, self._excitation, self._chopper, self._hold_xt)
+        self._commands = CommandUnit(
             context, self._port, motion, self._excitation, self._chopper, self._read_map
         )
 

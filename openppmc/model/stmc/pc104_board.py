@@ -1,6 +1,6 @@
 """Golden model of the J105 STMC board: ISA slave, 48.675 kHz step clock and interrupt around the core.
 
-Rules J105-01..07. Only what lies between the core and the bus is here; the core is `stmc`.
+Rules J105-01..07. Only what lies between the core and the bus is here; the core is `part`.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ INPUTS: dict[str, int] = {
     **dict.fromkeys(SWITCHES, 1),
 }
 OUTPUTS: dict[str, int] = {"sd_o": 0, "sd_oe": 0, "irq": 0, "s": 0, "drv": 0, "hold": 1}
+WIDTHS: dict[str, int] = {"sa": 10, "sd_i": 8, "sd_o": 8, "s": 5, "drv": 4}
 
 
 class J105Stmc:

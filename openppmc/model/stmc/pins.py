@@ -23,7 +23,7 @@ INPUTS: dict[str, int] = {
     "mon": 1,
 }
 OUTPUTS: dict[str, int] = {"d_o": 0, "d_oe": 0, "int_n": 1, "s": 0b00000, "hold": 1}
-WIDTHS: dict[str, int] = {"d_i": 8}
+WIDTHS: dict[str, int] = {"d_i": 8, "d_o": 8, "s": 5}
 HOST_PINS = ("cs_n", "a0", "rd_n", "wr_n", "d_i")
 GUARD = GuardPins(limits=("l1_n", "l2_n"), slow_limits=("l3_n", "l4_n"), alarm="mon", origin="cnp_n")
 # Levels of the inputs register (STMC-INP-01), bit by bit.

@@ -11,11 +11,17 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from .build import SimError, build
+from .build import build
 from .spec import Spec, parse_spec
+from .verilator import SimError
 
 Self = TypeVar("Self", bound="Child")
-_KINDS = {"int": int, "float": float, "bool": lambda text: text == "1", "str": str}
+_KINDS: dict[str, Callable[[str], object]] = {
+    "int": int,
+    "float": float,
+    "bool": lambda text: text == "1",
+    "str": str,
+}
 
 
 @dataclass(frozen=True)

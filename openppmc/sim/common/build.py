@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -14,14 +12,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from openppmc import parts, sources
+
 from . import verilator
 from .verilator import SimError
 
 BOARDS = "rtl/boards"
-PARTS = {"ppmc104": 104, "ppmc2104": 2104, "stmc": 105, "ppmc312": 312}
-"""Numbers of the parts, for the C++ (tb/board/pins.h)."""
-GROUPS = ("common", "motion", "host", "single")  # and those of the part
-OWN_GROUPS = {"ppmc312": ("stage", "ppmc312")}
 KEEP_DAYS = 7
 # Assertions would cost a third of the speed, and `make test` has them all.
 # One C++ file: the precompiled header of split ones does not work with every Verilator.
@@ -47,7 +43,7 @@ def find_root() -> Path:
 
 
 def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[str], None]) -> Path:
-    """The program for a part, a key of PARTS, built if need be; `say` gets a line when that takes time.
+    """The program for a part with a carrier, built if need be; `say` gets a line when that takes time.
     Raises SimError.
 
     params: of the board's top, CLK_HZ among them. trace: with waveforms, which makes a slower program. Safe
@@ -68,7 +64,7 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         ),
         *(
             "-CFLAGS",
-            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -DBOARD_PART={PARTS[part]}",
+            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -DBOARD_PART={parts.part(part).number}",
             "-o",
             "board",
         ),
@@ -118,24 +114,11 @@ def copy_runtime(source: Path, target: Path) -> None:
 
 
 def _rtl(root: Path, part: str) -> list[Path]:
-    """Sources of the part's board in compile order, from rtl/files.yml (read without a YAML package)."""
-    groups: dict[str, list[str]] = {}
-    group = ""
-    for line in (root / "rtl/files.yml").read_text(encoding="utf-8").splitlines():
-        if match := re.match(r"(\w+):\s*$", line):
-            group = match[1]
-        elif match := re.match(r"\s*-\s*(\S+)", line):
-            groups.setdefault(group, []).append(match[1])
-    wanted = (*GROUPS, *OWN_GROUPS.get(part, (part,)))
-    files = [root / "rtl" / name for key in wanted for name in groups.get(key, [])]
-    shared = ("ppmc_board_host", "ppmc_board_steps")
-    files += [
-        root / "rtl" / name for name in groups["boards"] if Path(name).stem in (*shared, f"{part}_carrier")
-    ]
-    missing = [file.name for file in files if not file.is_file()]
-    if missing:
-        raise SimError(f"rtl/files.yml lists files that do not exist: {', '.join(missing)}")
-    return files
+    """Sources of the part's carrier in compile order, from rtl/files.yml."""
+    try:
+        return sources.files(sources.groups(root), f"{parts.part(part).rtl}_carrier")
+    except sources.SourcesError as error:
+        raise SimError(str(error)) from None
 
 
 def _headers(root: Path) -> list[Path]:
@@ -176,6 +159,8 @@ def _locked(path: Path) -> Iterator[None]:
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
+    import fcntl  # not on every system; whoever only names a virtual board does not need it
+
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)
         yield

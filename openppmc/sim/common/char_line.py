@@ -6,8 +6,9 @@ Characters of several stations at the same time collide.
 from __future__ import annotations
 
 import random
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from typing import Any, Protocol
+from typing import Generic, Protocol, TypeVar
 
 BITS = 10
 _STOP_MIDDLE = 9.5
@@ -16,20 +17,61 @@ _CLEAN = 0.25
 
 
 class LineOptions(Protocol):
-    """What the line itself needs of a spec. echo: the master hears itself. noise: one character in so many is
-    damaged, either way; 0: none."""
+    """What the line itself needs of a spec."""
 
+    @property
+    def clk_hz(self) -> int:
+        """Clock of the stations."""
+
+    @property
+    def echo(self) -> bool:
+        """The master hears itself."""
+
+    @property
+    def noise(self) -> int:
+        """One character in so many is damaged, either way; 0: none."""
+
+    @property
+    def seed(self) -> int:
+        """Of the noise."""
+
+
+class Hears(Protocol):
+    """What a station needs of its part. sent: (edge in the middle of a stop bit, character)."""
+
+    replies: list[tuple[int, bytes]]
+    sent: list[tuple[int, int]]
+
+    @property
+    def now(self) -> int:
+        """The last edge that was run."""
+
+    @property
+    def next_event(self) -> int | None:
+        """The next edge on which anything happens by itself."""
+
+    def hear(self, t: int, byte: int) -> None:
+        """A character whose stop bit is sampled at edge t."""
+
+
+H = TypeVar("H", bound=Hears)
+
+
+class LineStation(ABC, Generic[H]):
+    """What stations on a line have. number: address at first."""
+
+    part: H
     clk_hz: int
-    echo: bool
-    noise: int
-    seed: int
+    number: int
+    t: int
 
+    @abstractmethod
+    def words(self) -> str:
+        """State in words of `StationStatus`."""
 
-class LineStation:
-    """What boards on a line have: a part with `hear`, `sent` and `replies`."""
-
-    part: Any
-    clk_hz: int
+    def set_inputs(self, levels: str) -> None:
+        """Levels of the general inputs; without such there is nothing to do."""
+        del levels
 
     @property
     def moving(self) -> bool:
@@ -49,16 +91,34 @@ class LineStation:
         return sent
 
 
-class CharLine:
-    """The line. boards: stations; each has `number`, `t`, `run_until(t)`, `hear(t, byte)` (a character whose
-    stop bit is sampled at edge t) and `taken()` (those it has sent, with the edge in the middle of their stop
-    bits). t: its time in clk; bit: clk of a bit, a fraction. Stations that are not in `hearing` may be
-    behind it, up to `settle`: no one can tell, as they have no wires in common but the line."""
+class Runs(Protocol):
+    """A station that a line runs; `Carrier` and `LineStation` together are one."""
 
-    def __init__(self, spec: LineOptions, boards: Sequence[Any], bit: float) -> None:
-        self.spec, self.boards, self.bit = spec, list(boards), bit
-        self.t: int = max(board.t for board in boards)
-        self.hearing: Sequence[Any] = self.boards
+    number: int
+    t: int
+
+    def run_until(self, t: int) -> None:
+        """Let time pass up to edge t."""
+
+    def hear(self, t: int, byte: int) -> None:
+        """A character whose stop bit is sampled at edge t."""
+
+    def taken(self) -> list[tuple[int, int]]:
+        """Characters sent since the last call, with the edge in the middle of their stop bits."""
+
+
+S = TypeVar("S", bound=Runs)
+
+
+class CharLine(Generic[S]):
+    """The line with its stations. t: its time in clk; bit: clk of a bit, a fraction. Stations that are not in
+    `hearing` may be behind it, up to `settle`: no one can tell, as they have no wires in common but the line.
+    """
+
+    def __init__(self, spec: LineOptions, stations: Sequence[S], bit: float) -> None:
+        self.spec, self.stations, self.bit = spec, list(stations), bit
+        self.t: int = max(one.t for one in stations)
+        self.hearing: Sequence[S] = self.stations
         self._free = self.t
         self._random = random.Random(spec.seed)
         self._waiting = bytearray()
@@ -69,10 +129,10 @@ class CharLine:
         """Virtual time in s."""
         return self.t / self.spec.clk_hz
 
-    def board(self, number: int) -> Any:
+    def station(self, number: int) -> S:
         """The station with this number, at the time of the line."""
         self.settle()
-        return next(board for board in self.boards if board.number == number)
+        return next(one for one in self.stations if one.number == number)
 
     def heard(self, byte: int) -> None:
         """A character of the master is on its way to the stations `hearing`."""
@@ -82,16 +142,16 @@ class CharLine:
     def run(self, clk: int) -> None:
         """Let time pass for the line and the stations that hear it."""
         self.t += clk
-        for board in self.hearing:
-            board.run_until(self.t)
-        sent = [(t, byte) for board in self.hearing for t, byte in board.taken()]
+        for one in self.hearing:
+            one.run_until(self.t)
+        sent = [(t, byte) for one in self.hearing for t, byte in one.taken()]
         if sent:
             self._arrive(sorted(sent))
 
     def settle(self) -> None:
         """Let all stations come up to the time of the line."""
-        for board in self.boards:
-            board.run_until(self.t)
+        for one in self.stations:
+            one.run_until(self.t)
 
     def run_seconds(self, seconds: float) -> None:
         """The same in s; ends early, at a character's end, when one comes."""
@@ -113,8 +173,8 @@ class CharLine:
                 continue
             self.heard(got)
             at = begin + round((place * BITS + _STOP_MIDDLE) * self.bit)
-            for board in self.hearing:
-                board.hear(at, got)
+            for one in self.hearing:
+                one.hear(at, got)
         self._free = begin + round(len(data) * BITS * self.bit)
         self.run(self._free - self.t)
         self._waiting += bytes(byte for _, byte in self._late)

@@ -7,11 +7,10 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..ppmc312.line_spec import PART
 from .board import Child
-from .build import SimError
-from .lines import LINES, part_of
+from .lines import line_kind, line_parts, part_of
 from .spec import SpecError
+from .verilator import SimError
 
 
 @dataclass(frozen=True)
@@ -67,12 +66,13 @@ class LineStatus:
 
 
 class SimLine(Child):
-    """A virtual line; see `Child`. spec: what was asked for. part: of the stations, unless the text says."""
+    """A virtual line; see `Child`. spec: what was asked for. part: of the stations, unless the text says
+    it; else the first one that hangs on a line."""
 
-    def __init__(self, text: str, part: str = PART) -> None:
-        self.part = part_of(text) or part
+    def __init__(self, text: str, part: str = "") -> None:
+        self.part = part_of(text) or part or line_parts()[0]
         try:
-            self.spec = LINES[self.part].parse(text)
+            self.spec = line_kind(self.part).parse(text)
         except ValueError as error:
             raise SpecError(str(error)) from None
         if not sys.platform.startswith("linux"):
@@ -93,8 +93,8 @@ class SimLine(Child):
         return LineStatus.parse(self._ask_status(f"inputs {number} {levels}"))
 
 
-def start_line(text: str = "", part: str = PART) -> SimLine:
+def start_line(text: str = "", part: str = "") -> SimLine:
     """Start a virtual line: `start_line("stations=4,speed=max")`. part: of the stations, if the text names
-    none. Raises SpecError (a ValueError) for a bad
-    text, SimError (a RuntimeError) if it does not start."""
+    none; else the first one that hangs on a line. Raises SpecError (a ValueError) for a bad text, SimError
+    (a RuntimeError) if it does not start."""
     return SimLine(text, part)

@@ -12,8 +12,7 @@ import termios
 import time
 import tty
 
-from ..ppmc312.line_spec import PART
-from .lines import LINES, part_of
+from .lines import line_kind, line_parts, part_of
 
 STEP = 0.005
 """Seconds of line time between two looks at the host."""
@@ -29,7 +28,7 @@ class LineServer:
     """Runs a line between host and clock. text: its words. ValueError for a bad one."""
 
     def __init__(self, text: str) -> None:
-        kind = LINES[part_of(text) or PART]
+        kind = line_kind(part_of(text) or line_parts()[0])
         self.spec = kind.parse(text)
         self.line = kind.make(self.spec)
         self.master, self._slave = os.openpty()
@@ -57,9 +56,9 @@ class LineServer:
         """A line of standard input; False at its end."""
         words = word.split()
         if words[:1] == ["inputs"]:
-            for board in self.line.boards:
-                if str(board.number) == words[1]:
-                    board.set_inputs(words[2])
+            for station in self.line.stations:
+                if str(station.number) == words[1]:
+                    station.set_inputs(words[2])
         if words:
             print("status", self.status(), flush=True)
         return bool(word)
@@ -91,7 +90,7 @@ class LineServer:
 
     @property
     def _active(self) -> bool:
-        return any(board.moving for board in self.line.boards)
+        return any(station.moving for station in self.line.stations)
 
     def _rest(self) -> float:
         """Wall seconds until there is something to do."""
@@ -121,7 +120,7 @@ class LineServer:
         began, then = self._marks[0]
         factor = (self.line.seconds - then) / max(now - began, 1e-3)
         self._marks.append((now, self.line.seconds))
-        stations = ",".join(board.words() for board in self.line.boards)
+        stations = ",".join(one.words() for one in self.line.stations)
         return f"seconds={self.line.seconds:.3f} factor={factor:.3f} lost={self._lost} stations={stations}"
 
 

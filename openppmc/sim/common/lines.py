@@ -6,12 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from ..pmc006 import line_spec as line_spec006
-from ..ppmc312 import line_spec
+from ... import parts
 
 
-class Moving(Protocol):
-    """A station as a server sees it."""
+class OnLine(Protocol):
+    """A station as a server sees it. number: its address at first."""
+
+    number: int
 
     @property
     def moving(self) -> bool:
@@ -20,11 +21,16 @@ class Moving(Protocol):
     def words(self) -> str:
         """Its state in words of `StationStatus`."""
 
+    def set_inputs(self, levels: str) -> None:
+        """Levels of its general inputs, number 1 last, as "11111"."""
+
 
 class VirtualLine(Protocol):
     """A line with its stations in virtual time."""
 
-    boards: Sequence[Moving]
+    @property
+    def stations(self) -> Sequence[OnLine]:
+        """Everything on it."""
 
     @property
     def seconds(self) -> float:
@@ -43,33 +49,42 @@ class VirtualLine(Protocol):
         """What has come from the stations so far."""
 
 
+class LineSpec(Protocol):
+    """What a line was asked for, as far as whoever runs it must know."""
+
+    @property
+    def rate(self) -> float:
+        """Line rate in bit/s."""
+
+    @property
+    def speed(self) -> float | None:
+        """Times real time, None: as fast as it goes."""
+
+    @property
+    def unplug(self) -> float:
+        """Seconds after which the port goes away."""
+
+
 @dataclass(frozen=True)
 class LineKind:
     """parse: the text as a spec, ValueError for a bad one. at_rate: the text for a host that uses this line
-    rate. known: the words. make: the line of a spec."""
+    rate. known: the words. make: the line of a spec, as `parse` gives it."""
 
-    parse: Callable[[str], Any]
+    parse: Callable[[str], LineSpec]
     at_rate: Callable[[str, int], str]
     known: str
     make: Callable[[Any], VirtualLine]
 
 
-def _stations312(spec: line_spec.LineSpec) -> VirtualLine:
-    from ..ppmc312.line_board import LineBoard
-
-    return LineBoard(spec)
-
-
-def _nodes006(spec: line_spec006.LineSpec006) -> VirtualLine:
-    from ..pmc006.line_board import LineBoard006
-
-    return LineBoard006(spec)
+def line_parts() -> tuple[str, ...]:
+    """The parts that hang on a line."""
+    return tuple(row.name for row in parts.having("line", "machine"))
 
 
-LINES = {
-    line_spec.PART: LineKind(line_spec.parse_line, line_spec.at_rate, line_spec.KNOWN, _stations312),
-    line_spec006.PART: LineKind(line_spec006.parse_line, line_spec006.at_rate, line_spec006.KNOWN, _nodes006),
-}
+def line_kind(part: str) -> LineKind:
+    """What the part's own `line.py` says."""
+    kind: LineKind = parts.part(part).load("machine")
+    return kind
 
 
 def part_of(text: str) -> str | None:
@@ -79,4 +94,4 @@ def part_of(text: str) -> str | None:
     ('ppmc312-serial', None)
     """
     words = text.replace(" ", "").lower().split(",")
-    return next((part for part in LINES if f"part={part}" in words), None)
+    return next((part for part in line_parts() if f"part={part}" in words), None)

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from ...model.carrier.plant import PLANT_WORDS, Plant, parse_machine, stmc_read_map
+from ...model.carrier.plant import Plant
+from .machine import PLANT_WORDS, machine_kind, own_words, parse_machine
 
-OPTIONS = ("part", "speed", "clk", "xtal", "timing", "read_map", "vcd", "vcd_from", "vcd_for", "log")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing")
+FILES = ("vcd", "vcd_from", "vcd_for", "log")
 PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
-KNOWN = ", ".join((*PLANT_WORDS, *OPTIONS))
+
+
+def known_words() -> str:
+    """All words, for messages."""
+    return ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), *FILES))
 
 
 class SpecError(ValueError):
@@ -20,11 +27,11 @@ class SpecError(ValueError):
 class Spec:
     """A virtual board as it was asked for.
 
-    part: ppmc104, ppmc2104, stmc or ppmc312. plants: one an axis. speed: times real time, None: as fast as
-    the machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6).
-    xtal_hz: crystal of the emulated chip, 1e6 … 16e6 (stmc: 20e6). timing: FAST or DATASHEET. read_map: of
-    an stmc, SHEET or FAMILY. vcd: waveform file or None, with vcd_from and vcd_for in ms of board time. log:
-    file that gets a line a pulse, or None.
+    part: one behind the UART bridge. plants: one an axis. speed: times real time, None: as fast as the
+    machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz:
+    crystal of the emulated chip, from 1e6 on. timing: FAST or DATASHEET. own: values of the part's own words,
+    each a parameter of its top module. vcd: waveform file or None, with vcd_from and vcd_for in ms of board
+    time. log: file that gets a line a pulse, or None.
     """
 
     part: str = "ppmc104"
@@ -33,7 +40,7 @@ class Spec:
     clk_hz: int = 8_000_000
     xtal_hz: int = 16_000_000
     timing: str = "FAST"
-    read_map: str = "SHEET"
+    own: Mapping[str, str] = field(default_factory=dict)
     vcd: Path | None = None
     vcd_from: float = 0.0
     vcd_for: float = 20.0
@@ -42,7 +49,7 @@ class Spec:
     @property
     def parameters(self) -> dict[str, int | str]:
         """Parameters of the board's top module."""
-        own: dict[str, int | str] = {"READ_MAP": self.read_map} if self.part == "stmc" else {}
+        own = {word.upper(): value for word, value in self.own.items()}
         return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, "TIMING": self.timing, **own}
 
     def arguments(self) -> list[str]:
@@ -50,7 +57,7 @@ class Spec:
         words = []
         for plant, suffix in zip(self.plants, ("", "2"), strict=False):
             words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLACES]
-            if self.part == "ppmc312":
+            if machine_kind(self.part).encoder:
                 words.append(f"index={plant.index}")
             if plant.block is not None:
                 words.append(f"block={plant.block}")
@@ -69,31 +76,30 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
         machine = parse_machine(",".join(words))
-        read_map = stmc_read_map(machine.part, machine.others.get("read_map"))
     except ValueError as error:
-        raise SpecError(f"{error} (there are {KNOWN})") from None
+        raise SpecError(f"{error} (there are {known_words()})") from None
     rest = machine.others
     for word in rest:
-        if word not in OPTIONS:
-            raise SpecError(f"unknown word {word!r} (there are {KNOWN})")
+        if word not in (*OPTIONS, *FILES):
+            raise SpecError(f"unknown word {word!r} (there are {known_words()})")
     for plant, suffix in zip(machine.plants, ("", "2"), strict=False):
         if plant.ccw >= plant.cw:
-            words = f"cw{suffix}={plant.cw},ccw{suffix}={plant.ccw}"
-            raise SpecError(f"{words}: the CW limit must lie above the CCW limit")
+            limits = f"cw{suffix}={plant.cw},ccw{suffix}={plant.ccw}"
+            raise SpecError(f"{limits}: the CW limit must lie above the CCW limit")
     timing = rest.get("timing", "FAST").upper()
     if timing not in ("FAST", "DATASHEET"):
         raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
     if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
         raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
-    speed, stmc = rest.get("speed", "1"), machine.part == "stmc"
+    speed = rest.get("speed", "1")
     return Spec(
         machine.part,
         machine.plants,
         None if speed == "max" else _number("speed", speed, 0.001, 1000, "or max"),
         _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000),
-        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, 20_000_000 if stmc else 16_000_000),
+        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, machine_kind(machine.part).xtal_max),
         timing,
-        read_map,
+        machine.own,
         _file("vcd", rest),
         _number("vcd_from", rest.get("vcd_from", "0"), 0, 1e9, "ms"),
         _number("vcd_for", rest.get("vcd_for", "20"), 0.001, 1e6, "ms"),

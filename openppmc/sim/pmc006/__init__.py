@@ -1,1 +1,1 @@
-"""A virtual line of PMC006B4."""
+"""What is around a PMC006B4: virtual line of controllers with motor and EEPROM."""

@@ -10,7 +10,7 @@ from ...model.pmc006.memory.i2c import Bus, BusError, Course
 from ...model.pmc006.pins import Shared
 
 
-class Eeprom006:
+class Eeprom:
     """content: from address 0; the rest is blank. file: gets the content after each write. missing: there is
     none. writes: how many there were."""
 
@@ -51,7 +51,7 @@ class Eeprom006:
 class QuickBus(Bus):
     """The controller's side of the two wires: a byte a quarter bit."""
 
-    def __init__(self, eeprom: Eeprom006, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
+    def __init__(self, eeprom: Eeprom, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
         super().__init__(shared, levels, hz)
         self._eeprom = eeprom
 

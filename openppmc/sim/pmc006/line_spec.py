@@ -41,7 +41,7 @@ class Carriage:
 
 
 @dataclass(frozen=True)
-class LineSpec006:
+class LineSpec:
     """A virtual line as it was asked for.
 
     carriages: of each controller, by its address. twin: an address that a second controller has too, or None.
@@ -76,7 +76,7 @@ def at_rate(text: str, rate: int) -> str:
     return text if "baud=" in text else ",".join(filter(None, [text, f"baud={rate}"]))
 
 
-def parse_line(text: str) -> LineSpec006:
+def parse_line(text: str) -> LineSpec:
     """From `word=value,word=value`. Raises ValueError with the offending word."""
     words = split_words(text, OWN, OPTIONS, _address)
     options = words.options
@@ -96,7 +96,7 @@ def parse_line(text: str) -> LineSpec006:
     twin = _address("twin", options["twin"]) if "twin" in options else None
     if twin is not None and twin not in addresses:
         raise ValueError(f"twin={twin}: there is no controller {twin} to share the address with")
-    return LineSpec006(
+    return LineSpec(
         carriages,
         twin,
         whole("baud", options.get("baud", "9600"), 1200, 115_200),

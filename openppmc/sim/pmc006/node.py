@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 
-from ...model.carrier.carrier import Board
+from ...model.carrier.carrier import Carrier
 from ...model.carrier.eeprom import BLANK, SIZE
 from ...model.common.edges import Edge
 from ...model.pmc006.memory.eeprom import PROGRAM
+from ...model.pmc006.memory.i2c import Bus
 from ...model.pmc006.part import Pmc006
+from ...model.pmc006.pins import Shared
 from ...model.pmc006.program import assemble
 from ...model.pmc006.settings import Settings, page_of
 from ..common.char_line import LineStation
-from .eeprom import Eeprom006, QuickBus
-from .line_spec import FACTORY, UNIT, Carriage, LineSpec006
+from .eeprom import Eeprom, QuickBus
+from .line_spec import FACTORY, UNIT, Carriage, LineSpec
 
 FULL_STEP = 128
 """Units of a full step: the finest microsteps."""
@@ -40,27 +41,28 @@ def first_content(address: int, carriage: Carriage) -> bytes:
 class Part(Pmc006):
     """The model, with an EEPROM that is spoken to byte by byte."""
 
-    def __init__(self, eeprom: Eeprom006, spec: LineSpec006, gpi: int) -> None:
-        self.BUS = partial(QuickBus, eeprom)
+    def __init__(self, eeprom: Eeprom, spec: LineSpec, gpi: int) -> None:
+        self._eeprom = eeprom
         super().__init__(spec.clk_hz, step_ack=spec.step_ack, baud=spec.baud, straps={"gpi": gpi})
 
+    def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
+        return QuickBus(self._eeprom, shared, levels, self._i2c_hz)
 
-class Node006(LineStation, Board):
+
+class Node(Carrier[Part], LineStation[Part]):
     """number: its address at first. `position` is the carriage's in 1/16 full steps, the part itself counts
     steps. The switches are optical: they do not bounce. It has been on for a while: it has booted."""
 
-    NUMBER = 6
-
-    def __init__(self, carriage: Carriage, number: int, spec: LineSpec006) -> None:
+    def __init__(self, carriage: Carriage, number: int, spec: LineSpec) -> None:
         self.number, self.carriage = number, carriage
-        self.eeprom = Eeprom006(first_content(number, carriage), carriage.eeprom, carriage.no_eeprom)
+        self.eeprom = Eeprom(first_content(number, carriage), carriage.eeprom, carriage.no_eeprom)
         self._way = carriage.start * FULL_STEP // UNIT
         part = Part(self.eeprom, spec, carriage.gpi)
-        super().__init__(part, [carriage], lambda: None)  # type: ignore[list-item]
+        super().__init__(part, [carriage], lambda: None)
         while part.booting:
             self.run_until(self.t + self.clk_hz // 10_000)
 
-    # ------------------------------------------------------------------ of `Board`
+    # ------------------------------------------------------------------ of `Carrier`
 
     def switch_pins(self, levels: Sequence[dict[str, int]]) -> dict[str, int]:
         return levels[0]

@@ -1,1 +1,1 @@
-"""A virtual line of PPMC-312."""
+"""What is around a PPMC-312: machine, virtual line of stations."""

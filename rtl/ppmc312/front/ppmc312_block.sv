@@ -8,15 +8,15 @@ module ppmc312_block
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire logic                        clk_i,
-    input  wire serial_code_t                info_i,
+    input  wire logic                        clk_i,   // clock
+    input  wire serial_code_t                info_i,  // what the received code means; stands
     // bytes on their way into the write window
-    input  wire logic                        we_i,
+    input  wire logic                        we_i,    // strobe
     input  wire logic                        head_i,  // one that is made here: header, length, code, flags
-    input  wire logic         [         3:0] at_i,
+    input  wire logic         [         3:0] at_i,    // logical: 0 = header
     input  wire logic         [         7:0] data_i,  // as received
-    output logic              [         7:0] data_o,
-    output logic              [BLOCK_BITS:0] size_o
+    output logic              [         7:0] data_o,  // as it goes into the window
+    output logic              [BLOCK_BITS:0] size_o   // bytes of the block, 2 .. 15
 );
 
   localparam logic [3:0] Flags = 4'd3;  // place of the first parameter

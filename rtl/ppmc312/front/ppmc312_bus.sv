@@ -10,24 +10,24 @@
 module ppmc312_bus #(
     parameter int unsigned WaitClk = 6  // T_WRQ
 ) (
-    input  wire logic       clk_i,
-    input  wire logic       rst_ni,
+    input  wire logic       clk_i,        // clock
+    input  wire logic       rst_ni,       // reset, asynchronous
     input  wire logic       rst_wait_ni,  // of the wait request alone: a strobe goes on
     input  wire logic       off_i,        // nobody may access
     // pins
-    input  wire logic [2:0] rs_i,
-    input  wire logic       cs_ni,
-    input  wire logic       we_ni,
-    input  wire logic       oe_ni,
-    input  wire logic [7:0] d_i,
-    output logic      [7:0] d_o,
-    output logic            d_oe_o,
-    output logic            wrq_no,
+    input  wire logic [2:0] rs_i,         // register
+    input  wire logic       cs_ni,        // chip select
+    input  wire logic       we_ni,        // write strobe
+    input  wire logic       oe_ni,        // read strobe
+    input  wire logic [7:0] d_i,          // bus, from the host
+    output logic      [7:0] d_o,          // bus, to the host
+    output logic            d_oe_o,       // drive d_o
+    output logic            wrq_no,       // wait request
     // registers
     input  wire logic       wait_i,       // EWRQ: the wait request is used
     output logic            wr_o,         // a write is complete
-    output logic      [2:0] wr_rs_o,
-    output logic      [7:0] wr_data_o,
+    output logic      [2:0] wr_rs_o,      // with wr_o: the register,
+    output logic      [7:0] wr_data_o,    // and what is written
     output logic      [2:0] rd_rs_o,      // register that is being read
     input  wire logic [7:0] rd_data_i,    // its value
     output logic            rd_show_o,    // its value is taken

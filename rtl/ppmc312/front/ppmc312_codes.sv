@@ -8,9 +8,9 @@ module ppmc312_codes
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire logic          clk_i,
-    input  wire logic    [7:0] code_i,
-    output serial_code_t       info_o
+    input  wire logic          clk_i,   // clock
+    input  wire logic    [7:0] code_i,  // as received
+    output serial_code_t       info_o   // what it means
 );
 
   serial_code_t info;

@@ -6,11 +6,11 @@
 `default_nettype none
 
 module ppmc312_counts (
-    input  wire logic            clk_i,
-    input  wire logic            rst_ni,
+    input  wire logic            clk_i,    // clock
+    input  wire logic            rst_ni,   // reset, asynchronous
     input  wire logic [2:0]      error_i,  // framing, overrun, checksum
     input  wire logic            read_i,   // they are being read
-    output logic      [2:0][7:0] count_o
+    output logic      [2:0][7:0] count_o   // the same order, 0 .. 255 each
 );
 
   logic [7:0] old, more;

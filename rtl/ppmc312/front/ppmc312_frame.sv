@@ -13,28 +13,28 @@ module ppmc312_frame
     parameter int unsigned XtalHz   = 16_000_000,
     parameter bit          CharsSum = 1'b0         // checksum of the characters instead of their values
 ) (
-    input  wire logic               clk_i,
-    input  wire logic               rst_ni,
-    input  wire logic         [3:0] adr_i,
+    input  wire logic               clk_i,      // clock
+    input  wire logic               rst_ni,     // reset, asynchronous
+    input  wire logic         [3:0] adr_i,      // number of the station
     // characters
-    input  wire logic         [7:0] byte_i,
-    input  wire logic               valid_i,
+    input  wire logic         [7:0] byte_i,     // with valid_i
+    input  wire logic               valid_i,    // strobe: a character
     input  wire logic               error_i,    // one without a stop bit
     input  wire logic               busy_i,     // a reply is pending or being sent
     // code table
-    output logic              [7:0] code_o,
-    input  wire serial_code_t       info_i,
+    output logic              [7:0] code_o,     // code as received
+    input  wire serial_code_t       info_i,     // what it means, one clk later
     // the block that means the same on the parallel bus: its bytes, data first, then what comes before them
-    output logic                    we_o,
+    output logic                    we_o,       // strobe: a byte
     output logic                    head_o,     // one of those
-    output logic              [3:0] at_o,
-    output logic              [7:0] data_o,
+    output logic              [3:0] at_o,       // its place, 0 = header
+    output logic              [7:0] data_o,     // received; with we_o and not head_o
     // what it comes to
-    output logic                    poll_o,
+    output logic                    poll_o,     // strobe: a poll
     output logic                    run_o,      // an instruction, its checksum is right
     output logic                    fault_o,    // a wrong checksum
     output logic                    strange_o,  // an unknown code
-    output logic                    overrun_o
+    output logic                    overrun_o   // strobe: a frame while busy
 );
 
   localparam int unsigned SilenceXtal = 320_000;  // 20 ms

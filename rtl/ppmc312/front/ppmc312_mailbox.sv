@@ -11,41 +11,39 @@
 
 module ppmc312_mailbox
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_serial_pkg::*;
 #(
     parameter int unsigned WaitClk = 6  // T_WRQ
 ) (
-    input  wire logic                  clk_i,
-    input  wire logic                  rst_ni,
-    input  wire logic                  rst_bus_ni,   // of the strobes
-    input  wire logic                  ready_i,      // 0: no instruction may be written yet
-    input  wire logic                  off_i,        // serial mode
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic rst_bus_ni,  // of the strobes
+    input wire logic ready_i,  // 0: no instruction may be written yet
+    input wire logic off_i,  // serial mode
     // pins
-    input  wire logic [           2:0] rs_i,
-    input  wire logic                  cs_ni,
-    input  wire logic                  we_ni,
-    input  wire logic                  oe_ni,
-    input  wire logic [           7:0] d_i,
-    output logic      [           7:0] d_o,
-    output logic                       d_oe_o,
-    output logic                       wrq_no,
-    output logic                       irq_no,
+    input wire logic [2:0] rs_i,  // register
+    input wire logic cs_ni,  // chip select
+    input wire logic we_ni,  // write strobe
+    input wire logic oe_ni,  // read strobe
+    input wire logic [7:0] d_i,  // bus, from the host
+    output logic [7:0] d_o,  // bus, to the host
+    output logic d_oe_o,  // drive d_o
+    output logic wrq_no,  // wait request
+    output logic irq_no,  // interrupt
     // blocks of the host
-    output logic                       blk_valid_o,  // one waits to be processed
-    output logic      [  BLOCK_BITS:0] blk_size_o,   // its bytes, 1 .. 32
-    input  wire logic [BLOCK_BITS-1:0] blk_addr_i,   // logical: 0 = header
-    output logic      [           7:0] blk_data_o,   // two clk later
-    input  wire logic                  blk_done_i,   // it is processed and answered
-    // the serial station writes its blocks here, too
-    input  wire logic                  line_we_i,
-    input  wire logic [           3:0] line_at_i,    // logical
-    input  wire logic [           7:0] line_data_i,
+    output offer_t offer_o,  // one of them
+    input wire logic [BLOCK_BITS-1:0] blk_addr_i,  // byte of the block, 0 = header
+    output logic [7:0] blk_data_o,  // that byte, two clk later
+    input wire logic blk_done_i,  // strobe: it is processed and answered
+    input wire line_byte_t line_i,  // the serial station writes its blocks here, too
     // reports to the host
-    input  wire logic                  rd_any_i,     // one waits
-    output logic                       rd_load_o,    // load it
-    input  wire logic [  BLOCK_BITS:0] rd_size_i,    // bytes of the loaded one, from 2 clk after the load on
-    output logic      [BLOCK_BITS-1:0] rd_addr_o,    // logical
-    input  wire logic [           7:0] rd_data_i,    // at most three clk later
-    output logic                       rd_done_o     // it has been read
+    input wire logic rd_any_i,  // one waits
+    output logic rd_load_o,  // strobe: load it
+    input wire logic [BLOCK_BITS:0] rd_size_i,  // bytes of the loaded one, from 2 clk after the load on
+    output logic [BLOCK_BITS-1:0] rd_addr_o,  // byte of it, 0 = header
+    input wire logic [7:0] rd_data_i,  // at most three clk later
+    output logic rd_done_o  // strobe: it has been read
 );
 
   localparam logic [2:0] RegCsr = 3'b000;
@@ -87,7 +85,7 @@ module ppmc312_mailbox
       .rd_done_o  (rd_done)
   );
 
-  assign mwef = blk_valid_o || !ready_i;
+  assign mwef = offer_o.valid || !ready_i;
   assign mref = left_q == '0;
 
   // ---- write window ----------------------------------------------------------------------------------------------
@@ -99,18 +97,18 @@ module ppmc312_mailbox
       {enable_wrq_q, enable_write_q, enable_read_q} <= '0;
       armed_q                                       <= 1'b0;
       at_q                                          <= Top;
-      blk_size_o                                    <= '0;
-      blk_valid_o                                   <= 1'b0;
+      offer_o.size                                  <= '0;
+      offer_o.valid                                 <= 1'b0;
     end else begin
       if (wr && wr_rs == RegCsr) {enable_wrq_q, enable_write_q, enable_read_q} <= wr_data[6:4];
       if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == Arm;
       if (wr && wr_rs == RegAr && !mwef) begin
-        at_q       <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
-        blk_size_o <= Top - wr_data[BLOCK_BITS:0];
+        at_q         <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
+        offer_o.size <= Top - wr_data[BLOCK_BITS:0];
       end
       if (take) at_q <= at_q + 1'b1;
-      if (take && at_q == Top - 1'b1) blk_valid_o <= 1'b1;
-      else if (blk_done_i) blk_valid_o <= 1'b0;
+      if (take && at_q == Top - 1'b1) offer_o.valid <= 1'b1;
+      else if (blk_done_i) offer_o.valid <= 1'b0;
     end
   end
 
@@ -119,9 +117,9 @@ module ppmc312_mailbox
       .AddrBits(BLOCK_BITS)
   ) u_window (
       .clk_i,
-      .we_i   (take || line_we_i),
-      .waddr_i(line_we_i ? ~BLOCK_BITS'(line_at_i) : at_q[BLOCK_BITS-1:0]),
-      .wdata_i(line_we_i ? line_data_i : wr_data),
+      .we_i   (take || line_i.we),
+      .waddr_i(line_i.we ? ~BLOCK_BITS'(line_i.at) : at_q[BLOCK_BITS-1:0]),
+      .wdata_i(line_i.we ? line_i.data : wr_data),
       .raddr_i(~blk_addr_i),
       .rdata_o(blk_data_o)
   );

@@ -6,11 +6,12 @@
 
 module ppmc312_polled
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire poll_t   poll_i,
-    input  wire status_e status_i,
-    output reply_t       reply_o
+    input  wire poll_t   poll_i,    // what a poll finds
+    input  wire status_e status_i,  // of the part
+    output reply_t       reply_o    // its answer
 );
 
   logic [7:0] code;

@@ -8,32 +8,31 @@
 
 module ppmc312_replies
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire logic               clk_i,
-    input  wire logic               rst_ni,
-    // frames
-    input  wire logic               poll_i,
-    input  wire logic               run_i,
-    input  wire logic               fault_i,
-    input  wire logic               strange_i,
-    input  wire logic         [7:0] code_i,
-    input  wire serial_code_t       info_i,
-    input  wire logic               framing_i,
-    input  wire logic               overrun_i,
-    output logic                    busy_o,          // a reply is pending or being sent
+    input  wire logic               clk_i,        // clock
+    input  wire logic               rst_ni,       // reset, asynchronous
+    // frames: strobes
+    input  wire logic               poll_i,       // a poll
+    input  wire logic               run_i,        // an instruction, its checksum is right
+    input  wire logic               fault_i,      // a wrong checksum
+    input  wire logic               strange_i,    // an unknown code
+    input  wire logic         [7:0] code_i,       // as received
+    input  wire serial_code_t       info_i,       // what it means
+    input  wire logic               framing_i,    // a character without a stop bit
+    input  wire logic               overrun_i,    // a frame while busy
+    output logic                    busy_o,       // a reply is pending or being sent
     // core
-    input  wire status_e            status_i,
-    output logic                    take_o,          // the report that a poll finds is taken
-    input  wire poll_t              found_i,
-    output logic                    blk_valid_o,
-    input  wire logic               answered_i,      // it has been executed
-    input  wire logic         [7:0] answer_code_i,   // one clk later: what it has come to
-    input  wire logic         [2:0] answer_first_i,
+    input  wire status_e            status_i,     // of the part
+    output logic                    take_o,       // strobe: the report that a poll finds is taken
+    input  wire poll_t              found_i,      // what a poll finds
+    output logic                    blk_valid_o,  // a block waits to be executed
+    input  wire answered_t          answered_i,   // it has been
     // sender
-    output logic                    send_o,          // until sent_i
-    output reply_t                  reply_o,
-    input  wire logic               sent_i
+    output logic                    send_o,       // until sent_i
+    output reply_t                  reply_o,      // holds with send_o
+    input  wire logic               sent_i        // strobe: the reply has been sent
 );
 
   typedef enum logic [1:0] {
@@ -71,9 +70,9 @@ module ppmc312_replies
 
   always_comb begin
     fails = 1'b0;
-    error = answer_code_i[3:0] + 4'd2;  // F0 42, F1 43, F2 44, F6 48, F7 49
-    if (answer_code_i[7:4] == 4'hf) fails = 1'b1;
-    else if (answer_code_i == I_EVT_SET && answer_first_i inside {3'd1, 3'd2, 3'd5}) begin
+    error = answered_i.code[3:0] + 4'd2;  // F0 42, F1 43, F2 44, F6 48, F7 49
+    if (answered_i.code[7:4] == 4'hf) fails = 1'b1;
+    else if (answered_i.code == I_EVT_SET && answered_i.first inside {3'd1, 3'd2, 3'd5}) begin
       fails = 1'b1;
       error = 4'd9;
     end
@@ -126,7 +125,7 @@ module ppmc312_replies
       {poll_q, run_q, fault_q, strange_q, done_q} <= '0;
     end else begin
       {poll_q, run_q, fault_q, strange_q} <= {poll_i, run_i, fault_i, strange_i};
-      done_q <= state_q == StRun && answered_i;
+      done_q <= state_q == StRun && answered_i.valid;
       if (reply_we) state_q <= StSend;
       else if (run_q) state_q <= StRun;
       else if (sent_i) state_q <= StIdle;

@@ -11,51 +11,33 @@
 
 module ppmc312_reports
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire logic                        clk_i,
-    input  wire logic                        rst_ni,
-    input  wire logic                        serial_i,
-    // class 1
-    input  wire logic                        alarm_i,
-    input  wire logic       [           1:0] alarm_code_i,
-    // class 2
-    input  wire logic                        answer_we_i,
-    input  wire logic       [BLOCK_BITS-1:0] answer_addr_i,
-    input  wire logic       [           7:0] answer_data_i,
-    input  wire logic                        commit_i,
-    input  wire logic       [  BLOCK_BITS:0] commit_size_i,
-    input  wire logic                        commit_host_i,   // it answers the host
-    input  wire triggered_e                  commit_what_i,   // if not: what came of it
-    output logic                             full_o,          // one waits to be read
-    output logic                             full_host_o,     // it answers the host
-    output logic                             waits_o,         // a second one waits behind it
-    // classes 3, 4, 5
-    input  wire logic                        unlock_i,
-    input  wire logic                        held_i,
-    input  wire logic                        stop_i,
-    input  wire cause_t                      stop_cause_i,
-    input  wire logic       [          31:0] stop_pos_i,
-    output logic                             over_o,          // multiple occurrence, one of them is lost
-    output logic            [           1:0] over_code_o,
-    // class 6
-    input  wire logic                        aux_clear_i,
-    input  wire logic                        aux_i,
-    input  wire logic       [           7:0] aux_data_i,
-    // classes 7 and 8: in-position, encode
-    input  wire logic       [           1:0] window_i,        // a report waits
-    input  wire logic       [           1:0] window_value_i,
-    output logic            [           1:0] window_load_o,   // it is being loaded
-    output logic            [           1:0] window_read_o,   // it has been read
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic serial_i,  // the front end is the serial station
+    // what happens
+    input wire notice_t notice_i,  // classes 1, 3, 4, 5
+    input wire logic [31:0] pos_i,  // position, pulses; with notice_i.stop
+    output alarm_t over_o,  // multiple occurrence: a report of class 3, 4 or 5 is lost
+    input wire answer_byte_t byte_i,  // class 2, on its way
+    input wire commit_t commit_i,  // and complete
+    output class2_t class2_o,  // how full it is
+    input wire logic aux_clear_i,  // class 6, strobe: forget what waits
+    input wire logic aux_i,  // strobe: the generalized input has changed
+    input wire logic [7:0] aux_data_i,  // in these bits
+    input wire windows_t windows_i,  // classes 7 and 8
+    output window_take_t take_o,  // they are being loaded, have been read
     // front end
-    input  wire logic                        hold_i,          // an answer is about to come: only classes 1, 2
-    output logic                             rd_any_o,
-    input  wire logic                        rd_load_i,
-    output poll_t                            poll_o,          // serial mode
-    output logic            [  BLOCK_BITS:0] rd_size_o,
-    input  wire logic       [BLOCK_BITS-1:0] rd_addr_i,
-    output logic            [           7:0] rd_data_o,
-    input  wire logic                        rd_done_i
+    input wire logic hold_i,  // an answer is about to come: only classes 1, 2
+    output logic rd_any_o,  // a report waits
+    input wire logic rd_load_i,  // strobe: load it
+    output poll_t poll_o,  // serial mode: what rd_load_i takes
+    output logic [BLOCK_BITS:0] rd_size_o,  // bytes of the loaded one, 3 .. 32
+    input wire logic [BLOCK_BITS-1:0] rd_addr_i,  // logical: 0 = header
+    output logic [7:0] rd_data_o,  // two clk later
+    input wire logic rd_done_i  // strobe: it has been read
 );
 
   logic [8:1] waiting, offered;
@@ -63,7 +45,7 @@ module ppmc312_reports
   logic [3:0] lowest, class_q, class_done;
   triggered_e what_q;
   logic told_q;  // class 2 of the serial mode
-  logic loaded_q, bank_q, value_q, aux_busy, shift, host_q;
+  logic loaded_q, bank_q, value, value_q, aux_busy, shift, host_q;
   logic [1:0] alarm_q;
   logic [5:3] once_q, once, once_done;
   logic alarm_full_q, full_q, waits_q;
@@ -79,14 +61,7 @@ module ppmc312_reports
   // ---- what waits, which is next ---------------------------------------------------------------------------------
 
   assign waiting = {
-    window_i[1],
-    window_i[0],
-    aux_count_q != '0,
-    once_q[5],
-    once_q[4],
-    once_q[3],
-    full_q || told_q,
-    alarm_full_q
+    windows_i.waits, aux_count_q != '0, once_q[5], once_q[4], once_q[3], full_q || told_q, alarm_full_q
   };
   // What an instruction brings about is told after its answer.
   assign hold = !serial_i && (hold_i || (waits_q && !full_q));
@@ -101,15 +76,16 @@ module ppmc312_reports
   assign load = rd_load_i && !serial_i;
   assign done = serial_i ? rd_load_i && offered != '0 : rd_done_i;
   assign class_done = serial_i ? lowest : class_q;
-  assign window_load_o = {rd_load_i && lowest == 4'd8, rd_load_i && lowest == 4'd7} & window_i;
-  assign window_read_o = {done && class_done == 4'd8, done && class_done == 4'd7};
+  assign take_o.load = {rd_load_i && lowest == 4'd8, rd_load_i && lowest == 4'd7} & windows_i.waits;
+  assign take_o.read = {done && class_done == 4'd8, done && class_done == 4'd7};
+  assign value = windows_i.outside[lowest==4'd8];
   assign poll_o = '{
           item: (offered == '0) ? 4'd0 : lowest,
           triggered: what_q,
           cause: cause_q,
           flag: aux_flag_q,
           data: aux_q[0],
-          outside: (lowest == 4'd8) ? window_value_i[1] : window_value_i[0]
+          outside: value
       };
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -120,7 +96,7 @@ module ppmc312_reports
     end else if (load) begin
       loaded_q <= 1'b1;
       class_q  <= lowest;
-      value_q  <= (lowest == 4'd8) ? window_value_i[1] : window_value_i[0];
+      value_q  <= value;
     end else if (done) begin
       loaded_q <= 1'b0;
     end
@@ -128,10 +104,12 @@ module ppmc312_reports
 
   // ---- classes 1, 3, 4, 5 ----------------------------------------------------------------------------------------
 
-  assign once = {stop_i, held_i, unlock_i};
+  assign once = {notice_i.stop, notice_i.held, notice_i.unlock};
   assign once_done = {class_done == 4'd5, class_done == 4'd4, class_done == 4'd3} & {3{done}};
-  assign over_o = !serial_i && (once & once_q & ~once_done) != '0;
-  assign over_code_o = (stop_i && once_q[5] && !once_done[5]) ? 2'd3 : 2'd2;
+  assign over_o = '{
+          valid: !serial_i && (once & once_q & ~once_done) != '0,
+          code: (notice_i.stop && once_q[5] && !once_done[5]) ? 2'd3 : 2'd2
+      };
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -142,23 +120,21 @@ module ppmc312_reports
       pos_q        <= '0;
     end else begin
       once_q <= (once_q & ~once_done) | once;
-      if (stop_i && (serial_i || !once_q[5] || once_done[5])) begin
-        cause_q <= stop_cause_i;
-        pos_q   <= stop_pos_i;
+      if (notice_i.stop && (serial_i || !once_q[5] || once_done[5])) begin
+        cause_q <= notice_i.cause;
+        pos_q   <= pos_i;
       end
-      if (done && class_done == 4'd1 && !(serial_i && alarm_i)) alarm_full_q <= 1'b0;
-      else if (alarm_i && !alarm_full_q) begin
+      if (done && class_done == 4'd1 && !(serial_i && notice_i.alarm.valid)) alarm_full_q <= 1'b0;
+      else if (notice_i.alarm.valid && !alarm_full_q) begin
         alarm_full_q <= 1'b1;
-        alarm_q      <= alarm_code_i;
+        alarm_q      <= notice_i.alarm.code;
       end
     end
   end
 
   // ---- class 2 ---------------------------------------------------------------------------------------------------
 
-  assign full_o = full_q;
-  assign full_host_o = full_q && host_q;
-  assign waits_o = waits_q;
+  assign class2_o = '{full: full_q, full_host: full_q && host_q, waits: waits_q};
 
   logic wait_host_q, go;
   assign go = waits_q && !full_q;
@@ -175,14 +151,14 @@ module ppmc312_reports
       size_q      <= '0;
       wait_size_q <= '0;
     end else begin
-      if (commit_i && !serial_i) begin
+      if (commit_i.valid && !serial_i) begin
         waits_q     <= 1'b1;
-        wait_size_q <= commit_size_i;
-        wait_host_q <= commit_host_i;
+        wait_size_q <= commit_i.size;
+        wait_host_q <= commit_i.host;
       end else if (go) waits_q <= 1'b0;
-      if (serial_i && commit_i && !commit_host_i) begin
+      if (serial_i && commit_i.valid && !commit_i.host) begin
         told_q <= 1'b1;
-        what_q <= commit_what_i;
+        what_q <= commit_i.what;
       end else if (done && class_done == 4'd2) told_q <= 1'b0;
       if (go) begin
         full_q <= 1'b1;
@@ -198,9 +174,9 @@ module ppmc312_reports
       .AddrBits(BLOCK_BITS + 1)
   ) u_answers (
       .clk_i,
-      .we_i   (answer_we_i && (!serial_i || commit_host_i)),
-      .waddr_i({!bank_q, answer_addr_i}),
-      .wdata_i(answer_data_i),
+      .we_i   (byte_i.we && (!serial_i || commit_i.host)),
+      .waddr_i({!bank_q, byte_i.addr}),
+      .wdata_i(byte_i.data),
       .raddr_i({bank_q ^ serial_i, rd_addr_i}),
       .rdata_o(ram_byte)
   );
@@ -276,7 +252,7 @@ module ppmc312_reports
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p312_rsp_10_order, !load || offered != '0)
-  `PPMC_ASSERT(p312_rsp_20_bank, !(answer_we_i && waits_q))
+  `PPMC_ASSERT(p312_rsp_20_bank, !(byte_i.we && waits_q))
 `endif
 
 endmodule

@@ -15,19 +15,19 @@ module ppmc312_sender
     parameter int unsigned Width    = 20,
     parameter bit          CharsSum = 1'b0
 ) (
-    input  wire logic               clk_i,
-    input  wire logic               rst_ni,
-    input  wire logic   [      3:0] adr_i,
-    input  wire logic   [Width-1:0] step_i,
-    input  wire logic   [Width-1:0] wrap_i,
+    input  wire logic               clk_i,     // clock
+    input  wire logic               rst_ni,    // reset, asynchronous
+    input  wire logic   [      3:0] adr_i,     // number of the station
+    input  wire logic   [Width-1:0] step_i,    // phases a clk
+    input  wire logic   [Width-1:0] wrap_i,    // the same less the modulus
     input  wire logic               heard_i,   // a character has come
     input  wire logic               send_i,    // until sent_o
     input  wire reply_t             reply_i,   // holds with send_i
     output logic        [      1:0] index_o,   // data byte
     input  wire logic   [      7:0] stored_i,  // this one, if it stands in the store; two clk later
-    output logic                    sent_o,
-    output logic                    txd_o,
-    output logic                    snd_o
+    output logic                    sent_o,    // strobe: the reply has been sent
+    output logic                    txd_o,     // line, rests at 1
+    output logic                    snd_o      // drive the line
 );
 
   typedef enum logic [1:0] {

@@ -9,38 +9,34 @@
 
 module ppmc312_serial
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
     parameter bit          CharsSum = 1'b0
 ) (
-    input  wire logic                     clk_i,
-    input  wire logic                     rst_ni,
-    input  wire logic                     ready_i,         // 0: nothing may be received yet
-    input  wire logic                     enable_i,        // 0: silent
-    input  wire logic    [           1:0] rate_i,          // 1: 19 200, 2: 38 400, 3: 83 333 baud
-    input  wire logic    [           3:0] adr_i,
+    input  wire logic                       clk_i,       // clock
+    input  wire logic                       rst_ni,      // reset, asynchronous
+    input  wire logic                       ready_i,     // 0: nothing may be received yet
+    input  wire logic                       enable_i,    // 0: silent
+    input  wire logic      [           1:0] rate_i,      // 1: 19 200, 2: 38 400, 3: 83 333 baud
+    input  wire logic      [           3:0] adr_i,       // number of the station
     // pins
-    input  wire logic                     rxd_i,
-    output logic                          txd_o,
-    output logic                          snd_o,
+    input  wire logic                       rxd_i,       // line, asynchronous; rests at 1
+    output logic                            txd_o,       // line, rests at 1
+    output logic                            snd_o,       // drive the line
     // blocks of the host
-    output logic                          blk_valid_o,
-    output logic         [  BLOCK_BITS:0] blk_size_o,
-    output logic                          blk_we_o,        // into the write window
-    output logic         [           3:0] blk_at_o,        // logical: 0 = header
-    output logic         [           7:0] blk_data_o,
+    output offer_t                          offer_o,     // one of them
+    output line_byte_t                      byte_o,      // into the write window
     // their answers
-    input  wire logic                     answered_i,
-    input  wire logic    [           7:0] answer_code_i,
-    input  wire logic    [           2:0] answer_first_i,
-    output logic         [BLOCK_BITS-1:0] rd_addr_o,
-    input  wire logic    [           7:0] rd_data_i,
+    input  wire answered_t                  answered_i,  // the block is executed
+    output logic           [BLOCK_BITS-1:0] rd_addr_o,   // byte of the answer, 0 = header
+    input  wire logic      [           7:0] rd_data_i,   // that byte, two clk later
     // state and reports
-    input  wire status_e                  status_i,
-    output logic                          take_o,
-    input  wire poll_t                    found_i
+    input  wire status_e                    status_i,    // of the part
+    output logic                            take_o,      // strobe: found_i is told
+    input  wire poll_t                      found_i      // what a poll finds
 );
 
   // Bit time = Modulus / step clk.
@@ -117,9 +113,9 @@ module ppmc312_serial
       .busy_i   (busy),
       .code_o   (code),
       .info_i   (info),
-      .we_o     (blk_we_o),
+      .we_o     (byte_o.we),
       .head_o   (head),
-      .at_o     (blk_at_o),
+      .at_o     (byte_o.at),
       .data_o   (data),
       .poll_o   (poll),
       .run_o    (run),
@@ -131,36 +127,34 @@ module ppmc312_serial
   ppmc312_block u_block (
       .clk_i,
       .info_i(info),
-      .we_i  (blk_we_o),
+      .we_i  (byte_o.we),
       .head_i(head),
-      .at_i  (blk_at_o),
+      .at_i  (byte_o.at),
       .data_i(data),
-      .data_o(blk_data_o),
-      .size_o(blk_size_o)
+      .data_o(byte_o.data),
+      .size_o(offer_o.size)
   );
 
   ppmc312_replies u_replies (
       .clk_i,
       .rst_ni,
-      .poll_i   (poll),
-      .run_i    (run),
-      .fault_i  (fault),
-      .strange_i(strange),
-      .code_i   (code),
-      .info_i   (info),
-      .framing_i(framing),
-      .overrun_i(overrun),
-      .busy_o   (busy),
+      .poll_i     (poll),
+      .run_i      (run),
+      .fault_i    (fault),
+      .strange_i  (strange),
+      .code_i     (code),
+      .info_i     (info),
+      .framing_i  (framing),
+      .overrun_i  (overrun),
+      .busy_o     (busy),
       .status_i,
       .take_o,
       .found_i,
-      .blk_valid_o,
+      .blk_valid_o(offer_o.valid),
       .answered_i,
-      .answer_code_i,
-      .answer_first_i,
-      .send_o   (send),
-      .reply_o  (reply),
-      .sent_i   (sent)
+      .send_o     (send),
+      .reply_o    (reply),
+      .sent_i     (sent)
   );
 
   // Answers of a position tell which one, before the position itself.

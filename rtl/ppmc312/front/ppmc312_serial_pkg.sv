@@ -24,20 +24,13 @@ package ppmc312_serial_pkg;
 
   // ---- what a poll would find ------------------------------------------------------------------------------------
 
-  typedef enum logic [1:0] {
-    DoneOverride = 2'b00,  // 28
-    DoneEvent    = 2'b01,  // 29
-    FailEvent    = 2'b10,  // 4A
-    FailOverride = 2'b11   // 4B
-  } triggered_e;
-
   typedef struct packed {
-    logic [3:0]          item;       // class of the first report that waits; 0: none
-    triggered_e          triggered;  // class 2
-    ppmc312_pkg::cause_t cause;      // class 5; stays for the END code
-    logic                flag;       // class 6
-    logic [7:0]          data;
-    logic                outside;    // classes 7, 8
+    logic [3:0]                   item;       // class of the first report that waits; 0: none
+    ppmc312_link_pkg::triggered_e triggered;  // class 2
+    ppmc312_pkg::cause_t          cause;      // class 5; stays for the END code
+    logic                         flag;       // class 6: a change has been lost
+    logic [7:0]                   data;       // class 6: bits of the input that have changed
+    logic                         outside;    // classes 7, 8: 1 outside, 0 inside
   } poll_t;
 
   function automatic logic [7:0] end_code(ppmc312_pkg::cause_t c);
@@ -50,6 +43,14 @@ package ppmc312_serial_pkg;
       c.als || c.low || c.stp || c.stl
     };
   endfunction
+
+  // ---- a byte on its way into the write window -------------------------------------------------------------------
+
+  typedef struct packed {
+    logic       we;
+    logic [3:0] at;    // logical: 0 = header
+    logic [7:0] data;
+  } line_byte_t;
 
   // ---- a reply ---------------------------------------------------------------------------------------------------
 

@@ -7,13 +7,15 @@
 
 module ppmc312_arbiter
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
 (
-    input  wire logic    clk_i,
-    input  wire logic    rst_ni,
+    input  wire logic    clk_i,       // clock
+    input  wire logic    rst_ni,      // reset, asynchronous
     input  wire logic    idle_i,      // the next one can be taken
     input  wire logic    occupied_i,  // an answer waits to be read or stored
     input  wire logic    host_i,      // the host's waits
-    input  wire stored_t stored_i,
+    input  wire stored_t stored_i,    // instructions that wait for a trigger
     output logic         start_o,     // one is taken
     output source_e      source_o,    // from here
     output logic         n_o,         // event buffer

@@ -6,58 +6,54 @@
 
 module ppmc312_compose
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
 (
-    input  wire block_t               block_i,
-    input  wire verdict_e             verdict_i,
-    input  wire logic     [ 7:0]      error_i,
-    input  wire status_e              status_i,
+    input  wire block_t             block_i,      // the instruction
+    input  wire verdict_e           verdict_i,    // of its judgement
+    input  wire logic         [7:0] error_i,      // number of F0, status of F1
+    input  wire status_e            status_i,     // of the part
     // where the instruction is; at most one
-    input  wire logic                 at_boot_i,
-    input  wire logic                 at_act_i,
-    input  wire logic                 at_setup_i,
-    input  wire logic                 at_copy_i,
-    input  wire logic                 at_move_i,
-    input  wire logic                 fails_i,        // was triggered and cannot be executed
-    input  wire logic                 registers_i,    // was to be registered with the command FIFO
-    input  wire logic                 used_i,         // the trigger is in use by the other kind
-    input  wire logic     [ 2:0]      evt_count_i,    // of the event buffer concerned
-    input  wire logic     [ 3:0]      reply_extra_i,
-    input  wire logic     [ 8:0][7:0] reply_data_i,
-    input  wire logic                 setup_bad_i,
-    input  wire logic     [ 7:0]      setup_error_i,
-    input  wire logic                 complete_i,
-    input  wire logic     [ 1:0]      list_i,
-    input  wire logic     [ 6:0]      left_i,
-    input  wire logic     [23:0]      acc_sum_i,
-    input  wire logic     [23:0]      dec_sum_i,
-    input  wire logic                 limited_i,
-    input  wire logic                 refused_i,
-    input  wire logic     [ 7:0]      kind_i,
-    output answer_t                   answer_o
+    input  wire logic               at_boot_i,    // none; the part comes back from a reset
+    input  wire logic               at_act_i,     // judged
+    input  wire logic               at_setup_i,   // in the set-up
+    input  wire logic               at_copy_i,    // on its way into the store
+    input  wire logic               at_move_i,    // a start or a rate change
+    input  wire logic               fails_i,      // was triggered and cannot be executed
+    input  wire logic               registers_i,  // was to be registered with the command FIFO
+    input  wire logic               used_i,       // the trigger is in use by the other kind
+    input  wire logic         [2:0] evt_count_i,  // entries of the event buffer concerned, 0 .. 4
+    // what it has come to
+    input  wire told_t              told_i,       // executed
+    input  wire setup_state_t       setup_i,      // with at_setup_i
+    input  wire move_state_t        move_i,       // with at_move_i
+    output answer_t                 answer_o      // to be written
 );
 
+  progress_t progress;
   logic [7:0] code, flags;
   logic [1:0] fail_code;
   logic host, inner, starts;
 
-  assign code   = block_i.code;
-  assign flags  = block_i.par[0];
-  assign host   = block_i.source == SrcHost;
-  assign inner  = code == I_EVT_SET;
+  assign progress = setup_i.progress;
+  assign code = block_i.code;
+  assign flags = block_i.par[0];
+  assign host = block_i.source == SrcHost;
+  assign inner = code == I_EVT_SET;
   assign starts = !(code inside {I_RAMP, I_SPEED});
 
   always_comb begin
     fail_code = 2'd0;
     if (at_act_i && verdict_i == VerdictStatus) fail_code = 2'd1;
-    if (at_move_i) fail_code = limited_i ? 2'd2 : 2'd1;
+    if (at_move_i) fail_code = move_i.limited ? 2'd2 : 2'd1;
   end
 
   always_comb begin
     answer_o = '{
         head: {3'b000, block_i.source, 3'b011},
         code: code,
-        extra: reply_extra_i,
-        data: reply_data_i,
+        extra: told_i.extra,
+        data: told_i.data,
         echo: 1'b0
     };
     unique case (1'b1)
@@ -71,25 +67,25 @@ module ppmc312_compose
         if (block_i.head[1] || !host) begin  // initial setting
           answer_o.code  = code;
           answer_o.extra = 4'd0;
-        end else if (complete_i) begin
+        end else if (progress.complete) begin
           answer_o.extra = 4'd7;
           answer_o.data[6:0] = {
-            dec_sum_i[7:0],
-            dec_sum_i[15:8],
-            dec_sum_i[23:16],
-            acc_sum_i[7:0],
-            acc_sum_i[15:8],
-            acc_sum_i[23:16],
+            progress.dec_sum[7:0],
+            progress.dec_sum[15:8],
+            progress.dec_sum[23:16],
+            progress.acc_sum[7:0],
+            progress.acc_sum[15:8],
+            progress.acc_sum[23:16],
             8'h0f
           };
         end else begin
           answer_o.extra     = 4'd2;
-          answer_o.data[1:0] = {1'b0, left_i, 6'd0, list_i};
+          answer_o.data[1:0] = {1'b0, progress.left, 6'd0, progress.list};
         end
-        if (setup_bad_i) begin
+        if (setup_i.bad) begin
           answer_o.code    = A_PARAM;
           answer_o.extra   = 4'd1;
-          answer_o.data[0] = setup_error_i;
+          answer_o.data[0] = setup_i.error;
           answer_o.echo    = 1'b1;
         end
       end
@@ -100,13 +96,13 @@ module ppmc312_compose
       end
       at_move_i: begin
         answer_o.extra   = (starts && code != I_STEP) ? 4'd1 : 4'd0;
-        answer_o.data[0] = kind_i;
-        if (refused_i) begin
+        answer_o.data[0] = move_i.kind;
+        if (move_i.refused) begin
           answer_o.code      = A_STATUS;
           answer_o.extra     = 4'd2;
           answer_o.data[1:0] = {2'b00, status_i, 8'h00};
         end
-        if (limited_i) begin
+        if (move_i.limited) begin
           answer_o.code  = A_LIMIT;
           answer_o.extra = 4'd0;
         end
@@ -164,7 +160,7 @@ module ppmc312_compose
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block_i, flags};
+  assign unused_bits = &{1'b0, block_i, flags, setup_i, move_i};
 
 endmodule
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_exec: one instruction at a time, from the host or triggered: taken, judged, done, answered.
 // Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06, sections 3.1..3.5, 10.1.
-// Timing: 24 clk from blk_valid_i to do_o, the answer 5 + bytes clk later; set-ups, starts and changes wait in
+// Timing: 24 clk from offer_i.valid to do_o, the answer 5 + bytes clk later; set-ups, starts and changes wait in
 //         between. blk_done_o comes when the answer stands in its store.
 // Note:   do_o tells the rest of the part to carry out block_o.
 `include "ppmc_assert.svh"
@@ -9,75 +9,44 @@
 
 module ppmc312_exec
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                          clk_i,
-    input  wire logic                          rst_ni,
-    input  wire logic                          serial_i,       // answers never wait to be read
-    input  wire logic                          boot_i,         // after a reset by instruction: tell so
-    output logic                               reset_o,        // reset everything
-    // blocks of the host
-    input  wire logic                          blk_valid_i,
-    input  wire logic    [  BLOCK_BITS:0]      blk_size_i,
-    output logic         [BLOCK_BITS-1:0]      fetch_addr_o,   // also for the entries that wait
-    input  wire logic    [           7:0]      blk_data_i,
-    output logic                               blk_done_o,
-    // instructions that wait
-    input  wire stored_t                       stored_i,
-    output remove_t                            remove_o,
-    output put_t                               put_o,
-    output logic                               fetch_event_o,
-    input  wire logic    [           7:0]      entry_data_i,
-    output logic                               settled_o,      // all that the FIFO has triggered is processed
+    input  wire logic                          clk_i,        // clock
+    input  wire logic                          rst_ni,       // reset, asynchronous
+    input  wire logic                          serial_i,     // answers never wait to be read
+    input  wire logic                          boot_i,       // after a reset by instruction: tell so
+    output logic                               reset_o,      // strobe: reset everything
+    // where instructions come from
+    input  wire offer_t                        offer_i,      // a block of the host
+    output logic                               blk_done_o,   // strobe: it is processed and answered
+    output logic              [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
+    input  wire logic         [           7:0] byte_i,       // that byte, two clk later
+    input  wire stored_t                       stored_i,     // instructions that wait for a trigger
+    output remove_t                            remove_o,     // out of their store
+    output put_t                               put_o,        // into it
     // state of the part
-    input  wire status_e                       status_i,
-    input  wire logic                          end_wait_i,
-    input  wire table_t                        table_i,
-    input  wire logic    [           3:0]      reply_extra_i,
-    input  wire logic    [           8:0][7:0] reply_data_i,
-    input  wire logic                          open_i,         // the time for it has come
-    output logic                               idle_o,
-    output logic                               hold_o,         // an answer is about to come
+    input  wire axis_state_t                   state_i,      // of the motor side
+    input  wire table_t                        table_i,      // in force
+    input  wire told_t                         told_i,       // what block_o tells when it is executed
+    input  wire logic                          open_i,       // the time for block_o has come
+    output logic                               idle_o,       // no instruction is being processed
     // to be carried out
-    output block_t                             block_o,
-    output logic                               do_o,
-    output logic                               multi_o,        // multiple occurrence, cause 1
-    // set-up
-    output logic                               build_o,
-    output logic                               open_o,
-    output logic                               data_o,
-    output logic                               fail_o,
-    input  wire logic                          transfer_i,
-    input  wire logic                          setup_done_i,
-    input  wire logic                          setup_bad_i,
-    input  wire logic    [           7:0]      setup_error_i,
-    input  wire logic                          complete_i,
-    input  wire logic    [           1:0]      list_i,
-    input  wire logic    [           6:0]      left_i,
-    input  wire logic    [          23:0]      acc_sum_i,
-    input  wire logic    [          23:0]      dec_sum_i,
-    input  wire logic    [BLOCK_BITS-1:0]      setup_addr_i,
-    // motion
-    output logic                               move_o,
-    input  wire logic                          move_done_i,
-    input  wire logic                          limited_i,
-    input  wire logic                          refused_i,
-    input  wire logic    [           7:0]      kind_i,
+    output block_t                             block_o,      // the instruction that is being processed
+    output logic                               do_o,         // strobe: carry it out
+    output logic                               multi_o,      // strobe: multiple occurrence, cause 1
+    output setup_order_t                       setup_o,      // initial setting, free curve
+    input  wire setup_state_t                  setup_i,      // what has come of it
+    output logic                               move_o,       // strobe: a start or a rate change
+    input  wire move_state_t                   move_i,       // what has come of it
     // answers
-    output answer_t                            answer_o,
-    output logic                               write_o,
-    output logic         [           4:0]      echo_bytes_o,
-    input  wire logic                          written_i,
-    input  wire logic    [BLOCK_BITS-1:0]      echo_addr_i,
-    output logic                               read_open_o,    // table read: data blocks are to follow
-    output logic                               read_block_o,   // the next one
-    input  wire logic                          read_more_i,
-    input  wire logic                          read_done_i,
-    output logic                               commit_o,
-    output logic                               commit_host_o,
-    input  wire logic                          full_i,
-    input  wire logic                          full_host_i,
-    input  wire logic                          waits_i
+    output answer_t                            answer_o,     // steady while it is written and until commit_o
+    output write_order_t                       write_o,      // what is to be written
+    input  wire write_state_t                  write_i,      // how far that is
+    output logic                               hold_o,       // an answer is about to come
+    output logic                               commit_o,     // strobe: it is complete
+    input  wire class2_t                       class2_i      // answers that wait to be read
 );
 
   typedef enum logic [3:0] {
@@ -96,13 +65,12 @@ module ppmc312_exec
     StReadback
   } state_e;
 
-  state_e state_q;
+  state_e state_q, state_d;
   info_t info;
   verdict_e verdict;
   source_e source;
   answer_t next;
-  logic move_ends, setup_ends, copy_ends;
-  logic [BLOCK_BITS:0] bytes;
+  logic move_ends, setup_ends;
   logic [7:0] error, code, flags;
   logic ov, host, start, fetch_done, n, n_q, lost, copy, act, go, registers, unread, idle_read;
   logic host_wait_q, fails, slow;
@@ -117,13 +85,13 @@ module ppmc312_exec
 
   // ---- which one -------------------------------------------------------------------------------------------------
 
-  assign ready = blk_valid_i && !host_wait_q;
+  assign ready = offer_i.valid && !host_wait_q;
 
   ppmc312_arbiter u_arbiter (
       .clk_i,
       .rst_ni,
       .idle_i    (state_q == StIdle),
-      .occupied_i(full_i || waits_i || host_wait_q),
+      .occupied_i(class2_i.full || class2_i.waits || host_wait_q),
       .host_i    (ready),
       .stored_i,
       .start_o   (start),
@@ -137,14 +105,14 @@ module ppmc312_exec
       .rst_ni,
       .start_i   (start),
       .source_i  (source),
-      .size_i    (blk_size_i),
+      .size_i    (offer_i.size),
       .copy_i    (copy),
       .inner_i   (inner),
       .busy_o    (unused_busy),
       .done_o    (fetch_done),
       .block_o,
       .addr_o    (step_addr),
-      .data_i    (host ? blk_data_i : entry_data_i),
+      .data_i    (byte_i),
       .put_we_o  (put_o.we),
       .put_addr_o(put_o.addr),
       .put_data_o(put_o.data)
@@ -153,33 +121,31 @@ module ppmc312_exec
   ppmc312_judge u_judge (
       .clk_i,
       .rst_ni,
-      .block_i  (block_o),
-      .keep_i   (state_q inside {StAct, StWait}),
-      .status_i,
-      .end_wait_i,
-      .transfer_i,
+      .block_i   (block_o),
+      .keep_i    (state_q inside {StAct, StWait}),
+      .status_i  (state_i.status),
+      .end_wait_i(state_i.end_wait),
+      .transfer_i(setup_i.transfer),
       .table_i,
-      .verdict_o(verdict),
-      .error_o  (error),
-      .ov_o     (ov)
+      .verdict_o (verdict),
+      .error_o   (error),
+      .ov_o      (ov)
   );
 
   always_comb begin
     unique case (state_q)
-      StSetup: fetch_addr_o = setup_addr_i;
-      StWrite: fetch_addr_o = echo_addr_i;
-      default: fetch_addr_o = step_addr;
+      StSetup: byte_addr_o = setup_i.addr;
+      StWrite: byte_addr_o = write_i.echo_addr;
+      default: byte_addr_o = step_addr;
     endcase
   end
 
-  assign fetch_event_o = block_o.source == SrcEvent;
-  assign hold_o = act || state_q inside {StWrite, StReadback} || read_more_i;
+  assign hold_o = act || state_q inside {StWrite, StReadback} || write_i.table_more;
   assign idle_o = state_q == StIdle;
-  assign settled_o = !stored_i.due && !(state_q != StIdle && block_o.source == SrcOverride);
 
   // A reset always executes. An instruction on top of an unread answer never does.
   assign reset_o = state_q == StFirst && reset_q;
-  assign unread = state_q == StFirst && host && full_host_i && !reset_o;
+  assign unread = state_q == StFirst && host && class2_i.full_host && !reset_o;
   assign multi_o = lost || unread;
 
   // ---- what it asks for ------------------------------------------------------------------------------------------
@@ -196,14 +162,15 @@ module ppmc312_exec
   assign registers = act && verdict == VerdictGo && (inner ? !flags[1] : ov) && !used && !full;
   assign copy = registers;
 
-  assign build_o = go && code == I_INIT;
-  assign open_o = go && code == I_FREE;
-  assign data_o = act && verdict == VerdictData;
   assign move_o = go && (info.starts || code inside {I_RAMP, I_SPEED});
-  assign read_open_o = go && code == I_TABLE;
   assign do_o = go && plain_q;
+
+  assign setup_o.build = go && code == I_INIT;
+  assign setup_o.open = go && code == I_FREE;
+  assign setup_o.data = act && verdict == VerdictData;
   // A set-up that fails leaves no table; so does anything that disturbs a transfer.
-  assign fail_o = (transfer_i && status_i == StatusAbn) || (act && transfer_i && verdict != VerdictData) ||
+  assign setup_o.fail = (setup_i.transfer && state_i.status == StatusAbn) ||
+      (act && setup_i.transfer && verdict != VerdictData) ||
       (act && verdict == VerdictPar && error != '0 && code == I_FREE && block_o.source != SrcEvent) ||
       (act && verdict == VerdictPar && code == I_INIT);
 
@@ -223,7 +190,7 @@ module ppmc312_exec
     remove_o.take       = start && source != SrcHost;
     remove_o.from_event = source == SrcEvent;
     remove_o.n          = n;
-    remove_o.all        = fail_o || build_o || open_o || (state_q == StSetup && setup_done_i && setup_bad_i);
+    remove_o.all        = setup_o.fail || setup_o.build || setup_o.open || (setup_ends && setup_i.bad);
     // What cannot be executed takes all that wait with it.
     if (lost && source == SrcOverride) remove_o.fifo = 1'b1;
     if (lost && source == SrcEvent) remove_o.events[n] = 1'b1;
@@ -234,17 +201,16 @@ module ppmc312_exec
 
   // ---- the answer ------------------------------------------------------------------------------------------------
 
-  assign move_ends = state_q == StMove && move_done_i;
-  assign setup_ends = state_q == StSetup && setup_done_i;
-  assign copy_ends = state_q == StCopy && fetch_done;
-  assign fails = !host && ((act && verdict != VerdictGo) || (move_ends && (limited_i || refused_i)) ||
-      (setup_ends && setup_bad_i));
+  assign move_ends = state_q == StMove && move_i.done;
+  assign setup_ends = state_q == StSetup && setup_i.done;
+  assign fails = !host && ((act && verdict != VerdictGo) ||
+      (move_ends && (move_i.limited || move_i.refused)) || (setup_ends && setup_i.bad));
 
   ppmc312_compose u_compose (
       .block_i    (block_o),
       .verdict_i  (verdict),
       .error_i    (error),
-      .status_i,
+      .status_i   (state_i.status),
       .at_boot_i  (state_q == StBoot),
       .at_act_i   (act),
       .at_setup_i (state_q == StSetup),
@@ -254,18 +220,9 @@ module ppmc312_exec
       .registers_i(ov),
       .used_i     (used),
       .evt_count_i(evt_count),
-      .reply_extra_i,
-      .reply_data_i,
-      .setup_bad_i,
-      .setup_error_i,
-      .complete_i,
-      .list_i,
-      .left_i,
-      .acc_sum_i,
-      .dec_sum_i,
-      .limited_i,
-      .refused_i,
-      .kind_i,
+      .told_i,
+      .setup_i,
+      .move_i,
       .answer_o   (next)
   );
 
@@ -277,17 +234,40 @@ module ppmc312_exec
     plain_q <= !(info.starts || code inside {I_INIT, I_FREE, I_TABLE, I_EVT_SET, I_RAMP, I_SPEED});
   end
 
-  assign write_o = write_q;
-  assign bytes = (block_o.size < 6'd3) ? 6'd0 : block_o.size - 6'd2;
-  assign echo_bytes_o = (bytes > 6'd28) ? 5'd28 : bytes[4:0];
-  assign commit_o = (state_q == StWrite && written_i) || (state_q == StReadback && read_done_i);
-  assign commit_host_o = host;
-  assign blk_done_o = (host_wait_q && !waits_i && !read_more_i && state_q == StIdle) || unread;
-
-  assign read_block_o = idle_read;
-  assign idle_read = state_q == StIdle && read_more_i && !full_i && !waits_i && !start && !lost;
+  assign write_o = '{answer: write_q, table_open: go && code == I_TABLE, table_next: idle_read};
+  assign commit_o = (state_q == StWrite && write_i.answered) || (state_q == StReadback && write_i.table_done);
+  assign blk_done_o = (host_wait_q && !class2_i.waits && !write_i.table_more && state_q == StIdle) || unread;
+  assign idle_read = state_q == StIdle && write_i.table_more && !class2_i.full && !class2_i.waits && !start &&
+      !lost;
 
   // ---- states ----------------------------------------------------------------------------------------------------
+
+  always_comb begin
+    state_d = state_q;
+    unique case (state_q)
+      StBoot:   state_d = boot_i ? StWrite : StIdle;
+      StIdle: begin
+        if (start) state_d = StFetch;
+        else if (idle_read) state_d = StReadback;
+      end
+      StFetch:  if (fetch_done) state_d = StFirst;
+      StFirst:  state_d = unread ? StIdle : StSettle;
+      StSettle: if (settle_q) state_d = StAct;
+      StAct: begin
+        state_d = StWrite;
+        if (slow) state_d = StWait;
+        else if (setup_o.build || setup_o.data) state_d = StSetup;
+        else if (registers) state_d = StCopy;
+        else if (move_o) state_d = StMove;
+      end
+      StWait:   if (!slow) state_d = StAct;
+      StSetup:  if (setup_ends) state_d = (build_q && !setup_i.bad && !open_i) ? StPace : StWrite;
+      StPace:   if (open_i) state_d = StWrite;
+      StCopy:   if (fetch_done) state_d = StWrite;
+      StMove:   if (move_i.done) state_d = StWrite;
+      default:  if (commit_o) state_d = StIdle;
+    endcase
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -298,48 +278,21 @@ module ppmc312_exec
       build_q     <= 1'b0;
       host_wait_q <= 1'b0;
     end else begin
-      write_q <= 1'b0;
-      if (blk_done_o) host_wait_q <= 1'b0;
-      if (start) n_q <= n;
-      unique case (state_q)
-        StBoot:   state_q <= boot_i ? StWrite : StIdle;
-        StIdle: begin
-          if (start) state_q <= StFetch;
-          else if (idle_read) state_q <= StReadback;
-        end
-        StFetch:  if (fetch_done) state_q <= StFirst;
-        StFirst:  state_q <= unread ? StIdle : StSettle;
-        StSettle: if (settle_q) state_q <= StAct;
-        StAct: begin
-          state_q <= StWrite;
-          if (slow) state_q <= StWait;
-          else if (build_o || data_o) state_q <= StSetup;
-          else if (registers) state_q <= StCopy;
-          else if (move_o) state_q <= StMove;
-        end
-        StWait:   if (!slow) state_q <= StAct;
-        StSetup:  if (setup_ends) state_q <= (build_q && !setup_bad_i && !open_i) ? StPace : StWrite;
-        StPace:   if (open_i) state_q <= StWrite;
-        StCopy:   if (fetch_done) state_q <= StWrite;
-        StMove:   if (move_done_i) state_q <= StWrite;
-        default:  if (commit_o) state_q <= StIdle;
-      endcase
+      state_q  <= state_d;
       settle_q <= state_q == StSettle;
-      if (build_o || data_o) build_q <= build_o;
-      if ((state_q == StPace && open_i) ||
-          (state_q == StBoot && boot_i) || (act && !(build_o || data_o || registers || move_o)) ||
-          (setup_ends && !(build_q && !setup_bad_i && !open_i)) || copy_ends || move_ends) begin
-        write_q <= 1'b1;
-      end
-      if (commit_o && host && blk_valid_i && !serial_i) host_wait_q <= 1'b1;
+      write_q  <= state_d == StWrite && state_q != StWrite;  // once, as it begins
+      if (start) n_q <= n;
+      if (setup_o.build || setup_o.data) build_q <= setup_o.build;
+      if (blk_done_o) host_wait_q <= 1'b0;
+      if (commit_o && host && offer_i.valid && !serial_i) host_wait_q <= 1'b1;
     end
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, info, flags};
+  assign unused_bits = &{1'b0, info, flags, state_i, stored_i};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_rsp_20, !(start && source != SrcHost && full_i))
+  `PPMC_ASSERT(p312_rsp_20, !(start && source != SrcHost && class2_i.full))
   `PPMC_ASSERT(p312_blk_02, !(do_o && verdict != VerdictGo))
 `endif
 

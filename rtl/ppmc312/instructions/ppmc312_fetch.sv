@@ -6,24 +6,25 @@
 
 module ppmc312_fetch
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
 (
-    input  wire logic                     clk_i,
-    input  wire logic                     rst_ni,
+    input  wire logic                     clk_i,       // clock
+    input  wire logic                     rst_ni,      // reset, asynchronous
     input  wire logic                     start_i,     // take apart
     input  wire source_e                  source_i,    // with start_i: where from
     input  wire logic    [  BLOCK_BITS:0] size_i,      // with start_i: bytes of the host's block
     input  wire logic                     copy_i,      // copy
     input  wire logic                     inner_i,     // the block within an event setting
-    output logic                          busy_o,
-    output logic                          done_o,
-    output block_t                        block_o,
+    output logic                          busy_o,      // from the clk after the start to that of done_o
+    output logic                          done_o,      // strobe
+    output block_t                        block_o,     // the instruction; stands from done_o on
     // where the instruction stands
-    output logic         [BLOCK_BITS-1:0] addr_o,
-    input  wire logic    [           7:0] data_i,
+    output logic         [BLOCK_BITS-1:0] addr_o,      // byte, 0 = header
+    input  wire logic    [           7:0] data_i,      // that byte, two clk later
     // where the copy goes
-    output logic                          put_we_o,
-    output logic         [           3:0] put_addr_o,
-    output logic         [           7:0] put_data_o
+    output logic                          put_we_o,    // strobe
+    output logic         [           3:0] put_addr_o,  // byte, 0 = header
+    output logic         [           7:0] put_data_o   // with put_we_o
 );
 
   localparam logic [4:0] Bytes = 5'd16;

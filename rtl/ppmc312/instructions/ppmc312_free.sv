@@ -10,30 +10,30 @@ module ppmc312_free
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                  clk_i,
-    input  wire logic                  rst_ni,
-    input  wire logic                  open_i,
+    input  wire logic                  clk_i,       // clock
+    input  wire logic                  rst_ni,      // reset, asynchronous
+    input  wire logic                  open_i,      // strobe: a transfer begins
     input  wire logic                  split_i,     // with open_i: LE
     input  wire logic [           6:0] acc_i,       // with open_i: stages of the sides, 2 .. 127
-    input  wire logic [           6:0] dec_i,
-    input  wire logic                  abort_i,
+    input  wire logic [           6:0] dec_i,       // the deceleration side's, with split_i
+    input  wire logic                  abort_i,     // strobe: it ends without a table
     output logic                       transfer_o,  // one is open
     // a data block
-    input  wire logic                  data_i,
+    input  wire logic                  data_i,      // strobe: take it
     input  wire logic [           4:0] bytes_i,     // 1 .. 30
     input  wire logic                  last_i,      // says to be the last one
-    output logic                       busy_o,
-    output logic                       done_o,
+    output logic                       busy_o,      // from the clk after data_i to that of done_o
+    output logic                       done_o,      // strobe
     output logic      [BLOCK_BITS-1:0] addr_o,      // in the block, two clk before its byte
-    input  wire logic [           7:0] byte_i,
-    output logic                       bad_o,
-    output logic      [           7:0] error_o,
+    input  wire logic [           7:0] byte_i,      // that byte
+    output logic                       bad_o,       // with done_o: the block is wrong
+    output logic      [           7:0] error_o,     // with bad_o: number of F0
     // what comes next
-    output logic                       complete_o,
+    output logic                       complete_o,  // nothing, the curve is complete
     output logic      [           1:0] list_o,      // 0 rates, 1 acceleration, 2 deceleration
     output logic      [           6:0] left_o,      // stages of this list to come
-    output logic      [          23:0] acc_sum_o,
-    output logic      [          23:0] dec_sum_o,
+    output logic      [          23:0] acc_sum_o,   // pulses of the acceleration side so far
+    output logic      [          23:0] dec_sum_o,   // of the deceleration side
     output entry_t                     entry_o      // into the table
 );
 

@@ -6,88 +6,70 @@
 
 module ppmc312_instr
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 #(
-    parameter int unsigned ClkHz     = 16_000_000,
-    parameter int unsigned XtalHz    = 16_000_000,
-    parameter bit          Datasheet = 1'b0
+    parameter int unsigned       ClkHz     = 16_000_000,
+    parameter int unsigned       XtalHz    = 16_000_000,
+    parameter bit                Datasheet = 1'b0,
+    parameter logic        [7:0] Version   = 8'h12        // what the version instruction answers
 ) (
-    input  wire logic                          clk_i,
-    input  wire logic                          rst_ni,
-    input  wire logic                          serial_i,
-    input  wire logic                          boot_i,
-    output logic                               reset_o,
-    // front end
-    input  wire logic                          blk_valid_i,
-    input  wire logic    [  BLOCK_BITS:0]      blk_size_i,
-    output logic         [BLOCK_BITS-1:0]      blk_addr_o,
-    input  wire logic    [           7:0]      blk_data_i,
-    output logic                               blk_done_o,
-    // triggers
-    input  wire logic    [           1:0]      edge_i,
-    input  wire logic                          counted_i,
-    input  wire logic    [          31:0]      pos_i,
-    output logic                               pos_halt_o,
-    output logic                               settled_o,
+    input  wire logic                         clk_i,       // clock
+    input  wire logic                         rst_ni,      // reset, asynchronous
+    input  wire logic                         serial_i,    // the front end is the serial station
+    input  wire logic                         boot_i,      // the reset came from an instruction: tell so
+    output logic                              reset_o,     // strobe: an instruction resets everything
+    // blocks of the host
+    input  wire offer_t                       offer_i,     // one of them
+    output logic             [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
+    input  wire logic        [           7:0] blk_data_i,  // that byte, two clk later
+    output logic                              blk_done_o,  // strobe: it is processed and answered
     // state of the part
-    input  wire status_e                       status_i,
-    input  wire logic                          end_wait_i,
-    input  wire levels_t                       levels_i,
-    input  wire logic    [          15:0]      limit_rate_i,
-    input  wire logic                          gate_i,
-    output stored_t                            stored_o,
-    input  wire logic    [           3:0]      reply_extra_i,
-    input  wire logic    [           8:0][7:0] reply_data_i,
+    input  wire inputs_t                      inputs_i,    // pins, synchronous
+    input  wire axis_state_t                  state_i,     // of the motor side
     // to be carried out
-    output block_t                             block_o,
-    output logic                               do_o,
-    output logic                               multi_o,
-    output logic                               start_o,
-    output logic                               change_o,
-    output op_t                                op_o,
-    output plan_t                              plan_o,
-    output logic                               built_o,
-    // the motion's port into the table
-    output table_t                             table_o,
-    output target_t                            home_o,
-    input  wire logic                          side_i,
-    input  wire logic    [           6:0]      addr_i,
-    output logic         [          15:0]      rate_o,
-    output logic         [          23:0]      pulses_o,
-    // store of class 2
-    output logic                               answer_we_o,
-    output logic         [BLOCK_BITS-1:0]      answer_addr_o,
-    output logic         [           7:0]      answer_data_o,
-    output logic                               hold_o,
-    output logic                               commit_o,
-    output logic         [  BLOCK_BITS:0]      commit_size_o,
-    output logic                               commit_host_o,
-    output answer_t                            answer_o,       // holds until blk_done_o
-    input  wire logic                          full_i,
-    input  wire logic                          full_host_i,
-    input  wire logic                          waits_i
+    output block_t                            block_o,     // the instruction that is being processed
+    output logic                              do_o,        // strobe: carry it out
+    output logic                              multi_o,     // strobe: multiple occurrence, cause 1
+    output motion_order_t                     order_o,     // starts and rate changes
+    // the table
+    output logic                              built_o,     // strobe: a new one comes into force
+    output table_t                            table_o,     // in force
+    output target_t                           home_o,      // what the look-up of its rate_acc has found
+    input  wire look_t                        look_i,      // the motion's port
+    output stage_t                            stage_o,     // what it finds there, two clk later
+    // answers, class 2
+    output answer_byte_t                      byte_o,      // on its way into the store
+    output logic                              hold_o,      // an answer is about to come
+    output commit_t                           commit_o,    // it is complete there
+    output answered_t                         answered_o,  // to the serial station
+    input  wire class2_t                      class2_i     // answers that wait to be read
 );
 
+  stored_t stored;
   put_t put;
   remove_t remove;
+  told_t told;
+  answer_t answer;
+  write_order_t write;
+  write_state_t write_state;
+  setup_order_t setup;
+  setup_state_t setup_state;
   curve_t curve;
   entry_t entry;
   plan_t plan;
-  logic fetch_event, build, open, data, fail, transfer, setup_done, setup_bad, complete, drop, close;
-  logic unit_busy, thin;
-  logic move, move_done, limited, refused, write, written, read_open, read_block, read_more, read_done;
-  logic unused_busy;
-  logic read_busy, write_we, read_we, plan_start, plan_ramp, plan_endless, plan_busy;
-  logic paced, idle, read_side;
-  logic [7:0] entry_data, setup_error, kind, plan_kind, write_data, read_data;
-  logic [1:0] list;
-  logic [6:0] left, open_acc, open_dec, read_addr;
-  logic [23:0] acc_sum, dec_sum, read_pulses;
-  logic [15:0] read_rate, plan_rate;
-  logic [31:0] plan_count;
-  logic [ 4:0] echo_bytes;
-  logic [BLOCK_BITS-1:0] setup_addr, echo_addr, write_addr, read_at;
-  logic [BLOCK_BITS:0] write_size, read_size;
+  plan_order_t plan_order;
+  move_state_t move_state;
+  look_t read;
+  stage_t read_stage;
+  logic drop, close, unit_busy, thin, move, plan_busy, paced, idle, commit, read_busy, unused_busy;
+  logic [6:0] open_acc, open_dec;
+  logic [7:0] entry_data, plan_kind;
+  answer_byte_t answer_byte, read_byte;
+  logic [BLOCK_BITS:0] answer_size, read_size;
+
+  // ---- one after the other ---------------------------------------------------------------------------------------
 
   ppmc312_exec u_exec (
       .clk_i,
@@ -95,61 +77,31 @@ module ppmc312_instr
       .serial_i,
       .boot_i,
       .reset_o,
-      .blk_valid_i,
-      .blk_size_i,
-      .fetch_addr_o (blk_addr_o),
-      .blk_data_i,
+      .offer_i,
       .blk_done_o,
-      .stored_i     (stored_o),
-      .remove_o     (remove),
-      .put_o        (put),
-      .fetch_event_o(fetch_event),
-      .entry_data_i (entry_data),
-      .settled_o,
-      .status_i,
-      .end_wait_i,
-      .table_i      (table_o),
-      .reply_extra_i,
-      .reply_data_i,
-      .open_i       (paced),
-      .idle_o       (idle),
-      .hold_o,
+      .byte_addr_o(blk_addr_o),
+      .byte_i     ((block_o.source == SrcHost) ? blk_data_i : entry_data),
+      .stored_i   (stored),
+      .remove_o   (remove),
+      .put_o      (put),
+      .state_i,
+      .table_i    (table_o),
+      .told_i     (told),
+      .open_i     (paced),
+      .idle_o     (idle),
       .block_o,
       .do_o,
       .multi_o,
-      .build_o      (build),
-      .open_o       (open),
-      .data_o       (data),
-      .fail_o       (fail),
-      .transfer_i   (transfer),
-      .setup_done_i (setup_done),
-      .setup_bad_i  (setup_bad),
-      .setup_error_i(setup_error),
-      .complete_i   (complete),
-      .list_i       (list),
-      .left_i       (left),
-      .acc_sum_i    (acc_sum),
-      .dec_sum_i    (dec_sum),
-      .setup_addr_i (setup_addr),
-      .move_o       (move),
-      .move_done_i  (move_done),
-      .limited_i    (limited),
-      .refused_i    (refused),
-      .kind_i       (kind),
-      .answer_o,
-      .write_o      (write),
-      .echo_bytes_o (echo_bytes),
-      .written_i    (written),
-      .echo_addr_i  (echo_addr),
-      .read_open_o  (read_open),
-      .read_block_o (read_block),
-      .read_more_i  (read_more),
-      .read_done_i  (read_done),
-      .commit_o,
-      .commit_host_o,
-      .full_i,
-      .full_host_i,
-      .waits_i
+      .setup_o    (setup),
+      .setup_i    (setup_state),
+      .move_o     (move),
+      .move_i     (move_state),
+      .answer_o   (answer),
+      .write_o    (write),
+      .write_i    (write_state),
+      .hold_o,
+      .commit_o   (commit),
+      .class2_i
   );
 
   ppmc312_pace #(
@@ -165,40 +117,34 @@ module ppmc312_instr
       .open_o (paced)
   );
 
+  // ---- those that wait for a trigger -----------------------------------------------------------------------------
+
   ppmc312_store u_store (
       .clk_i,
       .rst_ni,
-      .edge_i,
-      .counted_i,
-      .pos_i,
-      .halt_o       (pos_halt_o),
-      .stored_o,
+      .edge_i       (inputs_i.fell),
+      .counted_i    (state_i.counted),
+      .pos_i        (state_i.pos),
+      .halt_o       (order_o.pos_halt),
+      .stored_o     (stored),
       .put_i        (put),
       .remove_i     (remove),
-      .fetch_event_i(fetch_event),
+      .fetch_event_i(block_o.source == SrcEvent),
       .fetch_addr_i (blk_addr_o[3:0]),
       .fetch_data_o (entry_data)
   );
+
+  assign order_o.settled = !stored.due && (idle || block_o.source != SrcOverride);
+
+  // ---- what they set going ---------------------------------------------------------------------------------------
 
   ppmc312_setup u_setup (
       .clk_i,
       .rst_ni,
       .block_i    (block_o),
-      .build_i    (build),
-      .open_i     (open),
-      .data_i     (data),
-      .fail_i     (fail),
-      .transfer_o (transfer),
-      .done_o     (setup_done),
-      .bad_o      (setup_bad),
-      .error_o    (setup_error),
-      .complete_o (complete),
-      .list_o     (list),
-      .left_o     (left),
-      .acc_sum_o  (acc_sum),
-      .dec_sum_o  (dec_sum),
+      .order_i    (setup),
+      .state_o    (setup_state),
       .built_o,
-      .addr_o     (setup_addr),
       .byte_i     (blk_data_i),
       .drop_o     (drop),
       .curve_o    (curve),
@@ -213,107 +159,108 @@ module ppmc312_instr
   ppmc312_move u_move (
       .clk_i,
       .rst_ni,
-      .begin_i       (move),
-      .block_i       (block_o),
-      .status_i,
-      .table_i       (table_o),
-      .home_i        (home_o),
-      .levels_i,
-      .limit_rate_i,
-      .gate_i,
-      .open_i        (paced),
-      .done_o        (move_done),
-      .limited_o     (limited),
-      .refused_o     (refused),
-      .kind_o        (kind),
-      .start_o,
-      .change_o,
-      .op_o,
-      .plan_o,
-      .plan_start_o  (plan_start),
-      .plan_ramp_o   (plan_ramp),
-      .plan_endless_o(plan_endless),
-      .plan_rate_o   (plan_rate),
-      .plan_count_o  (plan_count),
-      .plan_busy_i   (plan_busy),
-      .plan_kind_i   (plan_kind),
-      .plan_i        (plan)
+      .begin_i     (move),
+      .block_i     (block_o),
+      .status_i    (state_i.status),
+      .table_i     (table_o),
+      .home_i      (home_o),
+      .levels_i    (inputs_i.levels),
+      .limit_rate_i(state_i.settings.limit_rate),
+      .gate_i      (inputs_i.run || state_i.settings.ungated),
+      .open_i      (paced),
+      .state_o     (move_state),
+      .start_o     (order_o.start),
+      .change_o    (order_o.change),
+      .op_o        (order_o.op),
+      .plan_o      (order_o.plan),
+      .planner_o   (plan_order),
+      .plan_busy_i (plan_busy),
+      .plan_kind_i (plan_kind),
+      .plan_i      (plan)
   );
 
   ppmc312_stage_unit u_stages (
       .clk_i,
       .rst_ni,
-      .drop_i        (drop),
-      .build_i       (build),
-      .curve_i       (curve),
-      .busy_o        (unit_busy),
-      .thin_o        (thin),
-      .open_i        (open),
-      .open_acc_i    (open_acc),
-      .open_dec_i    (open_dec),
-      .entry_i       (entry),
-      .close_i       (close),
+      .drop_i     (drop),
+      .build_i    (setup.build),
+      .curve_i    (curve),
+      .busy_o     (unit_busy),
+      .thin_o     (thin),
+      .open_i     (setup.open),
+      .open_acc_i (open_acc),
+      .open_dec_i (open_dec),
+      .entry_i    (entry),
+      .close_i    (close),
       .table_o,
       .home_o,
-      .read_side_i   (read_side),
-      .read_addr_i   (read_addr),
-      .read_rate_o   (read_rate),
-      .read_pulses_o (read_pulses),
-      .plan_start_i  (plan_start),
-      .plan_ramp_i   (plan_ramp),
-      .plan_endless_i(plan_endless),
-      .plan_rate_i   (plan_rate),
-      .plan_count_i  (plan_count),
-      .plan_busy_o   (plan_busy),
-      .plan_kind_o   (plan_kind),
-      .plan_o        (plan),
-      .side_i,
-      .addr_i,
-      .rate_o,
-      .pulses_o
+      .read_i     (read),
+      .read_o     (read_stage),
+      .plan_i     (plan_order),
+      .plan_busy_o(plan_busy),
+      .plan_kind_o(plan_kind),
+      .plan_o     (plan),
+      .look_i,
+      .stage_o
   );
 
   // ---- answers ---------------------------------------------------------------------------------------------------
 
+  ppmc312_reply #(
+      .Version(Version)
+  ) u_reply (
+      .clk_i,
+      .block_i (block_o),
+      .inputs_i,
+      .state_i,
+      .table_i (table_o),
+      .stored_i(stored),
+      .told_o  (told)
+  );
+
   ppmc312_answer u_answer (
       .clk_i,
       .rst_ni,
-      .start_i     (write),
-      .answer_i    (answer_o),
-      .echo_bytes_i(echo_bytes),
-      .busy_o      (unused_busy),
-      .done_o      (written),
-      .echo_addr_o (echo_addr),
-      .echo_data_i (blk_data_i),
-      .we_o        (write_we),
-      .addr_o      (write_addr),
-      .data_o      (write_data),
-      .size_o      (write_size)
+      .start_i    (write.answer),
+      .answer_i   (answer),
+      .blk_size_i (block_o.size),
+      .busy_o     (unused_busy),
+      .done_o     (write_state.answered),
+      .echo_addr_o(write_state.echo_addr),
+      .echo_data_i(blk_data_i),
+      .byte_o     (answer_byte),
+      .size_o     (answer_size)
   );
 
   ppmc312_readback u_readback (
       .clk_i,
       .rst_ni,
-      .open_i (read_open),
-      .more_o (read_more),
-      .block_i(read_block),
+      .open_i (write.table_open),
+      .more_o (write_state.table_more),
+      .next_i (write.table_next),
       .busy_o (read_busy),
-      .done_o (read_done),
+      .done_o (write_state.table_done),
       .table_i(table_o),
-      .side_o (read_side),
-      .addr_o (read_addr),
-      .rate_i (read_rate),
-      .pulses_i(read_pulses),
-      .we_o   (read_we),
-      .at_o   (read_at),
-      .data_o (read_data),
+      .look_o (read),
+      .stage_i(read_stage),
+      .byte_o (read_byte),
       .size_o (read_size)
   );
 
-  assign answer_we_o   = write_we || read_we;
-  assign answer_addr_o = read_busy ? read_at : write_addr;
-  assign answer_data_o = read_busy ? read_data : write_data;
-  assign commit_size_o = read_busy ? read_size : write_size;
+  always_comb begin
+    byte_o = read_busy ? read_byte : answer_byte;
+    byte_o.we = answer_byte.we || read_byte.we;
+    commit_o = '{
+        valid: commit,
+        host: block_o.source == SrcHost,
+        what: (block_o.source == SrcEvent) ? DoneEvent : DoneOverride,
+        size: read_busy ? read_size : answer_size
+    };
+    if (answer.code == A_EVENT) commit_o.what = FailEvent;
+    if (answer.code == A_OVERRIDE) commit_o.what = FailOverride;
+  end
+
+  assign answered_o = '{valid: commit && commit_o.host, code: answer.code, first: answer.data[0][2:0]};
 
 endmodule
 

@@ -6,17 +6,19 @@
 
 module ppmc312_judge
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic          clk_i,
-    input  wire logic          rst_ni,
-    input  wire block_t        block_i,
+    input  wire logic          clk_i,       // clock
+    input  wire logic          rst_ni,      // reset, asynchronous
+    input  wire block_t        block_i,     // the instruction
     input  wire logic          keep_i,      // the verdict stands
-    input  wire status_e       status_i,
-    input  wire logic          end_wait_i,
+    input  wire status_e       status_i,    // of the part
+    input  wire logic          end_wait_i,  // a motion waits for END
     input  wire logic          transfer_i,  // a free-curve transfer is open
-    input  wire table_t        table_i,
-    output verdict_e           verdict_o,
+    input  wire table_t        table_i,     // in force
+    output verdict_e           verdict_o,   // what comes of it
     output logic         [7:0] error_o,     // number of F0, status of F1
     output logic               ov_o         // is to be registered
 );

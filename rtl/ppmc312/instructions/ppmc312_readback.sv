@@ -1,31 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_readback: the data blocks of a table read: rates, acceleration and deceleration pulses, fastest first.
 // Rules:  P312-CMD-41.
-// Timing: block_i writes the next block: 6 clk a stage; done_o comes with its last clk.
+// Timing: next_i writes the next block: 6 clk a stage; done_o comes with its last clk.
 `default_nettype none
 
 module ppmc312_readback
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input wire logic clk_i,
-    input wire logic rst_ni,
-    input wire logic open_i,  // a table read begins; its first block is written elsewhere
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic open_i,  // strobe: a table read begins; its first block is written elsewhere
     output logic more_o,  // blocks are to come
-    input wire logic block_i,  // write the next one
-    output logic busy_o,
-    output logic done_o,
+    input wire logic next_i,  // strobe: write the next one
+    output logic busy_o,  // one is being written
+    output logic done_o,  // strobe: it is written
     // table
-    input wire table_t table_i,
-    output logic side_o,
-    output logic [6:0] addr_o,
-    input wire logic [15:0] rate_i,
-    input wire logic [23:0] pulses_i,
+    input wire table_t table_i,  // in force
+    output look_t look_o,  // its read port
+    input wire stage_t stage_i,  // two clk later
     // store of class 2
-    output logic we_o,
-    output logic [BLOCK_BITS-1:0] at_o,
-    output logic [7:0] data_o,
-    output logic [BLOCK_BITS:0] size_o
+    output answer_byte_t byte_o,  // a byte of the block
+    output logic [BLOCK_BITS:0] size_o  // bytes of the block, 5 .. 15; with done_o
 );
 
   localparam logic [6:0] Fastest = 7'd126;
@@ -40,12 +38,11 @@ module ppmc312_readback
   assign rates = item_q == 2'd1;
   assign last_item = item_q == (table_i.split ? 2'd3 : 2'd2);
   assign room = rates ? 7'd6 : 7'd4;
-  assign addr_o = stage_q;
-  assign side_o = item_q[0];
+  assign look_o = '{side: item_q[0], stage: stage_q};
   assign busy_o = run_q;
   assign done_o = run_q && at_q > 6'd2 && left_q == '0;
   assign size_o = at_q;
-  assign at_o = at_q[BLOCK_BITS-1:0];
+  assign byte_o.addr = at_q[BLOCK_BITS-1:0];
 
   always_comb begin
     unique case (item_q)
@@ -53,20 +50,20 @@ module ppmc312_readback
       2'd2:    first = table_i.first_acc;
       default: first = table_i.first_dec;
     endcase
-    word = rates ? {rate_i, 8'd0} : pulses_i;
-    we_o = run_q && !done_o && (at_q < 6'd3 || wait_q == '0);
+    word = rates ? {stage_i.rate, 8'd0} : stage_i.pulses;
+    byte_o.we = run_q && !done_o && (at_q < 6'd3 || wait_q == '0);
     unique case (at_q)
-      6'd0: data_o = 8'(last_item && ends);
+      6'd0: byte_o.data = 8'(last_item && ends);
       6'd1: begin
-        if (rates) data_o = 8'd1 + {4'd0, left_q, 1'b0};
-        else data_o = 8'd1 + {4'd0, left_q, 1'b0} + 8'(left_q);
+        if (rates) byte_o.data = 8'd1 + {4'd0, left_q, 1'b0};
+        else byte_o.data = 8'd1 + {4'd0, left_q, 1'b0} + 8'(left_q);
       end
-      6'd2: data_o = 8'(item_q);
+      6'd2: byte_o.data = 8'(item_q);
       default: begin
         unique case (part_q)
-          2'd0:    data_o = word[23:16];
-          2'd1:    data_o = word[15:8];
-          default: data_o = word[7:0];
+          2'd0:    byte_o.data = word[23:16];
+          2'd1:    byte_o.data = word[15:8];
+          default: byte_o.data = word[7:0];
         endcase
       end
     endcase
@@ -86,7 +83,7 @@ module ppmc312_readback
       more_o  <= 1'b1;
       item_q  <= 2'd1;
       stage_q <= Fastest;
-    end else if (block_i) begin
+    end else if (next_i) begin
       run_q  <= 1'b1;
       at_q   <= '0;
       part_q <= '0;
@@ -100,7 +97,7 @@ module ppmc312_readback
         more_o  <= !last_item;
       end
     end else if (run_q) begin
-      if (we_o) at_q <= at_q + 1'b1;
+      if (byte_o.we) at_q <= at_q + 1'b1;
       if (wait_q != '0) wait_q <= wait_q - 1'b1;
       else if (at_q > 6'd2) begin
         part_q <= part_q + 1'b1;

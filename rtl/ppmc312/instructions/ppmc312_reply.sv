@@ -6,28 +6,19 @@
 
 module ppmc312_reply
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 #(
     parameter logic [7:0] Version = 8'h12
 ) (
-    input  wire logic                clk_i,
-    input  wire block_t              block_i,
-    input  wire status_e             status_i,
-    input  wire table_t              table_i,
-    input  wire levels_t             plain_i,
-    input  wire logic    [ 1:0]      evt_ni,
-    input  wire logic                run_i,
-    input  wire logic    [ 7:0]      auxi_i,
-    input  wire logic    [31:0]      pos_i,
-    input  wire logic    [31:0]      enc_i,
-    input  wire logic                lock_i,       // interlock control runs
-    input  wire logic                ungated_i,    // RUN is not monitored
-    input  wire logic                end_watch_i,
-    input  wire logic    [ 1:0]      window_on_i,  // in-position, encode
-    input  wire logic    [ 1:0]      outside_i,
-    input  wire stored_t             stored_i,
-    output logic         [ 3:0]      extra_o,
-    output logic         [ 8:0][7:0] data_o
+    input  wire logic        clk_i,     // clock
+    input  wire block_t      block_i,   // the instruction
+    input  wire inputs_t     inputs_i,  // pins, synchronous
+    input  wire axis_state_t state_i,   // of the motor side
+    input  wire table_t      table_i,   // in force
+    input  wire stored_t     stored_i,  // instructions that wait
+    output told_t            told_o     // one clk later
 );
 
   logic n;
@@ -38,7 +29,7 @@ module ppmc312_reply
   logic [8:0][7:0] data;
 
   assign n = block_i.par[0][0];
-  assign pos = n ? enc_i : pos_i;
+  assign pos = n ? state_i.enc : state_i.pos;
   assign first = (table_i.first_acc < table_i.first_dec) ? table_i.first_acc : table_i.first_dec;
   assign counts[0] = 8'd127 - 8'(first);
   assign counts[1] = 8'd127 - 8'(table_i.first_acc);
@@ -49,13 +40,13 @@ module ppmc312_reply
     data  = '0;
     unique case (block_i.code)
       I_END:     data[0] = block_i.par[0];
-      I_AUX_IN:  data[0] = auxi_i;
+      I_AUX_IN:  data[0] = inputs_i.auxi;
       I_VERSION: data[0] = Version;
-      I_LOCK:    data[0] = 8'(!lock_i);  // as it will be
-      I_SYNC:    data[0] = 8'(!ungated_i);
+      I_LOCK:    data[0] = 8'(!state_i.lock);  // as it will be
+      I_SYNC:    data[0] = 8'(!state_i.settings.ungated);
       I_PINS: begin
         extra     = 4'd2;
-        data[1:0] = {evt_ni, run_i, 5'd0, plain_i};
+        data[1:0] = {inputs_i.evt_n, inputs_i.run, 5'd0, inputs_i.plain};
       end
       I_POS: begin
         extra     = 4'd5;
@@ -70,9 +61,14 @@ module ppmc312_reply
       I_STATUS: begin
         extra = 4'd3;
         data[0] = {
-          ungated_i, lock_i, 1'b0, window_on_i[1], window_on_i[0], end_watch_i, outside_i[1], outside_i[0]
+          state_i.settings.ungated,
+          state_i.lock,
+          1'b0,
+          state_i.window_on,
+          state_i.settings.end_watch,
+          state_i.outside
         };
-        data[1] = {2'b00, status_i};
+        data[1] = {2'b00, state_i.status};
         data[2] = {
           stored_i.event_count[1] != '0,
           stored_i.event_count[0] != '0,
@@ -91,12 +87,11 @@ module ppmc312_reply
   end
 
   always_ff @(posedge clk_i) begin
-    extra_o <= extra;
-    data_o  <= data;
+    told_o <= '{extra: extra, data: data};
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block_i, table_i, stored_i};
+  assign unused_bits = &{1'b0, block_i, inputs_i, state_i, table_i, stored_i};
 
 endmodule
 

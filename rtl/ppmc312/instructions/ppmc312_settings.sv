@@ -7,10 +7,10 @@
 module ppmc312_settings
   import ppmc312_pkg::*;
 (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        do_i,
-    input  wire logic [ 7:0] code_i,
+    input  wire logic        clk_i,         // clock
+    input  wire logic        rst_ni,        // reset, asynchronous
+    input  wire logic        do_i,          // strobe: an instruction is carried out
+    input  wire logic [ 7:0] code_i,        // its code
     input  wire logic [15:0] value_i,       // first two parameters
     input  wire logic        built_i,       // a new table is in force
     input  wire logic [15:0] fast_i,        // its high-speed rate

@@ -1,42 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_setup: initial setting and free curve: from their blocks to the table in force.
 // Rules:  P312-CMD-00, P312-CMD-01, P312-CMD-FC-1..10, P312-INP-31.
-// Timing: build_i and data_i are followed by busy_o; what has come of it stands with done_o and after it.
+// Timing: build and data are followed by done; what has come of it stands with that and after it.
 `default_nettype none
 
 module ppmc312_setup
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                    clk_i,
-    input  wire logic                    rst_ni,
-    input  wire block_t                  block_i,
-    input  wire logic                    build_i,      // initial setting, judged
-    input  wire logic                    open_i,       // code block of a free curve, judged
-    input  wire logic                    data_i,       // data block of one, judged
-    input  wire logic                    fail_i,       // a set-up has failed
-    output logic                         transfer_o,   // a free-curve transfer is open
-    output logic                         done_o,
-    output logic                         bad_o,
-    output logic        [           7:0] error_o,
-    output logic                         complete_o,   // the curve is
-    output logic        [           1:0] list_o,       // what comes next
-    output logic        [           6:0] left_o,
-    output logic        [          23:0] acc_sum_o,
-    output logic        [          23:0] dec_sum_o,
-    output logic                         built_o,      // a new table comes into force
-    // bytes of the block
-    output logic        [BLOCK_BITS-1:0] addr_o,
-    input  wire logic   [           7:0] byte_i,
+    input  wire logic               clk_i,        // clock
+    input  wire logic               rst_ni,       // reset, asynchronous
+    input  wire block_t             block_i,      // the instruction; stands until done
+    input  wire setup_order_t       order_i,      // what to do
+    output setup_state_t            state_o,      // what has come of it
+    output logic                    built_o,      // strobe: a new table comes into force
+    input  wire logic         [7:0] byte_i,       // byte of the block, two clk after state_o.addr
     // table unit
-    output logic                         drop_o,
-    output curve_t                       curve_o,
-    output logic        [           6:0] open_acc_o,
-    output logic        [           6:0] open_dec_o,
-    output entry_t                       entry_o,
-    output logic                         close_o,
-    input  wire logic                    unit_busy_i,
-    input  wire logic                    thin_i
+    output logic                    drop_o,       // strobe: the table is void
+    output curve_t                  curve_o,      // what it is to be built from, or is described by
+    output logic              [6:0] open_acc_o,   // first stages of the sides of a free curve
+    output logic              [6:0] open_dec_o,   // of the deceleration side
+    output entry_t                  entry_o,      // a word of a free curve
+    output logic                    close_o,      // strobe: that is complete
+    input  wire logic               unit_busy_i,  // the table cannot be used yet
+    input  wire logic               thin_i        // a stage has two pulses or less: no table
 );
 
   typedef enum logic [1:0] {
@@ -50,14 +39,15 @@ module ppmc312_setup
   logic begun_q, split_q, le, free_done, free_bad, taken;
   logic [7:0] free_error;
   logic [6:0] n_acc, n_dec;
-  logic unused_busy;
+  logic done, bad, unused_busy;
+  progress_t progress;
 
   assign le = block_i.par[0][4];
   assign n_acc = block_i.par[1][6:0];
   assign n_dec = le ? block_i.par[2][6:0] : n_acc;
   assign open_acc_o = 7'd127 - n_acc;
   assign open_dec_o = 7'd127 - n_dec;
-  assign taken = build_i || open_i;
+  assign taken = order_i.build || order_i.open;
 
   assign curve_o = '{
           cosine: block_i.par[0][3],
@@ -66,17 +56,20 @@ module ppmc312_setup
           start: {block_i.par[1], block_i.par[2]},
           stop: le ? {block_i.par[3], block_i.par[4]} : {block_i.par[1], block_i.par[2]},
           fast: {block_i.par[5], block_i.par[6]},
-          acc: (state_q == StData) ? acc_sum_o : {block_i.par[7], block_i.par[8], block_i.par[9]},
-          dec: (state_q == StData) ? dec_sum_o : {block_i.par[10], block_i.par[11], block_i.par[12]}
+          acc: (state_q == StData) ? progress.acc_sum : {block_i.par[7], block_i.par[8], block_i.par[9]},
+          dec: (state_q == StData) ? progress.dec_sum : {block_i.par[10], block_i.par[11], block_i.par[12]}
       };
 
-  assign close_o = state_q == StData && free_done && !free_bad && complete_o;
-  assign drop_o = fail_i || (state_q == StData && free_done && free_bad);
-  assign done_o = (state_q inside {StBuild, StClose} && begun_q && !unit_busy_i) ||
+  assign close_o = state_q == StData && free_done && !free_bad && progress.complete;
+  assign drop_o = order_i.fail || (state_q == StData && free_done && free_bad);
+  assign done = (state_q inside {StBuild, StClose} && begun_q && !unit_busy_i) ||
       (state_q == StData && free_done && !close_o);
-  assign bad_o = (state_q == StBuild) ? thin_i : (state_q == StData) && free_bad;
-  assign error_o = (state_q == StBuild) ? E_THIN : free_error;
-  assign built_o = done_o && !bad_o && state_q != StData;
+  assign bad = (state_q == StBuild) ? thin_i : (state_q == StData) && free_bad;
+  assign state_o.done = done;
+  assign state_o.bad = bad;
+  assign state_o.error = (state_q == StBuild) ? E_THIN : free_error;
+  assign state_o.progress = progress;
+  assign built_o = done && !bad && state_q != StData;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -88,11 +81,11 @@ module ppmc312_setup
       if (taken) split_q <= le;
       unique case (state_q)
         StIdle: begin
-          if (build_i) state_q <= StBuild;
-          if (data_i) state_q <= StData;
+          if (order_i.build) state_q <= StBuild;
+          if (order_i.data) state_q <= StData;
         end
         StData:  if (free_done) state_q <= close_o ? StClose : StIdle;
-        default: if (done_o) state_q <= StIdle;
+        default: if (done) state_q <= StIdle;
       endcase
     end
   end
@@ -100,26 +93,26 @@ module ppmc312_setup
   ppmc312_free u_free (
       .clk_i,
       .rst_ni,
-      .open_i,
-      .split_i(le),
-      .acc_i  (n_acc),
-      .dec_i  (n_dec),
-      .abort_i(fail_i),
-      .transfer_o,
-      .data_i,
-      .bytes_i(block_i.len[4:0]),
-      .last_i (block_i.head[0]),
-      .busy_o (unused_busy),
-      .done_o (free_done),
-      .addr_o,
+      .open_i    (order_i.open),
+      .split_i   (le),
+      .acc_i     (n_acc),
+      .dec_i     (n_dec),
+      .abort_i   (order_i.fail),
+      .transfer_o(state_o.transfer),
+      .data_i    (order_i.data),
+      .bytes_i   (block_i.len[4:0]),
+      .last_i    (block_i.head[0]),
+      .busy_o    (unused_busy),
+      .done_o    (free_done),
+      .addr_o    (state_o.addr),
       .byte_i,
-      .bad_o  (free_bad),
-      .error_o(free_error),
-      .complete_o,
-      .list_o,
-      .left_o,
-      .acc_sum_o,
-      .dec_sum_o,
+      .bad_o     (free_bad),
+      .error_o   (free_error),
+      .complete_o(progress.complete),
+      .list_o    (progress.list),
+      .left_o    (progress.left),
+      .acc_sum_o (progress.acc_sum),
+      .dec_sum_o (progress.dec_sum),
       .entry_o
   );
 

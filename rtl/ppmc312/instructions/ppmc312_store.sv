@@ -10,21 +10,23 @@
 
 module ppmc312_store
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
+  import ppmc312_instr_pkg::*;
 (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
+    input  wire logic           clk_i,          // clock
+    input  wire logic           rst_ni,         // reset, asynchronous
     // triggers
     input  wire logic    [ 1:0] edge_i,         // falling edges of the event pins
     input  wire logic           counted_i,      // the position has just been counted
-    input  wire logic    [31:0] pos_i,
+    input  wire logic    [31:0] pos_i,          // position, pulses
     output logic                halt_o,         // a position-triggered immediate stop has been reached
-    output stored_t             stored_o,
-    input  wire put_t           put_i,
-    input  wire remove_t        remove_i,
+    output stored_t             stored_o,       // what waits
+    input  wire put_t           put_i,          // what is added
+    input  wire remove_t        remove_i,       // what is removed
     // bytes of the entry that has been taken last
-    input  wire logic           fetch_event_i,
-    input  wire logic    [ 3:0] fetch_addr_i,
-    output logic         [ 7:0] fetch_data_o
+    input  wire logic           fetch_event_i,  // it came from an event buffer
+    input  wire logic    [ 3:0] fetch_addr_i,   // byte, 0 = header
+    output logic         [ 7:0] fetch_data_o    // that byte, two clk later
 );
 
   typedef struct packed {

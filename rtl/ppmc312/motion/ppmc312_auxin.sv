@@ -8,14 +8,14 @@ module ppmc312_auxin #(
     parameter int unsigned ClkHz  = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000
 ) (
-    input  wire logic       clk_i,
-    input  wire logic       rst_ni,
-    input  wire logic       set_i,
+    input  wire logic       clk_i,     // clock
+    input  wire logic       rst_ni,    // reset, asynchronous
+    input  wire logic       set_i,     // strobe: begins anew
     input  wire logic       repeat_i,  // 0: ends after one report
-    input  wire logic [7:0] mask_i,
+    input  wire logic [7:0] mask_i,    // bits that are looked at
     input  wire logic [7:0] auxi_i,    // synchronous
-    output logic            report_o,
-    output logic      [7:0] data_o
+    output logic            report_o,  // strobe: some have changed
+    output logic      [7:0] data_o     // these; with report_o
 );
 
   localparam int unsigned SampleXtal = 800;

@@ -5,68 +5,34 @@
 
 module ppmc312_axis
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_stage_pkg::*;
 #(
     parameter int unsigned ClkHz  = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
+    input  wire logic          clk_i,      // clock
+    input  wire logic          rst_ni,     // reset, asynchronous
     // instructions
-    input  wire logic           act_i,           // carry block_i out
-    input  wire block_t         block_i,
-    input  wire logic           built_i,         // a new table is in force
-    input  wire table_t         table_i,
-    input  wire target_t        home_i,
-    output logic                side_o,          // into the table
-    output logic         [ 6:0] addr_o,
-    input  wire logic    [15:0] table_rate_i,
-    input  wire logic    [23:0] table_pulses_i,
-    input  wire logic           start_i,
-    input  wire logic           change_i,
-    input  wire op_t            op_i,
-    input  wire plan_t          plan_i,
-    input  wire logic           pos_halt_i,
-    input  wire logic           settled_i,
-    input  wire logic           multi_i,
-    input  wire logic    [ 1:0] multi_code_i,
+    input  wire logic          act_i,      // strobe: carry block_i out
+    input  wire block_t        block_i,    // stands long before act_i
+    input  wire motion_order_t order_i,    // starts and rate changes
+    input  wire alarm_t        multi_i,    // multiple occurrence
+    // table in force
+    input  wire logic          built_i,    // strobe: it is a new one
+    input  wire table_t        table_i,    // its description
+    input  wire target_t       home_i,     // what the look-up of its rate_acc has found
+    output look_t              look_o,     // its read port
+    input  wire stage_t        stage_i,    // two clk later
     // pins
-    input  wire levels_t        levels_i,
-    input  wire logic           run_i,
-    input  wire logic           epin_i,
-    input  wire logic           epdir_i,
-    input  wire logic           extck_i,
-    output logic                pout_o,
-    output logic                dir_o,
-    output logic                exon_no,
-    output logic                cclr_no,
-    output logic                aclr_no,
-    output logic                zclmp_no,
-    output logic                cd_no,
-    output logic         [ 5:0] auxo_no,
-    // state
-    output status_e             status_o,
-    output logic                end_wait_o,
-    output logic         [15:0] limit_rate_o,
-    output logic                end_watch_o,
-    output logic                ungated_o,
-    output logic         [31:0] pos_o,
-    output logic         [31:0] enc_o,
-    output logic                counted_o,
-    output logic                lock_o,
-    output logic         [ 1:0] window_on_o,
-    output logic         [ 1:0] outside_o,
-    // reports
-    output logic                alarm_o,
-    output logic         [ 1:0] alarm_code_o,
-    output logic                held_o,
-    output logic                stop_o,
-    output cause_t              cause_o,
-    output logic                unlock_o,
-    output logic         [ 1:0] wait_o,
-    output logic         [ 1:0] value_o,
-    input  wire logic    [ 1:0] load_i,
-    input  wire logic    [ 1:0] read_i
+    input  wire inputs_t       inputs_i,   // synchronous
+    input  wire logic          extck_i,    // external clock, as on the pin
+    output outputs_t           outputs_o,  // flip-flops
+    // state and reports
+    output axis_state_t        state_o,    // of the motor side
+    output notice_t            notice_o,   // what is to be reported
+    output windows_t           windows_o,  // reports of the monitors
+    input  wire window_take_t  take_i      // they are loaded, read
 );
 
   logic [ 7:0] code;
@@ -92,9 +58,9 @@ module ppmc312_axis
       .value_i({block_i.par[0], block_i.par[1]}),
       .built_i,
       .fast_i (table_i.fast),
-      .limit_rate_o,
-      .end_watch_o,
-      .ungated_o
+      .limit_rate_o(state_o.settings.limit_rate),
+      .end_watch_o (state_o.settings.end_watch),
+      .ungated_o   (state_o.settings.ungated)
   );
 
   ppmc312_motion #(
@@ -105,51 +71,40 @@ module ppmc312_axis
       .rst_ni,
       .table_i,
       .home_i,
-      .side_o,
-      .addr_o,
-      .table_rate_i,
-      .table_pulses_i,
-      .start_i,
-      .op_i,
-      .plan_i,
+      .look_o,
+      .stage_i,
+      .order_i,
+      .change_ramp_i(code == I_RAMP),
       .halt_i       (act_i && halt_q),
       .decel_i      (act_i && decel_q),
-      .change_i,
-      .change_ramp_i(code == I_RAMP),
-      .pos_halt_i,
-      .settled_i,
-      .limit_rate_i (limit_rate_o),
-      .end_watch_i  (end_watch_o),
-      .ungated_i    (ungated_o),
-      .levels_i,
-      .run_i,
+      .settings_i   (state_o.settings),
+      .levels_i     (inputs_i.levels),
+      .run_i        (inputs_i.run),
       .extck_i,
-      .pout_o,
-      .dir_o,
+      .pout_o       (outputs_o.pout),
+      .dir_o        (outputs_o.dir),
       .multi_i,
-      .multi_code_i,
       .leave_i      (leave),
-      .alarm_o,
-      .alarm_code_o,
-      .status_o,
-      .end_wait_o,
+      .alarm_o      (notice_o.alarm),
+      .status_o     (state_o.status),
+      .end_wait_o   (state_o.end_wait),
       .output_o     (output_on),
       .launch_o     (launch),
       .rested_o     (rested),
       .counted_o    (count),
-      .held_o,
-      .stop_o,
-      .cause_o
+      .held_o       (notice_o.held),
+      .stop_o       (notice_o.stop),
+      .cause_o      (notice_o.cause)
   );
 
   ppmc312_position u_position (
       .clk_i,
       .rst_ni,
       .count_i       (count),
-      .ccw_i         (dir_o),
+      .ccw_i         (outputs_o.dir),
       .output_i      (output_on),
-      .epin_i,
-      .epdir_i,
+      .epin_i        (inputs_i.epin),
+      .epdir_i       (inputs_i.epdir),
       .value_i       (value),
       .set_pos_i     (act_i && code == I_POS_SET && !block_i.par[0][0]),
       .set_enc_i     (act_i && code == I_POS_SET && block_i.par[0][0]),
@@ -158,17 +113,17 @@ module ppmc312_axis
       .set_window_i  ({act_i && code == I_ENCODE, act_i && code == I_INPOS}),
       .window_flags_i(block_i.par[0][2:0]),
       .window_range_i({block_i.par[1], block_i.par[2]}),
-      .pos_o,
-      .enc_o,
-      .counted_o,
-      .lock_o,
-      .unlock_o,
-      .window_on_o,
-      .outside_o,
-      .wait_o,
-      .value_o,
-      .load_i,
-      .read_i,
+      .pos_o         (state_o.pos),
+      .enc_o         (state_o.enc),
+      .counted_o     (state_o.counted),
+      .lock_o        (state_o.lock),
+      .unlock_o      (notice_o.unlock),
+      .window_on_o   (state_o.window_on),
+      .outside_o     (state_o.outside),
+      .wait_o        (windows_o.waits),
+      .value_o       (windows_o.outside),
+      .load_i        (take_i.load),
+      .read_i        (take_i.read),
       .near_o        (near),
       .coupled_o     (coupled)
   );
@@ -188,22 +143,24 @@ module ppmc312_axis
       .aux_data_i(block_i.par[0][5:0]),
       .launch_i  (launch),
       .rested_i  (rested),
-      .abn_i     (status_o == StatusAbn),
-      .alm_ni    (levels_i.alm_n),
-      .end_ni    (levels_i.end_n),
+      .abn_i     (state_o.status == StatusAbn),
+      .alm_ni    (inputs_i.levels.alm_n),
+      .end_ni    (inputs_i.levels.end_n),
       .near_i    (near),
       .coupled_i (coupled),
       .leave_o   (leave),
-      .exon_no,
-      .cclr_no,
-      .aclr_no,
-      .zclmp_no,
-      .cd_no,
-      .auxo_no
+      .lock_i    (state_o.lock),
+      .intlk_no  (outputs_o.intlk_n),
+      .exon_no   (outputs_o.exon_n),
+      .cclr_no   (outputs_o.cclr_n),
+      .aclr_no   (outputs_o.aclr_n),
+      .zclmp_no  (outputs_o.zclmp_n),
+      .cd_no     (outputs_o.cd_n),
+      .auxo_no   (outputs_o.auxo_n)
   );
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block_i};
+  assign unused_bits = &{1'b0, block_i, inputs_i};
 
 endmodule
 

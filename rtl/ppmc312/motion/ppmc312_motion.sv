@@ -2,7 +2,7 @@
 // ppmc312_motion: an operation from its acceptance to the report of its end: statuses, start gate, pulses,
 // causes, both phases of a zero return.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
-// Timing: t0 is the edge that ends the cycle of start_i, or of the end of the start gate. Pins and stops act in
+// Timing: t0 is the edge that ends the cycle of order_i.start, or of the end of the start gate. Pins and stops act in
 //         the cycle in which they are seen: no pulse then. pout_o and dir_o are flip-flops; counted_o comes
 //         with the clk after the rise of pout_o.
 `include "ppmc_assert.svh"
@@ -10,56 +10,45 @@
 
 module ppmc312_motion
   import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
   import ppmc312_stage_pkg::*;
 #(
     parameter int unsigned ClkHz  = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000
 ) (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
+    input  wire logic          clk_i,          // clock
+    input  wire logic          rst_ni,         // reset, asynchronous
     // table in force
-    input  wire table_t         table_i,
-    input  wire target_t        home_i,
-    output logic                side_o,
-    output logic         [ 6:0] addr_o,
-    input  wire logic    [15:0] table_rate_i,
-    input  wire logic    [23:0] table_pulses_i,
+    input  wire table_t        table_i,        // its description
+    input  wire target_t       home_i,         // what the look-up of its rate_acc has found
+    output look_t              look_o,         // its read port
+    input  wire stage_t        stage_i,        // two clk later
     // instructions
-    input  wire logic           start_i,
-    input  wire op_t            op_i,
-    input  wire plan_t          plan_i,          // steady until t0; its rate until 2 clk after a change
-    input  wire logic           halt_i,
-    input  wire logic           decel_i,
-    input  wire logic           change_i,
-    input  wire logic           change_ramp_i,
-    input  wire logic           pos_halt_i,      // an immediate stop is due at this position
-    input  wire logic           settled_i,       // and everything that has been triggered is processed
-    // settings
-    input  wire logic    [15:0] limit_rate_i,    // HSL
-    input  wire logic           end_watch_i,     // END is monitored
-    input  wire logic           ungated_i,       // RUN is not monitored
+    input  wire motion_order_t order_i,        // starts and rate changes
+    input  wire logic          change_ramp_i,  // order_i.change is along the table
+    input  wire logic          halt_i,         // strobe: immediate stop
+    input  wire logic          decel_i,        // strobe: deceleration to the end
+    input  wire settings_t     settings_i,     // limit, monitoring
     // pins
-    input  wire levels_t        levels_i,
-    input  wire logic           run_i,
-    input  wire logic           extck_i,
-    output logic                pout_o,
-    output logic                dir_o,
+    input  wire levels_t       levels_i,       // filtered
+    input  wire logic          run_i,          // 1: starts go ahead
+    input  wire logic          extck_i,        // external clock, as on the pin
+    output logic               pout_o,         // 1: a pulse is active
+    output logic               dir_o,          // 0 CW, 1 CCW
     // alarm
-    input  wire logic           multi_i,         // multiple occurrence
-    input  wire logic    [ 1:0] multi_code_i,
-    input  wire logic           leave_i,         // alarm clear, no alarm
-    output logic                alarm_o,         // to be reported
-    output logic         [ 1:0] alarm_code_o,
+    input  wire alarm_t        multi_i,        // multiple occurrence
+    input  wire logic          leave_i,        // strobe: alarm clear, no alarm
+    output alarm_t             alarm_o,        // to be reported
     // state
-    output status_e             status_o,
-    output logic                end_wait_o,
-    output logic                output_o,        // pulses are being output
-    output logic                launch_o,        // t0
-    output logic                rested_o,        // pulse output has ended
-    output logic                counted_o,       // a pulse of direction dir_o
-    output logic                held_o,          // report E2
-    output logic                stop_o,          // report E0
-    output cause_t              cause_o
+    output status_e            status_o,       // of the part
+    output logic               end_wait_o,     // a motion waits for END
+    output logic               output_o,       // pulses are being output
+    output logic               launch_o,       // strobe: t0
+    output logic               rested_o,       // strobe: pulse output has ended
+    output logic               counted_o,      // strobe: a pulse of direction dir_o
+    output logic               held_o,         // strobe: report E2
+    output logic               stop_o,         // strobe: report E0
+    output cause_t             cause_o         // why; with stop_o
 );
 
   typedef enum logic [2:0] {
@@ -92,16 +81,15 @@ module ppmc312_motion
   assign limit = dir_o ? !levels_i.bl_n : !levels_i.fl_n;
   assign high_limit = dir_o ? !levels_i.bhl_n : !levels_i.fhl_n;
   assign origin = !levels_i.org_n && (!op_q.index || !levels_i.index_n);
-  assign gate = run_i || ungated_i;
-  assign enter = (!levels_i.alm_n || multi_i) && !abn_q;
-  assign alarm_o = enter || multi_i;
-  assign alarm_code_o = multi_i ? multi_code_i : 2'd0;
+  assign gate = run_i || settings_i.ungated;
+  assign enter = (!levels_i.alm_n || multi_i.valid) && !abn_q;
+  assign alarm_o = '{valid: enter || multi_i.valid, code: multi_i.valid ? multi_i.code : 2'd0};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {fast_q, slow_q, complete_q} <= '0;
     else begin
       complete_q <= complete;  // a position is compared later than that
-      fast_q <= rate <= limit_rate_i;
+      fast_q <= rate <= settings_i.limit_rate;
       slow_q <= too_fast;
     end
   end
@@ -128,7 +116,7 @@ module ppmc312_motion
     request.als = enter || abn_q;
     request.stl = limit;
     request.org = op_q.origin && origin;
-    request.stp = halt_i || (pos_halt_i && !complete_q);  // the last pulse needs no stop
+    request.stp = halt_i || (order_i.pos_halt && !complete_q);  // the last pulse needs no stop
     hard        = state_q == StGo && request != '0;
   end
 
@@ -157,12 +145,13 @@ module ppmc312_motion
 
   assign stay = state_q == StDrain && turn_q && (halt_i || decel_i);
   assign phase2 = state_q == StDrain && turn_q && !pout_o && !enter && !stay;
-  assign launch_o = (start_i && gate) || (state_q == StHeld && gate && !enter) || phase2;
+  assign launch_o = (order_i.start && gate) || (state_q == StHeld && gate && !enter) || phase2;
   assign held_o = state_q == StHeld && gate && !enter;
-  assign rest = state_q == StDrain && !turn_q && !pout_o && (!wait_pos_q || settled_i || abn_q);
+  assign rest = state_q == StDrain && !turn_q && !pout_o && (!wait_pos_q || order_i.settled || abn_q);
   assign rested_o = rest;
-  assign stop_o   = (rest && !(end_watch_i && levels_i.end_n && !cause_q.als && !abn_q)) ||
-      (state_q == StEnd && (!levels_i.end_n || !end_watch_i || abn_q)) || (state_q == StHeld && enter);
+  assign stop_o   = (rest && !(settings_i.end_watch && levels_i.end_n && !cause_q.als && !abn_q)) ||
+      (state_q == StEnd && (!levels_i.end_n || !settings_i.end_watch || abn_q)) ||
+      (state_q == StHeld && enter);
   assign cause_o = (state_q == StHeld) ? '{als: 1'b1, default: 1'b0} : cause_q;
   assign output_o = state_q inside {StGo, StDrain};
   assign end_wait_o = state_q == StEnd;
@@ -186,17 +175,17 @@ module ppmc312_motion
       else if (leave_i) abn_q <= 1'b0;
 
       unique case (state_q)
-        StRest:  if (start_i && !gate) state_q <= StHeld;
+        StRest:  if (order_i.start && !gate) state_q <= StHeld;
         StHeld:  if (enter) state_q <= StRest;
         StGo:
         if (ends) begin
           state_q    <= StDrain;
           cause_q    <= cause_d;
           turn_q     <= turn_d;
-          wait_pos_q <= pos_halt_i && !complete;
+          wait_pos_q <= order_i.pos_halt && !complete;
         end
         StDrain: begin
-          if (pos_halt_i && !complete) wait_pos_q <= 1'b1;
+          if (order_i.pos_halt && !complete) wait_pos_q <= 1'b1;
           if (enter && (turn_q || (wait_pos_q && cause_q.stp))) begin
             cause_q <= '{als: 1'b1, default: 1'b0};
             turn_q  <= 1'b0;
@@ -208,10 +197,10 @@ module ppmc312_motion
         default: if (stop_o) state_q <= StRest;
       endcase
 
-      if (start_i) op_q <= op_i;
+      if (order_i.start) op_q <= order_i.op;
       if (launch_o) begin
         state_q    <= StGo;
-        dir_o      <= phase2 ? !op_q.ccw : (start_i ? op_i.ccw : op_q.ccw);
+        dir_o      <= phase2 ? !op_q.ccw : (order_i.start ? order_i.op.ccw : op_q.ccw);
         turn_q     <= 1'b0;
         wait_pos_q <= 1'b0;
         walk_q     <= '0;
@@ -251,7 +240,7 @@ module ppmc312_motion
   // ---- pulses ----------------------------------------------------------------------------------------------------
 
   always_comb begin
-    plan = plan_i;
+    plan = order_i.plan;
     if (phase2) begin
       plan.endless = 1'b1;
       plan.climb   = 1'b0;
@@ -265,18 +254,11 @@ module ppmc312_motion
       .first_acc_i (table_i.first_acc),
       .first_dec_i (table_i.first_dec),
       .rate_dec_i  (table_i.rate_dec),
-      .side_o,
-      .addr_o,
-      .table_rate_i,
-      .table_pulses_i,
+      .look_o,
+      .stage_i,
       .load_i      (launch_o),
-      .endless_i   (plan.endless),
-      .climb_i     (plan.climb),
-      .count_i     (plan.count),
-      .dec_i       (plan.dec),
-      .dec_from_i  (plan.from),
-      .target_i    (plan.to),
-      .change_i    (change_i && state_q == StGo),
+      .plan_i      (plan),
+      .change_i    (order_i.change && state_q == StGo),
       .change_ramp_i,
       .slow_i      ((too_fast || decel_q || near) && state_q == StGo),  // not later than 4 clk after the pin
       .next_end_o  (next_end),
@@ -315,7 +297,7 @@ module ppmc312_motion
   `PPMC_ASSERT(p312_prt_04, !(fire && hard))
   `PPMC_ASSERT(p312_mot_35, !stop_o || $onehot(cause_o))
   `PPMC_ASSERT(p312_mot_06, !(ends && next_end && !hard && !first) || !pout_o)
-  `PPMC_ASSERT(p312_blk_01_8, !start_i || (state_q == StRest && !abn_q))
+  `PPMC_ASSERT(p312_blk_01_8, !order_i.start || (state_q == StRest && !abn_q))
   `PPMC_ASSERT(p312_mot_07_count, !(ends && !hard && next_count) || complete)
 `endif
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_outputs: pins that instructions and the course of a motion switch: excitation, counter clear, alarm
-// clear, zero clamp, current reduction, generalized output; and the way out of the abnormal status.
-// Rules:  P312-CMD-20..26, P312-OUT-01/02, P312-INP-31/33, P312-MON-06.
+// ppmc312_outputs: pins that instructions and the course of a motion switch: interlock, excitation, counter clear,
+// alarm clear, zero clamp, current reduction, generalized output; and the way out of the abnormal status.
+// Rules:  P312-CMD-20..26, P312-OUT-01..03, P312-INP-31/33, P312-MON-06.
 // Timing: pins follow by one clk; pulses last 24.576 ms, the current is reduced 100 ms after the last motion.
 `default_nettype none
 
@@ -9,32 +9,34 @@ module ppmc312_outputs #(
     parameter int unsigned ClkHz  = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000
 ) (
-    input  wire logic       clk_i,
-    input  wire logic       rst_ni,
-    // instructions
-    input  wire logic       excite_i,    // excitation on, off
-    input  wire logic       relax_i,
-    input  wire logic       cclr_i,
-    input  wire logic       aclr_i,
-    input  wire logic       clamp_i,
-    input  wire logic       aux_i,
-    input  wire logic [5:0] aux_data_i,  // 1 = low
+    input  wire logic       clk_i,       // clock
+    input  wire logic       rst_ni,      // reset, asynchronous
+    // instructions: strobes
+    input  wire logic       excite_i,    // excitation on
+    input  wire logic       relax_i,     // excitation off
+    input  wire logic       cclr_i,      // counter clear
+    input  wire logic       aclr_i,      // alarm clear
+    input  wire logic       clamp_i,     // zero clamp
+    input  wire logic       aux_i,       // generalized output
+    input  wire logic [5:0] aux_data_i,  // with aux_i; 1 = low
     // course of things
-    input  wire logic       launch_i,    // t0
-    input  wire logic       rested_i,    // pulse output has ended
+    input  wire logic       launch_i,    // strobe: t0
+    input  wire logic       rested_i,    // strobe: pulse output has ended
     input  wire logic       abn_i,       // abnormal status
-    input  wire logic       alm_ni,
-    input  wire logic       end_ni,
+    input  wire logic       lock_i,      // interlock control runs
+    input  wire logic       alm_ni,      // 0 = active
+    input  wire logic       end_ni,      // 0 = active
     input  wire logic       near_i,      // in-position: inside, coupled to the zero clamp
-    input  wire logic       coupled_i,
-    output logic            leave_o,     // the abnormal status ends
-    // pins
-    output logic            exon_no,
-    output logic            cclr_no,
-    output logic            aclr_no,
-    output logic            zclmp_no,
-    output logic            cd_no,
-    output logic      [5:0] auxo_no
+    input  wire logic       coupled_i,   // in-position: looked at, coupled to the zero clamp
+    output logic            leave_o,     // strobe: the abnormal status ends
+    // pins, 0 = active
+    output logic            intlk_no,    // interlock
+    output logic            exon_no,     // excitation
+    output logic            cclr_no,     // counter clear
+    output logic            aclr_no,     // alarm clear
+    output logic            zclmp_no,    // zero clamp
+    output logic            cd_no,       // current reduction
+    output logic      [5:0] auxo_no      // generalized output
 );
 
   localparam int unsigned PulseXtal = 393_216;
@@ -87,6 +89,7 @@ module ppmc312_outputs #(
     if (!rst_ni) begin
       leaving_q <= 1'b0;
       resting_q <= 1'b0;
+      intlk_no  <= 1'b1;
       exon_no   <= 1'b1;
       zclmp_no  <= 1'b1;
       cd_no     <= 1'b1;
@@ -94,6 +97,8 @@ module ppmc312_outputs #(
     end else begin
       if (aclr_i) leaving_q <= abn_i;
       else if (leave_o || aclr_no) leaving_q <= 1'b0;
+
+      intlk_no <= !lock_i;
 
       if (excite_i) exon_no <= 1'b0;
       else if (relax_i) exon_no <= 1'b1;

@@ -6,30 +6,23 @@
 `default_nettype none
 
 module ppmc312_pins
-  import ppmc312_pkg::*;
+  import ppmc312_link_pkg::*;
 #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0
 ) (
-    input  wire logic          clk_i,
-    input  wire logic          rst_ni,
-    // pins
-    input  wire levels_t       pins_i,
-    input  wire logic    [1:0] evt_ni,
-    input  wire logic          run_i,
-    input  wire logic          epin_i,
-    input  wire logic          epdir_i,
-    input  wire logic    [7:0] auxi_i,
+    input  wire logic          clk_i,    // clock
+    input  wire logic          rst_ni,   // reset, asynchronous
+    // as on the pins; the names are those of inputs_t
+    input  wire levels_t       pins_i,   // switches, drive, encoder index
+    input  wire logic    [1:0] evt_ni,   // [n] is event pin n
+    input  wire logic          run_i,    // 1: starts go ahead
+    input  wire logic          epin_i,   // encoder: counts with its rising edge
+    input  wire logic          epdir_i,  // 0 up, 1 down
+    input  wire logic    [7:0] auxi_i,   // generalized input
     // inside
-    output levels_t            plain_o,   // as on the pins
-    output levels_t            levels_o,  // filtered
-    output logic         [1:0] evt_no,    // as on the pins
-    output logic         [1:0] edge_o,    // filtered event has become low
-    output logic               run_o,
-    output logic               epin_o,
-    output logic               epdir_o,
-    output logic         [7:0] auxi_o
+    output inputs_t            inputs_o  // synchronous
 );
 
   localparam int unsigned Filtered = $bits(levels_t) + 2;
@@ -38,6 +31,10 @@ module ppmc312_pins
   localparam int unsigned EventXtal = 400_000;
 
   logic [Pins-1:0] unused_meta;
+  levels_t plain;
+  logic run, epin, epdir;
+  logic [1:0] evt_n;
+  logic [7:0] auxi;
   logic [Filtered-1:0] asis, taken;
   logic [1:0] evt_q;
 
@@ -48,10 +45,10 @@ module ppmc312_pins
       .rst_ni,
       .d_i ({auxi_i, run_i, epin_i, epdir_i, evt_ni, pins_i}),
       .q1_o(unused_meta),
-      .q2_o({auxi_o, run_o, epin_o, epdir_o, evt_no, plain_o})
+      .q2_o({auxi, run, epin, epdir, evt_n, plain})
   );
 
-  assign asis = {evt_no, plain_o};
+  assign asis = {evt_n, plain};
 
   if (Datasheet) begin : g_filter
     for (genvar n = 0; n < Filtered; n++) begin : g_pin
@@ -81,8 +78,16 @@ module ppmc312_pins
     assign taken = asis;
   end
 
-  assign levels_o = taken[$bits(levels_t)-1:0];
-  assign edge_o   = evt_q & ~taken[Filtered-1-:2];
+  assign inputs_o = '{
+          plain: plain,
+          levels: taken[$bits(levels_t)-1:0],
+          evt_n: evt_n,
+          fell: evt_q & ~taken[Filtered-1-:2],
+          run: run,
+          epin: epin,
+          epdir: epdir,
+          auxi: auxi
+      };
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) evt_q <= '1;

@@ -8,38 +8,38 @@
 module ppmc312_position
   import ppmc312_pkg::*;
 (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
+    input  wire logic        clk_i,           // clock
+    input  wire logic        rst_ni,          // reset, asynchronous
     // pulses
-    input  wire logic        count_i,
-    input  wire logic        ccw_i,
+    input  wire logic        count_i,         // strobe: a pulse
+    input  wire logic        ccw_i,           // its direction: down
     input  wire logic        output_i,        // pulses are being output
     // encoder, synchronous
-    input  wire logic        epin_i,
-    input  wire logic        epdir_i,
+    input  wire logic        epin_i,          // counts with its rising edge
+    input  wire logic        epdir_i,         // 0 up, 1 down
     // instructions
-    input  wire logic [31:0] value_i,
-    input  wire logic        set_pos_i,
-    input  wire logic        set_enc_i,
+    input  wire logic [31:0] value_i,         // what is set; pulses, two's complement
+    input  wire logic        set_pos_i,       // strobe: the position
+    input  wire logic        set_enc_i,       // strobe: the encoder's
     input  wire logic        set_lock_i,      // interlock position
-    input  wire logic        toggle_lock_i,
+    input  wire logic        toggle_lock_i,   // strobe: interlock control on, off
     input  wire logic [ 1:0] set_window_i,    // in-position, encode: flags and range below
     input  wire logic [ 2:0] window_flags_i,  // FO, RES, EN
-    input  wire logic [15:0] window_range_i,
+    input  wire logic [15:0] window_range_i,  // pulses
     // positions
-    output logic      [31:0] pos_o,
-    output logic      [31:0] enc_o,
-    output logic             counted_o,
+    output logic      [31:0] pos_o,           // position, pulses
+    output logic      [31:0] enc_o,           // the encoder's, edges
+    output logic             counted_o,       // strobe: pos_o has been counted
     // interlock
-    output logic             lock_o,
+    output logic             lock_o,          // interlock control runs
     output logic             unlock_o,        // report E1
     // monitors: index 0 in-position, 1 encode
-    output logic      [ 1:0] window_on_o,
-    output logic      [ 1:0] outside_o,
-    output logic      [ 1:0] wait_o,
-    output logic      [ 1:0] value_o,
-    input  wire logic [ 1:0] load_i,
-    input  wire logic [ 1:0] read_i,
+    output logic      [ 1:0] window_on_o,     // enabled
+    output logic      [ 1:0] outside_o,       // enabled, and outside
+    output logic      [ 1:0] wait_o,          // a report waits
+    output logic      [ 1:0] value_o,         // what it will say: 1 outside
+    input  wire logic [ 1:0] load_i,          // strobes: it is being loaded
+    input  wire logic [ 1:0] read_i,          // strobes: it has been read
     output logic             near_o,          // zero clamp: in-position rests inside, with coupling
     output logic             coupled_o        // zero clamp: in-position is looked at, with coupling
 );

@@ -6,15 +6,15 @@
 `default_nettype none
 
 module ppmc312_window (
-    input  wire logic clk_i,
-    input  wire logic rst_ni,
+    input  wire logic clk_i,       // clock
+    input  wire logic rst_ni,      // reset, asynchronous
     input  wire logic set_i,       // instruction: takes the two bits below
-    input  wire logic enable_i,
+    input  wire logic enable_i,    // 1: the monitor runs
     input  wire logic repeat_i,    // 0: ends after one report
     input  wire logic evaluate_i,  // the state follows inside_i
-    input  wire logic inside_i,
-    output logic      enabled_o,
-    output logic      outside_o,
+    input  wire logic inside_i,    // the position is within the range
+    output logic      enabled_o,   // the monitor runs
+    output logic      outside_o,   // it runs, and the position is outside
     output logic      wait_o,      // a report waits
     output logic      value_o,     // 1 = outside
     input  wire logic load_i,      // it is being loaded

@@ -15,8 +15,8 @@ module ppmc312_interval #(
     parameter int unsigned RateBits  = 16,
     parameter int unsigned WidthXtal = 80           // pulse width and direction set-up
 ) (
-    input  wire logic                clk_i,
-    input  wire logic                rst_ni,
+    input  wire logic                clk_i,    // clock
+    input  wire logic                rst_ni,   // reset, asynchronous
     input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6, 7: pin up, down
     input  wire logic                extck_i,  // pin
     input  wire logic                arm_i,    // start of a motion

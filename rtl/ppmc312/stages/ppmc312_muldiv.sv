@@ -11,19 +11,19 @@ module ppmc312_muldiv #(
     parameter int unsigned HiBits = 40,  // operand, sums, remainders
     parameter int unsigned LoBits = 24   // multiplier, quotient
 ) (
-    input  wire logic              clk_i,
-    input  wire logic              rst_ni,
-    input  wire logic              start_i,
+    input  wire logic              clk_i,      // clock
+    input  wire logic              rst_ni,     // reset, asynchronous
+    input  wire logic              start_i,    // strobe
     input  wire logic              mul_i,      // 1 multiply, 0 divide
     input  wire logic              zero_i,     // 0 instead of hi_i
     input  wire logic              keep_i,     // go on with {hi_o, lo_o} instead of both
     input  wire logic [       5:0] steps_i,    // 1 .. LoBits
-    input  wire logic [HiBits-1:0] hi_i,
-    input  wire logic [LoBits-1:0] lo_i,
+    input  wire logic [HiBits-1:0] hi_i,       // summand; upper part of the dividend
+    input  wire logic [LoBits-1:0] lo_i,       // multiplier; lower part of the dividend
     input  wire logic [HiBits-1:0] operand_i,  // steady while busy
-    output logic                   busy_o,
-    output logic      [HiBits-1:0] hi_o,
-    output logic      [LoBits-1:0] lo_o
+    output logic                   busy_o,     // the result does not stand yet
+    output logic      [HiBits-1:0] hi_o,       // product; remainder
+    output logic      [LoBits-1:0] lo_o        // low bits of the product on top; quotient
 );
 
   logic [5:0] left_q;

@@ -9,40 +9,31 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_stage_builder (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        start_i,
-    input  wire logic        cosine_i,      // sigmoid instead of linear
-    input  wire logic        split_i,       // both sides have their own number of pulses
-    input  wire logic [15:0] start_rate_i,
-    input  wire logic [15:0] stop_rate_i,
-    input  wire logic [15:0] fast_rate_i,
-    input  wire logic [23:0] acc_i,         // pulses of the acceleration side
-    input  wire logic [23:0] dec_i,         // of the deceleration side, with split_i
-    output logic             busy_o,
-    output logic             thin_o,        // a stage has two pulses or less; stands until the next start
-    // table
-    output logic             we_rate_o,
-    output logic             we_acc_o,
-    output logic             we_dec_o,
-    output logic      [ 6:0] addr_o,
-    output logic      [23:0] data_o,
+module ppmc312_stage_builder
+  import ppmc312_stage_pkg::*;
+(
+    input  wire logic          clk_i,        // clock
+    input  wire logic          rst_ni,       // reset, asynchronous
+    input  wire logic          start_i,      // strobe
+    input  wire curve_t        curve_i,      // steady while busy
+    output logic               busy_o,       // from the clk after start_i until all is written
+    output logic               thin_o,       // a stage has two pulses or less; stands until the next start
+    output entry_t             entry_o,      // into the table
     // where the sides begin
-    output logic      [ 6:0] first_acc_o,
-    output logic      [ 6:0] first_dec_o,
-    output logic      [15:0] rate_acc_o,
-    output logic      [15:0] rate_dec_o,
+    output logic        [ 6:0] first_acc_o,  // 0 .. 126
+    output logic        [ 6:0] first_dec_o,  // of the deceleration side
+    output logic        [15:0] rate_acc_o,   // the rates there, base clocks
+    output logic        [15:0] rate_dec_o,   // of the deceleration side
     // arithmetic, shared with the planner
-    output logic             op_start_o,
-    output logic             op_mul_o,
-    output logic             op_zero_o,     // h = 0
-    output logic      [ 5:0] op_steps_o,
-    output logic      [23:0] op_lo_o,
-    output logic      [39:0] word_o,        // h with op_start_o, then the operand
-    input  wire logic        op_busy_i,
-    input  wire logic [39:0] hi_i,
-    input  wire logic [23:0] lo_i
+    output logic               op_start_o,   // strobe
+    output logic               op_mul_o,     // 1 multiply, 0 divide
+    output logic               op_zero_o,    // h = 0
+    output logic        [ 5:0] op_steps_o,   // 1 .. 24
+    output logic        [23:0] op_lo_o,      // multiplier
+    output logic        [39:0] word_o,       // h with op_start_o, then the operand
+    input  wire logic          op_busy_i,    // the result does not stand yet
+    input  wire logic   [39:0] hi_i,         // result, remainder
+    input  wire logic   [23:0] lo_i          // its low bits, quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
@@ -92,17 +83,17 @@ module ppmc312_stage_builder (
 
   ppmc312_cosine_rom u_rom (
       .clk_i,
-      .index_i (addr_o),
+      .index_i (entry_o.stage),
       .weight_o(cosine)
   );
 
-  assign weight = cosine_i ? cosine : 17'(addr_o);
+  assign weight = curve_i.cosine ? cosine : 17'(entry_o.stage);
   assign rate = lo_i[15:0];
-  assign limit = side_q ? stop_rate_i : start_rate_i;
+  assign limit = side_q ? curve_i.stop : curve_i.start;
   // The slower side has all stages, whatever rounding makes of R[1].
-  assign hit = (limit == slow_q) ? addr_o == '0 : rate >= limit;
-  assign begins = addr_o == first_q[side_q];
-  assign last_side = side_q || !split_i;
+  assign hit = (limit == slow_q) ? entry_o.stage == '0 : rate >= limit;
+  assign begins = entry_o.stage == first_q[side_q];
+  assign last_side = side_q || !curve_i.split;
 
   assign busy_o = state_q != StIdle;
   assign first_acc_o = first_q[0];
@@ -161,13 +152,13 @@ module ppmc312_stage_builder (
     endcase
     unique case (state_q)
       StHalf:  op_lo_o = '0;
-      StCurve: op_lo_o = 24'(fast_rate_i);
+      StCurve: op_lo_o = 24'(curve_i.fast);
       StSum:   op_lo_o = 24'd1;
-      StShare: op_lo_o = side_q ? dec_i : acc_i;
+      StShare: op_lo_o = side_q ? curve_i.dec : curve_i.acc;
       default: op_lo_o = 24'(weight);
     endcase
     unique case (phase_q)
-      2'd0:    given = fast_rate_i;
+      2'd0:    given = curve_i.fast;
       2'd1:    given = slow_q;
       default: given = spread_q;
     endcase
@@ -197,11 +188,11 @@ module ppmc312_stage_builder (
     if (!rst_ni) begin
       state_q <= StIdle;
       phase_q <= '0;
-      wait_q  <= 1'b0;
-      pass_q  <= 1'b0;
-      side_q  <= 1'b0;
-      addr_o  <= Last;
-      thin_o  <= 1'b0;
+      wait_q <= 1'b0;
+      pass_q <= 1'b0;
+      side_q <= 1'b0;
+      entry_o.stage <= Last;
+      thin_o <= 1'b0;
     end else begin
       if (op_start_o) wait_q <= 1'b1;
       else if (done) wait_q <= 1'b0;
@@ -211,7 +202,7 @@ module ppmc312_stage_builder (
         StIdle: begin
           pass_q <= 1'b0;
           side_q <= 1'b0;
-          addr_o <= Last;
+          entry_o.stage <= Last;
           if (start_i) begin
             thin_o  <= 1'b0;
             state_q <= StCopy;
@@ -222,16 +213,17 @@ module ppmc312_stage_builder (
           phase_q <= '0;
           state_q <= StBase;
         end
-        StBase:   if (done) state_q <= StScale;
+        StBase: if (done) state_q <= StScale;
         StScale:
         if (done) begin
-          addr_o  <= '0;
+          entry_o.stage <= '0;
           state_q <= StSpeed;
         end
-        StSpeed:  if (done) state_q <= !pass_q ? StHalf : open_q[0] ? StShare : split_i ? StWrite : StNext;
-        StHalf:   if (done) state_q <= StCurve;
-        StCurve:  if (done) state_q <= StRate;
-        StRate:   if (done) state_q <= StBegin;
+        StSpeed:
+        if (done) state_q <= !pass_q ? StHalf : open_q[0] ? StShare : curve_i.split ? StWrite : StNext;
+        StHalf: if (done) state_q <= StCurve;
+        StCurve: if (done) state_q <= StRate;
+        StRate: if (done) state_q <= StBegin;
         StBegin: begin
           side_q <= !side_q;
           if (side_q) state_q <= StSum;
@@ -241,7 +233,7 @@ module ppmc312_stage_builder (
           side_q  <= !last_side;
           state_q <= last_side ? StNext : StSum;
         end
-        StShare:  if (done) state_q <= StPulses;
+        StShare: if (done) state_q <= StPulses;
         StPulses: if (done) state_q <= StWrite;
         StWrite: begin
           if (open_q[side_q] && lo_i <= 24'd2) thin_o <= 1'b1;
@@ -250,45 +242,48 @@ module ppmc312_stage_builder (
           if (!last_side && !open_q[1]) side_q <= 1'b0;
         end
         StNext: begin
-          addr_o  <= addr_o + 1'b1;
+          entry_o.stage <= entry_o.stage + 1'b1;
           state_q <= StSpeed;
-          if (addr_o == Last) begin
-            addr_o  <= '0;
-            pass_q  <= 1'b1;
+          if (entry_o.stage == Last) begin
+            entry_o.stage <= '0;
+            pass_q <= 1'b1;
             state_q <= pass_q ? StIdle : StSpeed;
           end
         end
-        default:  state_q <= StIdle;
+        default: state_q <= StIdle;
       endcase
     end
   end
 
   // No reset: all of it is written before it is used. The rates stand long before they are.
   always_ff @(posedge clk_i) begin
-    slow_q   <= (start_rate_i > stop_rate_i) ? start_rate_i : stop_rate_i;
-    spread_q <= slow_q - fast_rate_i;
+    slow_q   <= (curve_i.start > curve_i.stop) ? curve_i.start : curve_i.stop;
+    spread_q <= slow_q - curve_i.fast;
     if (state_q == StBegin) begin
       hit_q[side_q] <= hit;
       if (hit) begin
-        first_q[side_q] <= addr_o;
+        first_q[side_q] <= entry_o.stage;
         entry_q[side_q] <= rate;
       end
     end
     // Second pass: the sides that have begun.
     for (int unsigned n = 0; n < 2; n++) begin
       if (!pass_q) open_q[n] <= 1'b0;
-      else if (addr_o == first_q[n]) open_q[n] <= 1'b1;
+      else if (entry_o.stage == first_q[n]) open_q[n] <= 1'b1;
     end
   end
 
-  assign we_rate_o = state_q == StBegin && !side_q;
-  assign we_acc_o  = state_q == StWrite && !side_q && open_q[0];
-  assign we_dec_o  = state_q == StWrite && side_q;
-  assign data_o    = lo_i;
+  assign entry_o.rate = state_q == StBegin && !side_q;
+  assign entry_o.acc  = state_q == StWrite && !side_q && open_q[0];
+  assign entry_o.dec  = state_q == StWrite && side_q;
+  assign entry_o.data = lo_i;
+
+  logic unused_base;
+  assign unused_base = &{1'b0, curve_i};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_tbl_02_ends, !we_rate_o || addr_o != '0 || rate == slow_q)
-  `PPMC_ASSERT(p312_tbl_02_top, !we_rate_o || addr_o != Last || rate == fast_rate_i)
+  `PPMC_ASSERT(p312_tbl_02_ends, !entry_o.rate || entry_o.stage != '0 || rate == slow_q)
+  `PPMC_ASSERT(p312_tbl_02_top, !entry_o.rate || entry_o.stage != Last || rate == curve_i.fast)
 `endif
 
 endmodule

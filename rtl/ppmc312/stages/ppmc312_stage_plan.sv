@@ -10,42 +10,38 @@
 //         fall with the stages.
 `default_nettype none
 
-module ppmc312_stage_plan (
-    input  wire logic        clk_i,
-    input  wire logic        rst_ni,
-    input  wire logic        start_i,
+module ppmc312_stage_plan
+  import ppmc312_stage_pkg::*;
+(
+    input  wire logic        clk_i,         // clock
+    input  wire logic        rst_ni,        // reset, asynchronous
+    input  wire logic        start_i,       // strobe
     input  wire logic        ramp_i,        // plan, too; else look up only
     input  wire logic        endless_i,     // the operation has no end of its own
-    input  wire logic [15:0] rate_i,        // steady while busy, as all below
+    input  wire logic [15:0] rate_i,        // base clocks; steady while busy, as all below
     input  wire logic [31:0] count_i,       // pulses, at least 1
     input  wire logic [ 6:0] first_acc_i,   // where the sides of the table begin
-    input  wire logic [ 6:0] first_dec_i,
-    output logic             busy_o,
+    input  wire logic [ 6:0] first_dec_i,   // of the deceleration side
+    output logic             busy_o,        // from the clk after start_i until the results stand
     // table
     output logic             both_o,        // the other port is needed, too
-    output logic      [ 6:0] addr_o,
-    input  wire logic [15:0] table_rate_i,
-    input  wire logic [23:0] table_acc_i,
-    input  wire logic [23:0] table_dec_i,   // with both_o
-    // look-up: last stage with at least this rate, the same plus 1, last one with a higher rate plus 1
-    output logic      [ 6:0] ge_o,
-    output logic      [ 6:0] ge1_o,
-    output logic      [ 6:0] gt1_o,
-    output logic             slows_o,       // the deceleration side begins with a higher rate
+    output logic      [ 6:0] addr_o,        // stage
+    input  wire logic [15:0] table_rate_i,  // two clk later: its rate
+    input  wire logic [23:0] table_acc_i,   // its pulses in the acceleration
+    input  wire logic [23:0] table_dec_i,   // in the deceleration; with both_o
+    output target_t          found_o,       // look-up of rate_i
     // plan
     output logic             climb_o,       // begins with acceleration
     output logic      [ 7:0] kind_o,        // status byte: 00 trapezoid, 10 triangle, 20, 40 right-angled
     output logic      [23:0] dec_o,         // pulses of the deceleration
-    output logic      [ 6:0] dec_stage_o,   // where it begins
-    output logic             dec_part_o,    // with so many pulses of this stage:
-    output logic      [23:0] dec_left_o,
+    output walk_t            dec_from_o,    // where it begins
     // arithmetic, shared with the builder
-    output logic             op_start_o,
-    output logic             op_mul_o,
-    output logic      [23:0] op_lo_o,
-    output logic      [24:0] operand_o,
-    input  wire logic        op_busy_i,
-    input  wire logic [23:0] lo_i
+    output logic             op_start_o,    // strobe
+    output logic             op_mul_o,      // 1 multiply, 0 divide
+    output logic      [23:0] op_lo_o,       // multiplier
+    output logic      [24:0] operand_o,     // multiplicand, divisor
+    input  wire logic        op_busy_i,     // the result does not stand yet
+    input  wire logic [23:0] lo_i           // low bits of the product, quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
@@ -102,7 +98,7 @@ module ppmc312_stage_plan (
     end
   end
 
-  assign past = at >= ge1_o;
+  assign past = at >= found_o.ge1;
   assign ends = run_q && step && ((state_q == StFind) ? at == Last : past);
 
   // ---- look-up ---------------------------------------------------------------------------------------------------
@@ -111,14 +107,16 @@ module ppmc312_stage_plan (
   assign hit = virt || ((in_acc_q[0] || in_dec_q[0]) && table_rate_i >= rate_i);
   assign higher = hit && (virt || table_rate_i != rate_i);
 
+  assign found_o.rate = rate_i;
+
   always_ff @(posedge clk_i) begin
     if (state_q == StFind && step) begin
       if (hit) begin
-        ge_o  <= at;
-        ge1_o <= at_q[0];
+        found_o.ge  <= at;
+        found_o.ge1 <= at_q[0];
       end
-      if (higher) gt1_o <= at_q[0];
-      if (in_dec_q == 2'b01) slows_o <= higher;
+      if (higher) found_o.gt1 <= at_q[0];
+      if (in_dec_q == 2'b01) found_o.slows <= higher;
       if (hit && in_acc_q[1]) climb_o <= 1'b1;
     end
     if (state_q == StIdle) climb_o <= start_i ? 1'b0 : climb_o;
@@ -172,17 +170,17 @@ module ppmc312_stage_plan (
     if (state_q == StAcc) over_q <= ahead[24:0];
     // The deceleration begins with the last stage before which some of its pulses are left.
     if (state_q == StMeet && counts && !none) begin
-      dec_stage_o <= at;
-      dec_left_o  <= ahead[23:0];
+      dec_from_o.stage <= at;
+      dec_from_o.left  <= ahead[23:0];
     end
     if (state_q == StShort) begin
-      dec_o       <= sum_q[23:0];
-      dec_stage_o <= ge_o;
-      dec_part_o  <= 1'b0;
+      dec_o            <= sum_q[23:0];
+      dec_from_o.stage <= found_o.ge;
+      dec_from_o.part  <= 1'b0;
     end
     if (state_q == StKind) dec_o <= '0;
     if (state_q == StMeet) begin
-      dec_part_o <= 1'b1;
+      dec_from_o.part <= 1'b1;
       if (next_q) dec_o <= none ? '0 : ahead[23:0];
     end
   end

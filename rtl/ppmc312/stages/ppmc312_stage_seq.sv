@@ -15,42 +15,35 @@
 module ppmc312_stage_seq
   import ppmc312_stage_pkg::*;
 (
-    input wire logic clk_i,
-    input wire logic rst_ni,
+    input  wire logic          clk_i,          // clock
+    input  wire logic          rst_ni,         // reset, asynchronous
     // table in force
-    input wire logic [6:0] first_acc_i,
-    input wire logic [6:0] first_dec_i,
-    input wire logic [15:0] rate_dec_i,  // R[first_dec_i]
-    output logic side_o,  // 1 = pulses of the deceleration side
-    output logic [6:0] addr_o,
-    input wire logic [15:0] table_rate_i,
-    input wire logic [23:0] table_pulses_i,
+    input  wire logic   [ 6:0] first_acc_i,    // where its sides begin
+    input  wire logic   [ 6:0] first_dec_i,    // of the deceleration side
+    input  wire logic   [15:0] rate_dec_i,     // R[first_dec_i], base clocks
+    output look_t              look_o,         // its read port
+    input  wire stage_t        stage_i,        // two clk later
     // operation
-    input wire logic load_i,
-    input wire logic endless_i,
-    input wire logic climb_i,  // begins with the acceleration side
-    input wire logic [31:0] count_i,
-    input wire logic [23:0] dec_i,  // pulses of its deceleration
-    input wire walk_t dec_from_i,  // where that begins
-    input wire target_t target_i,  // constant rate, with load_i; of a change, 2 clk after change_i
+    input  wire logic          load_i,         // strobe: plan_i begins
+    input  wire plan_t         plan_i,         // with load_i; plan_i.to of a change 2 clk after change_i
     // requests
-    input wire logic change_i,  // another rate; a newer one replaces an older one
-    input wire logic change_ramp_i,  // along the table
-    input wire logic slow_i,  // deceleration to the end
+    input  wire logic          change_i,       // strobe: another rate; a newer one replaces an older one
+    input  wire logic          change_ramp_i,  // along the table; 2 clk after change_i
+    input  wire logic          slow_i,         // deceleration to the end
     // decision
-    output logic next_end_o,  // no pulse
-    output logic next_low_o,  // because there is nothing to decelerate
-    output logic next_count_o,  // because the last pulse is out
-    output logic next_slow_o,  // slow_i has been judged
-    output logic next_walk_o,  // the walk to the end begins
-    output logic [15:0] next_rate_o,
-    input wire logic step_i,  // the boundary is now, and a pulse is made
+    output logic               next_end_o,     // no pulse
+    output logic               next_low_o,     // because there is nothing to decelerate
+    output logic               next_count_o,   // because the last pulse is out
+    output logic               next_slow_o,    // slow_i has been judged
+    output logic               next_walk_o,    // the walk to the end begins
+    output logic        [15:0] next_rate_o,    // base clocks
+    input  wire logic          step_i,         // strobe: the boundary is now, and a pulse is made
     // running interval
-    output logic [15:0] rate_o,  // before pulse 1: as it will be, a clk late
-    output logic flat_o,  // constant rate
-    output logic walk_o,  // the walk to the end
-    output logic first_o,  // before pulse 1
-    output logic complete_o  // the last pulse of the count is out
+    output logic        [15:0] rate_o,         // base clocks; before pulse 1: as it will be, a clk late
+    output logic               flat_o,         // constant rate
+    output logic               walk_o,         // the walk to the end
+    output logic               first_o,        // before pulse 1
+    output logic               complete_o      // the last pulse of the count is out
 );
 
   typedef struct packed {
@@ -91,7 +84,7 @@ module ppmc312_stage_seq
   walk_t from_q;
   // flags, a clk behind what they compare
   logic zero_q, point_q, walk_ok_q, spent_q, edge_q;
-  logic [6:0] beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
+  logic [6:0] addr, beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, back, forget;
   logic seek_q, look, in_use_q, in_use;  // search
   logic [1:0] look_q;
@@ -139,7 +132,7 @@ module ppmc312_stage_seq
     next         = now_q;
     low_end      = 1'b0;
     ramp_end     = 1'b0;
-    addr_o       = here;
+    addr         = here;
 
     if (zero_q) begin
       choice.ends  = 1'b1;
@@ -159,14 +152,14 @@ module ppmc312_stage_seq
       choice.fixed = 1'b0;
       next         = '{flat: 1'b1, down: now_q.down, walk: 1'b0, last: 1'b0, changed: 1'b1};
       if (point_q && held_q.slows) begin
-        addr_o    = held_q.ge;
+        addr    = held_q.ge;
         next.last = 1'b1;
         low_end   = 1'b1;
       end
     end else if (point_q && !now_q.walk) begin
       choice.used = held_valid_q;
       if (!now_q.changed && !held_valid_q) begin
-        addr_o      = from_q.stage;
+        addr        = from_q.stage;
         choice.part = from_q.part;
         next.last   = 1'b1;
         low_end     = 1'b1;
@@ -185,7 +178,7 @@ module ppmc312_stage_seq
       choice.take  = 1'b1;
       next.changed = 1'b1;
       ramp_end     = ramp_some_q;
-      addr_o       = ramp_at;
+      addr         = ramp_at;
       if (ramp_some_q) begin
         next.flat = 1'b0;
         next.down = ramp_down_q;
@@ -193,7 +186,7 @@ module ppmc312_stage_seq
     end else if (!now_q.flat && spent_q) begin
       if (!edge_q) begin
         choice.enter = 1'b1;
-        addr_o       = beside_q;
+        addr         = beside_q;
       end else begin
         choice.fixed = now_q.last;
         choice.own   = now_q.last;
@@ -210,13 +203,13 @@ module ppmc312_stage_seq
       choice.enter = 1'b1;
     end
     look = seek_q && now_q.flat && !low_end && !ramp_end;
-    if (look) addr_o = seek_at_q;
+    if (look) addr = seek_at_q;
   end
 
-  assign side_o = next.down;
+  assign look_o = '{side: next.down, stage: addr};
 
   always_ff @(posedge clk_i) begin
-    addr_q     <= {addr_q[0], addr_o};
+    addr_q     <= {addr_q[0], addr};
     next_q     <= next;
     then_q     <= next_q;
     low_end_q  <= {low_end_q[0], low_end};
@@ -238,7 +231,7 @@ module ppmc312_stage_seq
   assign next_count_o = do_q.count;
   assign next_slow_o = do_q.slow;
   assign next_walk_o = do_q.drop;
-  assign next_rate_o = do_q.fixed ? table_rate_i : do_q.take ? held_q.rate : target_q.rate;
+  assign next_rate_o = do_q.fixed ? stage_i.rate : do_q.take ? held_q.rate : target_q.rate;
 
   // ---- search ----------------------------------------------------------------------------------------------------
 
@@ -289,32 +282,32 @@ module ppmc312_stage_seq
 
   // No reset: every motion begins with a load.
   always_ff @(posedge clk_i) begin
-    if (change_q[1] || load_i) held_q <= target_i;
+    if (change_q[1] || load_i) held_q <= plan_i.to;
     if (change_q[1]) held_ramp_q <= change_ramp_i;
     if (load_q || (step_i && do_q.take)) begin
       target_q <= held_q;
     end else if (step_i && do_q.own) begin
       target_q.rate <= rate_q;
     end else if (seek_q && look_q[1] && in_use) begin
-      if (table_rate_i >= rate_q) target_q.ge <= addr_q[1];
-      if (table_rate_i > rate_q) target_q.gt1 <= addr_q[0];
+      if (stage_i.rate >= rate_q) target_q.ge <= addr_q[1];
+      if (stage_i.rate > rate_q) target_q.gt1 <= addr_q[0];
       else if (!in_use_q) target_q.gt1 <= addr_q[1];
     end
     if (load_i) begin
-      now_q     <= '{flat: !climb_i, default: 1'b0};
+      now_q     <= '{flat: !plan_i.climb, default: 1'b0};
       stage_q   <= first_acc_i;
-      edge_at_q <= target_i.ge;
+      edge_at_q <= plan_i.to.ge;
       more_q    <= '0;
-      endless_q <= endless_i;
-      left_q    <= count_i;
-      dec_q     <= dec_i;
-      from_q    <= dec_from_i;
+      endless_q <= plan_i.endless;
+      left_q    <= plan_i.count;
+      dec_q     <= plan_i.dec;
+      from_q    <= plan_i.from;
     end else if (step_i) begin
       now_q   <= then_q;
       stage_q <= addr_q[1];
       if (low_end_q[1]) edge_at_q <= first_dec_i;
       else if (ramp_end_q[1]) edge_at_q <= ramp_to;
-      more_q <= (do_q.enter ? (do_q.part ? from_q.left : table_pulses_i) : more_q) - 1'b1;
+      more_q <= (do_q.enter ? (do_q.part ? from_q.left : stage_i.pulses) : more_q) - 1'b1;
       left_q <= left_q - 1'b1;
     end
     // Before pulse 1 a change that waits does not count: it may be replaced, and is judged against the plan.

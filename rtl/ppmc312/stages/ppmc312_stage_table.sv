@@ -10,20 +10,20 @@ module ppmc312_stage_table #(
     parameter int unsigned RateBits  = 16,
     parameter int unsigned SumBits   = 24
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 we_rate_i,
-    input  wire logic                 we_pulses_i,
+    input  wire logic                 clk_i,        // clock
+    input  wire logic                 we_rate_i,    // strobe: a rate
+    input  wire logic                 we_pulses_i,  // strobe: pulses of a side
     input  wire logic                 wside_i,      // 0 acceleration, 1 deceleration
-    input  wire logic [StageBits-1:0] waddr_i,
+    input  wire logic [StageBits-1:0] waddr_i,      // stage, 0 .. 126
     input  wire logic [  SumBits-1:0] wdata_i,      // low bits for a rate
-    input  wire logic                 side_a_i,
-    input  wire logic [StageBits-1:0] addr_a_i,
-    output logic      [ RateBits-1:0] rate_a_o,
-    output logic      [  SumBits-1:0] pulses_a_o,
-    input  wire logic                 side_b_i,
-    input  wire logic [StageBits-1:0] addr_b_i,
-    output logic      [ RateBits-1:0] rate_b_o,
-    output logic      [  SumBits-1:0] pulses_b_o
+    input  wire logic                 side_a_i,     // port a: side of the pulses
+    input  wire logic [StageBits-1:0] addr_a_i,     // stage
+    output logic      [ RateBits-1:0] rate_a_o,     // base clocks; two clk later
+    output logic      [  SumBits-1:0] pulses_a_o,   // two clk later
+    input  wire logic                 side_b_i,     // port b: the same
+    input  wire logic [StageBits-1:0] addr_b_i,     // stage
+    output logic      [ RateBits-1:0] rate_b_o,     // base clocks; two clk later
+    output logic      [  SumBits-1:0] pulses_b_o    // two clk later
 );
 
   logic [1:0] side;

@@ -2,49 +2,41 @@
 // ppmc312_stage_unit: the stage table, who fills it, who plans with it, the arithmetic they share, and the
 // description of the table in force.
 // Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
-// Timing: build_i and close_i are followed by busy_o until the table can be used. plan_start_i the same with
-//         plan_busy_o; the plan then stands until the next start. Read-back: data two clk after read_addr_i,
+// Timing: build_i and close_i are followed by busy_o until the table can be used. plan_i.start the same with
+//         plan_busy_o; the plan then stands until the next start. Read-back: data two clk after read_i,
 //         while nothing is busy.
 `default_nettype none
 
 module ppmc312_stage_unit
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic          clk_i,
-    input  wire logic          rst_ni,
+    input  wire logic              clk_i,        // clock
+    input  wire logic              rst_ni,       // reset, asynchronous
     // set-up
-    input  wire logic          drop_i,          // the table is void
-    input  wire logic          build_i,         // from curve_i, steady while busy
-    input  wire curve_t        curve_i,
-    output logic               busy_o,
-    output logic               thin_o,          // a stage has two pulses or less: no table
+    input  wire logic              drop_i,       // strobe: the table is void
+    input  wire logic              build_i,      // strobe: from curve_i, steady while busy
+    input  wire curve_t            curve_i,      // the ramp
+    output logic                   busy_o,       // the table cannot be used yet
+    output logic                   thin_o,       // a stage has two pulses or less: no table
     // free curve
-    input  wire logic          open_i,          // a transfer begins: sides and base clock
-    input  wire logic   [ 6:0] open_acc_i,      // their first stages
-    input  wire logic   [ 6:0] open_dec_i,
-    input  wire entry_t        entry_i,
-    input  wire logic          close_i,         // complete; curve_i has the pulses of the sides
+    input  wire logic              open_i,       // strobe: a transfer begins: sides and base clock
+    input  wire logic        [6:0] open_acc_i,   // their first stages
+    input  wire logic        [6:0] open_dec_i,   // of the deceleration side
+    input  wire entry_t            entry_i,      // a word of it
+    input  wire logic              close_i,      // strobe: complete; curve_i has the pulses of the sides
     // table in force
-    output table_t             table_o,
-    output target_t            home_o,          // what the look-up of rate_acc has found
-    input  wire logic          read_side_i,     // 1 = pulses of the deceleration side
-    input  wire logic   [ 6:0] read_addr_i,
-    output logic        [15:0] read_rate_o,
-    output logic        [23:0] read_pulses_o,
+    output table_t                 table_o,      // its description
+    output target_t                home_o,       // what the look-up of rate_acc has found
+    input  wire look_t             read_i,       // read-back
+    output stage_t                 read_o,       // two clk later, while nothing is busy
     // planning
-    input  wire logic          plan_start_i,
-    input  wire logic          plan_ramp_i,
-    input  wire logic          plan_endless_i,
-    input  wire logic   [15:0] plan_rate_i,     // steady while busy
-    input  wire logic   [31:0] plan_count_i,
-    output logic               plan_busy_o,
-    output logic        [ 7:0] plan_kind_o,
-    output plan_t              plan_o,
+    input  wire plan_order_t       plan_i,       // the operation
+    output logic                   plan_busy_o,  // the plan does not stand yet
+    output logic             [7:0] plan_kind_o,  // status byte: 00, 10, 20 or 40
+    output plan_t                  plan_o,       // until the next start
     // the motion's port
-    input  wire logic          side_i,
-    input  wire logic   [ 6:0] addr_i,
-    output logic        [15:0] rate_o,
-    output logic        [23:0] pulses_o
+    input  wire look_t             look_i,       // where it looks
+    output stage_t                 stage_o       // two clk later
 );
 
   typedef enum logic [1:0] {
@@ -102,34 +94,24 @@ module ppmc312_stage_unit
   ppmc312_stage_builder u_builder (
       .clk_i,
       .rst_ni,
-      .start_i     (build_i),
-      .cosine_i    (curve_i.cosine),
-      .split_i     (curve_i.split),
-      .start_rate_i(curve_i.start),
-      .stop_rate_i (curve_i.stop),
-      .fast_rate_i (curve_i.fast),
-      .acc_i       (curve_i.acc),
-      .dec_i       (curve_i.dec),
-      .busy_o      (build_busy),
+      .start_i    (build_i),
+      .curve_i,
+      .busy_o     (build_busy),
       .thin_o,
-      .we_rate_o   (built.rate),
-      .we_acc_o    (built.acc),
-      .we_dec_o    (built.dec),
-      .addr_o      (built.stage),
-      .data_o      (built.data),
-      .first_acc_o (built_acc),
-      .first_dec_o (built_dec),
-      .rate_acc_o  (built_acc_rate),
-      .rate_dec_o  (built_dec_rate),
-      .op_start_o  (build_op),
-      .op_mul_o    (build_mul),
-      .op_steps_o  (build_steps),
-      .op_zero_o   (build_zero),
-      .op_lo_o     (build_lo),
-      .word_o      (word),
-      .op_busy_i   (op_busy),
-      .hi_i        (hi),
-      .lo_i        (lo)
+      .entry_o    (built),
+      .first_acc_o(built_acc),
+      .first_dec_o(built_dec),
+      .rate_acc_o (built_acc_rate),
+      .rate_dec_o (built_dec_rate),
+      .op_start_o (build_op),
+      .op_mul_o   (build_mul),
+      .op_steps_o (build_steps),
+      .op_zero_o  (build_zero),
+      .op_lo_o    (build_lo),
+      .word_o     (word),
+      .op_busy_i  (op_busy),
+      .hi_i       (hi),
+      .lo_i       (lo)
   );
 
   assign entry = build_busy ? built : entry_i;
@@ -145,48 +127,43 @@ module ppmc312_stage_unit
       .wside_i    (!entry.acc),
       .waddr_i    (entry.stage),
       .wdata_i    (entry.data),
-      .side_a_i   ((takes || side_i) && table_o.split),
-      .addr_a_i   (takes ? plan_addr : addr_i),
-      .rate_a_o   (rate_o),
-      .pulses_a_o (pulses_o),
-      .side_b_i   (!plan_busy && read_side_i && table_o.split),
-      .addr_b_i   (plan_busy ? plan_addr : read_addr_i),
-      .rate_b_o   (read_rate_o),
-      .pulses_b_o (read_pulses_o)
+      .side_a_i   ((takes || look_i.side) && table_o.split),
+      .addr_a_i   (takes ? plan_addr : look_i.stage),
+      .rate_a_o   (stage_o.rate),
+      .pulses_a_o (stage_o.pulses),
+      .side_b_i   (!plan_busy && read_i.side && table_o.split),
+      .addr_b_i   (plan_busy ? plan_addr : read_i.stage),
+      .rate_b_o   (read_o.rate),
+      .pulses_b_o (read_o.pulses)
   );
 
   // ---- who plans -------------------------------------------------------------------------------------------------
 
-  assign find_rate = (state_q == StHome) ? table_o.rate_acc : plan_rate_i;
-  assign plan_start = (plan_start_i && state_q == StIdle) || begin_q;
+  assign find_rate = (state_q == StHome) ? table_o.rate_acc : plan_i.rate;
+  assign plan_start = (plan_i.start && state_q == StIdle) || begin_q;
   assign found = state_q == StHome && !begin_q && !plan_busy;
 
   ppmc312_stage_plan u_plan (
       .clk_i,
       .rst_ni,
       .start_i     (plan_start),
-      .ramp_i      (plan_ramp_i && state_q == StIdle),
-      .endless_i   (plan_endless_i),
+      .ramp_i      (plan_i.ramp && state_q == StIdle),
+      .endless_i   (plan_i.endless),
       .rate_i      (find_rate),
-      .count_i     (plan_count_i),
+      .count_i     (plan_i.count),
       .first_acc_i (table_o.first_acc),
       .first_dec_i (table_o.first_dec),
       .busy_o      (plan_busy),
       .both_o      (plan_both),
       .addr_o      (plan_addr),
-      .table_rate_i(read_rate_o),
-      .table_acc_i (read_pulses_o),
-      .table_dec_i (pulses_o),
-      .ge_o        (target.ge),
-      .ge1_o       (target.ge1),
-      .gt1_o       (target.gt1),
-      .slows_o     (target.slows),
+      .table_rate_i(read_o.rate),
+      .table_acc_i (read_o.pulses),
+      .table_dec_i (stage_o.pulses),
+      .found_o     (target),
       .climb_o     (plan_climb),
       .kind_o      (plan_kind_o),
       .dec_o       (plan_dec),
-      .dec_stage_o (plan_from.stage),
-      .dec_part_o  (plan_from.part),
-      .dec_left_o  (plan_from.left),
+      .dec_from_o  (plan_from),
       .op_start_o  (plan_op),
       .op_mul_o    (plan_mul),
       .op_lo_o     (plan_lo),
@@ -195,18 +172,17 @@ module ppmc312_stage_unit
       .lo_i        (lo)
   );
 
-  assign target.rate = find_rate;
   assign plan_busy_o = plan_busy;
   assign plan_o = '{
-          endless: plan_endless_i,
+          endless: plan_i.endless,
           climb: ramp_q && plan_climb,
-          count: plan_count_i,
+          count: plan_i.count,
           dec: ramp_q ? plan_dec : '0,
           from : plan_from,
           to: target
       };
 
-  always_ff @(posedge clk_i) if (plan_start_i) ramp_q <= plan_ramp_i;
+  always_ff @(posedge clk_i) if (plan_i.start) ramp_q <= plan_i.ramp;
 
   // ---- table in force --------------------------------------------------------------------------------------------
 

@@ -2,43 +2,31 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import time
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from rich import box
 from rich.table import Table
 
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.compare import Comparison, write_report
+from cocotb_tests.harness.compare import write_report
+from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.project import BUILD, console, fail, relative
 from cocotb_tests.harness.runner import SimError, build, run_sim
-from cocotb_tests.harness.steps import Steps
-from cocotb_tests.harness.stimulus import Recording
 from cocotb_tests.ppmc312.line.compare import compare_line
 from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
+from scripts.demo.steps import Steps
 from scripts.ppmc312.line import waves
 from scripts.ppmc312.line.picture import draw
-from scripts.ppmc312.line.talk import Exchange, exchanges
+from scripts.ppmc312.line.run import LineRun, load
+from scripts.ppmc312.line.talk import Exchange
 
 NAME = "ppmc312-serial"
 FOLDER = BUILD / "demo"
 RUN = FOLDER / "run"
 REPRO = f"make demo PART={NAME}"
-
-
-@dataclass(frozen=True)
-class LineRun:
-    """What a run leaves: the recording of the line, chapters, exchanges, positions read back."""
-
-    recording: Recording
-    chapters: list[dict[str, Any]]
-    talk: list[Exchange]
-    positions: list[int]
 
 
 def last_line(path: Path) -> str:
@@ -58,17 +46,6 @@ def simulate(steps: Steps) -> LineRun:
         lambda: last_line(RUN / "progress"),
     )
     return load(RUN)
-
-
-def load(folder: Path) -> LineRun:
-    """What a run has left in its folder."""
-    told = json.loads((folder / "talk.json").read_text())
-    return LineRun(
-        Recording.from_json((folder / "recording.json").read_text()),
-        json.loads((folder / "story.json").read_text()),
-        exchanges(told["talk"]),
-        told["positions"],
-    )
 
 
 def show_talk(run: LineRun) -> None:

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.harness.compare import Comparison
+from cocotb_tests.harness.comparison import Comparison
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up
 from openppmc.plot.signals import Run, Section, Trace
-from scripts.demo.scenes import pin
+from scripts.demo.scenes import heading, pin
+from scripts.ppmc312.line.run import LineRun
 from scripts.ppmc312.line.talk import Exchange
 from scripts.ppmc312.line.waves import positions
-from scripts.ppmc312.picture import heading
-
-if TYPE_CHECKING:
-    from scripts.ppmc312.line.demo import LineRun
 
 MASTER = SPEED
 REPLIES = {"busy": "#c26a1b", "ready": "#2f9e6e", "data": "#c0392b", "specific": "#7a4fa3"}

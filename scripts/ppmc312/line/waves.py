@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from vcd import VCDWriter
 
-from cocotb_tests.harness.compare import Comparison
+from cocotb_tests.harness.comparison import Comparison
 from scripts.demo import waves
 from scripts.demo.demos import View
 from scripts.demo.scenes import pin
-
-if TYPE_CHECKING:
-    from scripts.ppmc312.line.demo import LineRun
+from scripts.ppmc312.line.run import LineRun
 
 PINS = ("txd", "snd", "pout", "dir", "cd_n")
 MOVING = ("speed_pps", "position")

@@ -1,1 +1,1 @@
-"""tests/common/board"""
+"""Virtual boards, as `make board` makes them: fixtures of all parts, ports, the pseudo-terminal."""

@@ -1,1 +1,1 @@
-"""tests/common/cli"""
+"""The command line, but for what parts add to it."""

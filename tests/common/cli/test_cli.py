@@ -152,7 +152,7 @@ def test_a_fault_of_the_program_is_one_line_too(run: Run, monkeypatch: pytest.Mo
     def broken(*_: object) -> None:
         raise ZeroDivisionError("oops")
 
-    monkeypatch.setattr("openppmc.cli.common.app.serial_ports", broken)
+    monkeypatch.setattr("openppmc.cli.common.boards.serial_ports", broken)
     outcome = run("ports")
     assert outcome.code == 1
     assert outcome.err == (

@@ -1,1 +1,1 @@
-"""tests/common/harness"""
+"""The simulator harness, the scripts behind make targets, the pages that these write."""

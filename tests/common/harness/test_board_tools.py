@@ -175,7 +175,7 @@ def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch,
 def test_make_lists_the_parts_of_a_target(goal: str) -> None:
     """A part in a frame of its own is refused by the list of those that the target can do."""
     (line,) = make(goal, "PART=isa_4axis").stderr.splitlines()
-    assert "PART=isa_4axis: no such part (known: ppmc104,ppmc2104,stmc,ppmc312,pmc006" in line
+    assert "PART=isa_4axis: no such part (known: ppmc104,ppmc2104,stmc,ppmc312," in line and ",pmc006" in line
     assert ("ppmc312-serial" in line) == (goal in ("board", "demo", "soak") or "ppmc312-serial" in BY_PART)
 
 

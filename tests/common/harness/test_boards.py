@@ -15,29 +15,32 @@ from scripts.flow.boards import BY_PART, HOSTS
 CONSTRAINTS = project.ROOT / "constraints"
 TOPS = project.RTL / "boards"
 
-# top module, file of pins, file of the clock, clock input and its MHz
-FILES = {
-    (on.top[host], on.constraints[host], on.constraints[host], *on.oscillator)
-    for known in BY_PART.values()
-    for on in known.values()
-    for host in on.top
-    if on.family != "gowin"
-} | {
-    ("board_tangnano9k", "tangnano9k.cst", "tangnano9k.sdc", "clk_27m", 27),
-    ("board_tangnano20k_ppmc312", "tangnano20k-ppmc312.cst", "tangnano20k-ppmc312.sdc", "clk_27m", 27),
-    (
-        "board_tangnano20k_ppmc312_serial",
-        "tangnano20k-ppmc312-serial.cst",
-        "tangnano20k-ppmc312-serial.sdc",
-        "clk_27m",
-        27,
-    ),
-    ("board_arty_a7", "arty_a7.xdc", "arty_a7.xdc", "clk", 100),
-    ("board_de10nano", "de10nano.qsf", "de10nano.sdc", "clk", 50),
+# Clock input of each board and its MHz.
+OSCILLATORS = {
+    "icebreaker": ("clk_12m", 12),
+    "ulx3s": ("clk_25m", 25),
+    "tangnano9k": ("clk_27m", 27),
+    "tangnano20k": ("clk_27m", 27),
+    "arty_a7": ("clk", 100),
+    "de10nano": ("clk", 50),
 }
-ALL = sorted(FILES)
+APART = (".cst", ".qsf")  # their clocks are in clocks.sdc
+
+
+def entries() -> list[tuple[str, str, str, str, float]]:
+    """Top module, file of pins, file of the clock, clock input and its MHz, as the tree has them."""
+    found = []
+    for path in sorted(CONSTRAINTS.glob("*/*/pins.*")):
+        board, part = path.parts[-3:-1]
+        clocks = path.with_name("clocks.sdc") if path.suffix in APART else path
+        names = [file.relative_to(CONSTRAINTS).as_posix() for file in (path, clocks)]
+        found.append((f"board_{board}_{part.replace('-', '_')}", *names, *OSCILLATORS[board]))
+    return found
+
+
+ALL = entries()
 EVERY = [on for known in BY_PART.values() for on in known.values()]
-IDS = [entry[1] for entry in ALL]
+IDS = [entry[1].rpartition("/")[0] for entry in ALL]
 
 # pin and port of each family's statement
 PIN = {
@@ -74,14 +77,21 @@ def ports_of(text: str) -> dict[str, Port]:
     found = {}
     pattern = r"^ +(input|output|inout) +(?:wire )?logic *(?:\[(\d+):(\d+)\])? +(\w+)"
     for direction, high, low, name in re.findall(pattern, text, re.M):
+        assert name not in found, f"{name} is declared twice"
         bits = [f"{name}[{bit}]" for bit in range(int(low), int(high) + 1)] if high else [name]
         found[name] = Port(direction, tuple(bits))
     return found
 
 
+def source(top: str) -> Path:
+    """Where a top is."""
+    (path,) = TOPS.glob(f"*/{top}.sv")
+    return path
+
+
 def ports(top: str) -> dict[str, Port]:
     """The ports of a top in rtl/boards."""
-    return ports_of((TOPS / f"{top}.sv").read_text())
+    return ports_of(source(top).read_text())
 
 
 def pins(text: str, suffix: str) -> list[tuple[str, str]]:
@@ -97,9 +107,19 @@ def clocks(text: str, suffix: str) -> dict[str, float]:
 
 
 def test_every_top_has_a_constraint_file() -> None:
-    assert {path.stem for path in TOPS.glob("board_*.sv")} == {entry[0] for entry in ALL}
-    used = {name for entry in ALL for name in entry[1:3]}
-    assert {path.name for path in CONSTRAINTS.iterdir()} == used
+    assert {path.stem for path in TOPS.rglob("board_*.sv")} == {entry[0] for entry in ALL}
+    used = {name for entry in ALL for name in entry[1:3]} | {f"{board}/board.yml" for board in OSCILLATORS}
+    there = [path for path in CONSTRAINTS.rglob("*") if path.is_file()]
+    assert {path.relative_to(CONSTRAINTS).as_posix() for path in there} == used
+
+
+@pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])
+def test_files_of_a_board_are_checked_here(on: boards.Board) -> None:
+    """What `make bitstream` takes is among the files of these tests, with the same oscillator."""
+    for host in on.top:
+        (entry,) = (entry for entry in ALL if entry[0] == on.top[host])
+        assert entry[1] == on.constraints[host]
+        assert entry[3:] == on.oscillator
 
 
 @pytest.mark.parametrize(("top", "file", "clock_file", "clock", "mhz"), ALL, ids=IDS)
@@ -147,7 +167,7 @@ def test_table_of_the_pins(top: str, file: str) -> None:
 @pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])
 def test_clock_of_the_top(on: boards.Board) -> None:
     for top in on.top.values():
-        text = (TOPS / f"{top}.sv").read_text()
+        text = source(top).read_text()
         found = re.search(r"localparam int unsigned ClkHz = ([\d_]+);", text)
         assert found
         assert int(found[1].replace("_", "")) == on.clk_hz

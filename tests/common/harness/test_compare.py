@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness.compare import compare_edges, compare_recording, report, write_report
-from cocotb_tests.harness.compare_draw import differing_spans
-from cocotb_tests.harness.part import PPMC104
+from cocotb_tests.harness.compare import compare_recording, write_report
+from cocotb_tests.harness.compare_report import report
+from cocotb_tests.harness.comparison import compare_edges, differing_spans
 from cocotb_tests.harness.stimulus import Access, Change, Edge, Recording
+from cocotb_tests.ppmc104.bench import PPMC104
 
 INITIAL = PPMC104.reset_levels()
 

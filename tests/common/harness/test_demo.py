@@ -7,15 +7,19 @@ import pytest
 from cocotb_tests.harness.compare import compare_recording, new_model, replay
 from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.stimulus import Access, Change, Recording
+from cocotb_tests.harness.stimulus import Access, Change, Recording, steps
+from openppmc.parts import having
 from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
-from scripts.demo.demos import DEMOS, VIEW_312, VIEW_2104, VIEW_STMC
-from scripts.demo.scenes import register_text, steps
+from scripts.demo.demos import Demo
+from scripts.demo.scenes import register_text
 from scripts.demo.words import exchanges
 from scripts.ppmc104.words import Words104
+from scripts.ppmc312.demo import VIEW as VIEW_312
 from scripts.ppmc312.words import Words312
+from scripts.ppmc2104.demo import VIEW as VIEW_2104
 from scripts.ppmc2104.words import Words2104
+from scripts.stmc.demo import VIEW as VIEW_STMC
 from scripts.stmc.words import WordsStmc
 
 
@@ -272,7 +276,8 @@ def test_waves_show_each_axis(tmp_path):
 
 def test_every_shown_signal_exists():
     """Given the saved views, then each names a pin of its part or one of the signals beside them."""
-    for demo in DEMOS.values():
+    demos = [row.load("demo") for row in having("demo")]
+    for demo in (found for found in demos if isinstance(found, Demo)):
         part = PARTS[demo.part]
         split = {name for names in demo.view.split.values() for name in names}
         pins = split | ({*part.inputs, *part.outputs} - set(demo.view.split))

@@ -6,26 +6,28 @@ from dataclasses import replace
 
 import pytest
 
+from cocotb_tests.harness import gate_tests
 from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.runner import repro_line
-from cocotb_tests.ppmc104 import test_ppmc104
+from cocotb_tests.ppmc104 import test_part
 from scripts.flow import gate_suite, gates
 from scripts.pool import as_done
 
 EVERYTHING = gate_suite.everything()
+SUITES = gate_suite.suites()
 
 
 @pytest.mark.parametrize("family", gates.FAMILIES)
 def test_all_directed_tests_run_on_each_family(family: str) -> None:
-    items = [(part, param.values[0]) for part in gate_suite.PARTS for param in part.directed.ITEMS]
-    items = [(part, item) for part, item in items if family in part.families]
-    wanted = {item.id for part, item in items if item.test not in gate_suite.TOO_LONG and part.built(item)}
+    items = [(part, param.values[0]) for part in SUITES for param in part.directed.ITEMS]
+    items = [(part, item) for part, item in items if family in gate_suite.families(part)]
+    wanted = {item.id for part, item in items if item.test not in part.too_long and part.built(item)}
     here = {t.item.id for t in EVERYTHING if t.family == family}
     assert {f"{name}-{family}" for name in wanted} <= here
 
 
 def test_the_sample_of_random_hosts_uses_each_of_their_configurations() -> None:
-    for part in gate_suite.PARTS:
+    for part in SUITES:
         if part.random is None:
             continue
         make, all_seeds = part.random.random_item, part.random.SEEDS
@@ -61,14 +63,18 @@ def test_choosing() -> None:
 
 
 def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    reasons = (gate_suite.OTHER_BUILDS, gate_suite.COSTLY_BUILDS)
+    reasons = (gate_tests.OTHER_BUILDS, gate_tests.COSTLY_BUILDS)
     builds = {name: why for name, why in gate_suite.left_out().items() if why in reasons}
     families = {"ppmc312 on ice40": gate_suite.TOO_BIG}
-    assert gate_suite.left_out() == {**gate_suite.NOT_APPLICABLE, **gate_suite.TOO_LONG, **builds, **families}
+    listed = {}
+    for part in SUITES:
+        listed |= {**part.not_applicable, **part.too_long}
+    assert gate_suite.left_out() == {**listed, **builds, **families}
     assert [name.split(" in ")[0] for name in builds] == ["stmc", "j105_stmc", "ppmc312", "pmc006"]
-    tests = {param.values[0].test for part in gate_suite.PARTS for param in part.directed.ITEMS}
-    assert set(gate_suite.TOO_LONG) <= tests
-    monkeypatch.setattr(test_ppmc104, "test_something_new", lambda: None, raising=False)
+    for part in SUITES:
+        assert set(part.too_long) <= {param.values[0].test for param in part.directed.ITEMS}
+        assert part.simulating | set(part.not_applicable) == set(part.functions)
+    monkeypatch.setattr(test_part, "test_something_new", lambda: None, raising=False)
     with pytest.raises(ProjectError, match="does not say why test_something_new is left out"):
         gate_suite.left_out()
 
@@ -111,7 +117,7 @@ def test_the_pool_returns_all_results_and_raises_errors() -> None:
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:
     """Only tag and target differ from the item of `make test`."""
-    own = {param.values[0].id: param.values[0] for part in gate_suite.PARTS for param in part.directed.ITEMS}
+    own = {param.values[0].id: param.values[0] for part in SUITES for param in part.directed.ITEMS}
     for test in EVERYTHING:
         if test.item.module.startswith(
             ("cocotb_tests.ppmc", "cocotb_tests.stmc")

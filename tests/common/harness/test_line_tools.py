@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.part import PPMC312
 from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.ppmc312.bench import PPMC312
+from cocotb_tests.ppmc312.line import soak as line_soak
 from cocotb_tests.ppmc312.line.demo import PULSES, SETTING
 from cocotb_tests.ppmc312.line.master import Master, NoFrameError, Reply, at_once, understood
 from cocotb_tests.ppmc312.line.models import ModelLine, heard
 from cocotb_tests.ppmc312.line.setting import ALL, LINE, STATIONS
 from cocotb_tests.ppmc312.line.wave import merged, wave
 from openppmc.model.ppmc312.front.frames import frame
-from scripts import bench_line, soak_line
 from scripts.demo.__main__ import chosen, part_of
+from scripts.ppmc312.line import bench as line_bench
 from scripts.ppmc312.line.talk import exchanges
 from scripts.ppmc312.line.waves import view
 from scripts.soak import main as soak
@@ -90,7 +91,7 @@ def test_a_line_of_models_answers():
 def test_demo_and_its_waves():
     """Given the name of the line, then its demo is found by it, and each shown pin is one of a station."""
     assert part_of(["--part", "ppmc312-serial"]) == "ppmc312-serial"
-    with pytest.raises(ProjectError, match="pmc006, ppmc312-serial"):
+    with pytest.raises(ProjectError, match="ppmc312, ppmc312-serial"):
         chosen(["--part", "isa_4axis"])
     names = {name.split(".")[1] for _, group in view(STATIONS).groups[1:] for name in group}
     assert names - {"speed_pps", "position"} <= set(PPMC312.outputs)
@@ -99,14 +100,14 @@ def test_demo_and_its_waves():
 
 def test_soak_counts_its_bytes(capsys):
     """Given a thousand seeds, then more than 100 000 bytes have been on a line bit by bit."""
-    assert 1000 * soak_line.SIZE >= 100_000
-    assert "520,000 bytes on golden models, 2,400 on the RTL" in soak_line.summary(1, 1000)
-    assert "RTL" not in soak_line.summary(1, 10)
+    assert 1000 * line_soak.SIZE >= 100_000
+    assert "520,000 bytes on golden models, 2,400 on the RTL" in line_soak.SOAK.summary(1, 1000)
+    assert "RTL" not in line_soak.SOAK.summary(1, 10)
     assert soak(["ppmc312-serial", "--count", "0"]) == 2
     assert soak(["ppmc312-parallel"]) == 2
 
 
 def test_figures_against_the_goal():
     """Given 8 million clk in 40 and in 60 s, then one reaches 1/50 of real time."""
-    rows = bench_line.rows_of([("a", 8_000_000, 70, 40), ("b", 8_000_000, 70, 60)], 8_000_000)
+    rows = line_bench.rows_of([("a", 8_000_000, 70, 40), ("b", 8_000_000, 70, 60)], 8_000_000)
     assert [row[-2:] for row in rows] == [["1/40", "reached"], ["1/60", "missed"]]

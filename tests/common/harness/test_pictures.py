@@ -44,7 +44,7 @@ def test_record_follows_the_model():
 
 def test_diagrams_are_drawn_with_wide_labels():
     """Given a diagram with a labelled arrow, then the sheet below the label is as wide as its text is."""
-    svg = waves.draw(waves_stmc.DIAGRAMS["stmc/end"](), "stmc_end").decode()
+    svg = waves.draw(waves_stmc.DIAGRAMS["end"](), "stmc_end").decode()
     (width,) = re.findall(r'<rect[^>]*fill:#FFF;[^>]*width="([\d.]+)"[^>]*/><text[^>]*><tspan>34 ms', svg)
     assert float(width) > 5 * 6
 
@@ -58,7 +58,7 @@ def test_letters_stand_where_a_line_changes():
 
 def test_a_block_of_the_312_is_drawn_byte_by_byte():
     """Given the version read, then its accesses are those of the manual, and the flags change with them."""
-    access, mwef, mref, irq = waves_312.DIAGRAMS["ppmc312/block"]()["signal"]
+    access, mwef, mref, irq = waves_312.DIAGRAMS["block"]()["signal"]
     there = [word.strip() for word in access["data"]]
     assert there[:5] == ["WCR 20", "WAR 1D", "DWR 40", "DWR 01", "DWR 03"]
     assert there[5:] == ["RAR 3C", "DRR 12", "DRR 40", "DRR 02", "DRR 03"]

@@ -8,17 +8,17 @@ import pytest
 
 from cocotb_tests.harness import project
 from tests.common.harness.special_pins import SPECIAL, Kind, Special
-from tests.common.harness.test_boards import CONSTRAINTS, FILES, PIN, pins, ports
+from tests.common.harness.test_boards import ALL, CONSTRAINTS, pins, ports
 
-USED = sorted(path.name for path in CONSTRAINTS.iterdir() if path.suffix in PIN)
-TOPS = {entry[1]: entry[0] for entry in FILES}
+USED = [entry[1] for entry in ALL]
+TOPS = {entry[1]: entry[0] for entry in ALL}
 STOPS = re.compile(r"(l[1-4]|fh?l|bh?l|alm)_n(\[\d\])?|mon")
 """Ports that stop a motor: limits, alarm, MON. The others may wait for a plug to be pulled."""
 
 
 def board(file: str) -> str:
-    """The board's name: what a constraint file is called up to the part."""
-    return re.split(r"[-.]", file)[0]
+    """The board's name: the folder of its constraint files."""
+    return file.split("/")[0]
 
 
 def uses(file: str) -> list[tuple[str, str, Special]]:

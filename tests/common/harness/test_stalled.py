@@ -12,9 +12,7 @@ from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.runner import SimError, build, run_sim
 from cocotb_tests.harness.wrapper import area_design
 
-ITEMS = [
-    param.values[0] for param in cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", "BLK", {}))
-]
+ITEMS = [param.values[0] for param in cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}))]
 
 
 @pytest.mark.parametrize(

@@ -1,1 +1,1 @@
-"""tests/common/host"""
+"""The host package below the parts: frames, sessions, ports, units."""

@@ -25,7 +25,7 @@ from openppmc.host import (
 )
 from openppmc.host.basis import arguments
 from openppmc.host.basis.arguments import exact, flag, whole, within
-from tests.pmc006.host.line_ports import one
+from tests.common.host.line_ports import Spoiled
 
 FAST = "model:speed=max"
 BRIDGED = {"ppmc104": Ppmc104, "ppmc2104": Ppmc2104, "stmc": Stmc, "ppmc312": Ppmc312}
@@ -62,7 +62,7 @@ class Single:
 def axis(request: pytest.FixtureRequest) -> Iterator[Any]:
     """An initialised axis of each part."""
     if request.param == "pmc006":
-        with one("eeprom=none")[1] as motor:
+        with Pmc006.open(Spoiled("speed=max,eeprom=none", 9600, "pmc006"), 255) as motor:
             motor.start_speed = motor.stop_speed = motor.max_speed = 2000
             yield motor
     elif request.param == "ppmc312-serial":
@@ -183,7 +183,7 @@ def test_one_station_whatever_kind_of_number() -> None:
 
 
 def test_settings_of_the_pmc006() -> None:
-    with one("eeprom=none")[1] as motor:
+    with Pmc006.open(Spoiled("speed=max,eeprom=none", 9600, "pmc006"), 255) as motor:
         motor.current, motor.free, motor.outputs = 1500.0, True, 3.0
         assert (motor.current, motor.free, motor.outputs) == (1500, 1, 3)
         for wrong in (1500.5, "1500", None, True):

@@ -7,7 +7,7 @@ import pytest
 from openppmc.model.carrier.bridge import Bridge
 from openppmc.model.carrier.bridge_line import frame
 from openppmc.model.carrier.plant import Plant
-from openppmc.model.ppmc104.carrier import Board104
+from openppmc.model.ppmc104.carrier import Carrier
 
 NAK = {code: frame(bytes([0x81, code])) for code in range(1, 9)}
 
@@ -365,7 +365,7 @@ def test_ub_wait_01_limits() -> None:
 
 def test_the_golden_part_behind_the_bridge() -> None:
     """The examples of the contract on the model of the PPMC-104."""
-    board = Board104(Plant())
+    board = Carrier(Plant())
     bridge = Bridge(board)
     assert talk(bridge, 0, "55 0A 09 04 04 00") == reply(0, "00 00")
     assert talk(bridge, 1, "54 43 0D 00 00") == reply(1, "00 04")

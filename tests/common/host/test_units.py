@@ -9,9 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from openppmc.cli.common.forecast import Course, key_figures
-from openppmc.host.basis import units
+from openppmc.host import units
 from openppmc.host.basis.errors import OutOfRange, PpmcError
-from openppmc.host.basis.kind import PPMC104, PPMC2104, STMC
+from openppmc.host.basis.kind import Wanted
+from openppmc.host.ppmc104.kind import KIND as PPMC104
+from openppmc.host.ppmc104.times import chop_byte
+from openppmc.host.ppmc2104.kind import KIND as PPMC2104
+from openppmc.host.ppmc2104.times import half_us_byte, hold_byte
+from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.single.predict import predict_move
 
 XTAL = 16_000_000
@@ -93,21 +98,22 @@ def test_setup_bytes() -> None:
     clock = units.BaseClock.internal(XTAL)
     setup = units.plan_setup(clock, 50_000, 100_000, 4, 0x0A)
     assert bytes([setup.code]) + setup.data == bytes.fromhex("0A 09 04 04 00")
-    assert PPMC104.plan(XTAL, 50_000, 100_000, 4) == setup
+    assert PPMC104.plan(XTAL, Wanted(50_000, 100_000, 4)) == setup
     external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 5000}
     assert (
-        PPMC104.plan(XTAL, phases=5, half_step=True, positive_logic=False, chop=True, **external).code == 0x37
+        PPMC104.plan(XTAL, Wanted(phases=5, half_step=True, positive_logic=False, chop=True, **external)).code
+        == 0x37
     )
 
 
 def test_setup_bytes_of_the_ppmc2104() -> None:
     """P2104-INI-01, -INI-02: code 00ASCEMM; RL at least two above RH; rate 0 only with an external clock."""
-    setup = PPMC2104.plan(XTAL, 5000, 25_000, 10)
+    setup = PPMC2104.plan(XTAL, Wanted(5000, 25_000, 10))
     assert bytes([setup.code]) + setup.data == bytes.fromhex("02 63 13 0A 00")
     external = {"external_clock": 100_000, "start_pps": 1000, "high_pps": 100_000}
-    setup = PPMC2104.plan(XTAL, phases=5, half_step=True, chop=True, axis=2, **external)
+    setup = PPMC2104.plan(XTAL, Wanted(phases=5, half_step=True, chop=True, axis=2, **external))
     assert (setup.code, setup.data) == (0x3F, bytes([99, 0, 200, 0]))
-    assert PPMC2104.plan(XTAL, 50_000, 250_000, 4, phases=3).data[1] == 1
+    assert PPMC2104.plan(XTAL, Wanted(50_000, 250_000, 4, phases=3)).data[1] == 1
     for arguments, text in (
         (
             {"start_pps": 50_000, "high_pps": 500_000},
@@ -120,7 +126,7 @@ def test_setup_bytes_of_the_ppmc2104() -> None:
         ({"axis": 3}, "axis 3: a PPMC-2104 has axes 1 to 2"),
     ):
         with pytest.raises(OutOfRange, match=text):
-            PPMC2104.plan(XTAL, **arguments)  # type: ignore[arg-type]
+            PPMC2104.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
     with pytest.raises(OutOfRange, match="axis 2: a PPMC-104 has one axis"):
         PPMC104.check_axis(2)
 
@@ -130,9 +136,9 @@ def test_half_us_bytes(asked: float) -> None:
     """P2104-AUX-04: 0.5 us a unit, 40h to FFh."""
     if not 32 <= asked <= 127.5:
         with pytest.raises(OutOfRange, match="32 to 127.5 us"):
-            units.half_us_byte(XTAL, asked, "on")
+            half_us_byte(XTAL, asked, "on")
         return
-    byte, reached = units.half_us_byte(XTAL, asked, "on")
+    byte, reached = half_us_byte(XTAL, asked, "on")
     assert 0x40 <= byte <= 0xFF and reached == Fraction(byte, 2) and abs(reached - Fraction(asked)) <= 0.25
 
 
@@ -141,9 +147,9 @@ def test_hold_bytes(asked: float) -> None:
     """P2104-AUX-05: 128 us a unit, 1 to 256 units."""
     if not 128 <= asked <= 32_768:
         with pytest.raises(OutOfRange, match="128 to 32768 us"):
-            units.hold_byte(XTAL, asked)
+            hold_byte(XTAL, asked)
         return
-    byte, reached = units.hold_byte(XTAL, asked)
+    byte, reached = hold_byte(XTAL, asked)
     assert 0 <= byte <= 0xFF and reached == 128 * (byte + 1) and abs(reached - Fraction(asked)) <= 64
 
 
@@ -174,9 +180,9 @@ def test_chopper_times(vsel: int, phase: str, asked: float) -> None:
     times = [offset + 3 * n for n in range(256)]
     if not times[0] <= Fraction(asked) <= times[-1]:
         with pytest.raises(OutOfRange, match="us is outside"):
-            units.chop_byte(XTAL, asked, phase, vsel)
+            chop_byte(XTAL, asked, phase, vsel)
         return
-    byte, reached = units.chop_byte(XTAL, asked, phase, vsel)
+    byte, reached = chop_byte(XTAL, asked, phase, vsel)
     assert reached == times[byte]
     assert abs(reached - Fraction(asked)) <= Fraction(3, 2)
 
@@ -201,7 +207,7 @@ def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, strap
 def test_key_figures_and_course_of_the_stmc(n: int, pa: int, a: int, b: int) -> None:
     """Against the predictor, with its internal clock; without ramp steps there is one speed only."""
     slow, fast = max(a, b), min(a, b)
-    setup = STMC.plan(XTAL, 12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500)
+    setup = STMC.plan(XTAL, Wanted(12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500))
     assert setup.data == bytes([slow, fast, pa, 0])
     move = predict_move(setup.data, n, part="stmc")
     figures, course = key_figures(setup, n, None), Course.of(setup, n, None)

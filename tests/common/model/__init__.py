@@ -1,1 +1,1 @@
-"""tests/common/model"""
+"""The parts of golden models that parts share."""

@@ -1,1 +1,1 @@
-"""tests/common/packages"""
+"""What is packed for users: sources, cores, wheels."""

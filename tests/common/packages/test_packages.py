@@ -3,36 +3,29 @@
 from __future__ import annotations
 
 import re
+from itertools import chain
 
 import pytest
 import yaml
 
 from cocotb_tests.harness.paths import ROOT
+from openppmc.parts import tops
 from scripts.packages.cores import core_files
 from scripts.packages.lists import list_files
 
 LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
-RTL = [f"rtl/{name}" for group, names in LISTED.items() if group != "boards" for name in names]
-# The board modules, and the blocks that they share.
-PARTS_OF = {
-    "ppmc104": ["ppmc_board_host", "ppmc104_carrier"],
-    "ppmc2104": ["ppmc_board_host", "ppmc2104_carrier"],
-    "stmc": ["ppmc_board_host", "ppmc_board_steps", "stmc_carrier"],
-    "ppmc312": ["ppmc_board_host", "ppmc312_carrier"],
-    "pmc006": ["ppmc_board_reset", "ppmc_board_lamp", "ppmc_board_panel", "pmc006_carrier"],
-}
-IN_USE = {name for names in PARTS_OF.values() for name in names}
-BOARDS = [f"rtl/{name}" for name in LISTED["boards"] if name.rsplit("/")[-1][:-3] in IN_USE]
-# What each part needs besides the blocks that all use.
-NEEDS = {
-    "ppmc104": ["host", "single"],
-    "ppmc2104": ["host"],
-    "isa_4axis": ["host", "ppmc2104"],
-    "stmc": ["host", "single"],
-    "j105_stmc": ["host", "single", "stmc"],
-    "ppmc312": ["host", "stage"],
-    "pmc006": [],
-}
+
+
+def needed(group: str) -> set[str]:
+    """The group, and all groups that it needs."""
+    return {group}.union(*(needed(other) for other in LISTED[group]["needs"]))
+
+
+# Carriers and what they share have a target of their own in Bender; tops of boards are in no list.
+IN_PARTS = set[str]().union(*(needed(row.rtl) for row in tops()))
+CARRIERS = [group for group in LISTED if group not in IN_PARTS and group != "boards"]
+RTL = [f"rtl/{name}" for group in LISTED if group in IN_PARTS for name in LISTED[group]["files"]]
+BOARDS = [[f"rtl/{name}" for name in LISTED[group]["files"]] for group in CARRIERS]
 
 
 @pytest.mark.parametrize("path", {**core_files(), **list_files()}, ids=lambda path: path.name)
@@ -54,25 +47,25 @@ def listed(name: str) -> list[str]:
 @pytest.mark.parametrize("name", ["vivado.tcl", "quartus.qsf", "gowin.tcl"])
 def test_list_is_complete_and_in_order(name):
     """Given a vendor's list, then it names every RTL file once, in compile order, and the board modules."""
-    assert listed(name) == [*RTL, *BOARDS]
+    assert listed(name) == [*RTL, *chain(*BOARDS)]
 
 
-@pytest.mark.parametrize("part", NEEDS)
+@pytest.mark.parametrize("part", tops(), ids=lambda row: row.name)
 def test_list_of_a_part(part):
-    """Given a part's list, then it names the shared blocks, the part and its board module."""
-    groups = ["common", "motion", *NEEDS[part], part]
-    own = [f"rtl/{name}" for group in groups for name in LISTED[group]]
-    wanted = {f"{name}.sv" for name in PARTS_OF.get(part, [])}
-    boards = [name for name in BOARDS if name.rsplit("/")[-1] in wanted]
-    assert listed(f"{part}.f") == [*own, *boards]
+    """Given a part's list, then it names the part, its carrier and what these need, in compile order."""
+    groups = needed(f"{part.rtl}_carrier" if part.carrier else part.rtl)
+    assert groups > {part.rtl, "common"}
+    assert listed(f"{part.rtl}.f") == [
+        f"rtl/{name}" for group in LISTED if group in groups for name in LISTED[group]["files"]
+    ]
 
 
 def test_bender():
-    """Given Bender.yml, then its groups are those of rtl/files.yml, the boards only with their target."""
+    """Given Bender.yml, then its groups are those of rtl/files.yml, the carriers only with their target."""
     sources = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))["sources"]
     plain = [file for group in sources if "target" not in group for file in group["files"]]
     assert plain == RTL
-    assert [group["files"] for group in sources if "target" in group] == [BOARDS]
+    assert [group["files"] for group in sources if "target" in group] == BOARDS
 
 
 def test_cores():

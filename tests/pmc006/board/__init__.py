@@ -1,1 +1,1 @@
-"""tests/pmc006/board"""
+"""The PMC006B4's virtual board."""

@@ -1,1 +1,1 @@
-"""tests/pmc006/cli"""
+"""The PMC006B4's commands."""

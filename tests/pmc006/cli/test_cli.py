@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.host.pmc006.motion import Motion006
+from openppmc.host.pmc006.motion import Motion
 from openppmc.model.pmc006.program import Program, assemble
 from tests.common.cli.command_line import Run
 
@@ -96,12 +96,12 @@ def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.Monkey
     """All commands talk to the same line, as with a real one."""
     from openppmc.host import Pmc006Bus
     from openppmc.host.line import loopback
-    from openppmc.host.pmc006.line import Line006
+    from openppmc.host.pmc006.line import Line
 
     port = loopback.ModelLine("speed=max,address=1", 9600, "pmc006")
     port.close = lambda: None  # type: ignore[method-assign]
-    monkeypatch.setattr(Pmc006Bus, "open", lambda spec, **options: Pmc006Bus(Line006(port)))
-    part = port.line.boards[0].part
+    monkeypatch.setattr(Pmc006Bus, "open", lambda spec, **options: Pmc006Bus(Line(port)))
+    part = port.line.stations[0].part
     for pps, forward in ((700, 1), (900, 1), (-650, 0)):
         assert run(*PART, "speed", str(pps), *ONE).out == f"runs at {pps} steps/s\n"
         port.read(0.3)
@@ -260,14 +260,14 @@ def test_commands_of_a_line_belong_to_it(run: Run) -> None:
 @pytest.mark.parametrize("words", [("jog", "forward"), ("move", "-3000")])
 def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]) -> None:
     """The first Ctrl-C decelerates them."""
-    look, looks = Motion006.look, iter(range(1000))
+    look, looks = Motion.look, iter(range(1000))
 
-    def interrupt(motion: Motion006) -> None:
+    def interrupt(motion: Motion) -> None:
         if next(looks) == 10:
             os.kill(os.getpid(), signal.SIGINT)
         look(motion)
 
-    monkeypatch.setattr(Motion006, "look", interrupt)
+    monkeypatch.setattr(Motion, "look", interrupt)
     outcome = run(*PART, *words, "--address", "1,2")
     assert outcome.code == 130
     at = r"controller 1: position -?\d+, controller 2: position -?\d+"

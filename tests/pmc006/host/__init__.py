@@ -1,1 +1,1 @@
-"""tests/pmc006/host"""
+"""The PMC006B4's driver, its bus and its programs, on modelled lines with and without faults."""

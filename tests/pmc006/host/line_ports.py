@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from openppmc.host import Pmc006, Pmc006Bus
 from openppmc.host.pmc006.wire import reply
-from openppmc.sim.pmc006.node import Node006
-from tests.ppmc312.line.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
+from openppmc.sim.pmc006.node import Node
+from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
 
 CUT_FRAME, CUT_REPLY, DOUBLE_REPLY = "cut frame", "cut reply", "double reply"
 MERGED_REPLY, CHANGED_REPLY, LATE_REPLY = "merged reply", "changed reply", "late reply"
@@ -20,7 +20,7 @@ HEARD = (LOSE_REPLY, BREAK_REPLY, CUT_REPLY, CHANGED_REPLY, LATE_REPLY)
 FATES = (*UNHEARD, *HEARD, *HARMLESS)
 
 
-class Spoiled006(Spoiled):
+class SpoiledLine(Spoiled):
     """A modelled line of PMC006B4."""
 
     def __init__(self, text: str, baud: int = 9600) -> None:
@@ -58,9 +58,9 @@ class Spoiled006(Spoiled):
         place = 3 if fate == CHANGED_REPLY else 0
         return whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :]
 
-    def node(self, number: int = 255) -> Node006:
+    def node(self, number: int = 255) -> Node:
         """The model of a controller."""
-        node: Node006 = self.line.board(number)
+        node: Node = self.line.station(number)
         return node
 
 
@@ -81,13 +81,13 @@ def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[byt
     return plan
 
 
-def one(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pmc006]:
+def one(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
     """Such a port, and the controller on it."""
-    port = Spoiled006(text)
+    port = SpoiledLine(text)
     return port, Pmc006.open(port, address)
 
 
-def several(text: str = "address=1..2") -> tuple[Spoiled006, Pmc006Bus]:
+def several(text: str = "address=1..2") -> tuple[SpoiledLine, Pmc006Bus]:
     """Such a port, and a bus on it."""
-    port = Spoiled006(text)
+    port = SpoiledLine(text)
     return port, Pmc006Bus.open(port)

@@ -30,7 +30,7 @@ from openppmc.host.pmc006.errors import LockedByExt, MotorFree, SettingRefused, 
 from openppmc.host.pmc006.settings import SETTINGS, drive_current, setting
 from openppmc.model.pmc006.program import Instruction, Program, assemble
 from openppmc.model.pmc006.settings import LEGAL, PLACES
-from tests.pmc006.host.line_ports import Spoiled006, one, several
+from tests.pmc006.host.line_ports import SpoiledLine, one, several
 
 FACTORY = {
     "microsteps": 16,
@@ -78,7 +78,7 @@ QUICK = {"start_speed": 2000, "stop_speed": 2000, "max_speed": 2000}
 
 
 @pytest.fixture
-def motor() -> Iterator[tuple[Spoiled006, Pmc006]]:
+def motor() -> Iterator[tuple[SpoiledLine, Pmc006]]:
     """A controller at position 4000 of a carriage, EXT1 at 3800, EXT2 at 4400; steps are quick."""
     port, part = one("low=3800,high=4400,eeprom=none")
     with part:
@@ -88,7 +88,7 @@ def motor() -> Iterator[tuple[Spoiled006, Pmc006]]:
         yield port, part
 
 
-def test_factory_values_and_settings(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_factory_values_and_settings(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, _ = motor
     with one()[1] as part:
         assert {name: getattr(part, name) for name in SETTINGS} == FACTORY
@@ -99,7 +99,7 @@ def test_factory_values_and_settings(motor: tuple[Spoiled006, Pmc006]) -> None:
 
 
 @pytest.mark.parametrize("name", SETTINGS)
-def test_what_is_out_of_range_is_not_sent(motor: tuple[Spoiled006, Pmc006], name: str) -> None:
+def test_what_is_out_of_range_is_not_sent(motor: tuple[SpoiledLine, Pmc006], name: str) -> None:
     port, part = motor
     for value in (-1, 3 << 20, -2):
         with pytest.raises(OutOfRange, match=f"{name} .*: there are {SETTINGS[name].span}"):
@@ -110,7 +110,7 @@ def test_what_is_out_of_range_is_not_sent(motor: tuple[Spoiled006, Pmc006], name
     assert port.frames == []
 
 
-def test_full_steps_are_called_1(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_full_steps_are_called_1(motor: tuple[SpoiledLine, Pmc006]) -> None:
     _, part = motor
     with pytest.raises(OutOfRange, match=r"^microsteps 0: there are 1, 2, 4, .*, 128; 1 is the full step$"):
         part.microsteps = 0
@@ -134,7 +134,7 @@ def test_settings_explain_themselves() -> None:
     ]
 
 
-def test_a_value_that_the_part_refuses_is_told(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_a_value_that_the_part_refuses_is_told(motor: tuple[SpoiledLine, Pmc006]) -> None:
     """Other builds may have other ranges: the reply decides."""
     _, part = motor
     node = settings.SETTINGS["current"]
@@ -144,7 +144,7 @@ def test_a_value_that_the_part_refuses_is_told(motor: tuple[Spoiled006, Pmc006])
         odd.__set__(part, 4321)
 
 
-def test_read_outs(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_read_outs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     assert part.version() == "V0.1.35" and part.where.endswith("controller 255") and part.who == ""
     assert part.flags() == codes.Flags(False, False, False, True, False)
@@ -160,7 +160,7 @@ def test_read_outs(motor: tuple[Spoiled006, Pmc006]) -> None:
             call()
 
 
-def test_moves(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_moves(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     seen: list[int] = []
     assert part.move(300, progress=lambda now: seen.append(now.made)) == part.motion.end  # type: ignore[union-attr]
@@ -178,7 +178,7 @@ def test_moves(motor: tuple[Spoiled006, Pmc006]) -> None:
             call()
 
 
-def test_what_may_not_be_done_in_a_motion(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_what_may_not_be_done_in_a_motion(motor: tuple[SpoiledLine, Pmc006]) -> None:
     _, part = motor
     motion = part.start_move(300)
     assert motion.poll() is not None and part.motion is motion
@@ -190,7 +190,7 @@ def test_what_may_not_be_done_in_a_motion(motor: tuple[Spoiled006, Pmc006]) -> N
     assert motion.wait().complete and motion.poll() is None
 
 
-def test_free_runs(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_free_runs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     _, part = motor
     part.start_speed = part.stop_speed = 500
     motion = part.jog(FORWARD, speed=600)
@@ -215,7 +215,7 @@ def test_free_runs(motor: tuple[Spoiled006, Pmc006]) -> None:
             stop()
 
 
-def test_a_move_is_stopped_with_its_ramp(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_a_move_is_stopped_with_its_ramp(motor: tuple[SpoiledLine, Pmc006]) -> None:
     """The maximum speed is lowered, the move ended when it has come down, and the speed restored."""
     port, part = motor
     part.acceleration = part.deceleration = 5
@@ -240,7 +240,7 @@ def test_a_move_is_stopped_with_its_ramp(motor: tuple[Spoiled006, Pmc006]) -> No
     assert part.stop() is not None and part.max_speed == 300
 
 
-def test_motions_of_other_programs(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_motions_of_other_programs(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     other = Pmc006(part.line, 255)
     other.jog(FORWARD)
@@ -254,7 +254,7 @@ def test_motions_of_other_programs(motor: tuple[Spoiled006, Pmc006]) -> None:
     assert motion.wait().cause is Cause.STOP
 
 
-def test_emergency_stops(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_emergency_stops(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     assert part.move(410).complete  # not enabled: into the switch
     assert part.move(-410).complete
@@ -281,7 +281,7 @@ def test_emergency_stops(motor: tuple[Spoiled006, Pmc006]) -> None:
         part.on_switch(3)
 
 
-def test_refusals_say_why(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     part.free = 1
     with pytest.raises(MotorFree, match="the motor is off-line"):
@@ -297,7 +297,7 @@ def test_refusals_say_why(motor: tuple[Spoiled006, Pmc006]) -> None:
         part.jog(FORWARD)
 
 
-def test_stalls(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_stalls(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     part.watch_stall(256, 2, output=True)
     motion = part.jog(FORWARD)
@@ -331,7 +331,7 @@ def test_homing_on_ext1(start: int, microsteps: int) -> None:
         assert {name: getattr(part, name) for name in SETTINGS} == before
 
 
-def test_homing_on_ext2_and_wrong_ways(motor: tuple[Spoiled006, Pmc006]) -> None:
+def test_homing_on_ext2_and_wrong_ways(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
     part.enable_stops()
     part.home(2, FORWARD, speed=2000, slow=500, off=30)
@@ -343,7 +343,9 @@ def test_homing_on_ext2_and_wrong_ways(motor: tuple[Spoiled006, Pmc006]) -> None
             part.home(**wrong)
 
 
-def test_homing_with_a_dead_switch(motor: tuple[Spoiled006, Pmc006], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_homing_with_a_dead_switch(
+    motor: tuple[SpoiledLine, Pmc006], monkeypatch: pytest.MonkeyPatch
+) -> None:
     _, part = motor
     monkeypatch.setattr("openppmc.host.pmc006.homing.LONGEST_WAY_OFF", 200)
     monkeypatch.setattr(Pmc006, "on_switch", lambda self, number: True)

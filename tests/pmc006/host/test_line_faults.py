@@ -11,9 +11,10 @@ from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc0
 from openppmc.host.line.errors import GarbledReply, LostReply, StationSilent
 from openppmc.host.pmc006.codes import Flags
 from openppmc.host.pmc006.errors import LockedByExt, ProgramDiffers, ProgramRuns, StorageBusy
-from openppmc.host.pmc006.line import Line006
+from openppmc.host.pmc006.line import Line
 from openppmc.host.pmc006.wire import Receiver, Reply, command, reply
 from openppmc.model.pmc006.program import Program, assemble
+from tests.common.host.line_ports import Played
 from tests.pmc006.host.line_ports import (
     CHANGED_REPLY,
     CUT_FRAME,
@@ -26,14 +27,13 @@ from tests.pmc006.host.line_ports import (
     LOSE_FRAME,
     LOSE_REPLY,
     UNHEARD,
-    Spoiled006,
+    SpoiledLine,
     once,
     one,
 )
-from tests.ppmc312.line.line_ports import Played
 
 
-def quick(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pmc006]:
+def quick(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
     """A controller with quick steps."""
     port, part = one(text, address)
     for name in ("max_speed", "start_speed", "stop_speed"):
@@ -42,7 +42,7 @@ def quick(text: str = "eeprom=none", address: int = 255) -> tuple[Spoiled006, Pm
     return port, part
 
 
-def count(port: Spoiled006, letter: str) -> int:
+def count(port: SpoiledLine, letter: str) -> int:
     return sum(frame[2] == ord(letter) for frame in port.frames)
 
 
@@ -112,7 +112,7 @@ def test_an_implausible_reply_to_a_start_is_looked_into() -> None:
         assert part.move(5).position == 5
     played = Played(*[reply(255, value).hex() for value in (8, 1, 7)], reply(255, 77).hex())
     played.replies += [reply(255, value) for value in (9, 8, 12)]
-    with Pmc006(Line006(played)) as part:
+    with Pmc006(Line(played)) as part:
         assert part.start_move(5).wait().pulses == 5
     assert [frame[2] for frame in played.frames] == [ord(letter) for letter in "jdcsjjc"]
 
@@ -193,8 +193,8 @@ def test_a_program_that_does_not_stay() -> None:
 
 def test_half_a_frame_is_forgotten_before_the_next() -> None:
     """At 1200 bit/s a controller waits longer for the rest of a frame than the master for a reply."""
-    port = Spoiled006("eeprom=none", 1200)
-    with Pmc006(Line006(port, 1200, patience=0.03)) as part:
+    port = SpoiledLine("eeprom=none", 1200)
+    with Pmc006(Line(port, 1200, patience=0.03)) as part:
         port.plan = once("n", CUT_FRAME)
         assert part.current == 800 and part.counters.faults == 1
 
@@ -240,10 +240,10 @@ def test_programs_are_not_disturbed() -> None:
 
 
 def test_the_eeprom_takes_its_time() -> None:
-    with Pmc006(Line006(Played(reply(5, 0).hex())), 5) as part:
+    with Pmc006(Line(Played(reply(5, 0).hex())), 5) as part:
         with pytest.raises(StorageBusy, match="the EEPROM is still being written"):
             part.burn_program()
-    with Pmc006(Line006(Played(*[reply(5, 1).hex()] * 11)), 5) as part:
+    with Pmc006(Line(Played(*[reply(5, 1).hex()] * 11)), 5) as part:
         with pytest.raises(StorageBusy, match="the EEPROM is still being written"):
             part.save()
 
@@ -270,7 +270,7 @@ def test_the_eeprom_takes_its_time() -> None:
     ],
 )
 def test_what_is_told(replies: list[str], error: type[Exception], text: str) -> None:
-    with pytest.raises(error, match=text), Pmc006(Line006(Played(*replies)), 5) as part:
+    with pytest.raises(error, match=text), Pmc006(Line(Played(*replies)), 5) as part:
         part.flags()
 
 
@@ -300,7 +300,7 @@ def test_two_with_one_address() -> None:
     """Equal replies lie over each other; as soon as they differ there is garbage."""
     with Pmc006Bus.open("model:speed=max,address=3,twin=3") as bus:
         assert bus.scan([3])[0].trouble == ""
-        for number, board in enumerate(bus.line.port.line.boards):  # type: ignore[attr-defined]
+        for number, board in enumerate(bus.line.port.line.stations):  # type: ignore[attr-defined]
             board.part.desk.settings.exten = 1 + number
         found = bus.scan([3, 4])
         assert len(found) == 1 and "two controllers with this address" in found[0].trouble
@@ -323,7 +323,7 @@ def test_late_replies_do_not_answer_the_next_question() -> None:
 def test_the_port_goes_away() -> None:
     with Pmc006Bus.open("model:speed=max,address=3,unplug=0.05") as bus, pytest.raises(Disconnected):
         bus.axis(3).jog(FORWARD).wait()
-    with Pmc006(Line006(Played()), 3) as part:
+    with Pmc006(Line(Played()), 3) as part:
         part.line.close()
         with pytest.raises(Disconnected, match="the line is closed"):
             part.flags()
@@ -353,7 +353,7 @@ def test_noise(seed: int) -> None:
                 wanted = part.position
                 continue
             wanted += steps
-            assert part.position == wanted == part.line.port.line.boards[0].part.position  # type: ignore[attr-defined]
+            assert part.position == wanted == part.line.port.line.stations[0].part.position  # type: ignore[attr-defined]
         assert part.counters.faults
 
 

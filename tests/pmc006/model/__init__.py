@@ -1,1 +1,1 @@
-"""tests/pmc006/model"""
+"""The PMC006B4's golden model: acceptance checks, blocks, tables."""

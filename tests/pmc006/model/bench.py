@@ -11,7 +11,7 @@ from openppmc.model.common.scheduler import Scheduler
 from openppmc.model.pmc006.drive.drive import Drive
 from openppmc.model.pmc006.motion.engine import UPDATE, Engine, Live, Order, Stage
 from openppmc.model.pmc006.motion.motion import Motion
-from openppmc.model.pmc006.pace import Pace006
+from openppmc.model.pmc006.pace import Pace
 from openppmc.model.pmc006.pins import OUTPUTS, Shared, Ticks
 from openppmc.model.pmc006.settings import Settings
 
@@ -29,7 +29,7 @@ class Bench:
         self.settings.load(registers)
         self.queue, self.log = Scheduler(), EdgeLog(OUTPUTS)
         self.us = Ticks(clk_hz, 1_000_000)
-        self.shared = Shared(self.queue, self.log, clk_hz, self.us, Pace006(), self.settings)
+        self.shared = Shared(self.queue, self.log, clk_hz, self.us, Pace(), self.settings)
         self.steps: list[int] = []
         self.ends: list[int] = []
         self.position = 0

@@ -20,18 +20,18 @@ from cocotb_tests.pmc006.scenes import (
     start,
     still,
 )
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 
 STOP = 5
 """clk from an edge of EXT to no further step."""
 
 
-def stopped(host: Host006, edge: int) -> bool:
+def stopped(host: Host, edge: int) -> bool:
     """Whether no step came later than 5 clk after this edge, and none comes."""
     return still(host, host.us(5_000)) and not host.steps(edge + STOP + 1)
 
 
-def fall(host: Host006, pin: str = "ext1") -> int:
+def fall(host: Host, pin: str = "ext1") -> int:
     """A pin goes low; returns the edge."""
     host.pins(**{pin: 0})
     return host.t - 1
@@ -104,7 +104,7 @@ def test_ac_30() -> None:
     assert down - edge <= 4 and up - down == 20 * clk and not host.edges("m11", edge)
 
 
-def to_cruise(host: Host006, y: int) -> None:
+def to_cruise(host: Host, y: int) -> None:
     """Z 256, T 5, N 1, until the speed is constant."""
     host.ok(Z=256, T=5, Y=y)
     if not host.literal:
@@ -115,7 +115,7 @@ def to_cruise(host: Host006, y: int) -> None:
     host.ms(host.pick(20, 1))
 
 
-def samples(host: Host006, *levels: int) -> None:
+def samples(host: Host, *levels: int) -> None:
     """Strobes of the BEMF, 20 us apart."""
     for level in levels:
         host.strobe(bemf_level=level)
@@ -188,7 +188,7 @@ def test_ac_55() -> None:
     assert stopped(host, edge) and host.status() == DECAY | EXT1
 
 
-def towards_the_switch(host: Host006, count: int) -> int:
+def towards_the_switch(host: Host, count: int) -> int:
     """AC-56 up to the second b; returns the steps made."""
     brisk(host, 2500, f=1, d=0)
     assert host.swap("A5 FF 73 FF FF FF 7F 93")[9:20] == f"{host.accepted(0x7FFFFFFF) & 255:02X}" + (

@@ -6,12 +6,12 @@ from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.frames import command, signed
 from cocotb_tests.pmc006.line import Line, Node
 from cocotb_tests.pmc006.scenes import ready, rest, run, still
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 
 
 @verifies("P006-AC-01", "P006-EXC-30", "P006-EXC-31", "P006-PORT-04")
 def test_ac_01() -> None:
-    host = Host006(levels={"sda_i": 1}, boot=False)
+    host = Host(levels={"sda_i": 1}, boot=False)
     up = host.boot()
     assert up <= host.us(15_000) and host.out("bridge_b_en") and host.edges("bridge_b_en")[0][0] == up
     host.pause(64)
@@ -97,7 +97,7 @@ def test_ac_10() -> None:
 @verifies("P006-AC-11", "P006-UART-04")
 def test_ac_11() -> None:
     for error in (0.025, -0.025):
-        host = Host006(error=error)
+        host = Host(error=error)
         assert host.swap("A5 FF 6A 00 00 00 00 0E") == "A5 7A FF 08 00 00 00 26"
         assert host.ask("i", 0x5AA5FF01) == 0x5AA5FF01
 
@@ -123,7 +123,7 @@ def test_ac_47() -> None:
 
 @verifies("P006-AC-49", "P006-CMD-50", "P006-CMD-57")
 def test_ac_49() -> None:
-    host = Host006()
+    host = Host()
     codes: tuple[str | int, ...] = ("k", "n", "q", "r", "h", 0x55, "K", "c", "j", "O", "x")
     assert [host.ask(code) for code in codes] == [16, 800, 1000, 0, 0, 1, 0, 0, 0x08, 0x10, 0xF07]
     assert [host.ask(code) for code in "LSMPQ"] == [600, 600, 300, 1250, 1]
@@ -146,7 +146,7 @@ def test_ac_51() -> None:
 
 @verifies("P006-AC-52", "P006-CMD-16", "P006-CMD-17", "P006-CMD-19", "P006-CMD-20", "P006-CMD-51")
 def test_ac_52() -> None:
-    host = Host006()
+    host = Host()
     assert host.swap("A5 FF 54 40 00 00 00 38")[9:20] == "40 00 00 00"
     assert [host.ask("T", value) for value in (5, 0x40, -1)] == [5, 5, 5]
     assert [host.ask("Y", 7), host.ask("Y", 8), host.ask("Z", 0x1FF), host.ask("Z", 0x200)] == [
@@ -210,7 +210,7 @@ def test_ac_61() -> None:
 
 @verifies("P006-AC-62", "P006-FRM-05")
 def test_ac_62() -> None:
-    host = Host006(baud=115_200)
+    host = Host(baud=115_200)
     for address in range(0, 255, host.pick(1, 6)):
         host.say("j", address=address)
         assert host.rise() is None

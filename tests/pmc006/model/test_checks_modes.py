@@ -10,7 +10,7 @@ from cocotb_tests.harness.tape import taping
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.scenes import ready, rest
 
-MODULES = [f"tests/model/test_006_checks_{name}.py" for name in ("link", "motion", "guard", "program")]
+MODULES = [f"tests.pmc006.model.test_checks_{name}" for name in ("link", "motion", "guard", "program")]
 COSTLY = ("35", "36", "37", "38", "41", "66", "nothing")
 """Those with an EEPROM, which knows nothing of these parameters."""
 
@@ -39,8 +39,8 @@ def test_ac_53() -> None:
 def test_ac_48(build: Config) -> None:
     """The checks that are played on the RTL, too, in their short form."""
     run = 0
-    for path in MODULES:
-        for case in cases(path):
+    for module in MODULES:
+        for case in cases(module):
             if not case.name.endswith(COSTLY):
                 with building(build), taping():
                     case.call()

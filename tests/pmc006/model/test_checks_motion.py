@@ -23,13 +23,13 @@ from cocotb_tests.pmc006.scenes import (
     start,
     still,
 )
-from cocotb_tests.pmc006.script_host import EXECUTE, START, Host006
+from cocotb_tests.pmc006.script_host import EXECUTE, START, Host
 
 LONG = "seconds of motion; script_motion has the same rules in short"
 
 
 def hexed(frame: bytes) -> str:
-    """Text of a frame, as `Host006.swap` has it."""
+    """Text of a frame, as `Host.swap` has it."""
     return frame.hex(" ").upper()
 
 
@@ -246,7 +246,7 @@ def test_ac_46() -> None:
 @model_only(LONG)
 @verifies("P006-AC-50", "P006-MOT-20")
 def test_ac_50() -> None:
-    host = Host006()
+    host = Host()
     assert host.swap("A5 FF 73 1F 01 00 00 37") == hexed(reply(0xFF, host.accepted(287)))
     rest(host)
     gaps = host.intervals()

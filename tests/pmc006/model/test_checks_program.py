@@ -30,7 +30,7 @@ from cocotb_tests.pmc006.scenes import (
     with_eeprom,
     words,
 )
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 
 KEY_MS = 2
 SAVED = page(a03=1, a04=4)
@@ -72,7 +72,7 @@ def test_ac_36() -> None:
 @verifies("P006-AC-37", "P006-EEP-20", "P006-EEP-21", "P006-EEP-22")
 def test_ac_37() -> None:
     content = image(SAVED, P1)
-    host = Host006(eeprom=device(content, write_us=1_000), levels={"fset_n": 0}, boot=False)
+    host = Host(eeprom=device(content, write_us=1_000), levels={"fset_n": 0}, boot=False)
     host.ms(30)
     host.pins(fset_n=1)
     host.boot()
@@ -85,7 +85,7 @@ def test_ac_37() -> None:
 
 @verifies("P006-AC-38", "P006-EEP-20", "P006-EEP-21")
 def test_ac_38() -> None:
-    host = Host006(address=1, eeprom=device(image(SAVED), write_us=1_000), levels={"fset_n": 0}, boot=False)
+    host = Host(address=1, eeprom=device(image(SAVED), write_us=1_000), levels={"fset_n": 0}, boot=False)
     host.ms(19)
     host.pins(fset_n=1)
     host.boot()

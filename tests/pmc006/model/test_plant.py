@@ -9,7 +9,7 @@ from math import inf, pi, sin
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.pmc006.script_host import Host006
+from cocotb_tests.pmc006.script_host import Host
 from openppmc.model.pmc006.bench.currents import (
     CLK_HZ,
     MS,
@@ -174,7 +174,7 @@ def test_too_much_back_emf() -> None:
 @verifies("P006-STA-12", "P006-CHP-01")
 def test_beside_the_host_of_a_script() -> None:
     """Comparator levels are on the tape like all else that a script does; FREE lets the current die."""
-    host = Host006()
+    host = Host()
     plant = Plant(host.model, host.clk_hz)
     host.ok(a=0, e=1000)
     host.ms(2)

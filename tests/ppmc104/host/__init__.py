@@ -1,1 +1,1 @@
-"""tests/ppmc104/host"""
+"""The PPMC-104's driver."""

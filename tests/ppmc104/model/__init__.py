@@ -1,1 +1,1 @@
-"""tests/ppmc104/model"""
+"""The PPMC-104's golden model: acceptance checks, edges of rules, properties."""

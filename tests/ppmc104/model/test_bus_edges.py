@@ -9,7 +9,7 @@ import pytest
 
 from openppmc.model import Ppmc104 as AnyModel
 from tests.ppmc104.model.host import INIT_A, NOMINAL
-from tests.ppmc104.model.host import ModelHost as AnyHost
+from tests.ppmc104.model.host import Host as AnyHost
 
 Ppmc104 = partial(AnyModel, latency=NOMINAL)
 ModelHost = partial(AnyHost, latency=NOMINAL)

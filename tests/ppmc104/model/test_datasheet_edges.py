@@ -7,7 +7,7 @@ from functools import partial
 import pytest
 
 from tests.ppmc104.model.host import INIT_A, INIT_B, NOMINAL
-from tests.ppmc104.model.host import ModelHost as AnyHost
+from tests.ppmc104.model.host import Host as AnyHost
 
 ModelHost = partial(AnyHost, latency=NOMINAL, timing="DATASHEET")
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from openppmc.model import Ppmc104
 from openppmc.model.motion.excitation import step_list
 from openppmc.model.motion.ramp import index_profile
-from tests.ppmc104.model.host import INIT_A, ModelHost
+from tests.ppmc104.model.host import INIT_A, Host
 
 GUARD_PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "alm_n", "cnp_n")
 ENDS = {
@@ -30,7 +30,7 @@ action = st.one_of(
 )
 
 
-def play(host: ModelHost, actions: list[tuple[str, int, int]]) -> dict[str, list[tuple[int, int]]]:
+def play(host: Host, actions: list[tuple[str, int, int]]) -> dict[str, list[tuple[int, int]]]:
     """Run random actions; returns the pin history."""
     history: dict[str, list[tuple[int, int]]] = {pin: [(-1, 1)] for pin in GUARD_PINS}
     for kind, wait, value in actions:
@@ -62,7 +62,7 @@ def level_at(history: list[tuple[int, int]], t: int) -> int:
     st.sampled_from([8_000_000, 11_059_200, 16_000_000, 50_000_000]),
 )
 def test_any_host_can_be_recovered_from(actions, timing, clk_hz):
-    host = ModelHost(timing=timing, clk_hz=clk_hz)
+    host = Host(timing=timing, clk_hz=clk_hz)
     history = play(host, actions)
     log = host.model.log
     dirs = [(-1, 0), *log.of("dir")]
@@ -124,7 +124,7 @@ def moves(draw: st.DrawFn) -> dict:
 @settings(max_examples=400)
 @given(moves())
 def test_one_move_with_one_disturbance(move):
-    host = ModelHost()
+    host = Host()
     operation, direction = move["operation"], move["direction"]
     host.run(f"c 0E d {move['rl']:02X} d {move['rh']:02X} d {move['pa']:02X} d 00")
     host.pins(vsel=move["vsel"])
@@ -210,7 +210,7 @@ def test_one_move_with_one_disturbance(move):
 )
 def test_external_clock_counts_edges(n, rate, periods, vsel, ramp):
     """Any external clock gives N pulses, none earlier than (rate + 1) edges after the one before."""
-    host = ModelHost()
+    host = Host()
     host.run(f"c 1E d {rate:02X} d {rate // 2:02X} d 04 d 00")
     host.pins(vsel=vsel)
     host.pause(6)

@@ -1,1 +1,1 @@
-"""tests/ppmc2104/board"""
+"""The PPMC-2104's virtual board with both axes."""

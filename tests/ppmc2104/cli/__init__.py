@@ -1,1 +1,1 @@
-"""tests/ppmc2104/cli"""
+"""The command line with two axes."""

@@ -1,1 +1,1 @@
-"""tests/ppmc2104/host"""
+"""The PPMC-2104's driver."""

@@ -36,10 +36,11 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.errors import BY_NUMBER_2104, CommandRefused
+from openppmc.host.basis.refusals import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
-from openppmc.model.ppmc2104.carrier import Board2104
+from openppmc.host.ppmc2104.errors import BY_NUMBER as BY_NUMBER_2104
+from openppmc.model.ppmc2104.carrier import Carrier
 
 SETUP = {"start_pps": 2000, "high_pps": 20_000, "ramp_pulses": 100}
 
@@ -59,10 +60,10 @@ def part() -> Iterator[Ppmc2104]:
         yield ready
 
 
-def model(part: Ppmc2104) -> Board2104:
+def model(part: Ppmc2104) -> Carrier:
     """The modelled board."""
     assert isinstance(part.link.port, ModelPort)
-    assert isinstance(part.link.port.board, Board2104)
+    assert isinstance(part.link.port.board, Carrier)
     return part.link.port.board
 
 

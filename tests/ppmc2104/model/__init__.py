@@ -1,1 +1,1 @@
-"""tests/ppmc2104/model"""
+"""The PPMC-2104's golden model: acceptance checks, errors, inputs, examples, properties."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from openppmc.model.common.edges import low_times
 from openppmc.model.ppmc2104.codes import BUSY, CMND
 from openppmc.model.ppmc2104.part import Ppmc2104
-from tests.ppmc104.model.host import ModelHost
+from tests.common.model.host import ModelHost
 
 B1 = "c 02 d 63 d 13 d 0A d 00"
 B2 = "c 22 d 63 d 13 d 0A d 00"
@@ -19,7 +19,7 @@ def clk(rates: list[int], base: int = 32) -> list[int]:
     return [base * (rate + 1) for rate in rates]
 
 
-class Host2104(ModelHost):
+class Host(ModelHost):
     """As ModelHost. Scripts may also say e1, e2 (error code read), idle (both axes at rest), ready (no CMND).
 
     `axis` (1 or 2) is the one that pulses(), intervals(), lows(), fall() look at.

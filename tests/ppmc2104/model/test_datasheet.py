@@ -6,23 +6,23 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model import Latency
-from tests.ppmc2104.model.host import B1, B2, LONG, Host2104
+from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
 # A core without times of its own, so that the figures of the tables show as they are.
 PLAIN = Latency(ds_window=0)
 
 
-def ready(script: str = B1) -> Host2104:
-    return Host2104(script + " ready ", timing="DATASHEET", latency=PLAIN)
+def ready(script: str = B1) -> Host:
+    return Host(script + " ready ", timing="DATASHEET", latency=PLAIN)
 
 
-def c_event(host: Host2104) -> int:
+def c_event(host: Host) -> int:
     return host.written + 2
 
 
 @verifies("P2104-DS-01")
 def test_ac_73_setting():
-    host = Host2104(B1, timing="DATASHEET", latency=PLAIN)
+    host = Host(B1, timing="DATASHEET", latency=PLAIN)
     since = c_event(host)
     assert host.out("s1_n") == 0b11100 and host.status() == 0x10
     host.write(0, 0xC1)
@@ -257,7 +257,7 @@ def test_live_levels_at_the_start():
     assert host.run("c 42 e1 c 81 r") == [7, 0xC7]
 
 
-def error(host: Host2104, script: str) -> int:
+def error(host: Host, script: str) -> int:
     """Error of an operation of axis 1; ended again if it started."""
     (code,) = host.run(script + " e1")
     if host.model.busy(1):
@@ -311,5 +311,5 @@ def test_ac_70_what_is_not_limited():
     host.axis = 1
     host.poll(4, 0)
     assert len(host.model.pulses(1)) == 1 and host.model.busy(2)
-    fast = Host2104(B1 + " ready " + B2 + " ready c 65 d 01")
+    fast = Host(B1 + " ready " + B2 + " ready c 65 d 01")
     assert fast.run("c 44 d 01 d 09 d 00 d 00 e1") == [0] and fast.model.busy(2)

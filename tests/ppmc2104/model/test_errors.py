@@ -5,37 +5,37 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from tests.ppmc2104.model.host import B1, B2, LONG, Host2104
+from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
 RUNNING = B1 + " c 44 d FF d FF d 00 d 00 "
 
 
 @verifies("P2104-ERR-06", "P2104-ERR-01")
 def test_ac_22_23_error_bit_and_registers():
-    host = Host2104("c 87 c A7")
+    host = Host("c 87 c A7")
     assert host.status() == 0x80
     for script, value, status in (("e1", 1, 0x80), ("e2", 1, 0), ("e2", 0, 0)):
         assert host.run(script) == [value] and host.status() == status
-    assert Host2104("d 55").run("e2 e1") == [0, 2]
+    assert Host("d 55").run("e2 e1") == [0, 2]
 
 
 @verifies("P2104-ERR-02", "P2104-ERR-01", "P2104-BAD-04", "P2104-BAD-06")
 def test_ac_24_26_code_while_data_are_awaited():
-    host = Host2104(B1 + " ready " + B2 + " ready c 43 d 05 c 62")
+    host = Host(B1 + " ready " + B2 + " ready c 43 d 05 c 62")
     assert host.status() == 0x80
     host.pause(5000)
     assert host.model.pulses(1) == host.model.pulses(2) == []
     assert host.run("e1 e2") == [0, 3]
     host.run("c 62 idle")
     assert len(host.model.pulses(2)) == 1
-    host = Host2104(B1 + " ready c 43 c C2")
+    host = Host(B1 + " ready c 43 c C2")
     assert host.status() & 1 == 0 and host.run("e1") == [3]
-    assert Host2104(B1 + " ready c 63 d 01").run("e2 e1") == [4, 2]
+    assert Host(B1 + " ready c 63 d 01").run("e2 e1") == [4, 2]
 
 
 @verifies("P2104-FSM-01", "P2104-RD-08", "P2104-ERR-03")
 def test_ac_27_busy_axis_refuses():
-    host = Host2104(RUNNING)
+    host = Host(RUNNING)
     host.fall(2, after=30)
     mark = host.mark
     for code in ("02", "42", "80", "81", "82", "83", "84", "85", "C0"):
@@ -51,12 +51,12 @@ def test_ac_27_busy_axis_refuses():
 
 @verifies("P2104-STP-04")
 def test_ac_28_stop_without_motion():
-    assert Host2104(B1 + " ready c 40").run("e1 c 41 e1 c 60 e2") == [6, 6, 4]
+    assert Host(B1 + " ready c 40").run("e1 c 41 e1 c 60 e2") == [6, 6, 4]
 
 
 @verifies("P2104-LIM-06")
 def test_ac_29_start_on_an_active_limit():
-    host = Host2104(B1 + " ready")
+    host = Host(B1 + " ready")
     host.pin("fl_n", 0)
     host.pause(5)
     assert host.run("c 42 e1") == [7]
@@ -80,7 +80,7 @@ def test_ac_29_start_on_an_active_limit():
     ],
 )
 def test_ac_30_what_refuses_a_start(pin, axis, script, error):
-    host = Host2104(B1 + " ready")
+    host = Host(B1 + " ready")
     host.pin(pin, 0, axis)
     host.pause(5)
     host.run(script + " idle")
@@ -89,7 +89,7 @@ def test_ac_30_what_refuses_a_start(pin, axis, script, error):
 
 @verifies("P2104-INI-03", "P2104-INI-02", "P2104-BAD-16")
 def test_ac_32_values_of_a_setting():
-    host = Host2104(B1 + " ready")
+    host = Host(B1 + " ready")
     wrong = [(5, 4, 100), (5, 6, 100), (5, 0, 100), (9, 4, 3), (5, 4, 3), (9, 4, 0x2BD5), (5, 4, 0x2BD5)]
     got = []
     for rl, rh, pa in wrong:
@@ -103,7 +103,7 @@ def test_ac_32_values_of_a_setting():
 
 @verifies("P2104-OPR-07", "P2104-INI-03")
 def test_ac_33_rate_zero_needs_the_external_clock():
-    host = Host2104(B1 + " ready c 45 d 00")
+    host = Host(B1 + " ready c 45 d 00")
     assert host.run("e1 c C0 c 0A d 63 d 13 d 0A d 00 ready c 45 d 00 e1") == [9, 0]
     for _ in range(20):
         host.pin("extck", 1)
@@ -119,12 +119,12 @@ def test_ac_33_rate_zero_needs_the_external_clock():
 
 @verifies("P2104-AUX-04")
 def test_ac_34_switching_values():
-    assert Host2104().run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1") == [11, 11, 0]
+    assert Host().run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1") == [11, 11, 0]
 
 
 @verifies("P2104-HSK-07", "P2104-HSK-06")
 def test_ac_61_unread_answer():
-    host = Host2104(B1 + " ready" + LONG)
+    host = Host(B1 + " ready" + LONG)
     host.fall(7, after=100)
     host.run("c 40 idle")
     assert host.run("c 83 r c 42 idle r") == [0xE0, 0x03]
@@ -135,7 +135,7 @@ def test_ac_61_unread_answer():
 
 @verifies("P2104-HSK-04", "P2104-HSK-02")
 def test_ac_62_63_code_that_waits_for_the_table():
-    host = Host2104(B2 + " ready " + B1)
+    host = Host(B2 + " ready " + B1)
     setting = host.t
     host.run("c F1")
     assert host.out("auxo") == 0 and host.status() & 0x10
@@ -148,7 +148,7 @@ def test_ac_62_63_code_that_waits_for_the_table():
     host.idle()
     assert len(host.model.pulses(1)) == 1
 
-    host = Host2104(B1)
+    host = Host(B1)
     host.write(1, 0x42)
     host.pause(50)
     host.write(1, 0x52)
@@ -159,7 +159,7 @@ def test_ac_62_63_code_that_waits_for_the_table():
 
 @verifies("P2104-STP-07", "P2104-ERR-02")
 def test_ac_82_stop_while_the_other_axis_collects():
-    host = Host2104(B1 + " ready " + B2 + " ready c 45 d 31")
+    host = Host(B1 + " ready " + B2 + " ready c 45 d 31")
     host.run("c 63 d 05")
     host.mark = 0
     host.fall(20, after=400)
@@ -173,7 +173,7 @@ def test_ac_82_stop_while_the_other_axis_collects():
 
 @verifies("P2104-STP-07")
 def test_ac_83_deceleration_stop_while_the_other_axis_collects():
-    host = Host2104(B1 + " ready " + B2 + " ready " + LONG)
+    host = Host(B1 + " ready " + B2 + " ready " + LONG)
     mark = host.mark
     host.fall(5, after=100)
     host.run("c 63 c 41 e1")
@@ -185,7 +185,7 @@ def test_ac_83_deceleration_stop_while_the_other_axis_collects():
 
 @verifies("P2104-FSM-05", "P2104-ERR-02")
 def test_ac_84_refused_stop_reports_8():
-    host = Host2104(B1 + " ready " + B2 + " ready c 45 d 31 c 64 d 31 c 41")
+    host = Host(B1 + " ready " + B2 + " ready c 45 d 31 c 64 d 31 c 41")
     assert host.status() == 0x84
     assert host.run("e1") == [8] and host.model.busy(1)
     host.run("c 40 idle c 43 c 40")
@@ -194,7 +194,7 @@ def test_ac_84_refused_stop_reports_8():
 
 @verifies("P2104-HSK-04", "P2104-STP-04")
 def test_ac_85_stops_never_wait_for_a_table():
-    host = Host2104(B2 + " ready c 65 d 31 c 02 d FF d 01 d 04 d 00")
+    host = Host(B2 + " ready c 65 d 31 c 02 d FF d 01 d 04 d 00")
     taken = []
     for code in (0x40, 0x60):
         event = host.write(1, code, gap=12)
@@ -210,7 +210,7 @@ def test_ac_85_stops_never_wait_for_a_table():
 @verifies("P2104-HSK-04", "P2104-HSK-08")
 @pytest.mark.parametrize("collecting", ["c 84 d 40", "c 63 d 00"])
 def test_no_code_waits_for_a_table_while_data_are_awaited(collecting):
-    host = Host2104(B2 + " ready " + B1 + " " + collecting)
+    host = Host(B2 + " ready " + B1 + " " + collecting)
     for code in (0x42, 0x02, 0xC0):
         event = host.write(1, code, gap=12)
         host.model.run_until(event + 2)

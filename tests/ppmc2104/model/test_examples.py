@@ -9,7 +9,7 @@ import pytest
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model import predict_move
 from openppmc.model.motion.ramp import Ramp
-from tests.ppmc2104.model.host import B1, LONG, RAMP, Host2104, clk
+from tests.ppmc2104.model.host import B1, LONG, RAMP, Host, clk
 
 EX_02 = {
     1: [],
@@ -26,9 +26,9 @@ EX_02 = {
 SUMS = {2: 3200, 3: 6400, 4: 8128, 10: 15776, 11: 16768, 20: 23776, 21: 24448, 22: 25088, 25: 27008}
 
 
-def stopped(during: int, script: str = LONG, code: str = "41", setup: str = B1) -> Host2104:
+def stopped(during: int, script: str = LONG, code: str = "41", setup: str = B1) -> Host:
     """A move on which a stop is taken in the given interval."""
-    host = Host2104(setup + script)
+    host = Host(setup + script)
     host.fall(during, after=100)
     mark = host.mark
     host.write(1, int(code, 16))
@@ -40,7 +40,7 @@ def stopped(during: int, script: str = LONG, code: str = "41", setup: str = B1) 
 @verifies("P2104-EX-01")
 def test_ex_01_ramp_values():
     assert Ramp(99, 19, 10).rates() == RAMP
-    host = Host2104(B1 + " c 43 d 18 d 00 d 00")
+    host = Host(B1 + " c 43 d 18 d 00 d 00")
     assert host.end() == (0x83, 0)
     expected = [3200, 1728, 1344, 1120, 992, 896, 800, 768, 704, 672]
     assert host.intervals() == [*expected, *[640] * 4, *expected[::-1]]
@@ -53,7 +53,7 @@ def test_ex_01_ramp_values():
 @verifies("P2104-EX-02")
 def test_ex_02_short_moves(n, axis):
     base = 0x20 * (axis - 1)
-    host = Host2104(f"c {2 + base:02X} d 63 d 13 d 0A d 00 c {0x43 + base:02X} d {n - 1:02X} d 00 d 00")
+    host = Host(f"c {2 + base:02X} d 63 d 13 d 0A d 00 c {0x43 + base:02X} d {n - 1:02X} d 00 d 00")
     host.axis = axis
     assert host.end() == (0x83, 0)
     assert len(host.pulses()) == n and host.intervals() == clk(EX_02[n])
@@ -62,7 +62,7 @@ def test_ex_02_short_moves(n, axis):
 
 @verifies("P2104-EX-02")
 def test_ex_02_long_move():
-    host = Host2104(B1 + LONG + " idle")
+    host = Host(B1 + LONG + " idle")
     assert len(host.pulses()) == 1000 and host.intervals().count(640) == 979
     assert sum(host.intervals()) == 651_008
 
@@ -83,7 +83,7 @@ def test_ex_03_deceleration_stop(during, rates, remaining):
 @pytest.mark.parametrize("code, end", [(LONG, (0x8B, 968)), (" c 46", (0x8E, 0xFFFFE0))])
 @verifies("P2104-EX-04")
 def test_ex_04_slow_down_limit(code, end):
-    host = Host2104(B1 + code)
+    host = Host(B1 + code)
     host.fall(20, after=100)
     host.pin("fhl_n", 0)
     host.pause(10)
@@ -129,7 +129,7 @@ def test_ex_06_flat_start(during, rates, remaining):
     host = stopped(during, setup="c 02 d 0E d 0C d 10 d 00")
     assert host.end() == (0xC3, remaining)
     assert host.intervals() == clk(rates)
-    undisturbed = Host2104("c 02 d 0E d 0C d 10 d 00 c 43 d 63 d 00 d 00 idle")
+    undisturbed = Host("c 02 d 0E d 0C d 10 d 00 c 43 d 63 d 00 d 00 idle")
     assert sum(undisturbed.intervals()) == 42_208
 
 
@@ -137,7 +137,7 @@ def test_ex_06_flat_start(during, rates, remaining):
 @verifies("P2104-EX-07")
 def test_ex_07_rounding_tie():
     assert Ramp(3, 1, 25).rates() == [3] * 3 + [2] * 11 + [1] * 12
-    host = Host2104("c 02 d 03 d 01 d 19 d 00 c 43 d 3B d 00 d 00 idle")
+    host = Host("c 02 d 03 d 01 d 19 d 00 c 43 d 3B d 00 d 00 idle")
     assert host.intervals() == clk([3] * 3 + [2] * 11 + [1] * 31 + [2] * 11 + [3] * 3)
     assert sum(host.intervals()) == 4864
 
@@ -146,7 +146,7 @@ def test_ex_07_rounding_tie():
 @pytest.mark.parametrize("csel, expected", [(1, 1600), (0, 6400)])
 @verifies("P2104-EX-08")
 def test_ex_08_constant_speed(csel, expected):
-    host = Host2104(B1 + " ready")
+    host = Host(B1 + " ready")
     host.pin("csel", csel)
     host.pause(6)
     host.run("c 44 d 31 d 04 d 00 d 00")
@@ -167,7 +167,7 @@ def test_ex_09_immediate_stop():
 @verifies("P2104-LIM-03", "P2104-OPR-06")
 @verifies("P2104-EX-10")
 def test_ex_10_limit_ends_continuous_move():
-    host = Host2104(B1 + " c 45 d 04")
+    host = Host(B1 + " c 45 d 04")
     host.fall(1000, after=20)
     host.pin("fl_n", 0)
     assert host.end() == (0x95, 0xFFFC17)
@@ -177,7 +177,7 @@ def test_ex_10_limit_ends_continuous_move():
 @verifies("P2104-PHS-01", "P2104-PHS-04")
 @verifies("P2104-EX-11")
 def test_ex_11_phases():
-    host = Host2104(B1)
+    host = Host(B1)
     assert f"{host.out('s1_n'):05b}" == "11100" and f"{host.out('s2_n'):05b}" == "11111"
     host.run("ready c 4A idle")
     assert host.phases() == ["10110"]
@@ -187,14 +187,14 @@ def test_ex_11_phases():
         host.run("c 42 idle")
     host.mark = start
     assert host.phases() == ["11100", "11001", "10011", "10110", "11100"]
-    half = Host2104("c 06 d 63 d 13 d 0A d 00 c 44 d 01 d 07 d 00 d 00 idle")
+    half = Host("c 06 d 63 d 13 d 0A d 00 c 44 d 01 d 07 d 00 d 00 idle")
     assert half.phases() == "11101 11001 11011 10011 10111 10110 11110 11100".split()
 
 
 @verifies("P2104-BCK-03", "P2104-GEN-04")
 @verifies("P2104-EX-12")
 def test_ex_12_fractional_clock():
-    host = Host2104(B1 + " ready c 44 d 01 d E8 d 03 d 00 idle", clk_hz=11_059_200)
+    host = Host(B1 + " ready c 44 d 01 d E8 d 03 d 00 idle", clk_hz=11_059_200)
     falls = host.pulses()
     assert [t - falls[0] for t in falls] == [ceil(442368 * j / 10000) for j in range(1001)]
     assert falls[1] - falls[0] == 45 and falls[-1] - falls[0] == 44_237
@@ -205,13 +205,13 @@ def test_ex_12_fractional_clock():
 @pytest.mark.parametrize("rate, interval, low", [(1, 64, 32), (2, 96, 48), (3, 128, 80)])
 @verifies("P2104-EX-13")
 def test_ex_13_pulse_width(rate, interval, low):
-    host = Host2104(B1 + f" ready c 44 d {rate:02X} d 03 d 00 d 00 idle")
+    host = Host(B1 + f" ready c 44 d {rate:02X} d 03 d 00 d 00 idle")
     host.pause(100)
     host.sync()
     assert host.intervals() == [interval] * 3 and host.lows() == [low] * 3 + [80]
 
 
-def external(host: Host2104, script: str, period: int, axis: int = 1) -> None:
+def external(host: Host, script: str, period: int, axis: int = 1) -> None:
     """Run extck with 50 % duty until the axis is at rest."""
     host.run(script)
     while host.model.busy(axis):
@@ -227,7 +227,7 @@ def external(host: Host2104, script: str, period: int, axis: int = 1) -> None:
 @verifies("P2104-BCK-04", "P2104-TIM-03", "P2104-TIM-05")
 @verifies("P2104-EX-14")
 def test_ex_14_external_clock():
-    host = Host2104("c 0A d 63 d 13 d 0A d 00 ready")
+    host = Host("c 0A d 63 d 13 d 0A d 00 ready")
     external(host, "c 44 d 09 d 09 d 00 d 00", 64)
     assert host.intervals() == [640] * 9 and host.lows() == [80] * 10
     external(host, "c 44 d 00 d 09 d 00 d 00", 16)
@@ -250,7 +250,7 @@ def test_ex_15_largest_ramp():
     ]
     for rate, threshold in ((200, 40), (100, 342), (50, 1535), (20, 9630), (19, 10649)):
         assert ramp.rate(threshold - 1) >= rate > ramp.rate(threshold)
-    host = Host2104("c 02 d FF d 12 d D4 d 2B ready c 43 d 2F d 75 d 00 idle")
+    host = Host("c 02 d FF d 12 d D4 d 2B ready c 43 d 2F d 75 d 00 idle")
     assert host.intervals()[:4] == [8192, 8128, 8064, 8000]
     assert len(host.pulses()) == 30_000 and sum(host.intervals()) == 30_002_080
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from tests.ppmc2104.model.host import B1, B2, LONG, Host2104
+from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
 
-def ready(script: str = B1) -> Host2104:
-    return Host2104(script + " ready ")
+def ready(script: str = B1) -> Host:
+    return Host(script + " ready ")
 
 
 @verifies("P2104-STP-03", "P2104-ERR-03")

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from openppmc.model.motion.codes import Kind
 from openppmc.model.ppmc2104.codes import decode
 from openppmc.model.ppmc2104.part import Ppmc2104
-from tests.ppmc2104.model.host import B1, Host2104
+from tests.ppmc2104.model.host import B1, Host
 
 SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n")
 AXIS_2_OUTPUTS = ("pout_n", "dir", "hold")
@@ -29,7 +29,7 @@ action = st.one_of(
 )
 
 
-def play(host: Host2104, actions: list[tuple[str, int, int]]) -> dict[str, list[tuple[int, int]]]:
+def play(host: Host, actions: list[tuple[str, int, int]]) -> dict[str, list[tuple[int, int]]]:
     """Run random actions; returns the pin history."""
     history: dict[str, list[tuple[int, int]]] = {pin: [(-1, 3)] for pin in SWITCHES}
     for kind, wait, value in actions:
@@ -62,7 +62,7 @@ def level_at(history: list[tuple[int, int]], t: int) -> int:
     st.integers(0, 1),
 )
 def test_any_host_can_be_recovered_from(actions, timing, clk_hz, busc):
-    host = Host2104(timing=timing, clk_hz=clk_hz, busc=busc)
+    host = Host(timing=timing, clk_hz=clk_hz, busc=busc)
     history = play(host, actions)
     if timing == "FAST":
         for axis in (1, 2):
@@ -125,7 +125,7 @@ def axis_2_edges(model: Ppmc2104) -> list[tuple[int, str, int]]:
 
 def two_runs(moves: list, traffic: list | None, clk_hz: int) -> Ppmc2104:
     """Axis 2 makes its moves at fixed edges; between them axis 1 gets its traffic, if any."""
-    host = Host2104("c 36 d 09 d 04 d 04 d 00 ready", clk_hz=clk_hz)
+    host = Host("c 36 d 09 d 04 d 04 d 00 ready", clk_hz=clk_hz)
     start, rest = 20_000, iter(traffic or [])
     for place, (code, data, pin, offset) in enumerate(moves):
         begin = start + 60_000 * place
@@ -207,7 +207,7 @@ def test_axis_1_never_changes_axis_2(moves, traffic, clk_hz):
 def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, after):
     """P2104-END-05, -06: m = N - j, and bits 6-3 tell a complete move from a cut one."""
     rh = max(1, rl - span)
-    host = Host2104(f"c 02 d {rl:02X} d {rh:02X} d {pa:02X} d 00 ready")
+    host = Host(f"c 02 d {rl:02X} d {rh:02X} d {pa:02X} d 00 ready")
     rate = " d 09" if code & 7 in (4, 5, 7) else ""
     count = f" d {n - 1:02X} d 00 d 00" if code & 7 in (3, 4) else ""
     total = n if count else 1 << 24
@@ -248,7 +248,7 @@ def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, a
 )
 def test_interrupt_latches(steps):
     """P2104-INT-01..05 against a bookkeeping of what was raised and read."""
-    host = Host2104(B1 + " c 22 d 63 d 13 d 0A d 00 ready")
+    host = Host(B1 + " c 22 d 63 d 13 d 0A d 00 ready")
     errint, pending = 1, set()
     for code, wait in steps:
         if code < 0:

@@ -1,1 +1,1 @@
-"""tests/ppmc312/board"""
+"""The PPMC-312's virtual boards, behind the bridge and on a line."""

@@ -1,1 +1,1 @@
-"""tests/ppmc312/cli"""
+"""The PPMC-312's commands behind the bridge."""

@@ -1,1 +1,1 @@
-"""tests/ppmc312/host"""
+"""The PPMC-312's driver behind the bridge, and its blocks of bytes."""

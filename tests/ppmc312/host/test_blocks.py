@@ -9,18 +9,25 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, CW, OutOfRange
-from openppmc.host.basis.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
-from openppmc.host.basis.kind import PPMC312
+from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import (
+    CommandRefused,
+    NotInitialised,
+    NotWhileBusy,
+    StartRefused,
+    UnknownCode,
+)
 from openppmc.host.ppmc312 import answers, errors, free, profile, registers
 from openppmc.host.ppmc312 import blocks as blocks312
 from openppmc.host.ppmc312.answers import BadResponse, Response
 from openppmc.host.ppmc312.blocks import Trigger
 from openppmc.host.ppmc312.free import plan_curve, read_stages
+from openppmc.host.ppmc312.kind import KIND as PPMC312
 from openppmc.host.ppmc312.profile import base_clocks, plan_setup
-from openppmc.host.ppmc312.registers import EventBuffer, Inputs312, Status312
+from openppmc.host.ppmc312.registers import EventBuffer, Inputs, Status
 from openppmc.model import Timebase, predict_move
 from openppmc.model.ppmc312.codes import Cause, State
-from openppmc.model.ppmc312.predict import Move312
+from openppmc.model.ppmc312.predict import TableMove
 
 XTAL = 16_000_000
 MEGAHERTZ = base_clocks(XTAL)[1]
@@ -223,23 +230,23 @@ def test_responses_whose_length_is_wrong() -> None:
 
 def test_status_and_inputs() -> None:
     """Each bit where the rules have it (P312-CMD-4D, -27)."""
-    rest = Status312.parse(bytes([0x00, 0x02, 0x00]))
+    rest = Status.parse(bytes([0x00, 0x02, 0x00]))
     assert (rest.state, rest.busy, rest.run_monitored, rest.overrides) == (State.NOR, False, True, 0)
     names = ("interlock", None, "encoder_watched", "position_watched", "end_monitored")
     for bit, name in enumerate((*names, "encoder_outside", "position_outside")):
-        now = Status312.parse(bytes([0x40 >> bit, 0x20, 0x00]))
+        now = Status.parse(bytes([0x40 >> bit, 0x20, 0x00]))
         on = [field for field in vars(now) if vars(now)[field] is True and field != "run_monitored"]
         assert on == ([name] if name else []) and now.busy
-    assert not Status312.parse(bytes([0x80, 0x10, 0x00])).run_monitored
-    assert Status312.parse(bytes([0x00, 0x10, 0x00])).in_alarm
-    full = Status312.parse(bytes([0x00, 0x02, 0x68]))
+    assert not Status.parse(bytes([0x80, 0x10, 0x00])).run_monitored
+    assert Status.parse(bytes([0x00, 0x10, 0x00])).in_alarm
+    full = Status.parse(bytes([0x00, 0x02, 0x68]))
     assert (full.overrides, full.override_events, full.events) == (8, (2,), (1,))
     places = ("limit_ccw", "limit_cw", "slow_ccw", "slow_cw", "origin", "index", "end", "alarm")
     for bit, place in enumerate(places):
-        now = Inputs312.parse(bytes([0xFF & ~(1 << bit), 0xC0]))
+        now = Inputs.parse(bytes([0xFF & ~(1 << bit), 0xC0]))
         assert [name for name, active in vars(now).items() if active] == [place]
-    assert Inputs312.parse(bytes([0xFF, 0xE0])).active == ["run"]
-    assert Inputs312.parse(bytes([0xFF, 0x40])).active == ["event2"]
+    assert Inputs.parse(bytes([0xFF, 0xE0])).active == ["run"]
+    assert Inputs.parse(bytes([0xFF, 0x40])).active == ["event2"]
     assert EventBuffer.parse(bytes.fromhex("02 01 26 84 00 00")) == EventBuffer(1, (0x26, 0x84))
 
 
@@ -249,12 +256,12 @@ def test_status_and_inputs() -> None:
 def test_base_clock_by_the_slowest_speed() -> None:
     """The fastest one whose 65 535 ticks are long enough."""
     for slowest, clk in ((5000, 0), (123, 0), (122, 1), (15.3, 1), (7.7, 2), (4, 3), (1, 4), (0.3, 5)):
-        setup = PPMC312.plan(XTAL, start_pps=slowest, high_pps=7000, ramp_pulses=9_000_000)
+        setup = PPMC312.plan(XTAL, Wanted(start_pps=slowest, high_pps=7000, ramp_pulses=9_000_000))
         assert setup.clock.clk == clk, slowest
-    own_stop = PPMC312.plan(XTAL, start_pps=1000, stop_pps=100, high_pps=5000, ramp_pulses=20_000)
+    own_stop = PPMC312.plan(XTAL, Wanted(start_pps=1000, stop_pps=100, high_pps=5000, ramp_pulses=20_000))
     assert own_stop.clock.clk == 1
-    assert PPMC312.plan(8_000_000, start_pps=1000).clock.hertz == 4_000_000
-    outside = PPMC312.plan(XTAL, external_clock=100_000, start_pps=100, high_pps=500)
+    assert PPMC312.plan(8_000_000, Wanted(start_pps=1000)).clock.hertz == 4_000_000
+    outside = PPMC312.plan(XTAL, Wanted(external_clock=100_000, start_pps=100, high_pps=500))
     assert outside.clock.external and outside.blocks[0][3] == 6
 
 
@@ -303,20 +310,20 @@ def test_initial_settings() -> None:
 )
 def test_bad_setups_are_told_before_they_are_sent(arguments: dict[str, object], text: str) -> None:
     with pytest.raises(OutOfRange, match=text.replace("(", ".")):
-        PPMC312.plan(XTAL, **arguments)  # type: ignore[arg-type]
+        PPMC312.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
 
 
 def test_prediction_of_a_move() -> None:
     """Examples E13 and E17 of the rules, and a constant speed; what the part would refuse is refused."""
     one, two = "01 03e8 00c8 0007d0", "11 03e8 01f4 00c8 0007d0 0005dc"
     move = predict_move(bytes.fromhex(one), 5000, part="ppmc312")
-    assert isinstance(move, Move312) and (move.kind, len(move.clk)) == (0, 5000)
+    assert isinstance(move, TableMove) and (move.kind, len(move.clk)) == (0, 5000)
     assert move.clk[-1] == 16 * (1_532_294 - 1000) and move.rates[:6] == (1000,) * 5 + (969,)
     move = predict_move(bytes.fromhex(two), 100, part="ppmc312", timebase=Timebase(8_000_000))
-    assert isinstance(move, Move312) and move.kind == 0x40 and move.clk[-1] == 8 * (81_077 - 677)
+    assert isinstance(move, TableMove) and move.kind == 0x40 and move.clk[-1] == 8 * (81_077 - 677)
     assert move.seconds[-1] == pytest.approx(0.0804) and move.speeds[0] == 1000
     flat = predict_move(bytes.fromhex(one), 3, 500, part="ppmc312")
-    assert isinstance(flat, Move312) and flat.intervals == [8000, 8000] and flat.indices == (None, None)
+    assert isinstance(flat, TableMove) and flat.intervals == [8000, 8000] and flat.indices == (None, None)
     for init, n, rate in (
         (one[:-2], 5, None),
         ("01 03e8 00c8 000100", 5, None),
@@ -351,7 +358,7 @@ def test_free_curve_from_a_file(tmp_path: Path) -> None:
     stages = read_stages(path)
     assert stages == [(2500, 3, None), (5000, 4, 4), (10_000, 5, 6)]
     assert (
-        PPMC312.plan(XTAL, curve=str(path), base_clock=1_000_000).blocks
+        PPMC312.plan(XTAL, Wanted(curve=str(path), base_clock=1_000_000)).blocks
         == plan_curve(MEGAHERTZ, stages).blocks
     )
 
@@ -378,7 +385,7 @@ def test_bad_free_curves(tmp_path: Path, text: str, complaint: str) -> None:
     path = tmp_path / "curve.csv"
     path.write_text(text)
     with pytest.raises(OutOfRange, match=complaint):
-        PPMC312.plan(XTAL, curve=str(path))
+        PPMC312.plan(XTAL, Wanted(curve=str(path)))
 
 
 def test_a_curve_that_is_no_text(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.errors import StartRefused
+from openppmc.host.basis.refusals import StartRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
 from openppmc.host.ppmc312 import blocks
@@ -58,10 +58,10 @@ from openppmc.host.ppmc312.errors import (
     TableRefused,
 )
 from openppmc.host.ppmc312.registers import EventBuffer
-from openppmc.model.carrier.plant import parse_machine
-from openppmc.model.ppmc312.carrier import Board312
+from openppmc.model.ppmc312.carrier import Carrier
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Code, Source, State
+from openppmc.sim.common.machine import parse_machine
 
 TF = ((2500, 3), (5000, 4), (10_000, 5))
 """Rates 400, 200, 100 with 3, 4, 5 pulses at 1 MHz (table TF of the rules)."""
@@ -82,10 +82,10 @@ def part() -> Iterator[Ppmc312]:
         yield ready
 
 
-def model(part: Ppmc312) -> Board312:
+def model(part: Ppmc312) -> Carrier:
     """The modelled board."""
     assert isinstance(part.link.port, ModelPort)
-    assert isinstance(part.link.port.board, Board312)
+    assert isinstance(part.link.port.board, Carrier)
     return part.link.port.board
 
 

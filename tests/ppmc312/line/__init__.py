@@ -1,1 +1,1 @@
-"""tests/ppmc312/line"""
+"""The PPMC-312 in serial mode: driver, command line, frames, faults of the line."""

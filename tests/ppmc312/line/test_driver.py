@@ -24,7 +24,8 @@ from openppmc.host import (
     StoppedEarly,
     Timeout,
 )
-from openppmc.host.basis.errors import StartRefused
+from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import StartRefused
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,
@@ -48,7 +49,7 @@ from openppmc.host.ppmc312.errors import (
 from openppmc.host.ppmc312.line.ascii import SumMode
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Source, State
-from tests.ppmc312.line.line_ports import Played
+from tests.common.host.line_ports import Played
 
 FAST = (4000, 8000, 600)
 """Start speed, high speed, ramp: a table whose motions cost the model little."""
@@ -66,7 +67,7 @@ def line(text: str = "stations=2", initialised: int | None = 1) -> Iterator[Ppmc
 
 def pins(bus: Ppmc312Bus, station: int, **levels: int) -> None:
     """Pins of a station's part; the others are those of the plant."""
-    bus.line.port.line.board(station).set_pins(**levels)  # type: ignore[attr-defined]
+    bus.line.port.line.station(station).set_pins(**levels)  # type: ignore[attr-defined]
 
 
 def test_moves_of_one_station() -> None:
@@ -197,7 +198,7 @@ def test_only_the_bus_can() -> None:
     with line() as bus:
         axis = bus.axis(1)
         with pytest.raises(OutOfRange, match="free curves: a PPMC-312 in serial mode"):
-            axis.kind.plan(16_000_000, curve="x.csv")
+            axis.kind.plan(16_000_000, Wanted(curve="x.csv"))
         with pytest.raises(OutOfRange, match="free curves: only on the parallel bus"):
             axis.load_curve([(2500, 3), (5000, 4), (10_000, 5)])
         with pytest.raises(OutOfRange, match="deceleration of its own"):
@@ -291,7 +292,7 @@ def test_terminals() -> None:
         axis.auxo(0x15)
         axis.counter_clear()
         axis.zero_clamp()
-        outputs = bus.line.port.line.board(1).part.outputs  # type: ignore[attr-defined]
+        outputs = bus.line.port.line.station(1).part.outputs  # type: ignore[attr-defined]
         levels = [outputs[name] for name in ("exon_n", "auxo_n", "cclr_n", "zclmp_n")]
         assert levels == [0, 0x2A, 0, 0]
 

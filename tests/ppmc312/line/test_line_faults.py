@@ -7,19 +7,13 @@ from collections.abc import Callable
 import pytest
 
 from openppmc.host import CCW, CW, Cause, Disconnected, Ppmc312Bus, PpmcError, ProtocolError, Station312
-from openppmc.host.basis.errors import LinkError, NothingToStop, UnknownCode
+from openppmc.host.basis.errors import LinkError
+from openppmc.host.basis.refusals import NothingToStop, UnknownCode
 from openppmc.host.line.errors import DuplicateAddress, GarbledReply, LineEcho, LostReply, StationSilent
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import Alarm
-from tests.ppmc312.line.line_ports import (
-    BREAK_FRAME,
-    BREAK_REPLY,
-    LOSE_FRAME,
-    LOSE_REPLY,
-    Played,
-    once,
-    spoiled,
-)
+from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Played
+from tests.ppmc312.line.line_ports import once, spoiled
 
 FAST = (4000, 8000, 600)
 ANY_FATE = (LOSE_FRAME, LOSE_REPLY, BREAK_FRAME, BREAK_REPLY)
@@ -43,7 +37,7 @@ def test_a_start_with_a_fault_moves_once(code: int, fate: str) -> None:
         port.plan = once(code, fate)
         start, pulses = STARTS[code]
         start(axis)
-        assert axis.position == pulses == port.line.board(1).position - 4000
+        assert axis.position == pulses == port.line.station(1).position - 4000
         sent = sum(frame[1:3] == b"%02x" % code for frame in port.frames)
         assert sent == (2 if fate in (LOSE_FRAME, BREAK_FRAME) else 1)
         assert axis.counters.faults == 1
@@ -301,7 +295,7 @@ def test_a_noisy_line(seed: int) -> None:
             for pulses in (4, -7, 30, -1, 9, 2) * 4:
                 axis.move(pulses)
                 wanted += pulses
-                assert line.board(1).position == wanted, seed
+                assert line.station(1).position == wanted, seed
         except (PpmcError, ValueError) as error:
             # A flipped bit 7 gets through the checksum, now and then; then it is said.
             assert isinstance(error, LinkError) or "station 1" in str(error), seed

@@ -11,7 +11,7 @@ from openppmc.host.ppmc312.line.ascii import frame
 from openppmc.sim import part_of
 from openppmc.sim.common import line_child, lines
 from openppmc.sim.ppmc312 import line_spec
-from openppmc.sim.ppmc312.line_board import LineBoard
+from openppmc.sim.ppmc312.line import StationLine
 from openppmc.sim.ppmc312.line_spec import parse_line
 
 
@@ -60,7 +60,7 @@ def test_bad_words(text: str, says: str) -> None:
 
 def heard(text: str, *frames: str) -> bytes:
     """What comes back for frames, each with 10 ms of silence after it."""
-    line = LineBoard(parse_line("baud=83333," + text))
+    line = StationLine(parse_line("baud=83333," + text))
     line.run(1000)
     for wire in frames:
         line.write(bytes.fromhex(wire))
@@ -86,14 +86,14 @@ def test_replies_of_two_stations_collide() -> None:
 
 def test_stations_run_while_others_are_asked() -> None:
     """One that nobody asks comes up to the line's time when it is looked at."""
-    line = LineBoard(parse_line("stations=2"))
+    line = StationLine(parse_line("stations=2"))
     line.run(1000)
     for data in ("0001" + "03e8" + "00c8" + "0007d0", "85" + "03e8"):
         line.write(frame(0x90, bytes.fromhex(data)))
         line.run(320_000)
     line.write(frame(0x91, b"\x42"))
     line.run(16_000_000)
-    assert line.boards[0].position < 4100 and 5010 < line.board(0).position < 5030
+    assert line.stations[0].position < 4100 and 5010 < line.station(0).position < 5030
 
 
 def test_the_master_hears_itself_if_asked_for() -> None:

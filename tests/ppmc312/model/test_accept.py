@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import T1, TF, Host312
+from cocotb_tests.ppmc312.host import T1, TF, Host
 
 # States INI, NOR, ACC, FIX, ABN, WRN; O accepted, . refused. Blocks with 05 for flags have OV = 1.
 ROWS = [
@@ -58,9 +58,9 @@ ROWS = [
 CONDITIONS = (0x01, 0x02, 0x04, 0x08, 0x10, 0x20)
 
 
-def in_state(condition: int) -> Host312:
+def in_state(condition: int) -> Host:
     """A host whose part is in this state."""
-    host = Host312(*(TF if condition != 0x01 else ()))
+    host = Host(*(TF if condition != 0x01 else ()))
     if condition == 0x04:
         host.ask("03 08 82 00 0000 00001388")
     elif condition == 0x08:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, MWEF, T1, TF, Host312, clean
+from cocotb_tests.ppmc312.host import CSR, MWEF, T1, TF, Host, clean
 
 STOP = "03 02 80 00"
 FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
@@ -24,7 +24,7 @@ def at(position: int, code: int = 0x80) -> str:
 @verifies("P312-CHK-23", "P312-CHK-24", "P312-OVR-12")
 def test_stop_at_a_position(setting: tuple[str, ...]) -> None:
     for timing in ("FAST", "DATASHEET"):
-        host = Host312(*setting, timing=timing)
+        host = Host(*setting, timing=timing)
         assert host.ask(at(20)) == "03 01 E8"
         assert host.ask("03 04 86 00 0000") == "03 02 86 00"
         assert host.response() == "1B 01 80"
@@ -34,7 +34,7 @@ def test_stop_at_a_position(setting: tuple[str, ...]) -> None:
 
 @verifies("P312-OVR-12", "P312-MOT-34")
 def test_stop_at_the_last_pulse_changes_nothing() -> None:
-    host = Host312(*TF, at(10))
+    host = Host(*TF, at(10))
     host.ask("03 08 83 00 0190 0000000A")
     assert host.response() == "1B 01 80"
     assert host.response() == stopped(0x40, 10)
@@ -42,14 +42,14 @@ def test_stop_at_the_last_pulse_changes_nothing() -> None:
 
 @verifies("P312-CHK-25", "P312-OVR-01")
 def test_nine_registrations() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     assert [host.ask(at(20)) for _ in range(9)] == ["03 01 E8"] * 8 + ["03 02 F7 00"]
     assert host.ask("03 01 4D") == "03 04 4D 00 02 08"
 
 
 @verifies("P312-CHK-26", "P312-CMD-82")
 def test_trigger_not_possible() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     for code, tail in ((0x82, "0000 0000001E"), (0x83, "0190 0000001E"), (0x85, "0000"), (0x86, "0190")):
         for flags in ("04", "06"):
             data = bytes.fromhex(flags + tail)
@@ -64,17 +64,17 @@ def test_trigger_not_possible() -> None:
 
 @verifies("P312-CHK-27")
 def test_evt_in_use() -> None:
-    host = Host312(*TF, "03 04 88 05 00C8")
+    host = Host(*TF, "03 04 88 05 00C8")
     assert host.ask("03 06 49 00 03 02 84 00") == "03 02 49 01"
     assert host.ask("03 06 49 01 03 02 84 00") == "03 02 49 00"
     assert host.ask("03 04 88 07 00C8") == "03 02 F7 01"
-    host = Host312(*TF, "03 06 49 00 03 02 84 00")
+    host = Host(*TF, "03 06 49 00 03 02 84 00")
     assert host.ask("03 04 88 05 00C8") == "03 02 F7 01"
 
 
 @verifies("P312-CHK-28", "P312-EVT-01", "P312-EVT-02")
 def test_event_buffer_goes_round() -> None:
-    host = Host312(*TF, "03 06 49 00 03 02 26 01", "03 06 49 00 03 02 26 02")
+    host = Host(*TF, "03 06 49 00 03 02 26 01", "03 06 49 00 03 02 26 02")
     for level in (0x3E, 0x3D, 0x3E):
         host.blip("evt0_n")
         assert host.response() == "0B 01 26"
@@ -85,7 +85,7 @@ def test_event_buffer_goes_round() -> None:
 
 @verifies("P312-CHK-29", "P312-EVT-02")
 def test_event_interruption() -> None:
-    host = Host312(*TF, "03 06 49 01 03 02 84 00")
+    host = Host(*TF, "03 06 49 01 03 02 84 00")
     host.pins(fl_n=0)
     host.blip("evt1_n")
     assert host.response() == "0B 02 F8 02"
@@ -108,7 +108,7 @@ def test_event_interruption() -> None:
 )
 @verifies("P312-EVT-02", "P312-EVT-03")
 def test_event_failures(block: str, number: str) -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     data = bytes.fromhex(block)
     assert host.ask(f"03 {len(data) + 2:02X} 49 00 {block}") == "03 02 49 00"
     host.blip("evt0_n")
@@ -118,10 +118,10 @@ def test_event_failures(block: str, number: str) -> None:
 
 @verifies("P312-EVT-03")
 def test_reset_and_setting_from_events() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 FF")
+    host = Host(*TF, "03 05 49 00 03 01 FF")
     host.blip("evt0_n")
     assert host.response() == "03 01 FF" and host.condition == 0x01
-    host = Host312(*TF, "03 0D 49 00" + T1)
+    host = Host(*TF, "03 0D 49 00" + T1)
     host.blip("evt0_n", gap=50_000)
     assert host.response() == "0B 01 00"
     assert host.model.core.table is not None and host.model.core.table.na == 2000
@@ -130,7 +130,7 @@ def test_reset_and_setting_from_events() -> None:
 
 @verifies("P312-CHK-30")
 def test_registration_and_deletion() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     assert host.ask("03 02 49 02") == "03 02 49 05"
     answers = [host.ask("03 06 49 00 03 02 84 00") for _ in range(5)]
     assert answers == ["03 02 49 00"] * 4 + ["03 02 49 02"]
@@ -140,7 +140,7 @@ def test_registration_and_deletion() -> None:
 @pytest.mark.parametrize("block", ["03 02 49 02", "03 06 49 00 03 02 26 04"])
 @verifies("P312-EVT-01")
 def test_registration_and_deletion_start_with_the_first_again(block: str) -> None:
-    host = Host312(*TF, *(f"03 06 49 00 03 02 26 0{n}" for n in (1, 2, 3)))
+    host = Host(*TF, *(f"03 06 49 00 03 02 26 0{n}" for n in (1, 2, 3)))
     host.blip("evt0_n")
     host.response()
     assert host.ask("03 01 47").split()[4] == "01"
@@ -152,7 +152,7 @@ def test_registration_and_deletion_start_with_the_first_again(block: str) -> Non
 
 @verifies("P312-EVT-04")
 def test_edges_without_a_taker() -> None:
-    host = Host312(*TF, "03 04 88 07 00C8", "03 04 87 05 0190")
+    host = Host(*TF, "03 04 88 07 00C8", "03 04 87 05 0190")
     host.ask("03 04 86 00 0064")
     host.blip("evt0_n")
     assert host.quiet() and host.ask("03 01 4D") == "03 04 4D 00 08 32"
@@ -165,7 +165,7 @@ def test_edges_without_a_taker() -> None:
 
 @verifies("P312-CHK-31", "P312-OVR-04")
 def test_override_interruption() -> None:
-    host = Host312(*TF, "03 08 82 05 0000 0000001E", at(5000))
+    host = Host(*TF, "03 08 82 05 0000 0000001E", at(5000))
     host.ask("03 04 86 00 0064")
     mark = host.mark
     host.pulse(10)
@@ -181,7 +181,7 @@ def test_override_interruption() -> None:
 
 @verifies("P312-OVR-02", "P312-OVR-11")
 def test_a_position_passed_one_pulse_later_is_not_missed() -> None:
-    host = Host312(*TF, "03 08 88 04 00C8 0000000A", "03 08 88 04 0190 0000000B", at(14))
+    host = Host(*TF, "03 08 88 04 00C8 0000000A", "03 08 88 04 0190 0000000B", at(14))
     host.ask("03 04 86 00 0064")
     for answer in ("1B 01 88", "1B 01 88", "1B 01 80"):
         assert host.response() == answer
@@ -191,7 +191,7 @@ def test_a_position_passed_one_pulse_later_is_not_missed() -> None:
 
 @verifies("P312-OVR-02")
 def test_equality_that_stands_is_no_trigger() -> None:
-    host = Host312(*TF, at(0))
+    host = Host(*TF, at(0))
     host.ask("03 08 83 00 0190 00000002")
     assert host.response() == stopped(0x40, 2)
     host.ask("03 08 83 40 0190 00000005")
@@ -201,7 +201,7 @@ def test_equality_that_stands_is_no_trigger() -> None:
 
 @verifies("P312-CHK-49", "P312-OUT-03")
 def test_interlock() -> None:
-    host = Host312(*TF, "03 05 04 0000000A")
+    host = Host(*TF, "03 05 04 0000000A")
     assert host.ask("03 01 44") == "03 02 44 01"
     assert host.out("intlk_n") == 0
     host.ask("03 08 83 00 0190 00000014")
@@ -215,7 +215,7 @@ def test_interlock() -> None:
 
 @verifies("P312-CHK-70", "P312-RSP-20")
 def test_a_stop_does_not_wait_for_a_read() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25")
+    host = Host(*TF, "03 05 49 00 03 01 25")
     host.pins(auxi=0xFF)
     host.ask("03 04 86 00 0064")
     mark = host.mark
@@ -236,7 +236,7 @@ def test_a_stop_does_not_wait_for_a_read() -> None:
 
 @verifies("P312-RSP-20")
 def test_an_event_behind_an_unread_answer_is_an_alarm() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25")
+    host = Host(*TF, "03 05 49 00 03 01 25")
     host.issue("03 01 40")
     host.pause(200)
     host.blip("evt0_n")
@@ -249,7 +249,7 @@ def test_an_event_behind_an_unread_answer_is_an_alarm() -> None:
 
 @verifies("P312-CHK-72")
 def test_position_stop_behind_an_unread_answer() -> None:
-    host = Host312(*TF, "03 08 88 04 00C8 00000012", at(19))
+    host = Host(*TF, "03 08 88 04 00C8 00000012", at(19))
     host.ask("03 04 86 00 0064")
     host.pulse(19)
     host.pause(20_000)
@@ -262,7 +262,7 @@ def test_position_stop_behind_an_unread_answer() -> None:
 
 @verifies("P312-OVR-05", "P312-INP-31")
 def test_buffers_survive_an_alarm() -> None:
-    host = Host312(*TF, at(5), "03 06 49 00 03 02 84 00")
+    host = Host(*TF, at(5), "03 06 49 00 03 02 84 00")
     host.pins(alm_n=0)
     assert host.response() == "23 02 F4 00"
     host.pins(alm_n=1)
@@ -275,7 +275,7 @@ def test_buffers_survive_an_alarm() -> None:
 
 @verifies("P312-INP-31")
 def test_alarm_aborts_a_transfer() -> None:
-    host = Host312(*TF[:2])
+    host = Host(*TF[:2])
     host.pins(alm_n=0)
     assert host.response() == "23 02 F4 00"
     assert host.ask(TF[2]) == "03 03 F1 01 10"
@@ -283,7 +283,7 @@ def test_alarm_aborts_a_transfer() -> None:
 
 @verifies("P312-OVR-10", "P312-BAD-13")
 def test_one_edge_is_remembered() -> None:
-    host = Host312(*TF, "03 06 49 00 03 02 26 01", "03 06 49 00 03 02 26 02", "03 06 49 01 03 02 26 04")
+    host = Host(*TF, "03 06 49 00 03 02 26 01", "03 06 49 00 03 02 26 02", "03 06 49 01 03 02 26 04")
     host.pins(evt0_n=0, evt1_n=0)
     host.pins(evt0_n=1, evt1_n=1)
     host.pause(4)

@@ -19,14 +19,14 @@ from cocotb_tests.ppmc312.host import (
     TF,
     WAR,
     WCR,
-    Host312,
+    Host,
 )
 from openppmc.model.ppmc312.pins import OUTPUTS
 
 
 @verifies("P312-CHK-01", "P312-PAR-01", "P312-PRT-02")
 def test_reset_values() -> None:
-    host = Host312()
+    host = Host()
     assert host.model.log.initial == OUTPUTS
     assert [edge for edge in host.model.edges if edge.signal == "out_oe"] == [(3, "out_oe", 1)]
     assert (host.read(CSR), host.read(RAR)) == (0x04, 0x40)
@@ -37,7 +37,7 @@ def test_reset_values() -> None:
 
 @verifies("P312-CHK-02", "P312-PAR-02")
 def test_interrupt_levels() -> None:
-    host = Host312()
+    host = Host()
     host.write(CSR, 0xFF)
     assert host.read(CSR) == 0x74
     host.pause(8)
@@ -58,7 +58,7 @@ def test_interrupt_levels() -> None:
 
 @verifies("P312-CHK-03", "P312-PAR-07", "P312-BAD-08")
 def test_read_window() -> None:
-    host = Host312()
+    host = Host()
     host.issue("03 01 40")
     host.wait()
     assert host.read(RAR) == 0x3C
@@ -72,7 +72,7 @@ def test_read_window() -> None:
 
 @verifies("P312-CHK-04", "P312-CHK-05", "P312-CHK-06")
 def test_states_and_lengths() -> None:
-    host = Host312()
+    host = Host()
     assert host.ask("03 02 84 00") == "03 03 F1 00 01"
     assert host.ask(T1) == "03 01 00"
     assert host.ask("03 01 4D") == "03 04 4D 00 02 00"
@@ -97,7 +97,7 @@ def test_states_and_lengths() -> None:
 )
 @verifies("P312-CHK-07", "P312-CHK-08")
 def test_initial_errors(number: str, setting: str) -> None:
-    host = Host312(T1)
+    host = Host(T1)
     data = bytes.fromhex(setting)
     answer = host.ask(f"03 {len(data) + 1:02X} 00 {data.hex()}")
     assert answer == f"03 {len(data) + 3:02X} F0 {number} 00 {data.hex(' ').upper()}"
@@ -110,7 +110,7 @@ def test_table_read() -> None:
         (T1, 55, "02 0A 41 7F 7F 00 00 07 D0 00 07 D0"),
         (T3, 79, "02 0A 41 7F 7F 60 00 07 D0 00 05 DC"),
     ):
-        host = Host312(setting)
+        host = Host(setting)
         assert host.ask("03 01 41") == first
         blocks = []
         for left in range(count - 1, 0, -1):
@@ -123,7 +123,7 @@ def test_table_read() -> None:
 
 @verifies("P312-CHK-12")
 def test_free_curve() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     assert host.ask(TF[0]) == "03 03 01 00 03"
     assert host.condition == 0x01
     assert host.ask(TF[1]) == "03 03 01 01 03"
@@ -149,7 +149,7 @@ def test_free_curve() -> None:
 )
 @verifies("P312-CHK-13", "P312-BAD-04", "P312-BAD-11")
 def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
-    host = Host312(T1, *blocks[:-1])
+    host = Host(T1, *blocks[:-1])
     echo = bytes.fromhex(blocks[-1])[2:]
     assert host.ask(blocks[-1]) == f"03 {len(echo) + 2:02X} F0 {number} {echo.hex(' ').upper()}"
     assert host.condition == 0x01
@@ -159,17 +159,17 @@ def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
 
 @verifies("P312-CHK-14")
 def test_instruction_inside_a_transfer() -> None:
-    host = Host312(TF[0])
+    host = Host(TF[0])
     assert host.ask("03 01 40") == "03 03 F1 02 01"
     assert host.ask("03 01 40") == "03 02 40 12"
-    host = Host312(TF[0])
+    host = Host(TF[0])
     assert host.ask("03 01 FF") == "03 01 FF"
     assert host.ask(TF[1]) == "03 03 F1 01 01"
 
 
 @verifies("P312-CHK-18")
 def test_parameter_errors() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     for data, number in (("00 0063 0000001E", 0x20), ("00 0191 0000001E", 0x20), ("00 0000 00000000", 0x23)):
         assert host.ask(f"03 08 82 {data}").startswith(f"03 0A F0 {number:02X} 82")
     for block, number in (
@@ -193,7 +193,7 @@ def test_parameter_errors() -> None:
 
 @verifies("P312-CHK-51", "P312-BAD-05", "P312-BAD-06")
 def test_bad_blocks() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     assert host.ask("03 02 40") == "03 02 F6 02"
     assert host.ask("03 00 40") == "03 02 F6 00"
     assert host.ask("07 01 40") == "03 03 F1 01 02"
@@ -208,7 +208,7 @@ def test_bad_blocks() -> None:
 
 @verifies("P312-CHK-52", "P312-BAD-02", "P312-BAD-03", "P312-BAD-07", "P312-BAD-10")
 def test_write_window() -> None:
-    host = Host312()
+    host = Host()
     host.write(WCR, 0x00)
     host.write(WAR, 0x1D)
     for byte in (0x40, 0x01, 0x03):
@@ -231,7 +231,7 @@ def test_write_window() -> None:
 
 @verifies("P312-BAD-01")
 def test_unused_registers() -> None:
-    host = Host312()
+    host = Host()
     for reg in (1, 4, 6):
         host.write(reg, 0x55)
         assert host.read(reg) == 0
@@ -240,7 +240,7 @@ def test_unused_registers() -> None:
 
 @verifies("P312-CHK-53", "P312-PAR-12")
 def test_wait_request() -> None:
-    host = Host312(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     host.write(CSR, 0x40)
     host.mark = host.t
     host.put("03 01 40")
@@ -254,7 +254,7 @@ def test_wait_request() -> None:
 
 @verifies("P312-CHK-39", "P312-RSP-20")
 def test_two_instructions_without_reading() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     host.issue("03 01 40")
     host.pause(200)
     host.issue("03 02 26 3F")
@@ -266,7 +266,7 @@ def test_two_instructions_without_reading() -> None:
 
 @verifies("P312-CHK-37", "P312-CHK-38", "P312-INP-33")
 def test_alarm_clear_waits_for_the_pin() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     host.pins(alm_n=0)
     assert host.response() == "23 02 F4 00"
     assert host.ask("03 01 24") == "03 01 24"
@@ -291,7 +291,7 @@ def test_alarm_clear_waits_for_the_pin() -> None:
 
 @verifies("P312-CHK-62")
 def test_software_reset() -> None:
-    host = Host312(T1, "03 06 43 00 00000007", "03 02 26 3F")
+    host = Host(T1, "03 06 43 00 00000007", "03 02 26 3F")
     host.write(CSR, 0x70)
     assert host.ask("03 01 FF") == "03 01 FF"
     assert host.read(CSR) == 0x04 and host.condition == 0x01 and host.model.position == 0
@@ -301,7 +301,7 @@ def test_software_reset() -> None:
 
 @verifies("P312-CHK-62", "P312-BAD-09")
 def test_reset_recovers_a_host_that_never_read() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     for _ in range(4):
         host.issue("03 01 40")
         host.pause(200)
@@ -312,7 +312,7 @@ def test_reset_recovers_a_host_that_never_read() -> None:
 
 @verifies("P312-CMD-22")
 def test_counter_clear_restarts() -> None:
-    host = Host312("03 01 22")
+    host = Host("03 01 22")
     host.pause(100_000)
     host.ask("03 01 22")
     again = host.t
@@ -322,7 +322,7 @@ def test_counter_clear_restarts() -> None:
 
 
 def test_terminals() -> None:
-    host = Host312()
+    host = Host()
     assert host.ask("03 01 27") == "03 03 27 FF E0"
     host.pins(fl_n=0, org_n=0, run=0, evt1_n=0)
     assert host.ask("03 01 27") == "03 03 27 ED 40"
@@ -333,7 +333,7 @@ def test_terminals() -> None:
 
 
 def test_serial_mode_is_silent_on_the_bus() -> None:
-    model_host = Host312()
+    model_host = Host()
     model = model_host.model
     model.pins(model_host.t, rst_n=0, mode=0)
     model.pins(model_host.t + 20, rst_n=1)

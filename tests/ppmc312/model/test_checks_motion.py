@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import T1, T2, T3, T4, TF, TG, TH, Host312, clean
+from cocotb_tests.ppmc312.host import T1, T2, T3, T4, TF, TG, TH, Host, clean
 
 
 def rates(text: str) -> list[int]:
@@ -40,7 +40,7 @@ MOVES = [
 @pytest.mark.parametrize(("setting", "n", "rate", "kind", "pulses"), MOVES)
 @verifies("P312-CHK-15", "P312-CHK-16", "P312-MOT-01", "P312-MOT-05", "P312-MOT-06")
 def test_worked_moves(setting: tuple[str, ...], n: int, rate: int, kind: int, pulses: str) -> None:
-    host = Host312(*setting)
+    host = Host(*setting)
     assert host.ask(f"03 08 82 00 {rate:04X} {n:08X}") == f"03 02 82 {kind:02X}"
     assert host.response() == stopped(0x40, n)
     assert host.gaps() == rates(pulses)[:-1] and len(host.pulses()) == n
@@ -63,7 +63,7 @@ def test_long_moves(setting: str, n: int, total: int, first: str, last: str) -> 
     """At F = 8 MHz, 2 clk a tick, so that nobody has to wait for 70 million clk."""
     block = bytearray.fromhex(setting)
     block[3] &= 0xF8
-    host = Host312(block.hex())
+    host = Host(block.hex())
     host.ask(f"03 08 82 00 0000 {n:08X}")
     while not host.model.core.responses.any_waiting:
         host.step()
@@ -99,7 +99,7 @@ CHANGES = [
 @pytest.mark.parametrize(("start", "when", "blocks", "pulses", "cause"), CHANGES)
 @verifies("P312-CHK-19", "P312-CHK-20", "P312-OVR-11")
 def test_changes(start: str, when: int, blocks: list[str], pulses: str, cause: int) -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask(start)
     mark = host.mark
     host.pulse(when)
@@ -113,7 +113,7 @@ def test_changes(start: str, when: int, blocks: list[str], pulses: str, cause: i
 
 @verifies("P312-CHK-20")
 def test_slower_while_running() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 86 00 0064")
     mark = host.mark
     host.pulse(10)
@@ -127,7 +127,7 @@ def test_slower_while_running() -> None:
 
 @verifies("P312-CHK-21", "P312-CHK-64")
 def test_positions_wrap() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 06 43 00 00000003")
     host.ask("03 08 83 40 00C8 0000000A")
     assert host.response() == stopped(0x40, 0xFFFFFFF9) and host.out("dir") == 1
@@ -137,7 +137,7 @@ def test_positions_wrap() -> None:
         assert host.response() == stopped(0x40, after)
 
 
-def highs(host: Host312) -> list[int]:
+def highs(host: Host) -> list[int]:
     """High times of pout since `mark`."""
     changes = host.model.log.of("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
@@ -145,11 +145,11 @@ def highs(host: Host312) -> list[int]:
 
 @verifies("P312-CHK-22", "P312-MOT-03")
 def test_pulse_width() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 08 83 00 0190 00000003")
     host.response()
     assert highs(host) == [80] * 3
-    host = Host312("02 03 01 01 02", "00 04 0003 0064", "01 06 000005 000005")
+    host = Host("02 03 01 01 02", "00 04 0003 0064", "01 06 000005 000005")
     host.ask("03 08 83 00 0003 00000004")
     host.response()
     assert highs(host) == [16] * 4 and host.gaps() == [3] * 3
@@ -157,7 +157,7 @@ def test_pulse_width() -> None:
 
 @verifies("P312-CHK-31", "P312-CHK-32", "P312-CHK-33", "P312-INP-20")
 def test_run() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.pins(run=0)
     assert host.ask("03 08 82 00 0000 00000005") == "03 02 82 11"
     assert host.condition == 0x20 and not host.pulses()
@@ -177,7 +177,7 @@ def test_run() -> None:
 
 @verifies("P312-CHK-37", "P312-INP-30")
 def test_alarm_while_running() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 86 00 0064")
     host.pulse(5, 20)
     host.pins(alm_n=0)
@@ -190,7 +190,7 @@ def test_alarm_while_running() -> None:
 
 @verifies("P312-CHK-40")
 def test_stop_report_left_unread() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 02 84 00")
     host.wait()
     host.issue("03 02 84 00")
@@ -203,7 +203,7 @@ def test_stop_report_left_unread() -> None:
 
 @verifies("P312-CHK-44", "P312-STA-02", "P312-BAD-18", "P312-BAD-19")
 def test_positioning_end() -> None:
-    host = Host312(*TF, "03 02 06 01")
+    host = Host(*TF, "03 02 06 01")
     host.ask("03 08 83 00 0190 00000005")
     host.pause(100_000)
     assert host.quiet() and host.condition == 0x08
@@ -221,7 +221,7 @@ def test_positioning_end() -> None:
 
 @verifies("P312-CHK-45", "P312-OUT-01")
 def test_current_reduction() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 08 83 00 0190 00000003")
     host.response()
     last = host.pulses()[-1]
@@ -240,7 +240,7 @@ def test_current_reduction() -> None:
 
 @verifies("P312-CHK-68", "P312-MOT-01")
 def test_start_delay() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 08 83 40 0190 00000003")
     host.pulse(1)
     (turned,) = host.model.log.rises("dir", host.mark)
@@ -249,7 +249,7 @@ def test_start_delay() -> None:
 
 @verifies("P312-CHK-69")
 def test_single_steps_keep_their_distance() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     edges = []
     for number in range(5):
         host.ask("03 02 84 00")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import TF, Host312, clean
+from cocotb_tests.ppmc312.host import TF, Host, clean
 
 STOP = "03 02 80 00"
 
@@ -14,7 +14,7 @@ def stopped(cause: int, position: int) -> str:
     return clean(f"23 06 E0 {cause:02X} {position:08X}")
 
 
-def highs(host: Host312) -> list[int]:
+def highs(host: Host) -> list[int]:
     """High times of pout since `mark`."""
     changes = host.model.log.of("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
@@ -22,7 +22,7 @@ def highs(host: Host312) -> list[int]:
 
 @verifies("P312-CHK-63", "P312-MOT-02")
 def test_other_clock() -> None:
-    host = Host312("02 03 01 00 03", TF[1], TF[2], clk_hz=27_000_000)
+    host = Host("02 03 01 00 03", TF[1], TF[2], clk_hz=27_000_000)
     host.ask("03 08 83 00 0064 00000032")
     host.response()
     first = host.pulses()[0]
@@ -31,7 +31,7 @@ def test_other_clock() -> None:
 
 @verifies("P312-MOT-04")
 def test_shortest_interval_is_4_clk() -> None:
-    host = Host312("02 03 01 00 02", "00 04 0002 0064", "01 06 000005 000005", clk_hz=8_000_000, version=0x34)
+    host = Host("02 03 01 00 02", "00 04 0002 0064", "01 06 000005 000005", clk_hz=8_000_000, version=0x34)
     host.ask("03 08 83 00 0002 00000006")
     host.response()
     assert [b - a for a, b in zip(host.pulses(), host.pulses()[1:], strict=False)] == [4] * 5
@@ -39,7 +39,7 @@ def test_shortest_interval_is_4_clk() -> None:
 
 @verifies("P312-CHK-71", "P312-BAD-14")
 def test_external_clock_that_stops() -> None:
-    host = Host312("02 03 01 06 03", TF[1], TF[2])
+    host = Host("02 03 01 06 03", TF[1], TF[2])
 
     def tick(count: int) -> None:
         for _ in range(count):
@@ -64,7 +64,7 @@ def test_external_clock_that_stops() -> None:
 
 @verifies("P312-MOT-02", "P312-MOT-03")
 def test_external_clock_counts() -> None:
-    host = Host312("02 03 01 07 02", "00 04 0006 0064", "01 06 000005 000005")
+    host = Host("02 03 01 07 02", "00 04 0006 0064", "01 06 000005 000005")
     host.ask("03 08 83 00 0006 00000004")
     host.pause(100)
     falls: list[int] = []

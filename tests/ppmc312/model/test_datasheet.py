@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, MREF, T1, T2, TF, Host312
+from cocotb_tests.ppmc312.host import CSR, MREF, T1, T2, TF, Host
 
 STOP = "03 02 80 00"
 
@@ -21,7 +21,7 @@ STOP = "03 02 80 00"
 )
 @verifies("P312-CHK-65", "P312-TIM-02", "P312-TIM-03", "P312-TIM-04", "P312-TIM-05")
 def test_datasheet_setting_times(setting: str, ms: int) -> None:
-    host = Host312(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     host.issue(setting)
     host.go(host.header + ms * 16_000 - 16)
     assert host.read(CSR) & MREF and host.condition == 0x01
@@ -32,7 +32,7 @@ def test_datasheet_setting_times(setting: str, ms: int) -> None:
 @verifies("P312-INP-01", "P312-INP-20", "P312-TIM-14", "P312-CMD-27")
 def test_datasheet_run_is_the_plain_pin() -> None:
     """RUN starts and holds an operation without the 200 us of the other pins; 27 shows these plain."""
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     for low in (1, 2, 100, 5000):
         host.pins(run=0)
         host.ask("03 04 86 00 0190")
@@ -47,11 +47,11 @@ def test_datasheet_run_is_the_plain_pin() -> None:
         host.ask(STOP)
         host.response()
     # Low for 20 clk: it counts where it is tested, directly before t0, and nowhere else.
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     host.issue("03 02 84 00")
     delay = host.pulse(1) - 80 - host.header
     for before, held in ((300, False), (40, False), (12, True), (-20, False)):
-        host = Host312(*TF, timing="DATASHEET")
+        host = Host(*TF, timing="DATASHEET")
         host.issue("03 02 84 00")
         host.go(host.header + delay - before)
         host.pins(run=0)
@@ -59,7 +59,7 @@ def test_datasheet_run_is_the_plain_pin() -> None:
         host.pins(run=1)
         assert host.response() == "03 01 84"
         assert (host.response() == "23 01 E2") == held, before
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     host.pins(fl_n=0, alm_n=0, org_n=0)
     assert host.ask("03 01 27") == "03 03 27 6D E0" and host.condition == 0x02
     host.pins(fl_n=1, alm_n=1, org_n=1)
@@ -67,7 +67,7 @@ def test_datasheet_run_is_the_plain_pin() -> None:
 
 @verifies("P312-TIM-13", "P312-TIM-20")
 def test_datasheet_output_time_and_ready_time() -> None:
-    host = Host312(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     assert host.model.log.of("out_oe")[0][0] - 25_600 in range(0, 8)
     host.issue("03 02 26 01")
     host.wait()
@@ -100,7 +100,7 @@ def test_datasheet_output_time_and_ready_time() -> None:
     "P312-CHK-68", "P312-TIM-06", "P312-TIM-07", "P312-TIM-08", "P312-TIM-09", "P312-TIM-10", "P312-TIM-11"
 )
 def test_datasheet_start_times(block: str, us: int) -> None:
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     host.issue(block)
     header = host.header
     host.pulse(1)
@@ -110,7 +110,7 @@ def test_datasheet_start_times(block: str, us: int) -> None:
 
 @verifies("P312-TIM-12", "P312-TIM-14")
 def test_datasheet_stop_and_pins() -> None:
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     host.ask("03 04 86 00 0064")
     mark = host.mark
     host.pulse(5, 10)
@@ -135,7 +135,7 @@ def test_datasheet_stop_and_pins() -> None:
 @verifies("P312-TIM-12", "P312-BLK-01")
 def test_datasheet_stop_of_what_ends_by_itself() -> None:
     """80 is judged when it comes: that the status is RDY after its 350 us is no error."""
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     host.ask("03 08 83 00 0064 00000008")
     mark = host.mark
     host.pulse(7, 10)

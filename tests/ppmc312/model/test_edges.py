@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, T1, TF, TG, Host312, clean
+from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, T1, TF, TG, Host, clean
 
 STOP, SLOW_STOP = "03 02 80 00", "03 02 81 00"
 FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
@@ -18,7 +18,7 @@ def stopped(cause: int, position: int) -> str:
 @verifies("P312-CMD-80", "P312-OVR-03")
 def test_position_stop_that_comes_after_the_end() -> None:
     """On the last pulse of a fast motion the stop finds state NOR when its turn comes."""
-    host = Host312(*FAST_CURVE, "03 06 80 04 0000000A", "03 06 80 04 0000FFFF")
+    host = Host(*FAST_CURVE, "03 06 80 04 0000000A", "03 06 80 04 0000FFFF")
     host.ask("03 08 83 00 0004 0000000A")
     assert host.response() == stopped(0x40, 10)
     assert host.response() == "1B 02 F9 01"
@@ -27,7 +27,7 @@ def test_position_stop_that_comes_after_the_end() -> None:
 
 @verifies("P312-CMD-20", "P312-BAD-09")
 def test_reset_while_running_leaves_nothing_behind() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 FF")
+    host = Host(*TF, "03 05 49 00 03 01 FF")
     host.ask("03 04 86 40 0064")
     host.pulse(10, 20)
     host.blip("evt0_n")
@@ -39,7 +39,7 @@ def test_reset_while_running_leaves_nothing_behind() -> None:
 
 @verifies("P312-PRT-02", "P312-TIM-01")
 def test_pins_keep_their_reset_levels_until_out_oe() -> None:
-    host = Host312(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     model = host.model
     model.pins(host.t, rst_n=0, alm_n=0)
     model.pins(host.t + 40, rst_n=1)
@@ -56,7 +56,7 @@ def test_pins_keep_their_reset_levels_until_out_oe() -> None:
 
 @verifies("P312-INP-30")
 def test_alarm_while_held_and_in_end_wait() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.pins(run=0)
     assert host.ask("03 02 84 00") == "03 01 84"
     assert host.condition == 0x20
@@ -77,7 +77,7 @@ def test_alarm_while_held_and_in_end_wait() -> None:
 
 @verifies("P312-INP-31", "P312-BLK-01")
 def test_alarm_while_a_start_is_prepared() -> None:
-    host = Host312(*TF, timing="DATASHEET")
+    host = Host(*TF, timing="DATASHEET")
     host.issue("03 08 82 00 0096 00000014")
     host.pause(10_000)
     host.pins(alm_n=0)
@@ -88,7 +88,7 @@ def test_alarm_while_a_start_is_prepared() -> None:
 
 @verifies("P312-INP-31")
 def test_alarm_while_a_table_is_built() -> None:
-    host = Host312(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     host.issue(T1)
     host.pause(100_000)
     host.pins(alm_n=0)
@@ -101,7 +101,7 @@ def test_alarm_while_a_table_is_built() -> None:
 
 @verifies("P312-RSP-20")
 def test_second_hold_report_unread_is_an_alarm() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.pins(run=0)
     host.issue("03 02 84 00")
     host.pause(200)
@@ -125,7 +125,7 @@ def test_second_hold_report_unread_is_an_alarm() -> None:
 @pytest.mark.parametrize(("code", "cause"), [(0x81, 0x10), (0x80, 0x04)])
 @verifies("P312-MOT-30", "P312-MOT-34")
 def test_stops_before_pulse_1(code: int, cause: int) -> None:
-    host = Host312(*TF, f"03 02 {code:02X} 05")
+    host = Host(*TF, f"03 02 {code:02X} 05")
     host.pins(run=0)
     assert host.ask("03 04 86 00 0064") == "03 02 86 01"
     host.pins(run=1)
@@ -138,7 +138,7 @@ def test_stops_before_pulse_1(code: int, cause: int) -> None:
 
 @verifies("P312-MOT-35")
 def test_an_alarm_does_not_wait_for_the_positioning_end() -> None:
-    host = Host312(*TF, "03 02 06 01")
+    host = Host(*TF, "03 02 06 01")
     host.ask("03 04 86 00 0064")
     host.pulse(3)
     host.pins(alm_n=0)
@@ -149,7 +149,7 @@ def test_an_alarm_does_not_wait_for_the_positioning_end() -> None:
 def test_an_alarm_after_the_last_pulse_does_not_wait_for_end() -> None:
     """In the last interval, and around its end, where the END wait begins: E0 at once, cause NOS."""
     for after in (20, 79, 80, 81, 2000, *range(6392, 6408)):
-        host = Host312(*TF, "03 02 06 01")
+        host = Host(*TF, "03 02 06 01")
         host.ask("03 08 83 00 0190 00000003")
         host.pulse(3, after)
         since = host.t
@@ -159,7 +159,7 @@ def test_an_alarm_after_the_last_pulse_does_not_wait_for_end() -> None:
         assert host.t - since < 300 and host.response() == stopped(0x40, 3)
         assert host.condition == 0x10 and host.quiet()
     # A multiple occurrence is an alarm, too.
-    host = Host312(*TF, "03 02 06 01")
+    host = Host(*TF, "03 02 06 01")
     host.ask("03 08 83 00 0190 00000003")
     host.pulse(3, 200)
     host.put("03 01 40")
@@ -170,7 +170,7 @@ def test_an_alarm_after_the_last_pulse_does_not_wait_for_end() -> None:
 
 @verifies("P312-PAR-06")
 def test_writes_while_an_instruction_is_processed_are_ignored() -> None:
-    host = Host312(timing="DATASHEET")
+    host = Host(timing="DATASHEET")
     host.issue(T1)
     host.put("03 02 26 3F")
     host.put("03 01 FF")
@@ -182,7 +182,7 @@ def test_writes_while_an_instruction_is_processed_are_ignored() -> None:
 
 @verifies("P312-INP-12")
 def test_high_speed_limit_before_pulse_1_and_at_a_slow_rate() -> None:
-    host = Host312(*TF, "03 03 05 00C8")
+    host = Host(*TF, "03 03 05 00C8")
     host.issue("03 04 86 00 0064")
     while not host.model.motion.active:
         host.step()
@@ -202,7 +202,7 @@ def test_high_speed_limit_before_pulse_1_and_at_a_slow_rate() -> None:
 
 @verifies("P312-MOT-31", "P312-MOT-33")
 def test_change_on_a_late_deceleration_point() -> None:
-    host = Host312(*TG)
+    host = Host(*TG)
     host.ask("03 08 82 00 0000 0000001E")
     mark = host.mark
     host.pulse(25)
@@ -214,7 +214,7 @@ def test_change_on_a_late_deceleration_point() -> None:
 
 @verifies("P312-MON-06")
 def test_clamp_by_the_end_signal() -> None:
-    host = Host312(*TF, "03 04 02 07 0002")
+    host = Host(*TF, "03 04 02 07 0002")
     host.ask("03 08 83 00 0190 0000000A")
     host.response()
     host.response()
@@ -226,7 +226,7 @@ def test_clamp_by_the_end_signal() -> None:
 
 @verifies("P312-MON-01", "P312-MON-02")
 def test_distance_wraps() -> None:
-    host = Host312(*TF, "03 06 43 00 00000003", "03 06 43 01 FFFFFFFE")
+    host = Host(*TF, "03 06 43 00 00000003", "03 06 43 01 FFFFFFFE")
     host.ask("03 04 03 03 0005")
     assert host.quiet(100)
     host.pins(epin=1, epdir=1)
@@ -240,7 +240,7 @@ def test_distance_wraps() -> None:
 
 @verifies("P312-PAR-08")
 def test_gap_between_responses() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.write(CSR, 0x10)
     host.ask("03 02 84 00")
     host.issue("03 01 25")
@@ -255,7 +255,7 @@ def test_gap_between_responses() -> None:
 @pytest.mark.parametrize("clk", [6, 7])
 @verifies("P312-MOT-06")
 def test_external_clock_ends_with_its_last_interval(clk: int) -> None:
-    host = Host312(f"02 03 01 {clk:02X} 02", "00 04 0003 0064", "01 06 000005 000005")
+    host = Host(f"02 03 01 {clk:02X} 02", "00 04 0003 0064", "01 06 000005 000005")
     host.ask("03 08 83 00 0003 00000002")
     host.pause(100)
     for number in range(1, 9):
@@ -270,8 +270,8 @@ def test_external_clock_ends_with_its_last_interval(clk: int) -> None:
 def test_parameters_of_the_model() -> None:
     for bad in ({"timing": "SLOW"}, {"clk_hz": 1}, {"version": 256}, {"xtal_hz": 17_000_000}):
         with pytest.raises(ValueError):
-            Host312(**bad)
-    assert Host312(version=0x34, clk_hz=8_000_000).ask("03 01 40") == "03 02 40 34"
+            Host(**bad)
+    assert Host(version=0x34, clk_hz=8_000_000).ask("03 01 40") == "03 02 40 34"
 
 
 @verifies("P312-INP-20", "P312-TIM-12")
@@ -279,12 +279,12 @@ def test_parameters_of_the_model() -> None:
 @pytest.mark.parametrize("form", ["03 02 84 00", "03 08 82 00 0000 00000003"])
 def test_run_is_judged_on_one_clk(form: str, timing: str) -> None:
     """Low for a single clk: one clk before t0, and no other, makes the operation a held one."""
-    host = Host312(*TF, timing=timing)
+    host = Host(*TF, timing=timing)
     host.issue(form)
     start = host.pulse(1) - 80
     later = {}
     for edge in range(start - 8, start + 4):
-        host = Host312(*TF, timing=timing)
+        host = Host(*TF, timing=timing)
         host.issue(form)
         host.go(edge)
         host.pins(run=0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import DWR, RATES, T1, TF, WAR, WCR, Host312, clean
+from cocotb_tests.ppmc312.host import DWR, RATES, T1, TF, WAR, WCR, Host, clean
 
 FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
@@ -14,7 +14,7 @@ def stopped(cause: int, position: int) -> str:
     return clean(f"23 06 E0 {cause:02X} {position:08X}")
 
 
-def put_with(host: Host312, text: str, **pins: int) -> None:
+def put_with(host: Host, text: str, **pins: int) -> None:
     """Write a block; the pins change just before its header is written."""
     block = bytes.fromhex(text)[::-1]
     host.write(WCR, 0x20)
@@ -27,7 +27,7 @@ def put_with(host: Host312, text: str, **pins: int) -> None:
 
 @verifies("P312-OVR-10")
 def test_host_goes_next_after_one_event() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25", "03 05 49 01 03 01 27")
+    host = Host(*TF, "03 05 49 00 03 01 25", "03 05 49 01 03 01 27")
     put_with(host, "03 03 05 0100", evt0_n=0, evt1_n=0)
     host.pause(500)
     assert host.response() == "0B 02 25 00"
@@ -39,7 +39,7 @@ def test_host_goes_next_after_one_event() -> None:
 @verifies("P312-OVR-10", "P312-BLK-01")
 @pytest.mark.parametrize("gap", range(20, 44))
 def test_host_block_that_comes_as_a_triggered_one_ends(gap: int) -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25")
+    host = Host(*TF, "03 05 49 00 03 01 25")
     block = bytes([0x15, 0x26, 2, 3])
     host.write(WCR, 0x20)
     host.write(WAR, 0x20 - len(block))
@@ -56,7 +56,7 @@ def test_host_block_that_comes_as_a_triggered_one_ends(gap: int) -> None:
 
 @verifies("P312-OVR-10")
 def test_an_edge_for_a_buffer_that_is_emptied_is_dropped() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25")
+    host = Host(*TF, "03 05 49 00 03 01 25")
     host.issue("03 02 49 02")
     host.pins(evt0_n=0)
     assert host.response() == "03 02 49 04"
@@ -70,7 +70,7 @@ def test_an_edge_for_a_buffer_that_is_emptied_is_dropped() -> None:
 
 @verifies("P312-OVR-04", "P312-OVR-12")
 def test_pulses_stay_stopped_when_an_earlier_override_fails() -> None:
-    host = Host312(*FAST_CURVE, "03 08 88 04 FFFF 0000000A", "03 06 80 04 0000000B")
+    host = Host(*FAST_CURVE, "03 08 88 04 FFFF 0000000A", "03 06 80 04 0000000B")
     host.ask("03 04 86 00 0004")
     assert host.response() == "1B 02 F9 00"
     assert host.response() == stopped(0x04, 11) and len(host.pulses()) == 11
@@ -78,7 +78,7 @@ def test_pulses_stay_stopped_when_an_earlier_override_fails() -> None:
 
 @verifies("P312-MOT-34", "P312-OVR-12")
 def test_a_limit_after_a_position_stop_changes_nothing() -> None:
-    host = Host312(*TF, "03 06 80 04 0000000A")
+    host = Host(*TF, "03 06 80 04 0000000A")
     host.ask("03 04 86 00 0064")
     host.pulse(10, 4)
     host.pins(fl_n=0)
@@ -89,7 +89,7 @@ def test_a_limit_after_a_position_stop_changes_nothing() -> None:
 @pytest.mark.parametrize(("code", "cause"), [(0x81, 0x10), (0x80, 0x04)])
 @verifies("P312-MOT-43")
 def test_stop_between_the_phases_of_a_zero_return(code: int, cause: int) -> None:
-    host = Host312(*TF, f"03 02 {code:02X} 05")
+    host = Host(*TF, f"03 02 {code:02X} 05")
     pace = host.model.pace
     host.ask("03 04 11 00 0000")
     host.pulse(15)
@@ -105,7 +105,7 @@ def test_stop_between_the_phases_of_a_zero_return(code: int, cause: int) -> None
 
 @verifies("P312-INP-31", "P312-INP-33")
 def test_a_clear_given_before_the_alarm_does_not_leave_abn() -> None:
-    host = Host312(T1, "03 01 24")
+    host = Host(T1, "03 01 24")
     host.blip("alm_n", 100, 100)
     assert host.response() == "23 02 F4 00"
     assert host.condition == 0x10 and host.out("aclr_n") == 0
@@ -117,7 +117,7 @@ def test_a_clear_given_before_the_alarm_does_not_leave_abn() -> None:
 
 @verifies("P312-INP-30", "P312-INP-32")
 def test_reset_with_the_alarm_still_there() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     host.pins(alm_n=0)
     assert host.response() == "23 02 F4 00"
     host.issue("03 01 FF")
@@ -128,7 +128,7 @@ def test_reset_with_the_alarm_still_there() -> None:
 
 @verifies("P312-BLK-02", "P312-OVR-05")
 def test_what_a_refusal_leaves() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25", "03 04 88 07 00C8")
+    host = Host(*TF, "03 05 49 00 03 01 25", "03 04 88 07 00C8")
     assert host.ask("03 01 4D") == "03 04 4D 00 02 61"
     assert host.ask("03 08 82 00 0000 00000000").startswith("03 0A F0 23")
     assert host.ask("03 01 4D") == "03 04 4D 00 02 61"
@@ -138,7 +138,7 @@ def test_what_a_refusal_leaves() -> None:
 
 @verifies("P312-INP-11")
 def test_high_speed_limit_rate_after_a_setting() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     host.pins(fhl_n=0)
     assert host.ask("03 04 86 00 00C8") == "03 01 F2"
     assert host.ask("03 04 86 00 00C9") == "03 02 86 00"
@@ -146,7 +146,7 @@ def test_high_speed_limit_rate_after_a_setting() -> None:
 
 @verifies("P312-INP-01", "P312-TIM-14")
 def test_datasheet_event_filter() -> None:
-    host = Host312(*TF, "03 05 49 00 03 01 25", timing="DATASHEET")
+    host = Host(*TF, "03 05 49 00 03 01 25", timing="DATASHEET")
     host.blip("evt0_n", 399_990)
     assert host.quiet()
     low = host.t
@@ -157,7 +157,7 @@ def test_datasheet_event_filter() -> None:
 
 @verifies("P312-RSP-22")
 def test_enabling_a_monitor_again_reports_again() -> None:
-    host = Host312(*TF, "03 06 43 00 00000064")
+    host = Host(*TF, "03 06 43 00 00000064")
     host.ask("03 04 03 03 0005")
     assert host.response() == "23 02 E3 01"
     assert host.ask("03 04 03 03 0006") == "03 01 03"
@@ -167,7 +167,7 @@ def test_enabling_a_monitor_again_reports_again() -> None:
 
 
 def test_echo_is_cut_at_28_bytes() -> None:
-    host = Host312("02 03 01 01 14")
+    host = Host("02 03 01 01 14")
     data = "0064 " * 14 + "0001"
     answer = host.ask("00 1E" + data)
     assert answer == clean("03 1E F0 18" + "0064" * 14)

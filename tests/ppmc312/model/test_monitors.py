@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import TF, Host312
+from cocotb_tests.ppmc312.host import TF, Host
 
 
 @verifies("P312-CHK-46", "P312-CHK-47", "P312-MON-03", "P312-MON-05", "P312-MON-06", "P312-RSP-22")
 def test_in_position() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 02 07 000A")
     assert host.out("zclmp_n") == 0
     host.ask("03 08 83 00 0190 00000014")
@@ -30,7 +30,7 @@ def test_in_position() -> None:
 
 @verifies("P312-CHK-48", "P312-MON-04")
 def test_encode_once() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 03 01 0005")
     host.ask("03 08 83 00 0190 00000014")
     assert host.response() == "23 02 E3 01"
@@ -42,7 +42,7 @@ def test_encode_once() -> None:
 
 @verifies("P312-RSP-22")
 def test_a_report_that_is_not_true_any_more_vanishes() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 03 03 0002")
     host.issue("03 01 40")
     host.wait()
@@ -57,7 +57,7 @@ def test_a_report_that_is_not_true_any_more_vanishes() -> None:
 
 @verifies("P312-MON-10")
 def test_one_input_change_is_reported() -> None:
-    host = Host312("03 03 28 00 FF")
+    host = Host("03 03 28 00 FF")
     host.pins(auxi=0x0F)
     assert host.response() == "23 03 E9 00 0F"
     host.pins(auxi=0xFF)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import Host312
+from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import constant, ramped
 from openppmc.model.ppmc312.stages.tables import DIVIDERS
@@ -46,7 +46,7 @@ def test_any_move(
     rate = data.draw(st.integers(min(table.high, table.slowest), max(table.high, table.slowest)))
     ramp = data.draw(st.booleans())
     plan = ramped(table, rate, n) if ramp else constant(table, rate, n)
-    host = Host312(*free_curve(clk, rates, pa, pd), clk_hz=mhz * 1_000_000)
+    host = Host(*free_curve(clk, rates, pa, pd), clk_hz=mhz * 1_000_000)
     code, kind = (0x82, plan.kind) if ramp else (0x83, 0)
     flags = 0x40 if ccw else 0
     assert host.ask(f"03 08 {code:02X} {flags:02X} {rate:04X} {n:08X}") == f"03 02 {code:02X} {kind:02X}"

@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, TF, TG, TH, Host312
+from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, TF, TG, TH, Host
 from openppmc.model.ppmc312.codes import LENGTHS, State
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
@@ -40,7 +40,7 @@ def instruction(rng: random.Random) -> bytes:
 def test_random_host(seed: int) -> None:
     print(f"seed {seed}: OPENPPMC_SEED={seed} repeats it")
     rng = random.Random(seed)
-    host = Host312(*rng.choice((TF, TG, TH)), timing=rng.choice(("FAST", "FAST", "DATASHEET")))
+    host = Host(*rng.choice((TF, TG, TH)), timing=rng.choice(("FAST", "FAST", "DATASHEET")))
     model, reads = host.model, rng.choice((0.2, 0.9, 1.0))
     for _ in range(60):
         if not host.read(CSR) & MWEF:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import TF, Host312, clean
+from cocotb_tests.ppmc312.host import TF, Host, clean
 
 STOP = "03 02 80 00"
 START_30 = "03 08 82 00 0000 0000001E"
@@ -22,7 +22,7 @@ def rates(text: str) -> list[int]:
 
 @verifies("P312-CHK-34", "P312-CHK-35", "P312-BAD-12")
 def test_limits() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.pins(fl_n=0)
     assert host.ask(START_30) == "03 01 F2"
     assert host.ask("03 08 82 40 0000 00000002") == "03 02 82 10"
@@ -41,7 +41,7 @@ def test_limits() -> None:
 
 @verifies("P312-CHK-36", "P312-INP-12")
 def test_high_speed_limit() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 03 05 00C8")
     host.ask("03 04 86 00 0064")
     host.pulse(20)
@@ -57,7 +57,7 @@ def test_high_speed_limit() -> None:
 
 @verifies("P312-CHK-41", "P312-CHK-43", "P312-MOT-40", "P312-MOT-41")
 def test_origin_search() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 10 10 00C8")
     host.pulse(50)
     host.pins(org_n=0)
@@ -75,7 +75,7 @@ def test_origin_search() -> None:
 
 @verifies("P312-CHK-42", "P312-MOT-42")
 def test_zero_return() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 11 00 0000")
     host.pulse(15)
     host.pins(org_n=0)
@@ -99,7 +99,7 @@ def test_zero_return() -> None:
 
 @verifies("P312-MOT-43")
 def test_zero_return_ended_by_a_stop() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.ask("03 04 11 00 0000")
     mark = host.mark
     host.pulse(15)

@@ -8,10 +8,10 @@ from math import ceil
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.serial_host import T1, TS, Serial312, clean, summed
+from cocotb_tests.ppmc312.serial_host import T1, TS, SerialHost, clean, summed
 
 
-def exchange(host: Serial312, text: str, within: int = 4_096) -> str:
+def exchange(host: SerialHost, text: str, within: int = 4_096) -> str:
     """Bytes on the line, and those of the reply."""
     host.raw(text)
     host.hear(within)
@@ -20,7 +20,7 @@ def exchange(host: Serial312, text: str, within: int = 4_096) -> str:
 
 @verifies("P312-CHK-54", "P312-SER-18", "P312-SER-01", "P312-SER-02")
 def test_poll_at_19200() -> None:
-    host = Serial312(mod=5)
+    host = SerialHost(mod=5)
     host.raw("81 7E")
     rise = host.begin()
     assert host.hear() == "90" and host.wire == "91 6E"
@@ -32,14 +32,14 @@ def test_poll_at_19200() -> None:
 
 @verifies("P312-CHK-55", "P312-SER-14", "P312-SER-45")
 def test_wrong_checksum() -> None:
-    host = Serial312()
+    host = SerialHost()
     assert exchange(host, "81 00") == "B1 34 31 0D"
     assert [host.ask("4F"), host.ask("4F")] == ["A0 00 00 01", "A0 00 00 00"]
 
 
 @verifies("P312-CHK-56", "P312-SER-10", "P312-BAD-16")
 def test_not_for_this_station() -> None:
-    host = Serial312()
+    host = SerialHost()
     for line in (
         summed(0x82),
         summed(0xA1),
@@ -67,13 +67,13 @@ SHEET = "91 30 30 31 30 31 31 32 32 35 35 36 36 61 62 63 64 65 66"
 )
 @verifies("P312-CHK-57", "P312-SER-13", "P312-SER-41")
 def test_frame_of_the_sheet(mode: str, checksum: str, answer: str) -> None:
-    host = Serial312(sum_mode=mode)
+    host = SerialHost(sum_mode=mode)
     assert exchange(host, f"{SHEET} {checksum}") == answer
 
 
 @verifies("P312-CHK-58", "P312-SER-30")
 def test_busy_until_the_end() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("83 0000 000003E8") == "90"
     said = []
     while not said or said[-1] == "81 7E":
@@ -85,7 +85,7 @@ def test_busy_until_the_end() -> None:
 
 @verifies("P312-CHK-59", "P312-SER-30", "P312-INP-30")
 def test_alarm_in_a_motion() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("86 0000") == "90"
     host.pause(4_000)
     host.pins(alm_n=0)
@@ -97,7 +97,7 @@ def test_alarm_in_a_motion() -> None:
 
 @verifies("P312-CHK-60", "P312-SER-17")
 def test_unknown_code() -> None:
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 34 37 4E")
     end = host.middle
     assert host.quiet(310_000)
@@ -109,7 +109,7 @@ def test_unknown_code() -> None:
 @pytest.mark.parametrize("mod", [0, 1, 2, 3, 4])
 @verifies("P312-CHK-61", "P312-BAD-17", "P312-PRT-03")
 def test_silent_station(mod: int) -> None:
-    host = Serial312(mod=mod)
+    host = SerialHost(mod=mod)
     for line in ("81 7E", "91 34 31 2D", "91 30 36 30 31 67"):
         host.raw(line)
         assert host.quiet(8_000)
@@ -128,7 +128,7 @@ def test_silent_station(mod: int) -> None:
 
 @verifies("P312-CHK-62", "P312-CMD-FF", "P312-SER-19")
 def test_reset() -> None:
-    host = Serial312("43 00001000")
+    host = SerialHost("43 00001000")
     host.say("FF")
     assert host.quiet(8_000)
     assert exchange(host, "81 7E") == "91 6E"
@@ -137,7 +137,7 @@ def test_reset() -> None:
 
 @verifies("P312-CHK-66", "P312-OVR-12", "P312-SER-22")
 def test_stop_at_a_position() -> None:
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("90 00001000") == "90" and host.ask("86 0000") == "90"
     mark = host.mark
     while not host.model.core.operation.at_rest:
@@ -149,7 +149,7 @@ def test_stop_at_a_position() -> None:
 
 @verifies("P312-CHK-67", "P312-SER-30")
 def test_order_of_polls() -> None:
-    host = Serial312(TS, "90 00000014")
+    host = SerialHost(TS, "90 00000014")
     host.ask("84 01F4 00000064")
     while not host.model.core.operation.at_rest:
         host.step()
@@ -160,7 +160,7 @@ def test_order_of_polls() -> None:
 
 @verifies("P312-CHK-73", "P312-SER-12")
 def test_upper_case() -> None:
-    host = Serial312("06 01")
+    host = SerialHost("06 01")
     host.raw("91 30 36 30 4A")
     assert host.quiet(20_000)
     host.raw("67")
@@ -172,7 +172,7 @@ def test_upper_case() -> None:
 @verifies("P312-SER-41", "P312-CMD-00")
 def test_flags_of_the_setting() -> None:
     """Bits 7:4 do not count: LE is one of them."""
-    host = Serial312()
+    host = SerialHost()
     for flags in ("01", "11", "F1"):
         assert host.ask(flags.join(("00 ", T1[5:]))) == "90"
         assert host.condition == 0x02

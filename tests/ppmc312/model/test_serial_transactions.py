@@ -7,7 +7,7 @@ from typing import NamedTuple
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.serial_host import T_INIT, TS, Serial312
+from cocotb_tests.ppmc312.serial_host import T_INIT, TS, SerialHost
 
 ACK = "91 6E"
 SET_POSITION = "43 12345678"
@@ -86,7 +86,7 @@ _THEN = {9: "86 0000", 17: "86 0000"}
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.number}-{row.sent[3:8].replace(' ', '')}")
 @verifies("P312-SER-02", "P312-SER-11", "P312-SER-13", "P312-SER-20", "P312-SER-30", "P312-SER-40")
 def test_row(row: Row) -> None:
-    host = Serial312()
+    host = SerialHost()
     if row.pins:
         host.pins(**row.pins)
         host.pause(10)
@@ -114,7 +114,7 @@ def test_row(row: Row) -> None:
 @verifies("P312-SER-45", "P312-SER-46")
 def test_read_outs() -> None:
     """Row 39, and the alarm of row 42."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     assert host.ask("84 01F4 00000002") == "90" and host.settle() == ["A0 38"]
     host.ask("83 0000 00000000")
     host.raw("81 00")
@@ -137,7 +137,7 @@ def test_read_outs() -> None:
 @verifies("P312-CMD-FF", "P312-SER-19")
 def test_reset_is_not_answered() -> None:
     """Row 41."""
-    host = Serial312()
+    host = SerialHost()
     host.raw("91 66 66 6F")
     assert host.quiet(6_000)
 
@@ -145,7 +145,7 @@ def test_reset_is_not_answered() -> None:
 @verifies("P312-CMD-26", "P312-CMD-06", "P312-MOT-30")
 def test_what_the_rows_do() -> None:
     """Effects of rows 4, 7, 10, 21 and 26 behind their replies."""
-    host = Serial312(TS)
+    host = SerialHost(TS)
     for line, look in (
         ("91 32 36 31 35 33", lambda: host.out("auxo_n") == 0x2A),
         ("91 34 34 2A", lambda: host.out("intlk_n") == 0),

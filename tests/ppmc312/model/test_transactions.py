@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, T1, TF, WAR, WCR, Host312, clean
+from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, T1, TF, WAR, WCR, Host, clean
 
 T1_8M = "03 09 00 00 03E8 00C8 0007D0"
 """T1 at F = 8 MHz, for moves that would take 15 to 25 million clk at 1 MHz."""
 
 
-def sends(host: Host312, text: str) -> None:
+def sends(host: Host, text: str) -> None:
     """`WAR; DWR bytes in bus order`."""
     war, data = (piece.strip() for piece in text.split(";"))
     while host.read(CSR) & MWEF:
@@ -23,7 +23,7 @@ def sends(host: Host312, text: str) -> None:
         host.write(DWR, byte)
 
 
-def gets(host: Host312) -> str:
+def gets(host: Host) -> str:
     """`RAR; DRR bytes in bus order` of the next response."""
     host.wait()
     rar = host.read(RAR)
@@ -69,21 +69,21 @@ SINGLE = [
 @verifies("P312-PAR-04", "P312-PAR-05", "P312-PAR-07")
 def test_single(case: tuple) -> None:
     _, setting, sent, *answers = case
-    host = Host312(*setting)
+    host = Host(*setting)
     sends(host, sent)
     for answer in answers:
         assert gets(host) == answer
 
 
 def test_8_immediate_stop() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     host.ask("03 04 86 00 01F4")
     sends(host, "1C; 00 80 02 03")
     assert gets(host) == "3D; 80 01 03"
 
 
 def test_9_and_17_overrides_at_a_position() -> None:
-    host = Host312(T1_8M)
+    host = Host(T1_8M)
     sends(host, "16; 00 08 00 00 2C 01 04 88 08 03")
     assert gets(host) == "3D; E8 01 03"
     sends(host, "18; 00 10 00 00 04 80 06 03")
@@ -96,7 +96,7 @@ def test_9_and_17_overrides_at_a_position() -> None:
 
 
 def test_10_deceleration_stop_on_evt0() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     sends(host, "1C; 05 81 02 03")
     assert gets(host) == "3D; E8 01 03"
     host.ask("03 04 86 00 01F4")
@@ -106,14 +106,14 @@ def test_10_deceleration_stop_on_evt0() -> None:
 
 
 def test_16_change() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     host.ask("03 04 86 00 01F4")
     sends(host, "1A; 90 01 00 87 04 03")
     assert gets(host) == "3D; 87 01 03"
 
 
 def test_20_input() -> None:
-    host = Host312()
+    host = Host()
     host.pins(auxi=0xA5)
     sends(host, "1D; 25 01 03")
     assert gets(host) == "3C; A5 25 02 03"
@@ -121,7 +121,7 @@ def test_20_input() -> None:
 
 @verifies("P312-MON-10", "P312-RSP-21", "P312-CHK-50")
 def test_23_mask() -> None:
-    host = Host312()
+    host = Host()
     host.pins(auxi=0x32)
     sends(host, "1B; 24 01 28 03 03")
     assert gets(host) == "3D; 28 01 03"
@@ -136,7 +136,7 @@ def test_23_mask() -> None:
 
 
 def test_29_to_31_event_buffer() -> None:
-    host = Host312(T1)
+    host = Host(T1)
     sends(host, "12; 64 00 00 00 00 00 00 82 08 03 01 49 0C 03")
     assert gets(host) == "3C; 00 49 02 03"
     sends(host, "1C; 01 47 02 03")
@@ -146,7 +146,7 @@ def test_29_to_31_event_buffer() -> None:
 
 
 def test_34_to_36_free_curve() -> None:
-    host = Host312()
+    host = Host()
     sends(host, "1B; 03 01 01 03 02")
     assert gets(host) == "3B; 03 00 01 03 03"
     sends(host, "18; 90 01 C8 00 64 00 06 00")
@@ -156,6 +156,6 @@ def test_34_to_36_free_curve() -> None:
 
 
 def test_42_alarm_report() -> None:
-    host = Host312(*TF)
+    host = Host(*TF)
     host.pins(alm_n=0)
     assert gets(host) == "3C; 00 F4 02 23"

@@ -1,1 +1,1 @@
-"""tests/stmc/board"""
+"""The STMC's virtual board."""

@@ -1,1 +1,1 @@
-"""tests/stmc/cli"""
+"""The STMC's commands."""

@@ -1,1 +1,1 @@
-"""tests/stmc/host"""
+"""The STMC's driver."""

@@ -31,12 +31,15 @@ from openppmc.host import (
     open_part,
 )
 from openppmc.host.basis import units
-from openppmc.host.basis.errors import CommandRefused, refused_stmc
-from openppmc.host.basis.kind import STMC
+from openppmc.host.basis.kind import Wanted
+from openppmc.host.basis.refusals import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
+from openppmc.host.stmc import clock
+from openppmc.host.stmc.errors import refused as refused_stmc
+from openppmc.host.stmc.kind import KIND as STMC
 from openppmc.model.carrier.plant import Plant
-from openppmc.model.stmc.carrier import BoardStmc
+from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
@@ -66,10 +69,10 @@ def axis() -> Iterator[Stmc]:
         yield ready
 
 
-def model(axis: Stmc) -> BoardStmc:
+def model(axis: Stmc) -> Carrier:
     """The modelled board."""
     assert isinstance(axis.link.port, ModelPort)
-    assert isinstance(axis.link.port.board, BoardStmc)
+    assert isinstance(axis.link.port.board, Carrier)
     return axis.link.port.board
 
 
@@ -98,8 +101,8 @@ def gaps(axis: Stmc, steps: int, pps: units.Number | None = None) -> list[int]:
 
 
 def test_the_worked_examples_of_the_sheet() -> None:
-    """345/s and 825/s at 48 675 Hz: the doctests of `units` are run, and there are some."""
-    failed, attempted = doctest.testmod(units)
+    """345/s and 825/s at 48 675 Hz: the doctests of `clock` are run, and there are some."""
+    failed, attempted = doctest.testmod(clock)
     assert not failed and attempted >= 5
 
 
@@ -118,7 +121,7 @@ def test_bytes_of_an_initialisation() -> None:
         ({"start_pps": 345, "high_pps": 345, "phases": 3}, "19 8D 8D C8 00"),
     ]
     for arguments, wanted in examples:
-        setup = STMC.plan(XTAL, **arguments)  # type: ignore[arg-type]
+        setup = STMC.plan(XTAL, Wanted(**arguments))  # type: ignore[arg-type]
         assert bytes([setup.code]) + setup.data == bytes.fromhex(wanted), arguments
 
 

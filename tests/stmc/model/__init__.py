@@ -1,1 +1,1 @@
-"""tests/stmc/model"""
+"""The STMC's golden model: acceptance checks, examples, data sheet times, properties."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from openppmc.model.common.square import Square
 from openppmc.model.stmc.part import Stmc
-from tests.ppmc104.model.host import ModelHost
+from tests.common.model.host import ModelHost
 
 # Period of the external clock of the acceptance checks, in clk.
 EXT16 = 16
@@ -26,7 +26,7 @@ STANDARD = init(0x1A, 20, 5, 8)
 INTERNAL = init(0x0A, 20, 5, 8)
 
 
-class ClockedStmc(Stmc):
+class Clocked(Stmc):
     """The model with an external clock that runs by itself; `ext` = 0: the pin is left alone."""
 
     def __init__(self, ext: int = EXT16, **parameters: object) -> None:
@@ -48,10 +48,10 @@ class ClockedStmc(Stmc):
         super().run_until(t)
 
 
-class HostStmc(ModelHost):
+class Host(ModelHost):
     """As ModelHost. The script is run at once; scripts may also say idle (wait for BUSY = 0)."""
 
-    MODEL = ClockedStmc
+    MODEL = Clocked
 
     def __init__(self, script: str = STANDARD, **parameters: object) -> None:
         super().__init__(**parameters)

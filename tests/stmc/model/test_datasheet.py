@@ -5,16 +5,16 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from tests.stmc.model.host import INTERNAL, HostStmc, count, init
+from tests.stmc.model.host import INTERNAL, Host, count, init
 
 PINS = 2
 
 
-def sheet(script: str = INTERNAL, **parameters: object) -> HostStmc:
-    return HostStmc(script, timing="DATASHEET", ext=0, **parameters)
+def sheet(script: str = INTERNAL, **parameters: object) -> Host:
+    return Host(script, timing="DATASHEET", ext=0, **parameters)
 
 
-def ready(host: HostStmc) -> HostStmc:
+def ready(host: Host) -> Host:
     """The initialisation has completed."""
     host.run("c 80 r")
     return host
@@ -24,7 +24,7 @@ def near(got: int, nominal: int, slack: int = 0) -> bool:
     return nominal <= got <= nominal + 16 + PINS + slack
 
 
-def taken(host: HostStmc) -> int:
+def taken(host: Host) -> int:
     """Edge on which a waiting byte is taken."""
     host.pause(4)
     host.sync()
@@ -33,7 +33,7 @@ def taken(host: HostStmc) -> int:
     return host.model.now
 
 
-def command_and_times(host: HostStmc, script: str) -> tuple[int, int, int]:
+def command_and_times(host: Host, script: str) -> tuple[int, int, int]:
     """Write event of the last byte, fall of hold, first step, relative to the event."""
     *head, last = script.split("/")
     host.start(" ".join(head))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.stmc.commands import profile
-from tests.stmc.model.host import HostStmc, count, init
+from tests.stmc.model.host import Host, count, init
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]
@@ -71,7 +71,7 @@ def threshold(d1: int, d2: int, pa: int, x: int) -> int:
 @pytest.mark.parametrize("name, ramp, number, gaps", UNDISTURBED, ids=[row[0] for row in UNDISTURBED])
 @pytest.mark.parametrize("code", [0x0A, 0x1A])
 def test_undisturbed(name, ramp, number, gaps, code):
-    host = HostStmc(init(code, *ramp))
+    host = Host(init(code, *ramp))
     assert host.move("c 43 " + count(number)) == (0x83, 0)
     assert host.gaps(16 if code & 0x10 else 1280) == gaps
     assert len(host.pulses()) == number + 1
@@ -79,7 +79,7 @@ def test_undisturbed(name, ramp, number, gaps, code):
 
 @verifies("STMC-RUN-01", "STMC-MOV-02", "AC-08")
 def test_w9_and_w10_long_moves():
-    host = HostStmc(init(0x1A, 141, 59, 400))
+    host = Host(init(0x1A, 141, 59, 400))
     assert host.move("c 43 d 20 d 03 d 00") == (0x83, 0)
     gaps, falls = host.gaps(), host.pulses()
     assert len(falls) == 801 and falls[-1] - falls[0] == 1_066_144 and sum(gaps) == 66_634
@@ -92,7 +92,7 @@ def test_w9_and_w10_long_moves():
 
 @verifies("STMC-MOV-01")
 def test_w13_constant_speed():
-    host = HostStmc()
+    host = Host()
     assert host.move("c 44 d 07 " + count(4)) == (0x84, 0)
     assert host.gaps() == [7] * 4
 
@@ -101,7 +101,7 @@ def test_w13_constant_speed():
 @pytest.mark.parametrize("row", COMMAND_1, ids=[row[0] for row in COMMAND_1])
 def test_command_1(row):
     _, ramp, number, gap, gaps, fin, rem = row
-    host = HostStmc(init(0x1A, *ramp))
+    host = Host(init(0x1A, *ramp))
     host.start("c 43 " + count(number))
     host.in_gap(gap)
     mark = host.mark
@@ -119,7 +119,7 @@ def test_command_1(row):
     (15, [*W1[:7], *[5] * 9, *W1[12:]], (0x83, 0)),
 ])  # fmt: skip
 def test_w19_deceleration_limit_near_the_end(gap, gaps, result):
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(23))
     host.in_gap(gap, 20)
     host.blip(4, l3_n=0)
@@ -129,7 +129,7 @@ def test_w19_deceleration_limit_near_the_end(gap, gaps, result):
 
 @verifies("STMC-IN-02")
 def test_w20_stop_limit():
-    host = HostStmc()
+    host = Host()
     host.start("c 43 " + count(99))
     host.in_gap(10)
     host.blip(4, l1_n=0)
@@ -139,7 +139,7 @@ def test_w20_stop_limit():
 
 @verifies("STMC-DEC-03", "STMC-STP-03")
 def test_w21_request_before_step_0():
-    host = HostStmc()
+    host = Host()
     host.pins(l3_n=0)
     host.pause(4)
     assert host.move("c 43 " + count(99)) == (0x8B, 98) and len(host.pulses()) == 1

@@ -11,7 +11,7 @@ from openppmc.model.common.square import Square
 from openppmc.model.motion.ramp import profile_index
 from openppmc.model.stmc.part import Stmc
 from openppmc.model.stmc.pc104_board import J105Stmc
-from tests.stmc.model.host import EXT16, INTERNAL, SWITCHES, HostStmc, count, init
+from tests.stmc.model.host import EXT16, INTERNAL, SWITCHES, Host, count, init
 
 gap = st.one_of(st.integers(1, 12), st.integers(1, 400), st.integers(1, 5000))
 byte = st.one_of(
@@ -30,7 +30,7 @@ ramp = st.tuples(st.integers(1, 60), st.integers(0, 59), st.integers(0, 40)).map
 )
 
 
-def play(host: HostStmc, actions: list[tuple[str, int, int]]) -> None:
+def play(host: Host, actions: list[tuple[str, int, int]]) -> None:
     """Run random actions."""
     for kind, wait, value in actions:
         host.pause(wait)
@@ -56,7 +56,7 @@ def play(host: HostStmc, actions: list[tuple[str, int, int]]) -> None:
     st.sampled_from([8_000_000, 11_059_200, 16_000_000]),
 )
 def test_any_host_can_be_recovered_from(actions, timing, clk_hz):
-    host = HostStmc("", timing=timing, clk_hz=clk_hz)
+    host = Host("", timing=timing, clk_hz=clk_hz)
     play(host, actions)
     edges = host.model.edges
     assert all(a.t <= b.t for a, b in zip(edges, edges[1:], strict=False))
@@ -83,7 +83,7 @@ def test_any_host_can_be_recovered_from(actions, timing, clk_hz):
 @given(ramp, st.integers(1, 60), st.data())
 def test_requests_in_any_gap(setting, n, data):
     d1, d2, pa = setting
-    host = HostStmc(init(0x0A, *setting), ext=0)
+    host = Host(init(0x0A, *setting), ext=0)
     host.start("c 43 " + count(n - 1))
     i = data.draw(st.integers(0, max(0, n - 2)))
     if n > 1:
@@ -138,7 +138,7 @@ def test_square_wave_is_an_accumulator(clk_hz, divider, data):
 
 def test_times_scale_with_the_crystal():
     for xtal_hz in (8_000_000, 20_000_000):
-        host = HostStmc(INTERNAL, xtal_hz=xtal_hz, ext=0)
+        host = Host(INTERNAL, xtal_hz=xtal_hz, ext=0)
         host.move("c 44 d 03 " + count(3))
         falls = host.pulses()
         exact = [-(-i * 3 * 1280 * 16_000_000 // xtal_hz) for i in range(4)]

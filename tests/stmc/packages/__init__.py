@@ -1,1 +1,1 @@
-"""tests/stmc/packages"""
+"""The C driver of the STMC, compiled and run."""

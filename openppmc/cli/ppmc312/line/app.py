@@ -7,16 +7,18 @@ from typing import Annotated, Any
 import typer
 
 from ....host import PpmcError, Station312
-from ...common import show
-from ...common.options import Side, with_setup
+from ...common import output, show
+from ...common.boards import ports
+from ...common.line_session import ending_after
+from ...common.options import NUMBERS, Json, Side, check_seconds, with_setup
+from ...common.plan import plan
 from ...common.session import BOARD, setup_values
 from ...common.state import lasting, remember
-from . import show as show_bus
-from .session import BusSession, check_seconds, ending_after, opened_bus
+from ..view import VIEW
+from . import show as show_line
+from .session import Session, opened
 
-bus = typer.Typer(add_completion=False)
-_NUMBERS = {"ignore_unknown_options": True}
-Json = Annotated[bool, typer.Option("--json", help="for programs")]
+app = typer.Typer(add_completion=False)
 Axis = Annotated[
     str, typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3 or 0,2,5 or 0-7")
 ]
@@ -29,18 +31,18 @@ AnyAxis = Annotated[
 # ---------------------------------------------------------------------- who is there
 
 
-@bus.command()
+@app.command()
 def scan(as_json: Json = False) -> None:
     """ppmc312-serial, pmc006: who is on the line; clears the error counters of ppmc312."""
-    with opened_bus() as session:
+    with opened() as session:
         found = session.scan()
     if as_json:
-        show.print_json(show_bus.found_values(found))
+        output.print_json(show_line.found_values(found))
     elif found:
-        show.out.print(show_bus.found_table(found))
+        output.console.print(show_line.found_table(found))
         for one in found:
             if one.trouble:
-                show.say(f"station {one.station}: {one.trouble}")
+                output.say(f"station {one.station}: {one.trouble}")
     else:
         raise PpmcError(
             f"{session.bus.line.name}: no station replies: are they powered, are speed (MOD, --baud), MODE "
@@ -48,7 +50,7 @@ def scan(as_json: Json = False) -> None:
         )
 
 
-@bus.command()
+@app.command()
 def poll(
     axis: AnyAxis = None,
     count: Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N rounds")] = None,
@@ -57,7 +59,7 @@ def poll(
     ] = 0.1,
 ) -> None:
     """ppmc312-serial: poll stations and print what they report, until Ctrl-C."""
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         for turn in range(count or 10**9):
             if turn:
@@ -65,67 +67,67 @@ def poll(
             for one in axes:
                 session.guard.check()
                 for report in one.poll():
-                    show.say(show_bus.report_line(one.number, report))
+                    output.say(show_line.report_line(one.number, report))
         for one in axes:
             state = "busy" if one.window.busy else "ready"
             lost = one.counters.lost_reports
-            show.say(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
+            output.say(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
 
 
-@bus.command()
+@app.command()
 def status(axis: AnyAxis = None, as_json: Json = False) -> None:
     """Position, switches, state of stations. Disturbs nothing."""
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         if as_json:
-            show.print_json({one.number: show_bus.status_values(one) for one in axes})
+            output.print_json({one.number: show_line.status_values(one) for one in axes})
         else:
-            show.out.print(show_bus.status_table(axes))
+            output.console.print(show_line.status_table(axes))
 
 
-@bus.command()
+@app.command()
 def reset(axis: Axis) -> None:
     """ppmc312-serial: reset stations by their instruction: pulses end at once, no table, position 0."""
-    with opened_bus() as session:
+    with opened() as session:
         for one in session.chosen(axis):
             one.reset()
-            show.say(f"station {one.number}: reset")
+            output.say(f"station {one.number}: reset")
 
 
 # ---------------------------------------------------------------------- motions
 
 
-def _initialise(session: BusSession, axes: list[Station312], typed: dict[str, Any]) -> list[Any]:
+def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any]) -> list[Any]:
     """Initialise stations, all plans made before the first."""
     xtal_hz = session.bus.line.identity.xtal_hz
-    plans = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
+    plans: list[Any] = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
     reached = []
-    for one, plan in zip(axes, plans, strict=True):
+    for one, made in zip(axes, plans, strict=True):
         session.guard.check()
-        reached.append(one.apply(plan))
+        reached.append(one.apply(made))
     return reached
 
 
-@bus.command()
+@app.command()
 @with_setup
 def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
     """Initialise stations, and remember the set-up for this port."""
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         setups = _initialise(session, axes, typed)
     for one in axes:
         remember(BOARD.port, setup_values(typed, one.number).table(), one.number)
     if as_json:
-        values = {one.number: show.setup_values(setup) for one, setup in zip(axes, setups, strict=True)}
-        show.print_json(values)
+        values = {one.number: VIEW.setup_values(setup) for one, setup in zip(axes, setups, strict=True)}
+        output.print_json(values)
         return
-    show.out.print(show.table(show.setup_rows(setups[0])))
-    show.say(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
+    output.console.print(output.table(VIEW.setup_rows(setups[0])))
+    output.say(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
     if not lasting(BOARD.port):
-        show.note("(a virtual board is new each time: nothing to remember)")
+        output.note("(a virtual board is new each time: nothing to remember)")
 
 
-@bus.command(context_settings=_NUMBERS)
+@app.command(context_settings=NUMBERS)
 @with_setup
 def move(
     typed: dict[str, Any],
@@ -136,7 +138,7 @@ def move(
     keep: Annotated[bool, typer.Option("--keep", help="leave the table as `init` made it")] = False,
 ) -> None:
     """Move stations so many pulses, all at the same time."""
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         if not keep:
             _initialise(session, axes, typed)
@@ -147,23 +149,23 @@ def move(
             if away:
                 motions.append(one.start_move(away) if speed is None else one.start_constant(away, speed))
             else:
-                show.say(show.end_line(one.move(0)))
+                output.say(show.end_line(one.move(0)))
         _finish(session, motions, abs(pulses))
 
 
-def _finish(session: BusSession, motions: list[Any], asked: int | None = None) -> None:
+def _finish(session: Session, motions: list[Any], asked: int | None = None) -> None:
     """Wait for all, print where they stand, tell the first that ended early."""
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()
     for end in ends:
-        show.say(show.end_line(end))
-    show_bus.reports(session.bus.axes)
+        output.say(show.end_line(end))
+    show_line.reports(session.bus.axes)
     if asked is not None:
         for motion, end in zip(motions, ends, strict=True):
             end.check(motion.asked)
 
 
-@bus.command()
+@app.command()
 @with_setup
 def jog(
     typed: dict[str, Any],
@@ -177,18 +179,18 @@ def jog(
     if ramped and speed is not None:
         raise typer.BadParameter("either --speed or --ramped, not both")
     check_seconds(seconds)
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         _initialise(session, axes, typed)
         motions = [one.jog(direction.code, speed, ramped) for one in axes]
         ends = session.bus.wait(motions, progress=ending_after(seconds, session.bus, session.guard, axes))
         session.guard.bar_off()
         for end in ends:
-            show.say(show.end_line(end))
-        show_bus.reports(axes)
+            output.say(show.end_line(end))
+        show_line.reports(axes)
 
 
-@bus.command()
+@app.command()
 @with_setup
 def home(
     typed: dict[str, Any],
@@ -200,29 +202,34 @@ def home(
     index: Annotated[bool, typer.Option("--index", help="to the encoder's index on it")] = False,
 ) -> None:
     """Find the origin switch of stations, one after the other, and call it position 0."""
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         _initialise(session, axes, typed)
         for one in axes:
             one.home(direction.code, search, fast, to_limit, progress=session.guard.progress, index=index)
             session.guard.bar_off()
-            show.say(f"{one.who}position {one.position}: origin found")
+            output.say(f"{one.who}position {one.position}: origin found")
 
 
-@bus.command()
+@app.command()
 def stop(
     axis: AnyAxis = None,
     now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
 ) -> None:
     """Stop stations that were left running; without --axis all."""
-    with opened_bus() as session:
+    with opened() as session:
         axes = session.chosen(axis)
         ends = session.bus.stop([one.number for one in axes], now)
         for end in ends:
-            show.say(show.end_line(end))
+            output.say(show.end_line(end))
         if not ends:
-            show.say("nothing was moving")
+            output.say("nothing was moving")
 
 
 def _list(axes: list[Station312]) -> str:
     return ", ".join(str(one.number) for one in axes)
+
+
+# Shared: they open no board.
+app.command()(ports)
+app.command(context_settings=NUMBERS)(plan)

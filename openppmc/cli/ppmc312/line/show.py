@@ -12,8 +12,8 @@ from rich.table import Table
 from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
 from ....host.ppmc312.line.bus import Found
-from ...common import show
-from .. import show as show312
+from ...common import output
+from .. import show as part_show
 
 _HEADS = ("station", "version", "state", "position", "framing", "overrun", "checksum", "line faults")
 
@@ -54,7 +54,7 @@ def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
 
 def status_values(axis: Station312) -> dict[str, Any]:
     """Everything that may be read at any time, and what went wrong on the line."""
-    return {**show312.status_values(axis), "line": asdict(axis.counters)}
+    return {**part_show.status_values(axis), "line": asdict(axis.counters)}
 
 
 def status_table(axes: Iterable[Station312]) -> Table:
@@ -63,7 +63,7 @@ def status_table(axes: Iterable[Station312]) -> Table:
     for head in ("station", "state", "position", "encoder", "overrides", "switches", "line faults"):
         grid.add_column(head, justify="left" if head in ("state", "switches") else "right")
     for axis in axes:
-        values = show312.status_values(axis)
+        values = part_show.status_values(axis)
         active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
         grid.add_row(
             str(axis.number),
@@ -79,12 +79,12 @@ def status_table(axes: Iterable[Station312]) -> Table:
 
 def report_line(number: int, report: Report) -> str:
     """One line for a report of a station."""
-    text = show312.report_line(report)
+    text = part_show.report_line(report)
     who = f"station {number}: "
     return text if text.startswith(who) else who + text
 
 
-def reports(axes: Iterable[Station312], tell: Callable[[str], None] = show.say) -> None:
+def reports(axes: Iterable[Station312], tell: Callable[[str], None] = output.say) -> None:
     """What stations said meanwhile. Raises what went wrong, after all of it."""
     trouble: PpmcError | None = None
     for axis in axes:

@@ -14,16 +14,16 @@ from dataclasses import dataclass, field
 
 from serial.rs485 import RS485Settings
 
-from ...basis.errors import CommandRefused
-from ...basis.kind import PPMC312_SERIAL
+from ...basis.refusals import CommandRefused
 from ...line.bus import LineBus
 from ...line.errors import DuplicateAddress, GarbledReply, StationSilent
 from ...line.faults import Counters
 from ...line.master import PATIENCE
 from ...ports.transport import Port
 from ..answers import Report
-from ..registers import Status312
+from ..registers import Status
 from .ascii import SPEEDS, STATIONS, SumMode
+from .kind import KIND
 from .line import XTAL_HZ, Line
 from .serial import VERSION
 from .station import ErrorCounts, Station312
@@ -42,20 +42,20 @@ class Found:
 
     station: int
     version: int | None
-    status: Status312 | None
+    status: Status | None
     position: int | None
     errors: ErrorCounts | None
     counters: Counters = field(repr=False)
     trouble: str = ""
 
 
-class Ppmc312Bus(LineBus):
-    """A line (`line312.Line`) with stations 0 to 15; see `line_bus.LineBus`."""
+class Ppmc312Bus(LineBus[Line, Station312]):
+    """A line (`line.Line`) with stations 0 to 15; see `host.line.bus.LineBus`."""
 
-    kind = PPMC312_SERIAL
+    kind = KIND
 
     @classmethod
-    def open(  # type: ignore[override]
+    def open(
         cls,
         spec: str | Port,
         speed: int = SPEEDS[0],
@@ -65,7 +65,7 @@ class Ppmc312Bus(LineBus):
         patience: float = PATIENCE,
         xtal_hz: int = XTAL_HZ,
     ) -> Ppmc312Bus:
-        """Open a port; arguments as those of `line312.Line`. Says nothing on the line."""
+        """Open a port; arguments as those of `line.Line`. Says nothing on the line."""
         return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
 
     def make(self, station: int) -> Station312:

@@ -6,32 +6,55 @@ and a registration by what the station shows before and after. What cannot be se
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ....model.ppmc312.codes import MOTION_STARTS, OV, Code
-from ...basis.errors import CommandRefused, NoAnswer
+from ...basis.errors import NoAnswer
+from ...basis.refusals import CommandRefused
 from ...line.errors import LostReply
-from ..registers import Status312
-
-if TYPE_CHECKING:
-    from .station import Station312
+from ..motion import Motion
+from ..registers import Status
 
 _TOGGLES = {Code.INTERLOCK: "interlock", Code.RUN_MONITOR: "run_monitored"}
 _REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
 _DELETE = 2
 
 
+class Asking(Protocol):
+    """The way to a station, which is a `talk.Talk`. answers: of the station so far. busy: a motion, says the
+    last poll."""
+
+    answers: int
+    busy: bool
+
+    def status(self) -> Status: ...
+    def collect(self) -> None: ...
+
+
+class Station(Protocol):
+    """What is known of a station, which is a `station.Station312`."""
+
+    @property
+    def who(self) -> str: ...
+    @property
+    def window(self) -> Asking: ...
+    @property
+    def motion(self) -> Motion | None: ...
+    @property
+    def position(self) -> int: ...
+
+
 class Doubt:
     """One instruction block to a station. repeated: a reply to it was lost."""
 
-    def __init__(self, station: Station312, block: bytes) -> None:
+    def __init__(self, station: Station, block: bytes) -> None:
         self._station = station
         self._block = block
         self.repeated = False
         motion = station.motion
         self._motion = motion if motion is not None and motion.end is None else None
         self._was_busy = station.window.busy
-        self._before: Status312 | None = None
+        self._before: Status | None = None
         if block[2] in _TOGGLES or block[2] == Code.EVENT_SET or self._is_override:
             self._before = station.window.status()
 
@@ -50,7 +73,8 @@ class Doubt:
                 return False
             now = self._station.window.status()
             if code in _TOGGLES:
-                return getattr(now, _TOGGLES[Code(code)]) != getattr(self._before, _TOGGLES[Code(code)])
+                toggled = _TOGGLES[Code(code)]
+                return bool(getattr(now, toggled) != getattr(self._before, toggled))
             if code == Code.EVENT_SET:
                 return self._buffered(now)
             return self._registered(now)
@@ -74,7 +98,7 @@ class Doubt:
         station.window.collect()
         return motion.end is not None or station.position != motion.begin
 
-    def _registered(self, now: Status312) -> bool:
+    def _registered(self, now: Status) -> bool:
         assert self._before is not None
         added = now.overrides - self._before.overrides
         if added == 1:
@@ -83,7 +107,7 @@ class Doubt:
             return False  # nothing can have happened meanwhile
         raise self._lost("overrides may have happened meanwhile")
 
-    def _buffered(self, now: Status312) -> bool:
+    def _buffered(self, now: Status) -> bool:
         assert self._before is not None
         number = (self._block[3] & 1) + 1
         filled, was = number in now.events, number in self._before.events

@@ -7,7 +7,7 @@ from __future__ import annotations
 from enum import IntEnum
 
 from ....model.ppmc312.codes import Code, Source, State
-from ...basis.errors import CommandRefused, NotWhileBusy, StartRefused, UnknownCode
+from ...basis.refusals import CommandRefused, NotWhileBusy, StartRefused, UnknownCode
 from ..errors import (
     LIMIT,
     STATES,

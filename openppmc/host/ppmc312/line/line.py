@@ -5,7 +5,7 @@ from __future__ import annotations
 from serial.rs485 import RS485Settings
 
 from ...basis.errors import OutOfRange, PortError
-from ...bridge.script import Identity
+from ...bridge.answer import Identity
 from ...line.errors import LineEcho
 from ...line.faults import Counters, Miss
 from ...line.master import PATIENCE, Master

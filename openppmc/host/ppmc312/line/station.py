@@ -9,15 +9,15 @@ from ....model.ppmc312.codes import Cause, Code, Source, State
 from ...axis.motion import Progress
 from ...basis.ending import End
 from ...basis.errors import ProtocolError
-from ...basis.kind import PPMC312_SERIAL
 from ...line.errors import StationSilent
 from ...line.faults import Counters
 from ...line.motion import POLL_EVERY, wait_all
 from ..answers import Executed, Report, Stopped, signed
-from ..axis import Axis312
-from ..motion import Motion312
-from ..registers import Status312
+from ..axis import Axis
+from ..motion import Motion
+from ..registers import Status
 from .ascii import station_number
+from .kind import KIND
 from .line import Line
 from .serial import ERROR_CODE, ERROR_COUNTS
 from .talk import ATTEMPTS, Talk
@@ -36,10 +36,10 @@ class ErrorCounts(NamedTuple):
     checksum: int
 
 
-class SerialMotion(Motion312):
+class SerialMotion(Motion):
     """A motion whose end shows when its station is polled. damaged: what is wrong with a complete one."""
 
-    _part: Station312  # type: ignore[assignment]
+    _part: Station312
     damaged = ""
 
     @property
@@ -94,24 +94,26 @@ class SerialMotion(Motion312):
         return wait_all([self], timeout, progress)[0]
 
 
-class Station312(Axis312):
+class Station312(Axis[SerialMotion]):
     """See `ppmc312.Ppmc312`, whose methods it has; free curves, tables and event buffers cannot be read or
     written on the line (OutOfRange), and reports come when the station is polled. number: 0 to 15.
 
-    Instructions whose reply is lost are repeated only where that does no harm (`doubt312`); LostReply where
+    Instructions whose reply is lost are repeated only where that does no harm (`doubt`); LostReply where
     nobody can know.
     """
 
-    kind = PPMC312_SERIAL
-    make_motion = SerialMotion  # type: ignore[assignment]
-    link: Line  # type: ignore[assignment]
-    window: Talk  # type: ignore[assignment]
+    kind = KIND
+    link: Line
+    window: Talk
 
     def __init__(self, line: Line, number: int) -> None:
         self.number = station_number(number)
         self.who = f"station {number}: "
         self._slow_override = False
-        super().__init__(line)  # type: ignore[arg-type]
+        super().__init__(line)
+
+    def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> SerialMotion:
+        return SerialMotion(self, asked, direction, begin)
 
     def _make_window(self) -> Talk:
         return Talk(self.link, self)
@@ -160,7 +162,7 @@ class Station312(Axis312):
         self.window.collect()
         return self.window.busy
 
-    def status(self) -> Status312:
+    def status(self) -> Status:
         """As on the bus, but read until two readings in a row are the same."""
         return self.window.twice(super().status)
 
@@ -212,8 +214,8 @@ class Station312(Axis312):
             way = abs(signed((now - last) % (1 << 32)))
             if not way or (encoder and way <= _ENCODER_SLACK):
                 return True
-            clock = self.setup.clock if self.setup else None
-            fastest = float(clock.speed(self.setup.table.high)) if clock else _MOST_PPS
+            setup = self.setup
+            fastest = float(setup.clock.speed(setup.table.high)) if setup else _MOST_PPS
             return way <= 1 + fastest * (self.link.clock() - times[-2]) and self.window.status().busy
 
         return self.window.twice(read, agree)
@@ -223,7 +225,7 @@ class Station312(Axis312):
         self.instruct(block)
         self._slow_override |= block[2] == Code.SLOW_STOP
 
-    def _start(self, block: bytes, direction: int, asked: int | None = None) -> Motion312:
+    def _start(self, block: bytes, direction: int, asked: int | None = None) -> SerialMotion:
         # What waits is older than this motion.
         self.window.collect()
         return super()._start(block, direction, asked)

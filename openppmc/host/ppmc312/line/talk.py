@@ -1,11 +1,11 @@
 """Instructions to one station of a line: replies to responses, refusals to exceptions, repeats where they do
-no harm. `Window` of `window312` is the same for the parallel bus."""
+no harm. `ppmc312.window.Window` is the same for the parallel bus."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from operator import eq
-from typing import TYPE_CHECKING, TypeVar
+from typing import Protocol, TypeVar
 
 from ....model.ppmc312.codes import Cause, Code, Source, State
 from ...basis.errors import OutOfRange, ProtocolError
@@ -24,16 +24,13 @@ from ..answers import (
     Response,
     Stopped,
 )
-from ..registers import Status312
+from ..registers import Status
 from ..window import ANSWER_MS, SHORTEST
+from . import doubt
 from .ascii import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Reply
-from .doubt import Doubt
 from .errors import Error, failed_serial, refused_serial
 from .line import Line
 from .serial import DATA_BYTES, END_STATUS, line_data, response
-
-if TYPE_CHECKING:
-    from .station import Station312
 
 T = TypeVar("T")
 ATTEMPTS = 5
@@ -55,10 +52,19 @@ _CHECK = "is it there and powered, are speed (MOD), address and the two wires ri
 _OTHERS = "noise, another speed or checksum rule, or two stations with this address"
 
 
-class Talk:
-    """See `core312.Instructions`. answers: of the station so far. busy: a motion, says the last poll."""
+class Station(doubt.Station, Protocol):
+    """What the talk with a station needs of it, which is a `station.Station312`."""
 
-    def __init__(self, line: Line, station: Station312) -> None:
+    @property
+    def number(self) -> int: ...
+    def status(self) -> Status: ...
+    def hear(self, report: Report) -> None: ...
+
+
+class Talk:
+    """See `ppmc312.core.Instructions`. answers: of the station so far. busy: a motion, says the last poll."""
+
+    def __init__(self, line: Line, station: Station) -> None:
         self._line = line
         self._station = station
         self._alarmed = False
@@ -86,18 +92,18 @@ class Talk:
         GarbledReply and the errors of the line.
         """
         data = line_data(block)
-        doubt = Doubt(self._station, block)
-        reply = self.request(data, max(0, milliseconds - ANSWER_MS) / 1000, doubt.settle)
+        unsure = doubt.Doubt(self._station, block)
+        reply = self.request(data, max(0, milliseconds - ANSWER_MS) / 1000, unsure.settle)
         self.answers += 1
         error = reply.error
         if error is None:
             return response(block, reply)
-        if doubt.repeated and block[2] in _STOPPING and error == Error.STATUS and self._ended():
+        if unsure.repeated and block[2] in _STOPPING and error == Error.STATUS and self._ended():
             return response(block, reply)
         if block[2] == Code.EVENT_SET and block[3] & 2 and error == Error.REGISTRATION:
             return Response(bytes([3, 2, Code.EVENT_SET, 5]))
         state = self._station.status().raw if error == Error.STATUS else None
-        raise doubt.explain(refused_serial(self._station.who, block[2], error, state))
+        raise unsure.explain(refused_serial(self._station.who, block[2], error, state))
 
     def read(self, code: int) -> bytes:
         """An instruction that only the line has, and that reads. Raises its refusal."""
@@ -209,9 +215,9 @@ class Talk:
         self._alarmed |= isinstance(report, Alarm)
         return report
 
-    def status(self) -> Status312:
+    def status(self) -> Status:
         """Without the counting of `ask`: for looks in between."""
-        return self.twice(lambda: Status312.parse(self.request(bytes([Code.STATUS])).data))
+        return self.twice(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
 
 
 _REPORTS: dict[int, Report] = {

@@ -7,7 +7,7 @@ EMF. Switches and diodes are ideal. Times are edges of clk outside and seconds i
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import atan2, exp, hypot, pi, sin
 from typing import NamedTuple, Protocol, TypeVar
@@ -26,10 +26,20 @@ QUARTER = {"a": pi / 2, "b": 0.0}
 class Part(Protocol):
     """What is asked of the golden model."""
 
-    now: int
-    next_event: int | None
-    outputs: Mapping[str, int]
-    run_until: Callable[[int], None]
+    @property
+    def now(self) -> int:
+        """The last edge that was run."""
+
+    @property
+    def next_event(self) -> int | None:
+        """The next edge on which anything happens by itself."""
+
+    @property
+    def outputs(self) -> Mapping[str, int]:
+        """Output levels after edge `now`."""
+
+    def run_until(self, t: int) -> None:
+        """Run all edges up to and including t."""
 
     def pins(self, t: int, **levels: int) -> None:
         """Input levels from edge t on."""
@@ -175,7 +185,8 @@ class Plant:
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
         self._look()
-        model.run_until = self.run_until
+        # Whoever runs the model, a host among them, shall run the currents, too.
+        model.run_until = self.run_until  # type: ignore[method-assign]
 
     def seconds(self, t: int) -> float:
         """Time of an edge."""
@@ -194,7 +205,7 @@ class Plant:
 
     def detach(self) -> None:
         """The model runs alone again."""
-        self._model.run_until = self._run
+        self._model.run_until = self._run  # type: ignore[method-assign] # as it was before
 
     # ------------------------------------------------------------------ time
 

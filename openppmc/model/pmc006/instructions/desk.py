@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from ...common.blocks import Phase
-from ..codes import Effect
+from ..effects import Effect
 from ..memory.eeprom import Engine
 from ..motion.guard import Guard
+from ..motion.motion import Motion
 from ..pins import SYNCHRONISED, Shared
 from .processor import Processor
 
@@ -20,7 +20,7 @@ class Desk:
     stepped_at: of the last step. speed_on: SPEED_MODE; running: the motion is one of the speed mode.
     """
 
-    motion: Any
+    motion: Motion
     program: Processor
     eeprom: Engine
 

@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 from ...common.blocks import Phase
 from ...common.scheduler import Event
-from ..codes import TABLE, Effect
+from ..codes import TABLE
+from ..effects import Effect
 from ..front.frames import Command
 from .desk import Desk
 from .operations import Outcome

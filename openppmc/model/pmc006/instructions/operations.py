@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Container
 from dataclasses import dataclass
 from enum import Enum, auto
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from ..codes import LETTERS, Effect
+from ..codes import LETTERS
+from ..desk import Desk
+from ..effects import Effect
 from ..settings import BOTH
-
-if TYPE_CHECKING:
-    from .desk import Desk
 
 COUNT = 100
 TARGETS = range(COUNT)

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from enum import Enum, auto
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from ...common.blocks import Phase
-from ..codes import Effect
+from ..desk import Desk
+from ..effects import Effect
 from .operations import COUNT, Operation, Outcome, Then, decode, waited
-
-if TYPE_CHECKING:
-    from .desk import Desk
 
 WORDS = 2 * COUNT
 

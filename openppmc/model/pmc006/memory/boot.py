@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from ...common.blocks import Phase
+from ..desk import Desk
 from ..settings import PAGE, Settings, framed, values_of
 from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Engine
 from .i2c import Bus, Course
-
-if TYPE_CHECKING:
-    from ..instructions.desk import Desk
 
 
 def program_of(block: bytes) -> list[int] | None:

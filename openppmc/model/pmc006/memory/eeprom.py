@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 from ...common.blocks import Phase
+from ..desk import Desk
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 from .i2c import Bus, BusError, Course
-
-if TYPE_CHECKING:
-    from ..instructions.desk import Desk
 
 PROGRAM, SUM, MARK = 0x0020, 0x0340, 0x0342
 COPY = 0x0360

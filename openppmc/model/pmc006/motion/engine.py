@@ -1,6 +1,6 @@
 """Speed and steps of one motion of the PMC006B4, update by update (P006-MOT-03, -22, -23, -30..-42).
 
-Pure arithmetic in us from t = 0; edges and events are `motion006`'s. Between two updates the speed is
+Pure arithmetic in us from t = 0; edges and events are `motion`'s. Between two updates the speed is
 constant, so the steps of each 100 us are known in closed form.
 """
 

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from ...common.blocks import Phase
-
-if TYPE_CHECKING:
-    from ..instructions.desk import Desk
+from ...common.scheduler import Callback
+from ..desk import Desk
 
 EXTS = ("ext1", "ext2")
 
@@ -44,7 +42,10 @@ class Guard:
             wanted = self._regs.trigm >> place & 1
             if levels[ext] != before and levels[ext] == wanted and self._regs.exten >> place & 1:
                 self._desk.stop(t)
-                self._queue.at(t, Phase.FLAG, lambda now, ext=ext: self._set(now, ext))
+                self._queue.at(t, Phase.FLAG, self._setter(ext))
+
+    def _setter(self, ext: str) -> Callback:
+        return lambda now: self._set(now, ext)
 
     def _set(self, t: int, ext: str) -> None:
         self._flags[ext], self._set_at[ext] = True, t

@@ -1,6 +1,6 @@
 """Motions of the PMC006B4 on clk edges: start, steps, updates, ends (P006-MOT-04, -05, -50..-52).
 
-The arithmetic is `engine006`'s. An edge named here is the one on which the register in question changes;
+The arithmetic is `engine`'s. An edge named here is the one on which the register in question changes;
 registers of others are read as they are before the edge. Work is done per update and per step.
 """
 

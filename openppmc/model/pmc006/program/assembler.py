@@ -59,8 +59,8 @@ class _Assembler:
         for number, line in enumerate(text.splitlines(), 1):
             self._read(number, re.split("[;#]", line, maxsplit=1)[0].strip())
         if len(self._lines) > INSTRUCTIONS:
-            line = self._lines[INSTRUCTIONS].number
-            raise self._wrong(line, f"too long: a program has {INSTRUCTIONS} instructions at most")
+            first = self._lines[INSTRUCTIONS].number
+            raise self._wrong(first, f"too long: a program has {INSTRUCTIONS} instructions at most")
         return Program.of([self._instruction(line) for line in self._lines])
 
     def _wrong(self, line: int, text: str) -> AssemblyError:

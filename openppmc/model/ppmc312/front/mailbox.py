@@ -1,6 +1,6 @@
 """Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..08, -12).
 
-Their strobes: `bus312`. Another host side has the same members: `offer`, `done`, `levels`, `ready`, `answer`.
+Their strobes: `bus`. Another host side has the same members: `offer`, `done`, `levels`, `ready`, `answer`.
 """
 
 from __future__ import annotations

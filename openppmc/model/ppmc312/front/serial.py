@@ -1,13 +1,25 @@
-"""Instruction codes of the PPMC-312's serial mode, and its replies (chapter 3.6, P312-SER-20..47)."""
+"""Line rates of the PPMC-312's serial mode, its instruction codes and replies (chapter 3.6, P312-SER-01,
+-20..47).
+"""
 
 from __future__ import annotations
 
 from enum import IntEnum, unique
+from fractions import Fraction
 from typing import NamedTuple
 
 from ..codes import DIR, IDX, OV, Answer, Cause, Code
 from . import responses
 from .frames import DATA, READY, SPECIFIC
+
+_CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
+"""XTAL cycles of a bit, by mod[2:0]."""
+
+
+def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
+    """clk of a bit; None where mod names no documented speed, and the station is silent."""
+    cycles = _CYCLES.get(mod)
+    return None if cycles is None else cycles * clk_hz / xtal_hz
 
 
 @unique
@@ -103,10 +115,10 @@ def _forms() -> dict[int, Form]:
         0x88: (2, Code.ZERO_RETURN),
     }
     for first, (n, code) in starts.items():
-        for bit, flag in ((0x00, 0), (0x20, DIR)):
-            forms[first + bit] = Form(n, code, bytes([flag]))
+        for bit, way in ((0x00, 0), (0x20, DIR)):
+            forms[first + bit] = Form(n, code, bytes([way]))
             if code in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN):
-                forms[first + bit + 0x10] = Form(n, code, bytes([flag | IDX]))
+                forms[first + bit + 0x10] = Form(n, code, bytes([way | IDX]))
     return forms
 
 

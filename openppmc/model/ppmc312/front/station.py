@@ -1,6 +1,6 @@
 """The PPMC-312 as one of sixteen stations on a line: the host side of its serial mode.
 
-P312-SER-10..22, -30, -45, -46; frames: `frames312`, codes: `serial312`, bits: `line312`.
+P312-SER-10..22, -30, -45, -46; frames: `frames`, codes: `serial`, bits: `common.uart`.
 """
 
 from __future__ import annotations
@@ -8,22 +8,55 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from math import ceil
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Protocol
 
-from ...common.blocks import Phase
+from ...common.blocks import Context, Phase
 from ...common.scheduler import Event
 from ...common.uart import Receiver, Transmitter
-from ..codes import Answer, Source, State
-from ..pace import SILENCE
+from ..codes import Answer, Cause, Source, State
+from ..pace import SILENCE, Pace
 from .frames import BUSY, DATA, READY, SPECIFIC, Frame, Outcome, Parser, addressed, frame
+from .responses import Responses
 from .serial import END_CODES, LENGTHS, Local, Note, block_of, news_of, reply_of
-
-if TYPE_CHECKING:
-    from ..core import Core
 
 _MOST = 255
 _KEPT = (Note.PARAMETER, Note.STATUS, Note.LIMIT, Note.UNKNOWN, Note.SIZE, Note.REGISTRATION)
 """What the error-code register takes (P312-SER-45)."""
+
+
+class Unit(Protocol):
+    """Who works on instructions."""
+
+    def host_block(self, t: int, block: bytes) -> None:
+        """A complete block; its header's write event is at edge t."""
+
+
+class Operation(Protocol):
+    """What has moved the motor last."""
+
+    @property
+    def last_cause(self) -> Cause | None:
+        """Of the last stop report."""
+
+
+class Core(Protocol):
+    """What a station needs of the part behind it."""
+
+    context: Context
+    pace: Pace
+    responses: Responses
+
+    @property
+    def unit(self) -> Unit:
+        """Who works on instructions."""
+
+    @property
+    def operation(self) -> Operation:
+        """What has moved the motor last."""
+
+    @property
+    def state(self) -> State:
+        """The operation state of chapter 4."""
 
 
 class Log(NamedTuple):
@@ -129,7 +162,7 @@ class Station:
         """Every frame for this station gets one reply (P312-SER-19)."""
         self._busy = True
         code, data = finished.code, finished.data
-        if finished.outcome is Outcome.INSTRUCTION and code not in iter(Local):
+        if finished.outcome is Outcome.INSTRUCTION and code not in list(Local):
             self._queue.at(t + self._pace.frame, Phase.BUS, lambda now: self._ask(now, code, data))
             return
         self._queue.at(

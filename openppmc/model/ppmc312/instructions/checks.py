@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ..codes import (
     LENGTHS,
     MOTION_STARTS,
@@ -19,11 +17,9 @@ from ..codes import (
     known,
 )
 from . import settings, starts, terminals
+from .core import Core
 from .overrides import Entry
 from .work import Refusal, Work
-
-if TYPE_CHECKING:
-    from ..core import Core
 
 MORE, LAST, CODE_MORE, CODE_LAST = range(4)
 INSTRUCTION_DUE, DATA_DUE = 0x01, 0x02

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from .. import pace
 from ..codes import DIR, IDX, Answer, Code, State
 from ..motion.motion import Order
 from ..motion.sequence import Change
 from ..stages.plan import TRAPEZOID, Plan, constant, ramped
 from ..stages.tables import Table
+from .core import Core
 from .work import Refusal, Work
-
-if TYPE_CHECKING:
-    from ..core import Core
 
 BAD_RATE, BAD_VALUE = 0x20, 0x23
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 from ...common.blocks import Phase
 from .. import pace
 from ..codes import Answer, Code, Trigger
 from ..front.responses import INPUT
 from ..stages.tables import read_back
+from .core import Core
 from .work import Refusal, Work
-
-if TYPE_CHECKING:
-    from ..core import Core
 
 BAD_VALUE, NO_BUFFER, BAD_EVENT = 0x23, 0x24, 0x25
 REGISTERED, IN_USE, FULL, DELETED, NOW_EMPTY, NOTHING = range(6)

@@ -8,17 +8,15 @@ event edges wait here.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ...common.blocks import Phase
 from ..codes import Alarm, Code, Source, Trigger
 from ..front.responses import ANSWER, Report
 from ..pace import WIDTH
 from .checks import check, is_reset
+from .core import Core
 from .work import Refusal, Work, refusal_block
-
-if TYPE_CHECKING:
-    from ..core import Core
 
 
 class Job(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from ...common.blocks import Context, Phase
-from ...common.scheduler import Event
+from ...common.scheduler import Callback, Event
 from ..front.responses import Responses
 from ..pace import EVT_LOW, PIN_LOW, SAMPLE
 
@@ -33,14 +33,12 @@ class Filters:
         for pin in fresh:
             if not levels[pin] and self._context.datasheet:
                 at = t + self._context.timebase.cyc(EVT_LOW if pin in EVENT_PINS else PIN_LOW)
-                self._pending[pin] = self._context.queue.at(
-                    at, Phase.LEVELS, lambda now, p=pin: self._low(now, p)
-                )
+                self._pending[pin] = self._context.queue.at(at, Phase.LEVELS, self._low(pin))
             else:
                 self._set(t, pin, levels[pin])
 
-    def _low(self, t: int, pin: str) -> None:
-        self._set(t, pin, 0)
+    def _low(self, pin: str) -> Callback:
+        return lambda now: self._set(now, pin, 0)
 
     def _set(self, t: int, pin: str, level: int) -> None:
         pending = self._pending.pop(pin, None)

@@ -1,12 +1,12 @@
 """Pulse output of the PPMC-312 in time: t0, intervals, pulse shape, immediate ends (P312-MOT-01..07, -34).
 
-Which pulse comes with which rate is `sequence312`, what happens around an operation `operation312`.
+Which pulse comes with which rate is `sequence`, what happens around an operation `operation`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from ...common.blocks import Context, Phase
 from ...common.scheduler import Event
@@ -19,7 +19,8 @@ from .sequence import Change, Sequence
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 
 
-class Order(NamedTuple):
+@dataclass(slots=True)
+class Order:
     """One operation. target: rate that the start check compares with the high-speed limit. origin: look for
     it; turns: zero return, phase 1; index: the origin needs index_n as well."""
 

@@ -1,0 +1,72 @@
+"""`PartTests`: which tests of a part run on netlists, and why others do not; see each part's `gates.py`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import ModuleType
+
+from .collect import Item
+
+OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
+COSTLY_BUILDS = "other clocks or times; synthesis of another netlist takes minutes"
+PARAMETERS = "elaborates illegal parameters; those of a netlist are fixed"
+GENERATOR = "checks the generator of the random hosts; no simulation"
+
+
+@dataclass(frozen=True)
+class PartTests:
+    """The tests of one part: its directed and random test modules, of which netlists run the ITEMS.
+
+    sample: of its random tests, what makes the item of a seed, and the seeds. Together the hosts of a sample
+    use every configuration they choose from. builds: names of the configurations that netlists are made of,
+    for the reason in `why`; none: all. simulating: test functions that run simulations. not_applicable: those
+    that do not, with what a netlist has to do with them. too_long: directed tests that a netlist would take
+    far too long for, with the reason. quick: test modules or tests of the quick sample, which runs in the
+    build `quick_build`.
+    """
+
+    directed: ModuleType
+    simulating: frozenset[str]
+    random: ModuleType | None = None
+    sample: Mapping[Callable[[int], Item], Sequence[int]] = field(default_factory=dict)
+    builds: frozenset[str] = frozenset()
+    why: str = OTHER_BUILDS
+    not_applicable: Mapping[str, str] = field(default_factory=dict)
+    too_long: Mapping[str, str] = field(default_factory=dict)
+    quick: frozenset[str] = frozenset()
+    quick_build: str = "f16"
+
+    @property
+    def name(self) -> str:
+        """The part's name."""
+        return str(self._directed[0].part)
+
+    @property
+    def _directed(self) -> list[Item]:
+        return [param.values[0] for param in self.directed.ITEMS]
+
+    @property
+    def items(self) -> list[Item]:
+        """The directed tests that run on netlists."""
+        return [item for item in self._directed if item.test not in self.too_long and self.built(item)]
+
+    def built(self, item: Item) -> bool:
+        """Whether there are netlists of its configuration."""
+        return not self.builds or item.config.name in self.builds
+
+    def is_quick(self, item: Item) -> bool:
+        """Whether a directed test is in the quick sample."""
+        listed = item.module.rpartition(".")[2] in self.quick or item.test in self.quick
+        return listed and item.config.name == self.quick_build
+
+    @property
+    def unbuilt(self) -> list[str]:
+        """Names of the configurations without netlists."""
+        return sorted({item.config.name for item in self._directed if not self.built(item)})
+
+    @property
+    def functions(self) -> list[str]:
+        """The test functions of its modules."""
+        modules = [module for module in (self.directed, self.random) if module]
+        return [name for module in modules for name in vars(module) if name.startswith("test_")]

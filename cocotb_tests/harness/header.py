@@ -1,0 +1,52 @@
+"""Reads the parameters of a module from its header, the one place where they are listed."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+_HEADER = re.compile(r"^module (\w+)\b(.*?)\)\s*\(", re.S | re.M)
+_LINE = re.compile(
+    r"^ *parameter +(?P<type>[\w ]+?) +(?P<name>\w+) *= *(?P<value>[^,/\n]+?) *,? *(?://+ *(?P<about>.*))?$",
+    re.M,
+)
+_NUMBER = re.compile(r"(?:\d*'(?P<base>[hdb]))?(?P<digits>[0-9A-Fa-f]+)")
+RADIX = {"h": 16, "d": 10, "b": 2, None: 10}
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter: type and default as the header has them, and the comment beside it ("": none)."""
+
+    name: str
+    type: str
+    value: str
+    about: str
+
+    @property
+    def is_text(self) -> bool:
+        """A string, not a number."""
+        return self.type == "string"
+
+    @property
+    def default(self) -> int | str:
+        """The default as a value. ValueError if it is no plain literal."""
+        if self.is_text:
+            return self.value.strip('"')
+        literal = _NUMBER.fullmatch(self.value.replace("_", ""))
+        if not literal:
+            raise ValueError(f"{self.name} = {self.value}: expected a plain number")
+        return int(literal["digits"], RADIX[literal["base"]])
+
+
+def parameters(path: Path) -> dict[str, Parameter]:
+    """The parameters of the module in a file, in its order; none if it has none."""
+    match = _HEADER.search(path.read_text(encoding="utf-8"))
+    if not match:
+        return {}
+    rows = _LINE.finditer(match[2])
+    return {
+        row["name"]: Parameter(row["name"], row["type"], row["value"], (row["about"] or "").strip())
+        for row in rows
+    }

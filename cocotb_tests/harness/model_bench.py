@@ -1,0 +1,203 @@
+"""`ModelBench`: the golden model in place of the RTL: the same `async def` tests without a simulator.
+
+Nothing suspends here: `until` and `edge` run the model as far as it has to go, so `on_model` can run a whole
+coroutine with one `send(None)`. What changes pins beside the test waits in a queue of due times.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Coroutine, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import count
+from typing import Any, TypeVar
+
+from openppmc import parts
+
+from .config import F16, Config
+from .part import Part
+from .side import TIMEOUT, Side
+from .stimulus import Change
+
+T = TypeVar("T")
+F = TypeVar("F")
+PinChange = tuple[int, dict[str, int]]
+"""Edge that is the first to sample these levels."""
+
+
+@dataclass(frozen=True)
+class OnModel:
+    """Given to a test in place of the simulator's `dut`: the golden model in this build, please."""
+
+    config: Config = F16
+    seed: int = 1
+
+
+class _Later:
+    """Pin changes to come, in order of time."""
+
+    def __init__(self, changes: Iterator[PinChange]) -> None:
+        self.changes = changes
+        self.cancelled = False
+
+    def cancel(self) -> None:
+        """Let the pins rest from now on."""
+        self.cancelled = True
+
+
+class ModelBench(Side):
+    """A golden model just out of reset; `now` = `settle`, 0 or more; `pins` as those of `Bench.start`.
+
+    Its time begins with edge 0: of the first reset there is nothing to be seen.
+    """
+
+    simulated = False
+
+    def __init__(self, part: Part, on: OnModel, settle: int = 4, **pins: int) -> None:
+        super().__init__(part, on.config, on.seed)
+        params = part.params(on.config)
+        model = parts.part(part.name).load("model")
+        self.model: Any = model(**{name.lower(): value for name, value in params.items()})
+        self.pins = {**part.inputs, "rst_n": 1}
+        levels = part.reset_levels(params)
+        self.initial = {name: levels[name] for name in part.watched}
+        self._edges: dict[str, list[tuple[int, int]]] = {name: [] for name in part.watched}
+        self._taken = 0
+        self._due: list[tuple[int, int, dict[str, int], _Later]] = []
+        self._order = count()
+        self._now = 0
+        self.set(**pins)
+        self._go(settle)
+
+    # ---------------------------------------------------------------- time
+
+    @property
+    def now(self) -> int:
+        """Index of the next rising clk edge; the model has run all those before it."""
+        return self._now
+
+    async def until(self, edge: int) -> int:
+        """As `Side.until`; returns at once."""
+        if edge < self._now:
+            raise ValueError(f"until({edge}): it is already edge {self._now}")
+        self._go(edge)
+        return edge
+
+    async def align(self) -> int:
+        """It is always the falling edge before `now`."""
+        return self._now
+
+    def _go(self, edge: int) -> None:
+        """Let time pass, with all that is due on the pins up to then."""
+        while self._due and self._due[0][0] <= edge:
+            self._now, _, levels, later = heapq.heappop(self._due)
+            if not later.cancelled:
+                self.set(**levels)
+                self._schedule(later)
+        self._now = edge
+        if self.model.now < edge - 1:
+            self.model.run_until(edge - 1)
+
+    # ---------------------------------------------------------------- pins
+
+    def set(self, **levels: int) -> int:
+        """As `Side.set`; any moment will do."""
+        for pin, level in levels.items():
+            if self.pin(pin) == level:
+                continue
+            port, value = self._levelled(pin, level)
+            self.pins[port] = value
+            self.model.pins(self._now, **{port: value})
+            self.stimulus.append(Change(self._now, port, value))
+        return self._now
+
+    async def set_between(self, **levels: int) -> int:
+        """As `Side.set_between`; there is no time between two edges here."""
+        return self.set(**levels)
+
+    def _schedule(self, later: _Later) -> _Later:
+        for edge, levels in later.changes:
+            heapq.heappush(self._due, (edge, next(self._order), levels, later))
+            break
+        return later
+
+    def at(self, edge: int, **levels: int) -> _Later:
+        """As `Side.at`."""
+        if edge < self._now:
+            raise ValueError(f"at({edge}): it is already edge {self._now}")
+        return self._schedule(_Later(iter([(edge, levels)])))
+
+    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> _Later:
+        """As `Side.external_clock`."""
+        name, start = pin or self.part.clock, self._now
+
+        def ticks() -> Iterator[PinChange]:
+            t = start
+            for interval in intervals:
+                yield t, {name: 1}
+                yield t + high, {name: 0}
+                t += interval
+
+        return self._schedule(_Later(ticks()))
+
+    # ---------------------------------------------------------------- outputs
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """As `Side.outputs`."""
+        return tuple(self.model.outputs)
+
+    def _port_level(self, port: str) -> int:
+        level: int = self.model.outputs[port]
+        return level
+
+    def _seen(self) -> dict[str, list[tuple[int, int]]]:
+        """As `Side._seen`; what an asynchronous reset does at `now` is taken over with the next edge."""
+        edges = self.model.edges
+        while self._taken < len(edges) and edges[self._taken].t < self._now:
+            t, signal, value = edges[self._taken]
+            self._edges[signal].append((t, value))
+            self._taken += 1
+        return self._edges
+
+    async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
+        """As `Side.edge`."""
+        end, before = self._now + timeout, self.level(output)
+        edges: Sequence[Any] = self.model.edges
+        last = edges[-1] if edges else None
+        while self._now < end:
+            event = self.model.next_event
+            stop = end if event is None else min(end, event + 1)
+            self._go(min(stop, self._due[0][0]) if self._due else stop)
+            if not edges or edges[-1] is last:
+                continue
+            last = edges[-1]
+            was, before = before, self.level(output)
+            if before != was and level in (None, before):
+                return self._now - 1
+        want = "a change" if level is None else f"level {level}"
+        raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
+
+
+def on_model(test: Coroutine[Any, Any, T]) -> T:
+    """Run a coroutine that works on a `ModelBench` to its end; what it returns.
+
+    Raises RuntimeError if it waits for something that only a simulator has.
+    """
+    try:
+        test.send(None)
+    except StopIteration as end:
+        result: T = end.value
+        return result
+    test.close()
+    raise RuntimeError("the test waits for something that only a simulator has")
+
+
+def rtl_only(why: str) -> Callable[[F], F]:
+    """Mark a cocotb test (above its other decorators) that the golden model cannot run, and say why."""
+
+    def mark(test: F) -> F:
+        test.func._openppmc_rtl_only = why  # type: ignore[attr-defined]
+        return test
+
+    return mark

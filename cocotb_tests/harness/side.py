@@ -1,0 +1,265 @@
+"""`Side`: what a test, a lab or a host knows of the part it works on; the RTL and the golden model are two.
+
+Time is the index of rising clk edges; edge 0 is the first one that sees rst_n = 1 after the first reset. A
+pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising edge
+that made it. Most here follows from a few primitives: those of `Bench` (RTL) and `ModelBench` (golden model).
+"""
+
+from __future__ import annotations
+
+import random
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping
+from typing import Any, ClassVar, Protocol
+
+from .config import Config
+from .part import Part
+from .stimulus import Access, Change, Edge, Recording, bit_changes, level_at
+
+TIMEOUT = 1_000_000
+"""clk that a wait lasts at most, if nobody says otherwise."""
+
+
+class Handle(Protocol):
+    """Something that changes pins later."""
+
+    def cancel(self) -> Any:
+        """Let it rest from now on."""
+
+
+class Side(ABC):
+    """A part under test.
+
+    `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of each input and
+    of rst_n), `stimulus` (list[Change]: what was driven), `accesses` (list[Access]: what a host did),
+    `initial` (level of each recorded output before its first edge).
+    """
+
+    simulated: ClassVar[bool] = True
+    """Whether this is the RTL, whose edges can be compared with the golden model's."""
+
+    def __init__(self, part: Part, config: Config, seed: int) -> None:
+        self.part = part
+        self.config = config
+        self.seed = seed
+        self.rng = random.Random(seed)
+        self.pins: dict[str, int] = {}
+        self.stimulus: list[Change] = []
+        self.accesses: list[Access] = []
+        self.initial: dict[str, int] = {}
+
+    # ---------------------------------------------------------------- primitives
+
+    @property
+    @abstractmethod
+    def now(self) -> int:
+        """Index of the next rising clk edge: the stamp of a pin change made at this moment."""
+
+    @abstractmethod
+    async def until(self, edge: int) -> int:
+        """Go to the falling clk edge before rising edge `edge` (then now == edge).
+
+        Raises ValueError if that moment has passed.
+        """
+
+    @abstractmethod
+    async def align(self) -> int:
+        """Go to the next falling edge if just after a rising one; returns `now`."""
+
+    @abstractmethod
+    def set(self, **levels: int) -> int:
+        """Drive input pins now (falling-edge half only) and log them; returns the stamp.
+
+        A name such as "fl_n[2]" drives one bit of a port. Raises RuntimeError in the high half of clk,
+        KeyError for an unknown pin. Unchanged levels are neither driven nor logged.
+        """
+
+    @abstractmethod
+    async def set_between(self, **levels: int) -> int:
+        """As `set`, but at a moment between two edges, for a reset; returns just after it, with its stamp."""
+
+    @abstractmethod
+    def at(self, edge: int, **levels: int) -> Handle:
+        """Schedule pin levels so that rising edge `edge` is the first to sample them."""
+
+    @abstractmethod
+    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
+        """Run the external clock: each item is the clk count from one rising edge to the next.
+
+        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
+        with the iterable. Each high time is `high` clk. cancel() of what is returned stops it.
+        """
+
+    @abstractmethod
+    async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
+        """Wait for the next change (to `level` if given); returns its edge, aligned so that set() works.
+
+        Raises TimeoutError after `timeout` clk.
+        """
+
+    @property
+    @abstractmethod
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the outputs whose levels there are to see."""
+
+    @abstractmethod
+    def _port_level(self, port: str) -> int:
+        """Present level of an output."""
+
+    @abstractmethod
+    def _seen(self) -> Mapping[str, list[tuple[int, int]]]:
+        """Changes (edge, level) of all recorded outputs up to now, the last one of each edge."""
+
+    # ---------------------------------------------------------------- time, reset
+
+    async def clocks(self, n: int) -> int:
+        """Wait n clk; returns `now`."""
+        return await self.until(self.now + n)
+
+    async def reset(self, clocks: int = 4, settle: int = 4) -> int:
+        """Pulse rst_n low for some clk; returns the stamp of the release (first edge that sees 1).
+
+        Time goes on for `settle` clk after it (P104-PORT-03: bytes are taken from then on).
+        """
+        await self.align()
+        self.set(rst_n=0)
+        await self.clocks(clocks)
+        self.set(rst_n=1)
+        release = self.now
+        if settle:
+            await self.clocks(settle)
+        return release
+
+    # ---------------------------------------------------------------- pins
+
+    def pin(self, name: str) -> int:
+        """Level of an input as driven last, of a whole port or of one bit."""
+        port, place = self.part.locate(name)
+        return self.pins[port] if place is None else self.pins[port] >> place & 1
+
+    def pin_rises(self, pin: str, since: int = 0) -> list[int]:
+        """Stamps of the rising edges driven on an input of one bit from edge `since` on."""
+        port, place = self.part.locate(pin)
+        changes = [(c.t, c.value) for c in self.stimulus if c.pin == port]
+        return [t for t, v in bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
+
+    def _levelled(self, pin: str, level: int) -> tuple[str, int]:
+        """Port of a pin and the port's level with the pin at `level`."""
+        port, place = self.part.locate(pin)
+        return port, level if place is None else self.pins[port] & ~(1 << place) | level << place
+
+    async def pulse_pin(self, pin: str, level: int, clocks: int) -> int:
+        """Hold a pin at `level` for some clk, then put the old level back; returns the first stamp."""
+        await self.align()
+        before, stamp = self.pin(pin), self.now
+        self.set(**{pin: level})
+        await self.clocks(clocks)
+        self.set(**{pin: before})
+        return stamp
+
+    # ---------------------------------------------------------------- outputs
+
+    def level(self, output: str) -> int:
+        """Present level of an output, or of one bit of it ("pout_n[2]")."""
+        port, place = self.part.locate(output)
+        level = self._port_level(port)
+        return level if place is None else level >> place & 1
+
+    def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
+        """Changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
+        port, place = self.part.locate(output)
+        changes = self._seen()[port]
+        if place is not None:
+            changes = bit_changes(changes, place, self.initial[port])
+        return [(t, value) for t, value in changes if t >= since]
+
+    def falls(self, output: str, since: int = 0) -> list[int]:
+        """Edges on which an output of one bit fell."""
+        return [t for t, value in self.edges(output, since) if value == 0]
+
+    def rises(self, output: str, since: int = 0) -> list[int]:
+        """Edges on which an output of one bit rose."""
+        return [t for t, value in self.edges(output, since) if value == 1]
+
+    def pulses(self, since: int = 0, pin: str = "pout_n") -> list[int]:
+        """Pulses (P104-GEN-05): falling edges of pout_n."""
+        return self.falls(pin, since)
+
+    def intervals(self, since: int = 0, pin: str = "pout_n") -> list[int]:
+        """Distances of successive pulses in clk."""
+        pulses = self.pulses(since, pin)
+        return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
+
+    def low_times(self, since: int = 0, pin: str = "pout_n") -> list[int]:
+        """Low time of each complete pulse in clk."""
+        changes = self.edges(pin, since)
+        return [
+            b - a for (a, low), (b, high) in zip(changes, changes[1:], strict=False) if low == 0 and high == 1
+        ]
+
+    def level_at(self, output: str, edge: int) -> int:
+        """Level of an output just after rising edge `edge`."""
+        port, place = self.part.locate(output)
+        level = level_at(self._seen()[port], edge, self.initial[port])
+        return level if place is None else level >> place & 1
+
+    # ---------------------------------------------------------------- waiting for outputs
+
+    async def nth_fall(self, n: int, since: int = 0, pin: str = "pout_n", timeout: int = TIMEOUT) -> int:
+        """Wait until `pin` has fallen n times from edge `since` on; returns the edge of the n-th fall."""
+        end = self.now + timeout
+        while len(self.falls(pin, since)) < n:
+            await self.edge(pin, 0, max(1, end - self.now))
+        await self.align()
+        return self.falls(pin, since)[n - 1]
+
+    async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
+        """Wait until an output has this level (returns at once if it has); returns `now`."""
+        if self.level(output) != level:
+            await self.edge(output, level, timeout)
+        return await self.align()
+
+    # ---------------------------------------------------------------- checking and reporting
+
+    def context(self, last: int = 8) -> str:
+        """The last output edges, pin changes and host accesses, for messages."""
+        usual = {*self.part.bus_pins, self.part.clock}
+        pins = [c for c in self.stimulus if c.pin not in usual]
+        shown = [edge for edge in self._all_edges() if edge.signal not in ("d_o", "d_oe")]
+        lines = [f"now: edge {self.now}, config {self.config.name}, seed {self.seed}", "last output edges:"]
+        lines += [f"  {e.t:>9} {e.signal} = {e.value:#x}" for e in shown[-last:]]
+        lines += ["last pin changes:"] + [f"  {c.t:>9} {c.pin} = {c.value:#x}" for c in pins[-last:]]
+        lines += ["last host accesses:"] + [f"  {a}" for a in self.accesses[-last:]]
+        return "\n".join(lines)
+
+    def check(self, rule: str, what: str, got: Any, expected: Any) -> None:
+        """Assert got == expected; the message carries rule, edge and context."""
+        assert got == expected, (
+            f"{rule}: {what}: expected {_show(expected)}, got {_show(got)}\n{self.context()}"
+        )
+
+    def check_window(self, rule: str, what: str, got: int, low: int, high: int) -> None:
+        """Assert low <= got <= high; the message carries rule, edge and context."""
+        assert low <= got <= high, f"{rule}: {what}: expected {low}..{high}, got {got}\n{self.context()}"
+
+    def recording(self) -> Recording:
+        """Everything up to now, for `compare`; the last complete clk edge is `now` - 1."""
+        return Recording(
+            part=self.part.name,
+            params=self.part.params(self.config),
+            seed=self.seed,
+            end=self.now - 1,
+            stimulus=list(self.stimulus),
+            edges=self._all_edges(),
+            accesses=list(self.accesses),
+        )
+
+    def _all_edges(self) -> list[Edge]:
+        rows = (Edge(t, name, value) for name, changes in self._seen().items() for t, value in changes)
+        return sorted(rows, key=lambda edge: edge.t)
+
+
+def _show(value: Any) -> str:
+    if isinstance(value, int) and not isinstance(value, bool):
+        return f"{value} ({value:#x})"
+    return str(value)

@@ -1,0 +1,29 @@
+"""The PMC006B4 on a bench: its build defaults. Pins and levels are those of the golden model."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.part import Part
+from openppmc.model.pmc006 import pins
+
+DEFAULTS = {
+    "CLK_HZ": 16_000_000,
+    "XTAL_HZ": 16_000_000,
+    "TIMING": "FAST",
+    "STEP_ACK": "MANUAL",
+    "BAUD": 9600,
+    "I2C_HZ": 400_000,
+    "EE_DEV": 0x50,
+    "T_OFF_NS": 20_000,
+    "T_BLANK_NS": 1_000,
+    "FW_VERSION": 0x123,
+}
+
+PMC006 = Part.of_model(
+    "pmc006",
+    pins,
+    styles=(),
+    clock="",
+    unwatched=frozenset({"pwm_a_ref", "pwm_b_ref"}),
+    defaults=DEFAULTS,
+)
+PARTS = (PMC006,)

@@ -1,0 +1,15 @@
+"""The PPMC-104 on a bench: what its pins mean. Pins and levels are those of the golden model."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.part import Part
+from openppmc.model.ppmc104 import pins
+
+PPMC104 = Part.of_model(
+    "ppmc104",
+    pins,
+    parameters=("CLK_HZ", "XTAL_HZ", "TIMING", "PHASE_IDLE"),
+    lowest={"s": 1},
+    idle={"PHASE_IDLE": "s"},
+)
+PARTS = (PPMC104,)

@@ -1,0 +1,22 @@
+"""What `make test-gates` runs of the PPMC-104, and what it leaves out and why."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.gate_tests import GENERATOR, PARAMETERS, PartTests
+
+from . import test_part, test_random
+
+PART = PartTests(
+    test_part,
+    frozenset({"test_ppmc104", "test_random", "test_chaos"}),
+    test_random,
+    {
+        test_random.random_item: (1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 18, 37, 62),
+        test_random.chaos_item: (1, 2, 3, 5),
+    },
+    not_applicable={
+        "test_p104_par_01_ranges": PARAMETERS,
+        "test_scenarios_are_reproducible_and_varied": GENERATOR,
+    },
+    quick=frozenset({"tb_acceptance_moves", "tb_bus"}),
+)

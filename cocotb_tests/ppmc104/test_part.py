@@ -1,0 +1,59 @@
+"""Directed part tests of the PPMC-104: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges
+from cocotb_tests.harness.runner import part_design, run_item
+from cocotb_tests.harness.verifies import verifies
+
+from .bench import PPMC104
+
+ITEMS = cocotb_items(
+    "cocotb_tests.ppmc104",
+    "tb_acceptance_moves",
+    "tb_acceptance_stops",
+    "tb_acceptance_clocks",
+    "tb_bus",
+    "tb_status",
+    "tb_commands",
+    "tb_init",
+    "tb_stops",
+    "tb_reads",
+    "tb_baseclock",
+    "tb_ramp",
+    "tb_forced_decel",
+    "tb_timing_end",
+    "tb_excitation",
+    "tb_limits",
+    "tb_bad_input",
+    "tb_datasheet",
+    "tb_datasheet_stops",
+    "tb_lookup",
+    "tb_ext_clock",
+    "tb_manual",
+    part=PPMC104,
+)
+
+# Parameter, legal extremes, values just outside.
+RANGES = {
+    "CLK_HZ": (("8_000_000", "200_000_000"), ("7_999_999", "200_000_001")),
+    "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001")),
+    "TIMING": (('"FAST"', '"DATASHEET"'), ('"SLOW"', '""')),
+    "PHASE_IDLE": (("1'b0", "1'b1"), ()),
+}
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_ppmc104(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options)
+
+
+@verifies("P104-PAR-01")
+def test_p104_par_01_ranges():
+    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    check_ranges("P104-PAR-01", part_design("ppmc104", F16), RANGES)

@@ -1,0 +1,33 @@
+"""The PPMC-2104 on a bench: its two bus styles. Pins and levels are those of the golden model."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.part import BusStyle, Part
+from openppmc.model.ppmc2104 import pins
+
+# The same two pins in both styles of the PPMC-2104AFP: WRS*/RDS*, or DS* with R/W*.
+STROBES_WRS_RDS = BusStyle(
+    write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
+    write_off={"cs_n": 1, "ds_wrs_n": 1},
+    read_on={"cs_n": 0, "ds_wrs_n": 1, "rw_rds_n": 0},
+    read_off={"cs_n": 1, "rw_rds_n": 1},
+)
+# R/W* keeps its level after the strobe, as a processor's does until its next access.
+STROBES_DS_RW = BusStyle(
+    write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 0},
+    write_off={"cs_n": 1, "ds_wrs_n": 1},
+    read_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
+    read_off={"cs_n": 1, "ds_wrs_n": 1},
+)
+PPMC2104 = Part.of_model(
+    "ppmc2104",
+    pins,
+    more={"clk_o": (1, 0)},  # never stops and depends on nothing: no business of the model
+    styles=(STROBES_WRS_RDS, STROBES_DS_RW),
+    style_pin="busc",
+    clock="extck",
+    # Per axis, bit 1 for axis 1 and bit 2 for axis 2.
+    lowest=dict.fromkeys((*pins.AXIS_INPUTS, *pins.AXIS_OUTPUTS, "s1_n", "s2_n"), 1),
+    unwatched=frozenset({"clk_o"}),
+)
+PARTS = (PPMC2104,)

@@ -1,0 +1,25 @@
+"""The PPMC-312 on a bench: its bus and its build defaults. Pins and levels are those of the golden model."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.part import BusStyle, Part
+from openppmc.model.ppmc312 import pins
+
+# Eight registers, chosen by rs.
+STROBES_WE_OE = BusStyle(
+    write_on={"cs_n": 0, "we_n": 0},
+    write_off={"cs_n": 1, "we_n": 1},
+    read_on={"cs_n": 0, "oe_n": 0},
+    read_off={"cs_n": 1, "oe_n": 1},
+    address="rs",
+)
+DEFAULTS = {
+    "CLK_HZ": 16_000_000,
+    "XTAL_HZ": 16_000_000,
+    "TIMING": "FAST",
+    "VERSION": 0x12,
+    "SUM_MODE": "BINARY",
+}
+
+PPMC312 = Part.of_model("ppmc312", pins, styles=(STROBES_WE_OE,), clock="extck", defaults=DEFAULTS)
+PARTS = (PPMC312,)

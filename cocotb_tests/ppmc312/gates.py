@@ -1,0 +1,39 @@
+"""What `make test-gates` runs of the PPMC-312, and what it leaves out and why."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
+
+from . import test_random, test_scripts
+
+SAME_BLOCKS = "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks"
+OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "polls", "resets")
+
+PART = PartTests(
+    test_scripts,
+    frozenset({"test_scripts", "test_random", "test_noise", "test_serial"}),
+    test_random,
+    {
+        test_random.random_item: (2, 3, 4, 5, 6, 8),
+        test_random.noise_item: (1, 4, 7),
+        test_random.serial_item: (31,),
+    },
+    frozenset({"f16"}),
+    COSTLY_BUILDS,
+    not_applicable={
+        "test_scenarios_are_reproducible_and_varied": GENERATOR,
+        "test_hosts_are_rich": GENERATOR,
+        "test_hosts_on_the_line_are_rich": GENERATOR,
+    },
+    too_long={
+        "p312_transactions": (
+            "8 million clk; p312_motion, p312_abnormal and p312_bus have the same instructions"
+        ),
+        "p312_terminals": (
+            "3 million clk, most of them waiting for clear pulses and for the current reduction"
+        ),
+        **{f"p312_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
+        "p312_checks_motion": "15 million clk; p312_motion and p312_bounds have shorter moves of all kinds",
+    },
+    quick=frozenset({"p312_bus", "p312_serial_tour"}),
+)

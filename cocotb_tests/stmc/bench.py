@@ -1,0 +1,11 @@
+"""The STMC core and the J105 board on a bench: what their pins mean. Levels are the golden models'."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.isa_style import STROBES_ISA
+from cocotb_tests.harness.part import Part
+from openppmc.model.stmc import pc104_board, pins
+
+STMC = Part.of_model("stmc", pins, clock="ext_clk", lowest={"s": 1}, idle={"PHASE_IDLE": "s"})
+J105_STMC = Part.of_model("j105_stmc", pc104_board, styles=(STROBES_ISA,), lowest={"s": 1, "drv": 1})
+PARTS = (STMC, J105_STMC)

@@ -1,0 +1,27 @@
+"""What `make test-gates` runs of the J105 STMC and its board, and what it leaves out and why."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.gate_tests import GENERATOR, PARAMETERS, PartTests
+
+from . import test_board, test_part, test_random
+
+# Clocks and DATASHEET times are those of the PPMC-104BFP, in the same blocks.
+PART = PartTests(
+    test_part,
+    frozenset({"test_stmc", "test_random", "test_chaos"}),
+    test_random,
+    {test_random.random_item: (1, 3, 4, 5, 7, 8, 10, 13, 65), test_random.chaos_item: (1, 4)},
+    frozenset({"f16", "family", "d25x8"}),
+    not_applicable={
+        "test_stmc_parameter_ranges": PARAMETERS,
+        "test_scenarios_are_reproducible_and_varied": GENERATOR,
+    },
+    quick=frozenset({"tb_init"}),
+)
+BOARD = PartTests(
+    test_board,
+    frozenset({"test_board"}),
+    builds=frozenset({"f16"}),
+    not_applicable={"test_j105_parameter_ranges": PARAMETERS},
+)

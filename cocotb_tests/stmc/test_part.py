@@ -1,0 +1,51 @@
+"""Directed part tests of the STMC core: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges
+from cocotb_tests.harness.runner import part_design, run_item
+
+from .bench import STMC
+
+ITEMS = cocotb_items(
+    "cocotb_tests.stmc",
+    "tb_acceptance_moves",
+    "tb_acceptance_stops",
+    "tb_acceptance_registers",
+    "tb_bus",
+    "tb_status",
+    "tb_init",
+    "tb_motion",
+    "tb_ext_clock",
+    "tb_stops",
+    "tb_chopper",
+    "tb_datasheet",
+    part=STMC,
+)
+
+# Parameter, legal values, values just outside (table 1.4 of the rules).
+RANGES = {
+    "CLK_HZ": (("8_000_000", "200_000_000"), ("7_999_999", "200_000_001")),
+    "XTAL_HZ": (("1_000_000", "20_000_000"), ("999_999", "20_000_001")),
+    "TIMING": (('"FAST"', '"DATASHEET"'), ('"SLOW"', '""')),
+    "READ_MAP": (('"SHEET"', '"FAMILY"'), ('"sheet"', '""')),
+    "PHASE_IDLE": (("1'b0", "1'b1"), ()),
+    "HOLD_XT": (("1", "544_000"), ("0",)),
+    "CHOP_ON_XT": (("1", "1_040"), ("0",)),
+    "CHOP_OFF_XT": (("1", "1_740"), ("0",)),
+}
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_stmc(item, sim_options):
+    """Run one simulation."""
+    run_item(item, sim_options)
+
+
+def test_stmc_parameter_ranges():
+    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    check_ranges("STMC 1.4", part_design("stmc", F16), RANGES)

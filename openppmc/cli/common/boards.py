@@ -1,0 +1,53 @@
+"""Commands about boards: what is there, and how it is set up."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from ...host import serial_ports
+from . import output, show
+from .options import Json, with_setup
+from .session import BOARD, initialise, opened, setup_values
+from .state import lasting, remember
+
+AxisNumber = Annotated[int, typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2")]
+
+
+def ports(as_json: Json = False) -> None:
+    """List the serial ports of this computer."""
+    found = serial_ports()
+    if as_json:
+        output.print_json([{"port": device, "description": text} for device, text in found])
+    elif found:
+        output.console.print(output.table(dict(found)))
+    else:
+        output.say("no serial port; --port model: works without one")
+
+
+def info(as_json: Json = False) -> None:
+    """What board answers at the port."""
+    with opened() as session:
+        values = show.identity_values(session.part.link)
+    if as_json:
+        output.print_json(values)
+    else:
+        rows = {name.replace("_", " "): str(value) for name, value in values.items()}
+        output.console.print(output.table(rows))
+
+
+@with_setup
+def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> None:
+    """Initialise an axis, and remember the set-up for this port."""
+    values = setup_values(typed, axis)
+    with opened() as session:
+        (setup,) = initialise(session, {axis: values})
+        view = session.view
+    remember(BOARD.port, values.table(), axis)
+    if as_json:
+        output.print_json(view.setup_values(setup))
+        return
+    output.console.print(output.table(view.setup_rows(setup)))
+    if not lasting(BOARD.port):
+        output.note("(a virtual board is new each time: nothing to remember)")

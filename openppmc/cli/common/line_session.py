@@ -1,0 +1,102 @@
+"""A serial line with stations while a command talks to it, and what its options mean."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Container, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+import typer
+from serial.rs485 import RS485Settings
+
+from ...host.axis.device import Turning
+from ...host.axis.motion import Progress
+from ...host.line.bus import LineBus
+from . import output
+from .guard import Guard, Interrupted
+from .session import INTERRUPTED
+
+Bus = TypeVar("Bus", bound=LineBus[Any, Any])
+LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
+"""All words of --line; each line takes some of them."""
+
+
+def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
+    """Numbers and ranges, in the order given. known: what they may be; span: the same in words, beginning
+    with what they number. BadParameter."""
+    numbers: list[int] = []
+    for piece in text.split(","):
+        first, dash, last = piece.strip().partition("-")
+        try:
+            ends = int(first), int(last if dash else first)
+        except ValueError:
+            what = span.partition(" ")[0]
+            raise typer.BadParameter(f"{option} {text!r}: {what} are 3, 0,2,5 or {example}") from None
+        if ends[0] not in known or ends[1] not in known or ends[0] > ends[1]:
+            raise typer.BadParameter(f"{option} {text!r}: {span}")
+        numbers += [number for number in range(ends[0], ends[1] + 1) if number not in numbers]
+    return numbers
+
+
+def line_options(text: str, known: str) -> dict[str, Any]:
+    """Arguments of a bus's `open` from the text of --line; `sum_mode` as a text. known: words that the line
+    takes. BadParameter."""
+    options: dict[str, Any] = {}
+    for item in filter(None, (piece.strip().lower() for piece in text.split(","))):
+        word, _, value = item.partition("=")
+        if not re.search(rf"\b{re.escape(word)}\b", known):
+            raise typer.BadParameter(f"--line {item!r}: there are {known}")
+        if item == "echo":
+            options["echo"] = True
+        elif item in ("rs485", "rts=high"):
+            options["rs485"] = RS485Settings(rts_level_for_tx=True, rts_level_for_rx=False)
+        elif item == "rts=low":
+            options["rs485"] = RS485Settings(rts_level_for_tx=False, rts_level_for_rx=True)
+        elif item in ("sum=binary", "sum=chars"):
+            options["sum_mode"] = value
+        elif word in ("patience", "xtal"):
+            options["patience" if word == "patience" else "xtal_hz"] = _number(word, value)
+        else:
+            raise typer.BadParameter(f"--line {item!r}: there are {known}")
+    return options
+
+
+def _number(word: str, value: str) -> float | int:
+    try:
+        return float(value) if word == "patience" else int(float(value))
+    except (ValueError, OverflowError):
+        raise typer.BadParameter(f"--line {word}={value}: not a number") from None
+
+
+def ending_after(
+    seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Turning]
+) -> Callable[[Progress], None]:
+    """A progress callback that shows a bar and brakes after so many seconds of the line's time."""
+    clock = bus.line.clock
+    end_at = None if seconds is None else clock() + seconds
+
+    def look(now: Progress) -> None:
+        nonlocal end_at
+        guard.progress(now)
+        if end_at is not None and clock() >= end_at:
+            end_at = None
+            for station in stations:
+                station.brake()
+
+    return look
+
+
+@contextmanager
+def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
+    """A line that `make` opens, and Ctrl-C under control: it brings the motors to rest and ends with status
+    130."""
+    with Guard() as guard, make() as bus:
+        try:
+            guard.check()
+            yield bus, guard
+        except Interrupted:
+            output.note(guard.bring_to_rest(bus))
+            raise typer.Exit(INTERRUPTED) from None
+        finally:
+            guard.bar_off()

@@ -1,0 +1,88 @@
+"""Commands that look at a board."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.live import Live
+
+from ...host import PpmcError
+from . import output
+from .moves import AxisOrAll
+from .options import Json, with_setup
+from .session import Session, opened, ready
+
+
+def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
+    """Values of the axes, by what to write in front of them."""
+    chosen = session.chosen(axis)
+    several = len(chosen) > 1
+    return {
+        f"axis {motor.number} " if several else "": session.view.status_values(session.part, motor)
+        for motor in chosen
+    }
+
+
+def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
+    """The same for people."""
+    return {
+        prefix + name: text
+        for prefix, values in looks.items()
+        for name, text in session.view.status_rows(values).items()
+    }
+
+
+def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
+    """Position, switches, state. Disturbs nothing."""
+    with opened() as session:
+        looks = _looks(session, axis)
+    if not as_json:
+        output.console.print(output.table(_rows(session, looks)))
+    elif "" in looks:
+        output.print_json(looks[""])
+    else:
+        output.print_json({prefix.strip().replace(" ", ""): values for prefix, values in looks.items()})
+
+
+def monitor(
+    axis: AxisOrAll = None,
+    count: Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")] = None,
+    every: Annotated[
+        float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")
+    ] = 0.2,
+) -> None:
+    """Watch position and switches until Ctrl-C."""
+    with opened() as session:
+        guard = session.guard
+        look: Callable[[], dict[str, str]] = lambda: _rows(session, _looks(session, axis))  # noqa: E731
+        if not output.console.is_terminal:
+            for turn in range(count or 10**9):
+                if turn:
+                    guard.pause(session.part, every)
+                output.say("  ".join(f"{name} {value}" for name, value in look().items()))
+            return
+        with Live(output.table(look()), console=output.console, auto_refresh=False) as live:
+            for _ in range((count or 10**9) - 1):
+                guard.pause(session.part, every)
+                live.update(output.table(look()), refresh=True)
+
+
+@with_setup
+def table(
+    typed: dict[str, Any],
+    out: Annotated[Path | None, typer.Option("--out", help="write it into this file instead")] = None,
+) -> None:
+    """Read the ramps back from a PPMC-312, as the CSV that --curve takes."""
+    with ready(typed, (1,)) as session:
+        lines = session.view.table_lines(session.part)
+    if out is None:
+        output.say("\n".join(lines))
+        return
+    try:
+        out.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise PpmcError(f"{out}: cannot be written ({error.strerror})") from error
+    output.say(f"{len(lines) - 1} stages: {out}")

@@ -1,0 +1,140 @@
+"""Commands that move motors."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from ...host import Progress
+from . import output, show
+from .boards import AxisNumber
+from .options import Side, check_seconds, with_setup
+from .override import Override, parse_override
+from .session import opened, ready, stop_all
+
+AxisOrAll = Annotated[
+    int | None,
+    typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2 (all)", show_default=False),
+]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--at", metavar="POS:WHAT", help="ppmc312: there stop, halt or another speed (repeatable)"),
+]
+EncoderRange = Annotated[
+    int | None,
+    typer.Option("--encoder", min=1, max=65_535, metavar="N", help="ppmc312: tell if it is off by more"),
+]
+
+
+def override_values(texts: list[str] | None) -> list[Override]:
+    """The values of --at."""
+    try:
+        return [parse_override(text) for text in texts or ()]
+    except ValueError as error:
+        raise typer.BadParameter(f"--at {error}") from None
+
+
+@with_setup
+def move(
+    typed: dict[str, Any],
+    pulses: Annotated[
+        list[int], typer.Argument(help="pulses, CW positive; with --to a position; two numbers: both axes")
+    ],
+    axis: AxisOrAll = None,
+    to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
+    speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
+    pulse_only: Annotated[bool, typer.Option("--pulse-only", help="the phases stand still")] = False,
+    overrides: Overrides = None,
+    encoder: EncoderRange = None,
+) -> None:
+    """Move so many pulses. Two numbers move both axes of a part, begun at the same moment."""
+    if speed is not None and pulse_only:
+        raise typer.BadParameter("only moves with a ramp can be --pulse-only: leave --speed out")
+    if len(pulses) > 2 or (len(pulses) == 2 and axis is not None):
+        raise typer.BadParameter("move wants one number, with --axis if need be, or one number for each axis")
+    wanted = override_values(overrides)
+    both = len(pulses) == 2
+    with ready(typed, (1, 2) if both else (axis or 1,)) as session:
+        guard, part, view = session.guard, session.part, session.view
+        chosen = part.axes[:2] if both else (session.axis(axis or 1),)
+        away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
+        view.prepare(part, wanted, encoder)
+        if both:
+            ends = list(view.together(part, (away[0], away[1]), speed, guard.progress, pulse_only))
+        elif speed is None or away[0] == 0:
+            ends = [chosen[0].move(away[0], guard.progress, pulse_only)]
+        else:
+            ends = [chosen[0].move_constant(away[0], speed, guard.progress)]
+        guard.bar_off()
+        for end in ends:
+            output.say(show.end_line(end))
+        view.reports(part, output.say)
+
+
+@with_setup
+def jog(
+    typed: dict[str, Any],
+    direction: Annotated[Side, typer.Argument(help="where to")],
+    axis: AxisNumber = 1,
+    speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
+    ramped: Annotated[bool, typer.Option("--ramped", help="ramp up to the high speed")] = False,
+    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after so long")] = None,
+) -> None:
+    """Run until Ctrl-C, a limit switch or the alarm."""
+    if ramped and speed is not None:
+        raise typer.BadParameter("either --speed or --ramped, not both")
+    check_seconds(seconds)
+    with ready(typed, (axis,)) as session:
+        motor, guard, clock = session.axis(axis), session.guard, session.part.link.clock
+        motion = motor.jog(direction.code, speed, ramped)
+        end_at = None if seconds is None else clock() + seconds
+
+        def look(now: Progress) -> None:
+            nonlocal end_at
+            guard.progress(now)
+            if end_at is not None and clock() >= end_at:
+                end_at = None
+                motor.stop(wait=False)
+
+        end = motion.wait(progress=look)
+        guard.bar_off()
+        output.say(show.end_line(end))
+        session.view.reports(session.part, output.say)
+
+
+@with_setup
+def home(
+    typed: dict[str, Any],
+    axis: AxisNumber = 1,
+    direction: Annotated[Side, typer.Option(help="towards the origin switch")] = Side.CCW,
+    search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
+    fast: Annotated[bool, typer.Option("--fast", help="at high speed to the slow-down limit first")] = False,
+    to_limit: Annotated[bool, typer.Option("--to-limit", help="to the hard limit first")] = False,
+    index: Annotated[bool, typer.Option("--index", help="ppmc312: to the encoder's index on it")] = False,
+) -> None:
+    """Find the origin switch and call it position 0."""
+    with ready(typed, (axis,)) as session:
+        motor = session.axis(axis)
+        session.view.home(
+            session.part,
+            motor,
+            direction.code,
+            search,
+            fast,
+            to_limit,
+            index,
+            session.guard.progress,
+        )
+        session.guard.bar_off()
+        output.say(f"{motor.who}position {motor.position}: origin found")
+
+
+def stop(
+    axis: AxisOrAll = None,
+    now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
+) -> None:
+    """Stop a motion that was left running."""
+    with opened() as session:
+        for end in stop_all(session.chosen(axis), now):
+            output.say(show.end_line(end))

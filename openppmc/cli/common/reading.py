@@ -1,0 +1,182 @@
+"""How the lines of script files are read: the words after the first one. Those that all parts know."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from .options import Logic, SetupValues, Side
+
+MOST_TURNS = 1_000_000
+Values = dict[str, Any]
+"""What a line says, by names that `player` knows."""
+Reader = Callable[[list[str]], Values]
+"""Takes the words after the first one, and uses them up. ValueError."""
+
+
+def none_left(words: list[str]) -> None:
+    """The line ends here."""
+    if words:
+        raise ValueError(f"{words[0]!r} does not belong here")
+
+
+def _number(text: str, what: str, low: float, high: float) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise ValueError(f"{what} {text!r} is not a number") from None
+    if not low <= value <= high:
+        raise ValueError(f"{what} {text} is outside {low:g} to {high:g}")
+    return value
+
+
+def whole(text: str, what: str, low: int, high: int) -> int:
+    """A whole number from low to high."""
+    try:
+        value = int(text)
+    except ValueError:
+        raise ValueError(f"{what} {text!r} is not a whole number") from None
+    if not low <= value <= high:
+        raise ValueError(f"{what} {text} is outside {low} to {high}")
+    return value
+
+
+def first(words: list[str], what: str) -> str:
+    """The next word, taken away."""
+    if not words:
+        raise ValueError(f"{what} is missing")
+    return words.pop(0)
+
+
+def _side(words: list[str]) -> int:
+    text = first(words, "direction (cw or ccw)")
+    if text.lower() not in ("cw", "ccw"):
+        raise ValueError(f"{text!r} is neither cw nor ccw")
+    return Side(text.lower()).code
+
+
+def _pairs(words: Iterable[str]) -> dict[str, str]:
+    pairs = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if not equals or not value:
+            raise ValueError(f"{word!r} is not of the form name=value")
+        pairs[name.replace("-", "_").lower()] = value
+    return pairs
+
+
+def _speed(words: list[str]) -> float | None:
+    """`speed=PPS`, if it comes next."""
+    if words and words[0].startswith("speed="):
+        return _number(words.pop(0)[6:], "speed", 1e-6, 1e6)
+    return None
+
+
+def read_axis(words: list[str]) -> int | None:
+    """`axis=1` or `axis=2` at the end of the line."""
+    if words and words[-1].startswith("axis="):
+        return whole(words.pop()[5:], "axis", 1, 2)
+    return None
+
+
+def read_repeat(words: list[str]) -> Values:
+    """How often."""
+    turns = whole(first(words, "how often"), "count", 1, MOST_TURNS)
+    none_left(words)
+    return {"turns": turns}
+
+
+_YES = {"yes": True, "on": True, "1": True, "no": False, "off": False, "0": False}
+
+
+def _init(words: list[str]) -> Values:
+    values: Values = {}
+    for name, text in _pairs(words).items():
+        if name in ("start", "high", "stop", "base_clock", "external_clock"):
+            values[name] = _number(text, name, 1e-6, 1e7)
+        elif name in ("ramp", "down"):
+            values[name] = whole(text, name, 0, 0xFFFFFF)
+        elif name == "phases":
+            values[name] = whole(text, name, 0, 65535)
+        elif name in ("half_step", "chop", "long_intervals", "sigmoid"):
+            if text.lower() not in _YES:
+                raise ValueError(f"{name} {text!r} is neither yes nor no")
+            values[name] = _YES[text.lower()]
+        elif name == "logic":
+            if text not in ("positive", "negative"):
+                raise ValueError(f"logic {text!r} is neither positive nor negative")
+            values[name] = Logic(text).value
+        else:
+            values[name] = text
+    SetupValues().merged(values)
+    return values
+
+
+def _move(words: list[str]) -> Values:
+    most = 1 << 24
+    pulses = whole(first(words, "number of pulses"), "pulses", -most, most)
+    second = whole(words.pop(0), "pulses", -most, most) if words and "=" not in words[0] else None
+    values = {"pulses": pulses, "second": second, "speed": _speed(words)}
+    none_left(words)
+    return values
+
+
+def _move_to(words: list[str]) -> Values:
+    ends = -(1 << 31), (1 << 31) - 1
+    values = {"position": whole(first(words, "position"), "position", *ends), "second": None}
+    if words:
+        values["second"] = whole(words.pop(0), "position", *ends)
+    none_left(words)
+    return values
+
+
+def _jog(words: list[str]) -> Values:
+    side = _side(words)
+    ramped = bool(words) and words[0] == "ramped" and bool(words.pop(0))
+    speed = None if ramped else _speed(words)
+    if first(words, "for SECONDS") != "for":
+        raise ValueError("jog needs: jog cw|ccw [ramped | speed=PPS] for SECONDS")
+    seconds = _number(first(words, "seconds"), "seconds", 0, 86_400)
+    none_left(words)
+    return {"side": side, "ramped": ramped, "speed": speed, "seconds": seconds}
+
+
+def _home(words: list[str]) -> Values:
+    side = _side(words) if words and words[0].lower() in ("cw", "ccw") else Side.CCW.code
+    approach = words.pop(0) if words and words[0] in ("fast", "to-limit") else ""
+    values = {"side": side, "approach": approach, "speed": _speed(words)}
+    none_left(words)
+    return values
+
+
+def _wait(words: list[str]) -> Values:
+    seconds = _number(first(words, "seconds"), "seconds", 0, 86_400)
+    none_left(words)
+    return {"seconds": seconds}
+
+
+def _step(words: list[str]) -> Values:
+    values = {"side": _side(words)}
+    none_left(words)
+    return values
+
+
+def _plain(words: list[str]) -> Values:
+    none_left(words)
+    return {}
+
+
+READERS: dict[str, Reader] = {
+    "init": _init,
+    "move": _move,
+    "goto": _move_to,
+    "step": _step,
+    "jog": _jog,
+    "home": _home,
+    "wait": _wait,
+    "stop": _plain,
+    "zero": _plain,
+    "off": _plain,
+    "position": _plain,
+}
+"""Words of all parts."""

@@ -1,0 +1,172 @@
+"""What a part shows on the command line, and what the shared commands ask of it that not all parts have.
+
+The table names the view of a part (column `view`); a part without one has `RampView`, that of the PPMC-104.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any, Generic, Protocol, TypeVar
+
+from ...host import End, OutOfRange
+from ...host.axis.moves import OnProgress
+from ...host.axis.part import AnyAxis
+from ...host.basis import units
+from ...host.basis.kind import Kind
+from ...host.bridge.link import Link
+from . import forecast, show
+from .forecast import Course
+from .override import Override
+
+
+class Status(Protocol):
+    """The status of a part; its bits are the part's."""
+
+    @property
+    def raw(self) -> int:
+        """As it was read."""
+
+
+class WithStatus(Protocol):
+    """A part that tells its status."""
+
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def link(self) -> Link: ...
+    def status(self) -> Status:
+        """Read it; disturbs nothing."""
+
+
+PartT = TypeVar("PartT", bound=WithStatus)
+SetupT = TypeVar("SetupT")
+
+
+class View(ABC, Generic[PartT, SetupT]):
+    """PartT: its driver. SetupT: what its kind plans. All speeds in pps, times in s. A method that is not
+    abstract raises OutOfRange or does nothing: the part does not have that."""
+
+    # ------------------------------------------------------------------ looking
+
+    @abstractmethod
+    def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
+        """Everything that may be read of an axis at any time: position, moving, error, status, inputs."""
+
+    def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
+        """The same for people."""
+        error = values["error"]
+        return {
+            "position": "no counter" if values["position"] is None else str(values["position"]),
+            "motor": "moving" if values["moving"] else "at rest",
+            "switches": show.switches(values["inputs"]),
+            "last byte": "good" if error is None else f"error {error}",
+        }
+
+    def busy(self, part: PartT, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
+        """Those of these axes that move."""
+        status = part.status().raw
+        return tuple(axis for axis in axes if status & axis.busy)
+
+    def reports(self, part: PartT, tell: Callable[[str], None]) -> None:
+        """What the part said meanwhile, a line each. Raises what went wrong, after all of it."""
+
+    # ------------------------------------------------------------------ plans
+
+    @abstractmethod
+    def setup_rows(self, setup: SetupT) -> dict[str, str]:
+        """Asked and reached speeds, ramp, bytes."""
+
+    @abstractmethod
+    def setup_values(self, setup: SetupT) -> dict[str, Any]:
+        """For JSON."""
+
+    @abstractmethod
+    def figures(self, setup: SetupT, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+        """Key figures of a move before it is made, see `forecast.key_figures`. speed: constant, or None."""
+
+    @abstractmethod
+    def course(self, setup: SetupT, pulses: int, speed: units.Speed | None) -> Course:
+        """The move to draw, pulses from 1 on."""
+
+    # ------------------------------------------------------------------ what not all parts have
+
+    def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
+        """What the next move shall do on its way, and how far the encoder may be off in pulses."""
+        if encoder is not None:
+            raise OutOfRange(f"encoder: a {part.kind} does not have one")
+        if overrides:
+            raise OutOfRange(f"overrides: a {part.kind} does not have that")
+
+    def together(
+        self,
+        part: PartT,
+        pulses: tuple[int, int],
+        pps: float | None,
+        progress: OnProgress,
+        pulse_only: bool = False,
+    ) -> Sequence[End]:
+        """Move axes 1 and 2, begun at the same moment, and wait."""
+        raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
+
+    def home(
+        self,
+        part: PartT,
+        axis: AnyAxis,
+        direction: int,
+        pps: float | None,
+        fast: bool,
+        to_limit: bool,
+        index: bool,
+        progress: OnProgress,
+    ) -> None:
+        """Find the origin. index: that of the encoder on it."""
+        if index:
+            raise OutOfRange(f"index: a {part.kind} does not have that")
+        axis.home(direction, pps, fast, to_limit, progress=progress)
+
+    def table_lines(self, part: PartT) -> list[str]:
+        """The ramps that the part has, as the CSV that --curve takes."""
+        raise OutOfRange(f"table: a {part.kind} cannot be asked for it")
+
+
+class RampView(View[PartT, units.Setup]):
+    """Parts with the one ramp of the family."""
+
+    def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
+        status: Any = part.status()
+        moving, error = self.moving(status, axis.number)
+        return {
+            "position": axis.position if part.link.identity.counter else None,
+            "moving": moving,
+            "error": error,
+            "status": status.raw,
+            "inputs": {name: bool(on) for name, on in vars(axis.inputs()).items()},
+        }
+
+    def moving(self, status: Any, number: int) -> tuple[bool, int | str | None]:
+        """Whether the axis moves, and the error that the status tells, by what the part's `status` gives."""
+        return status.busy, None if status.error is None else int(status.error)
+
+    def setup_rows(self, setup: units.Setup) -> dict[str, str]:
+        return show.setup_rows(setup)
+
+    def setup_values(self, setup: units.Setup) -> dict[str, Any]:
+        return show.setup_values(setup)
+
+    def figures(self, setup: units.Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+        return forecast.key_figures(setup, pulses, speed)
+
+    def course(self, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
+        return Course.of(setup, pulses, speed)
+
+
+AnyView = View[Any, Any]
+"""Of a part that is known by its name only."""
+_USUAL: AnyView = RampView[WithStatus]()
+
+
+def view_of(kind: Kind) -> AnyView:
+    """The view of the part of this kind."""
+    view: AnyView = kind.row.load("view") if kind.row.view else _USUAL
+    return view

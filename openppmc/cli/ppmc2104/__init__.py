@@ -1,0 +1,1 @@
+"""What the command line knows about the PPMC-2104."""

@@ -1,0 +1,30 @@
+"""What a PPMC-2104 shows on the command line, and its two axes together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...host import End, Ppmc2104
+from ...host.axis.moves import OnProgress
+from ...host.ppmc2104.registers import Status
+from ..common.view import RampView
+
+
+class PartView(RampView[Ppmc2104]):
+    """One status register for both axes, and a start for both."""
+
+    def moving(self, status: Status, number: int) -> tuple[bool, int | str | None]:
+        return status.busy[number - 1], "unread" if status.error else None
+
+    def together(
+        self,
+        part: Ppmc2104,
+        pulses: tuple[int, int],
+        pps: float | None,
+        progress: OnProgress,
+        pulse_only: bool = False,
+    ) -> Sequence[End]:
+        return part.together(*pulses, pps, pps, progress, pulse_only)
+
+
+VIEW = PartView()

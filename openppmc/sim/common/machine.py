@@ -1,0 +1,169 @@
+"""A machine around a motor controller in words: `start=4000,cw=40000,alarm=100..200`.
+
+The same text describes it for the virtual board and for the model; words of axis 2 end in 2: `cw2=30000`.
+What is special to a part stands in its own `machine.py`, which the table of parts names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any
+
+from ... import parts
+from ...model.carrier.carrier import Carrier
+from ...model.carrier.plant import FARTHEST, Plant
+
+PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
+ENCODER_WORDS = ("index", "block")
+"""What only a machine with an encoder has."""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What a modelled carrier is built with. clk_hz, xtal_hz: as the part's. timing: FAST or DATASHEET. own:
+    values of the part's own words. on_interrupt: called when its interrupt begins."""
+
+    plants: Sequence[Plant]
+    clk_hz: int
+    xtal_hz: int
+    timing: str
+    own: Mapping[str, str]
+    on_interrupt: Callable[[], None]
+
+
+@dataclass(frozen=True)
+class MachineKind:
+    """What is around a part behind the UART bridge.
+
+    called: the part in messages. carrier: makes its modelled carrier. axes: 1 or 2. plant: where switches
+    are by default. encoder: there is one. own: words of its own and their values, the default first.
+    xtal_max: of its crystal, Hz. alarm: what it calls that switch.
+    """
+
+    called: str
+    carrier: Callable[[Setup], Carrier[Any]]
+    axes: int = 1
+    plant: Plant = Plant()
+    encoder: bool = False
+    own: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    xtal_max: int = 16_000_000
+    alarm: str = "ALM"
+
+
+def machine_parts() -> tuple[str, ...]:
+    """Word `part`: its values."""
+    return tuple(row.name for row in parts.having("number", "machine"))
+
+
+def machine_kind(part: str) -> MachineKind:
+    """What the part's own `machine.py` says."""
+    kind: MachineKind = parts.part(part).load("machine")
+    return kind
+
+
+def own_words() -> tuple[str, ...]:
+    """Words that only one part has."""
+    return tuple(word for part in machine_parts() for word in machine_kind(part).own)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A part's surroundings: its name, one plant an axis, values of its own words, all other words."""
+
+    part: str
+    plants: tuple[Plant, ...]
+    own: dict[str, str]
+    others: dict[str, str]
+
+
+def parse_machine(text: str) -> Machine:
+    """From `word=value,word=value`; empty text: the defaults. Raises ValueError with the offending word."""
+    words: list[dict[str, int | tuple[int, int]]] = [{}, {}]
+    others: dict[str, str] = {}
+    part, second, encoder = "ppmc104", "", ""
+    for item in filter(None, (piece.strip() for piece in text.split(","))):
+        word, equals, value = (piece.strip() for piece in item.partition("="))
+        if not equals or not value:
+            raise ValueError(f"{item!r} is not of the form word=value")
+        axis = int(word.endswith("2") and word[:-1] in PLANT_WORDS)
+        name = word[:-1] if axis else word
+        if word == "part":
+            part = value.lower()
+            if part not in machine_parts():
+                raise ValueError(f"part={value}: there are {', '.join(machine_parts())}")
+        elif name in PLANT_WORDS:
+            words[axis] |= _where(name, word, value)
+            second = item if axis else second
+            encoder = item if name in ENCODER_WORDS else encoder
+        else:
+            others[word] = value
+    kind = machine_kind(part)
+    if second and kind.axes == 1:
+        other, _ = _first(lambda one: one.axes > 1)
+        raise ValueError(f"{second}: {kind.called} has one axis: add part={other}")
+    if encoder and not kind.encoder:
+        other, its = _first(lambda one: one.encoder)
+        raise ValueError(f"{encoder}: only {its.called} has an encoder: add part={other}")
+    own = _own(kind, others)
+    return Machine(part, tuple(_placed(kind.plant, axis) for axis in words[: kind.axes]), own, others)
+
+
+def _first(wanted: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
+    """The first part with such a machine."""
+    kinds = ((part, machine_kind(part)) for part in machine_parts())
+    return next((part, kind) for part, kind in kinds if wanted(kind))
+
+
+def _own(kind: MachineKind, others: dict[str, str]) -> dict[str, str]:
+    """Takes the part's own words out of the others; ValueError for those of another part."""
+    for its in map(machine_kind, machine_parts()):
+        for word in its.own:
+            if word in others and word not in kind.own:
+                raise ValueError(f"{word}={others[word]}: only {its.called} has it")
+    own = {}
+    for word, known in kind.own.items():
+        value = others.pop(word, known[0])
+        own[word] = value.upper()
+        if own[word] not in known:
+            raise ValueError(f"{word}={value}: neither {' nor '.join(known)}")
+    return own
+
+
+def _placed(plant: Plant, words: Mapping[str, int | tuple[int, int]]) -> Plant:
+    values = asdict(plant)
+    values.update(words)
+    return Plant(**values)
+
+
+def _where(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]:
+    """Fields of a plant for a word."""
+    if name == "alarm":
+        return {name: _span(word, value)}
+    if name == "origin":
+        first, last = _span(word, value) if ".." in value else (-FARTHEST, _position(word, value))
+        return {"origin_from": first, "origin": last}
+    number = _position(word, value)
+    if name == "index" and number < 0:
+        raise ValueError(f"{word}={value}: the pulses of a turn, 0 for an encoder without index")
+    return {name: number}
+
+
+def _position(word: str, value: str) -> int:
+    try:
+        position = int(value)
+    except ValueError:
+        raise ValueError(f"{word}={value}: {value!r} is not a whole number of pulses") from None
+    if not -FARTHEST <= position < FARTHEST:
+        raise ValueError(f"{word}={value} is outside {-FARTHEST} to {FARTHEST - 1} pulses")
+    return position
+
+
+def _span(word: str, value: str) -> tuple[int, int]:
+    first, dots, last = value.partition("..")
+    if not dots:
+        raise ValueError(f"{word}={value} is not of the form {word}=100..200")
+    span = _position(word, first), _position(word, last)
+    if span[0] > span[1]:
+        raise ValueError(f"{word}={value}: the first position is behind the last one")
+    return span

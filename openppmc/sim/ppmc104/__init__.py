@@ -1,0 +1,1 @@
+"""What is around a PPMC-104: its machine."""

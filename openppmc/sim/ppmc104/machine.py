@@ -1,0 +1,13 @@
+"""The machine around a PPMC-104: nothing that others have not."""
+
+from __future__ import annotations
+
+from ...model.ppmc104.carrier import Carrier
+from ..common.machine import MachineKind, Setup
+
+
+def _carrier(setup: Setup) -> Carrier:
+    return Carrier(setup.plants[0], setup.clk_hz, setup.xtal_hz, setup.timing, setup.on_interrupt)
+
+
+MACHINE = MachineKind("a ppmc104", _carrier)

@@ -1,0 +1,1 @@
+"""What is around a PPMC-2104: its machine."""

@@ -1,0 +1,21 @@
+"""The machine around a PPMC-312: its motor has an encoder; the origin is a cam well inside the limits, as its
+zero return wants it.
+"""
+
+from __future__ import annotations
+
+from ...model.carrier.plant import Plant
+from ...model.ppmc312.carrier import Carrier
+from ..common.machine import MachineKind, Setup
+
+
+def _carrier(setup: Setup) -> Carrier:
+    return Carrier(setup.plants[0], setup.clk_hz, setup.xtal_hz, setup.timing, setup.on_interrupt)
+
+
+MACHINE = MachineKind(
+    "a ppmc312",
+    _carrier,
+    plant=Plant(ccw=-4000, slow_ccw=-3000, origin_from=-50, index=400),
+    encoder=True,
+)

@@ -1,0 +1,1 @@
+"""What is around an STMC: its machine."""

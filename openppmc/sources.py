@@ -1,0 +1,132 @@
+"""Reads rtl/files.yml, the one list of RTL sources, for the virtual board without a YAML package.
+
+The file has one form only, and what is not in it is refused:
+
+    group:
+      about: what it is, one line
+      needs: [groups whose modules and packages its files name]
+      files:
+        - path below rtl/
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from openppmc.errors import PpmcError
+
+LIST = "rtl/files.yml"
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
+_OWN = re.compile(r"^\s*(?:module|package|interface)\s+(?:automatic\s+|static\s+)?(\w+)", re.M)
+
+# A package before `::`, a module before its parameters or its instance's name.
+_USED = re.compile(r"\b(\w+)(?=\s*::|\s*#\s*\(|\s+\w+\s*\()")
+
+
+class SourcesError(PpmcError):
+    """The list is missing or wrong, or names what is not there. One line."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """One group of the list: what it is, the groups that its files name, its files in compile order."""
+
+    name: str
+    about: str
+    needs: tuple[str, ...]
+    files: tuple[Path, ...]
+
+
+def groups(root: Path) -> dict[str, Group]:
+    """All groups of the checkout `root`, in compile order; paths are absolute.
+
+    SourcesError if the list is missing or a line of it has another form than it should.
+    """
+    listing = root / LIST
+    if not listing.is_file():
+        raise SourcesError(f"{LIST} is missing: there is no list of RTL sources")
+    found: dict[str, Group] = {}
+    name, about, needs = "", "", tuple[str, ...]()
+    files: list[Path] = []
+    for number, line in enumerate(listing.read_text(encoding="utf-8").splitlines(), 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        if match := re.fullmatch(r"(\w+):", line):
+            name, about, needs, files = match[1], "", (), []
+        elif name and (match := re.fullmatch(r"  about: (\S.*)", line)):
+            about = match[1]
+        elif name and (match := re.fullmatch(r"  needs: \[([\w, ]*)\]", line)):
+            needs = tuple(match[1].replace(",", " ").split())
+        elif name and (match := re.fullmatch(r"    - (\S+)", line)):
+            files.append(root / "rtl" / match[1])
+        elif not (name and line == "  files:"):
+            raise SourcesError(f"{LIST}:{number}: not in the form of this list: {line.strip()}")
+        found[name] = Group(name, about, needs, tuple(files))
+    for group in found.values():
+        if strange := [need for need in group.needs if need not in found]:
+            raise SourcesError(f"{LIST}: {group.name} needs {strange[0]}, which is no group")
+    return found
+
+
+def needed(listed: Mapping[str, Group], *names: str) -> list[str]:
+    """These groups and all that they need, in compile order. SourcesError for a name that is no group."""
+    found, todo = set[str](), list(names)
+    while todo:
+        name = todo.pop()
+        if name not in listed:
+            raise SourcesError(f"{LIST} has no group {name}")
+        if name not in found:
+            found.add(name)
+            todo += listed[name].needs
+    return [name for name in listed if name in found]
+
+
+def files(listed: Mapping[str, Group], *names: str) -> list[Path]:
+    """Files of these groups and of all that they need, in compile order. SourcesError if one is missing."""
+    found = [path for name in needed(listed, *names) for path in listed[name].files]
+    if missing := [path.name for path in found if not path.is_file()]:
+        raise SourcesError(f"{LIST} lists files that do not exist: {', '.join(missing)}")
+    return found
+
+
+def walls(listed: Mapping[str, Group]) -> list[str]:
+    """What is wrong with `needs`, a line each.
+
+    That is a module or package that a file names, of a group that its own does not need, and a group that is
+    needed for nothing.
+    """
+    texts = {
+        path: _COMMENT.sub(" ", path.read_text(encoding="utf-8"))
+        for group in listed.values()
+        for path in group.files
+        if path.is_file()
+    }
+    owner = {
+        name: group.name
+        for group in listed.values()
+        for path in group.files
+        for name in _OWN.findall(texts.get(path, ""))
+    }
+    wrong = []
+    for group in listed.values():
+        used = set[str]()
+        for path in group.files:
+            for name in sorted(set(_USED.findall(texts.get(path, ""))) & owner.keys()):
+                used.add(owner[name])
+                if owner[name] not in (group.name, *group.needs):
+                    wrong.append(
+                        f"rtl/{_below(path)}: {name} is in {owner[name]}, which {group.name} does not need"
+                    )
+        for need in group.needs:
+            if need not in used:
+                wrong.append(f"{LIST}: {group.name} names nothing of {need}, which it needs")
+    return wrong
+
+
+def _below(path: Path) -> str:
+    """The path as the list has it."""
+    parts = path.parts
+    return "/".join(parts[len(parts) - parts[::-1].index("rtl") :])

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
+// board_icebreaker_ppmc104: PPMC-104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
+//         the bridge.
+// Timing: of ppmc104_carrier.
+`default_nettype none
+
+module board_icebreaker_ppmc104 #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter string       TIMING     = "FAST",
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk_12m,   // 12 MHz
+    input  wire logic       btn_n,     // 0: reset
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    input  wire logic       clock,
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       alm_n,
+    // auxiliary
+    input  wire logic [3:0] auxi,
+    output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir,
+    // lamps, 0 = on
+    output logic            ledg_n,
+    output logic            ledr_n
+);
+
+  localparam int unsigned ClkHz = 24_000_000;
+
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
+  logic [3:0] lamps;
+
+  ppmc_clock_icebreaker u_clock (
+      .clk_12m_i(clk_12m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc104_carrier #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      ("UART"),
+      .BAUD      (BAUD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .a0   (1'b1),
+      .cs_n (1'b1),
+      .rd_n (1'b1),
+      .wr_n (1'b1),
+      .d_i  ('1),
+      .d_o  (),
+      .d_oe (),
+      .int_n(),
+      .csel (1'b1),
+      .vsel (1'b1),
+      .clock,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .aux_n,
+      .s,
+      .hold,
+      .pout_n,
+      .dir,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{lamps[3:2]};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/icebreaker/board.yml and stmc_carrier.sv; change those, not this.
+// board_icebreaker_stmc: J105 STMC with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/stmc/pins.pcf.
+// Timing: of stmc_carrier.
+`default_nettype none
+
+module board_icebreaker_stmc #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter string       TIMING     = "FAST",
+    parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk_12m,   // 12 MHz
+    input  wire logic       btn_n,     // 0: reset
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       mon,       // 1 = the motor may run
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    // lamps, 0 = on
+    output logic            ledg_n,
+    output logic            ledr_n
+);
+
+  localparam int unsigned ClkHz = 24_000_000;
+
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
+  logic [3:0] lamps;
+
+  ppmc_clock_icebreaker u_clock (
+      .clk_12m_i(clk_12m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  stmc_carrier #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .READ_MAP  (READ_MAP),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      ("UART"),
+      .BAUD      (BAUD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .cs_n (1'b1),
+      .a0   (1'b1),
+      .rd_n (1'b1),
+      .wr_n (1'b1),
+      .d_i  ('1),
+      .d_o  (),
+      .d_oe (),
+      .int_n(),
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .mon,
+      .s,
+      .hold,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{lamps[3:2]};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/ulx3s/board.yml and ppmc2104_carrier.sv; change those, not this.
+// board_ulx3s_ppmc2104: PPMC-2104 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
+//         from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc2104/pins.lpf.
+// Timing: of ppmc2104_carrier.
+`default_nettype none
+
+module board_ulx3s_ppmc2104 #(
+    parameter int unsigned XTAL_HZ  = 16_000_000,
+    parameter string       TIMING   = "FAST",
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
+    parameter string       HOST     = "UART",      // or "BUS"
+    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk_25m,     // 25 MHz
+    input  wire logic       btn_f1,      // 1: reset
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    input  wire logic       cs_n,
+    input  wire logic       a0,
+    input  wire logic       busc,
+    input  wire logic       ds_wrs_n,
+    input  wire logic       rw_rds_n,
+    inout  wire logic [7:0] d,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
+    output logic            int_n,
+    // with the UART host the straps can pull these to 0 as well
+    input  wire logic       errint_n,
+    input  wire logic [2:1] run,
+    input  wire logic [2:1] csel,
+    input  wire logic [2:1] extck,
+    // switches, 0 = active
+    input  wire logic [2:1] fl_n,
+    input  wire logic [2:1] bl_n,
+    input  wire logic [2:1] fhl_n,
+    input  wire logic [2:1] bhl_n,
+    input  wire logic [2:1] org_n,
+    input  wire logic [2:1] alm_n,
+    // auxiliary
+    input  wire logic [1:0] auxi,
+    output logic      [1:0] auxo,
+    output logic            clk_o,
+    // motors
+    output logic      [5:1] s1,
+    output logic      [5:1] s2,
+    output logic      [2:1] hold,
+    output logic      [2:1] pout_n,
+    output logic      [2:1] dir,
+    // lamps, 1 = on
+    output logic      [3:0] led,
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
+);
+
+  localparam int unsigned ClkHz = 100_000_000;
+
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
+  logic [7:0] part_d;
+
+  ppmc_clock_ulx3s u_clock (
+      .clk_25m_i(clk_25m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc2104_carrier #(
+      .CLK_HZ  (ClkHz),
+      .XTAL_HZ (XTAL_HZ),
+      .TIMING  (TIMING),
+      .PHASE_ON(PHASE_ON),
+      .HOST    (HOST),
+      .BAUD    (BAUD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .cs_n,
+      .a0,
+      .busc,
+      .ds_wrs_n,
+      .rw_rds_n,
+      .d_i(d),
+      .d_o(part_d),
+      .d_oe,
+      .int_n,
+      .errint_n,
+      .run,
+      .csel,
+      .extck,
+      .fl_n,
+      .bl_n,
+      .fhl_n,
+      .bhl_n,
+      .org_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .clk_o,
+      .s1,
+      .s2,
+      .hold,
+      .pout_n,
+      .dir,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
+
+  // Low would put the ESP32 into its boot loader at its next reset.
+  assign wifi_gpio0 = 1'b1;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/ulx3s/board.yml and stmc_carrier.sv; change those, not this.
+// board_ulx3s_stmc: J105 STMC with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
+//         from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/stmc/pins.lpf.
+// Timing: of stmc_carrier.
+`default_nettype none
+
+module board_ulx3s_stmc #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter string       TIMING     = "FAST",
+    parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter string       HOST       = "UART",      // or "BUS"
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk_25m,     // 25 MHz
+    input  wire logic       btn_f1,      // 1: reset
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    input  wire logic       cs_n,
+    input  wire logic       a0,
+    input  wire logic       rd_n,
+    input  wire logic       wr_n,
+    inout  wire logic [7:0] d,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
+    output logic            int_n,
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       mon,         // 1 = the motor may run
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    // lamps, 1 = on
+    output logic      [3:0] led,
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
+);
+
+  localparam int unsigned ClkHz = 100_000_000;
+
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
+  logic [7:0] part_d;
+
+  ppmc_clock_ulx3s u_clock (
+      .clk_25m_i(clk_25m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  stmc_carrier #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .READ_MAP  (READ_MAP),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      (HOST),
+      .BAUD      (BAUD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .cs_n,
+      .a0,
+      .rd_n,
+      .wr_n,
+      .d_i(d),
+      .d_o(part_d),
+      .d_oe,
+      .int_n,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .mon,
+      .s,
+      .hold,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
+
+  // Low would put the ESP32 into its boot loader at its next reset.
+  assign wifi_gpio0 = 1'b1;
+
+endmodule
+
+`default_nettype wire

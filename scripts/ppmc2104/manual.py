@@ -1,0 +1,9 @@
+"""What is drawn and computed for docs/ppmc2104/."""
+
+from __future__ import annotations
+
+from scripts.pictures.manual import Manual
+from scripts.ppmc2104.plots import PLOTS
+from scripts.ppmc2104.tables import TABLES
+
+MANUAL = Manual(TABLES, PLOTS)

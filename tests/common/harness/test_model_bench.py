@@ -1,0 +1,124 @@
+"""The golden model in place of the RTL: time, pins, waits; which tests it gets; that a wrong figure fails."""
+
+from __future__ import annotations
+
+import asyncio
+import importlib
+from itertools import repeat
+from typing import Any
+
+import pytest
+
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.collect import all_tests
+from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness.model_tests import model_tests
+from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness.verifies import rules_of
+
+RTL_ONLY = {
+    "p2104_ac_03_write_times_of_the_sheet",
+    "p2104_ac_04_read_times_of_the_sheet",
+    "p2104_ac_05_no_invisible_write",
+    "p2104_ac_66_clk_o",
+}
+ACCEPTANCE = {
+    "ppmc104": ("moves", "stops", "clocks"),
+    "ppmc2104": ("moves", "errors", "axes", "bus"),
+    "stmc": ("moves", "stops", "registers"),
+}
+
+
+def bench(part: str = "ppmc104", **pins: int) -> ModelBench:
+    return ModelBench(PARTS[part], OnModel(F16), **pins)
+
+
+def test_time_goes_forward_only() -> None:
+    """Given now = 4, when another time is asked for, then it comes, and none of the past."""
+    side = bench()
+    assert side.now == 4 and on_model(side.until(10)) == 10 and on_model(side.clocks(5)) == 15
+    with pytest.raises(ValueError, match="already edge 15"):
+        on_model(side.until(14))
+    with pytest.raises(ValueError, match="already edge 15"):
+        side.at(14, l1_n=0)
+
+
+def test_pins_change_at_their_stamps() -> None:
+    """Given changes now and later, then the model's recording has each at its edge, bit by bit."""
+    side = bench("ppmc2104", busc=1)
+    assert side.set(**{"fl_n[2]": 0}) == 4
+    cancelled = side.at(20, errint_n=0)
+    side.at(12, auxi=3)
+    cancelled.cancel()
+    on_model(side.until(30))
+    assert side.stimulus == [(0, "busc", 1), (4, "fl_n", 0b01), (12, "auxi", 3)]
+    assert side.pin("fl_n[2]") == 0 and side.pin("fl_n") == 0b01
+
+
+def test_an_external_clock_runs_beside_the_test() -> None:
+    """Given a clock of 20 clk, then its edges are where they shall be, until it is stopped."""
+    side = bench()
+    clock = side.external_clock(repeat(20), high=5)
+    on_model(side.until(50))
+    clock.cancel()
+    on_model(side.until(200))
+    assert [(c.t, c.value) for c in side.stimulus] == [(4, 1), (9, 0), (24, 1), (29, 0), (44, 1), (49, 0)]
+    assert side.pin_rises("clock") == [4, 24, 44]
+
+
+def test_waits_end_at_the_edge_or_after_their_time() -> None:
+    """Given a pulse, when it is waited for, then now is just behind it; what never comes is an error."""
+    side = bench()
+
+    async def step() -> int:
+        host = HostBus(side)
+        await host.init(0x0A, 9, 4, 4)
+        await host.command(0xC1)
+        await host.command(0x42, poll=False)
+        edge = await side.edge("pout_n", 0)
+        assert side.now == edge + 1 and side.pulses() == [edge]
+        assert await side.level_is("pout_n", 1) == side.rises("pout_n")[0] + 1
+        return edge
+
+    assert on_model(step()) > 0
+    now = side.now
+    with pytest.raises(TimeoutError, match="no level 0 of aux_n within 500 clk"):
+        on_model(side.edge("aux_n", 0, 500))
+    assert side.now == now + 500
+
+
+def test_a_wait_for_the_simulator_is_told() -> None:
+    """Given a coroutine that suspends, then it is closed and said so."""
+    with pytest.raises(RuntimeError, match="only a simulator has"):
+        on_model(asyncio.sleep(0))
+
+
+def test_the_bench_is_that_of_the_part_in_its_build() -> None:
+    """Given a build, then the model has its parameters and the outputs their levels."""
+    side: Any = on_model(start_bench(OnModel(D16), PARTS["ppmc104"], settle=0))
+    assert side.now == 0 and not side.simulated and side.model.datasheet
+    assert {name: side.level(name) for name in side.outputs} == PARTS["ppmc104"].reset_levels()
+
+
+@pytest.mark.parametrize("part", ACCEPTANCE)
+def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
+    """Given the modules, then all tests but those for the RTL only, each with its rules and text."""
+    names = [f"tb_acceptance_{name}" for name in ACCEPTANCE[part]]
+    made = model_tests(__name__, f"cocotb_tests.{part}", *names)
+    modules = [importlib.import_module(f"cocotb_tests.{part}.{name}") for name in names]
+    tests = {test.func.__name__: test for module in modules for test in all_tests(module)}
+    wanted = {f"test_{name.partition('_')[2]}": test for name, test in tests.items() if name not in RTL_ONLY}
+    assert set(made) == set(wanted)
+    for name, test in wanted.items():
+        assert rules_of(made[name]) == rules_of(test) and made[name].__doc__ == test.func.__doc__
+
+
+def test_a_wrong_figure_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Given a table with another interval, when the check runs on the model, then it fails and says where."""
+    module = importlib.import_module("cocotb_tests.ppmc104.tb_acceptance_moves")
+    monkeypatch.setattr(module, "A_INTERVALS", [321, *module.A_INTERVALS[1:]])
+    made = model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves")
+    with pytest.raises(AssertionError, match=r"AC-09: intervals: expected \[321, 256"):
+        made["test_ac_09_trapezoid"]()

@@ -1,0 +1,37 @@
+"""The pins of the parts as benches see them: those of the golden models are the ports of the RTL."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import ports
+from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness.runner import part_design
+from openppmc import parts
+
+
+@pytest.mark.parametrize("name", list(PARTS))
+def test_pins_are_the_ports_of_the_rtl(name: str) -> None:
+    """Given the header of the top, then the bench has its ports, with direction, width and lowest bit."""
+    part, wanted = PARTS[name], {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
+    for direction, pins in (("input", part.inputs), ("output", part.outputs)):
+        for pin in pins:
+            lowest = part.lowest.get(pin, 0)
+            wanted[pin] = (direction, lowest + part.width(pin) - 1, lowest)
+    assert ports(part_design(name, F16)) == wanted
+
+
+@pytest.mark.parametrize("name", list(PARTS))
+def test_levels_fit_the_ports(name: str) -> None:
+    """Idle and reset levels have no more bits than their ports."""
+    part = PARTS[name]
+    levels = {**part.inputs, **part.reset_levels()}
+    assert [pin for pin, level in levels.items() if level >> part.width(pin)] == []
+
+
+def test_every_part_with_a_folder_has_a_bench() -> None:
+    """Given the table of parts, then the harness knows each by its own name."""
+    assert {row.name for row in parts.folders()} <= set(PARTS)
+    assert all(PARTS[name].name == name and name in parts.PARTS for name in PARTS)
+    assert "isa_4axis" not in PARTS and "nonsense" not in PARTS

@@ -1,0 +1,82 @@
+"""Ports for tests of a line: one that spoils frames and replies of a modelled line, one that plays a text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openppmc.host.line.loopback import ModelLine
+
+LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "break reply", "break frame"
+
+
+class Spoiled(ModelLine):
+    """A modelled line. frames: all that was sent. plan: says what happens to a frame, or None."""
+
+    def __init__(self, text: str, baud: int, part: str) -> None:
+        super().__init__(text, baud, part)
+        self.frames: list[bytes] = []
+        self.plan: Callable[[bytes], str | None] = lambda frame: None
+        self._fate: str | None = None
+
+    def write(self, data: bytes) -> None:
+        self.frames.append(data)
+        self._fate = self.plan(data)
+        self.forward(data)
+
+    def forward(self, data: bytes) -> None:
+        """Give a frame to the line, or what is left of it."""
+        if self._fate == LOSE_FRAME:
+            self.line.run(round(len(data) * 10 * self.line.bit))
+        elif self._fate == BREAK_FRAME:
+            super().write(data[:-1] + bytes([data[-1] ^ 1]))
+        else:
+            super().write(data)
+
+    def read(self, timeout: float) -> bytes:
+        end = self.clock() + timeout
+        data = super().read(timeout)
+        if data and self._fate == LOSE_REPLY:
+            while (left := end - self.clock()) > 0:
+                super().read(left)
+            return b""
+        return self.spoil(data) if data else data
+
+    def spoil(self, data: bytes) -> bytes:
+        """What becomes of bytes of a reply."""
+        if self._fate == BREAK_REPLY:
+            self._fate = None
+            return bytes([data[0] ^ 8]) + data[1:]
+        return data
+
+
+class Played:
+    """A port that answers each frame with the next text, whatever it was. Time passes only here."""
+
+    name = "played"
+
+    def __init__(self, *replies: str, echo: bool = False) -> None:
+        self.replies = [bytes.fromhex(reply) for reply in replies]
+        self.frames: list[bytes] = []
+        self._echo = echo
+        self._now = 0.0
+        self._waiting = b""
+
+    def read(self, timeout: float) -> bytes:
+        data, self._waiting = self._waiting, b""
+        if not data:
+            self._now += timeout
+        return data
+
+    def write(self, data: bytes) -> None:
+        self.frames.append(data)
+        reply = self.replies.pop(0) if self.replies else b""
+        self._waiting += (data if self._echo else b"") + reply
+
+    def set_baud(self, baud: int) -> None:
+        pass
+
+    def clock(self) -> float:
+        return self._now
+
+    def close(self) -> None:
+        pass

@@ -1,0 +1,157 @@
+"""A polling host on the pins of a model with a byte bus, for the self-tests of the models."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from openppmc.model.common.edges import low_times
+from openppmc.model.single.codes import BUSY, IBF, OBF
+
+
+class ModelHost:
+    """`t` is the next free edge; every method moves it on. Keyword arguments go to the part's MODEL."""
+
+    MODEL: ClassVar[type]
+
+    def __init__(self, **parameters: object) -> None:
+        self.model = self.MODEL(**parameters)
+        self.t = 8
+        self.mark = 0
+        self.written = 0
+
+    # ------------------------------------------------------------------ bus
+
+    def write(self, reg: int, byte: int, gap: int = 2) -> int:
+        """One write cycle; returns its write event."""
+        edge0 = self.model.write(self.t, reg, byte)
+        self.t = edge0 + gap
+        self.written = edge0 + 2
+        return edge0 + 2
+
+    def read(self, reg: int) -> int:
+        """One read cycle."""
+        value = self.model.read(self.t, reg)
+        self.t += 6
+        return value
+
+    def poll(self, mask: int, value: int, limit: int = 20_000_000) -> int:
+        """Read status until the masked bits fit."""
+        end, pause = self.t + limit, 0
+        while (status := self.read(1)) & mask != value:
+            assert self.t < end, f"status {status:#04x} never showed {mask:#04x} = {value:#04x}"
+            pause = min(2000, pause + 2)
+            self.t += pause
+        return status
+
+    def command(self, code: int) -> int:
+        """Command byte, then wait for IBF = 0; returns that status."""
+        self.write(1, code)
+        return self.poll(IBF, 0)
+
+    def data(self, byte: int) -> int:
+        """Data byte, then wait for IBF = 0; returns that status."""
+        self.write(0, byte)
+        return self.poll(IBF, 0)
+
+    def fetch(self) -> int:
+        """Data read after OBF = 1."""
+        self.poll(OBF, OBF)
+        return self.read(0)
+
+    def run(self, script: str) -> list[int]:
+        """Script of the acceptance table: c XX, d XX, r, rrr; returns what the r read.
+
+        `self.mark` is set so that pulses and edges of the last operation can be told from older ones.
+        """
+        words, got = script.split(), []
+        while words:
+            word = words.pop(0)
+            if word == "c":
+                self.mark = self.t
+                self.command(int(words.pop(0), 16))
+            elif word == "d":
+                self.data(int(words.pop(0), 16))
+            else:
+                got += [self.fetch() for _ in word]
+        return got
+
+    def statuses(self, script: str) -> list[int]:
+        """As `run` without r; returns the status after each byte."""
+        words = script.split()
+        pairs = zip(words[::2], words[1::2], strict=True)
+        return [self.command(int(b, 16)) if kind == "c" else self.data(int(b, 16)) for kind, b in pairs]
+
+    # ------------------------------------------------------------------ time
+
+    def go(self, t: int) -> None:
+        """The next access or pin change is at edge t."""
+        assert t > self.model.now, (t, self.model.now)
+        self.t = t
+
+    def pause(self, clk: int) -> None:
+        """Let time pass."""
+        self.t += clk
+
+    def pins(self, **levels: int) -> None:
+        """Pin levels from edge t on."""
+        self.model.pins(self.t, **levels)
+        self.t += 1
+
+    def idle(self) -> None:
+        """Wait for BUSY = 0 without touching the bus."""
+        self.sync()
+        while self.model.busy:
+            self.step()
+
+    def sync(self) -> None:
+        """Run the model up to the present."""
+        self.model.run_until(max(self.model.now, self.t - 1))
+
+    def step(self) -> None:
+        """Run to the next event of the model."""
+        edge = self.model.next_event
+        assert edge is not None, "nothing happens any more"
+        self.model.run_until(edge)
+        self.t = max(self.t, edge + 1)
+
+    def fall(self, n: int, after: int = 0) -> int:
+        """Run to the n-th pulse since `mark`; the next access is `after` clk later. Returns its edge."""
+        while len(self.pulses()) < n:
+            self.step()
+        edge = self.pulses()[n - 1]
+        if after:
+            self.go(edge + after)
+        return edge
+
+    # ------------------------------------------------------------------ what was seen
+
+    def pulses(self) -> list[int]:
+        """Pulses since `mark`."""
+        return self.model.log.falls("pout_n", self.mark)
+
+    def intervals(self) -> list[int]:
+        """Their distances in clk."""
+        pulses = self.pulses()
+        return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
+
+    def lows(self) -> list[int]:
+        """Low times of the pulses since `mark`."""
+        return low_times(self.model.log.of("pout_n", self.mark))
+
+    def out(self, signal: str) -> int:
+        """Present output level."""
+        self.sync()
+        return self.model.outputs[signal]
+
+    def finish(self) -> tuple[int, int]:
+        """Wait for the end; finish status and remaining value as the host reads them."""
+        self.idle()
+        mark = self.mark
+        (status,) = self.run("c 80 r")
+        low, mid, high = self.run("c 83 rrr")
+        self.mark = mark
+        return status, low | mid << 8 | high << 16
+
+    def poll_idle(self) -> int:
+        """Wait for BUSY = 0 over the bus."""
+        return self.poll(BUSY, 0)

@@ -1,0 +1,20 @@
+"""Pages of the manual whose sessions tests play."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from cocotb_tests.harness.paths import ROOT
+
+DOCS = ROOT / "docs"
+
+
+def chapters(page: Path) -> dict[str, list[list[str]]]:
+    """Title of a chapter with sessions -> its sessions, one line each access."""
+    parts = re.split(r"^##+ (?=\d)", page.read_text(encoding="utf-8"), flags=re.M)[1:]
+    found = {}
+    for text in parts:
+        blocks = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
+        found[text.splitlines()[0]] = [block.splitlines() for block in blocks]
+    return found

@@ -1,0 +1,215 @@
+"""The table of parts against the tree: places in it load, folders of parts have rows, rows their folders."""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.verifies import manual_rules, part_of_rule
+from openppmc import parts
+from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
+
+# Rooms that parts share: the only folders of a layer that are not a part's.
+SHARED = {
+    "openppmc/model": {"common", "motion", "single", "carrier"},
+    "openppmc/host": {"basis", "ports", "bridge", "axis", "line"},
+    "openppmc/cli": {"common"},
+    "openppmc/sim": {"common"},
+    "cocotb_tests": {"harness", "common", "motion", "single", "host", "board", "gates"},
+    "scripts": {"flow", "boards", "demo", "pictures", "packages"},
+    "tests": {"common"},
+    "docs": {"img"},
+    "rtl": {"common", "motion", "single", "host", "boards"},
+    "tb": {"board", "cdriver"},
+}
+PLACES = [(row.name, column) for row in PARTS.values() for column in LAYER_OF if getattr(row, column)]
+own = pytest.mark.parametrize("row", folders(), ids=lambda row: row.name)
+every = pytest.mark.parametrize("row", PARTS.values(), ids=lambda row: row.name)
+
+
+def subfolders(layer: str) -> set[str]:
+    """Folders with files of this project in a layer."""
+    found = (path for path in (ROOT / layer).iterdir() if path.is_dir() and path.name != "__pycache__")
+    return {path.name for path in found if any(file.suffix != ".pyc" for file in path.rglob("*.*"))}
+
+
+@pytest.mark.parametrize(("name", "column"), PLACES)
+def test_every_place_loads(name, column):
+    """Given a place in the table, then there is something of that name."""
+    assert parts.part(name).load(column) is not None
+
+
+@pytest.mark.parametrize("layer", SHARED)
+def test_every_folder_has_a_row(layer):
+    """Given a layer, then its folders are the rooms that all share and those of parts in the table."""
+    assert subfolders(layer) - SHARED[layer] <= {row.name for row in folders()}
+
+
+@own
+def test_every_row_has_its_folders(row):
+    """Given a part, then it has RTL, a manual and a golden model, and what else its columns speak of."""
+    wanted = {
+        "rtl",
+        "docs",
+        *(LAYER_OF[column].replace(".", "/") for column in LAYER_OF if getattr(row, column)),
+    }
+    assert {layer for layer in wanted if row.name in subfolders(layer)} == wanted
+
+
+@every
+def test_rtl_and_carrier(row):
+    """Given a part, then its top is in its group of rtl/files.yml; it has a carrier if the table says so."""
+    assert project.top_file(row).stem == row.top
+    assert row.families and set(row.families) <= {"ecp5", "ice40"}
+    carrier = (f"{row.rtl}_carrier" in project.listed()) and not row.of
+    assert carrier == row.carrier == bool(project.board_files(row.name))
+
+
+@own
+def test_docs(row):
+    """Given a part, then its pages are those of the table, and indexes of the documents lead to them."""
+    pages = {"README.md", *row.docs}
+    there = {path.name for path in (ROOT / "docs" / row.name).glob("*.md")} - {"traceability.md"}
+    assert there == pages
+    readme, index = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "docs/README.md"))
+    assert row.title in readme and f"docs/{row.name}/README.md" in readme
+    assert [page for page in sorted(pages) if f"]({row.name}/{page})" not in index] == []
+
+
+@own
+def test_rules(row):
+    """Given a part, then the rules in its manual have its prefixes, all of them."""
+    rules = {rule for rule in manual_rules(row.name) if not rule.startswith("AC-")}
+    assert {part_of_rule(rule) for rule in rules} <= {row.name}
+    assert {rule.split("-")[0] for rule in rules} == (set(row.rules) if rules else set())
+
+
+def test_names_and_numbers_are_unique():
+    """Given the table, then no name and no number stands twice, and `of` names a part with folders."""
+    assert len(PARTS) == len(parts.ROWS)
+    numbers = [row.number for row in PARTS.values() if row.number]
+    assert len(set(numbers)) == len(numbers)
+    assert {row.of for row in PARTS.values()} - {""} <= {row.name for row in folders()}
+    for row in folders():
+        assert not row.number or parts.by_number(row.number) is row
+    assert parts.by_number(1) is None
+
+
+def asked(*words: str, root: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    """The table as make asks it: by a Python that knows nothing of the project."""
+    command = [sys.executable, "-I", "-S", str(root / "openppmc/parts.py"), *words]
+    return subprocess.run(command, capture_output=True, text=True, cwd="/", check=False)
+
+
+def test_command_line():
+    """Given its options, then it lists names, or says in one line what is wrong."""
+    assert asked("names").stdout.split() == list(PARTS)
+    assert asked("names", "--tops").stdout.split() == [row.name for row in tops()]
+    assert asked("names", "--folders").stdout.split() == [row.name for row in folders()]
+    assert asked("names", "--with", "demo", "line").stdout.split() == ["ppmc312-serial", "pmc006"]
+    lines = asked("names", "--any", "carrier", "line").stdout.split()
+    assert lines == [row.name for row in PARTS.values() if row.carrier or row.line]
+    shown = asked("show", "isa_4axis").stdout.splitlines()
+    assert len(shown) == len(fields(Row)) and "of: ppmc2104" in shown and "families: ecp5 ice40" in shown
+    for wrong in (["names", "--with", "colour"], ["names", "--with"], ["show", "ppmc105"], []):
+        done = asked(*wrong)
+        assert done.returncode == 2 and len(done.stderr.splitlines()) == 1 and not done.stdout
+    with pytest.raises(UnknownPartError, match="part ppmc104 has no commands"):
+        parts.part("ppmc104").load("commands")
+
+
+def test_an_old_python_reads_it():
+    """Given the file, then Python 3.7 parses it, and it needs the standard library alone."""
+    tree = ast.parse((ROOT / "openppmc/parts.py").read_text(encoding="utf-8"), feature_version=(3, 7))
+    found = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    found |= {name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names}
+    assert found == {"__future__", "importlib", "sys", "dataclasses", "typing"}
+
+
+NEW = {
+    "rtl/tiny/tiny.sv": """`default_nettype none
+
+module tiny #(
+    parameter int unsigned CLK_HZ = 16_000_000  // frequency of clk in Hz, 8e6 .. 200e6
+) (
+    input  wire logic clk,
+    output logic      q
+);
+  ppmc_sync u_sync (
+      .clk_i (clk),
+      .rst_ni(1'b1),
+      .d_i   (1'b0),
+      .q1_o  (),
+      .q2_o  (q)
+  );
+endmodule
+
+`default_nettype wire
+""",
+    "openppmc/model/tiny/part.py": '"""A part."""\n\n\nclass Tiny:\n    """It."""\n',
+    "docs/tiny/README.md": "# Tiny\n\n| Rule | |\n|---|---|\n| TINY-CMD-01 | none |\n",
+}
+ROW = """    Row(
+        name="tiny",
+        title="Tiny 1",
+        rules=("TINY",),
+        families=("ecp5",),
+        model="part:Tiny",
+    ),
+"""
+GROUP = "tiny:\n  about: Tiny 1, nothing\n  needs: [common]\n  files:\n    - tiny/tiny.sv\n"
+
+
+def append(path: Path, before: str, text: str) -> None:
+    """Put text before the first such line of a file; at its end if `before` is empty."""
+    lines = path.read_text(encoding="utf-8")
+    place = lines.index(before) if before else len(lines)
+    path.write_text(lines[:place] + text + lines[place:], encoding="utf-8")
+
+
+def test_a_part_of_three_files_and_a_row(tmp_path):
+    """Given a copy of the tree with another part, when it has a row and a group, then all readers know it."""
+    left = shutil.ignore_patterns(".git", ".venv", "build", "__pycache__", "*.png", ".*_cache", ".hypothesis")
+    root = tmp_path / "copy"
+    shutil.copytree(ROOT, root, ignore=left)
+    for name, text in NEW.items():
+        (root / name).parent.mkdir()
+        (root / name).write_text(text, encoding="utf-8")
+
+    def run(*words: str) -> str:
+        done = subprocess.run(
+            [sys.executable, *words],
+            cwd=root,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            check=False,
+        )
+        return done.stdout
+
+    table = (*"-m pytest -q -p no:cacheprovider tests/common/test_parts.py -k".split(), "not three_files")
+    lint = ("-c", "from scripts import lint; print([lint.listed(), lint.walled()])")
+    assert re.search(r"FAILED .*test_every_folder_has_a_row\[rtl\]", run(*table))
+    assert "rtl/files.yml does not list rtl/tiny/tiny.sv" in run(*lint)
+
+    append(root / "openppmc/parts.py", ")\nOWN =", ROW)
+    append(root / "rtl/files.yml", "bridged:\n", GROUP)
+    append(root / "README.md", "", "\n[Tiny 1](docs/tiny/README.md)\n")
+    append(root / "docs/README.md", "", "\n[Tiny 1](tiny/README.md)\n")
+    assert "tiny" in asked("names", "--tops", root=root).stdout.split()
+    assert run(*lint).strip() == "['', '']"
+    told = run(*table)
+    assert "failed" not in told and re.search(r"\d+ passed", told), told
+    assert "openppmc_tiny.core" in run("-m", "scripts.packages")
+    assert "CLK_HZ" in (root / "rtl/tiny/openppmc_tiny.core").read_text(encoding="utf-8")
+    told = run("-c", "from scripts.flow import targets; print([t.design for t in targets.targets('tiny')])")
+    assert told.strip() == "['tiny']"

@@ -1,0 +1,8 @@
+"""Acceptance checks AC-01 to AC-85 on the golden model: those of the RTL, which stand once."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.model_tests import model_tests
+
+MODULES = ("tb_acceptance_moves", "tb_acceptance_errors", "tb_acceptance_axes", "tb_acceptance_bus")
+globals().update(model_tests(__name__, "cocotb_tests.ppmc2104", *MODULES))
