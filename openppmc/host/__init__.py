@@ -13,10 +13,10 @@ one for each part. `ports.transport` does the I/O; `bridge.loopback` and `line.l
 called "Pure" in its first line does neither.
 """
 
+from . import units as units
 from .axis.axis import CCW, CW, Axis
 from .axis.motion import Motion, Progress
 from .axis.part import Part as AnyPart
-from .basis import units as units
 from .basis.ending import AlarmStop, Cause, End, LimitReached, MotionError, OriginNotFound, StoppedEarly
 from .basis.errors import (
     Disconnected,
