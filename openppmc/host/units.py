@@ -1,0 +1,33 @@
+"""Speeds, rates and set-ups as numbers, under one public name. Pure.
+
+They are in `basis.units`; times that only one part has are in that part's folder.
+"""
+
+from .basis.units import (
+    BaseClock,
+    Setup,
+    Speed,
+    any_clock,
+    choose_clock,
+    motor_bits,
+    nearby,
+    pin_period,
+    plan_setup,
+)
+from .ppmc104.times import chop_byte
+from .ppmc2104.times import half_us_byte, hold_byte
+
+__all__ = [
+    "BaseClock",
+    "Setup",
+    "Speed",
+    "any_clock",
+    "choose_clock",
+    "chop_byte",
+    "half_us_byte",
+    "hold_byte",
+    "motor_bits",
+    "nearby",
+    "pin_period",
+    "plan_setup",
+]
