@@ -93,7 +93,7 @@ test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK
 soak: $(ENVSIM) ## COUNT=n random hosts from SEED=n on against the golden model
 	@$(PY) -m scripts.soak $(PART) --seed $(or $(SEED),1) --count $(or $(COUNT),1000)
 
-lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang and ruff; no warning passes
+lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang, ruff, import contracts and mypy; no warning passes
 	@$(PY) -m scripts.lint
 
 format: $(ENVDEV) ## lay out RTL and Python as `make lint` wants them

@@ -27,6 +27,7 @@ from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
+CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
 BUILT = {".venv", "build", ".git"}
@@ -212,13 +213,13 @@ def checks() -> list[Check]:
     """All checks, the slow ones first so that two workers end together."""
     every = []
     for part in tops():
-        phase_idle = "PHASE_IDLE" in header.parameters(project.top_file(part))
+        known = header.parameters(project.top_file(part))
         files = project.sources(part)
         for index, clk_hz in enumerate(CLOCKS):
             for timing in ("FAST", "DATASHEET"):
                 params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
                 label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
-                if phase_idle:
+                if "PHASE_IDLE" in known:
                     # Both levels with both timings without doubling the runs.
                     params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
                     label += f" PHASE_IDLE={params['PHASE_IDLE']}"
@@ -235,6 +236,10 @@ def checks() -> list[Check]:
             "Python",
             lambda: ruff("format", "--check"),
         ),
+        Check(
+            "import-linter", "Python", lambda: tool(project.tool("lint-imports"), *CONTRACTS, ok_output=True)
+        ),
+        Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
         Check("rtl/files.yml", "complete", listed),
         Check("rtl/files.yml", "walls between groups", walled),
         Check(

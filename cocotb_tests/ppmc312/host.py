@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, RCR, WAR, WCR, clean
 from cocotb_tests.harness.stimulus import Access
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Code
 
 from .script_host import TICK, Script
 
@@ -30,10 +32,10 @@ __all__ = [
     "clean",
 ]
 
-T1 = "03 09 00 01 03E8 00C8 0007D0"
-T2 = "03 09 00 09 03E8 00C8 0007D0"
-T3 = "03 0E 00 11 03E8 01F4 00C8 0007D0 0005DC"
-T4 = "03 0E 00 11 01F4 03E8 00C8 0005DC 0007D0"
+T1 = message(Code.INITIAL, "01 03E8 00C8 0007D0")
+T2 = message(Code.INITIAL, "09 03E8 00C8 0007D0")
+T3 = message(Code.INITIAL, "11 03E8 01F4 00C8 0007D0 0005DC")
+T4 = message(Code.INITIAL, "11 01F4 03E8 00C8 0005DC 0007D0")
 RATES = "00 06 0064 00C8 0190"
 TF = ("02 03 01 01 03", RATES, "01 09 000005 000004 000003")
 TG = ("02 04 01 11 03 02", RATES, "00 09 000005 000004 000003", "01 06 000006 000004")

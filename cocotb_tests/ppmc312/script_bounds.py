@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import T3, TF, Host, clean
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
@@ -35,13 +37,13 @@ def test_answers_come_in_time() -> None:
         host.issue(setting)
         host.wait()
         assert host.t - host.header <= T_INIT + POLL
-        assert host.response() == "03 01 00"
+        assert host.response() == message(Code.INITIAL)
     for block in (
-        "03 08 82 00 0000 00000FA1",
-        "03 08 82 00 0000 00000065",
-        "03 08 82 40 00C9 00000BB8",
-        "03 04 85 00 0000",
-        "03 04 11 00 01F4",
+        message(Code.RAMP, "00 0000 00000FA1"),
+        message(Code.RAMP, "00 0000 00000065"),
+        message(Code.RAMP, "40 00C9 00000BB8"),
+        message(Code.FOREVER_RAMP, "00 0000"),
+        message(Code.ZERO_RETURN, "00 01F4"),
     ):
         host.issue(block)
         host.wait()
@@ -49,7 +51,7 @@ def test_answers_come_in_time() -> None:
         host.response()
         # t0 is no more than 64 clk before the answer, TW before pulse 1.
         host.pulse(1)
-        host.ask("03 02 80 00")
+        host.ask(message(Code.STOP, "00"))
         host.response()
 
 
@@ -57,7 +59,7 @@ def test_answers_come_in_time() -> None:
 def test_stops_come_in_time() -> None:
     for pin in ("fl_n", "alm_n", "org_n"):
         host = Host(*BRISK)
-        host.ask("03 04 10 00 0004")
+        host.ask(message(Code.ORIGIN_SEARCH, "00 0004"))
         for phase in range(3):
             host.pulse(20 + phase)
         low = host.t + 3
@@ -66,13 +68,13 @@ def test_stops_come_in_time() -> None:
         host.pause(400)
         assert host.pulses() and low - 16 < host.pulses()[-1] <= low + T_PIN
     host = Host(*BRISK)
-    host.ask("03 04 86 00 0004")
-    host.issue("03 02 80 00")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+    host.issue(message(Code.STOP, "00"))
     header = host.header
     host.pause(400)
     assert header - 16 < host.pulses()[-1] <= header + T_STOP
-    host = Host(*BRISK, "03 02 80 07")
-    host.ask("03 04 86 00 0004")
+    host = Host(*BRISK, message(Code.STOP, "07"))
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
     low = host.t
     host.pins(evt1_n=0)
     host.pause(400)
@@ -84,9 +86,9 @@ def test_a_stop_by_an_event_during_an_88() -> None:
     """The 88 is finished first, which takes the stop beyond 64 clk; whatever the host reads, it stops."""
     longest = 0
     for after in range(1, 260, 6):
-        host = Host(*BRISK, "03 02 80 07")
-        host.ask("03 04 86 00 0004")
-        host.put("03 04 88 00 0005")
+        host = Host(*BRISK, message(Code.STOP, "07"))
+        host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+        host.put(message(Code.CHANGE, "00 0005"))
         host.go(host.header + after)
         low = host.t
         host.pins(evt1_n=0)
@@ -96,19 +98,35 @@ def test_a_stop_by_an_event_during_an_88() -> None:
         assert took <= T_TRIG, after
         answers = [host.response() for _ in range(3)]
         position = f"{host.model.position:08X}"
-        if answers[0] == "1B 01 80":  # it came first; then there is nothing to change
-            assert answers[1:] == ["03 03 F1 00 02", clean(f"23 06 E0 04 {position}")] and took <= T_STOP
+        if answers[0] == message(
+            Code.STOP, source=Source.OVERRIDE
+        ):  # it came first; then there is nothing to change
+            assert (
+                answers[1:]
+                == [
+                    message(Answer.STATUS, "00 02"),
+                    clean(message(Answer.STOPPED, f"04 {position}", source=SPONTANEOUS)),
+                ]
+                and took <= T_STOP
+            )
         else:
             # The answer of the 88 waits to be read: the stop becomes an alarm, at once.
-            assert sorted(answers) == ["03 01 88", "23 02 F4 01", clean(f"23 06 E0 80 {position}")]
+            assert sorted(answers) == [
+                message(Code.CHANGE),
+                message(Answer.ALARM, "01", source=SPONTANEOUS),
+                clean(message(Answer.STOPPED, f"80 {position}", source=SPONTANEOUS)),
+            ]
     assert T_STOP < longest <= 200
     # A host that reads the answer in time gets its stop.
-    host = Host(*BRISK, "03 02 80 07")
-    host.ask("03 04 86 00 0004")
-    assert host.ask("03 04 88 00 0005") == "03 01 88"
+    host = Host(*BRISK, message(Code.STOP, "07"))
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+    assert host.ask(message(Code.CHANGE, "00 0005")) == message(Code.CHANGE)
     low = host.t
     host.pins(evt1_n=0)
-    assert host.response() == "1B 01 80" and host.response()[:11] == "23 06 E0 04"
+    assert (
+        host.response() == message(Code.STOP, source=Source.OVERRIDE)
+        and host.response()[:11] == "23 06 E0 04"
+    )
     assert host.pulses()[-1] <= low + T_STOP
 
 
@@ -121,7 +139,7 @@ def test_changes_come_in_time() -> None:
             data = bytes.fromhex(code + flags + rest + place)
             block = f"03 {len(data):02X} {data.hex()}"
             host = Host(*BRISK, *(() if trigger == "direct" else (block,)))
-            host.ask("03 04 86 00 0004")
+            host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
             mark = host.mark
             if trigger == "direct":
                 host.issue(block)
@@ -141,11 +159,11 @@ def test_changes_come_in_time() -> None:
 
 @verifies("P312-OVR-11", "P312-MOT-33", "P312-MOT-31")
 def test_a_position_acts_on_the_next_interval() -> None:
-    host = Host(*TF, "03 08 88 04 00C8 00000012", "03 08 88 04 0190 00000013")
-    host.ask("03 08 82 00 0000 0000001E")
+    host = Host(*TF, message(Code.CHANGE, "04 00C8 00000012"), message(Code.CHANGE, "04 0190 00000013"))
+    host.ask(message(Code.RAMP, "00 0000 0000001E"))
     for _ in range(2):
-        assert host.response() == "1B 01 88"
-    assert host.response() == "23 06 E0 40 00 00 00 1E"
+        assert host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
+    assert host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
     # 12 pulses are left at the first of them: the walk of the deceleration point starts at 200. The second
     # one makes it constant at 400 for the rest.
     assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

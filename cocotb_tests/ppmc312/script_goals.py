@@ -8,13 +8,15 @@ from __future__ import annotations
 from math import ceil
 
 from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 from openppmc.model.ppmc312.stages.tables import build
 
 from .host import T1, Host
 
 MHZ = 50
 CLK = MHZ * 1_000_000
-SIGMOID = "03 0E 00 18 2000 2000 0040 00EA60 00EA60"
+SIGMOID = message(Code.INITIAL, "18 2000 2000 0040 00EA60 00EA60")
 STARTS = ("82 00 0000 00001388", "82 00 0000 00000065", "83 00 00C8 00000003", "84 00")
 STARTS += ("86 40 0000", "85 00 0000", "11 00 0000", "10 00 00C8")
 FAST = ("02 03 01 00 03", "00 06 0004 0008 0010", "01 09 000032 000014 00000A")
@@ -24,8 +26,8 @@ FAST = ("02 03 01 00 03", "00 06 0004 0008 0010", "01 09 000032 000014 00000A")
 def test_two_million_pulses_a_second() -> None:
     """Given F = 8 MHz and rate 4, when 3000 pulses have been output, then none is a clk off or missing."""
     host = Host(*FAST, clk_hz=CLK)
-    host.ask("03 08 82 00 0000 00000BB8")
-    assert host.response() == "23 06 E0 40 00 00 0B B8"
+    host.ask(message(Code.RAMP, "00 0000 00000BB8"))
+    assert host.response() == message(Answer.STOPPED, "40 00 00 0B B8", source=SPONTANEOUS)
     pulses = host.pulses()
     rates = [16] * 10 + [8] * 20 + [4] * 50 + [4] * 2840 + [4] * 50 + [8] * 20 + [16] * 10
     ticks = [sum(rates[:k]) for k in range(3000)]
@@ -39,12 +41,17 @@ def test_two_million_pulses_a_second() -> None:
 def test_tables_and_starts_at_50_mhz() -> None:
     """Given tables of all kinds, when they are set and motions started, then within 5 ms and 20 us."""
     longest = 0.0
-    for setting in (T1, T1.replace("00 01", "00 09"), "03 0E 00 11 03E8 01F4 00C8 0007D0 0005DC", SIGMOID):
+    for setting in (
+        T1,
+        T1.replace("00 01", "00 09"),
+        message(Code.INITIAL, "11 03E8 01F4 00C8 0007D0 0005DC"),
+        SIGMOID,
+    ):
         host = Host(clk_hz=CLK)
         host.issue(setting)
         host.wait()
         ms = (host.t - host.header) / CLK * 1e3
-        assert host.response() == "03 01 00" and ms < 5
+        assert host.response() == message(Code.INITIAL) and ms < 5
         print(f"{setting}: {ms:.2f} ms to the answer")
         for block in STARTS:
             data = bytes.fromhex(block)
@@ -54,7 +61,7 @@ def test_tables_and_starts_at_50_mhz() -> None:
             longest = max(longest, (host.pulses()[0] - start) / MHZ)
             host.response()
             if data[0] not in (0x82, 0x83, 0x84) or len(data) > 2:
-                host.ask("03 02 80 00")
+                host.ask(message(Code.STOP, "00"))
             host.response()
     print(f"{longest:.1f} us from the header to pulse 1 at most, 5 us of it direction set-up")
     assert longest <= 20
@@ -64,8 +71,8 @@ def test_the_longest_plan() -> None:
     """Given a table with two sides of all lengths, when a triangle is planned, then pulse 1 is in time."""
     table = build(1000, 328, 200, 3000, 3000)
     assert table.sa == 0 and table.sd > 0
-    host = Host("03 0E 00 10 03E8 0148 00C8 000BB8 000BB8", clk_hz=CLK)
-    host.issue(f"03 08 82 00 0000 {table.na + table.nd - 1:08X}")
+    host = Host(message(Code.INITIAL, "10 03E8 0148 00C8 000BB8 000BB8"), clk_hz=CLK)
+    host.issue(message(Code.RAMP, f"00 0000 {table.na + table.nd - 1:08X}"))
     start = host.header
     host.pulse(1)
     us = (host.pulses()[0] - start) / MHZ

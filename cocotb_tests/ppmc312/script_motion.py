@@ -6,8 +6,10 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import TF, TG, TH, TICK, Host, clean
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
-STOP, SLOW_STOP = "03 02 80 00", "03 02 81 00"
+STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")
 ALWAYS = "03 04 86 00"
 # Not monotonic, sides of their own: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
 ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
@@ -41,7 +43,7 @@ UNEVEN = (
 
 
 def stopped(cause: int, position: int) -> str:
-    return clean(f"23 06 E0 {cause:02X} {position & 0xFFFFFFFF:08X}")
+    return clean(message(Answer.STOPPED, f"{cause:02X} {position & 0xFFFFFFFF:08X}", source=SPONTANEOUS))
 
 
 def rates(text: str) -> list[int]:
@@ -51,7 +53,7 @@ def rates(text: str) -> list[int]:
 
 
 def change(code: int, rate: int) -> str:
-    return f"03 04 {code:02X} 00 {rate:04X}"
+    return message(code, f"00 {rate:04X}")
 
 
 def run_out(host: Host, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
@@ -79,21 +81,20 @@ def test_rates_that_may_be_asked_for() -> None:
         (0x10, ""),
         (0x11, ""),
     ):
-        length = 4 + len(tail) // 2
         for rate, right in ((99, 0), (100, 1), (400, 1), (401, 0), (0, code != 0x10)):
-            answer = host.ask(f"03 {length:02X} {code:02X} 00 {rate:04X} {tail}")
+            answer = host.ask(message(code, f"00 {rate:04X} {tail}"))
             if not right:
                 assert answer[6:14] == f"F0 20 {code:02X}", (code, rate)
                 continue
             assert answer[6:8] == f"{code:02X}", (code, rate)
             if not tail:
-                assert host.ask(STOP) == "03 01 80"
+                assert host.ask(STOP) == message(Code.STOP)
             host.response()
     host.ask(f"{ALWAYS} 0190")
     for code in (0x87, 0x88):
         for rate, right in ((0, 0), (99, 0), (401, 0), (400, 1)):
             answer = host.ask(change(code, rate))
-            assert answer == f"03 01 {code:02X}" if right else answer[6:14] == f"F0 20 {code:02X}"
+            assert answer == message(code) if right else answer[6:14] == f"F0 20 {code:02X}"
 
 
 @verifies(
@@ -104,12 +105,12 @@ def test_forms_of_the_starts() -> None:
     # 84 at R[sa]: the end of the motion comes one interval after its pulse.
     for table, rate in ((TF, 400), (TG, 400), (TH, 200), (ODD, 200)):
         host = Host(*table)
-        host.ask("03 02 84 40")
+        host.ask(message(Code.STEP, "40"))
         run_out(host, host.mark, 0x40, f"{rate}x1", -1)
     cases = [
-        ("03 06 82 40 00000007", "10", "400x3 200x1 400x3", -1),
-        ("03 08 83 00 0000 00000003", "00", "100x3", 1),
-        ("03 08 83 40 00FA 00000002", "00", "250x2", -1),
+        (message(Code.RAMP, "40 00000007"), "10", "400x3 200x1 400x3", -1),
+        (message(Code.CONSTANT, "00 0000 00000003"), "00", "100x3", 1),
+        (message(Code.CONSTANT, "40 00FA 00000002"), "00", "250x2", -1),
     ]
     for block, kind, pulses, sign in cases:
         host = Host(*TF)
@@ -117,18 +118,18 @@ def test_forms_of_the_starts() -> None:
         run_out(host, host.mark, 0x40, pulses, sign)
         assert host.out("dir") == (sign < 0)
     for block, begin in (
-        ("03 04 85 40 0000", "400x3 200x4 100x5"),
-        ("03 04 85 00 0096", "400x3 200x4 150x5"),
-        ("03 04 85 00 00C9", "201x6"),
-        ("03 04 86 40 0000", "100x6"),
-        ("03 04 11 00 00C8", "400x3 200x6"),
+        (message(Code.FOREVER_RAMP, "40 0000"), "400x3 200x4 100x5"),
+        (message(Code.FOREVER_RAMP, "00 0096"), "400x3 200x4 150x5"),
+        (message(Code.FOREVER_RAMP, "00 00C9"), "201x6"),
+        (message(Code.FOREVER_CONSTANT, "40 0000"), "100x6"),
+        (message(Code.ZERO_RETURN, "00 00C8"), "400x3 200x6"),
     ):
         host = Host(*TG)
         assert host.ask(block) == f"03 02 {block[6:8]} 00"
         mark, expected = host.mark, rates(begin)
         host.pulse(len(expected) + 1)
         assert host.gaps() == expected
-        assert host.ask(STOP) == "03 01 80"
+        assert host.ask(STOP) == message(Code.STOP)
         host.mark = mark
         sign = -1 if block[9] == "4" else 1
         assert host.response() == stopped(0x04, sign * len(host.pulses()))
@@ -144,12 +145,12 @@ def test_plans_on_an_odd_table() -> None:
         (3, 0, "40", "200x3"),
         (6, 200, "20", "300x6"),
     ):
-        host.ask("03 06 43 00 00000000")
-        answer = host.ask(f"03 08 82 00 {rate:04X} {n:08X}")
+        host.ask(message(Code.POSITION_SET, "00 00000000"))
+        answer = host.ask(message(Code.RAMP, f"00 {rate:04X} {n:08X}"))
         if rate == 200:
             # t(200) = 125, above the first stage: 200x3 of stage 124, 300x3 of the deceleration.
             kind, pulses = "10", None
-        assert answer == f"03 02 82 {kind}"
+        assert answer == message(Code.RAMP, kind)
         if pulses:
             run_out(host, host.mark, 0x40, pulses)
         else:
@@ -160,7 +161,7 @@ def test_plans_on_an_odd_table() -> None:
 def test_counts_have_32_bits() -> None:
     for n in (0x0001_0002, 0x0100_0002, 0x8000_0000, 0xFFFF_FFFF):
         host = Host("02 03 01 00 02", "00 04 0004 0010", "01 06 000002 000002")
-        for block in (f"03 08 83 00 0004 {n:08X}", f"03 06 82 00 {n:08X}"):
+        for block in (message(Code.CONSTANT, f"00 0004 {n:08X}"), message(Code.RAMP, f"00 {n:08X}")):
             host.ask(block)
             host.pulse(12)
             host.ask(STOP)
@@ -171,25 +172,25 @@ def test_counts_have_32_bits() -> None:
 def test_positions_that_are_not_needed() -> None:
     host = Host(*TF)
     host.ask(f"{ALWAYS} 0064")
-    assert host.ask("03 08 88 03 00C8 00000001") == "03 01 88"
-    assert host.ask("03 08 87 02 0190 00000001") == "03 01 87"
-    assert host.ask("03 08 88 05 00C8 00000001") == "03 01 E8"
-    assert host.ask("03 06 81 05 00000001") == "03 01 E8"
-    assert host.ask("03 06 80 07 00000001") == "03 01 E8"
+    assert host.ask(message(Code.CHANGE, "03 00C8 00000001")) == message(Code.CHANGE)
+    assert host.ask(message(Code.RAMP_CHANGE, "02 0190 00000001")) == message(Code.RAMP_CHANGE)
+    assert host.ask(message(Code.CHANGE, "05 00C8 00000001")) == message(Answer.REGISTERED)
+    assert host.ask(message(Code.SLOW_STOP, "05 00000001")) == message(Answer.REGISTERED)
+    assert host.ask(message(Code.STOP, "07 00000001")) == message(Answer.REGISTERED)
     host.blip("evt0_n")
-    assert host.response() == "1B 01 88"
+    assert host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
     host.blip("evt0_n")
-    assert host.response() == "1B 01 81"
+    assert host.response() == message(Code.SLOW_STOP, source=Source.OVERRIDE)
     assert host.response()[:11] == "23 06 E0 08"
     host.ask(f"{ALWAYS} 00C8")
     host.blip("evt1_n")
-    assert host.response() == "1B 01 80"
+    assert host.response() == message(Code.STOP, source=Source.OVERRIDE)
     assert host.response()[:11] == "23 06 E0 04"
     host.ask(f"{ALWAYS} 00C8")
-    assert host.ask("03 06 81 00 00000001") == "03 01 81"
+    assert host.ask(message(Code.SLOW_STOP, "00 00000001")) == message(Code.SLOW_STOP)
     assert host.response()[:11] == "23 06 E0 08"
     host.ask(f"{ALWAYS} 00C8")
-    assert host.ask("03 06 80 01 00000001") == "03 01 80"
+    assert host.ask(message(Code.STOP, "01 00000001")) == message(Code.STOP)
     assert host.response()[:11] == "23 06 E0 04"
 
 
@@ -202,65 +203,113 @@ WALKS = [
     (TH, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4 200x4 400x3", 0x08),
     (TH, f"{ALWAYS} 00C9", [(4, SLOW_STOP)], "201x4 400x3", 0x08),
     (ODD, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x6 300x7", 0x08),
-    (TF, "03 08 83 00 0064 0000000A", [(4, SLOW_STOP)], "100x4 100x5 200x1", 0x40),
-    (TF, "03 08 83 00 0064 00000014", [(4, SLOW_STOP), (6, SLOW_STOP)], "100x9 200x4 400x3", 0x08),
-    (TG, "03 04 85 00 0000", [(5, SLOW_STOP)], "400x3 200x2", 0x10),
-    (TG, "03 04 85 00 0000", [(2, SLOW_STOP)], "400x2", 0x10),
+    (TF, message(Code.CONSTANT, "00 0064 0000000A"), [(4, SLOW_STOP)], "100x4 100x5 200x1", 0x40),
     (
         TF,
-        "03 04 85 00 0000",
+        message(Code.CONSTANT, "00 0064 00000014"),
+        [(4, SLOW_STOP), (6, SLOW_STOP)],
+        "100x9 200x4 400x3",
+        0x08,
+    ),
+    (TG, message(Code.FOREVER_RAMP, "00 0000"), [(5, SLOW_STOP)], "400x3 200x2", 0x10),
+    (TG, message(Code.FOREVER_RAMP, "00 0000"), [(2, SLOW_STOP)], "400x2", 0x10),
+    (
+        TF,
+        message(Code.FOREVER_RAMP, "00 0000"),
         [(9, SLOW_STOP), (11, change(0x88, 150)), (14, SLOW_STOP)],
         "400x3 200x4 100x4 150x3 200x4 400x3",
         0x08,
     ),
-    (TF, "03 08 82 00 0000 0000001E", [(29, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x2", 0x10),
-    (TF, "03 08 82 00 0000 0000001E", [(30, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x3", 0x40),
+    (TF, message(Code.RAMP, "00 0000 0000001E"), [(29, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x2", 0x10),
+    (TF, message(Code.RAMP, "00 0000 0000001E"), [(30, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x3", 0x40),
     # Ramps of 87, and where they meet the deceleration point.
-    (TF, "03 08 83 00 0190 00000014", [(3, change(0x87, 150))], "400x3 200x4 150x13", 0x40),
-    (TH, "03 08 83 00 0190 00000014", [(3, change(0x87, 100))], "400x3 200x4 100x13", 0x40),
-    (TG, "03 08 83 00 0064 00000014", [(3, change(0x87, 400))], "100x3 200x4 400x13", 0x40),
-    (TH, "03 08 83 00 0064 00000014", [(3, change(0x87, 400))], "100x3 200x4 400x3 400x10", 0x40),
-    (TF, "03 08 83 00 0064 00000014", [(3, change(0x87, 200))], "100x3 200x17", 0x40),
-    (TF, "03 08 83 00 0064 00000014", [(3, change(0x87, 201))], "100x3 200x4 201x13", 0x40),
-    (TF, "03 08 83 00 00C8 0000000A", [(3, change(0x87, 200))], "200x10", 0x40),
-    (TF, "03 08 83 00 0064 00000008", [(5, change(0x87, 400))], "100x5 200x3", 0x40),
+    (TF, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 150))], "400x3 200x4 150x13", 0x40),
+    (TH, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 100))], "400x3 200x4 100x13", 0x40),
+    (TG, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 400))], "100x3 200x4 400x13", 0x40),
+    (
+        TH,
+        message(Code.CONSTANT, "00 0064 00000014"),
+        [(3, change(0x87, 400))],
+        "100x3 200x4 400x3 400x10",
+        0x40,
+    ),
+    (TF, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 200))], "100x3 200x17", 0x40),
+    (TF, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 201))], "100x3 200x4 201x13", 0x40),
+    (TF, message(Code.CONSTANT, "00 00C8 0000000A"), [(3, change(0x87, 200))], "200x10", 0x40),
+    (TF, message(Code.CONSTANT, "00 0064 00000008"), [(5, change(0x87, 400))], "100x5 200x3", 0x40),
     (
         TF,
-        "03 08 82 00 0096 0000001E",
+        message(Code.RAMP, "00 0096 0000001E"),
         [(13, change(0x87, 100))],
         "400x3 200x4 150x6 100x10 100x5 200x2",
         0x40,
     ),
-    (TF, "03 08 82 00 0096 0000001E", [(9, change(0x87, 400))], "400x3 200x4 150x2 200x4 400x17", 0x40),
-    (TF, "03 08 82 00 0096 00000014", [(11, change(0x87, 400))], "400x3 200x4 150x4 200x2 200x4 400x3", 0x40),
-    (TG, "03 08 82 00 0000 0000001E", [(15, change(0x88, 150))], "400x3 200x4 100x8 150x5 200x10", 0x40),
-    (TF, "03 08 82 00 0000 0000001E", [(25, change(0x88, 300))], "400x3 200x4 100x16 200x2 300x5", 0x40),
     (
         TF,
-        "03 08 83 00 0064 0000000A",
+        message(Code.RAMP, "00 0096 0000001E"),
+        [(9, change(0x87, 400))],
+        "400x3 200x4 150x2 200x4 400x17",
+        0x40,
+    ),
+    (
+        TF,
+        message(Code.RAMP, "00 0096 00000014"),
+        [(11, change(0x87, 400))],
+        "400x3 200x4 150x4 200x2 200x4 400x3",
+        0x40,
+    ),
+    (
+        TG,
+        message(Code.RAMP, "00 0000 0000001E"),
+        [(15, change(0x88, 150))],
+        "400x3 200x4 100x8 150x5 200x10",
+        0x40,
+    ),
+    (
+        TF,
+        message(Code.RAMP, "00 0000 0000001E"),
+        [(25, change(0x88, 300))],
+        "400x3 200x4 100x16 200x2 300x5",
+        0x40,
+    ),
+    (
+        TF,
+        message(Code.CONSTANT, "00 0064 0000000A"),
         [(4, change(0x88, 300)), (6, change(0x88, 250))],
         "100x4 300x2 250x4",
         0x40,
     ),
     # Equal neighbouring rates: the last of them counts for a constant rate, its own stage for a stage.
-    (EQUAL, "03 08 82 00 0000 00000028", [], "400x4 200x7 100x18 200x7 400x4", 0x40),
-    (EQUAL, "03 08 82 00 0190 00000006", [(5, SLOW_STOP)], "400x5", 0x10),
-    (EQUAL, "03 04 85 00 0000", [(1, SLOW_STOP)], "400x1", 0x10),
-    (EQUAL, "03 04 85 00 0000", [(4, SLOW_STOP)], "400x4", 0x10),
-    (EQUAL, "03 04 85 00 0000", [(5, SLOW_STOP)], "400x4 200x1 200x3 400x4", 0x08),
-    (EQUAL, "03 04 85 00 0000", [(8, SLOW_STOP)], "400x4 200x4 200x7 400x4", 0x08),
+    (EQUAL, message(Code.RAMP, "00 0000 00000028"), [], "400x4 200x7 100x18 200x7 400x4", 0x40),
+    (EQUAL, message(Code.RAMP, "00 0190 00000006"), [(5, SLOW_STOP)], "400x5", 0x10),
+    (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(1, SLOW_STOP)], "400x1", 0x10),
+    (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(4, SLOW_STOP)], "400x4", 0x10),
+    (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(5, SLOW_STOP)], "400x4 200x1 200x3 400x4", 0x08),
+    (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(8, SLOW_STOP)], "400x4 200x4 200x7 400x4", 0x08),
     (EQUAL, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x5 200x7 400x4", 0x08),
     (EQUAL, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4 200x7 400x4", 0x08),
     (EQUAL, f"{ALWAYS} 00C9", [(4, SLOW_STOP)], "201x4 400x4", 0x08),
     (EQUAL, f"{ALWAYS} 0190", [(4, SLOW_STOP)], "400x4", 0x10),
-    (EQUAL, "03 08 83 00 0190 00000014", [(3, change(0x87, 100))], "400x3 200x7 100x10", 0x40),
-    (EQUAL, "03 08 83 00 0064 00000014", [(3, change(0x87, 400))], "100x3 200x7 400x10", 0x40),
-    (EQUAL, "03 08 83 00 0064 00000014", [(3, change(0x87, 200))], "100x3 200x17", 0x40),
-    (EQUAL, "03 08 82 00 00C8 00000028", [(14, change(0x88, 100))], "400x4 200x10 100x20 200x6", 0x40),
-    (EQUAL, "03 08 82 00 0000 00000028", [(18, change(0x88, 200))], "400x4 200x7 100x7 200x13 400x9", 0x40),
+    (EQUAL, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 100))], "400x3 200x7 100x10", 0x40),
+    (EQUAL, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 400))], "100x3 200x7 400x10", 0x40),
+    (EQUAL, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 200))], "100x3 200x17", 0x40),
     (
         EQUAL,
-        "03 08 82 00 0000 00000028",
+        message(Code.RAMP, "00 00C8 00000028"),
+        [(14, change(0x88, 100))],
+        "400x4 200x10 100x20 200x6",
+        0x40,
+    ),
+    (
+        EQUAL,
+        message(Code.RAMP, "00 0000 00000028"),
+        [(18, change(0x88, 200))],
+        "400x4 200x7 100x7 200x13 400x9",
+        0x40,
+    ),
+    (
+        EQUAL,
+        message(Code.RAMP, "00 0000 00000028"),
         [(18, change(0x88, 200)), (37, change(0x87, 100))],
         "400x4 200x7 100x7 200x13 400x6 200x3",
         0x40,
@@ -269,14 +318,14 @@ WALKS = [
     # stage in which it ended.
     (
         SLOW_EQUAL,
-        "03 08 82 00 0096 0000003C",
+        message(Code.RAMP, "00 0096 0000003C"),
         [(20, change(0x88, 500)), (27, change(0x87, 100)), (33, change(0x87, 200))],
         "500x3 400x6 200x4 150x7 500x7 400x6 200x27",
         0x40,
     ),
     (
         LAST_EQUAL,
-        "03 08 82 00 00C8 00000028",
+        message(Code.RAMP, "00 00C8 00000028"),
         [(22, change(0x87, 400)), (29, change(0x87, 200))],
         "400x9 200x13 400x7 200x11",
         0x40,
@@ -284,21 +333,33 @@ WALKS = [
     # The same where rates do not fall: t(400) = t(401) = 125, so that 87 finds stages to slow down with.
     (
         UNEVEN,
-        "03 08 82 00 0064 00000050",
+        message(Code.RAMP, "00 0064 00000050"),
         [(20, change(0x88, 500)), (41, change(0x87, 100)), (50, change(0x87, 500))],
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 450x2 200x4 500x24",
         0x40,
     ),
     (
         UNEVEN,
-        "03 08 82 00 0064 00000050",
+        message(Code.RAMP, "00 0064 00000050"),
         [(20, change(0x88, 500)), (41, change(0x87, 100)), (50, change(0x87, 100))],
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
         0x40,
     ),
     # Two held for one boundary: the newer one counts.
-    (TF, "03 08 83 00 0190 0000000A", [(4, change(0x88, 300)), (4, change(0x87, 400))], "400x10", 0x40),
-    (TF, "03 08 83 00 0190 0000000A", [(4, change(0x87, 100)), (4, change(0x88, 350))], "400x4 350x6", 0x40),
+    (
+        TF,
+        message(Code.CONSTANT, "00 0190 0000000A"),
+        [(4, change(0x88, 300)), (4, change(0x87, 400))],
+        "400x10",
+        0x40,
+    ),
+    (
+        TF,
+        message(Code.CONSTANT, "00 0190 0000000A"),
+        [(4, change(0x87, 100)), (4, change(0x88, 350))],
+        "400x4 350x6",
+        0x40,
+    ),
 ]
 
 
@@ -325,17 +386,17 @@ def test_two_87_across_the_deceleration_point() -> None:
     """
     for ahead in (30, 60, 100, 140):
         host = Host(*TF)
-        host.ask("03 08 82 00 0064 00000028")
+        host.ask(message(Code.RAMP, "00 0064 00000028"))
         mark = host.mark
         host.pulse(20, 20)
-        assert host.ask(change(0x88, 400)) == "03 01 88"
+        assert host.ask(change(0x88, 400)) == message(Code.CHANGE)
         host.mark = mark
         edge = host.pulse(25, 20)
-        assert host.ask(change(0x87, 100)) == "03 01 87"
+        assert host.ask(change(0x87, 100)) == message(Code.RAMP_CHANGE)
         host.go(edge + 400 * TICK - ahead - 45)
         host.put(change(0x87, 200))
         assert host.header == edge + 400 * TICK - ahead
-        assert host.response() == "03 01 87"
+        assert host.response() == message(Code.RAMP_CHANGE)
         run_out(host, mark, 0x40, "400x3 200x4 100x13 400x5 200x7 400x8")
 
 
@@ -343,18 +404,18 @@ def test_two_87_across_the_deceleration_point() -> None:
 def test_an_override_with_a_ramp_waits_for_the_end_of_another_ramp() -> None:
     """Accepted before the ramp of a direct 87 begins, it is held over all steps of that ramp."""
     for ahead in (40, 60, 100, 140):
-        host = Host(*TF, "03 04 87 05 0190")
+        host = Host(*TF, message(Code.RAMP_CHANGE, "05 0190"))
         host.ask(f"{ALWAYS} 0190")
         mark = host.mark
         edge = host.pulse(4, 20)
-        assert host.ask(change(0x87, 100)) == "03 01 87"
+        assert host.ask(change(0x87, 100)) == message(Code.RAMP_CHANGE)
         host.go(edge + 400 * TICK - ahead)
         host.pins(evt0_n=0)
-        assert host.response() == "1B 01 87"
+        assert host.response() == message(Code.RAMP_CHANGE, source=Source.OVERRIDE)
         host.mark = mark
         host.pulse(22, 20)
         assert host.gaps() == rates("400x4 200x4 100x6 200x4 400x3")
-        assert host.ask(STOP) == "03 01 80"
+        assert host.ask(STOP) == message(Code.STOP)
         assert host.response() == stopped(0x04, 22)
 
 
@@ -367,7 +428,7 @@ def test_stages_go_on_while_an_88_is_looked_up() -> None:
     climb = [rate for rate in reversed(steps) for _ in range(3 if rate == 32 else 2)]
     for after in range(10, 130, 20):
         host = Host(*curve, *pulses)
-        host.ask("03 04 85 00 0000")
+        host.ask(message(Code.FOREVER_RAMP, "00 0000"))
         mark = host.mark
         host.pulse(1, after)
         host.put(change(0x88, 31))
@@ -382,35 +443,35 @@ def test_stages_go_on_while_an_88_is_looked_up() -> None:
 def test_causes_that_come_together() -> None:
     for start, levels, cause in (
         (f"{ALWAYS} 0190", {"alm_n": 0, "fl_n": 0, "org_n": 0}, 0x80),
-        ("03 04 10 00 0190", {"fl_n": 0, "org_n": 0, "fhl_n": 0}, 0x01),
-        ("03 04 10 00 0064", {"org_n": 0, "fhl_n": 0}, 0x20),
+        (message(Code.ORIGIN_SEARCH, "00 0190"), {"fl_n": 0, "org_n": 0, "fhl_n": 0}, 0x01),
+        (message(Code.ORIGIN_SEARCH, "00 0064"), {"org_n": 0, "fhl_n": 0}, 0x20),
         (f"{ALWAYS} 0190", {"bl_n": 0, "fl_n": 0}, 0x01),
     ):
-        host = Host(*TF, "03 03 05 FFFF")
+        host = Host(*TF, message(Code.SPEED_LIMIT, "FFFF"))
         host.ask(start)
         host.pulse(3, 20)  # pout is high, and it stays so for its time
         low = host.t
         host.pins(**levels)
         if cause == 0x80:
-            assert host.response() == "23 02 F4 00"
+            assert host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert host.response() == stopped(cause, 3)
         assert host.model.log.falls("pout", low)[0] - host.pulses()[2] == 80
     # 81 and a high-speed limit for one boundary.
-    host = Host(*TF, "03 03 05 FFFF")
+    host = Host(*TF, message(Code.SPEED_LIMIT, "FFFF"))
     host.ask(f"{ALWAYS} 0064")
     host.pulse(3, 20)
     host.issue(SLOW_STOP)
     host.pins(fhl_n=0)
-    assert host.response() == "03 01 81"
+    assert host.response() == message(Code.SLOW_STOP)
     assert host.response() == stopped(0x02, 15)
 
 
 @verifies("P312-MOT-34", "P312-MOT-06", "P312-MOT-35", "P312-PRT-04")
 def test_immediate_stops_cut_the_interval_short() -> None:
     for pin in ("fl_n", "alm_n", "org_n"):
-        host = Host(*TF, "03 02 06 01")
+        host = Host(*TF, message(Code.END_TERMINAL, "01"))
         host.pins(end_n=0)
-        host.ask("03 04 10 00 0190")
+        host.ask(message(Code.ORIGIN_SEARCH, "00 0190"))
         edge = host.pulse(2, 2000)
         host.pins(**{pin: 0})
         host.pause(70)
@@ -418,15 +479,15 @@ def test_immediate_stops_cut_the_interval_short() -> None:
         assert host.pulses()[-1] == edge
     # After the last pulse the cause is NOS, and the interval still ends at once.
     host = Host(*TF)
-    host.ask("03 08 83 00 0190 00000002")
+    host.ask(message(Code.CONSTANT, "00 0190 00000002"))
     host.pulse(2, 2000)
     host.pins(fl_n=0)
     host.pause(70)
     assert host.condition == 0x02 and host.response() == stopped(0x40, 2)
     host.pins(fl_n=1)
-    host.ask("03 08 83 00 0190 00000002")
+    host.ask(message(Code.CONSTANT, "00 0190 00000002"))
     host.pulse(2, 2000)
-    assert host.ask(STOP) == "03 01 80"
+    assert host.ask(STOP) == message(Code.STOP)
     assert host.condition == 0x02 and host.response() == stopped(0x40, 4)
 
 
@@ -435,36 +496,36 @@ def test_limits_of_both_directions() -> None:
     own = {0: ("fl_n", "fhl_n"), 1: ("bl_n", "bhl_n")}
     for ccw in (0, 1):
         sign = -1 if ccw else 1
-        host = Host(*TF, "03 03 05 00C8")
+        host = Host(*TF, message(Code.SPEED_LIMIT, "00C8"))
         away = dict.fromkeys(own[1 - ccw], 0)
         host.pins(**away)
         # Starts with the limits of the other direction, and runs past them.
-        host.ask(f"03 08 83 {ccw << 6:02X} 0064 00000003")
+        host.ask(message(Code.CONSTANT, f"{ccw << 6:02X} 0064 00000003"))
         assert host.response() == stopped(0x40, 3 * sign)
         limit, slow = own[ccw]
         host.pins(**{slow: 0})
         for block, right in (
-            (f"03 08 83 {ccw << 6:02X} 00C8 00000001", 0),
-            (f"03 08 83 {ccw << 6:02X} 00C9 00000001", 1),
-            (f"03 08 82 {ccw << 6:02X} 0000 00000001", 0),
-            (f"03 08 82 {ccw << 6:02X} 00C9 00000001", 1),
-            (f"03 02 84 {ccw << 6:02X}", 1),
-            (f"03 04 10 {ccw << 6:02X} 00C8", 0),
-            (f"03 04 11 {ccw << 6:02X} 0064", 0),
-            (f"03 04 85 {ccw << 6:02X} 0000", 0),
+            (message(Code.CONSTANT, f"{ccw << 6:02X} 00C8 00000001"), 0),
+            (message(Code.CONSTANT, f"{ccw << 6:02X} 00C9 00000001"), 1),
+            (message(Code.RAMP, f"{ccw << 6:02X} 0000 00000001"), 0),
+            (message(Code.RAMP, f"{ccw << 6:02X} 00C9 00000001"), 1),
+            (message(Code.STEP, f"{ccw << 6:02X}"), 1),
+            (message(Code.ORIGIN_SEARCH, f"{ccw << 6:02X} 00C8"), 0),
+            (message(Code.ZERO_RETURN, f"{ccw << 6:02X} 0064"), 0),
+            (message(Code.FOREVER_RAMP, f"{ccw << 6:02X} 0000"), 0),
         ):
             answer = host.ask(block)
-            assert (answer == "03 01 F2") == (not right), block
+            assert (answer == message(Answer.LIMIT)) == (not right), block
             if right:
                 host.response()
             assert host.condition == 0x02
         host.pins(**{slow: 1, limit: 0})
         for block in ("83 {} 0190 00000001", "82 {} 0190 00000001", "10 {} 0190", "11 {} 0190", "85 {} 0190"):
             text = block.format(f"{ccw << 6:02X}")
-            assert host.ask(f"03 {len(bytes.fromhex(text)):02X} {text}") == "03 01 F2"
-        assert host.ask(f"03 02 84 {ccw << 6:02X}") == "03 01 F2"
+            assert host.ask(f"03 {len(bytes.fromhex(text)):02X} {text}") == message(Answer.LIMIT)
+        assert host.ask(message(Code.STEP, f"{ccw << 6:02X}")) == message(Answer.LIMIT)
         host.pins(**{limit: 1})
-        host.ask(f"03 04 86 {ccw << 6:02X} 00C9")
+        host.ask(message(Code.FOREVER_CONSTANT, f"{ccw << 6:02X} 00C9"))
         host.pins(**{slow: 0})
         host.pulse(4, 20)
         host.ask(change(0x88, 200))
@@ -475,19 +536,19 @@ def test_limits_of_both_directions() -> None:
 
 @verifies("P312-MOT-31", "P312-INP-12", "P312-MOT-30")
 def test_high_speed_limit_and_88() -> None:
-    host = Host(*TF, "03 03 05 0096")
+    host = Host(*TF, message(Code.SPEED_LIMIT, "0096"))
     host.ask(f"{ALWAYS} 0064")
     mark = host.mark
     host.pulse(3, 20)
     host.pins(fhl_n=0)
     host.pulse(5, 20)
     # Slower than HSL: the walk is cancelled and does not come back.
-    assert host.ask(change(0x88, 300)) == "03 01 88"
+    assert host.ask(change(0x88, 300)) == message(Code.CHANGE)
     host.mark = mark
     host.pulse(12, 20)
     assert host.gaps() == rates("100x5 300x6")
     # Fast enough again: another walk, from the table's stage.
-    assert host.ask(change(0x88, 150)) == "03 01 88"
+    assert host.ask(change(0x88, 150)) == message(Code.CHANGE)
     host.response()
     host.mark = mark
     assert host.gaps() == rates("100x5 300x7 150x1 200x4 400x2")
@@ -498,12 +559,12 @@ def test_limits_act_from_the_first_clk_of_a_held_motion() -> None:
     for levels, cause in (({"fl_n": 0}, 0x01), ({"fhl_n": 0}, 0x10), ({"bl_n": 0, "bhl_n": 0}, 0x40)):
         host = Host(*TF)
         host.pins(run=0)
-        assert host.ask("03 08 83 00 0064 00000002") == "03 02 83 01"
+        assert host.ask(message(Code.CONSTANT, "00 0064 00000002")) == message(Code.CONSTANT, "01")
         host.pins(**levels)
         # A new table cannot come between; what is held is fixed.
-        assert host.ask("03 03 05 FFFF") == "03 03 F1 00 20"
+        assert host.ask(message(Code.SPEED_LIMIT, "FFFF")) == message(Answer.STATUS, "00 20")
         host.pins(run=1)
-        assert host.response() == "23 01 E2"
+        assert host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)
         assert host.response() == stopped(cause, 2 if cause == 0x40 else 0)
 
 
@@ -511,24 +572,24 @@ def test_limits_act_from_the_first_clk_of_a_held_motion() -> None:
 def test_every_start_is_held() -> None:
     host = Host(*TF)
     for block, answer, cause in (
-        ("03 08 82 40 0000 00000002", "03 02 82 11", 0x40),
-        ("03 08 82 00 0000 0000001E", "03 02 82 01", 0x40),
-        ("03 08 82 00 012C 0000000A", "03 02 82 21", 0x40),
-        ("03 08 83 00 0190 00000002", "03 02 83 01", 0x40),
-        ("03 02 84 40", "03 01 84", 0x40),
-        ("03 04 85 00 0000", "03 02 85 01", 0x04),
-        ("03 04 86 40 0000", "03 02 86 01", 0x04),
-        ("03 04 10 00 0190", "03 02 10 01", 0x04),
-        ("03 04 11 40 0000", "03 02 11 01", 0x04),
+        (message(Code.RAMP, "40 0000 00000002"), message(Code.RAMP, "11"), 0x40),
+        (message(Code.RAMP, "00 0000 0000001E"), message(Code.RAMP, "01"), 0x40),
+        (message(Code.RAMP, "00 012C 0000000A"), message(Code.RAMP, "21"), 0x40),
+        (message(Code.CONSTANT, "00 0190 00000002"), message(Code.CONSTANT, "01"), 0x40),
+        (message(Code.STEP, "40"), message(Code.STEP), 0x40),
+        (message(Code.FOREVER_RAMP, "00 0000"), message(Code.FOREVER_RAMP, "01"), 0x04),
+        (message(Code.FOREVER_CONSTANT, "40 0000"), message(Code.FOREVER_CONSTANT, "01"), 0x04),
+        (message(Code.ORIGIN_SEARCH, "00 0190"), message(Code.ORIGIN_SEARCH, "01"), 0x04),
+        (message(Code.ZERO_RETURN, "40 0000"), message(Code.ZERO_RETURN, "01"), 0x04),
     ):
         host.pins(run=0)
         assert host.ask(block) == answer
         mark = host.mark
         host.pause(2000)
         assert host.condition == 0x20 and not host.pulses()
-        assert host.ask("03 04 86 00 0064") == "03 03 F1 00 20"
+        assert host.ask(message(Code.FOREVER_CONSTANT, "00 0064")) == message(Answer.STATUS, "00 20")
         host.pins(run=1)
-        assert host.response() == "23 01 E2"
+        assert host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)
         # RUN means nothing any more.
         host.pins(run=0)
         host.mark = mark
@@ -536,11 +597,11 @@ def test_every_start_is_held() -> None:
         if cause == 0x04:
             host.ask(STOP)
         assert host.response()[:11] == f"23 06 E0 {cause:02X}"
-    assert host.ask("03 01 45") == "03 02 45 01"
-    assert host.ask("03 02 84 00") == "03 01 84"
+    assert host.ask(message(Code.RUN_MONITOR)) == message(Code.RUN_MONITOR, "01")
+    assert host.ask(message(Code.STEP, "00")) == message(Code.STEP)
     assert host.response()[:11] == "23 06 E0 40"
-    assert host.ask("03 01 45") == "03 02 45 00"
-    host.ask("03 02 84 00")
+    assert host.ask(message(Code.RUN_MONITOR)) == message(Code.RUN_MONITOR, "00")
+    host.ask(message(Code.STEP, "00"))
     assert host.condition == 0x20
 
 
@@ -552,8 +613,8 @@ def test_searches_in_every_form() -> None:
         sign = -1 if ccw else 1
         for index in (0, 1):
             flags = f"{ccw << 6 | index << 4:02X}"
-            host = Host(*TG, "03 04 02 07 FFFF")
-            host.ask(f"03 04 10 {flags} 00C8")
+            host = Host(*TG, message(Code.IN_POSITION, "07 FFFF"))
+            host.ask(message(Code.ORIGIN_SEARCH, f"{flags} 00C8"))
             assert host.out("dir") == ccw
             host.pulse(2, 20)
             host.pins(index_n=0)
@@ -566,9 +627,9 @@ def test_searches_in_every_form() -> None:
             assert host.response() == stopped(0x20, count * sign)
             # 11: the way back at R[sa]; nothing rests between the phases.
             host.pins(org_n=1, index_n=1)
-            host.ask("03 06 43 00 00000000")
+            host.ask(message(Code.POSITION_SET, "00 00000000"))
             assert host.out("zclmp_n") == 0
-            host.ask(f"03 04 11 {flags} 0000")
+            host.ask(message(Code.ZERO_RETURN, f"{flags} 0000"))
             mark = host.mark
             host.pulse(9, 20)
             host.pins(org_n=0, index_n=1 - index)
@@ -592,7 +653,7 @@ def test_zero_return_that_ends_otherwise() -> None:
         host = Host(*TF)
         if not number:
             host.pins(org_n=0)
-        host.ask(f"03 04 11 00 {rate}")
+        host.ask(message(Code.ZERO_RETURN, f"00 {rate}"))
         if number:
             host.pulse(number, 20)
             host.pins(org_n=0)
@@ -607,19 +668,19 @@ def test_zero_return_that_ends_otherwise() -> None:
         (SLOW_STOP, 0x08),
     ):
         host = Host(*TF)
-        host.ask("03 04 11 00 0000")
+        host.ask(message(Code.ZERO_RETURN, "00 0000"))
         host.pulse(9, 20)
         if isinstance(act, str):
             host.ask(act)
         else:
             host.pins(**act)
         while not (answer := host.response()).startswith("23 06 E0"):
-            assert answer == "23 02 F4 00"
+            assert answer == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert answer[9:11] == f"{cause:02X}" and host.out("dir") == 0
     # Limits of the other direction in phase 2, 80 and 81 there.
     for act, cause in (({"bl_n": 0}, 0x01), ({"fl_n": 0, "fhl_n": 0}, 0x20), (STOP, 0x04), (SLOW_STOP, 0x10)):
         host = Host(*TF)
-        host.ask("03 04 11 00 0190")
+        host.ask(message(Code.ZERO_RETURN, "00 0190"))
         host.pulse(3, 20)
         host.pins(org_n=0)
         host.pulse(3, 100)
@@ -655,14 +716,14 @@ def test_changes_that_wait_for_pulse_1() -> None:
         ((change(0x87, 8), change(0x88, 12)), [12] * 6),
     ):
         host = Host(*setting)
-        host.ask("03 04 86 00 0010")
+        host.ask(message(Code.FOREVER_CONSTANT, "00 0010"))
         for block in changes:
             host.ask(block)
         assert seen(host)[: len(expected)] == expected, changes
     # A high-speed limit is compared with the rate that pulse 1 has without the change.
     host = Host(*setting)
-    host.ask("03 03 05 000C")
-    host.ask("03 04 86 00 0010")
+    host.ask(message(Code.SPEED_LIMIT, "000C"))
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0010"))
     host.ask(change(0x88, 8))
     host.pins(fhl_n=0)
     host.pause(300)

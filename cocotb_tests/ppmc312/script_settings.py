@@ -6,14 +6,16 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import CSR, MWEF, RATES, T1, T2, T3, T4, TF, TG, TH, Host, clean
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 from openppmc.model.ppmc312.stages.tables import build
 
-T5 = "03 09 00 09 2000 0040 00EA60"
+T5 = message(Code.INITIAL, "09 2000 0040 00EA60")
 
 
 def read_table(host: Host) -> tuple[list[int], list[list[int]]]:
     """Head of the table read, and its three lists, fastest stage first."""
-    head = bytes.fromhex(host.ask("03 01 41"))
+    head = bytes.fromhex(host.ask(message(Code.TABLE_READ)))
     assert head[:3] == bytes.fromhex("020A41")
     lists: list[list[int]] = [[], [], []]
     counts = (head[3], head[4], head[5])
@@ -63,7 +65,7 @@ def test_tables_with_two_sides_read_back() -> None:
         assert short[5::-1] == [22, 22, 22, 22, 22, 23]
         assert sum(short) == 1500 and sum(long) == 2000 and weighted(long) == 156_518
     # The longest numbers: sums beyond 2^38.
-    setting = "03 0E 00 18 FFFF FF80 FEFF FFFFFF 8ABCDE"
+    setting = message(Code.INITIAL, "18 FFFF FF80 FEFF FFFFFF 8ABCDE")
     table = build(0xFFFF, 0xFF80, 0xFEFF, 0xFFFFFF, 0x8ABCDE, 0, True)
     head, (rates, up, down) = read_table(Host(setting))
     assert head[3:] == [0xFF, 0xFF, 0xFF, 0x8A, 0xBC, 0xDE]
@@ -73,7 +75,7 @@ def test_tables_with_two_sides_read_back() -> None:
 
 @verifies("P312-TBL-02", "P312-TBL-03", "P312-CMD-41")
 def test_sigmoid_tables_keep_stages_that_rounding_makes_equal() -> None:
-    head, (rates, up, _) = read_table(Host("03 09 00 08 01 2C 00 64 00 0B B8"))
+    head, (rates, up, _) = read_table(Host(message(Code.INITIAL, "08 01 2C 00 64 00 0B B8")))
     assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
     assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
     # Both sides: the slower one has all stages, the other one starts at the last stage that is slow enough.
@@ -83,23 +85,28 @@ def test_sigmoid_tables_keep_stages_that_rounding_makes_equal() -> None:
         (299, 300, [127, 123, 127]),
         (298, 300, [127, 122, 127]),
     ):
-        host = Host(f"03 0E 00 18 {rs:04X} {rp:04X} 0064 000BB8 000FA0")
+        host = Host(message(Code.INITIAL, f"18 {rs:04X} {rp:04X} 0064 000BB8 000FA0"))
         head, (rates, up, down) = read_table(host)
         assert head[:3] == counts and (sum(up), sum(down)) == (3000, 4000)
     for rs, second in ((624, 624), (625, 624), (626, 625)):
-        head, (rates, *_) = read_table(Host(f"03 09 00 08 {rs:04X} 0064 001770"))
+        head, (rates, *_) = read_table(Host(message(Code.INITIAL, f"08 {rs:04X} 0064 001770")))
         assert head[:2] == [127, 127] and rates[:-3:-1] == [rs, second]
 
 
 @verifies("P312-OVR-10", "P312-EVT-01", "P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9")
 def test_an_event_edge_during_00_and_01_is_dropped() -> None:
     """It is remembered, and goes when the buffers are emptied: also with what is registered afterwards."""
-    filled = (*TF, "03 06 49 00 03 02 26 01", "03 02 80 07")
+    filled = (*TF, message(Code.EVENT_SET, "00", message(Code.OUTPUT, "01")), message(Code.STOP, "07"))
     for block, answer, cond, most in (
-        (T1, "03 01 00", 0x02, 24_000),
-        ("03 09 00 01 03E8 03E8 0007D0", "03 0B F0 03 00 01 03 E8 03 E8 00 07 D0", 0x01, 40),
-        (TF[0], "03 03 01 00 03", 0x01, 40),
-        ("03 03 01 01 03", "03 05 F0 10 01 01 03", 0x01, 40),
+        (T1, message(Code.INITIAL), 0x02, 24_000),
+        (
+            message(Code.INITIAL, "01 03E8 03E8 0007D0"),
+            message(Answer.PARAMETER, "03 00 01 03 E8 03 E8 00 07 D0"),
+            0x01,
+            40,
+        ),
+        (TF[0], message(Code.FREE_CURVE, "00 03"), 0x01, 40),
+        (message(Code.FREE_CURVE, "01 03"), message(Answer.PARAMETER, "10 01 01 03"), 0x01, 40),
     ):
         for after in (30, 36, most // 2 + 16, most):
             host = Host(*filled)
@@ -116,10 +123,12 @@ def test_an_event_edge_during_00_and_01_is_dropped() -> None:
                 host = Host.on(host)
                 for block_ in TF:
                     host.ask(block_)
-            assert host.ask("03 01 4D") == "03 04 4D 00 02 00"
-            assert host.ask("03 06 49 00 03 02 26 02") == "03 02 49 00" and host.quiet(2000)
+            assert host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
+            assert host.ask(message(Code.EVENT_SET, "00", message(Code.OUTPUT, "02"))) == message(
+                Code.EVENT_SET, "00"
+            ) and host.quiet(2000)
             host.pins(evt0_n=0)
-            assert host.response() == "0B 01 26" and host.out("auxo_n") == 0x3D
+            assert host.response() == message(Code.OUTPUT, source=Source.EVENT) and host.out("auxo_n") == 0x3D
 
 
 @verifies("P312-CMD-01", "P312-CMD-FC-1", "P312-CMD-FC-10", "P312-CMD-41")
@@ -127,8 +136,11 @@ def test_a_combined_curve_may_be_announced_with_four_bytes() -> None:
     """LE = 0 with L = 04: the last byte means nothing, whatever it is; 03 and 04 are the only lengths."""
     for last in ("00", "01", "02", "7F", "80", "FF"):
         host = Host()
-        assert host.ask(f"02 04 01 01 03 {last}") == "03 03 01 00 03"
-        assert [host.ask(block) for block in TF[1:]] == ["03 03 01 01 03", "03 08 01 0F 00 00 0C 00 00 0C"]
+        assert host.ask(f"02 04 01 01 03 {last}") == message(Code.FREE_CURVE, "00 03")
+        assert [host.ask(block) for block in TF[1:]] == [
+            message(Code.FREE_CURVE, "01 03"),
+            message(Code.FREE_CURVE, "0F 00 00 0C 00 00 0C"),
+        ]
         head, (rates, up, down) = read_table(host)
         assert head == [3, 3, 0, 0, 0, 12, 0, 0, 12]
         assert (rates, up, down) == ([100, 200, 400], [5, 4, 3], [])
@@ -141,66 +153,76 @@ def test_initial_setting_layouts_and_order_of_checks() -> None:
     host = Host()
     good = [
         T1,
-        "03 0E 00 01 03E8 0001 00C8 0007D0 000001",  # LE = 0: RP and ND mean nothing
-        "03 09 00 E1 03E8 00C8 0007D0",  # bits 7..5 mean nothing
-        "03 0E 00 11 03E8 03E8 00C8 0007D0 0007D0",
+        message(Code.INITIAL, "01 03E8 0001 00C8 0007D0 000001"),  # LE = 0: RP and ND mean nothing
+        message(Code.INITIAL, "E1 03E8 00C8 0007D0"),  # bits 7..5 mean nothing
+        message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0007D0"),
     ]
     for block in good:
-        assert host.ask(block) == "03 01 00", block
+        assert host.ask(block) == message(Code.INITIAL), block
         assert host.condition == 0x02
         head, (rates, up, down) = read_table(host)
         assert head[2] == (127 if block[9] == "1" else 0) and weighted(rates) == 2_435_805
         assert weighted(up) == 156_518 and (not down or down == up)
     bad = [
-        (0x01, "03 0E 00 11 0010 0010 0001 0007D0 0007D0"),  # before 03
-        (0x01, "03 0E 00 11 03E8 0010 00C8 0007D0 0007D0"),  # stop rate
-        (0x03, "03 0E 00 11 03E8 0100 03E8 0007D0 0007D0"),  # before 02 and 04
-        (0x02, "03 0E 00 11 03E8 03E7 0380 000001 0007D0"),  # before 04 and 05
-        (0x04, "03 0E 00 11 00F0 03E8 00C8 000001 0007D0"),  # before 05
-        (0x05, "03 0E 00 11 03E8 03E8 00C8 0007D0 000476"),  # deceleration side alone
-        (0x05, "03 09 00 01 03E8 00C8 000000"),
-        (0x00, "03 0A 00 01 03E8 00C8 0007D0 00"),
-        (0x00, "03 01 00"),
-        (0x00, "03 0F 00 11 03E8 01F4 00C8 0007D0 0005DC 00"),
+        (0x01, message(Code.INITIAL, "11 0010 0010 0001 0007D0 0007D0")),  # before 03
+        (0x01, message(Code.INITIAL, "11 03E8 0010 00C8 0007D0 0007D0")),  # stop rate
+        (0x03, message(Code.INITIAL, "11 03E8 0100 03E8 0007D0 0007D0")),  # before 02 and 04
+        (0x02, message(Code.INITIAL, "11 03E8 03E7 0380 000001 0007D0")),  # before 04 and 05
+        (0x04, message(Code.INITIAL, "11 00F0 03E8 00C8 000001 0007D0")),  # before 05
+        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 000476")),  # deceleration side alone
+        (0x05, message(Code.INITIAL, "01 03E8 00C8 000000")),
+        (0x00, message(Code.INITIAL, "01 03E8 00C8 0007D0 00")),
+        (0x00, message(Code.INITIAL)),
+        (0x00, message(Code.INITIAL, "11 03E8 01F4 00C8 0007D0 0005DC 00")),
     ]
     for number, block in bad:
         host.ask(T1)
         answer = bytes.fromhex(host.ask(block))
         data = bytes.fromhex(block)[2:]
         assert answer[:4] == bytes([3, len(data) + 2, 0xF0, number]) and answer[4:] == data, block
-        assert host.ask("03 01 4D") == "03 04 4D 00 01 00"
-        assert host.ask("03 01 41") == "03 03 F1 00 01"
+        assert host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
+        assert host.ask(message(Code.TABLE_READ)) == message(Answer.STATUS, "00 01")
 
 
 @verifies("P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9", "P312-OVR-05", "P312-BLK-02", "P312-CMD-05")
 def test_a_setting_empties_the_buffers() -> None:
-    filled = (*TF, "03 05 49 00 03 01 25", "03 04 88 07 00C8", "03 06 80 04 0000FFFF")
-    for block, state in ((T1, 2), ("03 09 00 01 03E8 03E8 0007D0", 1), (TF[0], 1), ("03 03 01 01 03", 1)):
+    filled = (
+        *TF,
+        message(Code.EVENT_SET, "00", message(Code.INPUT)),
+        message(Code.CHANGE, "07 00C8"),
+        message(Code.STOP, "04 0000FFFF"),
+    )
+    for block, state in (
+        (T1, 2),
+        (message(Code.INITIAL, "01 03E8 03E8 0007D0"), 1),
+        (TF[0], 1),
+        (message(Code.FREE_CURVE, "01 03"), 1),
+    ):
         host = Host(*filled)
-        assert host.ask("03 01 4D") == "03 04 4D 00 02 62"
+        assert host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 62")
         host.ask(block)
         if block == TF[0]:
-            assert host.ask("03 01 4D") == "03 03 F1 02 01"
-        assert host.ask("03 01 4D") == f"03 04 4D 00 {state:02X} 00"
+            assert host.ask(message(Code.STATUS)) == message(Answer.STATUS, "02 01")
+        assert host.ask(message(Code.STATUS)) == message(Code.STATUS, f"00 {state:02X} 00")
     # Refused by the table of states: nothing happens.
     host = Host(*filled)
-    host.ask("03 04 86 00 0190")
-    for block in (T1, TF[0], "03 08 00 01 03E8 00C8 0007"):
-        assert host.ask(block) == "03 03 F1 00 08"
-    assert host.ask("03 01 4D") == "03 04 4D 00 08 62"
-    host.ask("03 02 80 00")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
+    for block in (T1, TF[0], message(Code.INITIAL, "01 03E8 00C8 0007")):
+        assert host.ask(block) == message(Answer.STATUS, "00 08")
+    assert host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 08 62")
+    host.ask(message(Code.STOP, "00"))
     host.response()
     host.pins(fhl_n=0)
     # HSL: as set, then RH of the new table, by either way of giving one.
-    host.ask("03 03 05 00C8")
-    assert host.ask("03 04 86 00 00C9") == "03 02 86 00"
-    host.ask("03 02 80 00")
+    host.ask(message(Code.SPEED_LIMIT, "00C8"))
+    assert host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
+    host.ask(message(Code.STOP, "00"))
     host.response()
     for setting in ((T1,), TG):
         for block in setting:
             host.ask(block)
-        assert host.ask("03 04 86 00 0000") == "03 01 F2"
-    assert host.ask("03 04 86 00 0065") == "03 02 86 00"
+        assert host.ask(message(Code.FOREVER_CONSTANT, "00 0000")) == message(Answer.LIMIT)
+    assert host.ask(message(Code.FOREVER_CONSTANT, "00 0065")) == message(Code.FOREVER_CONSTANT, "00")
 
 
 def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[int, int]) -> list[str]:
@@ -243,23 +265,23 @@ def test_free_curves(case: tuple) -> None:
     lists = [rates, up, *([down] if down else [])]
     done, item = 0, 0
     blocks = curve(*case)
-    assert host.ask(blocks[0]) == clean(f"03 03 01 00 {len(rates):02X}")
+    assert host.ask(blocks[0]) == clean(message(Code.FREE_CURVE, f"00 {len(rates):02X}"))
     for block in blocks[1:-1]:
         done += (len(block) // 2 - 2) // (2 if item == 0 else 3)
         if done == len(lists[item]):
             done, item = 0, item + 1
-        assert host.ask(block) == clean(f"03 03 01 {item:02X} {len(lists[item]) - done:02X}")
+        assert host.ask(block) == clean(message(Code.FREE_CURVE, f"{item:02X} {len(lists[item]) - done:02X}"))
     total, rest = sum(up), sum(down or up)
-    assert host.ask(blocks[-1]) == clean(f"03 08 01 0F {total:06X} {rest:06X}")
+    assert host.ask(blocks[-1]) == clean(message(Code.FREE_CURVE, f"0F {total:06X} {rest:06X}"))
     assert host.condition == 0x02
     head, got = read_table(host)
     assert head[:3] == [len(rates), len(up), len(down) if down else 0]
     assert got == [rates, up, down or []]
     # Highest and lowest rate that may be asked for: of stage 126 and of the first stage in use.
-    assert host.ask(f"03 08 83 00 {rates[0] - 1:04X} 00000001")[6:11] == "F0 20"
+    assert host.ask(message(Code.CONSTANT, f"00 {rates[0] - 1:04X} 00000001"))[6:11] == "F0 20"
     if rates[-1] < 0xFFFF:
-        assert host.ask(f"03 08 83 00 {rates[-1] + 1:04X} 00000001")[6:11] == "F0 20"
-    assert host.ask(f"03 08 83 00 {rates[-1]:04X} 00000001") == "03 02 83 00"
+        assert host.ask(message(Code.CONSTANT, f"00 {rates[-1] + 1:04X} 00000001"))[6:11] == "F0 20"
+    assert host.ask(message(Code.CONSTANT, f"00 {rates[-1]:04X} 00000001")) == message(Code.CONSTANT, "00")
 
 
 FC_ERRORS = [
@@ -271,7 +293,7 @@ FC_ERRORS = [
     ("11", ("02 03 01 11 03",)),
     ("11", ("02 05 01 11 03 03 00",)),
     ("11", ("02 01 01",)),
-    ("10", ("03 04 01 11 80 03",)),  # before 11
+    ("10", (message(Code.FREE_CURVE, "11 80 03"),)),  # before 11
     # Sizes: 15, 16, also in a block with an instruction's header; then 16, 18/19, 1A, 17 in this order.
     ("15", (TF[0], "00 1F" + "0064" * 15)),
     ("16", (TF[0], "00 07 0064 00C8 0190")),
@@ -297,15 +319,15 @@ FC_ERRORS = [
 @pytest.mark.parametrize(("number", "blocks"), FC_ERRORS)
 @verifies("P312-CMD-FC-4", "P312-CMD-FC-9", "P312-CHK-13", "P312-BAD-11", "P312-BLK-01")
 def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
-    host = Host(*TF, "03 04 88 07 00C8", *blocks[:-1])
+    host = Host(*TF, message(Code.CHANGE, "07 00C8"), *blocks[:-1])
     echo = bytes.fromhex(blocks[-1])[2:]
     assert (
         host.ask(blocks[-1])
         == f"03 {len(echo[:28]) + 2:02X} F0 {number} {echo[:28].hex(' ').upper()}".strip()
     )
-    assert host.ask("03 01 4D") == "03 04 4D 00 01 00"
-    assert host.ask("03 01 41") == "03 03 F1 00 01"
-    assert host.ask(RATES) == "03 03 F1 01 01"
+    assert host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
+    assert host.ask(message(Code.TABLE_READ)) == message(Answer.STATUS, "00 01")
+    assert host.ask(RATES) == message(Answer.STATUS, "01 01")
 
 
 @verifies("P312-CMD-FC-8", "P312-RSP-20", "P312-BAD-11", "P312-INP-31", "P312-CMD-FF")
@@ -315,24 +337,27 @@ def test_a_transfer_that_is_disturbed() -> None:
     host.issue(TF[1])
     host.pause(200)
     host.issue(TF[2])
-    assert [host.response() for _ in range(2)] == ["03 03 01 01 03", "23 02 F4 01"]
-    assert host.ask(TF[2]) == "03 03 F1 01 10"
-    host.ask("03 01 24")
+    assert [host.response() for _ in range(2)] == [
+        message(Code.FREE_CURVE, "01 03"),
+        message(Answer.ALARM, "01", source=SPONTANEOUS),
+    ]
+    assert host.ask(TF[2]) == message(Answer.STATUS, "01 10")
+    host.ask(message(Code.ALARM_CLEAR))
     assert host.condition == 0x01
     # Other instructions do not open one; a curve is complete only once.
     for block in (TF[2], "00 02 0064", "07 01 40"):
-        assert host.ask(block) == "03 03 F1 01 01"
+        assert host.ask(block) == message(Answer.STATUS, "01 01")
     for block in TH:
         host.ask(block)
-    assert host.ask(TH[-1]) == "03 03 F1 01 02"
+    assert host.ask(TH[-1]) == message(Answer.STATUS, "01 02")
     head, (rates, up, down) = read_table(host)
     assert (rates, up, down) == ([100, 200, 400], [6, 4], [5, 4, 3]) and head[:3] == [3, 2, 3]
     for block in ("02 01 40", "02 02 80 00", "02 09 00 01 03E8 00C8 0007D0"):
-        assert host.ask(block) == "03 03 F1 01 02"
+        assert host.ask(block) == message(Answer.STATUS, "01 02")
     # A block after an unread answer, then FF: it goes through at once.
     host.ask(TF[0])
     host.issue(TF[1])
     host.pause(200)
-    host.issue("03 01 FF")
+    host.issue(message(Code.RESET))
     host.pause(200)
-    assert host.response() == "03 01 FF" and host.quiet() and host.condition == 0x01
+    assert host.response() == message(Code.RESET) and host.quiet() and host.condition == 0x01

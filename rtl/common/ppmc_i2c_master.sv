@@ -17,18 +17,18 @@ module ppmc_i2c_master
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
     output logic                tick_o,    // a quarter of a bit
-    input  wire i2c_cmd_e       cmd_i,
+    input  wire i2c_cmd_e       cmd_i,     // what to do
     input  wire logic     [7:0] byte_i,    // to send; 8'hff to receive
     input  wire logic           ack_i,     // ninth bit to send: 1 leaves it to the other side
     output logic                first_o,   // byte_i has been taken
-    output logic                done_o,
+    output logic                done_o,    // it is done, one clk
     output logic                fail_o,    // the clock or the data line is stuck; both are released
-    output logic          [7:0] byte_o,
+    output logic          [7:0] byte_o,    // what was received
     output logic                nack_o,    // the ninth bit, or the one that ended a freeing
     input  wire logic           scl_i,     // synchronised
-    input  wire logic           sda_i,
-    output logic                scl_oe_o,
-    output logic                sda_oe_o
+    input  wire logic           sda_i,     // data of the bus
+    output logic                scl_oe_o,  // pull the clock low
+    output logic                sda_oe_o   // pull the data low
 );
 
   localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;

@@ -10,11 +10,11 @@ module ppmc_ram #(
     parameter int unsigned AddrBits = 8
 ) (
     input  wire logic                clk_i,
-    input  wire logic                we_i,
-    input  wire logic [AddrBits-1:0] waddr_i,
-    input  wire logic [   Width-1:0] wdata_i,
-    input  wire logic [AddrBits-1:0] raddr_i,
-    output logic      [   Width-1:0] rdata_o
+    input  wire logic                we_i,     // write at the coming edge
+    input  wire logic [AddrBits-1:0] waddr_i,  // where
+    input  wire logic [   Width-1:0] wdata_i,  // what
+    input  wire logic [AddrBits-1:0] raddr_i,  // where to read
+    output logic      [   Width-1:0] rdata_o   // what stands there, one clk later
 );
 
   (* ram_style = "block", no_rw_check *)

@@ -14,10 +14,10 @@ module ppmc_uart_rx #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic [Width-1:0] step_i,
+    input  wire logic [Width-1:0] step_i,   // phases a clk
     input  wire logic [Width-1:0] wrap_i,   // only with a Modulus
     input  wire logic             rxd_i,    // raw pin, idle high
-    output logic      [      7:0] byte_o,
+    output logic      [      7:0] byte_o,   // the character, with valid_o
     output logic                  valid_o,  // a character with a high stop bit
     output logic                  error_o,  // one with a low stop bit
     output logic                  break_o   // with error_o: all data bits were low as well

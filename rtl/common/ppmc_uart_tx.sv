@@ -11,11 +11,11 @@ module ppmc_uart_tx #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic [Width-1:0] step_i,
-    input  wire logic [      7:0] byte_i,
-    input  wire logic             valid_i,
-    output logic                  ready_o,
-    output logic                  txd_o
+    input  wire logic [Width-1:0] step_i,   // phases a clk
+    input  wire logic [      7:0] byte_i,   // the character
+    input  wire logic             valid_i,  // send it
+    output logic                  ready_o,  // it is taken
+    output logic                  txd_o     // the line, idle high
 );
 
   logic [Width-1:0] phase_q, phase_d;

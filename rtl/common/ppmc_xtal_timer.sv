@@ -13,9 +13,9 @@ module ppmc_xtal_timer #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             restart_i,
+    input  wire logic             restart_i,  // count from 0
     input  wire logic [Width-1:0] limit_i,    // crystal cycles
-    output logic                  past_o
+    output logic                  past_o      // so many have passed
 );
 
   localparam longint unsigned Common = ppmc_pkg::gcd(64'(ClkHz), 64'(XtalHz));

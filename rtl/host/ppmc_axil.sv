@@ -13,32 +13,32 @@ module ppmc_axil #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // AXI4-Lite
-    input  wire logic                awvalid_i,
-    output logic                     awready_o,
-    input  wire logic [AddrBits+2:0] awaddr_i,
-    input  wire logic                wvalid_i,
-    output logic                     wready_o,
-    input  wire logic [        31:0] wdata_i,
-    input  wire logic [         3:0] wstrb_i,
-    output logic                     bvalid_o,
-    input  wire logic                bready_i,
-    output logic      [         1:0] bresp_o,
-    input  wire logic                arvalid_i,
-    output logic                     arready_o,
-    input  wire logic [AddrBits+2:0] araddr_i,
-    output logic                     rvalid_o,
-    input  wire logic                rready_i,
-    output logic      [        31:0] rdata_o,
-    output logic      [         1:0] rresp_o,
+    input  wire logic                awvalid_i,  // write address is there
+    output logic                     awready_o,  // and taken
+    input  wire logic [AddrBits+2:0] awaddr_i,   // byte address
+    input  wire logic                wvalid_i,   // data are there
+    output logic                     wready_o,   // and taken
+    input  wire logic [        31:0] wdata_i,    // bits 7..0 count
+    input  wire logic [         3:0] wstrb_i,    // bit 0: bits 7..0 are written
+    output logic                     bvalid_o,   // the write is done
+    input  wire logic                bready_i,   // seen
+    output logic      [         1:0] bresp_o,    // how it went
+    input  wire logic                arvalid_i,  // read address is there
+    output logic                     arready_o,  // and taken
+    input  wire logic [AddrBits+2:0] araddr_i,   // byte address
+    output logic                     rvalid_o,   // data are there
+    input  wire logic                rready_i,   // and taken
+    output logic      [        31:0] rdata_o,    // bits 7..0 count
+    output logic      [         1:0] rresp_o,    // how it went
     output logic                     irq_o,      // the part's int_n, high active
     // the part's pins
-    output logic                     cs_no,
-    output logic                     rd_no,
-    output logic                     wr_no,
-    output logic      [AddrBits-1:0] a_o,
-    output logic      [         7:0] d_o,
-    input  wire logic [         7:0] d_i,
-    input  wire logic                int_ni
+    output logic                     cs_no,      // the part is addressed
+    output logic                     rd_no,      // read strobe
+    output logic                     wr_no,      // write strobe
+    output logic      [AddrBits-1:0] a_o,        // register
+    output logic      [         7:0] d_o,        // to be written
+    input  wire logic [         7:0] d_i,        // what the part shows
+    input  wire logic                int_ni      // the part's interrupt, L = active
 );
 
   typedef logic [AddrBits:0] word_t;  // address of a 32-bit word

@@ -14,22 +14,22 @@ module ppmc_bridge_answer
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
-    input  wire logic               clear_i,
-    input  wire logic               put_i,
-    input  wire logic [        7:0] data_i,
+    input  wire logic               clear_i,    // a new answer
+    input  wire logic               put_i,      // one byte more
+    input  wire logic [        7:0] data_i,     // with put_i
     input  wire logic               ident_i,    // begin a block, one clk
-    input  wire logic               count_i,
+    input  wire logic               count_i,    // begin a block of COUNT, one clk
     input  wire logic               second_i,   // COUNT of axis 2; stands while busy_o
-    input  wire logic [Axes*32-1:0] counter_i,
+    input  wire logic [Axes*32-1:0] counter_i,  // pulse counters, axis 1 in the low bits
     output logic                    busy_o,     // a block is on its way
     output logic                    full_o,     // no room for one more byte
-    output logic                    full4_o,
-    output logic                    full16_o,
-    output logic      [        8:0] length_o,
+    output logic                    full4_o,    // no room for 4
+    output logic                    full16_o,   // no room for 16
+    output logic      [        8:0] length_o,   // bytes so far
     // buffer
-    output logic                    we_o,
-    output logic      [        7:0] waddr_o,
-    output logic      [        7:0] wdata_o
+    output logic                    we_o,       // write into the buffer
+    output logic      [        7:0] waddr_o,    // where
+    output logic      [        7:0] wdata_o     // what
 );
 
   logic counting_q, parity_q, again;

@@ -15,42 +15,39 @@ module ppmc_bridge_exec
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
-    input  wire logic               ms_i,             // one clk every millisecond
+    input  wire logic               ms_i,          // one clk every millisecond
     // request
-    input  wire logic               start_i,
-    input  wire logic               again_i,
-    input  wire logic [        7:0] length_i,
-    output logic      [        7:0] raddr_o,
-    input  wire logic [        7:0] rdata_i,
-    input  wire logic               interrupt_i,      // a byte has come since start_i
+    input  wire logic               start_i,       // begin a script
+    input  wire logic               again_i,       // bring the last answer back
+    input  wire logic [        7:0] length_i,      // of the script in bytes
+    output logic      [        7:0] raddr_o,       // place in the script
+    input  wire logic [        7:0] rdata_i,       // what stands there, two clk later
+    input  wire logic               interrupt_i,   // a byte has come since start_i
     // answer
-    output logic                    script_o,         // running
-    output logic                    answer_o,         // done, answer on its way
-    input  wire logic               answered_i,
-    output result_e                 result_o,
-    output logic      [        7:0] pos_o,
-    output logic      [        7:0] last_o,
-    output logic      [        8:0] answer_length_o,
-    output logic                    we_o,
-    output logic      [        7:0] waddr_o,
-    output logic      [        7:0] wdata_o,
+    output logic                    script_o,      // running
+    output logic                    answer_o,      // done, answer on its way
+    input  wire logic               answered_i,    // it is sent
+    output outcome_t                outcome_o,     // what became of the script
+    output logic                    we_o,          // write into the answer's buffer
+    output logic      [        7:0] waddr_o,       // where
+    output logic      [        7:0] wdata_o,       // what
     // settings
-    output logic                    rate_o,           // op RATE with arg_o
-    output logic                    events_o,         // op EVENTS with arg_o
-    output logic      [        2:0] arg_o,
-    output logic      [        7:0] straps_o,
+    output logic                    rate_o,        // op RATE with arg_o
+    output logic                    events_o,      // op EVENTS with arg_o
+    output logic      [        2:0] arg_o,         // first operand
+    output logic      [        7:0] straps_o,      // strap outputs
     // board
-    input  wire logic [        7:0] pins_i,
-    input  wire logic [Axes*32-1:0] count_i,
-    output logic      [   Axes-1:0] count_zero_o,
-    output logic                    part_rst_no,
+    input  wire logic [        7:0] pins_i,        // for op PINS
+    input  wire logic [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
+    output logic      [   Axes-1:0] count_zero_o,  // a counter begins anew
+    output logic                    part_rst_no,   // reset of the part, L = active
     // the part's bus
-    output logic                    cs_no,
-    output logic                    rd_no,
-    output logic                    wr_no,
-    output logic      [        3:0] a_o,
-    output logic      [        7:0] d_o,
-    input  wire logic [        7:0] d_i
+    output logic                    cs_no,         // the part is addressed
+    output logic                    rd_no,         // read strobe
+    output logic                    wr_no,         // write strobe
+    output logic      [        3:0] a_o,           // register
+    output logic      [        7:0] d_o,           // to be written
+    input  wire logic [        7:0] d_i            // what the part shows
 );
 
   typedef enum logic [3:0] {
@@ -73,6 +70,9 @@ module ppmc_bridge_exec
   } state_e;
 
   state_e state_q;
+  result_e result_q;
+  logic [8:0] length;  // of the answer
+  logic [7:0] pos_q;
   logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then bytes left; left_q: of the script
   logic [15:0] limit_q, wait_q;
   logic [1:0] age_q;  // clk since the last byte was taken or put: all that hangs on them is right at 2
@@ -129,10 +129,10 @@ module ppmc_bridge_exec
   logic ident, count, full, full4, full16, block;
   logic second;  // an op of axis 2
 
-  assign ident  = state_q == StDecode && system && low == SysIdent && !full16;
-  assign count  = state_q == StDecode && system && (low == SysCount || (second && !low[0])) && !full4;
+  assign ident = state_q == StDecode && system && low == SysIdent && !full16;
+  assign count = state_q == StDecode && system && (low == SysCount || (second && !low[0])) && !full4;
   assign second = Axes > 1 && (low == SysCount2 || low == SysZero2);
-  assign last_o = bus_data & {8{seen_q}};
+  assign outcome_o = '{result: result_q, pos: pos_q, last: bus_data & {8{seen_q}}, length: length};
 
   ppmc_bridge_answer #(
       .Axes (Axes),
@@ -151,7 +151,7 @@ module ppmc_bridge_exec
       .full_o   (full),
       .full4_o  (full4),
       .full16_o (full16),
-      .length_o (answer_length_o),
+      .length_o (length),
       .we_o,
       .waddr_o,
       .wdata_o
@@ -259,7 +259,7 @@ module ppmc_bridge_exec
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q      <= StIdle;
-      result_o     <= ResDone;
+      result_q     <= ResDone;
       straps_o     <= '1;
       rate_o       <= 1'b0;
       events_o     <= 1'b0;
@@ -267,8 +267,8 @@ module ppmc_bridge_exec
       part_rst_no  <= 1'b0;
     end else begin
       state_q <= next;
-      if (start_i) result_o <= ResDone;
-      else if (fail != ResDone) result_o <= fail;
+      if (start_i) result_q <= ResDone;
+      else if (fail != ResDone) result_q <= fail;
       rate_o          <= state_q == StCheck && fetched && system_q && low == SysRate && !bad_q;
       events_o        <= state_q == StCheck && fetched && system_q && low == SysEvents && !bad_q;
       count_zero_o[0] <= state_q == StDecode && system && low == SysZero;
@@ -298,7 +298,7 @@ module ppmc_bridge_exec
     end
     if (state_q == StOp && take) begin
       op_q  <= rdata_i;
-      pos_o <= raddr_o;
+      pos_q <= raddr_o;
     end
     unique case (state_q)
       StDecode: n_q <= system ? 8'd31 : kind == OpWrite || kind == OpRead ? 8'd1 : {4'd0, low};

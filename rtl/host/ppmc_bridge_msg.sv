@@ -7,32 +7,29 @@
 module ppmc_bridge_msg
   import ppmc_bridge_pkg::*;
 (
-    input  wire logic          clk_i,
-    input  wire logic          rst_ni,
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
     // answer; all of it stands still while there is one
-    input  wire logic          script_i,       // a script is running: nothing new is begun
-    input  wire logic          answer_i,       // there is an answer, until answered_o
-    input  wire logic    [6:0] seq_i,
-    input  wire result_e       result_i,
-    input  wire logic    [7:0] pos_i,
-    input  wire logic    [7:0] last_i,
-    input  wire logic    [8:0] length_i,       // of the data
-    output logic         [7:0] raddr_o,
-    input  wire logic    [7:0] rdata_i,        // two clk later
-    output logic               answered_o,
+    input  wire logic           script_i,       // a script is running: nothing new is begun
+    input  wire logic           answer_i,       // there is an answer, until answered_o
+    input  wire logic     [6:0] seq_i,          // number of the request
+    input  wire outcome_t       outcome_i,      // what became of the script
+    output logic          [7:0] raddr_o,        // place in the answer
+    input  wire logic     [7:0] rdata_i,        // two clk later
+    output logic                answered_o,     // it is sent
     // event
-    input  wire logic          event_i,        // a message is due
-    input  wire logic    [7:0] pins_i,
-    output logic               event_taken_o,
+    input  wire logic           event_i,        // a message is due
+    input  wire logic     [7:0] pins_i,         // what the message shows
+    output logic                event_taken_o,  // it is being sent
     // NAK
-    input  wire nak_e          nak_i,
-    output logic               nak_taken_o,
+    input  wire nak_e           nak_i,          // NAK to be sent, NakNone: none
+    output logic                nak_taken_o,    // it is being sent
     // framer
-    output logic               start_o,
-    input  wire logic          idle_i,
-    output logic         [7:0] byte_o,
-    output logic               more_o,
-    input  wire logic          take_i
+    output logic                start_o,        // begin a frame
+    input  wire logic           idle_i,         // the framer is free
+    output logic          [7:0] byte_o,         // next byte of the frame
+    output logic                more_o,         // there is one more
+    input  wire logic           take_i          // byte_o is taken
 );
 
   typedef enum logic [1:0] {
@@ -58,13 +55,13 @@ module ppmc_bridge_msg
       3'd0: byte_o = kind_q == KindAnswer ? {1'b0, seq_i} : {7'b1000000, kind_q == KindNak};
       3'd1: begin
         unique case (kind_q)
-          KindAnswer: byte_o = 8'(result_i);
+          KindAnswer: byte_o = 8'(outcome_i.result);
           KindEvent: byte_o = pins_i;
           default: byte_o = 8'(nak_i);
         endcase
       end
-      3'd2: byte_o = pos_i;
-      3'd3: byte_o = last_i;
+      3'd2: byte_o = outcome_i.pos;
+      3'd3: byte_o = outcome_i.last;
       default: byte_o = rdata_i;
     endcase
   end
@@ -88,13 +85,13 @@ module ppmc_bridge_msg
   end
 
   always_ff @(posedge clk_i) begin
-    tail_q <= index_q == length_i;
+    tail_q <= index_q == outcome_i.length;
     if (start_o) begin
       head_q  <= '0;
       index_q <= '0;
     end else if (take_i) begin
       if (head_q[2]) index_q <= index_q + 1'b1;
-      else if (head_q == 3'd1 && (kind_q != KindAnswer || result_i == ResDone)) head_q <= 3'd4;
+      else if (head_q == 3'd1 && (kind_q != KindAnswer || outcome_i.result == ResDone)) head_q <= 3'd4;
       else head_q <= head_q + 1'b1;
     end
   end

@@ -51,6 +51,14 @@ package ppmc_bridge_pkg;
     ResInterrupted
   } result_e;
 
+  // What became of a script; it stands from its end until the next one begins.
+  typedef struct packed {
+    result_e    result;
+    logic [7:0] pos;     // place of the op that ended it
+    logic [7:0] last;    // what that op read last
+    logic [8:0] length;  // of the answer's data in bytes
+  } outcome_t;
+
   typedef enum logic [3:0] {
     NakNone,
     NakFraming,

@@ -15,11 +15,11 @@ module ppmc_bridge_rate
     input  wire logic             rst_ni,
     input  wire logic             ms_i,        // one clk every millisecond
     input  wire logic             set_i,       // op RATE with an available code
-    input  wire logic [      2:0] code_i,
+    input  wire logic [      2:0] code_i,      // its code
     input  wire logic             answered_i,  // the answer's last stop bit has ended
     input  wire logic             good_i,      // a good frame has come
-    input  wire logic             break_i,
-    output logic      [Width-1:0] step_o
+    input  wire logic             break_i,     // a break has come
+    output logic      [Width-1:0] step_o       // phases a clk
 );
 
   localparam int unsigned TrialBits = $clog2(TrialMs + 1);

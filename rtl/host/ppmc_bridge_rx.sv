@@ -13,24 +13,24 @@ module ppmc_bridge_rx
     input  wire logic       rst_ni,
     input  wire logic       ms_i,        // one clk every millisecond
     // receiver
-    input  wire logic [7:0] byte_i,
-    input  wire logic       valid_i,
-    input  wire logic       error_i,
+    input  wire logic [7:0] byte_i,      // a character
+    input  wire logic       valid_i,     // with a stop bit
+    input  wire logic       error_i,     // without one
     // request buffer
-    output logic            we_o,
-    output logic      [7:0] waddr_o,
-    output logic      [7:0] wdata_o,
+    output logic            we_o,        // write into the buffer
+    output logic      [7:0] waddr_o,     // where
+    output logic      [7:0] wdata_o,     // what
     // what came
     output logic            good_o,      // a frame without fault, one clk
     output logic            request_o,   // with it: it is a request to be executed or answered again
     output logic      [6:0] seq_o,       // of the frame
     output logic      [7:0] length_o,    // of its script in bytes, with request_o
     // while a script runs or its answer is sent
-    input  wire logic       busy_i,
+    input  wire logic       busy_i,      // no request can be taken
     output logic            dropped_o,   // a byte has come meanwhile
     // NAK to be sent
     output nak_e            nak_o,       // NakNone: there is none
-    input  wire logic       nak_taken_i
+    input  wire logic       nak_taken_i  // it is being sent
 );
 
   localparam logic [8:0] Empty = '1;

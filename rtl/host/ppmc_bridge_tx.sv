@@ -12,15 +12,15 @@ module ppmc_bridge_tx
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
     // message
-    input  wire logic       start_i,
-    output logic            idle_o,
-    input  wire logic [7:0] byte_i,
-    input  wire logic       more_i,
-    output logic            take_o,
+    input  wire logic       start_i,  // begin a frame
+    output logic            idle_o,   // nothing is being sent
+    input  wire logic [7:0] byte_i,   // next byte of the frame
+    input  wire logic       more_i,   // there is one more
+    output logic            take_o,   // byte_i is taken
     // transmitter
-    output logic      [7:0] byte_o,
-    output logic            valid_o,
-    input  wire logic       ready_i
+    output logic      [7:0] byte_o,   // a character
+    output logic            valid_o,  // send it
+    input  wire logic       ready_i   // it is taken
 );
 
   typedef enum logic [2:0] {

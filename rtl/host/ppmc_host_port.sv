@@ -10,22 +10,22 @@ module ppmc_host_port #(
     input wire logic rst_ni,
     input wire logic style_i,  // 0 = read and write strobe, 1 = data strobe and direction
     // pins
-    input wire logic cs_ni,
-    input wire logic rd_ni,
-    input wire logic wr_ni,
-    input wire logic a0_i,
-    input wire logic [7:0] d_i,
-    output logic [7:0] d_o,
-    output logic d_oe_o,
+    input wire logic cs_ni,  // the part is addressed
+    input wire logic rd_ni,  // read strobe, or data strobe
+    input wire logic wr_ni,  // write strobe, or direction
+    input wire logic a0_i,  // 0 data, 1 status or command
+    input wire logic [7:0] d_i,  // what the host writes
+    output logic [7:0] d_o,  // what it reads
+    output logic d_oe_o,  // it is reading
     // command unit
     input wire logic [5:0] state_i,  // status bits 7..2; 1 and 0 are IBF and OBF
     output logic ready_o,  // byte_o may be taken
-    output logic command_o,
-    output logic [7:0] byte_o,
-    input wire logic take_i,
+    output logic command_o,  // it was written as a command
+    output logic [7:0] byte_o,  // what the host has written
+    input wire logic take_i,  // byte_o is taken
     input wire logic load_i,  // new answer
     input wire logic long_i,  // of QueueBytes bytes, otherwise one
-    input wire logic [8*QueueBytes-1:0] answer_i
+    input wire logic [8*QueueBytes-1:0] answer_i  // first byte in the low bits
 );
 
   logic wr, wr_a0, wr_busy, rd_busy, rd_done, ibf, obf, fresh;

@@ -17,19 +17,19 @@ module ppmc_isa #(
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
     // ISA
-    input  wire logic [      9:0]      sa_i,
+    input  wire logic [      9:0]      sa_i,     // address
     input  wire logic                  aen_i,    // 1: the address belongs to a DMA transfer
-    input  wire logic                  ior_ni,
-    input  wire logic                  iow_ni,
-    output logic      [      7:0]      sd_o,
-    output logic                       sd_oe_o,
+    input  wire logic                  ior_ni,   // read strobe
+    input  wire logic                  iow_ni,   // write strobe
+    output logic      [      7:0]      sd_o,     // what the host reads
+    output logic                       sd_oe_o,  // it is reading
     output logic                       irq_o,    // 1: some part interrupts
     // parts; ior_ni and iow_ni go to them as they are
-    output logic      [Parts-1:0]      cs_no,
-    output logic                       a0_o,
-    input  wire logic [Parts-1:0][7:0] d_i,
-    input  wire logic [Parts-1:0]      d_oe_i,
-    input  wire logic [Parts-1:0]      int_ni
+    output logic      [Parts-1:0]      cs_no,    // a part is addressed
+    output logic                       a0_o,     // 0 data, 1 status or command
+    input  wire logic [Parts-1:0][7:0] d_i,      // what the parts show
+    input  wire logic [Parts-1:0]      d_oe_i,   // they are being read
+    input  wire logic [Parts-1:0]      int_ni    // their interrupts, L = active
 );
 
   localparam int unsigned Bits = $clog2(2 * Parts + (Source ? 1 : 0));  // address bits of the window

@@ -13,19 +13,19 @@ module ppmc_mailbox #(
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
     // host port
-    input  wire logic                    wr_i,
-    input  wire logic                    wr_a0_i,
-    input  wire logic [             7:0] wr_data_i,
-    input  wire logic                    rd_done_i,
-    output logic      [             7:0] out_o,
-    output logic                         obf_o,
+    input  wire logic                    wr_i,       // the host has written
+    input  wire logic                    wr_a0_i,    // as a command
+    input  wire logic [             7:0] wr_data_i,  // what
+    input  wire logic                    rd_done_i,  // the host has read out_o
+    output logic      [             7:0] out_o,      // output buffer
+    output logic                         obf_o,      // it has not been read yet
     output logic                         new_o,      // out_o changes at the coming edge
-    output logic                         ibf_o,
+    output logic                         ibf_o,      // a byte waits
     // command unit
     output logic                         ready_o,    // byte_o may be taken
     output logic                         command_o,  // it was written as a command
-    output logic      [             7:0] byte_o,
-    input  wire logic                    take_i,
+    output logic      [             7:0] byte_o,     // what the host has written
+    input  wire logic                    take_i,     // byte_o is taken
     input  wire logic                    load_i,     // new answer, drops what was not read
     input  wire logic [8*QueueBytes-1:0] answer_i,   // first byte in the low bits
     input  wire logic                    long_i      // all bytes count, otherwise one

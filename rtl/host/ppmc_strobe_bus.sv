@@ -15,21 +15,21 @@ module ppmc_strobe_bus (
     input  wire logic       rst_ni,
     input  wire logic       style_i,       // static
     // pins
-    input  wire logic       cs_ni,
-    input  wire logic       rd_ni,
-    input  wire logic       wr_ni,
+    input  wire logic       cs_ni,         // the part is addressed
+    input  wire logic       rd_ni,         // read strobe, or data strobe
+    input  wire logic       wr_ni,         // write strobe, or direction
     input  wire logic       a0_i,          // 1 = status or command, 0 = data
-    input  wire logic [7:0] d_i,
-    output logic      [7:0] d_o,
-    output logic            d_oe_o,
+    input  wire logic [7:0] d_i,           // what the host writes
+    output logic      [7:0] d_o,           // what it reads
+    output logic            d_oe_o,        // it is reading
     // write side
     output logic            wr_o,          // a write is complete
-    output logic            wr_a0_o,
-    output logic      [7:0] wr_data_o,
+    output logic            wr_a0_o,       // to status or command
+    output logic      [7:0] wr_data_o,     // what was written
     output logic            wr_busy_o,     // one is on its way: status must show a full input buffer
     // read side
-    input  wire logic [7:0] status_i,
-    input  wire logic [7:0] data_i,
+    input  wire logic [7:0] status_i,      // what the host reads as status
+    input  wire logic [7:0] data_i,        // what it reads as data
     input  wire logic       data_valid_i,  // data_i has not been read yet
     input  wire logic       data_new_i,    // data_i changes at the coming edge
     output logic            rd_busy_o,     // it is being read: status must not show it again

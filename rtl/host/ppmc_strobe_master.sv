@@ -15,20 +15,20 @@ module ppmc_strobe_master #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // master
-    input  wire logic                req_i,
-    input  wire logic                we_i,
-    input  wire logic [AddrBits-1:0] addr_i,
-    input  wire logic [         7:0] wdata_i,
-    output logic                     ready_o,
-    output logic                     done_o,
-    output logic      [         7:0] rdata_o,
+    input  wire logic                req_i,    // a cycle is wanted
+    input  wire logic                we_i,     // a write
+    input  wire logic [AddrBits-1:0] addr_i,   // register
+    input  wire logic [         7:0] wdata_i,  // what to write
+    output logic                     ready_o,  // a cycle begins with req_i
+    output logic                     done_o,   // it is over, one clk
+    output logic      [         7:0] rdata_o,  // what was read, with done_o
     // the part's pins; cs_n falls and rises with the strobes
-    output logic                     cs_no,
-    output logic                     rd_no,
-    output logic                     wr_no,
-    output logic      [AddrBits-1:0] a_o,
-    output logic      [         7:0] d_o,
-    input  wire logic [         7:0] d_i
+    output logic                     cs_no,    // the part is addressed
+    output logic                     rd_no,    // read strobe
+    output logic                     wr_no,    // write strobe
+    output logic      [AddrBits-1:0] a_o,      // register
+    output logic      [         7:0] d_o,      // to be written
+    input  wire logic [         7:0] d_i       // what the part shows
 );
 
   if (WriteClk < 2 || ReadClk < 5 || GapClk < 3) begin : g_check

@@ -16,22 +16,22 @@ module ppmc_uart_bridge
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
-    input  wire logic               rxd_i,
-    output logic                    txd_o,
+    input  wire logic               rxd_i,         // from the PC, raw pin
+    output logic                    txd_o,         // to the PC
     // the part's bus
-    output logic                    cs_no,
-    output logic                    rd_no,
-    output logic                    wr_no,
-    output logic      [        3:0] a_o,
-    output logic      [        7:0] d_o,
-    input  wire logic [        7:0] d_i,
-    input  wire logic               int_ni,
-    output logic                    part_rst_no,
+    output logic                    cs_no,         // the part is addressed
+    output logic                    rd_no,         // read strobe
+    output logic                    wr_no,         // write strobe
+    output logic      [        3:0] a_o,           // register
+    output logic      [        7:0] d_o,           // to be written
+    input  wire logic [        7:0] d_i,           // what the part shows
+    input  wire logic               int_ni,        // the part's interrupt, L = active
+    output logic                    part_rst_no,   // reset of the part, L = active
     // board
-    output logic      [        7:0] straps_o,
-    input  wire logic [        7:0] pins_i,
+    output logic      [        7:0] straps_o,      // strap outputs
+    input  wire logic [        7:0] pins_i,        // for op PINS
     input  wire logic [Axes*32-1:0] count_i,       // axis 1 in the low bits
-    output logic      [   Axes-1:0] count_zero_o,
+    output logic      [   Axes-1:0] count_zero_o,  // a counter begins anew
     output logic                    active_o       // a script is running or an answer is on its way
 );
 
@@ -169,9 +169,7 @@ module ppmc_uart_bridge
 
   // ---------------------------------------------------------------- scripts
 
-  result_e result;
-  logic [7:0] pos, last;
-  logic [8:0] ans_length;
+  outcome_t outcome;
   logic events_set;
 
   ppmc_bridge_exec #(
@@ -181,26 +179,23 @@ module ppmc_uart_bridge
   ) u_exec (
       .clk_i,
       .rst_ni,
-      .ms_i           (ms_q),
-      .start_i        (start),
-      .again_i        (again),
-      .length_i       (req_length),
-      .raddr_o        (req_raddr),
-      .rdata_i        (rdata),
-      .interrupt_i    (dropped),
-      .script_o       (script),
-      .answer_o       (answer),
-      .answered_i     (answered),
-      .result_o       (result),
-      .pos_o          (pos),
-      .last_o         (last),
-      .answer_length_o(ans_length),
-      .we_o           (ans_we),
-      .waddr_o        (ans_waddr),
-      .wdata_o        (ans_wdata),
-      .rate_o         (rate_set),
-      .events_o       (events_set),
-      .arg_o          (arg),
+      .ms_i       (ms_q),
+      .start_i    (start),
+      .again_i    (again),
+      .length_i   (req_length),
+      .raddr_o    (req_raddr),
+      .rdata_i    (rdata),
+      .interrupt_i(dropped),
+      .script_o   (script),
+      .answer_o   (answer),
+      .answered_i (answered),
+      .outcome_o  (outcome),
+      .we_o       (ans_we),
+      .waddr_o    (ans_waddr),
+      .wdata_o    (ans_wdata),
+      .rate_o     (rate_set),
+      .events_o   (events_set),
+      .arg_o      (arg),
       .straps_o,
       .pins_i,
       .count_i,
@@ -243,10 +238,7 @@ module ppmc_uart_bridge
       .script_i     (script),
       .answer_i     (answer),
       .seq_i        (seq),
-      .result_i     (result),
-      .pos_i        (pos),
-      .last_i       (last),
-      .length_i     (ans_length),
+      .outcome_i    (outcome),
       .raddr_o      (ans_raddr),
       .rdata_i      (rdata),
       .answered_o   (answered),

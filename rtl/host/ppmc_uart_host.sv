@@ -15,24 +15,24 @@ module ppmc_uart_host #(
 ) (
     input  wire logic              clk_i,
     input  wire logic              rst_ni,       // asynchronous
-    input  wire logic              rxd_i,
-    output logic                   txd_o,
+    input  wire logic              rxd_i,        // from the PC, raw pin
+    output logic                   txd_o,        // to the PC
     // the part's bus
-    output logic                   cs_no,
-    output logic                   rd_no,
-    output logic                   wr_no,
+    output logic                   cs_no,        // the part is addressed
+    output logic                   rd_no,        // read strobe
+    output logic                   wr_no,        // write strobe
     output logic      [       2:0] a_o,          // a part with fewer address lines takes the low ones
-    output logic      [       7:0] d_o,
-    input  wire logic [       7:0] d_i,
-    input  wire logic              int_ni,
-    output logic                   part_rst_no,
+    output logic      [       7:0] d_o,          // to be written
+    input  wire logic [       7:0] d_i,          // what the part shows
+    input  wire logic              int_ni,       // the part's interrupt, L = active
+    output logic                   part_rst_no,  // reset of the part, L = active
     // board
-    output logic      [       7:0] straps_o,
-    input  wire logic [Axes*6-1:0] switches_ni,
-    input  wire logic [  Axes-1:0] hold_i,
-    input  wire logic [  Axes-1:0] pout_ni,
-    input  wire logic [  Axes-1:0] dir_i,
-    output logic                   active_o
+    output logic      [       7:0] straps_o,     // strap outputs
+    input  wire logic [Axes*6-1:0] switches_ni,  // for op PINS
+    input  wire logic [  Axes-1:0] hold_i,       // for op PINS: motor at rest
+    input  wire logic [  Axes-1:0] pout_ni,      // pulses to be counted
+    input  wire logic [  Axes-1:0] dir_i,        // their direction
+    output logic                   active_o      // a script is running or an answer is on its way
 );
 
   logic [3:0] a;

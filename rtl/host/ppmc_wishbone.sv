@@ -13,24 +13,24 @@ module ppmc_wishbone #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // Wishbone; adr_i bits are numbered as in a byte address
-    input  wire logic                cyc_i,
-    input  wire logic                stb_i,
-    input  wire logic                we_i,
-    input  wire logic [AddrBits+2:2] adr_i,
-    input  wire logic [         3:0] sel_i,
-    input  wire logic [        31:0] dat_i,
-    output logic      [        31:0] dat_o,
-    output logic                     ack_o,
-    output logic                     err_o,
+    input  wire logic                cyc_i,   // a cycle
+    input  wire logic                stb_i,   // and a transfer of it
+    input  wire logic                we_i,    // a write
+    input  wire logic [AddrBits+2:2] adr_i,   // register
+    input  wire logic [         3:0] sel_i,   // bit 0: bits 7..0 count
+    input  wire logic [        31:0] dat_i,   // what is written, bits 7..0
+    output logic      [        31:0] dat_o,   // what is read, bits 7..0
+    output logic                     ack_o,   // done
+    output logic                     err_o,   // refused
     output logic                     irq_o,   // the part's int_n, high active
     // the part's pins
-    output logic                     cs_no,
-    output logic                     rd_no,
-    output logic                     wr_no,
-    output logic      [AddrBits-1:0] a_o,
-    output logic      [         7:0] d_o,
-    input  wire logic [         7:0] d_i,
-    input  wire logic                int_ni
+    output logic                     cs_no,   // the part is addressed
+    output logic                     rd_no,   // read strobe
+    output logic                     wr_no,   // write strobe
+    output logic      [AddrBits-1:0] a_o,     // register
+    output logic      [         7:0] d_o,     // to be written
+    input  wire logic [         7:0] d_i,     // what the part shows
+    input  wire logic                int_ni   // the part's interrupt, L = active
 );
 
   logic call, own, bad, done, ready, req, unused;

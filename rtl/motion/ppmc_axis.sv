@@ -3,10 +3,10 @@
 // stops.
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
 //         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08, STMC-CLK-01..05.
-// Timing: busy_o rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles later,
-//         or after the end of the RUN gate where run_i was low (external clock: first edge at or after). A
-//         motion leaves busy_o one clk after low_o has gone, or at once; done_o is high in the clk before.
-//         Nothing here is a pin: pins follow low_o and step_o through one register (ppmc_motor_port).
+// Timing: motion_o.busy rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles
+//         later, or after the end of the RUN gate where run_i was low (external clock: first edge at or after). A
+//         motion leaves busy one clk after low_o has gone, or at once; event_o.done is high in the clk before.
+//         Nothing here is a pin: pins follow low_o and event_o through one register (ppmc_motor_port).
 // Edges:  with the external clock all of this happens in the clk of an effective edge, for the clk after it:
 //         - the (rate + 1)-th one after a pulse is the next pulse (u_rate: hit), or the lag after it. Not one that
 //           finds low_o standing; the next one is due then. That takes a pulse of rate 0 that was not brisk.
@@ -43,47 +43,36 @@ module ppmc_axis
     input wire logic clk_i,
     input wire logic rst_ni,
     // start; the operation and its data are taken with start_i
-    input wire logic start_i,
-    input wire op_t op_i,
+    input wire logic start_i,  // an operation starts at the coming edge
+    input wire op_t op_i,  // what it is
     input wire logic [CountBits-1:0] count_i,  // pulses - 1
     input wire logic [RateBits-1:0] rate_i,  // constant-speed rate
-    input wire base_t base_i,
+    input wire base_t base_i,  // its base clock
     // ramp in force, steady while busy
-    input wire logic [RateBits-1:0] rate_slow_i,
-    input wire logic [RateBits-1:0] rate_fast_i,
-    input wire logic [StepBits-1:0] steps_i,
-    output logic [RateBits-1:0] lut_addr_o,
-    input wire logic [StepBits-1:0] lut_data_i,
+    input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
+    input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
+    input wire logic [StepBits-1:0] steps_i,  // acceleration pulses PA
+    output logic [RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two clk later
+    input wire logic [StepBits-1:0] lut_data_i,  // thr(r)
     // stops
     input wire logic halt_i,  // immediate stop command
     input wire logic decel_i,  // decelerating stop command
-    input wire switches_t switches_i,
+    input wire switches_t switches_i,  // synchronous levels
     input wire logic slow_i,  // act on a slow-down limit; slow_seen_o, or later
-    output logic slow_seen_o,
+    output logic slow_seen_o,  // one is seen that counts
     input wire logic run_i,  // 0 keeps a motion that has not begun in the RUN gate
     input wire logic go_i,  // 0 keeps pulse 1 back
     input wire logic linger_i,  // 1 keeps the motion from ending
     // clocks
     input wire logic quantum_i,  // quantum tick, restarted by restart_o
-    input wire logic clock_pin_i,
+    input wire logic clock_pin_i,  // external base clock, asynchronous
     output logic restart_o,  // the quantum count begins anew: pulse 1, end of a motion
     // state
-    output logic busy_o,
-    output logic moving_o,  // before pulse 1 or between pulses (not yet stopping)
-    output logic gated_o,  // in the RUN gate
-    output logic decel_o,  // decelerating, forced or natural
-    output logic top_o,  // on the plateau of the ramp
-    output op_t op_o,  // the running or last operation
-    output base_t base_o,  // and its base clock
+    output motion_t motion_o,  // how the motion stands
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
-    output logic running_o,  // between pulses
     output logic low_o,  // a pulse is active
-    output logic pulse_o,  // pulse event at the coming edge
-    output logic last_o,  // with pulse_o: the last one
-    output logic final_o,  // with pulse_o: and the count is complete
-    output logic stop_o,  // immediate end decided at the coming edge
-    output logic done_o,  // the motion ends at the coming edge
-    output cause_t cause_o,  // valid with done_o
+    output event_t event_o,  // what happens at the coming edge
+    output cause_t cause_o,  // valid with event_o.done
     output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
 
@@ -101,54 +90,66 @@ module ppmc_axis
   state_e state_q;
   logic brisk_q;
   switches_t guarded;
-  logic armed, fire, due, up, seek, rising, forced, flagged, dec, crawl, last_pulse;
+  logic busy, running, gated_q, armed, fire, last, complete, stop, done, top;
+  op_t   op_q;
+  base_t base_q;
+  logic due, up, seek, rising, forced, flagged, dec, crawl, last_pulse;
   logic low, base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
 
   assign armed = state_q == StStart || state_q == StRun;
-  assign busy_o = state_q != StIdle;
-  assign moving_o = armed;
-  assign running_o = state_q == StRun;
-  assign decel_o = dec || flagged;
-  assign done_o = state_q == StFinish && !low_o && !linger_i;
-  assign restart_o = (fire && state_q == StStart) || done_o;
-  assign pulse_o = fire;
+  assign busy = state_q != StIdle;
+  assign running = state_q == StRun;
+  assign done = state_q == StFinish && !low_o && !linger_i;
+  assign restart_o = (fire && state_q == StStart) || done;
   assign low_o = PulsePin && low;
-  assign last_o = last_pulse || (OriginAtPulse && op_o.origin && switches_i.origin);
+  assign last = last_pulse || (OriginAtPulse && op_q.origin && switches_i.origin);
+
+  assign event_o = '{pulse: fire, last: last, complete: complete, stop: stop, done: done};
+  assign motion_o = '{
+          busy: busy,
+          moving: armed,
+          running: running,
+          gated: gated_q,
+          dec: dec || flagged,
+          top: top,
+          op: op_q,
+          base: base_q
+      };
 
   // An immediate cause also takes away a pulse that is due at the same edge.
   always_comb begin
     fire = 1'b0;
-    if (state_q == StStart) fire = up && go_i && (op_o.single || !base_o.external || rise);
-    if (state_q == StRun) fire = due && !(base_o.external && low_o);
-    if (stop_o) fire = 1'b0;
+    if (state_q == StStart) fire = up && go_i && (op_q.single || !base_q.external || rise);
+    if (state_q == StRun) fire = due && !(base_q.external && low_o);
+    if (stop) fire = 1'b0;
   end
 
   // RUN gate: limits and alarm count, the origin does not; the direction set-up begins with its end.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) gated_o <= 1'b0;
-    else if (start_i || run_i) gated_o <= !run_i;
+    if (!rst_ni) gated_q <= 1'b0;
+    else if (start_i || run_i) gated_q <= !run_i;
   end
 
   always_comb begin
     guarded = switches_i;
-    if (OriginAtPulse || gated_o) guarded.origin = 1'b0;
+    if (OriginAtPulse || gated_q) guarded.origin = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= StIdle;
-      op_o    <= '0;
-      base_o  <= '0;
+      op_q    <= '0;
+      base_q  <= '0;
       brisk_q <= 1'b0;
     end else begin
       if (start_i) begin
         state_q <= StStart;
-        op_o    <= op_i;
-        base_o  <= base_i;
-      end else if (stop_o) state_q <= StFinish;
-      else if (fire) state_q <= last_o ? StFinish : StRun;
-      else if (done_o) state_q <= StIdle;
-      if (fire) brisk_q <= ext_brisk && base_o.external;
+        op_q    <= op_i;
+        base_q  <= base_i;
+      end else if (stop) state_q <= StFinish;
+      else if (fire) state_q <= last ? StFinish : StRun;
+      else if (done) state_q <= StIdle;
+      if (fire) brisk_q <= ext_brisk && base_q.external;
     end
   end
 
@@ -160,18 +161,18 @@ module ppmc_axis
       .clk_i,
       .rst_ni,
       .clear_i   (start_i),
-      .complete_i(fire && final_o),
+      .complete_i(fire && complete),
       .armed_i   (armed),
-      .op_i      (op_o),
+      .op_i      (op_q),
       .switches_i(guarded),
-      .top_i     (top_o),
-      .crawl_i   (crawl && running_o),
+      .top_i     (top),
+      .crawl_i   (crawl && running),
       .dec_i     (dec),
       .halt_i,
       .decel_i,
       .slow_i,
       .slow_seen_o,
-      .stop_o,
+      .stop_o    (stop),
       .forced_o  (forced),
       .flagged_o (flagged),
       .cause_o
@@ -194,15 +195,15 @@ module ppmc_axis
       .count_i,
       .single_i(op_i.single),
       .rate_i,
-      .ramp_i  (start_i ? op_i.ramp : op_o.ramp),
+      .ramp_i  (start_i ? op_i.ramp : op_q.ramp),
       .pulse_i (fire),
       .forced_i(forced),
       .rate_o,
       .seek_o  (seek),
       .rising_o(rising),
       .last_o  (last_pulse),
-      .final_o,
-      .top_o,
+      .final_o (complete),
+      .top_o   (top),
       .crawl_o (crawl),
       .dec_o   (dec),
       .left_o
@@ -218,10 +219,10 @@ module ppmc_axis
   ) u_shaper (
       .clk_i,
       .rst_ni,
-      .arm_i  (start_i || gated_o),
+      .arm_i  (start_i || gated_q),
       .pulse_i(fire),
-      .full_i (last_o || base_o.extra),
-      .halve_i(!base_o.external && !base_o.slow),
+      .full_i (last || base_q.extra),
+      .halve_i(!base_q.external && !base_q.slow),
       .rate_i (rate_o),
       .cut_i  (cut),
       .low_o  (low),
@@ -229,9 +230,9 @@ module ppmc_axis
   );
 
   // Interval: base clock from inside or from the pin, counted, and the extra time.
-  assign edges = base_o.external && rise;
-  assign tick  = base_o.external ? edges && ext_count : base_tick;
-  assign cut   = base_o.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !rising));
+  assign edges = base_q.external && rise;
+  assign tick  = base_q.external ? edges && ext_count : base_tick;
+  assign cut   = base_q.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !rising));
 
   ppmc_base_clock #(
       .FastQuanta (FastQuanta),
@@ -242,8 +243,8 @@ module ppmc_axis
       .rst_ni,
       .restart_i(fire),
       .quantum_i,
-      .slow_i   (base_o.slow),
-      .extra_i  (base_o.extra),
+      .slow_i   (base_q.slow),
+      .extra_i  (base_q.extra),
       .tick_o   (base_tick)
   );
 
@@ -280,7 +281,7 @@ module ppmc_axis
     ) u_lag (
         .clk_i,
         .rst_ni,
-        .en_i     (base_o.external && base_o.extra),
+        .en_i     (base_q.external && base_q.extra),
         .restart_i(fire),
         .edge_i   (edges),
         .long_i   (ext_long),
@@ -297,7 +298,7 @@ module ppmc_axis
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop_o))
+  `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
   // External clocks less than 4 clk apart are too fast (P104-BAD-14, P2104-BAD-19): their cut may come too late.
   logic [2:0] ticked_q;
   logic too_fast, too_fast_q;
@@ -309,16 +310,16 @@ module ppmc_axis
       too_fast_q <= too_fast && !start_i;
     end
   end
-  `PPMC_ASSERT(p104_tim_05_cut, !(running_o && due && low_o && base_o.external && rate_o != '0 && !too_fast))
-  `PPMC_ASSERT(p2104_opr_02, !(fire && gated_o))
-  `PPMC_ASSERT(p104_opr_12, !(start_i && busy_o))
+  `PPMC_ASSERT(p104_tim_05_cut, !(running && due && low_o && base_q.external && rate_o != '0 && !too_fast))
+  `PPMC_ASSERT(p2104_opr_02, !(fire && gated_q))
+  `PPMC_ASSERT(p104_opr_12, !(start_i && busy))
   logic final_seen_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) final_seen_q <= 1'b0;
     else if (start_i) final_seen_q <= 1'b0;
-    else if (fire && final_o) final_seen_q <= 1'b1;
+    else if (fire && complete) final_seen_q <= 1'b1;
   end
-  `PPMC_ASSERT(p104_end_05, !done_o || op_o.origin || final_seen_q || cause_o != '0)
+  `PPMC_ASSERT(p104_end_05, !done || op_q.origin || final_seen_q || cause_o != '0)
 `endif
 
 endmodule

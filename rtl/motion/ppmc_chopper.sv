@@ -15,11 +15,11 @@ module ppmc_chopper #(
     input  wire logic                rst_ni,
     input  wire logic                run_i,        // 0: phases stay on
     input  wire logic                restart_i,    // begin a complete ON phase now
-    input  wire logic                quantum_i,
+    input  wire logic                quantum_i,    // quantum tick
     input  wire logic [BaseBits-1:0] on_base_i,    // quanta, at least 1
     input  wire logic [BaseBits-1:0] off_base_i,   // quanta, at least 1
-    input  wire logic [UnitBits-1:0] on_units_i,
-    input  wire logic [UnitBits-1:0] off_units_i,
+    input  wire logic [UnitBits-1:0] on_units_i,   // units on top of it
+    input  wire logic [UnitBits-1:0] off_units_i,  // units on top of it
     output logic                     on_o          // 1 = phases on
 );
 

@@ -12,8 +12,8 @@ module ppmc_ext_clock #(
     input  wire logic clk_i,
     input  wire logic rst_ni,
     input  wire logic pin_i,   // external clock, asynchronous
-    output logic      rise_o,
-    output logic      fall_o,
+    output logic      rise_o,  // rising edge of the pin
+    output logic      fall_o,  // falling edge
     output logic      long_o,  // more than LongClk clk since the edge before
     output logic      brisk_o  // less than BriskClk clk since the edge before
 );

@@ -14,7 +14,7 @@ module ppmc_hold_timer #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             busy_i,
+    input  wire logic             busy_i,     // a motion is under way
     input  wire logic             quantum_i,  // restarted by the fall of busy_i
     input  wire logic [UnitTop:0] units_i,    // hold time in units, minus 1
     output logic                  hold_o      // 1 after reset

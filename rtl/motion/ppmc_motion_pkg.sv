@@ -46,6 +46,27 @@ package ppmc_motion_pkg;
     logic alarm;
   } switches_t;
 
+  // How the motion of an axis stands.
+  typedef struct packed {
+    logic  busy;     // from its start until the last pulse has run out
+    logic  moving;   // before pulse 1 or between pulses, not yet stopping
+    logic  running;  // between pulses
+    logic  gated;    // in the RUN gate
+    logic  dec;      // decelerating, forced or natural
+    logic  top;      // on the plateau of the ramp
+    op_t   op;       // the running or last operation
+    base_t base;     // its base clock
+  } motion_t;
+
+  // What a motion does at the coming edge.
+  typedef struct packed {
+    logic pulse;     // a pulse begins
+    logic last;      // with pulse: the last one
+    logic complete;  // with pulse: and the count is complete
+    logic stop;      // immediate end
+    logic done;      // the motion is over
+  } event_t;
+
   // Times of the chopper: a phase lasts its base time and as many units; it is looked at when the phase begins.
   typedef struct packed {
     logic [31:0] on_base;    // quanta, at least 1

@@ -19,32 +19,32 @@ module ppmc_motor_port
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
     // axis
-    input  wire logic                  busy_i,
-    input  wire logic                  low_i,
+    input  wire logic                  busy_i,          // a motion is under way
+    input  wire logic                  low_i,           // a pulse is active
     input  wire logic                  step_i,          // pulse event that moves the phases
-    input  wire logic                  ccw_i,
-    input  wire logic                  quantum_i,
+    input  wire logic                  ccw_i,           // direction
+    input  wire logic                  quantum_i,       // quantum tick
     // excitation
-    input  wire motor_e                motor_i,
-    input  wire logic                  half_i,
+    input  wire motor_e                motor_i,         // number of phases
+    input  wire logic                  half_i,          // half step
     input  wire logic                  positive_i,      // 1 = high is on; steady while energised
-    input  wire logic                  home_i,
-    input  wire logic                  off_i,
+    input  wire logic                  home_i,          // phases go to index 0
+    input  wire logic                  off_i,           // phases go off, until home_i
     // chopper
     input  wire logic                  chop_i,          // chop while at rest
-    input  wire logic                  chop_restart_i,
-    input  wire logic   [BaseBits-1:0] on_base_i,
-    input  wire logic   [BaseBits-1:0] off_base_i,
-    input  wire logic   [         7:0] on_units_i,
-    input  wire logic   [         7:0] off_units_i,
-    input  wire logic   [   HoldTop:0] hold_units_i,
+    input  wire logic                  chop_restart_i,  // begin a complete ON phase
+    input  wire logic   [BaseBits-1:0] on_base_i,       // ON phase: quanta
+    input  wire logic   [BaseBits-1:0] off_base_i,      // OFF phase: quanta
+    input  wire logic   [         7:0] on_units_i,      // and so many units more
+    input  wire logic   [         7:0] off_units_i,     // and so many units more
+    input  wire logic   [   HoldTop:0] hold_units_i,    // units of the hold time
     // what the host reads
     output logic        [         5:1] levels_o,        // phases at pin polarity, not chopped
     // pins
-    output logic        [         5:1] s_o,
-    output logic                       hold_o,
-    output logic                       pout_no,
-    output logic                       dir_o
+    output logic        [         5:1] s_o,             // phases
+    output logic                       hold_o,          // at rest for the hold time
+    output logic                       pout_no,         // pulse, L = active
+    output logic                       dir_o            // 0 = CW
 );
 
   logic [5:1] pattern, invert;

@@ -9,7 +9,7 @@ module ppmc_pulse_counter #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             clear_i,
+    input  wire logic             clear_i,  // count from 0
     input  wire logic             pout_ni,  // of the same clk domain
     input  wire logic             dir_i,    // 0 = CW
     output logic      [Width-1:0] count_o   // two's complement, wraps

@@ -19,11 +19,11 @@ module ppmc_ramp_builder
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                start_i,
+    input  wire logic                start_i,  // build
     input  wire logic [RateBits-1:0] slow_i,   // start-up rate RL
     input  wire logic [RateBits-1:0] fast_i,   // high-speed rate RH, at most slow_i
     input  wire logic [StepBits-1:0] steps_i,  // PA, at least 1
-    output logic                     busy_o,
+    output logic                     busy_o,   // it is being built
     output logic                     we_o,     // write port of the table
     output logic      [RateBits-1:0] addr_o,   // r
     output logic      [StepBits-1:0] data_o    // thr(r)

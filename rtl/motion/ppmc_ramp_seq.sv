@@ -29,7 +29,7 @@ module ppmc_ramp_seq #(
     input  wire logic [ RateBits-1:0] fast_i,      // high-speed rate
     input  wire logic [ StepBits-1:0] steps_i,     // acceleration pulses PA
     output logic      [ RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two clk later
-    input  wire logic [  LutBits-1:0] lut_data_i,
+    input  wire logic [  LutBits-1:0] lut_data_i,  // thr(r)
     // operation
     input  wire logic                 load_i,      // start: takes count and rate
     input  wire logic [CountBits-1:0] count_i,     // pulses to make, minus 1

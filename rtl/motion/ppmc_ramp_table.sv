@@ -11,8 +11,8 @@ module ppmc_ramp_table #(
     input  wire logic                rst_ni,
     input  wire logic                start_i,  // build
     input  wire logic [RateBits-1:0] slow_i,   // steady while busy_o
-    input  wire logic [RateBits-1:0] fast_i,
-    input  wire logic [StepBits-1:0] steps_i,
+    input  wire logic [RateBits-1:0] fast_i,   // the same
+    input  wire logic [StepBits-1:0] steps_i,  // the same: acceleration pulses PA
     output logic                     busy_o,   // no use may be made of data_o
     input  wire logic [RateBits-1:0] addr_i,   // r
     output logic      [StepBits-1:0] data_o    // thr(r)

@@ -14,8 +14,8 @@ module ppmc_ramp_tables #(
     input  wire logic                     rst_ni,
     input  wire logic [2:1]               start_i,  // build; not while busy_o of the same axis
     input  wire logic [2:1][RateBits-1:0] slow_i,   // steady while busy_o
-    input  wire logic [2:1][RateBits-1:0] fast_i,
-    input  wire logic [2:1][StepBits-1:0] steps_i,
+    input  wire logic [2:1][RateBits-1:0] fast_i,   // the same
+    input  wire logic [2:1][StepBits-1:0] steps_i,  // the same: acceleration pulses PA
     output logic      [2:1]               busy_o,   // waiting or being built: no use may be made of data_o
     input  wire logic [2:1][RateBits-1:0] addr_i,   // r
     output logic      [2:1][StepBits-1:0] data_o    // thr(r)

@@ -16,7 +16,7 @@ module ppmc_rate_counter #(
     input  wire logic                rst_ni,
     input  wire logic                restart_i,  // a pulse: count from 0
     input  wire logic                tick_i,     // a base clock that counts
-    input  wire logic [RateBits-1:0] rate_i,
+    input  wire logic [RateBits-1:0] rate_i,     // rate of the running interval
     input  wire logic                wait_i,     // the interval must not end yet
     input  wire logic                rising_i,   // rate_i is not final yet
     output logic                     hit_o,      // this base clock ends the interval

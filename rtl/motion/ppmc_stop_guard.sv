@@ -31,7 +31,7 @@ module ppmc_stop_guard
     output logic           stop_o,       // end the motion now, no further pulse
     output logic           forced_o,     // forced deceleration is requested
     output logic           flagged_o,    // the same, as a state (registered)
-    output cause_t         cause_o
+    output cause_t         cause_o       // why the motion ended, until clear_i
 );
 
   logic limit, slow, halt, block, hard, slow_now, decel_now, free;

@@ -101,12 +101,13 @@ module ppmc104
   verdict_t verdict;
   logic [31:0] params_late;
   logic slow_seen, slow_take, stops_only, unused_bits;
-  setup_t  setup;
-  chop_t   chop;
+  setup_t setup;
+  chop_t chop;
   action_t act;
   motion_t motion;
-  motor_t  motor;
-  base_t   base_now;
+  logic [7:0] rate;
+  motor_t motor;
+  base_t base_now;
 
   assign meaning = '{decoded: decode(sent.data), data: sent.data};
   assign verdict = '{
@@ -149,6 +150,7 @@ module ppmc104
       .slow_i       (slow_take),
       .slow_seen_o  (slow_seen),
       .motion_o     (motion),
+      .rate_o       (rate),
       .inputs_i     ({cnp, alm, 2'b00, l1, l2, l3, l4}),
       .auxi_i       (auxi_s),
       .chop_i       (chop),
@@ -182,6 +184,7 @@ module ppmc104
       .clk_i       (clk),
       .rst_ni      (rst),
       .motion_i    (motion),
+      .rate_i      (rate),
       .slow_seen_i (slow_seen),
       .slow_o      (slow_take),
       .stops_only_o(stops_only)

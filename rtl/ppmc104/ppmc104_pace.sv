@@ -6,18 +6,19 @@
 `default_nettype none
 
 module ppmc104_pace
-  import ppmc_single_pkg::motion_t;
+  import ppmc_motion_pkg::motion_t;
 #(
     parameter bit          Datasheet = 1'b0,
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000
 ) (
-    input  wire logic    clk_i,
-    input  wire logic    rst_ni,
-    input  wire motion_t motion_i,     // the motion as it stands
-    input  wire logic    slow_seen_i,  // the axis sees a slow-down limit
-    output logic         slow_o,       // act on a slow-down limit
-    output logic         stops_only_o  // the mailbox gives stop commands only
+    input  wire logic          clk_i,
+    input  wire logic          rst_ni,
+    input  wire motion_t       motion_i,     // the motion as it stands
+    input  wire logic    [7:0] rate_i,       // rate of its running interval
+    input  wire logic          slow_seen_i,  // the axis sees a slow-down limit
+    output logic               slow_o,       // act on a slow-down limit
+    output logic               stops_only_o  // the mailbox gives stop commands only
 );
 
   // Crystal cycles; microseconds times 16.
@@ -31,7 +32,7 @@ module ppmc104_pace
   if (!Datasheet) begin : g_fast
     logic unused_bits;
 
-    assign unused_bits = &{1'b0, clk_i, rst_ni, motion_i};
+    assign unused_bits = &{1'b0, clk_i, rst_ni, motion_i, rate_i};
     assign slow_o = slow_seen_i;
     assign stops_only_o = 1'b0;
   end else begin : g_datasheet
@@ -72,7 +73,7 @@ module ppmc104_pace
     assign unused_bits = &{1'b0, motion_i};
 
     always_comb begin
-      interval = (14'(motion_i.rate) + 14'd1) << (motion_i.base.slow ? 5 : 3);
+      interval = (14'(rate_i) + 14'd1) << (motion_i.base.slow ? 5 : 3);
       if (motion_i.base.extra) interval = interval + 14'd30;
       stops_only_o = motion_i.running && !motion_i.base.external &&
         interval < (motion_i.op.pout_only ? 14'(BRISK_POUT) : 14'(BRISK_PHASE));

@@ -11,13 +11,13 @@ module ppmc104_setup
 (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    input  wire action_t        act_i,
+    input  wire action_t        act_i,     // takes effect at the coming edge
     input  wire logic    [31:0] params_i,  // with act_i.switching
     input  wire logic    [ 3:0] aux_i,     // with act_i.aux_out
     input  wire logic           vsel_i,    // synchronous level
-    output chop_t               chop_o,
-    output logic         [ 3:0] auxo_o,
-    output logic                aux_no
+    output chop_t               chop_o,    // times of the chopper
+    output logic         [ 3:0] auxo_o,    // auxiliary outputs
+    output logic                aux_no     // L: AUX is on
 );
 
   logic programmed_q;

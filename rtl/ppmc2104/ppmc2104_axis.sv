@@ -18,46 +18,47 @@ module ppmc2104_axis
     input  wire logic                         clk_i,
     input  wire logic                         rst_ni,
     // instructions
-    input  wire axis_action_t                 act_i,
+    input  wire axis_action_t                 act_i,          // what this axis does at the coming edge
     input  wire logic         [          7:0] code_i,         // of init and start
-    input  wire logic         [         31:0] params_i,
+    input  wire logic         [         31:0] params_i,       // parameters of code_i
     input  wire logic         [          7:0] code_late_i,    // of the other actions
-    input  wire logic         [         31:0] params_late_i,
+    input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
     input  wire logic                         ready_i,        // no setting is being worked on
-    output state_t                            state_o,
+    output state_t                            state_o,        // what the other blocks look at
     output logic                              end_o,          // an operation that wants an interrupt ends
     input  wire error_e                       error_i,        // error register
     output logic              [         23:0] answer_o,       // to the read instruction code_late_i
     // ramp table
-    output logic              [RATE_BITS-1:0] lut_addr_o,
-    input  wire logic         [STEP_BITS-1:0] lut_data_i,
+    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; thr(r) is expected two clk later
+    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r)
     // processing times
     input  wire logic                         run_open_i,     // RUN is looked at
     input  wire logic                         poll_i,         // limits and alarm are looked at
     input  wire logic                         linger_i,       // a stopped operation does not end yet
     // pins
-    input  wire levels_t                      levels_i,
-    input  wire logic                         extck_i,
-    output logic              [          5:1] s_no,
-    output logic                              hold_o,
-    output logic                              pout_no,
-    output logic                              dir_o
+    input  wire levels_t                      levels_i,       // inputs of this axis, synchronous levels
+    input  wire logic                         extck_i,        // external base clock, asynchronous
+    output logic              [          5:1] s_no,           // phases
+    output logic                              hold_o,         // at rest for the hold time
+    output logic                              pout_no,        // pulse, L = active
+    output logic                              dir_o           // 0 = CW
 );
 
   op_code_t op_code;
-  op_t op_run;
+  motion_t motion;
+  event_t event_now;
   switches_t switches;
   cause_t cause;
   setup_t setup;
-  logic home, chop, busy, moving, gated, decelerating, low, pulse, done, quantum, restart, slow_seen;
+  logic home, chop, low, quantum, restart, slow_seen;
   logic [23:0] count, remaining;
   logic [5:1] levels;
 
   assign op_code = op_code_t'(code_i);
   assign state_o = '{
-          busy: busy,
-          moving: moving,
-          decel_ok: moving && !gated && op_run.ramp && !decelerating,
+          busy: motion.busy,
+          moving: motion.moving,
+          decel_ok: motion.moving && !motion.gated && motion.op.ramp && !motion.dec,
           setup: setup
       };
 
@@ -102,11 +103,10 @@ module ppmc2104_axis
   );
 
   // What the core tells and this part does not use.
-  logic unused_top, unused_running, unused_last, unused_final, unused_stop, unused_bits;
-  base_t unused_base;
+  logic unused_bits;
   logic [RATE_BITS-1:0] unused_rate;
 
-  assign unused_bits = &{1'b0, op_code, params_i, act_i, op_run, code_late_i};
+  assign unused_bits = &{1'b0, op_code, params_i, act_i, motion, event_now, code_late_i};
 
   ppmc_axis #(
       .ClkHz        (ClkHz),
@@ -143,21 +143,10 @@ module ppmc2104_axis
       .quantum_i  (quantum),
       .clock_pin_i(extck_i),
       .restart_o  (restart),
-      .busy_o     (busy),
-      .moving_o   (moving),
-      .gated_o    (gated),
-      .decel_o    (decelerating),
-      .top_o      (unused_top),
-      .op_o       (op_run),
-      .base_o     (unused_base),
+      .motion_o   (motion),
       .rate_o     (unused_rate),
-      .running_o  (unused_running),
       .low_o      (low),
-      .pulse_o    (pulse),
-      .last_o     (unused_last),
-      .final_o    (unused_final),
-      .stop_o     (unused_stop),
-      .done_o     (done),
+      .event_o    (event_now),
       .cause_o    (cause),
       .left_o     (remaining)
   );
@@ -169,10 +158,10 @@ module ppmc2104_axis
   ) u_motor (
       .clk_i,
       .rst_ni,
-      .busy_i        (busy),
+      .busy_i        (motion.busy),
       .low_i         (low),
-      .step_i        (pulse && !op_run.pout_only),
-      .ccw_i         (op_run.ccw),
+      .step_i        (event_now.pulse && !motion.op.pout_only),
+      .ccw_i         (motion.op.ccw),
       .quantum_i     (quantum),
       .motor_i       (motor_e'(setup.motor)),
       .half_i        (setup.half),
@@ -198,7 +187,7 @@ module ppmc2104_axis
   logic fresh_q, silent_q;  // not read yet; no interrupt wanted
   logic [2:0] op_q;
 
-  assign end_o = done && !silent_q;
+  assign end_o = event_now.done && !silent_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -210,7 +199,7 @@ module ppmc2104_axis
         silent_q <= op_code.silent;
         op_q     <= op_code.op;
       end
-      if (done) fresh_q <= 1'b1;
+      if (event_now.done) fresh_q <= 1'b1;
       else if (act_i.read && code_late_i[2:0] == SEL_END) fresh_q <= 1'b0;
     end
   end
@@ -234,8 +223,9 @@ module ppmc2104_axis
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p2104_rd_08, !(act_i.read && busy && code_late_i[2:0] != SEL_ERROR))
-  `PPMC_ASSERT(p2104_aux_01, !(busy && (act_i.init || act_i.exc_off || act_i.switching || act_i.hold_delay)))
+  `PPMC_ASSERT(p2104_rd_08, !(act_i.read && motion.busy && code_late_i[2:0] != SEL_ERROR))
+  `PPMC_ASSERT(p2104_aux_01,
+               !(motion.busy && (act_i.init || act_i.exc_off || act_i.switching || act_i.hold_delay)))
 `endif
 
 endmodule

@@ -15,25 +15,25 @@ module ppmc2104_command
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     // mailbox
-    input  wire logic             ready_i,
-    input  wire logic             command_i,
-    input  wire logic    [   7:0] byte_i,
+    input  wire logic             ready_i,       // a byte is there
+    input  wire logic             command_i,     // it was written as a command
+    input  wire logic    [   7:0] byte_i,        // the byte
     input  wire logic             open_i,        // bytes may be taken
-    output logic                  take_o,
+    output logic                  take_o,        // it is taken at the coming edge
     // state of the axes
-    input  wire state_t  [AXES:1] state_i,
-    input  wire levels_t [AXES:1] levels_i,
+    input  wire state_t  [AXES:1] state_i,       // of both axes
+    input  wire levels_t [AXES:1] levels_i,      // inputs, synchronous levels
     input  wire logic    [AXES:1] building_i,    // ramp table: codes that need it wait
     // rate limits (ppmc2104_speed)
     input  wire error_e           speed_i,       // of the operation in code_o, params_o
     // result
     output logic         [AXES:1] collecting_o,  // data bytes are outstanding
-    output action_t               act_o,
-    output charge_t               charge_o,
+    output action_t               act_o,         // what the taken byte makes happen
+    output charge_t               charge_o,      // errors that it makes
     output logic         [   7:0] code_o,        // code the action belongs to
     output logic         [  31:0] params_o,      // its data bytes, the last one in the high bits
     output logic         [   7:0] code_held_o,   // the same after the C-event, while no byte is taken
-    output logic         [  31:0] params_held_o
+    output logic         [  31:0] params_held_o  // parameters of code_held_o
 );
 
   logic [2:0] awaited_q;  // data bytes outstanding

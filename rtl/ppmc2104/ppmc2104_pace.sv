@@ -18,18 +18,18 @@ module ppmc2104_pace
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     // command unit, at the C-event
-    input  wire action_t          act_i,
-    input  wire logic    [   7:0] code_i,
-    input  wire logic    [  31:0] params_i,
+    input  wire action_t          act_i,          // what the byte asks for
+    input  wire logic    [   7:0] code_i,         // its code
+    input  wire logic    [  31:0] params_i,       // its data bytes
     input  wire logic    [   7:0] code_held_i,    // the same afterwards
-    input  wire logic    [  31:0] params_held_i,
-    input  wire state_t  [AXES:1] state_i,
+    input  wire logic    [  31:0] params_held_i,  // the same afterwards
+    input  wire state_t  [AXES:1] state_i,        // of both axes
     output logic                  open_o,         // bytes may be taken
     output logic         [AXES:1] window_o,       // an instruction of this axis is being processed
     // when it takes effect
-    output action_t               act_o,
+    output action_t               act_o,          // takes effect at the coming edge
     output logic         [   7:0] code_o,         // of what happens at the end of a window
-    output logic         [  31:0] params_o,
+    output logic         [  31:0] params_o,       // data bytes of code_o
     output logic         [AXES:1] run_open_o,     // RUN is looked at
     output logic         [AXES:1] linger_o,       // a stopped operation does not end yet
     output logic                  poll_o          // limits and alarms are looked at

@@ -13,14 +13,14 @@ module ppmc2104_report
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire charge_t          charge_i,
+    input  wire charge_t          charge_i,      // errors to be entered
     input  wire logic             errint_ni,     // synchronous level
     input  wire logic    [AXES:1] end_i,         // an operation that wants an interrupt ends
     input  wire logic    [AXES:1] read_end_i,    // End status read is executed
     input  wire logic    [AXES:1] read_error_i,  // Error code read is executed
-    output error_e       [AXES:1] error_o,
-    output logic                  any_error_o,
-    output logic                  int_no
+    output error_e       [AXES:1] error_o,       // error registers
+    output logic                  any_error_o,   // one of them is not empty
+    output logic                  int_no         // L: there is a cause
 );
 
   localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);

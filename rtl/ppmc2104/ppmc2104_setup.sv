@@ -10,12 +10,12 @@ module ppmc2104_setup
 (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire axis_action_t        act_i,
+    input  wire axis_action_t        act_i,          // what this axis does at the coming edge
     input  wire init_code_t          code_i,         // with act_i.init
     input  wire logic         [31:0] params_i,       // with act_i.init
     input  wire logic         [31:0] params_late_i,  // with act_i.switching and act_i.hold_delay
     input  wire logic                ready_i,        // no setting is being worked on
-    output setup_t                   setup_o,
+    output setup_t                   setup_o,        // what is set
     output logic                     home_o,         // phases go to index 0
     output logic                     chop_o          // chop at rest
 );

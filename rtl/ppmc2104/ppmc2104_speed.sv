@@ -14,8 +14,8 @@ module ppmc2104_speed
     input  wire logic             rst_ni,
     input  wire logic    [   7:0] code_i,    // an operation, with
     input  wire logic    [  31:0] params_i,  // its data bytes
-    input  wire state_t  [AXES:1] state_i,
-    input  wire levels_t [AXES:1] levels_i,
+    input  wire state_t  [AXES:1] state_i,   // of both axes
+    input  wire levels_t [AXES:1] levels_i,  // inputs, synchronous levels
     output error_e                error_o    // what is wrong with it
 );
 

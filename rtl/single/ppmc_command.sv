@@ -14,29 +14,29 @@ module ppmc_command
     input wire logic clk_i,
     input wire logic rst_ni,
     // mailbox
-    input wire logic ready_i,
-    input wire logic command_i,
-    input wire logic [7:0] byte_i,
+    input wire logic ready_i,  // a byte is there
+    input wire logic command_i,  // it was written as a command
+    input wire logic [7:0] byte_i,  // the byte
     input wire logic open_i,  // bytes may be taken
     input wire logic stops_only_i,  // of those, stop commands only
-    output logic take_o,
+    output logic take_o,  // it is taken at the coming edge
     // what the bytes mean in this part
     input wire decoded_t decoded_i,  // byte_i as a code
     input wire logic [7:0] data_i,  // byte_i as a parameter is kept
     input wire error_e value_i,  // what is wrong with params_o; ErrUndefined: nothing
     input wire logic judged_i,  // value_i counts for the code at hand; used at once
     // state of the part
-    input wire logic busy_i,
+    input wire logic busy_i,  // a motion is under way
     input wire logic ramp_i,  // running operation has a ramp
     input wire logic decelerating_i,  // DEC, or pulses over
-    input wire logic initialised_i,
+    input wire logic initialised_i,  // operations may start
     // result
     output logic [3:0] status_o,  // ERR, NUM
-    output action_t act_o,
+    output action_t act_o,  // what the taken byte makes happen
     output logic [7:0] code_o,  // code the action belongs to
     output logic [31:0] params_o,  // its parameter bytes, the last one in the high bits
     output logic [7:0] code_held_o,  // the same after the C-event, while no byte is taken
-    output logic [31:0] params_held_o
+    output logic [31:0] params_held_o  // parameters of code_held_o
 );
 
   decoded_t dec_q;  // of byte_i, a clk behind it

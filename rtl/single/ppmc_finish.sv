@@ -20,12 +20,12 @@ module ppmc_finish
     input  wire logic     [ 3:0] cause_i,      // steady at rest: stop, alarm, limit, slow-down limit
     input  wire logic            read_i,       // a read command is executed
     input  wire logic     [ 2:0] select_i,     // which
-    input  wire logic     [23:0] remaining_i,
+    input  wire logic     [23:0] remaining_i,  // pulses left, as SEL_REMAINING shows them
     input  wire logic     [ 7:0] inputs_i,     // pin levels as SEL_INPUTS shows them
     input  wire logic     [ 7:0] outputs_i,    // as SEL_OUTPUTS shows them
     input  wire logic     [ 3:0] auxi_i,       // as SEL_AUX_IN shows them
-    output logic          [23:0] answer_o,
-    output logic                 int_no
+    output logic          [23:0] answer_o,     // what the read command shows, first byte in the low bits
+    output logic                 int_no        // L: a motion has ended
 );
 
   logic fresh_q, silent_q;  // not read yet; no interrupt wanted

@@ -22,20 +22,20 @@ module ppmc_pace
     input  wire logic                   clk_i,
     input  wire logic                   rst_ni,
     // command unit, at the C-event
-    input  wire action_t                act_i,
-    input  wire logic    [         7:0] code_i,
-    input  wire logic    [        31:0] params_i,
+    input  wire action_t                act_i,          // what the byte asks for
+    input  wire logic    [         7:0] code_i,         // its code
+    input  wire logic    [        31:0] params_i,       // its parameters
     input  wire logic    [         7:0] code_held_i,    // the same afterwards
-    input  wire logic    [        31:0] params_held_i,
+    input  wire logic    [        31:0] params_held_i,  // the same afterwards
     input  wire logic    [         2:0] base_i,         // base clock as it is selected now
     output logic                        open_o,         // bytes may be taken
     // when it takes effect
-    output action_t                     act_o,
-    output logic         [         7:0] code_o,
-    output logic         [        31:0] params_o,
-    output logic         [         2:0] base_o,
+    output action_t                     act_o,          // takes effect at the coming edge
+    output logic         [         7:0] code_o,         // code that act_o belongs to
+    output logic         [        31:0] params_o,       // its parameters
+    output logic         [         2:0] base_o,         // base clock of the operation that starts
     // initialisation
-    input  wire logic                   initialised_i,
+    input  wire logic                   initialised_i,  // an initialisation has been completed
     input  wire logic                   building_i,     // ramp table
     input  wire logic    [StepBits-1:0] steps_i,        // PA in force
     output logic                        home_o,         // phases to index 0, first initialisation
@@ -43,10 +43,10 @@ module ppmc_pace
     // motion
     input  wire logic                   ramp_i,         // the running operation has a ramp
     input  wire logic                   single_i,       // is a single step
-    input  wire logic                   stop_i,
-    input  wire logic                   pulse_i,
-    input  wire logic                   last_i,
-    input  wire logic                   final_i,
+    input  wire logic                   stop_i,         // immediate end decided at the coming edge
+    input  wire logic                   pulse_i,        // pulse event at the coming edge
+    input  wire logic                   last_i,         // with pulse_i: the last one
+    input  wire logic                   final_i,        // with pulse_i: and the count is complete
     output logic                        go_o,           // pulse 1 may come
     output logic                        linger_o        // the motion must not end yet
 );

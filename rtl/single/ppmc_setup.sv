@@ -19,8 +19,8 @@ module ppmc_setup
     input  wire logic              positive_i,    // with home_i
     input  wire logic              ready_i,       // the initialisation is complete
     input  wire logic              off_i,         // back to not initialised
-    output setup_t                 setup_o,
-    output logic                   initialised_o
+    output setup_t                 setup_o,       // what is set
+    output logic                   initialised_o  // operations may start
 );
 
   logic chop_next_q, first;

@@ -44,8 +44,9 @@ module ppmc_single
     input  wire logic             clock_pin_i,    // external base clock, asynchronous
     input  wire switches_t        switches_i,     // synchronous levels
     input  wire logic             slow_i,         // act on a slow-down limit; slow_seen_o, or later
-    output logic                  slow_seen_o,    // a slow-down limit counts
+    output logic                  slow_seen_o,    // a slow-down limit is seen that counts
     output motion_t               motion_o,       // how the motion stands
+    output logic           [ 7:0] rate_o,         // rate of its running interval
     // answers
     input  wire logic      [ 7:0] inputs_i,       // levels of the inputs as the host reads them
     input  wire logic      [ 3:0] auxi_i,         // auxiliary inputs
@@ -56,7 +57,7 @@ module ppmc_single
 
   // ---- host ----------------------------------------------------------------------------------------
 
-  logic ready, is_command, take, open, busy, decelerating, initialised, building;
+  logic ready, is_command, take, open, initialised, building;
   logic [ 7:0] code_late;
   logic [31:0] params_held;
   logic [ 3:0] judgement;
@@ -76,7 +77,7 @@ module ppmc_single
       .d_i,
       .d_o,
       .d_oe_o,
-      .state_i  ({judgement, 1'b0, busy}),
+      .state_i  ({judgement, 1'b0, motion_o.busy}),
       .ready_o  (ready),
       .command_o(is_command),
       .byte_o   (sent_o.data),
@@ -99,9 +100,9 @@ module ppmc_single
       .data_i        (meaning_i.data),
       .value_i       (verdict_i.value),
       .judged_i      (verdict_i.judged),
-      .busy_i        (busy),
+      .busy_i        (motion_o.busy),
       .ramp_i        (motion_o.op.ramp),
-      .decelerating_i(decelerating || !motion_o.moving),
+      .decelerating_i(motion_o.dec || !motion_o.moving),
       .initialised_i (initialised),
       .status_o      (judgement),
       .act_o         (act_taken),
@@ -164,7 +165,8 @@ module ppmc_single
     endcase
   end
 
-  logic quantum, restart, low, pulse, last, final_pulse, stop, done, go, linger, unused_gated;
+  logic quantum, restart, low, go, linger;
+  event_t event_now;
   base_t base_late;
   cause_t cause;
   logic [5:1] levels;
@@ -215,21 +217,10 @@ module ppmc_single
       .quantum_i  (quantum),
       .clock_pin_i,
       .restart_o  (restart),
-      .busy_o     (busy),
-      .moving_o   (motion_o.moving),
-      .gated_o    (unused_gated),
-      .decel_o    (decelerating),
-      .top_o      (motion_o.top),
-      .op_o       (motion_o.op),
-      .base_o     (motion_o.base),
-      .rate_o     (motion_o.rate),
-      .running_o  (motion_o.running),
+      .motion_o,
+      .rate_o,
       .low_o      (low),
-      .pulse_o    (pulse),
-      .last_o     (last),
-      .final_o    (final_pulse),
-      .stop_o     (stop),
-      .done_o     (done),
+      .event_o    (event_now),
       .cause_o    (cause),
       .left_o     (remaining)
   );
@@ -263,10 +254,10 @@ module ppmc_single
       .ready_o      (ready_init),
       .ramp_i       (motion_o.op.ramp),
       .single_i     (motion_o.op.single),
-      .stop_i       (stop),
-      .pulse_i      (pulse),
-      .last_i       (last),
-      .final_i      (final_pulse),
+      .stop_i       (event_now.stop),
+      .pulse_i      (event_now.pulse),
+      .last_i       (event_now.last),
+      .final_i      (event_now.complete),
       .go_o         (go),
       .linger_o     (linger)
   );
@@ -280,7 +271,7 @@ module ppmc_single
       .rst_ni,
       .start_i    (act_o.start),
       .op_code_i  (op_code),
-      .done_i     (done),
+      .done_i     (event_now.done),
       .cause_i    (cause),
       .read_i     (act_taken.read),
       .select_i   (verdict_i.select),
@@ -301,9 +292,9 @@ module ppmc_single
   ) u_motor (
       .clk_i,
       .rst_ni,
-      .busy_i        (busy),
+      .busy_i        (motion_o.busy),
       .low_i         (low),
-      .step_i        (pulse && !motion_o.op.pout_only),
+      .step_i        (event_now.pulse && !motion_o.op.pout_only),
       .ccw_i         (motion_o.op.ccw),
       .quantum_i     (quantum),
       .motor_i       (motor_e'(setup_o.motor)),

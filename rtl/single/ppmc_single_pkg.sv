@@ -57,16 +57,6 @@ package ppmc_single_pkg;
     logic [31:0] setup;   // the parameters as an initialisation sets them
   } verdict_t;
 
-  // The motion as it stands.
-  typedef struct packed {
-    logic       moving;   // before pulse 1 or between pulses
-    logic       running;  // between pulses
-    logic       top;      // on the plateau of the ramp
-    op_t        op;       // the running or last operation
-    base_t      base;     // its base clock
-    logic [7:0] rate;     // rate of the running interval
-  } motion_t;
-
   // Pins of the motor, each a flip-flop.
   typedef struct packed {
     logic [5:1] s;       // phases

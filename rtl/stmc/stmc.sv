@@ -132,11 +132,12 @@ module stmc
   error_e fault;
   logic [31:0] unused_params;
   logic slow, unused_bits;
-  setup_t  setup;
+  setup_t setup;
   action_t unused_act;
   motion_t unused_motion;
-  motor_t  motor;
-  base_t   base;
+  logic [RATE_BITS-1:0] unused_rate;
+  motor_t motor;
+  base_t base;
 
   assign unused_bits = &{1'b0, asked, setup, motor, sent};
 
@@ -186,6 +187,7 @@ module stmc
       .slow_i       (slow),
       .slow_seen_o  (slow),
       .motion_o     (unused_motion),
+      .rate_o       (unused_rate),
       .inputs_i     ({cnp, mon_s, 2'b00, l1, l2, l3, l4}),
       .auxi_i       ('0),
       .chop_i       (Chop),

@@ -35,8 +35,7 @@ class Bridge:
         counter: bool = True,
         axes: int = 1,
     ) -> None:
-        self._engine = Engine(bus, part, clk_hz, xtal_hz, datasheet, counter, axes)
-        self._engine.set_events = self._set_events  # type: ignore[method-assign]
+        self._engine = Engine(bus, part, clk_hz, xtal_hz, datasheet, counter, axes, self._set_events)
         self._receiver = Receiver()
         self._stored: tuple[int, bytes] | None = None
         self._event = False

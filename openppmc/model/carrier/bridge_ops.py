@@ -46,12 +46,21 @@ class Stop(Exception):  # noqa: N818 - not an error of the program: the script e
 
 
 class Engine:
-    """Runs scripts. `events` is the EVENTS switch, `rate` the rate code that op RATE asked for, or None."""
+    """Runs scripts. `events` is the EVENTS switch, `rate` the rate code that op RATE asked for, or None.
+    set_events(on): op EVENTS; who owns the engine looks after what is pending."""
 
     def __init__(
-        self, bus: Bus, part: int, clk_hz: int, xtal_hz: int, datasheet: bool, counter: bool, axes: int
+        self,
+        bus: Bus,
+        part: int,
+        clk_hz: int,
+        xtal_hz: int,
+        datasheet: bool,
+        counter: bool,
+        axes: int,
+        set_events: Callable[[bool], None],
     ) -> None:
-        self._bus = bus
+        self._bus, self._set_events = bus, set_events
         self._top_system_op = 9 + 2 * (axes - 1)
         self._clk_hz = clk_hz
         self.best_rate = max((c for c, rate in enumerate(RATES) if c and clk_hz >= 5 * rate), default=0)
@@ -151,7 +160,7 @@ class Engine:
         elif code == 0x03:
             if operands[0] > 1:
                 raise Stop(3)
-            self.set_events(bool(operands[0]))
+            self._set_events(bool(operands[0]))
         elif code == 0x04:
             self._limit_ms = int.from_bytes(operands, "little")
         elif code == 0x05:
@@ -168,10 +177,6 @@ class Engine:
             self._give_all((self.hook("count", 0, 2) & 0xFFFF_FFFF).to_bytes(4, "little"))
         elif code == 0x0B:
             self.hook("zero", None, 2)
-
-    def set_events(self, on: bool) -> None:
-        """Op EVENTS; the bridge replaces this to look after what is pending."""
-        self.events = on
 
     def _call(self, command: bytes) -> None:
         if len(self._data) >= MOST_DATA:

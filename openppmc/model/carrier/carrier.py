@@ -14,7 +14,7 @@ WRITE_STROBE, READ_STROBE, PAUSE = 4, 6, 4
 RESET_CLK = 16
 
 
-P = TypeVar("P", bound=Chip)
+P_co = TypeVar("P_co", bound=Chip, covariant=True)
 
 
 class Place(Protocol):
@@ -28,7 +28,7 @@ class Place(Protocol):
         """Levels of the switches at a position."""
 
 
-class Carrier(ABC, Generic[P]):
+class Carrier(ABC, Generic[P_co]):
     """A part whose motors follow `pout_n` and `dir`, one plant an axis.
 
     `t` is the next free clk edge. `positions` are the motors',
@@ -39,7 +39,7 @@ class Carrier(ABC, Generic[P]):
     ADDRESS_BITS = 1
     INTERRUPT = "int_n"
 
-    def __init__(self, part: P, plants: Sequence[Place], on_interrupt: Callable[[], None]) -> None:
+    def __init__(self, part: P_co, plants: Sequence[Place], on_interrupt: Callable[[], None]) -> None:
         self.part = part
         self.clk_hz = part.timebase.clk_hz
         self.plants = tuple(plants)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Generic, Protocol, TypeVar
 
 from ... import parts
 
@@ -65,15 +65,18 @@ class LineSpec(Protocol):
         """Seconds after which the port goes away."""
 
 
-@dataclass(frozen=True)
-class LineKind:
-    """parse: the text as a spec, ValueError for a bad one. at_rate: the text for a host that uses this line
-    rate. known: the words. make: the line of a spec, as `parse` gives it."""
+S = TypeVar("S", bound=LineSpec)
 
-    parse: Callable[[str], LineSpec]
+
+@dataclass(frozen=True)
+class LineKind(Generic[S]):
+    """parse: the text as a spec, ValueError for a bad one. at_rate: the text for a host that uses this line
+    rate. known: the words. make: the line of such a spec."""
+
+    parse: Callable[[str], S]
     at_rate: Callable[[str, int], str]
     known: str
-    make: Callable[[Any], VirtualLine]
+    make: Callable[[S], VirtualLine]
 
 
 def line_parts() -> tuple[str, ...]:
@@ -81,9 +84,9 @@ def line_parts() -> tuple[str, ...]:
     return tuple(row.name for row in parts.having("line", "machine"))
 
 
-def line_kind(part: str) -> LineKind:
+def line_kind(part: str) -> LineKind[LineSpec]:
     """What the part's own `line.py` says."""
-    kind: LineKind = parts.part(part).load("machine")
+    kind: LineKind[LineSpec] = parts.part(part).load("machine")
     return kind
 
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any
 
 from ... import parts
 from ...model.carrier.carrier import Carrier
 from ...model.carrier.plant import FARTHEST, Plant
+from ...model.common.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
@@ -42,7 +42,7 @@ class MachineKind:
     """
 
     called: str
-    carrier: Callable[[Setup], Carrier[Any]]
+    carrier: Callable[[Setup], Carrier[Chip]]
     axes: int = 1
     plant: Plant = Plant()
     encoder: bool = False

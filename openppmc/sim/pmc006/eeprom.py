@@ -58,21 +58,21 @@ class QuickBus(Bus):
     def let_go(self) -> None:
         """There are no wires."""
 
-    def start(self) -> Course:
+    def start(self) -> Course[None]:
         yield
         self._eeprom.start()
 
-    def stop(self) -> Course:
+    def stop(self) -> Course[None]:
         yield
         self._eeprom.stop()
 
-    def write(self, byte: int | Callable[[], int]) -> Course:
+    def write(self, byte: int | Callable[[], int]) -> Course[bool]:
         yield
         if self._eeprom.missing:
             raise BusError
         self._eeprom.take(byte if isinstance(byte, int) else byte())
         return True
 
-    def read(self, last: bool) -> Course:
+    def read(self, last: bool) -> Course[int]:
         yield
         return self._eeprom.give()

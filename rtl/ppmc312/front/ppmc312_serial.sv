@@ -55,6 +55,9 @@ module ppmc312_serial
   logic valid, error, take_valid, framing, unused_break;
   logic head, poll, run, fault, strange, overrun, busy, send, sent;
   logic [1:0] index;
+  logic we;
+  logic [3:0] at;
+  logic [7:0] placed;
   serial_code_t info;
   reply_t reply;
 
@@ -113,9 +116,9 @@ module ppmc312_serial
       .busy_i   (busy),
       .code_o   (code),
       .info_i   (info),
-      .we_o     (byte_o.we),
+      .we_o     (we),
       .head_o   (head),
-      .at_o     (byte_o.at),
+      .at_o     (at),
       .data_o   (data),
       .poll_o   (poll),
       .run_o    (run),
@@ -127,13 +130,15 @@ module ppmc312_serial
   ppmc312_block u_block (
       .clk_i,
       .info_i(info),
-      .we_i  (byte_o.we),
+      .we_i  (we),
       .head_i(head),
-      .at_i  (byte_o.at),
+      .at_i  (at),
       .data_i(data),
-      .data_o(byte_o.data),
+      .data_o(placed),
       .size_o(offer_o.size)
   );
+
+  assign byte_o = '{we: we, at: at, data: placed};
 
   ppmc312_replies u_replies (
       .clk_i,

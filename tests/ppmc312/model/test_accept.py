@@ -6,54 +6,56 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import T1, TF, Host
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Answer, Code
 
 # States INI, NOR, ACC, FIX, ABN, WRN; O accepted, . refused. Blocks with 05 for flags have OV = 1.
 ROWS = [
     (T1, "OO...."),
     ("02 03 01 01 03", "OO...."),
-    ("03 04 02 00 0001", "OO...."),
-    ("03 04 03 00 0001", "OO...."),
-    ("03 05 04 00000001", "OO...."),
-    ("03 03 05 0100", ".O...."),
-    ("03 02 06 00", "OO...."),
-    ("03 02 80 00", "..OO.."),
-    ("03 02 80 05", ".OOO.."),
-    ("03 02 81 00", "..OO.."),
-    ("03 02 81 05", ".OOO.."),
-    ("03 08 82 00 0000 00000001", ".O...."),
-    ("03 08 82 05 0000 00000001", ".OOO.."),
-    ("03 08 83 00 0000 00000001", ".O...."),
-    ("03 08 83 05 0000 00000001", ".OOO.."),
-    ("03 02 84 00", ".O...."),
-    ("03 04 85 00 0000", ".O...."),
-    ("03 04 85 05 0000", ".OOO.."),
-    ("03 04 86 00 0000", ".O...."),
-    ("03 04 86 05 0000", ".OOO.."),
-    ("03 04 87 00 0100", "...O.."),
-    ("03 04 87 05 0100", ".OOO.."),
-    ("03 04 88 00 0100", "..OO.."),
-    ("03 04 88 05 0100", ".OOO.."),
-    ("03 04 10 00 0100", ".O...."),
-    ("03 04 11 00 0100", ".O...."),
-    ("03 01 20", "OO...."),
-    ("03 01 21", "OO...."),
-    ("03 01 22", "OO...."),
-    ("03 01 23", "OO...."),
-    ("03 01 24", "OO..OO"),
-    ("03 01 25", "OOOOOO"),
-    ("03 02 26 00", "OOOOOO"),
-    ("03 01 27", "OOOOOO"),
-    ("03 03 28 00 00", "OO...."),
-    ("03 01 40", "OOOOOO"),
-    ("03 01 41", ".O...."),
-    ("03 02 42 00", "OOOOOO"),
-    ("03 06 43 00 00000000", "OO...."),
-    ("03 01 44", ".O...."),
-    ("03 01 45", ".O...O"),
-    ("03 01 47", ".O...."),
-    ("03 02 49 02", ".O...."),
-    ("03 01 4D", "OOOOOO"),
-    ("03 01 FF", "OOOOOO"),
+    (message(Code.IN_POSITION, "00 0001"), "OO...."),
+    (message(Code.ENCODE, "00 0001"), "OO...."),
+    (message(Code.INTERLOCK_POSITION, "00000001"), "OO...."),
+    (message(Code.SPEED_LIMIT, "0100"), ".O...."),
+    (message(Code.END_TERMINAL, "00"), "OO...."),
+    (message(Code.STOP, "00"), "..OO.."),
+    (message(Code.STOP, "05"), ".OOO.."),
+    (message(Code.SLOW_STOP, "00"), "..OO.."),
+    (message(Code.SLOW_STOP, "05"), ".OOO.."),
+    (message(Code.RAMP, "00 0000 00000001"), ".O...."),
+    (message(Code.RAMP, "05 0000 00000001"), ".OOO.."),
+    (message(Code.CONSTANT, "00 0000 00000001"), ".O...."),
+    (message(Code.CONSTANT, "05 0000 00000001"), ".OOO.."),
+    (message(Code.STEP, "00"), ".O...."),
+    (message(Code.FOREVER_RAMP, "00 0000"), ".O...."),
+    (message(Code.FOREVER_RAMP, "05 0000"), ".OOO.."),
+    (message(Code.FOREVER_CONSTANT, "00 0000"), ".O...."),
+    (message(Code.FOREVER_CONSTANT, "05 0000"), ".OOO.."),
+    (message(Code.RAMP_CHANGE, "00 0100"), "...O.."),
+    (message(Code.RAMP_CHANGE, "05 0100"), ".OOO.."),
+    (message(Code.CHANGE, "00 0100"), "..OO.."),
+    (message(Code.CHANGE, "05 0100"), ".OOO.."),
+    (message(Code.ORIGIN_SEARCH, "00 0100"), ".O...."),
+    (message(Code.ZERO_RETURN, "00 0100"), ".O...."),
+    (message(Code.EXCITATION_ON), "OO...."),
+    (message(Code.EXCITATION_OFF), "OO...."),
+    (message(Code.COUNTER_CLEAR), "OO...."),
+    (message(Code.ZERO_CLAMP), "OO...."),
+    (message(Code.ALARM_CLEAR), "OO..OO"),
+    (message(Code.INPUT), "OOOOOO"),
+    (message(Code.OUTPUT, "00"), "OOOOOO"),
+    (message(Code.TERMINALS), "OOOOOO"),
+    (message(Code.MASK, "00 00"), "OO...."),
+    (message(Code.VERSION), "OOOOOO"),
+    (message(Code.TABLE_READ), ".O...."),
+    (message(Code.POSITION_READ, "00"), "OOOOOO"),
+    (message(Code.POSITION_SET, "00 00000000"), "OO...."),
+    (message(Code.INTERLOCK), ".O...."),
+    (message(Code.RUN_MONITOR), ".O...O"),
+    (message(Code.EVENT_READ), ".O...."),
+    (message(Code.EVENT_SET, "02"), ".O...."),
+    (message(Code.STATUS), "OOOOOO"),
+    (message(Code.RESET), "OOOOOO"),
 ]
 CONDITIONS = (0x01, 0x02, 0x04, 0x08, 0x10, 0x20)
 
@@ -62,16 +64,16 @@ def in_state(condition: int) -> Host:
     """A host whose part is in this state."""
     host = Host(*(TF if condition != 0x01 else ()))
     if condition == 0x04:
-        host.ask("03 08 82 00 0000 00001388")
+        host.ask(message(Code.RAMP, "00 0000 00001388"))
     elif condition == 0x08:
-        host.ask("03 04 86 00 0190")
+        host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     elif condition == 0x10:
         host.pins(alm_n=0)
         host.response()
         host.pins(alm_n=1)
     elif condition == 0x20:
         host.pins(run=0)
-        host.ask("03 02 84 00")
+        host.ask(message(Code.STEP, "00"))
     assert host.condition == condition
     return host
 
@@ -82,6 +84,6 @@ def test_accept_table(block: str, row: str) -> None:
     for condition, letter in zip(CONDITIONS, row, strict=True):
         answer = in_state(condition).ask(block)
         if letter == ".":
-            assert answer == f"03 03 F1 00 {condition:02X}", hex(condition)
+            assert answer == message(Answer.STATUS, f"00 {condition:02X}"), hex(condition)
         else:
             assert answer.split()[2] in (block.split()[2], "E8"), (hex(condition), answer)

@@ -21,6 +21,8 @@ from cocotb_tests.ppmc312.host import (
     WCR,
     Host,
 )
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 from openppmc.model.ppmc312.pins import OUTPUTS
 
 
@@ -45,7 +47,7 @@ def test_interrupt_levels() -> None:
     host.write(CSR, 0x10)
     host.pause(8)
     assert host.out("irq_n") == 1
-    host.issue("03 01 40")
+    host.issue(message(Code.VERSION))
     host.wait()
     assert host.out("irq_n") == 0
     for _ in range(3):
@@ -59,7 +61,7 @@ def test_interrupt_levels() -> None:
 @verifies("P312-CHK-03", "P312-PAR-07", "P312-BAD-08")
 def test_read_window() -> None:
     host = Host()
-    host.issue("03 01 40")
+    host.issue(message(Code.VERSION))
     host.wait()
     assert host.read(RAR) == 0x3C
     assert [host.read(DRR) for _ in range(2)] == [0x12, 0x40]
@@ -73,10 +75,12 @@ def test_read_window() -> None:
 @verifies("P312-CHK-04", "P312-CHK-05", "P312-CHK-06")
 def test_states_and_lengths() -> None:
     host = Host()
-    assert host.ask("03 02 84 00") == "03 03 F1 00 01"
-    assert host.ask(T1) == "03 01 00"
-    assert host.ask("03 01 4D") == "03 04 4D 00 02 00"
-    assert host.ask("03 08 00 01 03 E8 00 C8 00 07") == "03 0A F0 00 00 01 03 E8 00 C8 00 07"
+    assert host.ask(message(Code.STEP, "00")) == message(Answer.STATUS, "00 01")
+    assert host.ask(T1) == message(Code.INITIAL)
+    assert host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
+    assert host.ask(message(Code.INITIAL, "01 03 E8 00 C8 00 07")) == message(
+        Answer.PARAMETER, "00 00 01 03 E8 00 C8 00 07"
+    )
     assert host.condition == 0x01
     host.pause(10_000)
     assert host.pulses() == []
@@ -99,7 +103,7 @@ def test_states_and_lengths() -> None:
 def test_initial_errors(number: str, setting: str) -> None:
     host = Host(T1)
     data = bytes.fromhex(setting)
-    answer = host.ask(f"03 {len(data) + 1:02X} 00 {data.hex()}")
+    answer = host.ask(message(Code.INITIAL, f"{data.hex()}"))
     assert answer == f"03 {len(data) + 3:02X} F0 {number} 00 {data.hex(' ').upper()}"
     assert host.condition == 0x01
 
@@ -111,23 +115,23 @@ def test_table_read() -> None:
         (T3, 79, "02 0A 41 7F 7F 60 00 07 D0 00 05 DC"),
     ):
         host = Host(setting)
-        assert host.ask("03 01 41") == first
+        assert host.ask(message(Code.TABLE_READ)) == first
         blocks = []
         for left in range(count - 1, 0, -1):
             host.wait()
             assert bool(host.read(CSR) & MWEF) == (left > 1)
             blocks.append(host.response())
         assert [block[:2] for block in blocks] == ["00"] * (count - 2) + ["01"]
-        assert host.quiet() and host.ask("03 01 40") == "03 02 40 12"
+        assert host.quiet() and host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
 
 
 @verifies("P312-CHK-12")
 def test_free_curve() -> None:
     host = Host(T1)
-    assert host.ask(TF[0]) == "03 03 01 00 03"
+    assert host.ask(TF[0]) == message(Code.FREE_CURVE, "00 03")
     assert host.condition == 0x01
-    assert host.ask(TF[1]) == "03 03 01 01 03"
-    assert host.ask(TF[2]) == "03 08 01 0F 00 00 0C 00 00 0C"
+    assert host.ask(TF[1]) == message(Code.FREE_CURVE, "01 03")
+    assert host.ask(TF[2]) == message(Code.FREE_CURVE, "0F 00 00 0C 00 00 0C")
     assert host.condition == 0x02
 
 
@@ -140,8 +144,8 @@ def test_free_curve() -> None:
         ("11", ("02 03 01 01 01",)),
         ("11", ("02 03 01 01 80",)),
         ("11", ("02 02 01 01",)),
-        ("10", ("03 03 01 01 03",)),
-        ("10", ("03 02 01 01",)),
+        ("10", (message(Code.FREE_CURVE, "01 03"),)),
+        ("10", (message(Code.FREE_CURVE, "01"),)),
         ("16", (TF[0], "00 05 0064 00C8 01")),
         ("16", (TF[0], "00 05 0064 00C8")),
         ("15", (TF[0], "00 1F 0064 00C8")),
@@ -153,57 +157,57 @@ def test_free_curve_errors(number: str, blocks: tuple[str, ...]) -> None:
     echo = bytes.fromhex(blocks[-1])[2:]
     assert host.ask(blocks[-1]) == f"03 {len(echo) + 2:02X} F0 {number} {echo.hex(' ').upper()}"
     assert host.condition == 0x01
-    assert host.ask("03 01 40") == "03 02 40 12"
-    assert host.ask(RATES) == "03 03 F1 01 01"
+    assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
+    assert host.ask(RATES) == message(Answer.STATUS, "01 01")
 
 
 @verifies("P312-CHK-14")
 def test_instruction_inside_a_transfer() -> None:
     host = Host(TF[0])
-    assert host.ask("03 01 40") == "03 03 F1 02 01"
-    assert host.ask("03 01 40") == "03 02 40 12"
+    assert host.ask(message(Code.VERSION)) == message(Answer.STATUS, "02 01")
+    assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
     host = Host(TF[0])
-    assert host.ask("03 01 FF") == "03 01 FF"
-    assert host.ask(TF[1]) == "03 03 F1 01 01"
+    assert host.ask(message(Code.RESET)) == message(Code.RESET)
+    assert host.ask(TF[1]) == message(Answer.STATUS, "01 01")
 
 
 @verifies("P312-CHK-18")
 def test_parameter_errors() -> None:
     host = Host(*TF)
     for data, number in (("00 0063 0000001E", 0x20), ("00 0191 0000001E", 0x20), ("00 0000 00000000", 0x23)):
-        assert host.ask(f"03 08 82 {data}").startswith(f"03 0A F0 {number:02X} 82")
+        assert host.ask(message(Code.RAMP, data)).startswith(f"03 0A F0 {number:02X} 82")
     for block, number in (
-        ("03 04 10 00 0000", 0x20),
-        ("03 03 05 0001", 0x20),
-        ("03 02 06 02", 0x23),
-        ("03 02 42 02", 0x23),
-        ("03 06 43 02 00000000", 0x23),
-        ("03 02 47 02", 0x24),
-        ("03 04 02 01 0000", 0x26),
-        ("03 04 03 01 0000", 0x27),
-        ("03 01 84", 0x23),
-        ("03 04 49 00 03 01", 0x25),
-        ("03 01 49", 0x25),
-        ("03 03 49 02 00", 0x25),
+        (message(Code.ORIGIN_SEARCH, "00 0000"), 0x20),
+        (message(Code.SPEED_LIMIT, "0001"), 0x20),
+        (message(Code.END_TERMINAL, "02"), 0x23),
+        (message(Code.POSITION_READ, "02"), 0x23),
+        (message(Code.POSITION_SET, "02 00000000"), 0x23),
+        (message(Code.EVENT_READ, "02"), 0x24),
+        (message(Code.IN_POSITION, "01 0000"), 0x26),
+        (message(Code.ENCODE, "01 0000"), 0x27),
+        (message(Code.STEP), 0x23),
+        (message(Code.EVENT_SET, "00 03 01"), 0x25),
+        (message(Code.EVENT_SET), 0x25),
+        (message(Code.EVENT_SET, "02 00"), 0x25),
     ):
         assert host.ask(block).split()[2:4] == ["F0", f"{number:02X}"], block
-    assert host.ask("03 04 02 00 0000") == "03 01 02"
+    assert host.ask(message(Code.IN_POSITION, "00 0000")) == message(Code.IN_POSITION)
     assert host.condition == 0x02
 
 
 @verifies("P312-CHK-51", "P312-BAD-05", "P312-BAD-06")
 def test_bad_blocks() -> None:
     host = Host(T1)
-    assert host.ask("03 02 40") == "03 02 F6 02"
-    assert host.ask("03 00 40") == "03 02 F6 00"
-    assert host.ask("07 01 40") == "03 03 F1 01 02"
-    assert host.ask("02 01 40") == "03 03 F1 01 02"
-    assert host.ask("03 01 46") == "03 02 F5 46"
+    assert host.ask("03 02 40") == message(Answer.SIZE, "02")
+    assert host.ask("03 00 40") == message(Answer.SIZE, "00")
+    assert host.ask("07 01 40") == message(Answer.STATUS, "01 02")
+    assert host.ask("02 01 40") == message(Answer.STATUS, "01 02")
+    assert host.ask("03 01 46") == message(Answer.COMMAND, "46")
     host.mark = host.t
     host.put("03")
-    assert host.response() == "03 02 F6 00"
+    assert host.response() == message(Answer.SIZE, "00")
     long = "03 1F" + " 40" * 30
-    assert host.ask(long) == "03 02 F6 1F"
+    assert host.ask(long) == message(Answer.SIZE, "1F")
 
 
 @verifies("P312-CHK-52", "P312-BAD-02", "P312-BAD-03", "P312-BAD-07", "P312-BAD-10")
@@ -220,7 +224,7 @@ def test_write_window() -> None:
     host.write(WAR, 0x1C)
     host.write(DWR, 0x99)
     assert host.quiet() and not host.read(CSR) & MWEF
-    assert host.ask("03 01 40") == "03 02 40 12"
+    assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
     host.write(DWR, 0x03)
     assert host.quiet()
     host.model.pins(host.t, cs_n=0, we_n=0, oe_n=0, rs=CSR, d_i=0x70)
@@ -243,23 +247,23 @@ def test_wait_request() -> None:
     host = Host(timing="DATASHEET")
     host.write(CSR, 0x40)
     host.mark = host.t
-    host.put("03 01 40")
+    host.put(message(Code.VERSION))
     host.pause(20)
     low, high = host.model.log.of("wrq_n", host.mark)
     second, third = host.header - 6, host.header
     assert (low[1], high[1]) == (0, 1)
     assert low[0] - (second - 3) in range(0, 5) and high[0] - third in range(0, 13)
-    assert host.response() == "03 02 40 12"
+    assert host.response() == message(Code.VERSION, "12")
 
 
 @verifies("P312-CHK-39", "P312-RSP-20")
 def test_two_instructions_without_reading() -> None:
     host = Host(T1)
-    host.issue("03 01 40")
+    host.issue(message(Code.VERSION))
     host.pause(200)
-    host.issue("03 02 26 3F")
-    assert host.response() == "03 02 40 12"
-    assert host.response() == "23 02 F4 01"
+    host.issue(message(Code.OUTPUT, "3F"))
+    assert host.response() == message(Code.VERSION, "12")
+    assert host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
     assert host.condition == 0x10 and host.out("auxo_n") == 0x3F
     assert host.quiet()
 
@@ -268,21 +272,21 @@ def test_two_instructions_without_reading() -> None:
 def test_alarm_clear_waits_for_the_pin() -> None:
     host = Host(T1)
     host.pins(alm_n=0)
-    assert host.response() == "23 02 F4 00"
-    assert host.ask("03 01 24") == "03 01 24"
+    assert host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
+    assert host.ask(message(Code.ALARM_CLEAR)) == message(Code.ALARM_CLEAR)
     host.pause(160_000)
     assert host.condition == 0x10
     host.pins(alm_n=1)
     host.pause(10)
     assert host.condition == 0x02
     host.pins(alm_n=0)
-    assert host.response() == "23 02 F4 00"
-    host.ask("03 01 24")
+    assert host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
+    host.ask(message(Code.ALARM_CLEAR))
     host.pause(400_000)
     host.pins(alm_n=1)
     host.pause(1000)
     assert host.condition == 0x10
-    host.ask("03 01 24")
+    host.ask(message(Code.ALARM_CLEAR))
     assert host.condition == 0x02
     host.pause(400_000)
     low, high = host.model.log.of("aclr_n")[-2:]
@@ -291,9 +295,9 @@ def test_alarm_clear_waits_for_the_pin() -> None:
 
 @verifies("P312-CHK-62")
 def test_software_reset() -> None:
-    host = Host(T1, "03 06 43 00 00000007", "03 02 26 3F")
+    host = Host(T1, message(Code.POSITION_SET, "00 00000007"), message(Code.OUTPUT, "3F"))
     host.write(CSR, 0x70)
-    assert host.ask("03 01 FF") == "03 01 FF"
+    assert host.ask(message(Code.RESET)) == message(Code.RESET)
     assert host.read(CSR) == 0x04 and host.condition == 0x01 and host.model.position == 0
     assert host.out("auxo_n") == 0x3F and host.out("out_oe") == 1
     assert host.model.log.of("out_oe") == [(3, 1)]
@@ -303,18 +307,18 @@ def test_software_reset() -> None:
 def test_reset_recovers_a_host_that_never_read() -> None:
     host = Host(T1)
     for _ in range(4):
-        host.issue("03 01 40")
+        host.issue(message(Code.VERSION))
         host.pause(200)
-    host.issue("03 01 FF")
+    host.issue(message(Code.RESET))
     host.pause(500)
-    assert host.response() == "03 01 FF" and host.quiet() and host.condition == 0x01
+    assert host.response() == message(Code.RESET) and host.quiet() and host.condition == 0x01
 
 
 @verifies("P312-CMD-22")
 def test_counter_clear_restarts() -> None:
-    host = Host("03 01 22")
+    host = Host(message(Code.COUNTER_CLEAR))
     host.pause(100_000)
-    host.ask("03 01 22")
+    host.ask(message(Code.COUNTER_CLEAR))
     again = host.t
     host.pause(400_000)
     (low, high) = host.model.log.of("cclr_n")
@@ -323,13 +327,13 @@ def test_counter_clear_restarts() -> None:
 
 def test_terminals() -> None:
     host = Host()
-    assert host.ask("03 01 27") == "03 03 27 FF E0"
+    assert host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "FF E0")
     host.pins(fl_n=0, org_n=0, run=0, evt1_n=0)
-    assert host.ask("03 01 27") == "03 03 27 ED 40"
-    assert host.ask("03 01 20") == "03 01 20" and host.out("exon_n") == 0
-    assert host.ask("03 01 21") == "03 01 21" and host.out("exon_n") == 1
-    assert host.ask("03 01 23") == "03 01 23" and host.out("zclmp_n") == 0
-    assert host.ask("03 01 41") == "03 03 F1 00 01"
+    assert host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "ED 40")
+    assert host.ask(message(Code.EXCITATION_ON)) == message(Code.EXCITATION_ON) and host.out("exon_n") == 0
+    assert host.ask(message(Code.EXCITATION_OFF)) == message(Code.EXCITATION_OFF) and host.out("exon_n") == 1
+    assert host.ask(message(Code.ZERO_CLAMP)) == message(Code.ZERO_CLAMP) and host.out("zclmp_n") == 0
+    assert host.ask(message(Code.TABLE_READ)) == message(Answer.STATUS, "00 01")
 
 
 def test_serial_mode_is_silent_on_the_bus() -> None:
@@ -339,6 +343,6 @@ def test_serial_mode_is_silent_on_the_bus() -> None:
     model.pins(model_host.t + 20, rst_n=1)
     model_host.t += 100
     model_host.mark = model_host.t
-    model_host.put("03 01 40")
+    model_host.put(message(Code.VERSION))
     assert model_host.read(CSR) == 0
     assert not model.log.rises("d_oe", model_host.mark)

@@ -6,17 +6,19 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import CSR, MREF, T1, T2, TF, Host
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
-STOP = "03 02 80 00"
+STOP = message(Code.STOP, "00")
 
 
 @pytest.mark.parametrize(
     ("setting", "ms"),
     [
         (T1, 115),
-        ("03 0E 00 11 03E8 01F4 00C8 0007D0 0005DC", 200),
+        (message(Code.INITIAL, "11 03E8 01F4 00C8 0007D0 0005DC"), 200),
         (T2, 175),
-        ("03 0E 00 19 03E8 01F4 00C8 0007D0 0005DC", 260),
+        (message(Code.INITIAL, "19 03E8 01F4 00C8 0007D0 0005DC"), 260),
     ],
 )
 @verifies("P312-CHK-65", "P312-TIM-02", "P312-TIM-03", "P312-TIM-04", "P312-TIM-05")
@@ -35,33 +37,33 @@ def test_datasheet_run_is_the_plain_pin() -> None:
     host = Host(*TF, timing="DATASHEET")
     for low in (1, 2, 100, 5000):
         host.pins(run=0)
-        host.ask("03 04 86 00 0190")
+        host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
         assert host.condition == 0x20
         mark = host.mark = host.t
         host.pins(run=1)
         host.pause(low - 1)
         host.pins(run=0)  # one clk of RUN is enough
-        assert host.response() == "23 01 E2" and host.condition == 0x08
+        assert host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS) and host.condition == 0x08
         host.mark = mark
         assert host.pulse(1) - mark in range(80, 80 + 8)
         host.ask(STOP)
         host.response()
     # Low for 20 clk: it counts where it is tested, directly before t0, and nowhere else.
     host = Host(*TF, timing="DATASHEET")
-    host.issue("03 02 84 00")
+    host.issue(message(Code.STEP, "00"))
     delay = host.pulse(1) - 80 - host.header
     for before, held in ((300, False), (40, False), (12, True), (-20, False)):
         host = Host(*TF, timing="DATASHEET")
-        host.issue("03 02 84 00")
+        host.issue(message(Code.STEP, "00"))
         host.go(host.header + delay - before)
         host.pins(run=0)
         host.pause(19)
         host.pins(run=1)
-        assert host.response() == "03 01 84"
-        assert (host.response() == "23 01 E2") == held, before
+        assert host.response() == message(Code.STEP)
+        assert (host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)) == held, before
     host = Host(*TF, timing="DATASHEET")
     host.pins(fl_n=0, alm_n=0, org_n=0)
-    assert host.ask("03 01 27") == "03 03 27 6D E0" and host.condition == 0x02
+    assert host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "6D E0") and host.condition == 0x02
     host.pins(fl_n=1, alm_n=1, org_n=1)
 
 
@@ -69,12 +71,12 @@ def test_datasheet_run_is_the_plain_pin() -> None:
 def test_datasheet_output_time_and_ready_time() -> None:
     host = Host(timing="DATASHEET")
     assert host.model.log.of("out_oe")[0][0] - 25_600 in range(0, 8)
-    host.issue("03 02 26 01")
+    host.issue(message(Code.OUTPUT, "01"))
     host.wait()
     (edge,) = host.model.log.of("auxo_n")
     assert abs(edge[0] - host.header - 4800) <= 16
-    assert host.response() == "03 01 26"
-    host.issue("03 09 00 01 03E8 03E8 0007D0")
+    assert host.response() == message(Code.OUTPUT)
+    host.issue(message(Code.INITIAL, "01 03E8 03E8 0007D0"))
     host.pause(4096)
     assert host.response().startswith("03 0B F0 03")
 
@@ -82,18 +84,18 @@ def test_datasheet_output_time_and_ready_time() -> None:
 @pytest.mark.parametrize(
     ("block", "us"),
     [
-        ("03 08 82 40 0000 0000001E", 100),
-        ("03 08 82 40 0000 00000007", 700),
-        ("03 08 82 40 0096 00000014", 900),
-        ("03 08 82 40 0096 00000007", 1400),
-        ("03 08 83 40 0190 00000003", 400),
-        ("03 04 86 40 0190", 400),
-        ("03 04 85 40 0000", 60),
-        ("03 04 85 40 0096", 400),
-        ("03 04 11 40 0000", 60),
-        ("03 04 11 40 0096", 400),
-        ("03 04 10 40 0190", 500),
-        ("03 02 84 40", 500),
+        (message(Code.RAMP, "40 0000 0000001E"), 100),
+        (message(Code.RAMP, "40 0000 00000007"), 700),
+        (message(Code.RAMP, "40 0096 00000014"), 900),
+        (message(Code.RAMP, "40 0096 00000007"), 1400),
+        (message(Code.CONSTANT, "40 0190 00000003"), 400),
+        (message(Code.FOREVER_CONSTANT, "40 0190"), 400),
+        (message(Code.FOREVER_RAMP, "40 0000"), 60),
+        (message(Code.FOREVER_RAMP, "40 0096"), 400),
+        (message(Code.ZERO_RETURN, "40 0000"), 60),
+        (message(Code.ZERO_RETURN, "40 0096"), 400),
+        (message(Code.ORIGIN_SEARCH, "40 0190"), 500),
+        (message(Code.STEP, "40"), 500),
     ],
 )
 @verifies(
@@ -111,17 +113,17 @@ def test_datasheet_start_times(block: str, us: int) -> None:
 @verifies("P312-TIM-12", "P312-TIM-14")
 def test_datasheet_stop_and_pins() -> None:
     host = Host(*TF, timing="DATASHEET")
-    host.ask("03 04 86 00 0064")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     mark = host.mark
     host.pulse(5, 10)
     host.issue(STOP)
     header = host.header
-    assert host.response() == "03 01 80"
+    assert host.response() == message(Code.STOP)
     host.mark = mark
     assert header < host.pulses()[-1] <= header + 5616
     assert host.pulses()[-1] > header + 5600 - 1700
     host.response()
-    host.ask("03 04 86 00 0064")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     host.pulse(5, 10)
     host.pins(fl_n=0)
     host.pause(3000)
@@ -136,13 +138,16 @@ def test_datasheet_stop_and_pins() -> None:
 def test_datasheet_stop_of_what_ends_by_itself() -> None:
     """80 is judged when it comes: that the status is RDY after its 350 us is no error."""
     host = Host(*TF, timing="DATASHEET")
-    host.ask("03 08 83 00 0064 00000008")
+    host.ask(message(Code.CONSTANT, "00 0064 00000008"))
     mark = host.mark
     host.pulse(7, 10)
     host.issue(STOP)
     header = host.header
-    assert host.response() == "23 06 E0 40 00 00 00 08" and host.condition == 0x02
+    assert (
+        host.response() == message(Answer.STOPPED, "40 00 00 00 08", source=SPONTANEOUS)
+        and host.condition == 0x02
+    )
     assert host.t < header + 5600 - 2000
-    assert host.response() == "03 01 80" and host.t > header + 5600 - 16
+    assert host.response() == message(Code.STOP) and host.t > header + 5600 - 16
     host.mark = mark
     assert len(host.pulses()) == 8 and host.quiet()

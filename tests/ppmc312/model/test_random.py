@@ -8,7 +8,8 @@ import random
 import pytest
 
 from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, TF, TG, TH, Host
-from openppmc.model.ppmc312.codes import LENGTHS, State
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
 SEEDS = range(FIRST, FIRST + 40)
@@ -64,7 +65,7 @@ def test_random_host(seed: int) -> None:
                 "23",
             )
         if model.state is State.ABN and rng.random() < 0.5 and not host.read(CSR) & MWEF:
-            host.put("03 01 24")
+            host.put(message(Code.ALARM_CLEAR))
             host.pause(200)
     # A host that reads everything and then resets has a working part again.
     for _ in range(2500):
@@ -73,8 +74,8 @@ def test_random_host(seed: int) -> None:
             host.response()
         elif not host.read(CSR) & MWEF:
             break
-    assert host.ask("03 01 FF") == "03 01 FF" and host.condition == State.INI
+    assert host.ask(message(Code.RESET)) == message(Code.RESET) and host.condition == State.INI
     edges = model.log.of("pout")
     highs = [b - a for (a, level), (b, _) in zip(edges, edges[1:], strict=False) if level]
     assert all(high == 80 for high in highs[:-1])
-    assert host.ask("03 01 40") == "03 02 40 12"
+    assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")

@@ -6,8 +6,10 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, T1, TF, WAR, WCR, Host, clean
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
-T1_8M = "03 09 00 00 03E8 00C8 0007D0"
+T1_8M = message(Code.INITIAL, "00 03E8 00C8 0007D0")
 """T1 at F = 8 MHz, for moves that would take 15 to 25 million clk at 1 MHz."""
 
 
@@ -50,7 +52,7 @@ SINGLE = [
     (19, (T1,), "1A; 00 00 00 11 04 03", "3C; 00 11 02 03"),
     (21, (), "1C; 15 26 02 03", "3D; 26 01 03"),
     (22, (), "1D; 27 01 03", "3B; E0 FF 27 03 03"),
-    (24, ("03 06 43 00 12345678",), "1C; 00 42 02 03", "38; 78 56 34 12 00 42 06 03"),
+    (24, (message(Code.POSITION_SET, "00 12345678"),), "1C; 00 42 02 03", "38; 78 56 34 12 00 42 06 03"),
     (25, (), "18; FF FF FF FF 01 43 06 03", "3D; 43 01 03"),
     (26, (T1,), "1D; 44 01 03", "3C; 01 44 02 03"),
     (27, (T1,), "1D; 45 01 03", "3C; 01 45 02 03"),
@@ -77,7 +79,7 @@ def test_single(case: tuple) -> None:
 
 def test_8_immediate_stop() -> None:
     host = Host(T1)
-    host.ask("03 04 86 00 01F4")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 01F4"))
     sends(host, "1C; 00 80 02 03")
     assert gets(host) == "3D; 80 01 03"
 
@@ -88,7 +90,7 @@ def test_9_and_17_overrides_at_a_position() -> None:
     assert gets(host) == "3D; E8 01 03"
     sends(host, "18; 00 10 00 00 04 80 06 03")
     assert gets(host) == "3D; E8 01 03"
-    host.ask("03 04 86 00 00C8")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 00C8"))
     assert gets(host) == "3D; 88 01 1B"
     assert gets(host) == "3D; 80 01 1B"
     assert gets(host) == "38; 00 10 00 00 04 E0 06 23"
@@ -99,7 +101,7 @@ def test_10_deceleration_stop_on_evt0() -> None:
     host = Host(T1)
     sends(host, "1C; 05 81 02 03")
     assert gets(host) == "3D; E8 01 03"
-    host.ask("03 04 86 00 01F4")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 01F4"))
     host.blip("evt0_n")
     assert gets(host) == "3D; 81 01 1B"
     assert gets(host).endswith("08 E0 06 23")
@@ -107,7 +109,7 @@ def test_10_deceleration_stop_on_evt0() -> None:
 
 def test_16_change() -> None:
     host = Host(T1)
-    host.ask("03 04 86 00 01F4")
+    host.ask(message(Code.FOREVER_CONSTANT, "00 01F4"))
     sends(host, "1A; 90 01 00 87 04 03")
     assert gets(host) == "3D; 87 01 03"
 
@@ -130,8 +132,8 @@ def test_23_mask() -> None:
     for level in (0x42, 0x46, 0x62):
         host.pins(auxi=level)
         host.pause(2000)
-    assert host.response() == clean("23 03 E9 00 24")
-    assert host.response() == clean("23 03 E9 01 24")
+    assert host.response() == clean(message(Answer.INPUT_CHANGE, "00 24", source=SPONTANEOUS))
+    assert host.response() == clean(message(Answer.INPUT_CHANGE, "01 24", source=SPONTANEOUS))
     assert host.quiet()
 
 

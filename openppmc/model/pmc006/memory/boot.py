@@ -45,7 +45,7 @@ class Boot:
         self._restoring = self._owed = True
         self._take(t, vars(Settings()))
 
-    def _course(self) -> Course:
+    def _course(self) -> Course[None]:
         yield
         while not self._bus.level("fset_n") and not self._restoring:
             yield
@@ -56,7 +56,7 @@ class Boot:
         yield from self._engine.fetch(PROGRAM, len(self._rest), self._rest.__setitem__)
         self._whole = True
 
-    def _course_of_copy(self) -> Course:
+    def _course_of_copy(self) -> Course[None]:
         """Over what was read from page 0, which is no good."""
         yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
         self._whole = True

@@ -53,7 +53,9 @@ class Engine:
         course = {"save": self._save, "burn": self._burn, "fact": self.fact}[kind]
         self.run(t, kind, course())
 
-    def run(self, t: int, kind: str, course: Course, ended: Callable[[int], None] | None = None) -> None:
+    def run(
+        self, t: int, kind: str, course: Course[None], ended: Callable[[int], None] | None = None
+    ) -> None:
         """Any course as a job from edge t on; nothing goes wrong that would not end it.
 
         ended(t): the bus is at rest since one clk; the engine stays busy.
@@ -61,7 +63,7 @@ class Engine:
         self._kind = kind
         self.failed = False
 
-        def guarded() -> Course:
+        def guarded() -> Course[None]:
             try:
                 yield from course
             except BusError:
@@ -87,17 +89,17 @@ class Engine:
         else:
             self._restore = True
 
-    def _save(self) -> Course:
+    def _save(self) -> Course[None]:
         """Each of the two as the registers are when it is sent (P006-EEP-10)."""
         for place in (COPY, 0):
             yield from self._page(place, PAGE, sent(self._desk.settings).__next__)
 
-    def fact(self) -> Course:
+    def fact(self) -> Course[None]:
         """The factory page (P006-EEP-22)."""
         for place in (COPY, 0):
             yield from self._page(place, PAGE, iter(FACTORY_PAGE).__next__)
 
-    def _burn(self) -> Course:
+    def _burn(self) -> Course[None]:
         """A program counts only from its last byte on (P006-EEP-11)."""
         yield from self._page(MARK, 1, lambda: 0)
         code = b"".join(word.to_bytes(4, "little") for word in self._desk.program.words)
@@ -109,14 +111,14 @@ class Engine:
 
     # ------------------------------------------------------------------ device
 
-    def _send(self, *data: int | Callable[[], int]) -> Course:
+    def _send(self, *data: int | Callable[[], int]) -> Course[None]:
         """Bytes that all have to be acknowledged."""
         for byte in data:
             if not (yield from self._bus.write(byte)):
                 yield from self._bus.stop()
                 raise BusError
 
-    def poll(self) -> Course:
+    def poll(self) -> Course[None]:
         """Address the device until it answers, for at most 10 ms."""
         first: int | None = None
         while first is None or self._bus.tick + 1 - first < POLL_MS * self._bus.per_ms:
@@ -128,7 +130,7 @@ class Engine:
                 return
         raise BusError
 
-    def _page(self, address: int, count: int, data: Callable[[], int]) -> Course:
+    def _page(self, address: int, count: int, data: Callable[[], int]) -> Course[None]:
         """Write within a page, then poll until the device answers again. data: the next byte."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
@@ -136,7 +138,7 @@ class Engine:
         yield from self._bus.stop()
         yield from self.poll()
 
-    def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> Course:
+    def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> Course[None]:
         """Random read. store(place, byte)."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping
 from fractions import Fraction
 from math import ceil
-from typing import Any
+from typing import TypeVar
 
 from ...common.blocks import Phase
 from ..pins import Shared, Ticks
 
-Course = Generator[None, None, Any]
+R = TypeVar("R")
+Course = Generator[None, None, R]
 LOW = Fraction(55, 100)
 """Part of a period for which SCL is low: two quarters and a little."""
 
@@ -43,16 +44,16 @@ class Bus:
 
     # ------------------------------------------------------------------ time
 
-    def begin(self, t: int, course: Course, ended: Callable[[int], None]) -> None:
+    def begin(self, t: int, course: Course[None], ended: Callable[[int], None]) -> None:
         """A course whose first tick is the first one at or after edge t. ended(t): on its last tick."""
         next(course)
         self._wait(self._ticks.first(t), course, ended)
 
-    def _wait(self, tick: int, course: Course, ended: Callable[[int], None]) -> None:
+    def _wait(self, tick: int, course: Course[None], ended: Callable[[int], None]) -> None:
         at = self._ticks.edge_of(tick)
         self._shared.queue.at(at, Phase.FLAG, lambda now: self._resume(now, tick, course, ended))
 
-    def _resume(self, t: int, tick: int, course: Course, ended: Callable[[int], None]) -> None:
+    def _resume(self, t: int, tick: int, course: Course[None], ended: Callable[[int], None]) -> None:
         self.tick, self._now = tick, t
         try:
             next(course)
@@ -80,7 +81,7 @@ class Bus:
         at = self._now + self._late
         self._shared.queue.at(at, Phase.PIN, lambda now: self._shared.log.set(now, "scl_oe", 0))
 
-    def _rise(self) -> Course:
+    def _rise(self) -> Course[None]:
         """Wait until SCL is high; it may be held low for a millisecond."""
         for _ in range(self.per_ms + 1):
             yield
@@ -90,7 +91,7 @@ class Bus:
 
     # ------------------------------------------------------------------ what a master can do
 
-    def start(self) -> Course:
+    def start(self) -> Course[None]:
         """START, also a repeated one."""
         yield
         self._drive("sda", 1)
@@ -103,7 +104,7 @@ class Bus:
         yield
         self._drive("scl", 0)
 
-    def stop(self) -> Course:
+    def stop(self) -> Course[None]:
         """STOP."""
         yield
         self._drive("scl", 0)
@@ -116,7 +117,7 @@ class Bus:
         yield
         yield
 
-    def bit(self, level: int) -> Course:
+    def bit(self, level: int) -> Course[int]:
         """Send a bit, or receive one (level 1)."""
         yield
         got = yield from self._bit_now(level)
@@ -124,7 +125,7 @@ class Bus:
         self._drive("scl", 0)
         return got
 
-    def _bit_now(self, level: int) -> Course:
+    def _bit_now(self, level: int) -> Course[int]:
         """The same from its first tick to the one that samples."""
         self._drive("scl", 0)
         self._drive("sda", level)
@@ -133,7 +134,7 @@ class Bus:
         yield from self._rise()
         return self._levels["sda_i"]
 
-    def write(self, byte: int | Callable[[], int]) -> Course:
+    def write(self, byte: int | Callable[[], int]) -> Course[bool]:
         """Send a byte; whether it was acknowledged. A function is asked for it on its first tick."""
         yield
         value = byte if isinstance(byte, int) else byte()
@@ -145,7 +146,7 @@ class Bus:
             self._drive("scl", 0)
         return not (yield from self.bit(1))
 
-    def read(self, last: bool) -> Course:
+    def read(self, last: bool) -> Course[int]:
         """Receive a byte; the last one is not acknowledged."""
         byte = 0
         for _ in range(8):
@@ -153,7 +154,7 @@ class Bus:
         yield from self.bit(int(last))
         return byte
 
-    def clear(self) -> Course:
+    def clear(self) -> Course[None]:
         """Up to 9 pulses of SCL for a device that holds SDA, then STOP (13.2, step 2)."""
         for _ in range(8):
             if (yield from self.bit(1)):

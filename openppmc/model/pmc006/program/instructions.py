@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import partial
 
 MASK = 0xFFFFFFFF
 LAST = 99
@@ -55,14 +56,7 @@ class Operand:
         return next((word for word, number in self.names.items() if number == value), str(value))
 
 
-def _operand(what: str, accepts: Container[int], span: str, **more: object) -> Operand:
-    return Operand(Place.OPERAND, what, accepts, span, **more)  # type: ignore[arg-type]
-
-
-def _option(what: str, accepts: Container[int], span: str, **more: object) -> Operand:
-    return Operand(Place.OPTION, what, accepts, span, **more)  # type: ignore[arg-type]
-
-
+_operand, _option = partial(Operand, Place.OPERAND), partial(Operand, Place.OPTION)
 _BIT = range(2), "0 or 1"
 _TARGET = _operand("target", range(LAST + 1), f"a label or 0 to {LAST}", target=True)
 _FAR = _operand("target", range(LAST + 1), f"a label or 0 to {LAST}", target=True, default=0)
