@@ -19,7 +19,7 @@ PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
 # Names below `devices:` of each description.
-BOARDS := $(shell awk 'FNR == 1 { on = 0 } /^[^ ]/ { on = /^devices:/; next } on && /^  [^ ]/ { sub(":.*", ""); print $$1 }' constraints/*/board.yml)
+BOARDS := $(shell awk 'FNR == 1 { on = 0 } /^[^ ]/ { on = /^devices:/; next } on && /^  [^ ]/ { sub(":.*", ""); print $$1 }' /dev/null $(wildcard constraints/*/board.yml))
 BOARD ?= icebreaker
 HOST  ?= uart
 J     ?= 2
