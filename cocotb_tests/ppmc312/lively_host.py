@@ -7,7 +7,8 @@ fit in. Now and then it does what a rough host does.
 from __future__ import annotations
 
 from cocotb_tests.harness.config import Config
-from openppmc.model.ppmc312.codes import State
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Code, State
 
 from .host import CSR, MREF, MWEF
 from .scenes import Scenes
@@ -83,14 +84,22 @@ class Lively(Scenes):
                 self.attend(2_500 if model.motion.active and attempt < 3 else 400)
             host.sync()
             if model.state in (State.ACC, State.FIX) and attempt in (2, 4, 6):
-                self.tell(rng.choice(("03 02 80 00", "03 02 81 00", "03 02 81 00")))
+                self.tell(
+                    rng.choice(
+                        (
+                            message(Code.STOP, "00"),
+                            message(Code.SLOW_STOP, "00"),
+                            message(Code.SLOW_STOP, "00"),
+                        )
+                    )
+                )
             elif model.state is State.ABN:
                 self.attend(60)
-                self.tell("03 01 24")
+                self.tell(message(Code.ALARM_CLEAR))
             elif model.state is State.INI:
                 self.curve()
             elif model.state is State.WRN:
-                self.tell("03 01 45")
+                self.tell(message(Code.RUN_MONITOR))
             elif model.state is State.NOR:
                 break
         self.attend(rng.choice((0, 60, 600)))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import random
 
 from cocotb_tests.harness.config import Config
-from openppmc.model.ppmc312.codes import State
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Code, State
 from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
 from .host import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host
@@ -22,7 +23,7 @@ def play(seed: int, config: Config) -> Host:
     if rng.random() < 0.7:
         for block in TF:
             host.ask(block)
-        host.put("03 04 86 00 0064")
+        host.put(message(Code.FOREVER_CONSTANT, "00 0064"))
         host.pause(rng.choice((10, 400)))
     end = host.t + rng.choice((3_000, 10_000, 25_000))
     changes: dict[int, dict[str, int]] = {}
@@ -45,9 +46,9 @@ def play(seed: int, config: Config) -> Host:
             break
         host.pause(400)
     host.write(CSR, 0)
-    host.put("03 01 FF")
+    host.put(message(Code.RESET))
     host.pause(60)
-    assert host.response() == "03 01 FF" and host.condition == State.INI
+    assert host.response() == message(Code.RESET) and host.condition == State.INI
     return host
 
 

@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 from cocotb_tests.harness.background import Background
 from cocotb_tests.harness.config import Config
-from openppmc.model.ppmc312.codes import LENGTHS, State
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
 from .host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host
 
@@ -72,10 +73,10 @@ class Player:
             elif not host.read(CSR) & MWEF:
                 break
             host.pause(400)
-        host.put("03 01 FF")
+        host.put(message(Code.RESET))
         host.pause(60)
-        assert host.response() == "03 01 FF" and host.condition == State.INI, "FF does not help"
-        assert host.ask("03 01 40") == "03 02 40 12"
+        assert host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
+        assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
 
     # ------------------------------------------------------------ host
 
@@ -111,7 +112,7 @@ class Player:
         self.host.pause(rng.choice((20, 300, 3_000, 12_000)) * (5 if self.slow else 1))
         self.fetch()
         if self.model.state is State.ABN:
-            self.send("03 01 24")
+            self.send(message(Code.ALARM_CLEAR))
 
     def registers(self) -> None:
         """Accesses in any order."""
@@ -135,7 +136,7 @@ class Player:
             host.write(WAR, 0x18)
             host.write(DWR, 0x03)
         if rng.random() < 0.4:
-            host.put("03 01 FF")
+            host.put(message(Code.RESET))
             host.pause(rng.choice((0, 25, 30, 60)))
         elif not self.slow:
             host.pins(rst_n=0)

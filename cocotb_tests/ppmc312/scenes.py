@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from openppmc.model.ppmc312.codes import State
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Code, State
 from openppmc.model.ppmc312.stages.plan import ramped
 
 from .host import CSR, DRR, MREF, MWEF, RAR
 from .rough_host import Player, some_equal
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
-ASKED = ("03 01 25", "03 02 26 15", "03 02 42 00", "03 02 42 01", "03 01 4D", "03 01 27", "03 01 40")
+ASKED = (
+    message(Code.INPUT),
+    message(Code.OUTPUT, "15"),
+    message(Code.POSITION_READ, "00"),
+    message(Code.POSITION_READ, "01"),
+    message(Code.STATUS),
+    message(Code.TERMINALS),
+    message(Code.VERSION),
+)
+STOPS = (message(Code.STOP, "00"), message(Code.SLOW_STOP, "00"))
 CHANGES = (0x80, 0x81, 0x87, 0x87, 0x87, 0x88, 0x88, 0x88)
 POLL = 60
 """clk between two polls of a host that attends to the part."""
@@ -195,26 +205,26 @@ class Scenes(Player):
         rate = rng.choice(self.rates)
         full = ramped(table, rate, None).up + sum(table.pd[table.sd : table.stage(rate) + 1])
         count = full + rng.randint(16, 24)
-        self.tell(f"03 08 82 00 {rate:04X} {count:08X}")
+        self.tell(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
         before = rng.randint(6, 12)
         while motion.active and count - motion.sequence.done > motion.sequence.plan.down + before:
             self.attend(30)
-        self.tell(f"03 04 88 00 {max(self.rates):04X}")
+        self.tell(message(Code.CHANGE, f"00 {max(self.rates):04X}"))
         self.attend(rng.choice((30, 200)))
-        self.tell(f"03 04 87 00 {min(self.rates):04X}")
+        self.tell(message(Code.RAMP_CHANGE, f"00 {min(self.rates):04X}"))
         if motion.active and motion.due and rng.random() < 0.8:
             host.go(max(host.t, motion.due - rng.randint(70, 150)))
-        self.tell(f"03 04 87 00 {self.speed():04X}")
+        self.tell(message(Code.RAMP_CHANGE, f"00 {self.speed():04X}"))
         self.attend(3_000)
 
     def walk_change(self) -> None:
         """88 in the walk of an 81."""
-        self.tell(f"03 04 85 00 {min(self.rates):04X}")
+        self.tell(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
         self.attend(self.rng.choice((1_000, 2_500)))
-        self.tell("03 02 81 00")
-        self.tell(f"03 04 88 00 {self.speed():04X}")
+        self.tell(message(Code.SLOW_STOP, "00"))
+        self.tell(message(Code.CHANGE, f"00 {self.speed():04X}"))
         self.attend(800)
-        self.tell("03 02 80 00")
+        self.tell(message(Code.STOP, "00"))
 
     def start_on_a_limit(self) -> None:
         """A limit of the same or the other direction is low when a motion starts."""
@@ -229,7 +239,7 @@ class Scenes(Player):
         self.tell(self.endless_block().hex())
         self.meanwhile(self.rng.choice((2, 4, 7)))
         if self.model.motion.active:
-            self.tell(self.rng.choice(("03 02 80 00", "03 02 81 00", "03 02 81 00")))
+            self.tell(self.rng.choice((STOPS[0], STOPS[1], STOPS[1])))
         self.attend(1_500)
 
     def overrides(self) -> None:
@@ -276,7 +286,7 @@ class Scenes(Player):
         for _ in range(count):
             kind = rng.random()
             if kind < 0.06:
-                block = bytes.fromhex("03 02 84 00")
+                block = bytes.fromhex(message(Code.STEP, "00"))
             elif kind < 0.3:
                 block = self.finite_block()
             elif kind < 0.4:
@@ -285,7 +295,7 @@ class Scenes(Player):
                 block = self.change_block()
             else:
                 block = bytes.fromhex(rng.choice(ASKED))
-            self.tell(f"03 {len(block) + 2:02X} 49 {number:02X} {block.hex()}")
+            self.tell(message(Code.EVENT_SET, f"{number:02X} {block.hex()}"))
 
     def events(self) -> None:
         """An event buffer filled and worked off."""
@@ -300,7 +310,7 @@ class Scenes(Player):
             self.attend(rng.choice((0, 200, 700)))
         for number in numbers:
             if rng.random() < 0.4:
-                self.tell(f"03 02 49 {2 | number:02X}")
+                self.tell(message(Code.EVENT_SET, f"{2 | number:02X}"))
 
     def meeting(self) -> None:
         """Events and a host block at nearly the same time."""
@@ -313,7 +323,7 @@ class Scenes(Player):
             self.tell(self.change_block(rng.choice((0, 1, 3)), rng.randint(8, 16)).hex())
         for _ in range(rng.randint(1, 4)):
             self.attend(200)
-            block = bytes.fromhex(rng.choice((*ASKED, "03 02 80 00", "03 02 81 00"))) \
+            block = bytes.fromhex(rng.choice((*ASKED, *STOPS))) \
                 if rng.random() < 0.6 else self.change_block()  # fmt: skip
             header = host.t + 3 * (len(block) + 2)
             for pin in ("evt0_n", "evt1_n"):
@@ -343,7 +353,7 @@ class Scenes(Player):
         """High-speed limits and limits met while running."""
         host, rng = self.host, self.rng
         if rng.random() < 0.85:
-            self.tell(f"03 03 05 {rng.choice((max(self.rates), self.speed())):04X}")
+            self.tell(message(Code.SPEED_LIMIT, f"{rng.choice((max(self.rates), self.speed())):04X}"))
         block = self.endless_block() if rng.random() < 0.6 else self.finite_block()
         self.tell(block.hex())
         pins = SLOW_LIMITS if rng.random() < 0.8 else LIMITS
@@ -359,7 +369,9 @@ class Scenes(Player):
     def inputs(self) -> None:
         """28 and a general input that changes, with a host that is slow to read."""
         host, rng = self.host, self.rng
-        self.tell(f"03 03 28 {rng.choice((1, 1, 1, 0)):02X} {rng.choice((0xFF, 0x0F, 0x5A, 1)):02X}")
+        self.tell(
+            message(Code.MASK, f"{rng.choice((1, 1, 1, 0)):02X} {rng.choice((0xFF, 0x0F, 0x5A, 1)):02X}")
+        )
         if rng.random() < 0.5:
             self.tell(self.finite_block().hex())
         for _ in range(rng.randint(2, 6)):
@@ -372,10 +384,14 @@ class Scenes(Player):
         """Monitors on, an encoder that follows."""
         rng = self.rng
         self.follows = rng.choice((1.0, 0.9, 0.6, 0.2))
-        self.tell(f"03 06 43 01 {self.model.position + rng.choice((0, 0, 1, -3)) & 0xFFFFFFFF:08X}")
+        self.tell(
+            message(
+                Code.POSITION_SET, f"01 {self.model.position + rng.choice((0, 0, 1, -3)) & 0xFFFFFFFF:08X}"
+            )
+        )
         for code in rng.choice(((2,), (3,), (2, 3))):
             flags, distance = rng.choice((1, 3, 3, 5, 7, 7)), rng.choice((1, 2, 2, 4))
-            self.tell(f"03 04 {code:02X} {flags:02X} 00 {distance:02X}")
+            self.tell(message(code, f"{flags:02X} 00 {distance:02X}"))
         for _ in range(rng.randint(1, 3)):
             self.tell(self.finite_block().hex())
             self.meanwhile(rng.choice((0, 1)))
@@ -387,8 +403,8 @@ class Scenes(Player):
         """The control, and a motion over its position."""
         rng = self.rng
         step = rng.choice((1, 3, 9, -2, -5))
-        self.tell(f"03 05 04 {self.model.position + step & 0xFFFFFFFF:08X}")
-        self.tell("03 01 44")
+        self.tell(message(Code.INTERLOCK_POSITION, f"{self.model.position + step & 0xFFFFFFFF:08X}"))
+        self.tell(message(Code.INTERLOCK))
         self.finite()
 
     def held(self) -> None:
@@ -397,9 +413,9 @@ class Scenes(Player):
         host.pins(run=0)
         self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
         for _ in range(rng.randint(0, 2)):
-            self.tell(rng.choice((*ASKED, "03 01 24", "03 02 80 00")))
+            self.tell(rng.choice((*ASKED, message(Code.ALARM_CLEAR), message(Code.STOP, "00"))))
         if rng.random() < 0.2:
-            self.tell("03 01 45")
+            self.tell(message(Code.RUN_MONITOR))
         if rng.random() < 0.1:
             self.background.blip(host.t + 2, "alm_n", 0, 50)
         self.attend(300)
@@ -409,7 +425,7 @@ class Scenes(Player):
     def end_wait(self) -> None:
         """The positioning end monitored."""
         host, rng = self.host, self.rng
-        self.tell("03 02 06 01")
+        self.tell(message(Code.END_TERMINAL, "01"))
         self.tell(self.finite_block().hex())
         self.meanwhile(rng.choice((0, 1)))
         self.attend(4_000)
@@ -418,7 +434,7 @@ class Scenes(Player):
         if rng.random() < 0.7:
             self.background.blip(host.t + 3, "end_n", 0, 60)
             self.attend(200)
-        self.tell("03 02 06 00")
+        self.tell(message(Code.END_TERMINAL, "00"))
 
     def alarm(self) -> None:
         """alm_n in the middle of something; cleared at once or with the pin still low."""
@@ -427,7 +443,7 @@ class Scenes(Player):
             self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
         self.background.blip(host.t + rng.randint(1, 600), "alm_n", 0, rng.choice((3, 200, 1_500)))
         self.attend(rng.choice((300, 700)))
-        self.tell("03 01 24")
+        self.tell(message(Code.ALARM_CLEAR))
 
     def unread(self) -> None:
         """Reports that stay unread until there are more of their class than places (P312-RSP-20)."""
@@ -443,7 +459,7 @@ class Scenes(Player):
             # An answer is read with the first chance, so that the next instruction is executed.
             if self.model.core.responses.answer:
                 self.response()
-            host.put("03 02 84 00")
+            host.put(message(Code.STEP, "00"))
             host.pause(400)
             host.pins(run=1)
             host.pause(rng.choice((600, 3_000)))

@@ -7,6 +7,8 @@ from fractions import Fraction
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Code
 
 from .serial_host import TS, SerialHost, summed
 
@@ -96,17 +98,17 @@ def test_the_newest_of_events_and_overrides() -> None:
 @pytest.mark.parametrize(
     ("block", "answer"),
     [
-        ("03 01 25", "B0 29"),
-        ("03 01 4D", "B0 29"),
-        ("03 02 42 00", "B0 29"),
-        ("03 02 26 15", "B0 29"),
+        (message(Code.INPUT), "B0 29"),
+        (message(Code.STATUS), "B0 29"),
+        (message(Code.POSITION_READ, "00"), "B0 29"),
+        (message(Code.OUTPUT, "15"), "B0 29"),
         ("03 01 46", "B0 4A"),
-        ("03 01 41", "B0 4A"),
+        (message(Code.TABLE_READ), "B0 4A"),
         ("03 06 49 00 03 01 20", "B0 4A"),
-        ("03 02 80 04", "B0 4A"),
-        ("03 04 85 00 0001", "B0 4A"),
-        ("03 02 06 02", "B0 4A"),
-        ("03 02 47 01", "B0 29"),
+        (message(Code.STOP, "04"), "B0 4A"),
+        (message(Code.FOREVER_RAMP, "00 0001"), "B0 4A"),
+        (message(Code.END_TERMINAL, "02"), "B0 4A"),
+        (message(Code.EVENT_READ, "01"), "B0 29"),
     ],
 )
 @verifies("P312-SER-22", "P312-EVT-03", "P312-SER-43")
@@ -195,7 +197,7 @@ def test_end_status() -> None:
 @verifies("P312-SER-30", "P312-SER-22", "P312-SER-19")
 def test_an_event_around_a_poll() -> None:
     """Whatever the poll meets, nothing is lost and nothing is told twice."""
-    host = SerialHost(TS, event("49", "03 01 20"))
+    host = SerialHost(TS, event("49", message(Code.EXCITATION_ON)))
     for shift in (*range(-60, -20, 5), *range(-16, 6)):
         last_bit(host, summed(0x81), shift, evt0_n=0)
         first = host.hear()
@@ -248,7 +250,7 @@ def test_a_report_around_a_poll(pin: str) -> None:
 @verifies("P312-OVR-10", "P312-SER-19", "P312-SER-22")
 def test_an_event_around_an_instruction() -> None:
     """The instruction has its reply, the event is done before or after it."""
-    host = SerialHost(TS, event("49", "03 01 20"), event("49", "03 01 21"))
+    host = SerialHost(TS, event("49", message(Code.EXCITATION_ON)), event("49", message(Code.EXCITATION_OFF)))
     for number, shift in enumerate((*range(-60, -10, 6), *range(-10, 12, 2))):
         host.pins(evt0_n=1)
         value = 0x15 + number % 2

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc312.words import message
+from openppmc.model.ppmc312.codes import Code
 
 from .host import CSR, Host
 from .serial_host import TS, SerialHost, summed
@@ -148,13 +150,17 @@ def test_the_mode_is_latched() -> None:
     host.say("FF")
     host.pause(200)
     bus = Host.on(host)
-    assert bus.read(CSR) == 0x00 and bus.response() == "03 01 FF" and bus.ask("03 01 40") == "03 02 40 12"
+    assert (
+        bus.read(CSR) == 0x00
+        and bus.response() == message(Code.RESET)
+        and bus.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
+    )
     host.t = bus.t
     host.raw("81 7E")
     assert host.quiet(5_000)
     bus.t = host.t
     bus.pins(mode=0)
-    bus.put("03 01 FF")
+    bus.put(message(Code.RESET))
     bus.pause(100)
     host.t = bus.t
     host.forget()
