@@ -104,18 +104,6 @@ module ppmc_axis
   assign low_o = PulsePin && low;
   assign last = last_pulse || (OriginAtPulse && op_q.origin && switches_i.origin);
 
-  assign event_o = '{pulse: fire, last: last, complete: complete, stop: stop, done: done};
-  assign motion_o = '{
-          busy: busy,
-          moving: armed,
-          running: running,
-          gated: gated_q,
-          dec: dec || flagged,
-          top: top,
-          op: op_q,
-          base: base_q
-      };
-
   // An immediate cause also takes away a pulse that is due at the same edge.
   always_comb begin
     fire = 1'b0;
@@ -296,6 +284,18 @@ module ppmc_axis
     assign ext_count   = 1'b1;
     assign due         = hit;
   end
+
+  assign event_o = '{pulse: fire, last: last, complete: complete, stop: stop, done: done};
+  assign motion_o = '{
+          busy: busy,
+          moving: armed,
+          running: running,
+          gated: gated_q,
+          dec: dec || flagged,
+          top: top,
+          op: op_q,
+          base: base_q
+      };
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
