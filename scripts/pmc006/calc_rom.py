@@ -59,8 +59,8 @@ def rom_text(program: Program) -> str:
         at_label.setdefault(at, []).append(name)
     lines, width = [], len(f"rom[{len(program.words) - 1}]")
     for at, word in enumerate(program.words):
-        lines += [f"    // {name}:" for name in at_label.get(at, [])]
-        lines.append(f"    {f'rom[{at}]':{width}} = 17'h{word.code:05x};  // {word.text}")
+        labels = "".join(f"{name}: " for name in at_label.get(at, []))
+        lines.append(f"    {f'rom[{at}]':{width}} = 17'h{word.code:05x};  // {labels}{word.text}")
     return HEAD + "\n".join(lines) + "\n" + TAIL
 
 

