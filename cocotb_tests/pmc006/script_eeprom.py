@@ -44,7 +44,7 @@ def test_all_registers_of_the_page() -> None:
 
 
 ILLEGAL = ({"a03": 121}, {"a04": 6}, {"a08": 2}, {"a0C": 64, "a0D": 0}, {"a13": 8}, {"a15": 0x10}, {"a02": 2})
-"""A byte or field of a good block changed; the sum is right. All of them: tests/model/test_006_pages.py."""
+"""A byte or field of a good block changed; the sum is right."""
 
 
 @verifies("P006-BAD-14", "P006-EEP-01")
