@@ -53,6 +53,7 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
     root = find_root()
     rtl, cpp = _rtl(root, part), sorted((root / "tb/board").glob("*.cpp"))
+    own = parts.part(part).folder
     version = verilator.version()
     flags = [
         *VERILATE,
@@ -64,14 +65,15 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         ),
         *(
             "-CFLAGS",
-            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -DBOARD_PART={parts.part(part).number}",
+            # pins.h of the part; as seen from the folder of the build, which is free of spaces.
+            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -I../../../tb/{own} -I../../../tb/board",
             "-o",
             "board",
         ),
         # The makefile would append its own -Os for these files.
         *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
     ]
-    folder = root / "build/board" / _digest([*rtl, *cpp, *_headers(root)], [version, *flags], root)
+    folder = root / "build/board" / _digest([*rtl, *cpp, *_headers(root, own)], [version, *flags], root)
     program = folder / "board"
     with _locked(folder.with_suffix(".lock")):
         if program.is_file():
@@ -121,8 +123,9 @@ def _rtl(root: Path, part: str) -> list[Path]:
         raise SimError(str(error)) from None
 
 
-def _headers(root: Path) -> list[Path]:
-    return sorted([*(root / "tb/board").glob("*.h"), *(root / "rtl/common").glob("*.svh")])
+def _headers(root: Path, folder: str) -> list[Path]:
+    pins = root / "tb" / folder / "pins.h"
+    return sorted([pins, *(root / "tb/board").glob("*.h"), *(root / "rtl/common").glob("*.svh")])
 
 
 def _digest(files: list[Path], words: list[str], root: Path) -> str:

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pins.h of several parts share. A pins.h (tb/<part>/) tells the virtual board the ports of its carrier by
+// axis; ports of two axes are one number, bit 0 = axis 1. It has kAxes and kAllAxes, motion_pins, Motors, idle_inputs,
+// set_switches, phases, encoder_low, encoder_pulse and interrupt.
+#pragma once
+
+#include "Vboard.h"
+#include "plant.h"
+
+// Motors that step with the falling edges of POUT*, one an axis.
+class PulseMotors {
+   public:
+    // Between two motion_pins(): the axes whose motors step; ccw() tells which way.
+    unsigned steps(unsigned before, unsigned now) { return before & ~now; }
+    template <class Top>
+    bool ccw(const Top& top, unsigned axis) const {
+        return top.dir >> axis & 1;
+    }
+};
+
+// The five switches of the parts with one axis on a byte bus; the alarm is the part's.
+template <class Top>
+void set_limits(Top& top, const Plant& plant) {
+    top.l1_n = !plant.l1;
+    top.l2_n = !plant.l2;
+    top.l3_n = !plant.l3;
+    top.l4_n = !plant.l4;
+    top.cnp_n = !plant.cnp;
+}

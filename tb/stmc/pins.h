@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pins of stmc_carrier for the virtual board.
+#pragma once
+
+#include "axes.h"
+#include "steps.h"
+
+constexpr unsigned kAxes = 1;
+constexpr unsigned kAllAxes = 1;
+
+// No pulse output: the motor follows the phases.
+inline unsigned motion_pins(const Vboard& top) { return top.s; }
+
+class Motors {
+   public:
+    // Between two motion_pins(): whether the motor steps; ccw() tells which way.
+    unsigned steps(unsigned, unsigned now) {
+        step_ = phases_.step(now);
+        return step_ != 0;
+    }
+    bool ccw(const Vboard&, unsigned) const { return step_ < 0; }
+
+   private:
+    PhaseSteps phases_;
+    int step_ = 0;
+};
+
+inline void idle_inputs(Vboard& top) { top.cs_n = top.rd_n = top.wr_n = 1; }
+
+inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
+    set_limits(top, plants[0]);
+    top.mon = !plants[0].alm;
+}
+
+inline unsigned phases(const Vboard& top, unsigned) { return top.s; }
+
+inline void encoder_low(Vboard&) {}
+inline void encoder_pulse(Vboard&, bool) {}
+inline bool interrupt(const Vboard& top) { return !top.int_n; }
