@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from cocotb_tests.harness import project
@@ -12,6 +13,7 @@ from cocotb_tests.harness.project import ProjectError, console, relative
 from . import carrier, constraints, tables, top
 from .description import FOLDER, Description, load_all
 from .pads import Fitted, fit
+from .verilog import laid_out
 
 
 def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
@@ -21,17 +23,17 @@ def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
     ]
 
 
-def own_files(one: Fitted) -> dict[Path, str]:
-    """Top and constraint files of a board with a part."""
-    tops = {project.RTL / name: text for name, text in top.file(one.board, one).items()}
+def own_files(one: Fitted, layout: Callable[[str], str]) -> dict[Path, str]:
+    """Top, through `layout`, and constraint files of a board with a part."""
+    tops = {project.RTL / name: layout(text) for name, text in top.file(one.board, one).items()}
     return {**tops, **{FOLDER / name: text for name, text in constraints.files(one).items()}}
 
 
-def all_files() -> dict[Path, str]:
-    """Everything that is written from the descriptions."""
+def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
+    """Everything that is written from the descriptions, tops laid out so."""
     boards = load_all()
     every = fitted_parts(boards)
-    found = {path: text for one in every for path, text in own_files(one).items()}
+    found = {path: text for one in every for path, text in own_files(one, layout).items()}
     docs, sources = project.DOCS / "boards.md", project.RTL / "files.yml"
     readme = project.ROOT / "README.md"
     found[docs] = tables.page(boards, every, docs.read_text(encoding="utf-8"))

@@ -8,7 +8,7 @@ from cocotb_tests.harness.project import ProjectError
 from .carrier import Port
 from .description import SHOWS, Description
 from .pads import HOST_RESET, Fitted
-from .verilog import declaration, instance, laid_out, literal, part_select, without_comma
+from .verilog import declaration, instance, literal, part_select, without_comma
 from .words import clk, head, title, wrapped
 
 OWN_PANEL = ("lock", "req_n", "lamps")
@@ -229,4 +229,4 @@ class Top:
 
 def file(board: Description, fitted: Fitted) -> dict[str, str]:
     """The top of a board with a part: name below rtl/ -> text."""
-    return {f"boards/{board.name}/{fitted.top}.sv": laid_out(Top(fitted).text())}
+    return {f"boards/{board.name}/{fitted.top}.sv": Top(fitted).text()}
