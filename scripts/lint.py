@@ -25,6 +25,7 @@ from openppmc.sim.common import verilator as start
 from openppmc.sources import needed, walls
 from scripts.flow.boards import HOSTS, parameters
 from scripts.flow.boards import sources as board_sources
+from scripts.flow.module_rules import all_findings
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
@@ -242,6 +243,7 @@ def checks() -> list[Check]:
         Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
         Check("rtl/files.yml", "complete", listed),
         Check("rtl/files.yml", "walls between groups", walled),
+        Check("modules", "ports and lines", all_findings),
         Check(
             "docs",
             "pictures and tables fresh",
