@@ -1,4 +1,4 @@
-"""What `make lint` asks of each inner module: few ports, each with its meaning beside it, and a file one can read.
+"""What `make lint` asks of inner modules: few ports, each with its meaning beside it, a file one can read.
 
 Tops and carriers are left out: their ports are the pins of a part, which its manual explains.
 """
