@@ -37,7 +37,11 @@ def rooms(folder: str) -> list[str]:
     here = ROOT / folder
     found = (path for path in sorted(here.iterdir()) if path.is_dir() and path.name not in IGNORED)
     return (
-        [path.name for path in found if any(file.is_file() for file in path.rglob("*"))]
+        [
+            path.name
+            for path in found
+            if any(file.is_file() and file.suffix != ".pyc" for file in path.rglob("*"))
+        ]
         if here.is_dir()
         else []
     )
