@@ -16,10 +16,11 @@ from statistics import median
 from rich.table import Table
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.build import SimError, build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import new_model, replay
 from cocotb_tests.harness.project import console
-from cocotb_tests.harness.runner import SimError, build, part_design, run_sim
+from cocotb_tests.harness.runner import run_sim
 from cocotb_tests.harness.stimulus import Recording
 from scripts.demo.demos import Demo
 from scripts.flow import plain_sim

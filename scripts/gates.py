@@ -19,8 +19,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.project import ProjectError, console
-from cocotb_tests.harness.runner import SimError, SimOptions, attempt, build
+from cocotb_tests.harness.runner import SimOptions, attempt
 from scripts.flow.gate_suite import GateTest, chosen, everything, left_out
 from scripts.pool import as_done
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 
 from openppmc.sim.common import verilator
 
+from .build import Design
 from .paths import ROOT
-from .runner import Design
 
 # Parameter: legal values (its extremes), values just outside; as SystemVerilog literals.
 Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]

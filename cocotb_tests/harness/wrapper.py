@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.paths import BUILD, ROOT
 from cocotb_tests.harness.project import files
-from cocotb_tests.harness.runner import Design, locked
 
 GROUPS = ("common", "motion", "host", "single")
 

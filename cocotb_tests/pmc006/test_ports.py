@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.elaborate import check_ranges, ports
-from cocotb_tests.harness.runner import part_design
 from cocotb_tests.harness.verifies import verifies
 
 from .bench import PMC006

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.build import Design
 from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
 from cocotb_tests.harness.judged import judged_test
 from cocotb_tests.harness.project import include_dirs, part, sources
-from cocotb_tests.harness.runner import Design
 
 from .bench import J105_STMC
 from .lab import Lab

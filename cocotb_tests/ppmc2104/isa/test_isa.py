@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.runner import SimError, build, run_item
+from cocotb_tests.harness.runner import run_item
 from cocotb_tests.harness.wrapper import area_design
 
 from .setting import ISA_4AXIS, design

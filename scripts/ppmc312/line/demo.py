@@ -9,11 +9,12 @@ from pathlib import Path
 from rich import box
 from rich.table import Table
 
+from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import write_report
 from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.project import BUILD, console, fail, relative
-from cocotb_tests.harness.runner import SimError, build, run_sim
+from cocotb_tests.harness.runner import run_sim
 from cocotb_tests.ppmc312.line.compare import compare_line
 from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design

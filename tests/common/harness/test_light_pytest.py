@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from cocotb_tests.harness.runner import LIGHT
+from cocotb_tests.harness.build import LIGHT
 
 
 def said(program: str) -> str:

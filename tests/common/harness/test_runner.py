@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness import runner
+from cocotb_tests.harness.build import Design, SimError, build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import ALL_CONFIGS, D16, F11, F16, Config
-from cocotb_tests.harness.runner import Design, SimError, build, part_design
 
 
 def results(tmp_path: Path, *cases: str) -> Path:

