@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from .collect import Item
 from .outcome import MISSING, Outcome
-from .simulate import Job, simulate
+from .simulate import Job, tried
 
 MOST = 40
 """Tests in one process: two workers stay busy, and importing cocotb and pytest no longer counts."""
@@ -38,7 +38,7 @@ def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
     left: Sequence[Item] = job.items
     while left:
         now = replace(job, items=tuple(left))
-        outcomes = simulate(now)
+        outcomes = tried(now)
         left = [item for item, outcome in outcomes.items() if outcome.kind == MISSING]
         if len(left) == len(outcomes):  # nothing came to run at all
             left = []
@@ -48,7 +48,7 @@ def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
 
 def fails(job: Job, items: Sequence[Item]) -> bool:
     """Whether the last of these items fails in a process of them."""
-    outcome = simulate(replace(job, items=tuple(items)))[items[-1]]
+    outcome = tried(replace(job, items=tuple(items)))[items[-1]]
     return not outcome.good
 
 

@@ -7,7 +7,6 @@ error of the test in whose part of the log it stands (`outcome`).
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,6 +21,7 @@ from .inside import seen
 from .outcome import PASSED, SKIPPED, XFAILED, Outcome
 from .paths import WAVES, relative
 from .simulate import REPRO, VCD, Job, repro_line, safe, simulate
+from .summary import WAVES_IN
 from .verdict import judged
 from .views import write_views
 
@@ -85,7 +85,6 @@ def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: 
             return _with_waves(item, job)
         if job.items not in options.done:
             options.done[job.items] = run_group(job)
-            shutil.rmtree(job.folder, ignore_errors=True)
         outcome, ran = options.done[job.items][item]
         if outcome.good:
             return outcome
@@ -100,7 +99,7 @@ def _with_waves(item: Item, job: Job) -> Outcome:
     folder = WAVES / safe(item.id)
     outcome = simulate(job, folder)[item]
     views = write_views(folder / VCD, job.design)
-    print("waves in " + ", ".join(relative(path) for path in views))
+    print(WAVES_IN + ", ".join(relative(path) for path in views))
     if outcome.good:
         return outcome
     text = f"{item.id}: {outcome.kind}\n{outcome.text}\nrepeat with: {job.repro} WAVES=1"

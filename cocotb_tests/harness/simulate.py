@@ -59,6 +59,14 @@ def repro_line(items: Sequence[Item], seed: int) -> str:
     return f"make test T={names} SEED={seed} CLK_HZ={items[0].config.clk_hz}"
 
 
+def tried(job: Job) -> dict[Item, Outcome]:
+    """As `simulate`; nothing of it is left."""
+    try:
+        return simulate(job)
+    finally:
+        shutil.rmtree(job.folder, ignore_errors=True)
+
+
 def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
     """Build if needed and run; the outcome of each item. SimError only if the build fails.
 

@@ -18,7 +18,7 @@ from .group import narrowed
 from .inside import hint
 from .outcome import MISSING, TIMEOUT, Outcome
 from .paths import FAILURES, relative
-from .simulate import VCD, Job, safe, simulate
+from .simulate import VCD, Job, safe, simulate, tried
 
 
 def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
@@ -68,7 +68,7 @@ def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> s
 
 def _behind(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
     """Of a test that passes alone but failed in a process with others."""
-    again = simulate(job)[item]
+    again = tried(job)[item]
     if again.good:
         said = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
         return _message(item, first, job, said)

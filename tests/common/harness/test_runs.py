@@ -36,13 +36,17 @@ endmodule
 """
 
 
-@pytest.fixture(scope="module")
-def design() -> Design:
+def counter() -> Design:
     """A counter that can be made to complain; its inside is hidden."""
     path = BUILD / "blocks" / "runs_top.sv"
     with locked(path.with_suffix(".lock")):
         path.write_text(SOURCE, encoding="ascii")
     return Design("runs_top", [path], ports=("clk", "fire", "die", "q"))
+
+
+@pytest.fixture(scope="module", name="design")
+def _design() -> Design:
+    return counter()
 
 
 def kinds(design: Design, *names: str, **env: str) -> dict[str, str]:
