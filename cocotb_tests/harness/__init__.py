@@ -41,5 +41,5 @@ falling edges and are stamped with the rising edge that samples them first; an o
 rising edge that made it.
 
 On failure: build/failures/<test>/ holds log.txt, waves/dump.vcd (all signals of the design), and for
-comparisons compare.txt, compare.vcd, compare.png; the pytest message ends with the line that repeats the test.
+comparisons compare.txt, compare.vcd, compare.png; the message ends with the line that repeats the test.
 """
