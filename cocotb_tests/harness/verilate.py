@@ -1,7 +1,7 @@
 """Makes the program of a simulation with Verilator and make: the custom flow that cocotb's manual describes.
 
 It has one of two main programs: `own` (`verilated_sim.cpp`, with clock and recorder in C++) or `cocotb`, the
-one that comes with cocotb, unchanged. SIM_MAIN in the environment chooses; a test has the same result on both.
+one that comes with cocotb, unchanged. SIM_MAIN in the environment chooses; results do not depend on it.
 """
 
 from __future__ import annotations
