@@ -128,13 +128,13 @@ def _digest(design: Design, waves: bool) -> str:
     return sha.hexdigest()[:16]
 
 
-def _runtime(args: Sequence[str], waves: bool, main: str) -> Path:
-    """Folder with what all builds need that have the same main program and arguments: the compiled run-time
-    library of Verilator, and our own main program, which is named like a part of it."""
+def _runtime(args: Sequence[str], waves: bool) -> Path:
+    """Folder with what all builds with the same arguments need: the compiled run-time library of Verilator,
+    and our main program, which is named like a part of it."""
     flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
     flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    what = repr((sorted(flags), waves, versions, MAINS[main][0].read_text(encoding="utf-8")))
+    what = repr((sorted(flags), waves, versions, MAINS["own"][0].read_text(encoding="utf-8")))
     return SIM_BUILDS / f"runtime-{hashlib.sha256(what.encode()).hexdigest()[:16]}"
 
 
@@ -157,7 +157,7 @@ def build(design: Design, waves: bool = False) -> Path:
         args += [f"-I{ROOT / include}" for include in design.includes]
         args += [f"-G{name}={as_sv_literal(value)}" for name, value in design.params.items()]
         args += map(str, design.libraries)
-        runtime = _runtime(args, waves, design.main)
+        runtime = _runtime(args, waves)
         sources = [ROOT / source for source in design.sources]
         sources += [_visible_ports(design, folder)] if design.ports and not waves else []
         copy_runtime(runtime, folder)
@@ -165,7 +165,8 @@ def build(design: Design, waves: bool = False) -> Path:
             verilate(design.top, design.main, sources, args, waves, folder, log)
         except subprocess.CalledProcessError as error:
             raise SimError(f"build of {design.top} failed ({error}):\n{log_tail(log, 25)}") from None
-        copy_runtime(folder, runtime)
+        if design.main == "own":
+            copy_runtime(folder, runtime)
         done.touch()
     return folder
 

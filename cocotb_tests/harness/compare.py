@@ -63,6 +63,13 @@ def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
     return text
 
 
+def leave_digest(recording: Recording, folder: Path) -> None:
+    """If DIGESTS asks for it."""
+    if os.environ.get(DIGESTS):
+        with open(folder / DIGEST_FILE, "a", encoding="ascii") as file:
+            file.write(recording.digest() + "\n")
+
+
 def check_against_model(bench: Any) -> Comparison:
     """Compare all that a bench has seen so far; AssertionError with the report at a difference.
 
@@ -70,9 +77,7 @@ def check_against_model(bench: Any) -> Comparison:
     files of the report go to bench.out.
     """
     recording = bench.recording()
-    if os.environ.get(DIGESTS):
-        with open(bench.out / DIGEST_FILE, "a", encoding="ascii") as file:
-            file.write(recording.digest() + "\n")
+    leave_digest(recording, bench.out)
     follower = bench.follower or Follower(new_model(recording.part, recording.params))
     comparison = _compare(recording, follower)
     if comparison.mismatch is not None:
