@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Any, TypeVar
 
-from openppmc import parts
-
 from .config import F16, Config
+from .follower import new_model
 from .part import Part
 from .side import TIMEOUT, Side
 from .stimulus import Change
@@ -56,8 +55,7 @@ class ModelBench(Side):
     def __init__(self, part: Part, on: OnModel, settle: int = 4, **pins: int) -> None:
         super().__init__(part, on.config, on.seed)
         params = part.params(on.config)
-        model = parts.part(part.name).load("model")
-        self.model: Any = model(**{name.lower(): value for name, value in params.items()})
+        self.model: Any = new_model(part.name, params)
         self.pins = {**part.inputs, "rst_n": 1}
         levels = part.reset_levels(params)
         self.initial = {name: levels[name] for name in part.watched}
@@ -70,6 +68,11 @@ class ModelBench(Side):
         self._go(settle)
 
     # ---------------------------------------------------------------- time
+
+    @property
+    def golden(self) -> Any:
+        """As `Side.golden`: it is this side."""
+        return self.model
 
     @property
     def now(self) -> int:
