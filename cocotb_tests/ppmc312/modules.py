@@ -7,10 +7,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.config import D16, F16, F50, Config
 
-F27 = Config("f27m", clk_hz=27_000_000)
-F27X12 = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
-CHARS = Config("chars", extra=(("SUM_MODE", "CHARS"),))
-F8V = Config("f8v34", clk_hz=8_000_000, extra=(("VERSION", 0x34),))
+from .builds import CHARS, F8V, F27, F27X12
 
 MODULES: dict[str, tuple[Config, ...]] = {
     "tests.ppmc312.model.test_checks_host": (F16, D16),
