@@ -162,6 +162,14 @@ class SerialHost(SerialLine, SideHost):
         """Instructions, one after the other, and their replies."""
         return [await self.ask(text) for text in texts]
 
+    async def status(self) -> str:
+        """Data of 4D: flags, state, what is registered."""
+        return (await self.ask("4D")).removeprefix("A0 ")
+
+    async def state(self) -> int:
+        """State byte of 4D."""
+        return int((await self.status()).split()[1], 16)
+
     def forget(self) -> None:
         """Nobody has listened so far."""
         self._heard = self.t

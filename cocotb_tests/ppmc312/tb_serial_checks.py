@@ -97,7 +97,7 @@ async def p312_serial_alarm_in_a_motion(dut: Any) -> None:
     await host.pause(1_000)
     polls = [await exchange(host, "81 7E") for _ in range(3)]
     assert polls == ["B1 34 36 08", "A1 33 31 2D", "91 6E"]
-    assert host.condition == 0x10
+    assert await host.state() == 0x10
 
 
 @directed("P312-CHK-60", "P312-SER-17")
@@ -125,7 +125,7 @@ async def p312_serial_silent_station(dut: Any, mod: int) -> None:
     await host.pause(10)
     await host.pins(rst_n=1)
     await host.pause(20)
-    assert await host.ask("06 00") == "90" and await host.ask(TS) == "90"
+    assert await host.asks("06 00", TS) == ["90", "90"]
     assert await host.ask("49 03 01 20 00 00 00 00 00 00 00") == "90"
     await host.blip("evt0_n")
     assert await host.poll() == "B0 29" and not host.out("exon_n")
@@ -143,7 +143,7 @@ async def p312_serial_reset(dut: Any) -> None:
 @directed("P312-CHK-66", "P312-OVR-12", "P312-SER-22")
 async def p312_serial_stop_at_a_position(dut: Any) -> None:
     host = await SerialHost.start(dut, TS)
-    assert await host.ask("90 00001000") == "90" and await host.ask("86 0000") == "90"
+    assert await host.asks("90 00001000", "86 0000") == ["90", "90"]
     mark = host.mark
     await host.at_rest(after=0)
     polls = [await exchange(host, "81 7E") for _ in range(3)]
@@ -178,4 +178,4 @@ async def p312_serial_flags_of_the_setting(dut: Any) -> None:
     host = await SerialHost.start(dut)
     for flags in ("01", "11", "F1"):
         assert await host.ask(flags.join(("00 ", T1[5:]))) == "90"
-        assert host.condition == 0x02
+        assert await host.state() == 0x02

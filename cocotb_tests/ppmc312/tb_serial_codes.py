@@ -16,21 +16,16 @@ EVENT = "03 01 20 00 00 00 00 00 00 00"
 STOPPED = "A0 37"
 
 
-async def status(host: SerialHost) -> str:
-    """4D."""
-    return (await host.ask("4D")).removeprefix("A0 ")
-
-
 @directed("P312-CMD-00", "P312-SER-41", "P312-SER-47", "P312-SER-20")
 async def p312_serial_initial_setting(dut: Any) -> None:
     host = await SerialHost.start(dut)
-    assert await host.ask(TS) == "90" and host.condition == 0x02
+    assert await host.ask(TS) == "90" and await host.state() == 0x02
     for bad in ("00 00 01F4 0001 000320", "00 00 0064 0096 000320", "00 00 00C8 0096 000320"):
-        assert await host.ask(bad) == PARAMETER and host.condition == 0x01
+        assert await host.ask(bad) == PARAMETER and await host.state() == 0x01
     # A stage with two pulses or fewer is found while the table is built.
-    assert await host.ask("00 00 01F4 00C8 000200") == PARAMETER and host.condition == 0x01
-    assert await host.ask("00 F8 01F4 00C8 000320") == "90" and host.condition == 0x02
-    assert await host.ask("85 01F4") == "90" and await host.ask(TS) == STATE
+    assert await host.ask("00 00 01F4 00C8 000200") == PARAMETER and await host.state() == 0x01
+    assert await host.ask("00 F8 01F4 00C8 000320") == "90" and await host.state() == 0x02
+    assert await host.asks("85 01F4", TS) == ["90", STATE]
     assert await host.ask("80") == "90" and await host.settle() == [STOPPED]
 
 
@@ -45,9 +40,9 @@ async def p312_serial_monitors(dut: Any) -> None:
             assert await host.ask(f"{code} {flags} 0005") == "90"
             for position, moved in (("0000000A", 1), ("00000002", 0), ("FFFFFFF0", 1), ("00000000", 0)):
                 assert await host.ask(f"43 {position}") == "90"
-                assert int((await status(host))[:2], 16) == bit | moved << (1 if code == "03" else 0)
-                assert await host.poll() == f"B0 {note + moved:02X}" and await host.poll() == "90"
-        assert await host.ask(f"{code} 00 0005") == "90" and await status(host) == "00 02 00"
+                assert int((await host.status())[:2], 16) == bit | moved << (1 if code == "03" else 0)
+                assert await host.polls(2) == [f"B0 {note + moved:02X}", "90"]
+        assert await host.ask(f"{code} 00 0005") == "90" and await host.status() == "00 02 00"
 
 
 @directed("P312-CMD-02", "P312-MON-06")
@@ -57,7 +52,7 @@ async def p312_serial_monitor_with_clamp(dut: Any) -> None:
     assert host.out("zclmp_n") == 0
     assert await host.ask("84 00C8 00000005") == "90" and host.out("zclmp_n") == 1
     await host.at_rest()
-    assert await host.poll() == "A0 38" and await host.poll() == "B0 27" and await host.poll() == "90"
+    assert await host.polls(3) == ["A0 38", "B0 27", "90"]
     for _ in range(2):
         await host.pins(epin=1)
         await host.pause(5)
@@ -69,24 +64,24 @@ async def p312_serial_monitor_with_clamp(dut: Any) -> None:
 @directed("P312-CMD-04", "P312-CMD-44", "P312-OUT-03", "P312-SER-30")
 async def p312_serial_interlock(dut: Any) -> None:
     host = await SerialHost.start(dut, TS, "04 00000004")
-    assert await host.ask("44") == "90" and host.out("intlk_n") == 0 and await status(host) == "40 02 00"
+    assert await host.ask("44") == "90" and host.out("intlk_n") == 0 and await host.status() == "40 02 00"
     assert await host.ask("44") == "90" and host.out("intlk_n") == 1
     assert await host.ask("44") == "90"
     await host.ask("84 00C8 0000000A")
     await host.at_rest()
     assert await host.polls(3) == ["B0 22", "A0 38", "90"]
-    assert host.out("intlk_n") == 1 and await status(host) == "00 02 00"
+    assert host.out("intlk_n") == 1 and await host.status() == "00 02 00"
 
 
 @directed("P312-CMD-05", "P312-INP-11", "P312-SER-47")
 async def p312_serial_speed_limit(dut: Any) -> None:
     host = await SerialHost.start(dut, TS)
-    assert await host.ask("05 0001") == PARAMETER and await host.ask("05 012C") == "90"
+    assert await host.asks("05 0001", "05 012C") == [PARAMETER, "90"]
     await host.pins(fhl_n=0)
     assert await host.ask("84 00C8 00000003") == LIMIT
     assert await host.ask("84 0190 00000003") == "90" and await host.settle() == ["A0 38"]
     await host.pins(fl_n=0)
-    assert await host.ask("84 0190 00000003") == LIMIT and await host.ask("82") == LIMIT
+    assert await host.asks("84 0190 00000003", "82") == [LIMIT, LIMIT]
     assert await host.ask("A2") == "90" and await host.settle() == ["A0 38"]
     assert await host.ask("4E") == "A0 44"
 
@@ -97,7 +92,7 @@ async def p312_serial_end_terminal(dut: Any) -> None:
     assert await host.ask("06 02") == PARAMETER
     assert await host.ask("82") == "90"
     await host.at_rest()
-    assert await host.poll() == "80" and await host.ask("40") == "A0 00" and await status(host) == "04 08 00"
+    assert await host.poll() == "80" and await host.ask("40") == "A0 00" and await host.status() == "04 08 00"
     for instruction in ("80", "81", "89 00C8", "8A 00C8"):
         assert await host.ask(instruction) == "90"
     await host.pins(end_n=0)
@@ -158,21 +153,25 @@ async def p312_serial_mask(dut: Any) -> None:
 @directed("P312-CMD-42", "P312-CMD-43", "P312-SER-40")
 async def p312_serial_positions(dut: Any) -> None:
     host = await SerialHost.start(dut, "43 12345678", "63 9ABCDEF0")
-    assert await host.ask("42") == "A0 12 34 56 78" and await host.ask("62") == "A0 9A BC DE F0"
+    assert await host.asks("42", "62") == ["A0 12 34 56 78", "A0 9A BC DE F0"]
     await host.pins(epin=1, epdir=0)
-    assert await host.ask("62") == "A0 9A BC DE F1" and await host.ask("42") == "A0 12 34 56 78"
+    assert await host.asks("62", "42") == ["A0 9A BC DE F1", "A0 12 34 56 78"]
 
 
 @directed("P312-CMD-45", "P312-INP-20", "P312-SER-30")
 async def p312_serial_held_operation(dut: Any) -> None:
     host = await SerialHost.start(dut, TS)
     await host.pins(run=0)
-    assert await host.ask("84 00C8 00000003") == "90" and await host.poll() == "80" and host.condition == 0x20
-    assert await host.ask("42") == "A0 00 00 00 00" and await host.ask("4E") == STATE
+    assert (
+        await host.ask("84 00C8 00000003") == "90"
+        and await host.poll() == "80"
+        and await host.state() == 0x20
+    )
+    assert await host.asks("42", "4E") == ["A0 00 00 00 00", STATE]
     assert await host.ask("45") == "90"
     await host.at_rest()
-    assert await host.polls(3) == ["B0 23", "A0 38", "90"] and await status(host) == "80 02 00"
-    assert await host.ask("45") == "90" and await host.ask("82") == "90" and await host.poll() == "80"
+    assert await host.polls(3) == ["B0 23", "A0 38", "90"] and await host.status() == "80 02 00"
+    assert await host.asks("45", "82") == ["90", "90"] and await host.poll() == "80"
     await host.pins(run=1)
     await host.at_rest()
     assert await host.polls(3) == ["B0 23", "A0 38", "90"]
@@ -183,15 +182,14 @@ async def p312_serial_event_buffers(dut: Any) -> None:
     host = await SerialHost.start(dut, TS)
     for code, delete, pin, buffers in (("49", "69", "evt0_n", "40"), ("59", "79", "evt1_n", "80")):
         assert await host.ask(delete) == REGISTRATION
-        assert [await host.ask(f"{code} {EVENT}") for _ in range(4)] == ["90"] * 4
-        assert await host.ask(f"{code} {EVENT}") == REGISTRATION
-        assert await status(host) == f"00 02 {buffers}"
+        assert await host.asks(*[f"{code} {EVENT}"] * 5) == ["90"] * 4 + [REGISTRATION]
+        assert await host.status() == f"00 02 {buffers}"
         await host.blip(pin)
-        assert host.out("exon_n") == 0 and await host.poll() == "B0 29" and await host.poll() == "90"
+        assert host.out("exon_n") == 0 and await host.polls(2) == ["B0 29", "90"]
         assert await host.ask("21") == "90"
-        assert [await host.ask(delete) for _ in range(5)] == ["90"] * 4 + [REGISTRATION]
+        assert await host.asks(*[delete] * 5) == ["90"] * 4 + [REGISTRATION]
         await host.blip(pin)
-        assert await host.poll() == "90" and await status(host) == "00 02 00"
+        assert await host.poll() == "90" and await host.status() == "00 02 00"
     assert await host.ask("4E") == "A0 49"
 
 
@@ -233,137 +231,14 @@ async def p312_serial_events_in_other_states(dut: Any) -> None:
     assert await host.ask("69") == STATE
 
 
-@directed("P312-SER-40", "P312-CMD-82", "P312-CMD-83", "P312-CMD-84", "P312-CMD-85", "P312-CMD-86")
-async def p312_serial_motions(dut: Any) -> None:
-    host = await SerialHost.start(dut, TS)
-    position = 0
-    for code, data, count in (("82", "", 1), ("83", "0000 00000008", 8), ("84", "0190 00000005", 5)):
-        for ccw in (0, 1):
-            assert await host.ask(f"{int(code, 16) + 0x20 * ccw:02X} {data}") == "90"
-            await host.at_rest()
-            assert host.out("dir") == ccw and len(host.pulses()) == count
-            assert await host.poll() == "A0 38" and await host.poll() == "90"
-            position += -count if ccw else count
-            assert await host.ask("42") == "A0 " + position.to_bytes(4, "big", signed=True).hex(" ").upper()
-    for code, data, gaps in (("85", "0190", {800}), ("86", "01F4", {1000})):
-        for ccw in (0, 1):
-            assert await host.ask(f"{int(code, 16) + 0x20 * ccw:02X} {data}") == "90"
-            assert await host.poll() == "80" and host.out("dir") == ccw
-            assert set(host.gaps(1)) == gaps
-            assert await host.ask("80") == "90"
-            await host.at_rest()
-            assert await host.poll() == STOPPED
-    for bad in ("83 0000 00000000", "84 0063 00000005", "84 01F5 00000005", "85 00C7", "86 01F5", "89 0000"):
-        assert await host.ask(bad) == (STATE if bad[0:2] == "89" else PARAMETER)
-
-
-@cocotb.parametrize(index=[0, 1])
-@cocotb.parametrize(ccw=[0, 1])
-@directed("P312-CMD-10", "P312-CMD-11", "P312-SER-40")
-async def p312_serial_origin(dut: Any, index: int, ccw: int) -> None:
-    host = await SerialHost.start(dut, TS)
-    assert await host.ask(f"{0x87 + 0x20 * ccw + 0x10 * index:02X} 0190") == "90"
-    await host.pulse(5)
-    await host.pins(org_n=0)
-    if index:
-        await host.pulse(8)
-        await host.pins(index_n=0)
-    await host.at_rest()
-    assert len(host.pulses()) == (8 if index else 5) and host.out("dir") == ccw
-    assert await host.poll() == "A0 32" and await host.ask("40") == "A0 32"
-    await host.pins(org_n=1)
-    await host.pins(index_n=1)
-    assert await host.ask(f"{0x88 + 0x20 * ccw + 0x10 * index:02X} 0000") == "90"
-    pin = "index_n" if index else "org_n"
-    await host.pins(org_n=0)
-    await host.pins(**{pin: 0})
-    await host.pause(2_500)
-    await host.pins(**{pin: 1})
-    await host.side.level_is("dir", 1 - ccw)
-    assert await host.poll() == "80"
-    await host.pins(**{pin: 0})
-    await host.at_rest()
-    assert await host.poll() == "A0 32"
-
-
-@directed("P312-CMD-80", "P312-CMD-81", "P312-MOT-30", "P312-SER-30")
-async def p312_serial_stops(dut: Any) -> None:
-    host = await SerialHost.start(dut, TS)
-    for start, stop, end in (("86 0000", "80", "37"), ("86 0000", "81", "36"), ("85 01F4", "81", "39")):
-        assert await host.ask(start) == "90"
-        await host.pulse(40)
-        assert await host.ask(stop) == "90"
-        await host.at_rest()
-        assert await host.poll() == f"A0 {end}" and await host.ask("40") == f"A0 {end}"
-    for instruction in ("80", "81", "89 00C8", "8A 00C8"):
-        assert await host.ask(instruction) == STATE
-
-
-@directed("P312-CMD-87", "P312-CMD-88", "P312-SER-40")
-async def p312_serial_changes(dut: Any) -> None:
-    host = await SerialHost.start(dut, TS)
-    assert await host.ask("85 01F4") == "90"
-    assert await host.ask("8A 0190") == "90"
-    host.mark = host.t
-    assert await host.poll() == "80" and host.gaps(1)[-1] == 800
-    assert await host.ask("89 0188") == "90"
-    await host.pause(120_000)
-    host.mark = host.t
-    assert await host.poll() == "80" and host.gaps(1)[-1] == 784
-    assert await host.ask("8A 0000") == PARAMETER and await host.ask("89 0063") == PARAMETER
-    assert await host.ask("80") == "90" and await host.settle() == [STOPPED]
-
-
-@cocotb.parametrize(case=[(0x20, "evt0_n"), (0x30, "evt1_n")])
-@directed("P312-OVR-01", "P312-OVR-02", "P312-SER-40", "P312-SER-22")
-async def p312_serial_overrides_by_pins(dut: Any, case: Any) -> None:
-    """80, 81, 89 and 8A wait for their pin, one after the other."""
-    bits, pin = case
-    host = await SerialHost.start(dut, TS)
-    for code, data in ((0x8A, "0190"), (0x89, "01F4"), (0x81, ""), (0x80, "")):
-        assert await host.ask(f"{code + bits:02X} {data}") == "90"
-    assert await status(host) == f"00 02 {'24' if bits == 0x30 else '14'}"
-    assert await host.ask("85 01F4") == "90"
-    await host.blip(pin)
-    assert await host.poll() == "B0 28"
-    host.mark = host.t
-    assert await host.poll() == "80" and host.gaps(1)[-1] == 800
-    await host.blip(pin)
-    assert await host.poll() == "B0 28" and await host.ask("80") == "90"
-    await host.at_rest()
-    assert await host.poll() == STOPPED
-    # 81 and 80 find nothing to stop: the first one fails and takes the other with it.
-    await host.blip(pin)
-    assert await host.poll() == "B0 4B" and await host.poll() == "90" and await status(host) == "00 02 00"
-
-
-@directed("P312-OVR-01", "P312-OVR-12", "P312-SER-40")
-async def p312_serial_overrides_at_positions(dut: Any) -> None:
-    host = await SerialHost.start(dut, TS)
-    for instruction in ("99 0190 00000005", "9A 01F4 00000008", "91 00000014", "90 00000019"):
-        assert await host.ask(instruction) == "90"
-    assert await status(host) == "00 02 04"
-    assert await host.ask("85 01F4") == "90"
-    await host.at_rest()
-    # 91 finds the stop speed reached; 90 waits for the next motion.
-    assert await host.ask("42") == "A0 00 00 00 14"
-    assert await host.polls(3) == ["B0 28", "A0 39", "90"]
-    assert await host.ask("85 01F4") == "90"
-    await host.at_rest()
-    assert await host.ask("42") == "A0 00 00 00 19" and await host.polls(2) == [
-        "B0 28",
-        "A0 37",
-    ]
-
-
 @directed("P312-OVR-01", "P312-SER-47", "P312-CMD-49")
 async def p312_serial_registrations_that_fail(dut: Any) -> None:
     host = await SerialHost.start(dut, TS)
-    assert [await host.ask("90 00000014") for _ in range(9)] == ["90"] * 8 + [REGISTRATION]
+    assert await host.asks(*["90 00000014"] * 9) == ["90"] * 8 + [REGISTRATION]
     assert await host.ask(TS) == "90"
-    assert await host.ask("A0") == "90" and await host.ask(f"49 {EVENT}") == REGISTRATION
-    assert await host.ask(f"59 {EVENT}") == "90" and await host.ask("B0") == REGISTRATION
-    assert await host.ask("4E") == "A0 49" and await host.ask("4E") == "A0 00"
+    assert await host.asks("A0", f"49 {EVENT}") == ["90", REGISTRATION]
+    assert await host.asks(f"59 {EVENT}", "B0") == ["90", REGISTRATION]
+    assert await host.asks("4E", "4E") == ["A0 49", "A0 00"]
 
 
 @directed("P312-STA-01", "P312-SER-47", "P312-SER-45")
@@ -403,7 +278,7 @@ async def p312_serial_states(dut: Any) -> None:
         assert await host.ask(instruction) == STATE, instruction
     for instruction, answer in (*always, ("4E", "A0 43"), ("4F", "A0 00 00 00")):
         assert await host.ask(instruction) == answer
-    assert await host.ask(TS) == "90" and await host.ask("85 01F4") == "90"
+    assert await host.asks(TS, "85 01F4") == ["90", "90"]
     for instruction in moving:
         assert await host.ask(instruction) == STATE, instruction
     for instruction, answer in always:

@@ -39,9 +39,7 @@ async def p312_serial_control_codes(dut: Any) -> None:
             await host.raw("31 67")
     await host.raw("A1 B1 C1 D1 E1 F1 7E")
     assert await host.quiet(4_000)
-    assert (
-        await host.poll() == "90" and await host.ask("4F") == NONE and await host.ask("4D") == "A0 00 01 00"
-    )
+    assert await host.poll() == "90" and await host.asks("4F", "4D") == [NONE, "A0 00 01 00"]
 
 
 @directed("P312-SER-10")
@@ -105,7 +103,7 @@ async def p312_serial_every_wrong_bit_of_a_checksum(dut: Any) -> None:
 @directed("P312-SER-13", builds=(CHARS,))
 async def p312_serial_sum_of_characters(dut: Any) -> None:
     host = await SerialHost.start(dut, TS)
-    assert await host.ask("43 89ABCDEF") == "90" and await host.ask("42") == "A0 89 AB CD EF"
+    assert await host.asks("43 89ABCDEF", "42") == ["90", "A0 89 AB CD EF"]
     assert await host.ask("83 0000 00000000") == "B0 42"
     await host.raw("81 7E")
     assert await host.hear() == "B0 41" and host.wire == "B1 34 31 1A"
@@ -141,11 +139,7 @@ async def p312_serial_bad_digits(dut: Any, bad: int) -> None:
         assert await host.quiet(500)
         await host.send(wrong[-1:])
         assert await host.hear() == "B0 41"
-    assert (
-        await host.ask("4F") == "A0 00 00 02"
-        and await host.ask("4E") == "A0 00"
-        and host.out("auxo_n") == 0x3F
-    )
+    assert await host.asks("4F", "4E") == ["A0 00 00 02", "A0 00"] and host.out("auxo_n") == 0x3F
 
 
 @cocotb.parametrize(line=["91 4A", "91 4A 36", "91 30 4A", "91 46 46 6F 30"])
@@ -156,7 +150,7 @@ async def p312_serial_bad_digits_in_the_code(dut: Any, line: str) -> None:
     await host.raw(line)
     assert await host.quiet(SILENCE - 2_000)
     assert await host.hear(SILENCE + 4_096) == "B0 41"
-    assert await host.ask("4F") == "A0 00 00 01" and await host.ask("4E") == "A0 00"
+    assert await host.asks("4F", "4E") == ["A0 00 00 01", "A0 00"]
 
 
 UNKNOWN = ("01", "29", "47", "92", "FE")
@@ -170,9 +164,7 @@ async def p312_serial_unknown_codes(dut: Any, code: str) -> None:
     await host.send(code.lower().encode())
     assert await host.quiet(SILENCE - 3_000)
     assert await host.hear(SILENCE + 4_096) == "B0 47"
-    assert (
-        await host.ask("4E") == "A0 47" and await host.ask("4E") == "A0 00" and await host.ask("4F") == NONE
-    )
+    assert await host.asks("4E", "4E", "4F") == ["A0 47", "A0 00", NONE]
 
 
 @directed("P312-SER-17")
@@ -214,7 +206,7 @@ async def p312_serial_silence_in_a_frame(dut: Any, begin: str) -> None:
     await host.pause(SILENCE + 16_000)
     await host.raw(rest)
     assert await host.quiet(8_000) and host.out("auxo_n") == 0x3F
-    assert await host.poll() == "90" and await host.ask("4F") == NONE and await host.ask("4E") == "A0 00"
+    assert await host.poll() == "90" and await host.asks("4F", "4E") == [NONE, "A0 00"]
     assert level == (0x3F if begin == "81" else 0x2A)
 
 

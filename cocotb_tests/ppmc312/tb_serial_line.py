@@ -93,7 +93,7 @@ async def p312_serial_wrong_bit_time(dut: Any, case: Any) -> None:
 async def p312_serial_wrong_bit_time_of_slow_lines(dut: Any, case: Any) -> None:
     mod, error = case
     host = await SerialHost.start(dut, mod=mod, error=error)
-    assert await host.ask("43 0055FFAA") == "90" and await host.ask("4F") == "A0 00 00 00"
+    assert await host.asks("43 0055FFAA", "4F") == ["90", "A0 00 00 00"]
 
 
 @directed("P312-SER-01", "P312-SER-15")

@@ -59,16 +59,16 @@ async def p312_serial_busy_and_ready(dut: Any) -> None:
     host = await SerialHost.start(dut)
     assert await host.poll() == "90"
     assert await host.ask(TS) == "90" and await host.poll() == "90"
-    assert await host.ask("86 0000") == "90" and host.condition == 0x04 and await host.poll() == "80"
+    assert await host.ask("86 0000") == "90" and await host.state() == 0x04 and await host.poll() == "80"
     assert await host.ask("80") == "90"
     await host.at_rest()
-    assert await host.poll() == "A0 37" and await host.poll() == "90"
-    assert await host.ask("85 0190") == "90" and host.condition == 0x08 and await host.poll() == "80"
+    assert await host.polls(2) == ["A0 37", "90"]
+    assert await host.ask("85 0190") == "90" and await host.state() == 0x08 and await host.poll() == "80"
     await host.pins(alm_n=0)
     await host.pause(2_000)
     assert await host.polls(3) == ["B0 46", "A0 31", "90"]
     await host.pins(alm_n=1)
-    assert await host.ask("24") == "90" and await host.poll() == "90" and host.condition == 0x02
+    assert await host.ask("24") == "90" and await host.poll() == "90" and await host.state() == 0x02
 
 
 @directed("P312-SER-22", "P312-SER-30", "P312-EVT-02", "P312-OVR-04")
@@ -76,14 +76,14 @@ async def p312_serial_the_newest_of_events_and_overrides(dut: Any) -> None:
     host = await SerialHost.start(dut, TS, event("49", ON), event("59", STOP))
     await host.blip("evt0_n")
     await host.blip("evt1_n")
-    assert await host.poll() == "B0 4A" and await host.poll() == "90"
+    assert await host.polls(2) == ["B0 4A", "90"]
     await host.blip("evt0_n")
     assert await host.ask("B0") == "90"
     await host.blip("evt1_n")
-    assert await host.poll() == "B0 4B" and await host.poll() == "90"
+    assert await host.polls(2) == ["B0 4B", "90"]
     await host.blip("evt0_n")
     assert await host.poll() == "B0 29"
-    assert await host.ask("B0") == "90" and await host.ask("85 01F4") == "90"
+    assert await host.asks("B0", "85 01F4") == ["90", "90"]
     await host.blip("evt0_n")
     await host.blip("evt1_n")
     await host.at_rest()
@@ -112,7 +112,7 @@ async def p312_serial_what_events_may_do(dut: Any, case: Any) -> None:
     host = await SerialHost.start(dut, TS, event("49", block))
     await host.blip("evt0_n")
     assert await host.quiet(4_000)
-    assert await host.poll() == answer and await host.poll() == "90"
+    assert await host.polls(2) == [answer, "90"]
     assert await host.ask("4D") == ("A0 00 02 40" if answer == "B0 29" else "A0 00 02 00")
     assert await host.ask("4E") == "A0 00"
 
@@ -126,18 +126,15 @@ async def p312_serial_newer_reports_replace_older_ones(dut: Any) -> None:
     assert await host.ask("85 01F4") == "90"
     await host.ask("80")
     await host.at_rest()
-    assert await host.poll() == "A0 37" and await host.poll() == "90"
+    assert await host.polls(2) == ["A0 37", "90"]
     for position in (2, 4):
-        assert (
-            await host.ask(f"04 {host.side.golden.position + position:08X}") == "90"
-            and await host.ask("44") == "90"
-        )
+        assert await host.asks(f"04 {host.side.golden.position + position:08X}", "44") == ["90", "90"]
         await host.pins(run=0)
         assert await host.ask("84 01F4 00000006") == "90"
         await host.pins(run=1)
         await host.at_rest()
     assert await host.polls(4) == ["B0 22", "B0 23", "A0 38", "90"]
-    assert host.condition == 0x02
+    assert await host.state() == 0x02
 
 
 @directed("P312-SER-21", "P312-SER-22", "P312-RSP-20", "P312-OVR-10")
@@ -146,12 +143,12 @@ async def p312_serial_no_alarm_by_unread_answers(dut: Any) -> None:
     host = await SerialHost.start(dut, TS, event("49", ON), event("49", OFF))
     for _ in range(6):
         await host.blip("evt0_n", gap=300)
-    assert host.out("exon_n") == 1 and host.condition == 0x02
+    assert host.out("exon_n") == 1 and await host.state() == 0x02
     for position in range(2, 8):
         assert await host.ask(f"9A 01F4 {position:08X}") == "90"
     assert await host.ask("84 0190 0000000A") == "90"
     await host.at_rest()
-    assert await host.polls(3) == ["B0 28", "A0 38", "90"] and host.condition == 0x02
+    assert await host.polls(3) == ["B0 28", "A0 38", "90"] and await host.state() == 0x02
 
 
 @directed("P312-RSP-22", "P312-MON-05", "P312-SER-42")
@@ -162,8 +159,8 @@ async def p312_serial_monitors_that_return(dut: Any) -> None:
         assert await host.ask(f"43 {far}") == "90"
     assert await host.poll() == "90"
     assert await host.ask("43 00000010") == "90" and await host.poll() == "B0 27"
-    assert await host.ask("43 00000000") == "90" and await host.ask("43 00000010") == "90"
-    assert await host.poll() == "B0 25" and await host.poll() == "90"
+    assert await host.asks("43 00000000", "43 00000010") == ["90", "90"]
+    assert await host.polls(2) == ["B0 25", "90"]
     assert await host.ask("43 00000000") == "90" and await host.polls(3) == [
         "B0 26",
         "B0 24",
@@ -191,12 +188,12 @@ async def p312_serial_end_status(dut: Any) -> None:
         "90",
         "A0 38",
     ]
-    assert await host.ask("85 01F4") == "90" and await host.ask("40") == "A0 38"
+    assert await host.asks("85 01F4", "40") == ["90", "A0 38"]
     await host.pins(fl_n=0)
     await host.pause(2_000)
     assert await host.ask("40") == "A0 33" and await host.poll() == "A0 33"
     await host.pins(fl_n=1)
-    assert await host.ask("05 01F4") == "90" and await host.ask("86 0000") == "90"
+    assert await host.asks("05 01F4", "86 0000") == ["90", "90"]
     await host.pins(fhl_n=0)
     await host.at_rest()
     assert await host.poll() == "A0 34" and await host.ask("40") == "A0 34"
@@ -243,7 +240,7 @@ async def p312_serial_a_report_around_a_poll(dut: Any, pin: str) -> None:
         await host.settle()
         if pin == "run":
             assert await host.ask("85 01F4") == "90"
-        if pin == "alm_n" and host.condition == 0x10:
+        if pin == "alm_n" and await host.state() == 0x10:
             assert await host.ask("24") == "90"
         await last_bit(host, summed(0x81), shift, **{pin: after})
         said = [await host.hear()]
@@ -266,5 +263,5 @@ async def p312_serial_an_event_around_an_instruction(dut: Any) -> None:
         await host.pins(evt0_n=1)
         value = 0x15 + number % 2
         await last_bit(host, summed(0x91, bytes([0x26, value])), shift, evt0_n=0)
-        assert await host.hear() == "90" and await host.poll() == "B0 29" and await host.poll() == "90"
+        assert await host.hear() == "90" and await host.polls(2) == ["B0 29", "90"]
         assert host.out("exon_n") == number % 2 and host.out("auxo_n") == ~value & 0x3F

@@ -88,11 +88,7 @@ async def p312_serial_software_reset(dut: Any) -> None:
         1,
     )
     assert await host.poll() == "90" and await host.ask("4D") == "A0 00 01 00"
-    assert (
-        await host.ask("4F") == "A0 00 00 00"
-        and await host.ask("4E") == "A0 00"
-        and await host.ask("40") == "A0 00"
-    )
+    assert await host.asks("4F", "4E", "40") == ["A0 00 00 00", "A0 00", "A0 00"]
 
 
 @directed("P312-CMD-FF", "P312-STA-01")
@@ -106,12 +102,12 @@ async def p312_serial_software_reset_in_every_state(dut: Any) -> None:
         await host.say("FF")
         assert await host.quiet(5_000)
         await host.pins(run=1)
-        assert await host.poll() == "90" and host.condition == 0x01
+        assert await host.poll() == "90" and await host.state() == 0x01
     await host.pins(alm_n=0)
     await host.pause(20)
     await host.say("FF")
     assert await host.quiet(5_000)
-    assert await host.poll() == "B0 46" and host.condition == 0x10
+    assert await host.poll() == "B0 46" and await host.state() == 0x10
 
 
 @cocotb.parametrize(clk=[0, 400, 1_500, 3_000])
@@ -127,7 +123,7 @@ async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
     await host.pins(evt0_n=1)
     host.forget()
     assert await host.quiet(8_000)
-    assert await host.poll() == "90" and host.condition == 0x01
+    assert await host.poll() == "90" and await host.state() == 0x01
 
 
 @directed("P312-PRT-03", "P312-CMD-FF")
@@ -247,11 +243,7 @@ async def p312_serial_frames_before_out_oe(dut: Any) -> None:
     assert host.out("out_oe")
     await host.raw("33")
     assert await host.quiet(9_000) and host.out("auxo_n") == 0x3F
-    assert (
-        await host.ask("4F") == "A0 00 00 00"
-        and await host.ask("4E") == "A0 00"
-        and await host.poll() == "90"
-    )
+    assert await host.asks("4F", "4E") == ["A0 00 00 00", "A0 00"] and await host.poll() == "90"
 
 
 @cocotb.parametrize(early=[300, 40, 6, 5, 4, 3, 2, 1, 0, -1, -2, -3, -10])

@@ -17,14 +17,8 @@ async def p312_serial_tour(dut: Any) -> None:
     """Each kind of frame and of reply, a motion, an event, an override, errors of all three counters."""
     host = await SerialHost.start(dut, adr=10)
     assert await host.poll() == "90" and await host.asks("41", "82") == ["A0 12", "B0 43"]
-    assert (
-        await host.ask(TS) == "90"
-        and await host.ask("63 12345678") == "90"
-        and await host.ask("62") == "A0 12 34 56 78"
-    )
-    assert (
-        await host.ask("90 00000005") == "90" and await host.ask("49 03 01 20 00 00 00 00 00 00 00") == "90"
-    )
+    assert await host.asks(TS, "63 12345678", "62") == ["90", "90", "A0 12 34 56 78"]
+    assert await host.asks("90 00000005", "49 03 01 20 00 00 00 00 00 00 00") == ["90", "90"]
     assert await host.ask("85 0190") == "90"
     assert await host.poll() == "B0 28" and await host.settle() == ["A0 37"]
     await host.blip("evt0_n", gap=300)
@@ -35,11 +29,7 @@ async def p312_serial_tour(dut: Any) -> None:
     await host.send(summed(0x9A, b"\x25") + summed(0x8A))
     assert await host.hear(timed=False) == "A0 00"
     await host.character(0x8A, stop=0)
-    assert (
-        await host.ask("4F") == "A0 01 01 01"
-        and await host.ask("4E") == "A0 42"
-        and await host.ask("40") == "A0 37"
-    )
+    assert await host.asks("4F", "4E", "40") == ["A0 01 01 01", "A0 42", "A0 37"]
     await host.pins(alm_n=0)
     await host.pause(20)
     assert await host.polls(2) == ["B0 46", "90"]

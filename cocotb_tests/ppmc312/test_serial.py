@@ -16,6 +16,7 @@ MODULES = (
     "tb_serial_line",
     "tb_serial_frames",
     "tb_serial_codes",
+    "tb_serial_motions",
     "tb_serial_polls",
     "tb_serial_resets",
 )
