@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock, a recorder of output
 // levels and a player of pin changes that run without them: a clk costs two evaluations of the design and nothing
-// else. `native.py` is the other side. Compiled once for all designs: `verilated_top.inc` is what a design adds.
+// else. `native.py` is the other side. Compiled once for all designs: `top.cpp` is what a design adds.
 // The makefile wants small code.
 #pragma GCC optimize("O2")
 
@@ -178,7 +178,13 @@ void openppmc_clock(int port, std::uint64_t half) {
     openppmc_put(port, 0);
 }
 
+// A port that is watched already stays the one entry that it is: a process may make many benches.
 void openppmc_watch(int port) {
+    for (Watched& watch : watched) {
+        if (watch.port != static_cast<std::uint32_t>(port)) continue;
+        watch.level = ports[port].load();
+        return;
+    }
     watched.push_back({static_cast<std::uint32_t>(port), ports[port].load()});
 }
 
