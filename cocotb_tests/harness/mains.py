@@ -21,7 +21,7 @@ def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> l
 
     Raises SimError if the test does not pass.
     """
-    folder = RUNS / f"{safe(item.id)}-s{item.seed}-{main}.{os.getpid()}"
+    folder = RUNS / f"{safe(item.id)}-{main}.{os.getpid()}"
     run_sim(replace(design, main=main), item, item.seed, env={**env, DIGESTS: "1"}, folder=folder)
     left = folder / DIGEST_FILE
     digests = left.read_text(encoding="ascii").split() if left.is_file() else []
