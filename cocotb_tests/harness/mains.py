@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Mapping
 from dataclasses import replace
@@ -10,7 +11,8 @@ from .build import Design, part_design
 from .collect import Item
 from .compare import DIGEST_FILE, DIGESTS
 from .paths import RUNS
-from .runner import run_folder, run_sim
+from .runner import run_sim
+from .simulate import safe
 from .verilate import MAINS
 
 
@@ -19,7 +21,7 @@ def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> l
 
     Raises SimError if the test does not pass.
     """
-    folder = RUNS / f"{run_folder(item, item.seed).name}-{main}"
+    folder = RUNS / f"{safe(item.id)}-{main}.{os.getpid()}"
     run_sim(replace(design, main=main), item, item.seed, env={**env, DIGESTS: "1"}, folder=folder)
     left = folder / DIGEST_FILE
     digests = left.read_text(encoding="ascii").split() if left.is_file() else []
