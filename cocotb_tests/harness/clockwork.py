@@ -1,7 +1,7 @@
 """`Clockwork`: what a bench needs of the simulation a million times: clock, pins, levels, edges of outputs.
 
 `clockwork()` is that of the main program the simulation runs on: `Native` on our own, `Stock` on cocotb's
-(see `verilate`). Both give the same; the one is three times as fast, the other needs nothing but cocotb.
+(see `verilate`). Both give the same; the one is faster, the other needs nothing but cocotb.
 """
 
 from __future__ import annotations
