@@ -14,7 +14,7 @@ from cocotb_tests.harness.config import D16, F16, Config
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
-from .modules import CHARS, F8V, F27X12
+from .builds import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
 from .serial_host import SerialHost
 
