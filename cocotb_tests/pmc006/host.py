@@ -124,6 +124,11 @@ class Host(View, SerialLine):
         self.side.set(**levels)
         self.t += 1
 
+    async def at(self, t: int, **levels: int) -> None:
+        """Pin levels from edge t on, which may lie before the end of the last stop bit; `t` stays."""
+        await self.side.until(t)
+        self.side.set(**levels)
+
     async def strobe(self, **levels: int) -> None:
         """adc_data or bemf_level with its valid for one clk."""
         valid = {("adc_valid" if "adc_data" in levels else "bemf_valid"): 1}
