@@ -25,10 +25,10 @@ from .verifies import verifies
 
 
 def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
-    """A cocotb test that verifies `rules` in the build configurations `builds`.
+    """A cocotb test that verifies `rules` (none: sessions of a manual) in the build configurations `builds`.
 
     `uncompared`: why the outputs are not compared with the golden model; the run lists such tests. Raises
-    ValueError for an ID that is none, or without any.
+    ValueError for an ID that is none.
     """
 
     def mark(test: Any) -> Any:
@@ -43,7 +43,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
         del run.__wrapped__  # type: ignore[attr-defined]
         run._openppmc_directed = True  # type: ignore[attr-defined]
         run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
-        verifies(*rules)(configs(*builds)(run))
+        configs(*builds)(verifies(*rules)(run) if rules else run)
         if function is test:
             return cocotb.test()(run)
         test.func = run

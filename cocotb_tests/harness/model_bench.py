@@ -118,17 +118,22 @@ class ModelBench(Side):
         """As `Side.set_between`; there is no time between two edges here."""
         return self.set(**levels)
 
-    def _schedule(self, later: _Later) -> _Later:
+    def _start(self, changes: Iterator[PinChange]) -> _Later:
+        later = _Later(changes)
+        self._later.append(later)
+        self._schedule(later)
+        return later
+
+    def _schedule(self, later: _Later) -> None:
         for edge, levels in later.changes:
             heapq.heappush(self._due, (edge, next(self._order), levels, later))
             break
-        return later
 
     def at(self, edge: int, **levels: int) -> _Later:
         """As `Side.at`."""
         if edge < self._now:
             raise ValueError(f"at({edge}): it is already edge {self._now}")
-        return self._schedule(_Later(iter([(edge, levels)])))
+        return self._start(iter([(edge, levels)]))
 
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> _Later:
         """As `Side.external_clock`."""
@@ -141,7 +146,7 @@ class ModelBench(Side):
                 yield t + high, {name: 0}
                 t += interval
 
-        return self._schedule(_Later(ticks()))
+        return self._start(ticks())
 
     # ---------------------------------------------------------------- outputs
 
