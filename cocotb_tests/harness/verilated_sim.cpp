@@ -179,6 +179,11 @@ void openppmc_clock(int port, std::uint64_t half) {
 }
 
 void openppmc_watch(int port) {
+    for (Watched& watch : watched) {
+        if (watch.port != static_cast<std::uint32_t>(port)) continue;
+        watch.level = ports[port].load();
+        return;
+    }
     watched.push_back({static_cast<std::uint32_t>(port), ports[port].load()});
 }
 
