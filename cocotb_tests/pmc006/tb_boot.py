@@ -9,8 +9,8 @@ import cocotb
 from .builds import directed
 from .chip import Chip
 from .host import Host
-from .moves import DECAY, OFFLINE, quick, start
-from .programs import FACTORY_PAGE, Op, goto, image, out, page, words
+from .moves import DECAY, OFFLINE
+from .programs import Op, goto, image, out, page, words
 
 SAVED = page(
     a03=0x78, a04=0, a06=5, a07=4, a08=0, a09=4, a0A=3, a0B=0, a0C=0xB8, a0D=0x0B, a0E=65, a0F=0,
@@ -140,12 +140,8 @@ async def p006_last_instruction_and_high_bytes_are_loaded(dut: Any) -> None:
 @directed("P006-BAD-13", "P006-EEP-01", "P006-BAD-12")
 async def p006_without_a_device(dut: Any, fault: str) -> None:
     """10 ms of calls, or 1 ms of a clock held low; then all works, saving too, but without effect."""
-    chip = Chip(
-        image(SAVED),
-        missing=fault == "missing",
-        other=fault == "other",
-        stuck="scl" if fault == "scl" else "",
-    )
+    faults: dict[str, Any] = {"stuck": "scl"} if fault == "scl" else {fault: True}
+    chip = Chip(image(SAVED), **faults)
     host = await Host.start(dut, chip=chip)
     assert host.us(1_000 if fault == "scl" else 10_000) <= host.t <= host.us(15_000)
     assert await values(host) == FACTORY and await host.ask("W", 5) == 5

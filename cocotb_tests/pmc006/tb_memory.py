@@ -13,7 +13,7 @@ from .moves import DECAY, brisk, rest, start
 from .programs import image, page
 
 
-@directed("P006-FRM-07", "P006-EEP-01", "P006-BAD-06", builds=BUILDS)
+@directed("P006-FRM-07", "P006-EEP-01", "P006-BAD-06", builds=(F8B, ODD))
 async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
     """Deaf until then, with an EEPROM or without one: such a frame is lost, and so is one that ends later."""
     for chip, longest in ((Chip(image(), write_us=500), 60_000), (Chip(missing=True), 15_000)):
@@ -32,7 +32,7 @@ async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
 @directed("P006-CMD-02", "P006-CMD-41", "P006-CMD-53", "P006-BAD-12")
 async def p006_eeprom_codes(dut: Any) -> None:
     """t and B reply at once and work in the background; a second one is refused meanwhile."""
-    host = await Host.start(dut, chip=Chip(write_us=6_000)
+    host = await Host.start(dut, chip=Chip(write_us=6_000))
     assert await host.ask("t", -1) == 1 and await host.ask("t") == 0 and await host.ask("B") == 0
     await host.ms(14)
     assert (
@@ -50,7 +50,7 @@ async def p006_eeprom_codes(dut: Any) -> None:
     await host.boot()
 
 
-@directed("P006-PAR-01", "P006-EEP-01", "P006-EEP-10", builds=BUILDS)
+@directed("P006-PAR-01", "P006-EEP-01", "P006-EEP-10", builds=(ODD,))
 async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
     """SCL keeps its rate over the whole transfer, within a clk of its quarter ticks."""
     host = await Host.start(dut, chip=Chip(image(page(a04=32)), write_us=300))
@@ -67,4 +67,3 @@ async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
     assert {abs(b - a - period) <= 1 for a, b in pairwise(falls) if b - a < 1.2 * period} == {True}
     lows = [b - a for (a, level), (b, _) in pairwise(edges) if level]
     assert len(lows) > 600 and all(0 <= low - 0.55 * period < 2 for low in lows)
-

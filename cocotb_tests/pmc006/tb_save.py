@@ -9,7 +9,7 @@ import cocotb
 from .builds import directed
 from .chip import Chip
 from .host import Host
-from .moves import DECAY, download, quick, start
+from .moves import DECAY, download, start
 from .programs import FACTORY_PAGE, P1, image, page, words
 from .tb_boot import BLINK, FACTORY, SAVED, VALUES, booted, values
 

@@ -1,14 +1,16 @@
-"""PMC006 acceptance checks of the link and of the registers. Also played on the RTL."""
+"""Acceptance checks of the link and of the registers."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.pmc006.frames import command, signed
-from cocotb_tests.pmc006.host import Host
-from cocotb_tests.pmc006.line import Line, Node
-from cocotb_tests.pmc006.moves import ready, rest, run, still
+import cocotb
+
+from .builds import directed
+from .frames import command, signed
+from .host import Host
+from .line import Line
+from .moves import ready, rest, run, still
 
 
 @directed("P006-AC-01", "P006-EXC-30", "P006-EXC-31", "P006-PORT-04")
@@ -178,11 +180,11 @@ async def p006_ac_54(dut: Any) -> None:
     assert len(host.steps()) == 1
 
 
+@cocotb.parametrize(first=[True, False])
 @directed("P006-AC-61", "P006-FRM-10", "P006-FRM-06")
-async def p006_ac_61(dut: Any) -> None:
-    """Two parts on one bus; the tape of each is played by itself."""
-    line = Line()
-    ten, twenty = Node(line), Node(line, address=20)
+async def p006_ac_61(dut: Any, first: bool) -> None:
+    """Two parts on one bus, of which either the first or the second is the one under test."""
+    ten, twenty = await Line.start(dut, first)
     for host in (ten, twenty):
         await host.boot()
     # One address after the other: at first both have FF, and the second one is held in reset.
@@ -195,16 +197,16 @@ async def p006_ac_61(dut: Any) -> None:
     assert await twenty.ask("w", 20) == 20
     for host in (ten, twenty):
         await host.ok(e=1000, u=3, o=3, v=3200)
-    mark = line.t
+    mark = ten.t
     assert await ten.swap("A5 0A 4E 01 00 00 00 FE") == "A5 7A 0A 01 00 00 00 2A"
-    assert ten.ask_other(twenty, "j") == 8
+    assert await ten.ask_other(twenty, "j") == 8
     await ten.ms(10)
     assert ten.steps(mark) and not twenty.steps(mark) and await ten.busy() and not await twenty.busy()
     await run(twenty)
     await ten.ms(10)
     assert ten.steps(mark) and twenty.steps(mark)
     assert await ten.ask("I") == 0 and not await ten.busy() and await twenty.busy()
-    assert ten.ask_other(twenty, "j") & 1
+    assert await ten.ask_other(twenty, "j") & 1
     assert await twenty.swap("A5 14 49 00 00 00 00 02") == "A5 7A 14 00 00 00 00 33"
     await ten.send(command(15, "j"))
     assert await ten.silent(ten.us(20_000)) and await twenty.rise() is None
@@ -217,7 +219,7 @@ async def p006_ac_61(dut: Any) -> None:
 
 @directed("P006-AC-62", "P006-FRM-05")
 async def p006_ac_62(dut: Any) -> None:
-    host = await Host.start(dut, baud=115_200)
+    host = await Host.start(dut)
     for address in range(0, 255, host.pick(1, 6)):
         await host.say("j", address=address)
         assert await host.rise() is None

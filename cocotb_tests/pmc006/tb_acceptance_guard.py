@@ -1,13 +1,12 @@
-"""PMC006 acceptance checks of emergency stops, stalls, ports and bridges. Also played on the RTL."""
+"""Acceptance checks of emergency stops, stalls, ports and bridges."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.scripts import model_only
-from cocotb_tests.pmc006.host import Host
-from cocotb_tests.pmc006.moves import (
+from .builds import directed
+from .host import Host
+from .moves import (
     DECAY,
     EXT1,
     EXT1_EN,
@@ -251,21 +250,3 @@ async def p006_ac_64(dut: Any) -> None:
     assert not await host.ask("O") & EXT1_EN and await host.status() & EXT1
     assert await host.ask("b") == 0 and await host.ask("s", 1) == host.accepted(1)
     await rest(host)
-
-
-@model_only("pwm_x_ref is not on the tapes; p006_streams has the same on the RTL")
-@directed("P006-AC-29", "P006-EXC-40")
-async def p006_ac_29(dut: Any) -> None:
-    host = await ready(dut)
-    await host.ok(a=0)
-    for current in (400, 1000, 4000):
-        await host.ok(e=current)
-        await host.pause(300)
-        for phase, ref in (("a", await host.out("phase_a_ref")), ("b", await host.out("phase_b_ref"))):
-            start_at = host.t
-            ones = 0
-            for t in range(start_at, start_at + 256):
-                host.model.run_until(t)
-                ones += host.model.drive.level(t, phase)
-            assert ones == ref
-            host.t = start_at + 256
