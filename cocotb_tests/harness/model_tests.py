@@ -42,7 +42,7 @@ def model_tests(module: str, package: str, *names: str, builds: Sequence[Config]
 
 def _test(test: Any, builds: Sequence[Config]) -> Any:
     cases = {
-        "-".join([*case.name.split("/")[1:], *([build.name] if len(builds) > 1 else [])]): (build, case.kwargs)
+        "-".join([*case.name.split("/")[1:], *[build.name][: len(builds) - 1]]): (build, case.kwargs)
         for case in test.generate_tests()
         for build in builds
     }

@@ -8,7 +8,7 @@ import pytest
 
 from cocotb_tests.harness.scripts import building
 
-from .modules import F8B
+from .builds import F8B
 
 
 @pytest.fixture(autouse=True)

@@ -9,7 +9,7 @@ from cocotb_tests.harness.runner import SimOptions, run_item
 
 from .bench import PMC006
 
-ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_scripts", "tb_streams", part=PMC006)
+ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_scripts", part=PMC006)
 
 
 @pytest.mark.parametrize("item", ITEMS)
