@@ -7,10 +7,8 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
 from . import test_part, test_random
 from .builds import F8B
 
-SAME_BLOCKS = (
-    "2 to 15 million clk a module; tb_tour, tb_bridge and random hosts have the same blocks"
-)
-SHORT = ("tb_tour", "tb_bridge", "tb_streams")
+SAME_BLOCKS = "2 to 15 million clk a module; tb_tour, tb_bridge and random hosts have the same blocks"
+SHORT = ("tb_tour", "tb_bridge", "tb_current", "tb_streams")
 
 PART = PartTests(
     test_part,

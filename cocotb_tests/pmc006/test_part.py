@@ -22,6 +22,7 @@ ITEMS = cocotb_items(
     "tb_motion",
     "tb_angle",
     "tb_bridge",
+    "tb_current",
     "tb_guard",
     "tb_analog",
     "tb_clock",
