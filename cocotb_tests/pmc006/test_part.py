@@ -24,6 +24,7 @@ ITEMS = cocotb_items(
     "tb_bridge",
     "tb_current",
     "tb_guard",
+    "tb_stall",
     "tb_analog",
     "tb_clock",
     "tb_states",
