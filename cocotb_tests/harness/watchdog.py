@@ -18,9 +18,9 @@ LIMIT = "OPENPPMC_WALL_S"
 """Environment: seconds of wall clock that a test may take (300)."""
 
 
-def arm() -> None:
+def arm(least: int = 1) -> None:
     """From now on, this process has so many seconds until it is ended; Python need not be running then."""
-    faulthandler.dump_traceback_later(int(os.environ.get(LIMIT, "300")), exit=True)
+    faulthandler.dump_traceback_later(max(least, int(os.environ.get(LIMIT, "300"))), exit=True)
 
 
 class _EachTest(logging.Handler):
@@ -35,7 +35,7 @@ class _EachTest(logging.Handler):
 
 def _watch() -> None:
     faulthandler.enable()
-    arm()
+    arm(300)  # the imports of the tests, which are no test's time
     logging.getLogger("cocotb.regression").addHandler(_EachTest())
     warnings.filterwarnings("ignore", re.escape(f"No tests were discovered in module: {__name__}"))
 

@@ -71,7 +71,7 @@ def test_each_ends_in_its_own_way(design: Design) -> None:
 @pytest.mark.parametrize("end", ["dies", "crashes", "loops"])
 def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
     """$fatal, a segmentation fault and an endless loop are named; the others have results of their own."""
-    found = kinds(design, "passes", end, "raises", "shows", OPENPPMC_WALL_S="3")
+    found = kinds(design, "passes", end, "raises", "shows", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
     assert found == {"passes": "passed", "raises": "passed", "shows": "failed"}
 
@@ -89,7 +89,7 @@ def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
     """The message names the test, shows values or the line, and how to repeat it, with no word of doubt."""
-    text = said(design, "passes", name, OPENPPMC_WALL_S="3")
+    text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
     assert "determin" not in text and "not reproduced" not in text and "behind" not in text
