@@ -47,11 +47,12 @@ async def play_module(dut: Any, part: Part, script: str, builds: Sequence[Config
     )
 
 
-def _test(part: Part, script: str, builds: tuple[Config, ...], name: str) -> Any:
+def _test(part: Part, script: str, builds: tuple[Config, ...], name: str, module: str) -> Any:
     async def run(dut: Any) -> None:
         await play_module(dut, part, script, builds)
 
-    run.__name__ = run.__qualname__ = name
+    # cocotb notes the module when it makes a test of it, and the runner asks for the test by both.
+    run.__name__, run.__qualname__, run.__module__ = name, name, module
     run.__doc__ = f"Given the scripts of {script}, when the RTL gets their pins, then all outputs agree."
     return cocotb.test()(verifies(*rules(script))(configs(*builds)(run)))
 
@@ -63,6 +64,5 @@ def module_tests(part: Part, modules: Mapping[str, tuple[Config, ...]], module: 
         stem = script.rpartition(".")[2].removeprefix("test_").removeprefix("script_")
         name = f"{parts.part(part.name).rules[0].lower()}_{stem}"
         assert name not in tests, f"{script}: second module called {name}"
-        tests[name] = _test(part, script, builds, name)
-        tests[name].func.__module__ = module
+        tests[name] = _test(part, script, builds, name, module)
     return tests
