@@ -45,7 +45,7 @@ MODULES = (
     "tb_serial_polls",
     "tb_serial_resets",
 )
-ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312)
+ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312, together=True)
 
 
 @pytest.mark.parametrize("item", ITEMS)
