@@ -170,7 +170,9 @@ def build(design: Design, waves: bool = False) -> Path:
         try:
             verilate(design.top, design.main, sources, args, waves, folder, log)
         except subprocess.CalledProcessError as error:
-            raise SimError(f"build of {design.top} failed ({error}):\n{log_tail(log, 25)}") from None
+            raise SimError(
+                f"build of {design.top} failed (exit code {error.returncode}):\n{log_tail(log, 25)}"
+            ) from None
         if design.main == "own":
             copy_runtime(folder, runtime)
         done.touch()

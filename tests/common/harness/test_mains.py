@@ -23,7 +23,7 @@ DIRECTED = {
 }
 
 
-def tests_of(name: str) -> PartTests:
+def suite_of(name: str) -> PartTests:
     """The tests of a part."""
     found: PartTests = parts.part(name).load("gates")
     return found
@@ -32,14 +32,14 @@ def tests_of(name: str) -> PartTests:
 @pytest.mark.parametrize("name", DIRECTED)
 def test_a_directed_test_records_the_same_on_both_mains(name: str) -> None:
     """Given a test of the part, when it runs on either main program, then the recordings have one digest."""
-    (item,) = [item for item in tests_of(name).items if item.id == DIRECTED[name]]
+    (item,) = [item for item in suite_of(name).items if item.id == DIRECTED[name]]
     assert check_mains(item) >= 1
 
 
 @pytest.mark.parametrize("name", DIRECTED)
 def test_random_hosts_record_the_same_on_both_mains(name: str) -> None:
     """Given some random hosts in one simulation, then each leaves one digest on both."""
-    tests = tests_of(name)
+    tests = suite_of(name)
     make, seeds = next(iter(tests.sample.items()))
     sets = batches([make(seed) for seed in seeds], 3)
     item, batch = next((one for one in sets if one[0].config.name == tests.quick_build), sets[0])
@@ -48,4 +48,4 @@ def test_random_hosts_record_the_same_on_both_mains(name: str) -> None:
 
 def test_all_parts_with_random_hosts_are_here() -> None:
     """A new part gets its place."""
-    assert set(DIRECTED) == {row.name for row in parts.having("gates") if tests_of(row.name).sample}
+    assert set(DIRECTED) == {row.name for row in parts.having("gates") if suite_of(row.name).sample}
