@@ -49,12 +49,13 @@ for word in "$@"; do
         BAUD=*) number "$name" "$value" 1200 "$most_baud" ;;
         T=*)
             case $value in
-                and | or | not | '' | *[!A-Za-z0-9_.:-]*)
-                    problem "T=$value: expected (a part of) one test's name, of letters, digits and _ . : -" ;;
+                and | or | not | '' | ,* | *, | *,,* | *[!A-Za-z0-9_.:,-]*)
+                    problem "T=$value: expected (a part of) a test's name, of letters, digits and _ . : -, or some with commas" ;;
             esac ;;
         SEED=*) number "$name" "$value" 0 4294967295 ;;
         COUNT=*) number "$name" "$value" 1 1000000 ;;
         CLK_HZ=*) number "$name" "$value" 8000000 200000000 ;;
+        WAVES=* | INSIDE=* | MODEL=*) number "$name" "$value" 0 1 ;;
         J=*) number "$name" "$value" 1 64 ;;
     esac
 done

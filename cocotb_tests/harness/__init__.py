@@ -28,7 +28,7 @@ In short, for someone who writes tests:
         bench.check("AC-20", "finish status", await host.run("c 80 r"), [0xC4])
 
     # cocotb_tests/ppmc104/test_part.py                    (runs under pytest)
-    ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus", part=PPMC104)
+    ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus", part=PPMC104, together=True)
     @pytest.mark.parametrize("item", ITEMS)
     def test_ppmc104(item, sim_options):
         run_item(item, sim_options)                           # from cocotb_tests.harness.runner
@@ -40,6 +40,6 @@ Time: everything is counted in rising clk edges; edge 0 is the first that sees r
 falling edges and are stamped with the rising edge that samples them first; an output edge is stamped with the
 rising edge that made it.
 
-On failure: build/failures/<test>/ holds log.txt, dump.vcd (all signals of the design), and for comparisons
-compare.txt, compare.vcd, compare.png; the pytest message ends with the line that repeats the test.
+On failure: build/failures/<test>/ holds log.txt, waves/dump.vcd (all signals of the design), and for
+comparisons compare.txt, compare.vcd, compare.png; the message ends with the line that repeats the test.
 """

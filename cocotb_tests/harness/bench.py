@@ -7,7 +7,6 @@ and the recorder of output edges are those of the simulation's main program (`na
 from __future__ import annotations
 
 import os
-import signal as unix_signal
 from collections.abc import Coroutine, Iterable
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ import cocotb
 from cocotb.handle import Immediate
 from cocotb.triggers import First, Timer
 
-from . import native
+from . import native, watchdog
 from .config import F16, Config
 from .part import Part
 from .side import TIMEOUT, Side
@@ -67,7 +66,7 @@ class Bench(Side):
         the reset in clk (>= 2). `seed` replaces the run's.
         """
         bench = cls(dut, part, seed)
-        bench._arm_wall_clock()
+        watchdog.arm()
         native.collect_seldom()
         # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0.
         dut.clk.set(Immediate(0))
@@ -103,10 +102,6 @@ class Bench(Side):
         else:
             self._watched[port] = self._edges[output]
             native.watch(port)
-
-    def _arm_wall_clock(self) -> None:
-        """End this simulator process if it runs away (a test of seconds that takes minutes)."""
-        unix_signal.alarm(int(os.environ.get("OPENPPMC_WALL_S", "300")))
 
     # ---------------------------------------------------------------- time
 

@@ -8,6 +8,7 @@ import importlib.metadata
 import importlib.util
 import logging
 import os
+import re
 import shlex
 import shutil
 import time
@@ -37,7 +38,6 @@ VERILATOR_ARGS += ["--output-split", "0"]
 # The main program; `copy_runtime` keeps its object as one of the run-time library. And what a design adds.
 MAIN = Path(__file__).with_name("verilated_sim.cpp")
 TOP = Path(__file__).with_name("verilated_top.inc")
-LIGHT = Path(__file__).with_name("light")
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,8 @@ class Design:
 
     `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch
     ("*": every signal of the top); the inside can then be optimised, which doubles the speed. Without them,
-    and in runs with waves, every signal is visible. `libraries`: archives that are linked in, each with its
+    and in runs with waves, every signal is visible. `inside`: paths of inner signals to show beside the
+    ports, together with all others of their name. `libraries`: archives that are linked in, each with its
     content's digest in its path.
     """
 
@@ -56,6 +57,7 @@ class Design:
     params: Mapping[str, Any] = field(default_factory=dict)
     args: Sequence[str] = ()
     ports: Sequence[str] = ()
+    inside: Sequence[str] = ()
     libraries: Sequence[Path] = ()
 
 
@@ -110,6 +112,8 @@ def _build_args(design: Design, waves: bool) -> list[str]:
 def _visible_ports(design: Design, folder: Path) -> Path:
     """Control file that makes the ports of a design visible, and nothing else."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
+    names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.inside)
+    rows += [f'public_flat_rw -module "*" -var "{name}"' for name in names]
     path = folder / "ports.vlt"
     folder.mkdir(parents=True, exist_ok=True)
     path.write_text("\n".join(["`verilator_config", *rows, ""]), encoding="ascii")
@@ -124,6 +128,8 @@ def _digest(design: Design, waves: bool) -> str:
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
     sha.update(MAIN.read_bytes() + TOP.read_bytes())
+    if design.inside:
+        what = (*what, tuple(design.inside))  # type: ignore[assignment]
     if design.libraries:
         what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
     sha.update(repr((*what, waves, versions)).encode())
@@ -187,12 +193,6 @@ def _forget_old_builds(days: float = 7.0) -> None:
 
 class _Verilator(Verilator):
     """cocotb's runner with the main program of this project."""
-
-    def _set_env_test(self) -> None:
-        super()._set_env_test()
-        # Without rewritten assertions, cocotb needs next to nothing of pytest.
-        if not self.env.get("COCOTB_REWRITE_ASSERTION_FILES", "*"):
-            self.env["PYTHONPATH"] = os.pathsep.join((str(LIGHT), self.env["PYTHONPATH"]))
 
     def _build_command(self) -> list[list[str]]:
         verilate, make = super()._build_command()

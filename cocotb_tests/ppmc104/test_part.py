@@ -37,6 +37,7 @@ ITEMS = cocotb_items(
     "tb_ext_clock",
     "tb_manual",
     part=PPMC104,
+    together=True,
 )
 
 # Parameter, legal extremes, values just outside.

@@ -35,6 +35,7 @@ ITEMS = cocotb_items(
     "tb_datasheet",
     "tb_datasheet_rates",
     part=PPMC2104,
+    together=True,
 )
 
 
