@@ -29,15 +29,15 @@ J     ?= 2
 
 # --- variables that may be set on the command line, per target -----------------------------------------------------
 GOALS := $(or $(MAKECMDGOALS),help)
-VARS_test  := T SEED CLK_HZ J WAVES INSIDE MODEL
-VARS_soak  := SEED COUNT J PART
+VARS_test  := T SEED CLK_HZ J WAVES INSIDE MODEL SIM_MAIN
+VARS_soak  := SEED COUNT J PART SIM_MAIN
 VARS_synth := PART
 VARS_trace := PART
 VARS_bench := PART
 VARS_report := PART
 VARS_size  := PART
 VARS_yardsticks := PEERS
-VARS_test-gates := T SEED J
+VARS_test-gates := T SEED J SIM_MAIN
 VARS_test-board := T J
 VARS_board := SIM PART
 TOP_VARS := XTAL_HZ TIMING PHASE_IDLE PHASE_ON READ_MAP BAUD# parameters of a board's top
@@ -55,7 +55,7 @@ endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
 NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
-CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
+CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))

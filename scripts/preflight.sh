@@ -42,6 +42,7 @@ for word in "$@"; do
             most_baud=$(limit BAUD $most_baud) ;;
         BOARD=*) case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
         HOST=*) case $value in uart | bus) ;; *) problem "HOST=$value: expected uart or bus" ;; esac ;;
+        SIM_MAIN=*) case $value in own | cocotb) ;; *) problem "SIM_MAIN=$value: expected own or cocotb" ;; esac ;;
         TIMING=*) case $value in FAST | DATASHEET) ;; *) problem "TIMING=$value: expected FAST or DATASHEET" ;; esac ;;
         READ_MAP=*) case $value in SHEET | FAMILY) ;; *) problem "READ_MAP=$value: expected SHEET or FAMILY" ;; esac ;;
         PHASE_IDLE=* | PHASE_ON=*) number "$name" "$value" 0 1 ;;

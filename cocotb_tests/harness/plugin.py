@@ -160,6 +160,6 @@ def pytest_configure(config: pytest.Config) -> None:
     if not hasattr(config, "workerinput"):
         if not config.getoption("--model"):
             config.pluginmanager.register(_Recorder(config), "openppmc-trace")
-        config.pluginmanager.register(Summary(), "openppmc-summary")
+            config.pluginmanager.register(Summary(), "openppmc-summary")
         if config.pluginmanager.hasplugin("xdist"):
             config.pluginmanager.register(Sender(), "openppmc-sender")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import random
 from abc import ABC, abstractmethod
+from bisect import bisect_left
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Protocol
 
@@ -121,7 +122,18 @@ class Side(ABC):
         """
         if self.follower is None:
             self.follower = Follower(new_model(self.part.name, self.part.params(self.config)))
-        return self.follower.catch_up(self.stimulus, self.now - 1)
+        return self.follower.catch_up(self.pin_changes(), self.now - 1)
+
+    def pin_changes(self) -> list[Change]:
+        """What the part has got on its inputs: as driven, and as the bench's top has made them (what changes
+        at edge t is first sampled by t + 1)."""
+        part = self.part
+        if not part.fed:
+            return self.stimulus
+        seen = self._seen()
+        made = [Change(t + 1, name, level) for name in part.fed for t, level in seen[name]]
+        driven = [change for change in self.stimulus if change.pin not in part.aside]
+        return sorted([*driven, *made], key=lambda change: change.t)
 
     def close(self) -> None:
         """Let the pins rest: whatever was to change them later no longer does."""
@@ -189,7 +201,7 @@ class Side(ABC):
         changes = self._seen()[port]
         if place is not None:
             changes = bit_changes(changes, place, self.initial[port])
-        return [(t, value) for t, value in changes if t >= since]
+        return changes[bisect_left(changes, (since, 0)) :]
 
     def falls(self, output: str, since: int = 0) -> list[int]:
         """Edges on which an output of one bit fell."""
@@ -267,7 +279,7 @@ class Side(ABC):
             params=self.part.params(self.config),
             seed=self.seed,
             end=self.now - 1,
-            stimulus=list(self.stimulus),
+            stimulus=list(self.pin_changes()),
             edges=self._all_edges(),
             accesses=list(self.accesses),
         )

@@ -15,6 +15,7 @@ from .build import Design, build, simulator
 from .collect import Item
 from .outcome import Outcome, outcomes
 from .paths import ROOT, RUNS
+from .verilate import sim_main
 
 REPRO = "OPENPPMC_REPRO"
 """Tells a simulation the command that repeats it, for its messages."""
@@ -54,9 +55,10 @@ def safe(name: str) -> str:
 def repro_line(items: Sequence[Item], seed: int) -> str:
     """The line that repeats these tests, in one process if there are several."""
     names = ",".join(item.id for item in items)
+    main = "" if sim_main() == "own" else f" SIM_MAIN={sim_main()}"
     if items[0].target != "test":
-        return f"make {items[0].target} T={names} SEED={seed}"
-    return f"make test T={names} SEED={seed} CLK_HZ={items[0].config.clk_hz}"
+        return f"make {items[0].target} T={names} SEED={seed}{main}"
+    return f"make test T={names} SEED={seed} CLK_HZ={items[0].config.clk_hz}{main}"
 
 
 def tried(job: Job) -> dict[Item, Outcome]:

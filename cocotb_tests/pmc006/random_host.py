@@ -14,7 +14,7 @@ from cocotb_tests.harness.background import Background
 from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.scripts import building
 
-from .modules import D8E, F8B, ODD
+from .builds import D8E, F8B, ODD
 from .random_faults import Faults
 from .random_meeting import Meetings
 from .random_pins import Pins

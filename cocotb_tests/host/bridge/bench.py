@@ -11,7 +11,8 @@ from cocotb.handle import Immediate
 from cocotb.triggers import Event, FallingEdge, RisingEdge, Timer, ValueChange, with_timeout
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness import native, watchdog
+from cocotb_tests.harness import watchdog
+from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import Config
 from openppmc.host.bridge.frames import Broken, Deframer, encode
 
@@ -66,7 +67,7 @@ class Bench:
             getattr(dut, pin).value = level
         await Timer(bench.period // 2, "ps")
         dut.rst_ni.value = 0
-        native.clock(native.port("clk_i"), bench.period // 2)
+        clockwork().clock(clockwork().port("clk_i"), bench.period // 2)
         await Timer(4 * bench.period, "ps")
         dut.rst_ni.value = 1
         await bench.clocks(4)

@@ -12,7 +12,7 @@ from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.script_player import module_tests
 
-WITH_SCRIPTS = ("ppmc312", "pmc006")
+WITH_SCRIPTS = ("pmc006",)
 
 
 @pytest.mark.parametrize("part", WITH_SCRIPTS)

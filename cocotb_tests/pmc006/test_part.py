@@ -1,0 +1,44 @@
+"""Directed part tests of the PMC006B4: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.runner import SimOptions, run_item
+
+from .bench import PMC006
+
+ITEMS = cocotb_items(
+    "cocotb_tests.pmc006",
+    "tb_acceptance_link",
+    "tb_acceptance_motion",
+    "tb_acceptance_guard",
+    "tb_acceptance_modes",
+    "tb_acceptance_program",
+    "tb_tour",
+    "tb_link",
+    "tb_codes",
+    "tb_motion",
+    "tb_angle",
+    "tb_bridge",
+    "tb_current",
+    "tb_guard",
+    "tb_stall",
+    "tb_analog",
+    "tb_clock",
+    "tb_states",
+    "tb_keys",
+    "tb_program",
+    "tb_waits",
+    "tb_meetings",
+    "tb_resets",
+    "tb_streams",
+    part=PMC006,
+)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_pmc006(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation."""
+    run_item(item, sim_options)
