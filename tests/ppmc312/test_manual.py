@@ -6,7 +6,9 @@ import re
 
 import pytest
 
-from cocotb_tests.ppmc312.host import Host, clean
+from cocotb_tests.harness.block_host import clean
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.ppmc312.parallel_host import Host
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 from tests.common.pages import DOCS, chapters
 
@@ -30,7 +32,7 @@ class Player:
     }
 
     def __init__(self) -> None:
-        self.host = Host()
+        self.host = on_model(Host.start(OnModel()))
 
     def play(self, lines: list[str], where: str) -> None:
         """All lines; an AssertionError names the first that is not as printed."""
@@ -38,42 +40,39 @@ class Player:
             kind, _, rest = line.partition(" ")
             # Two spaces begin a comment.
             words = re.split(r"\s{2,}", rest.strip())[0]
-            found = getattr(self, self.KINDS[kind])(words)
+            found = on_model(getattr(self, self.KINDS[kind])(words))
             assert found is None or found == words, f"{where}, line {number}: {line!r} gave {found}"
 
-    def write(self, words: str) -> None:
+    async def write(self, words: str) -> None:
         rs, byte = (int(word, 16) for word in words.split())
-        self.host.write(rs, byte)
+        await self.host.write(rs, byte)
 
-    def read(self, words: str) -> str:
+    async def read(self, words: str) -> str:
         rs = words.split()[0]
-        return f"{rs} {self.host.read(int(rs)):02X}"
+        return f"{rs} {await self.host.read(int(rs)):02X}"
 
-    def send(self, words: str) -> None:
+    async def send(self, words: str) -> None:
         mark = self.host.mark
-        self.host.issue(words)
+        await self.host.issue(words)
         self.host.mark = mark
 
-    def answer(self, words: str) -> str:
-        got = self.host.response(LONG)
+    async def answer(self, words: str) -> str:
+        got = await self.host.response(LONG)
         return words if got == clean(words) else got
 
-    def pin(self, words: str) -> None:
+    async def pin(self, words: str) -> None:
         name, *levels = words.split()
         for level in levels:
-            self.host.pins(**{name: int(level)})
-            self.host.pause(20)
+            await self.host.pins(**{name: int(level)})
+            await self.host.pause(20)
 
-    def at(self, words: str) -> None:
-        while missing := max(0, int(words) - len(self.host.pulses())):
-            for _ in range(missing):  # an event makes one pulse at the most
-                self.host.step()
+    async def at(self, words: str) -> None:
+        await self.host.pulse(int(words))
 
-    def ms(self, words: str) -> None:
-        self.host.pause(int(words) * MS)
+    async def ms(self, words: str) -> None:
+        await self.host.pause(int(words) * MS)
 
-    def count(self, words: str) -> str:
-        self.host.sync()
+    async def count(self, words: str) -> str:
         found = len(self.host.pulses())
         self.host.mark = self.host.t
         return str(found)

@@ -8,8 +8,9 @@ from fractions import Fraction
 import pytest
 
 from cocotb_tests.harness.block_host import clean
+from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
-from cocotb_tests.ppmc312.serial_host import SerialHost
+from cocotb_tests.ppmc312.serial_master import SerialHost
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.common.pages import DOCS, chapters
 from tests.ppmc312.test_manual import Player
@@ -26,27 +27,27 @@ class Line(Player):
     KINDS = Player.KINDS | {"m": "raw", "s": "reply", "?": "poll"}
 
     def __init__(self) -> None:
-        self.host = SerialHost()
+        self.host = on_model(SerialHost.start(OnModel()))
 
-    def raw(self, words: str) -> None:
-        self.host.raw(words)
+    async def raw(self, words: str) -> None:
+        await self.host.raw(words)
 
-    def reply(self, words: str) -> str:
-        self.host.hear(REPLY, timed=False)
+    async def reply(self, words: str) -> str:
+        await self.host.hear(REPLY, timed=False)
         return words if clean(words) == self.host.wire else self.host.wire
 
-    def send(self, words: str) -> None:
+    async def send(self, words: str) -> None:
         mark = self.host.mark
-        self.host.say(words)
+        await self.host.say(words)
         self.host.mark = mark
 
-    def answer(self, words: str) -> str:
-        got = self.host.hear(REPLY, timed=False)
+    async def answer(self, words: str) -> str:
+        got = await self.host.hear(REPLY, timed=False)
         return words if clean(words) == got else got
 
-    def poll(self, words: str) -> str:
-        self.host.ask_poll()
-        return self.answer(words)
+    async def poll(self, words: str) -> str:
+        await self.host.ask_poll()
+        return await self.answer(words)
 
 
 SESSIONS = {title: blocks for title, blocks in chapters(PAGE).items() if title.startswith("7.")}
