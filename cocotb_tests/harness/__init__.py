@@ -28,7 +28,7 @@ In short, for someone who writes tests:
         bench.check("AC-20", "finish status", await host.run("c 80 r"), [0xC4])
 
     # cocotb_tests/ppmc104/test_part.py                    (runs under pytest)
-    ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus", part=PPMC104, together=True)
+    ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus", part=PPMC104)
     @pytest.mark.parametrize("item", ITEMS)
     def test_ppmc104(item, sim_options):
         run_item(item, sim_options)                           # from cocotb_tests.harness.runner

@@ -28,7 +28,7 @@ class Item:
     """One simulation to run: a cocotb test of a module under one configuration.
 
     `target` is the make target that runs it, for the line that repeats it. `inside`: inner signals that it
-    reads. `skipped`: why it does not run. `together`: it may share a process with others of its build.
+    reads. `skipped`: why it does not run.
     `uncompared`: why a directed test is not compared with the golden model ("" if it is), None for others.
     """
 
@@ -42,8 +42,12 @@ class Item:
     target: str = "test"
     inside: tuple[str, ...] = ()
     skipped: str = ""
-    together: bool = False
     uncompared: str | None = None
+
+    @property
+    def together(self) -> bool:
+        """Whether it may share a process with others of its build: directed tests begin with a reset."""
+        return self.uncompared is not None
 
     @property
     def full_name(self) -> str:
@@ -61,10 +65,8 @@ class Item:
         return replace(self, seed=seed)
 
 
-def cocotb_items(package: str, *modules: str, part: Part, together: bool = False) -> list[Any]:
+def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
     """pytest.param list of every cocotb test in `package`'s modules, under the configs each one names.
-
-    `together`: those of one build, for which each test makes its own reset, may share a simulator process.
 
     Raises ValueError if a module has no cocotb test or two tests share a name.
     """
@@ -82,7 +84,6 @@ def cocotb_items(package: str, *modules: str, part: Part, together: bool = False
                         rules_of(test),
                         inside=inside_of(test),
                         skipped="skip=True of cocotb.test()" if case.skip else "",
-                        together=together,
                         uncompared=getattr(test.func, "_openppmc_uncompared", None),
                     )
                     if item.id in seen:

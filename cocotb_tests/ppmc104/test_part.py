@@ -37,7 +37,6 @@ ITEMS = cocotb_items(
     "tb_ext_clock",
     "tb_manual",
     part=PPMC104,
-    together=True,
 )
 
 # Parameter, legal extremes, values just outside.

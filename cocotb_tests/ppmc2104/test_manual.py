@@ -9,7 +9,7 @@ from cocotb_tests.harness.runner import run_item
 
 from .bench import PPMC2104
 
-ITEMS = cocotb_items("cocotb_tests.ppmc2104", "tb_manual", part=PPMC2104, together=True)
+ITEMS = cocotb_items("cocotb_tests.ppmc2104", "tb_manual", part=PPMC2104)
 
 
 @pytest.mark.parametrize("item", ITEMS)

@@ -35,7 +35,6 @@ ITEMS = cocotb_items(
     "tb_datasheet",
     "tb_datasheet_rates",
     part=PPMC2104,
-    together=True,
 )
 
 

@@ -45,7 +45,7 @@ MODULES = (
     "tb_serial_polls",
     "tb_serial_resets",
 )
-ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312, together=True)
+ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312)
 
 
 @pytest.mark.parametrize("item", ITEMS)

@@ -26,7 +26,6 @@ ITEMS = cocotb_items(
     "tb_chopper",
     "tb_datasheet",
     part=STMC,
-    together=True,
 )
 
 # Parameter, legal values, values just outside (table 1.4 of the rules).

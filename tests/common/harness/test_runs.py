@@ -19,7 +19,7 @@ from cocotb_tests.harness.simulate import Job
 
 ITEMS: dict[str, Item] = {
     param.values[0].test: replace(param.values[0], tag="own")
-    for param in cocotb_items("cocotb_tests.common", "tb_runs", part=Part("x", {}), together=True)
+    for param in cocotb_items("cocotb_tests.common", "tb_runs", part=Part("x", {}))
 }
 SOURCE = """module runs_inner (input wire logic clk, output logic q);
   logic [3:0] count = 4'd0;
