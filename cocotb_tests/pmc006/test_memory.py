@@ -15,7 +15,13 @@ from cocotb_tests.harness.runner import SimOptions, run_item
 from .bench import PMC006, WITH_EEPROM
 
 ITEMS = cocotb_items(
-    "cocotb_tests.pmc006", "tb_boot", "tb_save", "tb_memory", "tb_acceptance_memory", part=PMC006
+    "cocotb_tests.pmc006",
+    "tb_boot",
+    "tb_save",
+    "tb_memory",
+    "tb_acceptance_memory",
+    part=PMC006,
+    together=True,
 )
 SOURCES = (ROOT / "tb" / "pmc006" / "eeprom_24c32.sv", ROOT / "cocotb_tests" / "pmc006" / "eeprom_bench.sv")
 

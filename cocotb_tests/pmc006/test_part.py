@@ -35,6 +35,7 @@ ITEMS = cocotb_items(
     "tb_resets",
     "tb_streams",
     part=PMC006,
+    together=True,
 )
 
 
