@@ -21,7 +21,6 @@ ITEMS = cocotb_items(
     "tb_memory",
     "tb_acceptance_memory",
     part=PMC006,
-    together=True,
 )
 SOURCES = (ROOT / "tb" / "pmc006" / "eeprom_24c32.sv", ROOT / "cocotb_tests" / "pmc006" / "eeprom_bench.sv")
 

@@ -35,7 +35,6 @@ ITEMS = cocotb_items(
     "tb_resets",
     "tb_streams",
     part=PMC006,
-    together=True,
 )
 
 
