@@ -8,6 +8,8 @@ from typing import Any
 
 from .side import Side
 
+TAIL = 24
+"""clk for which a side goes on before it is judged: what was done last has its effects by then."""
 Judge = Callable[[Any], Any]
 """Compares what a side has seen with the golden model; raises AssertionError at a difference."""
 
@@ -27,6 +29,7 @@ class Running:
         """Compare what the present side has seen; AssertionError at a difference."""
         if self._judge and self.side and self.side.simulated:
             await self.side.align()
+            await self.side.clocks(TAIL)
             self.differs = True
             self._judge(self.side)
             self.differs = False
