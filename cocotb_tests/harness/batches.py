@@ -11,8 +11,9 @@ import pytest
 from .collect import Item, cocotb_items
 from .config import Config
 from .part import PARTS
-from .runner import REPRO, SimOptions, run_item
+from .runner import REPRO, SimOptions
 from .seeds import SEEDS
+from .shortened import attempt_random
 
 BATCH = 25
 
@@ -54,7 +55,8 @@ def run_batch(item: Item, seeds: str, options: SimOptions) -> None:
     __tracebackhide__ = True
     print(f"seeds {seeds}")
     whole = {REPRO: f"make {item.target} T={item.id}"} if " " in seeds else {}
-    run_item(item, options, {SEEDS: seeds, **whole})
+    if message := attempt_random(item, options, {SEEDS: seeds, **whole}):
+        pytest.fail(message, pytrace=False)
 
 
 def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:

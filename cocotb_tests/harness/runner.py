@@ -59,6 +59,11 @@ def run_folder(item: Item, seed: int) -> Path:
     return RUNS / f"{_safe(item.id)}-s{seed}.{os.getpid()}"
 
 
+def failure_folder(item: Item, seed: int) -> Path:
+    """Where the files of a failing run are kept."""
+    return FAILURES / f"{_safe(item.id)}-s{seed}"
+
+
 def repro_line(item: Item, seed: int) -> str:
     """The line that repeats one test."""
     if item.target != "test":
@@ -156,7 +161,7 @@ def attempt(
     options = options or SimOptions()
     seed = item.seed if options.seed is None else options.seed
     repro = (env or {}).get(REPRO) or repro_line(item, seed)
-    kept, first = FAILURES / f"{_safe(item.id)}-s{seed}", run_folder(item, seed)
+    kept, first = failure_folder(item, seed), run_folder(item, seed)
     shutil.rmtree(kept, ignore_errors=True)
     try:
         design = design or part_design(item.part, item.config)

@@ -5,12 +5,22 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 
 from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.build import part_design
+from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.compare import compare_recording
 from cocotb_tests.harness.config import D16, F11, F16, F100
+from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
 from cocotb_tests.harness.runner import SimOptions
+from cocotb_tests.harness.shortened import shortened
+from cocotb_tests.harness.stimulus import Recording
+from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc104.random_host import scenario
 
 SEEDS = range(1, 221)
@@ -42,6 +52,32 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery by the documented sequence."""
     run_batch(item, seeds, sim_options)
+
+
+def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
+    """Given a run whose golden model has another crystal than the RTL, then a few bytes show it."""
+
+    async def run(bench: ModelBench) -> None:
+        host = HostBus(bench)
+        for number in range(9):
+            bench.set(auxi=number, vsel=number & 1)
+            await host.command(0x80, poll=False)
+            await bench.clocks(300)
+        await host.init(0x0A, 9, 4, 4)
+        await host.move(0x43, 3)
+        await bench.clocks(9_000)
+
+    bench = ModelBench(PPMC104, OnModel())
+    on_model(run(bench))
+    recording = bench.recording()
+    recording.params["XTAL_HZ"] = 8_000_000
+    (tmp_path / "recording.json").write_text(recording.to_json(), encoding="utf-8")
+    text = shortened(tmp_path, part_design("ppmc104", F16)).splitlines()
+    assert re.match(r"shrunk from \d\d acts to [1-9] in \d+ trials:$", text[0]), text
+    assert text[1].startswith("  write C ") and " differs at edge " in text[-2]
+    short = Recording.from_json((tmp_path / "short" / "recording.json").read_text(encoding="utf-8"))
+    assert len(short.stimulus) < len(recording.stimulus) / 3 and short.accesses
+    assert compare_recording(short).mismatch is not None
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
