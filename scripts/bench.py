@@ -18,7 +18,8 @@ from rich.table import Table
 from cocotb_tests.harness import project
 from cocotb_tests.harness.build import SimError, build, part_design
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.compare import new_model, replay
+from cocotb_tests.harness.compare import replay
+from cocotb_tests.harness.follower import new_model
 from cocotb_tests.harness.project import console
 from cocotb_tests.harness.runner import run_sim
 from cocotb_tests.harness.stimulus import Recording
@@ -59,7 +60,7 @@ def measure(demo: Demo) -> tuple[Recording, dict[str, list[float]]]:
         edges = plain_sim.play(program, recording)
         times["plain"].append(time.perf_counter() - begin)
         plain_sim.check(recording, edges)
-        model = new_model(recording)
+        model = new_model(recording.part, recording.params)
         times["model"].append(seconds(lambda recording=recording, model=model: replay(recording, model)))
         shown = ", ".join(f"{side} {taken[-1]:.2f} s" for side, taken in times.items())
         console.print(f"run {run} of {RUNS}: {shown}")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import signal as unix_signal
-from collections.abc import Iterable
+from collections.abc import Coroutine, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -99,7 +99,7 @@ class Bench(Side):
         self._edges[output] = []
         port = self._ports[output]
         if port < 0:
-            cocotb.start_soon(self._monitor(output))
+            self._start(self._monitor(output))
         else:
             self._watched[port] = self._edges[output]
             native.watch(port)
@@ -207,7 +207,7 @@ class Bench(Side):
             await self.until(edge)
             self.set(**levels)
 
-        return cocotb.start_soon(later())
+        return self._start(later())
 
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Any:
         """As `Side.external_clock`; returns the task."""
@@ -221,7 +221,12 @@ class Bench(Side):
                 self.set(**{name: 0})
                 await self.clocks(interval - high)
 
-        return cocotb.start_soon(run())
+        return self._start(run())
+
+    def _start(self, what: Coroutine[Any, Any, None]) -> Any:
+        task = cocotb.start_soon(what)
+        self._later.append(task)
+        return task
 
     # ---------------------------------------------------------------- outputs
 

@@ -7,24 +7,16 @@ rst_n can fall between two edges. A difference gives a text report, a VCD and a 
 
 from __future__ import annotations
 
-from itertools import groupby
 from pathlib import Path
 from typing import Any
-
-from openppmc import parts
 
 from .compare_draw import draw_png
 from .compare_report import report
 from .compare_vcd import write_vcd
 from .comparison import Comparison, compare_edges
+from .follower import Follower, new_model
 from .part import PARTS
 from .stimulus import Edge, Recording
-
-
-def new_model(recording: Recording) -> Any:
-    """Golden model of the recorded part under the recorded parameters."""
-    model = parts.part(recording.part).load("model")
-    return model(**{name.lower(): value for name, value in recording.params.items()})
 
 
 def replay(recording: Recording, model: Any) -> list[Edge]:
@@ -32,19 +24,25 @@ def replay(recording: Recording, model: Any) -> list[Edge]:
 
     The model needs pins(t, **levels), run_until(t) and edges with fields t, signal, value.
     """
-    for t, group in groupby(recording.stimulus, key=lambda change: change.t):
-        model.pins(t, **{change.pin: change.value for change in group})
-    model.run_until(recording.end)
+    return _edges(Follower(model), recording)
+
+
+def _edges(follower: Follower, recording: Recording) -> list[Edge]:
+    model = follower.catch_up(recording.stimulus, recording.end)
     return [Edge(edge.t, edge.signal, edge.value) for edge in model.edges]
 
 
 def compare_recording(recording: Recording, model: Any | None = None) -> Comparison:
     """Replay a recording and compare every output of the part."""
+    return _compare(recording, Follower(model or new_model(recording.part, recording.params)))
+
+
+def _compare(recording: Recording, follower: Follower) -> Comparison:
     part = PARTS[recording.part]
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched}
     resets = [c.t for c in recording.stimulus if c.pin == "rst_n" and c.value == 0]
-    edges = replay(recording, model if model is not None else new_model(recording))
+    edges = _edges(follower, recording)
     expected, actual, mismatch = compare_edges(edges, recording.edges, initial, recording.end, resets)
     return Comparison(recording, initial, expected, actual, mismatch)
 
@@ -60,12 +58,15 @@ def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
     return text
 
 
-def check_against_model(bench: Any, model: Any | None = None) -> Comparison:
+def check_against_model(bench: Any) -> Comparison:
     """Compare all that a bench has seen so far; AssertionError with the report at a difference.
 
-    The files of the report go to bench.out.
+    The golden model is the one that has followed the bench (`Side.golden`), if a test has asked for it. The
+    files of the report go to bench.out.
     """
-    comparison = compare_recording(bench.recording(), model)
+    recording = bench.recording()
+    follower = bench.follower or Follower(new_model(recording.part, recording.params))
+    comparison = _compare(recording, follower)
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))
     return comparison

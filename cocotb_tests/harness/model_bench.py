@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Any, TypeVar
 
-from openppmc import parts
-
 from .config import F16, Config
+from .follower import new_model
 from .part import Part
 from .side import TIMEOUT, Side
 from .stimulus import Change
@@ -56,8 +55,7 @@ class ModelBench(Side):
     def __init__(self, part: Part, on: OnModel, settle: int = 4, **pins: int) -> None:
         super().__init__(part, on.config, on.seed)
         params = part.params(on.config)
-        model = parts.part(part.name).load("model")
-        self.model: Any = model(**{name.lower(): value for name, value in params.items()})
+        self.model: Any = new_model(part.name, params)
         self.pins = {**part.inputs, "rst_n": 1}
         levels = part.reset_levels(params)
         self.initial = {name: levels[name] for name in part.watched}
@@ -70,6 +68,11 @@ class ModelBench(Side):
         self._go(settle)
 
     # ---------------------------------------------------------------- time
+
+    @property
+    def golden(self) -> Any:
+        """As `Side.golden`: it is this side."""
+        return self.model
 
     @property
     def now(self) -> int:
@@ -115,17 +118,22 @@ class ModelBench(Side):
         """As `Side.set_between`; there is no time between two edges here."""
         return self.set(**levels)
 
-    def _schedule(self, later: _Later) -> _Later:
+    def _start(self, changes: Iterator[PinChange]) -> _Later:
+        later = _Later(changes)
+        self._later.append(later)
+        self._schedule(later)
+        return later
+
+    def _schedule(self, later: _Later) -> None:
         for edge, levels in later.changes:
             heapq.heappush(self._due, (edge, next(self._order), levels, later))
             break
-        return later
 
     def at(self, edge: int, **levels: int) -> _Later:
         """As `Side.at`."""
         if edge < self._now:
             raise ValueError(f"at({edge}): it is already edge {self._now}")
-        return self._schedule(_Later(iter([(edge, levels)])))
+        return self._start(iter([(edge, levels)]))
 
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> _Later:
         """As `Side.external_clock`."""
@@ -138,7 +146,7 @@ class ModelBench(Side):
                 yield t + high, {name: 0}
                 t += interval
 
-        return self._schedule(_Later(ticks()))
+        return self._start(ticks())
 
     # ---------------------------------------------------------------- outputs
 

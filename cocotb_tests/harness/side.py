@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Protocol
 
 from .config import Config
+from .follower import Follower, new_model
 from .part import Part
 from .stimulus import Access, Change, Edge, Recording, bit_changes, level_at
 
@@ -32,7 +33,7 @@ class Side(ABC):
 
     `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of each input and
     of rst_n), `stimulus` (list[Change]: what was driven), `accesses` (list[Access]: what a host did),
-    `initial` (level of each recorded output before its first edge).
+    `initial` (level of each recorded output before its first edge), `follower` (of `golden`, once asked for).
     """
 
     simulated: ClassVar[bool] = True
@@ -47,6 +48,8 @@ class Side(ABC):
         self.stimulus: list[Change] = []
         self.accesses: list[Access] = []
         self.initial: dict[str, int] = {}
+        self.follower: Follower | None = None
+        self._later: list[Handle] = []
 
     # ---------------------------------------------------------------- primitives
 
@@ -109,6 +112,21 @@ class Side(ABC):
     @abstractmethod
     def _seen(self) -> Mapping[str, list[tuple[int, int]]]:
         """Changes (edge, level) of all recorded outputs up to now, the last one of each edge."""
+
+    @property
+    def golden(self) -> Any:
+        """The golden model at edge `now` - 1, with the pin changes seen so far; never ahead of this side.
+
+        For aiming only (its `next_event`, position, state): what a test checks comes from the side itself.
+        """
+        if self.follower is None:
+            self.follower = Follower(new_model(self.part.name, self.part.params(self.config)))
+        return self.follower.catch_up(self.stimulus, self.now - 1)
+
+    def close(self) -> None:
+        """Let the pins rest: whatever was to change them later no longer does."""
+        for handle in self._later:
+            handle.cancel()
 
     # ---------------------------------------------------------------- time, reset
 

@@ -7,11 +7,23 @@ from typing import Any
 from .bench import Bench
 from .model_bench import ModelBench, OnModel
 from .part import Part
+from .running import present
 from .side import Side
 
 
 async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Side:
-    """A `Bench` on the simulator's `dut`, a `ModelBench` if this is `OnModel`; both with `now` = `settle`."""
+    """A `Bench` on the simulator's `dut`, a `ModelBench` if this is `OnModel`; both with `now` = `settle`.
+
+    In a directed test it may be called again: what the side has seen so far is compared with the golden
+    model, nothing drives its pins any more, and the part starts anew from a reset.
+    """
+    test = present()
+    if test:
+        await test.put_away()
     if isinstance(dut, OnModel):
-        return ModelBench(part, dut, settle, **pins)
-    return await Bench.start(dut, part, settle=settle, **pins)
+        side: Side = ModelBench(part, dut, settle, **pins)
+    else:
+        side = await Bench.start(dut, part, settle=settle, **pins)
+    if test:
+        test.side = side
+    return side

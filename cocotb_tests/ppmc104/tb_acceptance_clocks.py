@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from itertools import repeat
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, COMMAND, IBF
-from cocotb_tests.harness.config import D16, F11, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import D16, F11
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, differences
 from .lab import Lab
@@ -16,8 +14,7 @@ from .lab import Lab
 A_DATA = (9, 4, 4)
 
 
-@cocotb.test()
-@verifies("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
+@directed("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
 async def p104_ac_45_chopping(dut):
     """Given S = 1, when parameters and vsel change,
     then the chopper follows; a step sees the full pattern.
@@ -49,8 +46,7 @@ async def p104_ac_45_chopping(dut):
     lab.check("AC-45", "0x82 after the step", await lab.host.run("c 82 r"), [0x60])
 
 
-@cocotb.test()
-@verifies("AC-46", "P104-SW-02", "P104-SW-04")
+@directed("AC-46", "P104-SW-02", "P104-SW-04")
 async def p104_ac_46_chopper_starts_with_on(dut):
     """Given S = 1, when a single step ends, then the first OFF phase begins 1040 clk later."""
     lab = await Lab.start(dut, (0x2A, *A_DATA))
@@ -60,8 +56,7 @@ async def p104_ac_46_chopper_starts_with_on(dut):
     lab.window("AC-46", "INT to the first OFF phase", off - end, 1034, 1046)
 
 
-@cocotb.test()
-@verifies("AC-47", "P104-INI-08")
+@directed("AC-47", "P104-INI-08")
 async def p104_ac_47_chopping_ends(dut):
     """Given S = 1, when a re-init with S = 0 completes, then chopping ends with the pattern on."""
     lab = await Lab.start(dut, (0x2A, *A_DATA))
@@ -74,8 +69,7 @@ async def p104_ac_47_chopping_ends(dut):
     lab.check("AC-47", "edges of s", lab.bench.edges("s", since), [])
 
 
-@cocotb.test()
-@verifies("AC-48", "P104-END-08")
+@directed("AC-48", "P104-END-08")
 async def p104_ac_48_hold(dut):
     """Given single steps 20 ms apart, when the second has rested 34 ms, then hold rises."""
     lab = await Lab.start(dut, INIT_A)
@@ -91,8 +85,7 @@ async def p104_ac_48_hold(dut):
     lab.check("AC-48", "edges of hold", [value for _, value in lab.bench.edges("hold")], [0, 1])
 
 
-@cocotb.test()
-@verifies("AC-48", "P104-END-08")
+@directed("AC-48", "P104-END-08")
 async def p104_ac_48_hold_after_one_step(dut):
     """Given one single step, when 34 ms have passed, then hold rises."""
     lab = await Lab.start(dut, INIT_A)
@@ -101,8 +94,7 @@ async def p104_ac_48_hold_after_one_step(dut):
     lab.window("AC-48", "pulse to hold", rise - lab.pulses[0], 544_000, 545_600)
 
 
-@cocotb.test()
-@verifies("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
+@directed("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
 async def p104_ac_49_external_clock(dut):
     """Given external clocks, when rate 9 runs with vsel 1 and 0, then 640, 760, 1600 and 1400 clk."""
     lab = await Lab.start(dut, (0x1A, *A_DATA))
@@ -125,8 +117,7 @@ async def p104_ac_49_external_clock(dut):
         await lab.result("AC-49", 10, 0x84, 0)
 
 
-@cocotb.test()
-@verifies("AC-50", "P104-TIM-03", "P104-BAD-13")
+@directed("AC-50", "P104-TIM-03", "P104-BAD-13")
 async def p104_ac_50_external_clock_missing(dut):
     """Given a stopped clock, when a move starts, then it waits with BUSY = 1 until 0x40."""
     lab = await Lab.start(dut, (0x1A, *A_DATA))
@@ -137,9 +128,7 @@ async def p104_ac_50_external_clock_missing(dut):
     await lab.result("AC-50", 0, 0xC4, 9)
 
 
-@cocotb.test()
-@verifies("AC-51", "P104-BCK-03", "P104-EX-12")
-@configs(F11)
+@directed("AC-51", "P104-BCK-03", "P104-EX-12", builds=(F11,))
 async def p104_ac_51_no_drift(dut):
     """Given CLK_HZ = 11 059 200, when 1001 pulses run at rate 0, then each lies where the formula says."""
     lab = await Lab.start(dut, INIT_A)
@@ -150,9 +139,7 @@ async def p104_ac_51_no_drift(dut):
     lab.check("AC-51", "all pulses", got, expected)
 
 
-@cocotb.test()
-@verifies("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02")
-@configs(D16)
+@directed("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_ac_52_init_time(dut):
     """Given DATASHEET, when C1 and C2 are written into the closed mailbox,
     then only C2 is taken, at 16.5 ms.
@@ -173,9 +160,7 @@ async def p104_ac_52_init_time(dut):
     lab.check("AC-52", "edges of aux_n", lab.bench.edges("aux_n"), [])
 
 
-@cocotb.test()
-@verifies("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07")
-@configs(D16)
+@directed("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07", builds=(D16,))
 async def p104_ac_53_constant_speed_times(dut):
     """Given DATASHEET, when 0x44 runs 3 pulses,
     then BUSY, pulse 1, INT and the next command keep their times.
@@ -202,9 +187,7 @@ async def p104_ac_53_constant_speed_times(dut):
     lab.window("AC-53", "0x80 taken after the last fall", taken - last, 2496, 2514)
 
 
-@cocotb.test()
-@verifies("AC-54", "P104-DS-06")
-@configs(D16)
+@directed("AC-54", "P104-DS-06", builds=(D16,))
 async def p104_ac_54_single_step_times(dut):
     """Given DATASHEET, when 0x42 is written, then the pulse comes at 86 us and INT at 112 us."""
     lab = await Lab.start(dut, INIT_A)
@@ -213,9 +196,7 @@ async def p104_ac_54_single_step_times(dut):
     lab.window("AC-54", "INT", await lab.ended() - event, 1792, 1808)
 
 
-@cocotb.test()
-@verifies("AC-55", "P104-DS-05")
-@configs(D16)
+@directed("AC-55", "P104-DS-05", builds=(D16,))
 async def p104_ac_55_ramp_times(dut):
     """Given DATASHEET, when trapezoids and triangles start, then pulse 1 comes at its own time."""
     lab = await Lab.start(dut, INIT_B)
@@ -227,9 +208,7 @@ async def p104_ac_55_ramp_times(dut):
         await lab.host.run("c 80 r")
 
 
-@cocotb.test()
-@verifies("AC-56", "P104-DS-12")
-@configs(D16)
+@directed("AC-56", "P104-DS-12", builds=(D16,))
 async def p104_ac_56_too_fast_for_commands(dut):
     """Given DATASHEET and 20 us intervals, when C1 comes, then it waits for the end; 0x40 does not."""
     lab = await Lab.start(dut, INIT_A)
@@ -249,8 +228,7 @@ async def p104_ac_56_too_fast_for_commands(dut):
     await lab.result("AC-56", 20, 0xC4, 0x4F)
 
 
-@cocotb.test()
-@verifies("AC-57", "P104-BAD-19")
+@directed("AC-57", "P104-BAD-19")
 async def p104_ac_57_reset_in_motion(dut):
     """Given a running move, when rst_n falls between two clk edges, then all outputs are at reset levels."""
     lab = await Lab.start(dut, INIT_A)
@@ -271,8 +249,7 @@ async def p104_ac_57_reset_in_motion(dut):
     lab.check("AC-57", "pulses after the reset", bench.pulses(reset + 1), [])
 
 
-@cocotb.test()
-@verifies("AC-58", "P104-BUS-02")
+@directed("AC-58", "P104-BUS-02")
 async def p104_ac_58_both_strobes(dut):
     """Given both strobes low together, when they end together, then there was no access."""
     lab = await Lab.start(dut, None)
@@ -287,8 +264,7 @@ async def p104_ac_58_both_strobes(dut):
     lab.check("AC-58", "edges of aux_n", lab.bench.edges("aux_n"), [])
 
 
-@cocotb.test()
-@verifies("AC-59", "P104-OPR-06", "P104-TIM-02")
+@directed("AC-59", "P104-OPR-06", "P104-TIM-02")
 async def p104_ac_59_single_step_needs_no_clock(dut):
     """Given a stopped external clock, when 0x42 starts, then its pulse comes all the same."""
     lab = await Lab.start(dut, (0x1A, *A_DATA))
@@ -299,8 +275,7 @@ async def p104_ac_59_single_step_needs_no_clock(dut):
     await lab.result("AC-59", 1, 0x82)
 
 
-@cocotb.test()
-@verifies("AC-60", "P104-TIM-05", "P104-END-02")
+@directed("AC-60", "P104-TIM-05", "P104-END-02")
 async def p104_ac_60_limit_in_short_low_time(dut):
     """Given rate 0, when L1 falls 2 clk after pulse 10, then that pulse keeps its 16 clk and is the last."""
     lab = await Lab.start(dut, INIT_A)

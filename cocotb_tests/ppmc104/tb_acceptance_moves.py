@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, IBF, OBF, STATUS
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B
 from .lab import Lab
@@ -35,8 +33,7 @@ async def stopped_after_ten(lab: Lab) -> None:
     await lab.idle()
 
 
-@cocotb.test()
-@verifies("AC-01", "P104-PORT-01", "P104-PORT-03", "P104-STA-07")
+@directed("AC-01", "P104-PORT-01", "P104-PORT-03", "P104-STA-07")
 async def p104_ac_01_reset_levels(dut):
     """Given a reset, when it ends, then all outputs, status and data register have their reset values."""
     lab = await Lab.start(dut, None)
@@ -47,8 +44,7 @@ async def p104_ac_01_reset_levels(dut):
     lab.check("AC-01", "data register", await lab.host.read(0), 0x00)
 
 
-@cocotb.test()
-@verifies("AC-02", "P104-BUS-05")
+@directed("AC-02", "P104-BUS-05")
 async def p104_ac_02_read_strobe(dut):
     """Given a status read of 6 clk, when it runs, then d_oe and d_o keep to their windows."""
     lab = await Lab.start(dut, None)
@@ -63,8 +59,7 @@ async def p104_ac_02_read_strobe(dut):
     lab.check("AC-02", "d_o changes in the strobe", bench.edges("d_o", first + 3), [])
 
 
-@cocotb.test()
-@verifies("AC-03", "P104-ERR-01", "P104-FSM-01")
+@directed("AC-03", "P104-ERR-01", "P104-FSM-01")
 async def p104_ac_03_not_initialised(dut):
     """Given a core after reset, when operations and stops come, then error 2 or 0 and nothing moves."""
     lab = await Lab.start(dut, None)
@@ -75,8 +70,7 @@ async def p104_ac_03_not_initialised(dut):
     lab.check("AC-03", "hold edges", lab.bench.edges("hold"), [])
 
 
-@cocotb.test()
-@verifies("AC-04", "P104-CMD-01", "P104-CMD-03", "P104-STA-06")
+@directed("AC-04", "P104-CMD-01", "P104-CMD-03", "P104-STA-06")
 async def p104_ac_04_all_codes(dut):
     """Given a reset before each of the 256 codes, when the code is sent,
     then the status is as its kind says.
@@ -94,8 +88,7 @@ async def p104_ac_04_all_codes(dut):
     lab.check("AC-04", "number of undefined codes", count, 97)
 
 
-@cocotb.test()
-@verifies("AC-05", "P104-INI-02", "P104-STA-05")
+@directed("AC-05", "P104-INI-02", "P104-STA-05")
 async def p104_ac_05_init_counts_down(dut):
     """Given init A, when its bytes go in, then NUM counts 4, 3, 2, 1, 0."""
     lab = await Lab.start(dut, None)
@@ -103,8 +96,7 @@ async def p104_ac_05_init_counts_down(dut):
     lab.check("AC-05", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
 
 
-@cocotb.test()
-@verifies("AC-06", "P104-INI-05", "P104-RD-06")
+@directed("AC-06", "P104-INI-05", "P104-RD-06")
 async def p104_ac_06_first_pattern(dut):
     """Given init A, when it is accepted, then s shows index 0 and 0x82 reads it."""
     lab = await Lab.start(dut, None)
@@ -113,8 +105,7 @@ async def p104_ac_06_first_pattern(dut):
     lab.check("AC-06", "0x82", await lab.host.run("c 82 r"), [0xC4])
 
 
-@cocotb.test()
-@verifies("AC-07", "P104-PHS-01")
+@directed("AC-07", "P104-PHS-01")
 async def p104_ac_07_negative_logic(dut):
     """Given negative logic, when initialised, then s is inverted and 0x82 shows the pin levels."""
     lab = await Lab.start(dut, None)
@@ -123,16 +114,14 @@ async def p104_ac_07_negative_logic(dut):
     lab.check("AC-07", "0x82", await lab.host.run("c 82 r"), [0x3C])
 
 
-@cocotb.test()
-@verifies("AC-08", "P104-RD-06", "P104-PHS-02", "P104-RD-05")
+@directed("AC-08", "P104-RD-06", "P104-PHS-02", "P104-RD-05")
 async def p104_ac_08_reads_after_reset(dut):
     """Given a core after reset, when the registers are read, then 0xFC, 0xCF, 0x00."""
     lab = await Lab.start(dut, None)
     lab.check("AC-08", "reads", await lab.host.run("c 82 r c 81 r c 80 r"), [0xFC, 0xCF, 0x00])
 
 
-@cocotb.test()
-@verifies("AC-09", "P104-EX-01", "P104-PRO-02")
+@directed("AC-09", "P104-EX-01", "P104-PRO-02")
 async def p104_ac_09_trapezoid(dut):
     """Given init A, when 14 pulses are asked for, then the trapezoid of EX-01 comes out."""
     lab = await Lab.start(dut, None)
@@ -142,8 +131,7 @@ async def p104_ac_09_trapezoid(dut):
     lab.check("AC-09", "s at the end", lab.bench.level("s"), 0b01100)
 
 
-@cocotb.test()
-@verifies("AC-10", "P104-EX-02", "P104-PRO-03")
+@directed("AC-10", "P104-EX-02", "P104-PRO-03")
 async def p104_ac_10_triangles(dut):
     """Given init A, when D goes from 0 to 9, then the pulse counts and rates of EX-02 come out."""
     lab = await Lab.start(dut, INIT_A)
@@ -155,8 +143,7 @@ async def p104_ac_10_triangles(dut):
         lab.check("AC-10", f"intervals for D = {d}", lab.intervals, [32 * (r + 1) for r in rates])
 
 
-@cocotb.test()
-@verifies("AC-11", "P104-EX-03")
+@directed("AC-11", "P104-EX-03")
 async def p104_ac_11_long_move(dut):
     """Given a ramp of 100 steps, when 1000 pulses run, then they last 1 795 008 clk."""
     lab = await Lab.start(dut, None)
@@ -169,8 +156,7 @@ async def p104_ac_11_long_move(dut):
     lab.check("AC-11", "first intervals", lab.bench.intervals()[:8], first)
 
 
-@cocotb.test()
-@verifies("AC-12", "P104-RMP-03")
+@directed("AC-12", "P104-RMP-03")
 async def p104_ac_12_half_rounds_up(dut):
     """Given RL 4, RH 0, PA 8, when 20 pulses run, then the exact half at index 1 is rounded up."""
     lab = await Lab.start(dut, None)
@@ -180,8 +166,7 @@ async def p104_ac_12_half_rounds_up(dut):
     lab.check("AC-12", "intervals", lab.bench.intervals(), expected)
 
 
-@cocotb.test()
-@verifies("AC-13", "P104-TIM-02", "P104-TIM-04")
+@directed("AC-13", "P104-TIM-02", "P104-TIM-04")
 async def p104_ac_13_first_pulse_and_phases(dut):
     """Given AC-09, when it runs, then pulse 1 is 80..82 clk after hold and s moves with each pulse."""
     lab = await Lab.start(dut, INIT_A)
@@ -190,8 +175,7 @@ async def p104_ac_13_first_pulse_and_phases(dut):
     lab.check("AC-13", "edges of s", [t for t, _ in lab.bench.edges("s", lab.since)], pulses)
 
 
-@cocotb.test()
-@verifies("AC-14", "P104-TIM-05")
+@directed("AC-14", "P104-TIM-05")
 async def p104_ac_14_low_times(dut):
     """Given AC-09 and a move at rate 0, when they run, then low times are 80, and 16 at rate 0."""
     lab = await Lab.start(dut, INIT_A)
@@ -202,8 +186,7 @@ async def p104_ac_14_low_times(dut):
     lab.check("AC-14", "low times at rate 0", lab.bench.low_times(lab.since), [16] * 9 + [80])
 
 
-@cocotb.test()
-@verifies("AC-15", "P104-EX-06", "P104-BCK-02")
+@directed("AC-15", "P104-EX-06", "P104-BCK-02")
 async def p104_ac_15_csel_vsel(dut):
     """Given rate 99, when csel and vsel are 11, 01, 10, 00, then the four intervals of EX-06 come out."""
     lab = await Lab.start(dut, INIT_A)
@@ -214,8 +197,7 @@ async def p104_ac_15_csel_vsel(dut):
         lab.check("AC-15", f"intervals at csel {csel}, vsel {vsel}", lab.intervals, [interval] * 4)
 
 
-@cocotb.test()
-@verifies("AC-16", "P104-BCK-02", "P104-BAD-16")
+@directed("AC-16", "P104-BCK-02", "P104-BAD-16")
 async def p104_ac_16_latched_at_start(dut):
     """Given a move, when csel and vsel fall after pulse 2, then its intervals stay."""
     lab = await Lab.start(dut, INIT_A)
@@ -226,8 +208,7 @@ async def p104_ac_16_latched_at_start(dut):
     lab.check("AC-16", "intervals", lab.intervals, [3200] * 4)
 
 
-@cocotb.test()
-@verifies("AC-17", "P104-END-01", "P104-RD-03", "P104-RD-04")
+@directed("AC-17", "P104-END-01", "P104-RD-03", "P104-RD-04")
 async def p104_ac_17_int_and_finish(dut):
     """Given a two-pulse move, when it ends, then INT falls with BUSY, and 0x80 releases it."""
     lab = await Lab.start(dut, INIT_A)
@@ -241,8 +222,7 @@ async def p104_ac_17_int_and_finish(dut):
     lab.check("AC-17", "second finish status", await lab.host.run("c 80 r"), [0x03])
 
 
-@cocotb.test()
-@verifies("AC-18", "P104-CMD-02")
+@directed("AC-18", "P104-CMD-02")
 async def p104_ac_18_masked_interrupt(dut):
     """Given I = 1, when the move ends, then int_n stays 1 and the finish status is still new."""
     lab = await Lab.start(dut, INIT_A)
@@ -251,8 +231,7 @@ async def p104_ac_18_masked_interrupt(dut):
     await lab.result("AC-18", 2, 0x83, 0)
 
 
-@cocotb.test()
-@verifies("AC-19", "P104-END-07")
+@directed("AC-19", "P104-END-07")
 async def p104_ac_19_pending_interrupt(dut):
     """Given a pending INT, when a masked step follows, then INT stays until 0x80."""
     lab = await Lab.start(dut, INIT_A)
@@ -263,8 +242,7 @@ async def p104_ac_19_pending_interrupt(dut):
     lab.check("AC-19", "int_n after 0x80", lab.bench.level("int_n"), 1)
 
 
-@cocotb.test()
-@verifies("AC-20", "P104-EX-10", "P104-END-06")
+@directed("AC-20", "P104-EX-10", "P104-END-06")
 async def p104_ac_20_immediate_stop(dut):
     """Given N = 1000, when 0x40 comes after pulse 10, then it ends there and 989 is read."""
     lab = await Lab.start(dut, INIT_A)
@@ -274,8 +252,7 @@ async def p104_ac_20_immediate_stop(dut):
     lab.check("AC-20", "remaining", await lab.host.run("c 83 rrr"), [0xDD, 0x03, 0x00])
 
 
-@cocotb.test()
-@verifies("AC-40", "P104-HSK-08", "P104-HSK-06")
+@directed("AC-40", "P104-HSK-08", "P104-HSK-06")
 async def p104_ac_40_queue_replaced(dut):
     """Given two unread bytes after AC-20, when 0x80 is executed, then its byte replaces them."""
     lab = await Lab.start(dut, INIT_A)
@@ -287,8 +264,7 @@ async def p104_ac_40_queue_replaced(dut):
     lab.check("AC-40", "status after the stale read", await lab.host.status() & (OBF | IBF), 0)
 
 
-@cocotb.test()
-@verifies("AC-21", "P104-END-06")
+@directed("AC-21", "P104-END-06")
 async def p104_ac_21_one_left(dut):
     """Given N = 2, when 0x40 comes after pulse 1, then one pulse is left and 0 is read."""
     lab = await Lab.start(dut, INIT_A)
@@ -298,8 +274,7 @@ async def p104_ac_21_one_left(dut):
     await lab.result("AC-21", 1, 0xC4, 0)
 
 
-@cocotb.test()
-@verifies("AC-22", "P104-FDC-02", "P104-EX-04")
+@directed("AC-22", "P104-FDC-02", "P104-EX-04")
 async def p104_ac_22_forced_in_acceleration(dut):
     """Given init B, when 0x41 comes after pulse 4 or 1, then the ramp is mirrored to 8 pulses or 2."""
     lab = await Lab.start(dut, INIT_B)
@@ -311,8 +286,7 @@ async def p104_ac_22_forced_in_acceleration(dut):
         lab.check("AC-22", "intervals", lab.intervals, intervals)
 
 
-@cocotb.test()
-@verifies("AC-23", "P104-EX-04", "P104-STP-04")
+@directed("AC-23", "P104-EX-04", "P104-STP-04")
 async def p104_ac_23_forced_from_plateau(dut):
     """Given init B, when 0x41 comes after pulse 29 and again after 33, then 40 pulses and error 7."""
     lab = await Lab.start(dut, INIT_B)
@@ -326,8 +300,7 @@ async def p104_ac_23_forced_from_plateau(dut):
     lab.check("AC-23", "tail after I(29)", lab.intervals[29:], tail)
 
 
-@cocotb.test()
-@verifies("AC-24", "P104-PRO-05", "P104-STP-04")
+@directed("AC-24", "P104-PRO-05", "P104-STP-04")
 async def p104_ac_24_natural_deceleration(dut):
     """Given init A and N = 14, when 0x41 comes after pulse 11, then error 7 and a complete move."""
     lab = await Lab.start(dut, INIT_A)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import ERR, OBF
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, STEP_CODES, rates, steps
 from .lab import Lab
@@ -14,8 +12,7 @@ A_DATA = "d 09 d 04 d 04 d 00"
 A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
 
 
-@cocotb.test()
-@verifies("AC-25", "P104-STP-05")
+@directed("AC-25", "P104-STP-05")
 async def p104_ac_25_decelerating_stop_at_constant_speed(dut):
     """Given 0x45, when 0x41 comes after pulse 5, then it stops at once without an error."""
     lab = await Lab.start(dut, INIT_A)
@@ -25,8 +22,7 @@ async def p104_ac_25_decelerating_stop_at_constant_speed(dut):
     await lab.result("AC-25", 5, 0xC5, 0xFFFFFA)
 
 
-@cocotb.test()
-@verifies("AC-26", "P104-EX-04", "P104-FDC-03")
+@directed("AC-26", "P104-EX-04", "P104-FDC-03")
 async def p104_ac_26_start_on_slow_down_limit(dut):
     """Given L3 low before the start, when 0x43 starts CW, then exactly one pulse comes."""
     lab = await Lab.start(dut, INIT_B)
@@ -35,8 +31,7 @@ async def p104_ac_26_start_on_slow_down_limit(dut):
     await lab.result("AC-26", 1, 0x8B, 0x0003E6)
 
 
-@cocotb.test()
-@verifies("AC-27", "P104-FDC-01", "P104-FDC-04")
+@directed("AC-27", "P104-FDC-01", "P104-FDC-04")
 async def p104_ac_27_short_slow_down_limit(dut):
     """Given init B, when L3 is low for 10 clk after pulse 4, then the deceleration runs to its end."""
     lab = await Lab.start(dut, INIT_B)
@@ -47,8 +42,7 @@ async def p104_ac_27_short_slow_down_limit(dut):
     lab.check("AC-27", "intervals", lab.intervals, [640, 576, 512, 480, 512, 576, 640])
 
 
-@cocotb.test()
-@verifies("AC-28", "P104-EX-05")
+@directed("AC-28", "P104-EX-05")
 async def p104_ac_28_pout_mode_limit(dut):
     """Given POUT mode and L3 always low, when 0xC3 runs, then the plateau is reached before it acts."""
     lab = await Lab.start(dut, INIT_B)
@@ -59,8 +53,7 @@ async def p104_ac_28_pout_mode_limit(dut):
     lab.check_train("AC-28", rates(INIT_B[1:], [*range(11), *range(9, -1, -1)]))
 
 
-@cocotb.test()
-@verifies("AC-29", "P104-LIM-04")
+@directed("AC-29", "P104-LIM-04")
 async def p104_ac_29_pout_mode_lost_limit(dut):
     """Given POUT mode, when L3 is low only between pulses 3 and 8, then all 1000 pulses come."""
     lab = await Lab.start(dut, INIT_B)
@@ -72,8 +65,7 @@ async def p104_ac_29_pout_mode_lost_limit(dut):
     await lab.result("AC-29", 1000, 0x83, 0)
 
 
-@cocotb.test()
-@verifies("AC-30", "P104-LIM-02", "P104-LIM-08")
+@directed("AC-30", "P104-LIM-02", "P104-LIM-08")
 async def p104_ac_30_limits_of_the_direction(dut):
     """Given CCW, when L1 and L3 are low, then nothing happens; with L4 low one pulse comes."""
     lab = await Lab.start(dut, INIT_B)
@@ -86,8 +78,7 @@ async def p104_ac_30_limits_of_the_direction(dut):
     await lab.result("AC-30", 1, 0x8B, 28)
 
 
-@cocotb.test()
-@verifies("AC-31", "P104-LIM-03", "P104-END-02")
+@directed("AC-31", "P104-LIM-03", "P104-END-02")
 async def p104_ac_31_hard_limit(dut):
     """Given 0x45, when L1 falls after pulse 5, then it ends in 8 clk, and only CCW moves afterwards."""
     lab = await Lab.start(dut, INIT_A)
@@ -105,8 +96,7 @@ async def p104_ac_31_hard_limit(dut):
     lab.check("AC-31", "BUSY of the CCW move", await lab.host.status() & 4, 4)
 
 
-@cocotb.test()
-@verifies("AC-32", "P104-LIM-05")
+@directed("AC-32", "P104-LIM-05")
 async def p104_ac_32_alarm(dut):
     """Given 0x46, when ALM falls after pulse 6, then it ends with 6 pulses."""
     lab = await Lab.start(dut, INIT_A)
@@ -116,8 +106,7 @@ async def p104_ac_32_alarm(dut):
     await lab.result("AC-32", 6, 0xA6, 0xFFFFF9)
 
 
-@cocotb.test()
-@verifies("AC-33", "P104-LIM-07", "P104-LIM-09")
+@directed("AC-33", "P104-LIM-07", "P104-LIM-09")
 async def p104_ac_33_causes_at_start(dut):
     """Given L1 and ALM low, when 0x43 and 0x42 start,
     then no pulse, both bits, the whole rest, INT each time.
@@ -133,8 +122,7 @@ async def p104_ac_33_causes_at_start(dut):
     lab.check("AC-33", "falls of int_n", len(lab.bench.falls("int_n")), 2)
 
 
-@cocotb.test()
-@verifies("AC-34", "P104-LIM-06")
+@directed("AC-34", "P104-LIM-06")
 async def p104_ac_34_origin(dut):
     """Given 0x47, when CNP falls after pulse 7, then it ends without a cause bit; 0x44 ignores CNP."""
     lab = await Lab.start(dut, INIT_A)
@@ -148,8 +136,7 @@ async def p104_ac_34_origin(dut):
     await lab.result("AC-34", 4, 0x84, 0)
 
 
-@cocotb.test()
-@verifies("AC-35", "P104-END-05")
+@directed("AC-35", "P104-END-05")
 async def p104_ac_35_too_late(dut):
     """Given N = 3, when L1 falls in the low time of pulse 3, then the move counts as complete."""
     lab = await Lab.start(dut, INIT_A)
@@ -159,8 +146,7 @@ async def p104_ac_35_too_late(dut):
     await lab.result("AC-35", 3, 0x83, 0)
 
 
-@cocotb.test()
-@verifies("AC-36", "P104-CMD-04", "P104-RD-01")
+@directed("AC-36", "P104-CMD-04", "P104-RD-01")
 async def p104_ac_36_commands_while_busy(dut):
     """Given a running move, when commands come that BUSY forbids, then errors 1, 0, 6 and a calm move."""
     lab = await Lab.start(dut, INIT_A)
@@ -173,8 +159,7 @@ async def p104_ac_36_commands_while_busy(dut):
     lab.check("AC-36", "intervals", lab.intervals, [3200] * 5)
 
 
-@cocotb.test()
-@verifies("AC-37", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05")
+@directed("AC-37", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05")
 async def p104_ac_37_aux_while_busy(dut):
     """Given a running move, when the aux commands come, then the pins follow and the move does not notice."""
     lab = await Lab.start(dut, INIT_A)
@@ -194,8 +179,7 @@ async def p104_ac_37_aux_while_busy(dut):
     await lab.result("AC-37", 1, 0x82, 0)
 
 
-@cocotb.test()
-@verifies("AC-38", "P104-AUX-02", "P104-RD-08")
+@directed("AC-38", "P104-AUX-02", "P104-RD-08")
 async def p104_ac_38_aux_before_init(dut):
     """Given a core after reset, when auxiliary ports are used, then they work."""
     lab = await Lab.start(dut, None)
@@ -209,8 +193,7 @@ async def p104_ac_38_aux_before_init(dut):
     lab.check("AC-38", "0x85", await lab.host.run("c 85 r"), [0x09])
 
 
-@cocotb.test()
-@verifies("AC-39", "P104-HSK-07")
+@directed("AC-39", "P104-HSK-07")
 async def p104_ac_39_cancelled_command(dut):
     """Given a half-entered move, when a read command comes, then the move is dropped."""
     lab = await Lab.start(dut, INIT_A)
@@ -220,8 +203,7 @@ async def p104_ac_39_cancelled_command(dut):
     lab.check("AC-39", "pulses", lab.bench.pulses(), [])
 
 
-@cocotb.test()
-@verifies("AC-41", "P104-INI-03", "P104-INI-06")
+@directed("AC-41", "P104-INI-03", "P104-INI-06")
 async def p104_ac_41_rejected_inits(dut):
     """Given init A, when four illegal ones follow, then errors 5, 5, 4, 4 and the old ramp stays."""
     lab = await Lab.start(dut, INIT_A)
@@ -233,8 +215,7 @@ async def p104_ac_41_rejected_inits(dut):
     lab.check("AC-41", "intervals", lab.intervals, A_INTERVALS)
 
 
-@cocotb.test()
-@verifies("AC-42", "P104-INI-03", "P104-EX-11")
+@directed("AC-42", "P104-INI-03", "P104-EX-11")
 async def p104_ac_42_extreme_inits(dut):
     """Given the extreme legal values, when they are sent, then all are accepted; RL = RH runs flat."""
     lab = await Lab.start(dut, None)
@@ -245,8 +226,7 @@ async def p104_ac_42_extreme_inits(dut):
             lab.check("AC-42", "intervals", lab.intervals, [352] * 11)
 
 
-@cocotb.test()
-@verifies("AC-43", "P104-INI-05", "P104-AUX-04")
+@directed("AC-43", "P104-INI-05", "P104-AUX-04")
 async def p104_ac_43_frozen_until_excitation_off(dut):
     """Given init A, when a 5-phase re-init comes, then the motor type stays until Excitation OFF."""
     lab = await Lab.start(dut, INIT_A)
@@ -266,8 +246,7 @@ async def p104_ac_43_frozen_until_excitation_off(dut):
     lab.check("AC-43", "s of the new motor", got, [0b00011, 0b00111, 0b00110, 0b01110])
 
 
-@cocotb.test()
-@verifies("AC-44", "P104-PHS-01", "P104-PHS-06", "P104-OPR-05")
+@directed("AC-44", "P104-PHS-01", "P104-PHS-06", "P104-OPR-05")
 async def p104_ac_44_step_lists(dut):
     """Given each motor type and logic, when two turns run CW and back, then s follows its list."""
     lab = await Lab.start(dut, None)

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import random
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
-from cocotb_tests.harness.config import D16, F8, F16, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import D16, F8, F16, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A
 from .lab import Lab
 from .tb_acceptance_moves import kind_of
 
 
-@cocotb.test()
-@verifies("P104-BAD-01", "P104-CMD-03", "P104-HSK-07")
+@directed("P104-BAD-01", "P104-CMD-03", "P104-HSK-07")
 async def p104_bad_01_undefined_codes(dut):
     """Given half-entered commands at rest and in motion, when each undefined code comes,
     then error 0 and cancel.
@@ -38,8 +35,7 @@ async def p104_bad_01_undefined_codes(dut):
     lab.check("P104-BAD-01", "auxo, dir", quiet, ([], []))
 
 
-@cocotb.test()
-@verifies("P104-BAD-03", "P104-BAD-04", "P104-BAD-11")
+@directed("P104-BAD-03", "P104-BAD-04", "P104-BAD-11")
 async def p104_bad_11_operation_before_init(dut):
     """Given no initialisation, when operations with parameters come, then error 2,
     then error 3 each, no motion.
@@ -66,8 +62,7 @@ async def p104_bad_11_operation_before_init(dut):
     lab.check("P104-BAD-11", "pulses", lab.bench.pulses(), [])
 
 
-@cocotb.test()
-@verifies("P104-BAD-05", "P104-BAD-02", "P104-BAD-12")
+@directed("P104-BAD-05", "P104-BAD-02", "P104-BAD-12")
 async def p104_bad_05_too_many_parameters(dut):
     """Given surplus bytes after commands, when they come,
     then error 6 in motion or 3 at rest, nothing else.
@@ -88,8 +83,7 @@ async def p104_bad_05_too_many_parameters(dut):
     lab.check_train("P104-BAD-05", [19, 19])
 
 
-@cocotb.test()
-@verifies("P104-BAD-07", "P104-BAD-22", "P104-HSK-06", "P104-HSK-08")
+@directed("P104-BAD-07", "P104-BAD-22", "P104-HSK-06", "P104-HSK-08")
 async def p104_bad_22_queue_never_read(dut):
     """Given a full queue nobody reads, when everything else is used,
     then all of it works and the queue stays.
@@ -112,8 +106,7 @@ async def p104_bad_22_queue_never_read(dut):
     lab.check("P104-BAD-22", "a new read command", await lab.host.fetch(0x80), [0x83])
 
 
-@cocotb.test()
-@verifies("P104-BAD-13", "P104-TIM-03", "P104-OPR-06")
+@directed("P104-BAD-13", "P104-TIM-03", "P104-OPR-06")
 async def p104_bad_13_clock_stops_in_motion(dut):
     """Given a clock that stops in mid-motion, when stops and limits come,
     then they act; ramps wait for edges.
@@ -155,8 +148,7 @@ async def p104_bad_13_clock_stops_in_motion(dut):
     await lab.result("P104-BAD-13", 1, 0x82, 0)
 
 
-@cocotb.test()
-@verifies("P104-BAD-15", "P104-LIM-07", "P104-LIM-09")
+@directed("P104-BAD-15", "P104-LIM-07", "P104-LIM-09")
 async def p104_bad_15_everything_active(dut):
     """Given all inputs active at once, when each operation starts or runs,
     then no pulse more and bits 5 and 4.
@@ -186,9 +178,7 @@ async def p104_bad_15_everything_active(dut):
             await lab.bench.clocks(4)
 
 
-@cocotb.test()
-@verifies("P104-BAD-19", "P104-PORT-03")
-@configs(F16, F100)
+@directed("P104-BAD-19", "P104-PORT-03", builds=(F16, F100))
 async def p104_bad_19_reset_in_every_state(dut):
     """Given resets in START, a low pulse, between pulses, a table build, when released,
     then a clean UNINIT core.
@@ -219,8 +209,7 @@ async def p104_bad_19_reset_in_every_state(dut):
         lab.check("P104-BAD-19", "remaining", await lab.remaining(), 0)
 
 
-@cocotb.test()
-@verifies("P104-BAD-18", "P104-BUS-06")
+@directed("P104-BAD-18", "P104-BUS-06")
 async def p104_bad_18_cs_ends_the_strobe(dut):
     """Given cs_n that rises before wr_n and rd_n, when it does,
     then the write is stored and the read ends.
@@ -245,8 +234,7 @@ async def p104_bad_18_cs_ends_the_strobe(dut):
     lab.window("P104-BAD-18", "d_oe fall after cs_n", bench.falls("d_oe")[-1] - after, 0, 2)
 
 
-@cocotb.test()
-@verifies("P104-BAD-20", "P104-LIM-03")
+@directed("P104-BAD-20", "P104-LIM-03")
 async def p104_bad_20_hard_limit_chatters(dut):
     """Given a deceleration, when the hard limit chatters,
     then the first level seen ends the motion for good.
@@ -284,9 +272,7 @@ async def abuse(lab: Lab, rng: random.Random, rounds: int) -> None:
             await lab.bench.clocks(rng.randrange(1, 8))
 
 
-@cocotb.test()
-@verifies("P104-BAD-23", "P104-FSM-01")
-@configs(F8, F16, F100, D16)
+@directed("P104-BAD-23", "P104-FSM-01", builds=(F8, F16, F100, D16))
 async def p104_bad_23_always_a_way_back(dut):
     """Given random abuse, clock running or not, when 0x40, 0xC0 and an init follow, then the core works."""
     lab = await Lab.start(dut, None)

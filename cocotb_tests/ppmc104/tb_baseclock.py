@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from itertools import chain, repeat
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.config import F8, F11, F16, F16X1, F25, F50, F100, Config, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F8, F11, F16, F16X1, F25, F50, F100, Config
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, differences, rates
 from .lab import Lab
@@ -33,9 +31,15 @@ def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) 
     return pulses
 
 
-@cocotb.test()
-@verifies("P104-BCK-01", "P104-INT-01", "P104-INT-02", "P104-GEN-02", "P104-GEN-03", "P104-GEN-04")
-@configs(F16, F8, F11, F25, F50, F100, F16X1)
+@directed(
+    "P104-BCK-01",
+    "P104-INT-01",
+    "P104-INT-02",
+    "P104-GEN-02",
+    "P104-GEN-03",
+    "P104-GEN-04",
+    builds=(F16, F8, F11, F25, F50, F100, F16X1),
+)
 async def p104_bck_01_internal_clocks(dut):
     """Given each core clock and crystal, when csel and vsel vary,
     then every pulse lies on its quantum tick.
@@ -53,8 +57,7 @@ async def p104_bck_01_internal_clocks(dut):
         lab.check_train("P104-INT-02", ramp, csel, vsel)
 
 
-@cocotb.test()
-@verifies("P104-BCK-02", "P104-BAD-16", "P104-INI-09")
+@directed("P104-BCK-02", "P104-BAD-16", "P104-INI-09")
 async def p104_bck_02_latched(dut):
     """Given csel and vsel toggling in motion, when a move runs, then only their levels at its start count."""
     lab = await Lab.start(dut, INIT_A)
@@ -69,9 +72,7 @@ async def p104_bck_02_latched(dut):
         lab.check_train("P104-BCK-02", rates(INIT_A[1:], [0, 1, 2, 3, 3, 2, 1, 0]), csel, vsel)
 
 
-@cocotb.test()
-@verifies("P104-BCK-03", "P104-GEN-03", "P104-EX-12")
-@configs(F11, F25, F50)
+@directed("P104-BCK-03", "P104-GEN-03", "P104-EX-12", builds=(F11, F25, F50))
 async def p104_bck_03_cumulative(dut):
     """Given fractional clk per quantum, when mixed intervals add up,
     then no pulse drifts and each is within 1 clk.
@@ -88,8 +89,7 @@ async def p104_bck_03_cumulative(dut):
         )
 
 
-@cocotb.test()
-@verifies("P104-BCK-03")
+@directed("P104-BCK-03")
 async def p104_bck_03_phase_restart(dut):
     """Given starts at any phase of the free-running quantum, when pulse 1 is out,
     then intervals count from it.
@@ -101,9 +101,7 @@ async def p104_bck_03_phase_restart(dut):
         await lab.bench.clocks(wait)
 
 
-@cocotb.test()
-@verifies("P104-BCK-04", "P104-INT-01", "P104-INI-01", "P104-TIM-03")
-@configs(F16, F25, F100)
+@directed("P104-BCK-04", "P104-INT-01", "P104-INI-01", "P104-TIM-03", builds=(F16, F25, F100))
 async def p104_bck_04_external_edges(dut):
     """Given external clocks with any duty and jitter, when moves run, then pulses keep to their own edges."""
     lab = await Lab.start(dut, EXTERNAL)
@@ -128,8 +126,7 @@ async def p104_bck_04_external_edges(dut):
     lab.window("P104-BCK-04", "delay from edge to pulse", min(delays), 2, 5)
 
 
-@cocotb.test()
-@verifies("P104-BCK-05", "P104-BAD-14")
+@directed("P104-BCK-05", "P104-BAD-14")
 async def p104_bck_05_too_fast_clock(dut):
     """Given clocks of 4 to 15 clk at rate 0, when moves run,
     then count, phases and results hold, nothing is early.
@@ -162,9 +159,7 @@ async def p104_bck_05_too_fast_clock(dut):
         await lab.bench.clocks(8)
 
 
-@cocotb.test()
-@verifies("P104-INT-03", "P104-INT-04")
-@configs(F16, F25)
+@directed("P104-INT-03", "P104-INT-04", builds=(F16, F25))
 async def p104_int_03_vsel_low_external(dut):
     """Given vsel = L and steady or changing external clocks, when moves run,
     then each pulse is where INT-03 has it.
@@ -200,9 +195,7 @@ async def p104_int_03_vsel_low_external(dut):
             await lab.bench.clocks(20)
 
 
-@cocotb.test()
-@verifies("P104-INT-04", "P104-EX-08")
-@configs(F16, F100)
+@directed("P104-INT-04", "P104-EX-08", builds=(F16, F100))
 async def p104_int_04_steady_consequences(dut):
     """Given steady clocks up to 7.5 us and from 9 us on, when vsel = L, then +7.5 us or nothing is added."""
     lab = await Lab.start(dut, EXTERNAL, vsel=0)
@@ -221,9 +214,7 @@ async def p104_int_04_steady_consequences(dut):
         await lab.bench.clocks(20)
 
 
-@cocotb.test()
-@verifies("P104-INT-05", "P104-BAD-17", "P104-TIM-05")
-@configs(F16, F11, F100)
+@directed("P104-INT-05", "P104-BAD-17", "P104-TIM-05", builds=(F16, F11, F100))
 async def p104_int_05_no_speed_limit(dut):
     """Given RH = 0, when a ramp and commands meet top speed,
     then every interval holds and commands are served.
@@ -239,8 +230,7 @@ async def p104_int_05_no_speed_limit(dut):
     lab.check_lows("P104-TIM-05", ramp)
 
 
-@cocotb.test()
-@verifies("P104-TIM-03", "P104-BAD-13", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-FDC-03")
+@directed("P104-TIM-03", "P104-BAD-13", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-FDC-03")
 async def p104_tim_03_waiting_for_the_clock(dut):
     """Given no external clock, when operations start, then they wait in START, and all stop causes work."""
     lab = await Lab.start(dut, EXTERNAL)
@@ -275,9 +265,7 @@ async def p104_tim_03_waiting_for_the_clock(dut):
             await lab.result("P104-BAD-13", 0, 0xC0 | code & 7, rest)
 
 
-@cocotb.test()
-@verifies("P104-TIM-03", "P104-BCK-04")
-@configs(F16, F100)
+@directed("P104-TIM-03", "P104-BCK-04", builds=(F16, F100))
 async def p104_tim_03_first_edge(dut):
     """Given single clock edges around W after the start, when pulse 1 is due,
     then the first edge at or after counts.
@@ -308,8 +296,7 @@ async def p104_tim_03_first_edge(dut):
         await lab.init(*EXTERNAL)
 
 
-@cocotb.test()
-@verifies("P104-BCK-04", "P104-BAD-13")
+@directed("P104-BCK-04", "P104-BAD-13")
 async def p104_bck_04_clock_stops_and_resumes(dut):
     """Given a clock that stops for 50 us in mid-interval, when it resumes, then no edge is lost or added."""
     lab = await Lab.start(dut, EXTERNAL)

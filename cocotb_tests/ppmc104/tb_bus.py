@@ -7,8 +7,8 @@ from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness.bus import COMMAND, DATA, IBF, STATUS
-from cocotb_tests.harness.config import F8, F16, F50, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F8, F16, F50, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A
 from .lab import PINS_LATEST, Lab
@@ -27,8 +27,7 @@ def off_edge(lab: Lab, part: int) -> int:
     return lab.bench.period * part // 16 * 2 + 2 * (lab.bench.period // 64)
 
 
-@cocotb.test()
-@verifies("P104-BUS-01", "P104-GEN-01")
+@directed("P104-BUS-01", "P104-GEN-01")
 async def p104_bus_01_register_map(dut):
     """Given all combinations of cs_n, a0 and strobes, when used,
     then only the selected register is touched.
@@ -57,8 +56,7 @@ async def p104_bus_01_register_map(dut):
     lab.check("P104-BUS-01", "aux_n", bench.edges("aux_n"), [])
 
 
-@cocotb.test()
-@verifies("P104-BUS-02", "P104-BAD-08")
+@directed("P104-BUS-02", "P104-BAD-08")
 async def p104_bus_02_overlapping_strobes(dut):
     """Given a write that a read strobe interrupts, when both are low, then the byte so far is stored once."""
     lab = await Lab.start(dut, None)
@@ -86,9 +84,7 @@ async def p104_bus_02_overlapping_strobes(dut):
     lab.check("P104-BUS-02", "aux_n after the read", bench.edges("aux_n"), [])
 
 
-@cocotb.test()
-@verifies("P104-BUS-03", "P104-BUS-04")
-@configs(F8, F16, F50, F100)
+@directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
     """Given the shortest legal strobes at any phase, when bytes go in and out,
     then none is lost or damaged.
@@ -123,8 +119,7 @@ async def p104_bus_03_shortest_strobes(dut):
             lab.check("P104-BUS-03", f"(d_oe, d_o) of a0 = {a0}, phase {part}/8", got, (1, expected))
 
 
-@cocotb.test()
-@verifies("P104-BUS-05")
+@directed("P104-BUS-05")
 async def p104_bus_05_snapshot(dut):
     """Given read strobes of 3 to 60 clk, when the state changes meanwhile,
     then d_o is one frozen snapshot.
@@ -155,9 +150,7 @@ async def p104_bus_05_snapshot(dut):
     await lab.host.idle()
 
 
-@cocotb.test()
-@verifies("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18")
-@configs(F16, F100)
+@directed("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18", builds=(F16, F100))
 async def p104_bus_06_last_sample_counts(dut):
     """Given d_i and a0 that change every clk, when WS ends,
     then the last sample is the byte, at one latency.
@@ -185,8 +178,7 @@ async def p104_bus_06_last_sample_counts(dut):
     lab.window("P104-TIM-01", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
 
 
-@cocotb.test()
-@verifies("P104-BUS-07", "P104-HSK-03")
+@directed("P104-BUS-07", "P104-HSK-03")
 async def p104_bus_07_no_invisible_byte(dut):
     """Given a write, when status is read 1 to 16 clk later, then it shows IBF or the whole effect."""
     lab = await Lab.start(dut, INIT_A)
@@ -210,9 +202,7 @@ async def p104_bus_07_no_invisible_byte(dut):
         )
 
 
-@cocotb.test()
-@verifies("P104-PORT-02")
-@configs(F16, F50)
+@directed("P104-PORT-02", builds=(F16, F50))
 async def p104_port_02_registers_only(dut):
     """Given short glitches between clk edges, when all outputs are watched,
     then only rising edges move them.
@@ -250,9 +240,7 @@ async def p104_port_02_registers_only(dut):
     lab.check("P104-PORT-02", "output changes off the rising edge", wrong, [])
 
 
-@cocotb.test()
-@verifies("P104-PORT-03", "P104-PORT-01", "P104-PHS-02", "P104-PAR-01")
-@configs(F16, F50)
+@directed("P104-PORT-03", "P104-PORT-01", "P104-PHS-02", "P104-PAR-01", builds=(F16, F50))
 async def p104_port_03_reset(dut):
     """Given bus traffic in reset, when it is released, then nothing was stored and edge 4 takes a byte."""
     lab = await Lab.start(dut, INIT_A)
@@ -283,8 +271,7 @@ async def p104_port_03_reset(dut):
     lab.check("P104-PORT-03", "status after reset", await lab.host.status(), 0x00)
 
 
-@cocotb.test()
-@verifies("P104-PORT-04")
+@directed("P104-PORT-04")
 async def p104_port_04_tied_inputs(dut):
     """Given unused inputs tied as told, with clock at 0 or 1, when moves run, then nothing disturbs them."""
     lab = await Lab.start(dut, INIT_A)
@@ -296,8 +283,7 @@ async def p104_port_04_tied_inputs(dut):
         lab.check("P104-PORT-04", "input signals", await lab.host.fetch(0x81), [0xCF])
 
 
-@cocotb.test()
-@verifies("P104-BAD-09")
+@directed("P104-BAD-09")
 async def p104_bad_09_too_short_strobes(dut):
     """Given strobes and gaps below the limits at any phase, when bytes are written,
     then each is whole or absent.

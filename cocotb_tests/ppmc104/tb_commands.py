@@ -4,10 +4,8 @@ starts (P104-OPR).
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, DATA, ERR
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A
 from .lab import Lab
@@ -21,8 +19,7 @@ PARAMETERS = {0x42: 0, 0x43: 3, 0x44: 4, 0x45: 1, 0x46: 0, 0x47: 1, 0xC3: 3, 0xC
 STOPPABLE = ("START ramp", "ACC", "HIGH", "DEC", "START constant", "CONST")
 
 
-@cocotb.test()
-@verifies("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
+@directed("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
 async def p104_cmd_01_all_codes_ready(dut):
     """Given an initialised core, when each of the 256 codes comes,
     then its parameter count or effect follows.
@@ -47,8 +44,7 @@ async def p104_cmd_01_all_codes_ready(dut):
             await lab.init(*INIT_A)
 
 
-@cocotb.test()
-@verifies("P104-CMD-04", "P104-CMD-03", "P104-AUX-05", "P104-OPR-12", "P104-RD-01", "P104-INI-04")
+@directed("P104-CMD-04", "P104-CMD-03", "P104-AUX-05", "P104-OPR-12", "P104-RD-01", "P104-INI-04")
 async def p104_cmd_04_all_codes_busy(dut):
     """Given a running move, when each of the 256 codes comes, then only the BUSY list is executed."""
     lab = await Lab.start(dut, INIT_A)
@@ -71,8 +67,7 @@ async def p104_cmd_04_all_codes_busy(dut):
     lab.check_train("P104-CMD-04", [255] * 9)
 
 
-@cocotb.test()
-@verifies("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
+@directed("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
 async def p104_cmd_04_stop_codes_busy(dut):
     """Given running moves with and without I, when any code of the two stops comes,
     then it stops, INT as asked.
@@ -88,8 +83,7 @@ async def p104_cmd_04_stop_codes_busy(dut):
         await lab.result("P104-STP-01", 2, 0xC4, 7)
 
 
-@cocotb.test()
-@verifies("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
+@directed("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
 async def p104_cmd_02_bits_of_operations(dut):
     """Given every operation with X, I, D in all values, when it runs,
     then dir is D, INT is not I, X is nothing.
@@ -114,8 +108,7 @@ async def p104_cmd_02_bits_of_operations(dut):
             lab.check("P104-RD-03", f"op bits of {code:#04x}", await lab.finish() & 0x87, 0x80 | base & 7)
 
 
-@cocotb.test()
-@verifies("P104-CMD-02", "P104-CMD-03", "P104-AUX-04")
+@directed("P104-CMD-02", "P104-CMD-03", "P104-AUX-04")
 async def p104_cmd_02_bits_of_others(dut):
     """Given bits 5..3 set in AUX and Excitation OFF codes, when sent, then they are ignored."""
     lab = await Lab.start(dut, INIT_A)
@@ -147,8 +140,7 @@ async def reactions(lab: Lab, state: str) -> dict[str, int]:
     return table
 
 
-@cocotb.test()
-@verifies("P104-FSM-01", "P104-CMD-04", "P104-BAD-12", "P104-BAD-21", "P104-BAD-02")
+@directed("P104-FSM-01", "P104-CMD-04", "P104-BAD-12", "P104-BAD-21", "P104-BAD-02")
 async def p104_fsm_01_table(dut):
     """Given each state, when each command class and stray data come,
     then the reaction is that of the table.
@@ -172,8 +164,7 @@ async def p104_fsm_01_table(dut):
         lab.check("P104-FSM-01", f"stray data in {state}", await lab.host.data(0x42), stray)
 
 
-@cocotb.test()
-@verifies("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
+@directed("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
 async def p104_fsm_01_stops(dut):
     """Given each state, when the two stops come, then stop, flag, error or nothing as the table says."""
     lab = await Lab.start(dut, None)
@@ -209,8 +200,7 @@ async def p104_fsm_01_stops(dut):
             lab.check("P104-STP-04", f"second 0x41 in {state}", await lab.host.command(0x41), 0xF4)
 
 
-@cocotb.test()
-@verifies("P104-FSM-01", "P104-OPR-12", "P104-BAD-12", "P104-CMD-04")
+@directed("P104-FSM-01", "P104-OPR-12", "P104-BAD-12", "P104-CMD-04")
 async def p104_fsm_01_parameters_of_refused_operations(dut):
     """Given a move, when a second operation with its parameters comes, then error 1, error 6s and no harm."""
     lab = await Lab.start(dut, INIT_A)
@@ -222,8 +212,7 @@ async def p104_fsm_01_parameters_of_refused_operations(dut):
     lab.check_train("P104-OPR-12", [99] * 7)
 
 
-@cocotb.test()
-@verifies("P104-FSM-03", "P104-AUX-02")
+@directed("P104-FSM-03", "P104-AUX-02")
 async def p104_fsm_03_parameter_across_the_end(dut):
     """Given 0x86 taken in a move, when its data comes after the end, then it is still the parameter."""
     lab = await Lab.start(dut, INIT_A)

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, DATA, IBF
-from cocotb_tests.harness.config import D11, D16, D25X8, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import D11, D16, D25X8
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A
 from .lab import WRITE_EVENT
 from .sheet import PIN, TOLERANCE, US, Sheet
 
 
-@cocotb.test()
-@verifies("P104-DS-01", "P104-INI-07")
-@configs(D16, D11)
+@directed("P104-DS-01", "P104-INI-07", builds=(D16, D11))
 async def p104_ds_01_phase_outputs(dut):
     """Given the first init, when its last byte is stored,
     then s shows index 0 44 us later; a re-init leaves it.
@@ -35,9 +31,7 @@ async def p104_ds_01_phase_outputs(dut):
     lab.check("P104-DS-01", "edges of s at a re-init", lab.bench.edges("s", since), [])
 
 
-@cocotb.test()
-@verifies("P104-DS-02", "P104-INI-08", "P104-HSK-01")
-@configs(D16, D25X8)
+@directed("P104-DS-02", "P104-INI-08", "P104-HSK-01", builds=(D16, D25X8))
 async def p104_ds_02_init_time(dut):
     """Given PA 4 and 104, when an init runs, then the mailbox opens after 264000 + 209·(PA - 4),
     then chopping.
@@ -56,9 +50,7 @@ async def p104_ds_02_init_time(dut):
         await lab.bench.clocks(lab.cfg.us(20))
 
 
-@cocotb.test()
-@verifies("P104-DS-02", "P104-DS-13", "P104-INI-06")
-@configs(D16)
+@directed("P104-DS-02", "P104-DS-13", "P104-INI-06", builds=(D16,))
 async def p104_ds_13_no_time_for_the_rest(dut):
     """Given a rejected init, reads, 0x84 and errors, when more bytes follow,
     then all are taken as in FAST.
@@ -87,9 +79,7 @@ async def p104_ds_13_no_time_for_the_rest(dut):
     lab.check("P104-DS-13", "0x82", await lab.host.read(DATA), 0xFC)
 
 
-@cocotb.test()
-@verifies("P104-DS-03", "P104-DS-04", "P104-DS-05", "P104-TIM-04")
-@configs(D16, D11)
+@directed("P104-DS-03", "P104-DS-04", "P104-DS-05", "P104-TIM-04", builds=(D16, D11))
 async def p104_ds_03_start_times(dut):
     """Given every operation, when its last byte is stored,
     then BUSY, hold, dir, s and pulse 1 keep their times.
@@ -137,9 +127,7 @@ async def p104_ds_03_start_times(dut):
         await lab.rest()
 
 
-@cocotb.test()
-@verifies("P104-DS-05")
-@configs(D16)
+@directed("P104-DS-05", builds=(D16,))
 async def p104_ds_05_long_triangles(dut):
     """Given PA = 300, when D is 599, 600, 300, then only below 2·PA pulse 1 waits in proportion to N."""
     lab = await Sheet.start(dut, (0x0A, 40, 9, 300))
@@ -150,9 +138,7 @@ async def p104_ds_05_long_triangles(dut):
         await lab.rest()
 
 
-@cocotb.test()
-@verifies("P104-DS-03", "P104-HSK-01")
-@configs(D16)
+@directed("P104-DS-03", "P104-HSK-01", builds=(D16,))
 async def p104_ds_03_closed_until_busy(dut):
     """Given a start, when AUX ON waits for it,
     then it is taken once BUSY has risen, and the chopper is off then.
@@ -170,9 +156,7 @@ async def p104_ds_03_closed_until_busy(dut):
         await lab.rest()
 
 
-@cocotb.test()
-@verifies("P104-DS-06", "P104-SW-02")
-@configs(D16, D25X8)
+@directed("P104-DS-06", "P104-SW-02", builds=(D16, D25X8))
 async def p104_ds_06_single_step(dut):
     """Given 0x42, when it runs, then the pulse is at 86 us, INT, chopper and mailbox at 112 us."""
     lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
@@ -189,9 +173,7 @@ async def p104_ds_06_single_step(dut):
     await lab.result("P104-DS-06", 1, 0x82, 0)
 
 
-@cocotb.test()
-@verifies("P104-DS-07", "P104-END-01", "P104-SW-02", "P104-DS-09")
-@configs(D16, D11)
+@directed("P104-DS-07", "P104-END-01", "P104-SW-02", "P104-DS-09", builds=(D16, D11))
 async def p104_ds_07_normal_end(dut):
     """Given complete moves, when the last pulse falls, then INT 26 us and the mailbox 156 us after it."""
     lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
@@ -210,9 +192,7 @@ async def p104_ds_07_normal_end(dut):
     lab.window("P104-DS-09", "BUSY fall to hold", rise - end, lab.cfg.us(34_000), lab.cfg.us(34_100))
 
 
-@cocotb.test()
-@verifies("P104-DS-08", "P104-DS-14", "P104-END-02")
-@configs(D16, D11)
+@directed("P104-DS-08", "P104-DS-14", "P104-END-02", builds=(D16, D11))
 async def p104_ds_08_immediate_end(dut):
     """Given 0x40, ALM and 0x41 at constant speed, when they end a move,
     then INT 26 or 200 us after the decision, mailbox 156 or 200 us.
@@ -258,9 +238,7 @@ async def p104_ds_08_immediate_end(dut):
             )
 
 
-@cocotb.test()
-@verifies("P104-DS-08", "P104-LIM-07", "P104-DS-03")
-@configs(D16)
+@directed("P104-DS-08", "P104-LIM-07", "P104-DS-03", builds=(D16,))
 async def p104_ds_08_cause_at_start(dut):
     """Given ALM low at the start, when moves start,
     then BUSY rises at its time and ends 26 or 200 us later.

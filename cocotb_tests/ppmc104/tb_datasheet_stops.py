@@ -4,20 +4,16 @@ external clock.
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, IBF
-from cocotb_tests.harness.config import D11, D16, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import D11, D16
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_B, forced, rates
 from .lab import WRITE_EVENT
 from .sheet import TOLERANCE, US, Sheet
 
 
-@cocotb.test()
-@verifies("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02")
-@configs(D16, D11)
+@directed("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02", builds=(D16, D11))
 async def p104_ds_10_decelerating_stop(dut):
     """Given 0x41 in I(4), when the flag comes 17 us later,
     then I(4) or I(5) is the last up; INT 200 us after the end.
@@ -46,9 +42,7 @@ async def p104_ds_10_decelerating_stop(dut):
         await lab.rest()
 
 
-@cocotb.test()
-@verifies("P104-DS-10", "P104-FDC-01", "P104-LIM-04")
-@configs(D16)
+@directed("P104-DS-10", "P104-FDC-01", "P104-LIM-04", builds=(D16,))
 async def p104_ds_10_slow_down_limit(dut):
     """Given L3 for 10 clk in START, ACC and HIGH, when 12 or 17 us have passed, then the flag is set."""
     lab = await Sheet.start(dut, INIT_B)
@@ -72,9 +66,7 @@ async def p104_ds_10_slow_down_limit(dut):
     await lab.result("P104-DS-10", 1, 0x8B, 198)
 
 
-@cocotb.test()
-@verifies("P104-DS-10", "P104-END-05", "P104-FDC-05")
-@configs(D16)
+@directed("P104-DS-10", "P104-END-05", "P104-FDC-05", builds=(D16,))
 async def p104_ds_10_flag_too_late(dut):
     """Given 0x41 or L3 just before natural deceleration or the end, when the flag is due,
     then it has no effect.
@@ -98,9 +90,7 @@ async def p104_ds_10_flag_too_late(dut):
             await lab.rest()
 
 
-@cocotb.test()
-@verifies("P104-DS-11", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05")
-@configs(D16, D11)
+@directed("P104-DS-11", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05", builds=(D16, D11))
 async def p104_ds_11_aux_times(dut):
     """Given AUX ON/OFF, auxiliary output and 0xC0, when stored,
     then pins move 14 or 18 us later, closed till then.
@@ -129,9 +119,7 @@ async def p104_ds_11_aux_times(dut):
     lab.after("P104-DS-11", "s by 0xC0", lab.bench.edges("s", event)[0][0] - event, 18 * US)
 
 
-@cocotb.test()
-@verifies("P104-DS-12", "P104-STP-01")
-@configs(D16)
+@directed("P104-DS-12", "P104-STP-01", builds=(D16,))
 async def p104_ds_12_speed_limit(dut):
     """Given intervals below and at 148 q and 100 q, when C1 comes, then it waits or is taken."""
     lab = await Sheet.start(dut, None)
@@ -160,9 +148,7 @@ async def p104_ds_12_speed_limit(dut):
         await lab.rest()
 
 
-@cocotb.test()
-@verifies("P104-DS-12", "P104-LIM-01", "P104-STP-04")
-@configs(D16)
+@directed("P104-DS-12", "P104-LIM-01", "P104-STP-04", builds=(D16,))
 async def p104_ds_12_ends_with_the_fast_part(dut):
     """Given a fast plateau, when C1 waits,
     then the first slow interval takes it; 0x41 and limits act at once.
@@ -193,9 +179,7 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
     await lab.result("P104-DS-12", 5, 0x94, 94)
 
 
-@cocotb.test()
-@verifies("P104-DS-04", "P104-DS-05", "P104-DS-12", "P104-TIM-03")
-@configs(D16)
+@directed("P104-DS-04", "P104-DS-05", "P104-DS-12", "P104-TIM-03", builds=(D16,))
 async def p104_ds_04_external_clock(dut):
     """Given an external clock, when moves start,
     then pulse 1 is the first edge after 194 or 200 us; no speed limit.

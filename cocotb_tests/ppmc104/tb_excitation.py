@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import cocotb
-
-from cocotb_tests.harness.config import F8, F11, F16, F25, F50, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F8, F11, F16, F25, F50
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, STEP_CODES, steps
 from .lab import Lab
@@ -13,9 +11,7 @@ from .lab import Lab
 A_VALUES = (9, 4, 4)
 
 
-@cocotb.test()
-@verifies("P104-PHS-01", "P104-PHS-06", "P104-OPR-05", "P104-EX-09")
-@configs(F16, F50)
+@directed("P104-PHS-01", "P104-PHS-06", "P104-OPR-05", "P104-EX-09", builds=(F16, F50))
 async def p104_phs_01_lists_in_motion(dut):
     """Given all motors and logics, when moves cross the wrap both ways,
     then each pulse takes the next row.
@@ -38,8 +34,7 @@ async def p104_phs_01_lists_in_motion(dut):
                 lab.check("P104-TIM-04", "edges of s are the pulses", [t for t, _ in got], lab.pulses)
 
 
-@cocotb.test()
-@verifies("P104-PHS-06", "P104-PHS-01")
+@directed("P104-PHS-06", "P104-PHS-01")
 async def p104_phs_06_half_step_alignment(dut):
     """Given half-step motors, when every second step is compared, then it is the full-step list."""
     lab = await Lab.start(dut, None)
@@ -57,9 +52,7 @@ async def p104_phs_06_half_step_alignment(dut):
         lab.check("P104-PHS-06", "windings on at odd indices", set(ones), {3 if phases == 5 else 1})
 
 
-@cocotb.test()
-@verifies("P104-PHS-02", "P104-PHS-03", "P104-PAR-01")
-@configs(F16, F50)
+@directed("P104-PHS-02", "P104-PHS-03", "P104-PAR-01", builds=(F16, F50))
 async def p104_phs_02_idle_level(dut):
     """Given PHASE_IDLE 1 or 0, when nothing was initialised, then s has that level through all commands."""
     lab = await Lab.start(dut, None)
@@ -72,8 +65,7 @@ async def p104_phs_02_idle_level(dut):
     lab.check("P104-PHS-03", "edges of s by init", [v for _, v in lab.bench.edges("s")], [0b00011])
 
 
-@cocotb.test()
-@verifies("P104-PHS-04", "P104-STP-01", "P104-END-02")
+@directed("P104-PHS-04", "P104-STP-01", "P104-END-02")
 async def p104_phs_04_held_at_every_stop(dut):
     """Given stops by 0x40, 0x41, L1, ALM, CNP, when the motor rests, then its pattern stays on."""
     lab = await Lab.start(dut, INIT_A)
@@ -93,9 +85,7 @@ async def p104_phs_04_held_at_every_stop(dut):
         lab.check("P104-PHS-04", f"edges of s after {stop}", lab.bench.edges("s", rest), [])
 
 
-@cocotb.test()
-@verifies("P104-SW-01", "P104-SW-04", "P104-SW-06", "P104-GEN-04")
-@configs(F16, F8, F11, F25, F50)
+@directed("P104-SW-01", "P104-SW-04", "P104-SW-06", "P104-GEN-04", builds=(F16, F8, F11, F25, F50))
 async def p104_sw_06_accuracy(dut):
     """Given each core clock, when the chopper runs 12 periods,
     then phases are in a quantum and nothing drifts.
@@ -135,8 +125,7 @@ async def p104_sw_06_accuracy(dut):
             )
 
 
-@cocotb.test()
-@verifies("P104-SW-01", "P104-SW-02", "P104-PHS-01")
+@directed("P104-SW-01", "P104-SW-02", "P104-PHS-01")
 async def p104_sw_01_off_phase_levels(dut):
     """Given every motor and logic with S = 1, when it rests,
     then OFF is all five at the off level, no gap.
@@ -153,9 +142,7 @@ async def p104_sw_01_off_phase_levels(dut):
             lab.check("P104-SW-01", f"levels of {name}", values, {steps(name, positive)[0], off})
 
 
-@cocotb.test()
-@verifies("P104-SW-02", "P104-SW-03", "P104-SW-04")
-@configs(F16, F25)
+@directed("P104-SW-02", "P104-SW-03", "P104-SW-04", builds=(F16, F25))
 async def p104_sw_02_start_and_stop(dut):
     """Given S = 1, when moves run,
     then the pattern is full from the start edge and ON is whole after BUSY falls.
@@ -178,8 +165,7 @@ async def p104_sw_02_start_and_stop(dut):
         lab.check("P104-SW-02", "the start was later", since < first, True)
 
 
-@cocotb.test()
-@verifies("P104-SW-05")
+@directed("P104-SW-05")
 async def p104_sw_05_sampled_at_phase_starts(dut):
     """Given parameters, when vsel turns within a phase,
     then that phase keeps its length, the next has the new.
@@ -201,8 +187,7 @@ async def p104_sw_05_sampled_at_phase_starts(dut):
             lab.check("P104-SW-05", f"phase {phase}, vsel -> {vsel}", got, [current[before], other[vsel]])
 
 
-@cocotb.test()
-@verifies("P104-SW-07", "P104-SW-01", "P104-SW-03")
+@directed("P104-SW-07", "P104-SW-01", "P104-SW-03")
 async def p104_sw_07_others_do_not_see_it(dut):
     """Given a chopping motor, when it rests,
     then pout_n, dir, hold, 0x82 are still; 0xC0 ends the chopping.

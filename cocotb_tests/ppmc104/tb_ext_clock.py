@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import cocotb
-
-from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.config import F8, F16, F25, configs
+from cocotb_tests.harness.config import F8, F16, F25
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.ext_moves import BRISK, ExtMoves, Move, sweep
 from cocotb_tests.harness.figures import differences
-from cocotb_tests.harness.verifies import verifies
 
 from .figures import INIT_A
 from .lab import Lab
 from .tb_baseclock import EXTERNAL, carried
 
 
-@cocotb.test()
-@verifies("P104-BCK-05", "P104-TIM-05", "P104-BAD-14")
-@configs(F16, F8)
+@directed("P104-BCK-05", "P104-TIM-05", "P104-BAD-14", builds=(F16, F8))
 async def p104_bck_05_first_deceleration_interval(dut):
     """Given edges 8 clk apart, when a move turns round, then the pulse is cut, the interval exact."""
     ramp = (255, 1, 4)
@@ -25,12 +20,11 @@ async def p104_bck_05_first_deceleration_interval(dut):
     moves = await ExtMoves.of(lab, ramp, "l3_n")
     for n in range(2, 14):
         await moves.check(Move(n, (8,), 4, ramp))
-    check_against_model(lab.bench)
 
 
-@cocotb.test()
-@verifies("P104-BCK-05", "P104-TIM-05", "P104-INT-01", "P104-INT-05", "P104-FDC-02", "P104-BAD-14")
-@configs(F16, F8)
+@directed(
+    "P104-BCK-05", "P104-TIM-05", "P104-INT-01", "P104-INT-05", "P104-FDC-02", "P104-BAD-14", builds=(F16, F8)
+)
 async def p104_bck_05_sweep(dut):
     """Given edges 4 to 17 clk apart and RH 0 to 4,
     when moves turn round anywhere, then all is as the formula says.
@@ -46,9 +40,7 @@ async def p104_bck_05_sweep(dut):
                 lab.bench.forget()
 
 
-@cocotb.test()
-@verifies("P104-TIM-05")
-@configs(F16, F8, F25)
+@directed("P104-TIM-05", builds=(F16, F8, F25))
 async def p104_tim_05_brisk_threshold(dut):
     """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
     lab = await Lab.start(dut, EXTERNAL)
@@ -57,12 +49,9 @@ async def p104_tim_05_brisk_threshold(dut):
     for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
         await moves.check(Move(9, gaps, 9, rate=0))
         await moves.check(Move(9, gaps, 9, rate=1))
-    check_against_model(lab.bench)
 
 
-@cocotb.test()
-@verifies("P104-INT-03")
-@configs(F16, F8, F25)
+@directed("P104-INT-03", builds=(F16, F8, F25))
 async def p104_int_03_long_threshold(dut):
     """Given vsel = L and periods of H - 1, 0, + 1 clk, then only above it the extra time is left away."""
     lab = await Lab.start(dut, EXTERNAL, vsel=0)
@@ -78,4 +67,3 @@ async def p104_int_03_long_threshold(dut):
             same = f"intervals at {gaps[:4]} clk, rate {rate}"
             lab.check("P104-INT-03", same, lab.intervals, differences(expected))
             await lab.bench.clocks(20)
-    check_against_model(lab.bench)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import cocotb
-
-from cocotb_tests.harness.config import F16, F25, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F16, F25, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_B, forced, indices, rates
 from .lab import Lab
@@ -14,8 +12,7 @@ RAMP = INIT_B[1:]
 LIMITS = {0: "l3_n", 1: "l4_n"}
 
 
-@cocotb.test()
-@verifies("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
+@directed("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
 async def p104_ex_04_stop_in_each_phase(dut):
     """Given EX-04, when 0x41 or L3 acts in acceleration, I(1), plateau, START,
     then the printed figures come.
@@ -45,9 +42,7 @@ async def p104_ex_04_stop_in_each_phase(dut):
     await lab.result("P104-EX-05", 22, 0x8B, 0x3D1)
 
 
-@cocotb.test()
-@verifies("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04")
-@configs(F16, F100)
+@directed("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04", builds=(F16, F100))
 async def p104_fdc_01_limit_in_each_interval(dut):
     """Given CW and CCW phase moves, when the slow-down limit falls in each interval,
     then the ramp is mirrored.
@@ -67,8 +62,7 @@ async def p104_fdc_01_limit_in_each_interval(dut):
             await lab.result("P104-FDC-01", count, 0x8B, 200 - count - 1)
 
 
-@cocotb.test()
-@verifies("P104-FDC-01", "P104-STP-04", "P104-GEN-07")
+@directed("P104-FDC-01", "P104-STP-04", "P104-GEN-07")
 async def p104_fdc_01_running_interval_unaltered(dut):
     """Given one interval, when the limit falls anywhere in it,
     then that interval and the rest are the same.
@@ -85,8 +79,7 @@ async def p104_fdc_01_running_interval_unaltered(dut):
         lab.check_train("P104-FDC-01", [19, 17, 15, 14, 15, 17, 19])
 
 
-@cocotb.test()
-@verifies("P104-FDC-03", "P104-LIM-04", "P104-EX-04")
+@directed("P104-FDC-03", "P104-LIM-04", "P104-EX-04")
 async def p104_fdc_03_flag_in_start(dut):
     """Given START, when 0x41 or the limit comes before pulse 1, then exactly one pulse is output."""
     lab = await Lab.start(dut, INIT_B)
@@ -102,8 +95,7 @@ async def p104_fdc_03_flag_in_start(dut):
         await lab.result("P104-FDC-03", 1, 0x88 | code & 7)
 
 
-@cocotb.test()
-@verifies("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
+@directed("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
 async def p104_fdc_04_never_withdrawn(dut):
     """Given a flagged motion, when the limit chatters or is released,
     then the deceleration goes on unchanged.
@@ -120,8 +112,7 @@ async def p104_fdc_04_never_withdrawn(dut):
     lab.check_train("P104-FDC-04", rates(RAMP, forced(200, 10, 12)))
 
 
-@cocotb.test()
-@verifies("P104-FDC-05", "P104-END-05", "P104-PRO-04")
+@directed("P104-FDC-05", "P104-END-05", "P104-PRO-04")
 async def p104_fdc_05_complete_all_the_same(dut):
     """Given N equal to the mirrored ramp, when 0x41 or L3 is taken, then the motion counts as complete."""
     lab = await Lab.start(dut, INIT_B)
@@ -138,9 +129,7 @@ async def p104_fdc_05_complete_all_the_same(dut):
             lab.check_train("P104-FDC-05", rates(RAMP, indices(2 * j, 10)))
 
 
-@cocotb.test()
-@verifies("P104-FDC-06", "P104-LIM-01")
-@configs(F16, F25)
+@directed("P104-FDC-06", "P104-LIM-01", builds=(F16, F25))
 async def p104_fdc_06_latency(dut):
     """Given a slow-down limit 4 clk before a pulse event, when it falls,
     then that event counts down already.
@@ -167,8 +156,7 @@ async def p104_fdc_06_latency(dut):
     lab.check("P104-FDC-06", "both outcomes were met", set(outcomes), {8, 10})
 
 
-@cocotb.test()
-@verifies("P104-FDC-06", "P104-STP-03")
+@directed("P104-FDC-06", "P104-STP-03")
 async def p104_fdc_06_latency_of_the_command(dut):
     """Given 0x41 around a pulse event, when its C-event is 4 clk before,
     then that event counts down already.

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import DATA, IBF
-from cocotb_tests.harness.config import F16, F16X1, F50, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F16, F16X1, F50
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, rates, steps
 from .lab import PINS_LATEST, Lab
@@ -19,8 +17,7 @@ def off_level(code: int) -> int:
     return 0 if code & 8 else ALL_PINS
 
 
-@cocotb.test()
-@verifies("P104-INI-01", "P104-PHS-01", "P104-PHS-03", "P104-INI-05")
+@directed("P104-INI-01", "P104-PHS-01", "P104-PHS-03", "P104-INI-05")
 async def p104_ini_01_code_bits(dut):
     """Given all 48 codes, when each initialises,
     then motor type, method, logic, clock and chopping are its bits.
@@ -52,8 +49,7 @@ async def p104_ini_01_code_bits(dut):
         await lab.host.command(0xC0)
 
 
-@cocotb.test()
-@verifies("P104-INI-05", "P104-INI-07", "P104-TIM-01", "P104-INI-02")
+@directed("P104-INI-05", "P104-INI-07", "P104-TIM-01", "P104-INI-02")
 async def p104_ini_07_pattern_at_the_last_byte(dut):
     """Given the longest table, when the 4th byte is taken,
     then s shows index 0 at once, and no byte earlier.
@@ -71,9 +67,7 @@ async def p104_ini_07_pattern_at_the_last_byte(dut):
     await lab.host.poll(IBF, 0)
 
 
-@cocotb.test()
-@verifies("P104-INI-06", "P104-BAD-10", "P104-ERR-02", "P104-PHS-02")
-@configs(F16, F50)
+@directed("P104-INI-06", "P104-BAD-10", "P104-ERR-02", "P104-PHS-02", builds=(F16, F50))
 async def p104_ini_06_rejected(dut):
     """Given an illegal init, when it is rejected, then an unset core stays unset and a set one keeps all."""
     lab = await Lab.start(dut, None)
@@ -95,8 +89,7 @@ async def p104_ini_06_rejected(dut):
     await lab.bench.edge("s", 0)
 
 
-@cocotb.test()
-@verifies("P104-INI-04", "P104-INI-09", "P104-INI-05")
+@directed("P104-INI-04", "P104-INI-09", "P104-INI-05")
 async def p104_ini_09_reinit(dut):
     """Given an initialised core, when rates, ramp and clock source are set anew,
     then the next moves use them.
@@ -122,8 +115,7 @@ async def p104_ini_09_reinit(dut):
     lab.check_train("P104-INI-09", [2] * 3, csel=0, vsel=0)
 
 
-@cocotb.test()
-@verifies("P104-INI-05", "P104-PHS-03", "P104-PHS-04", "P104-PHS-05", "P104-AUX-04")
+@directed("P104-INI-05", "P104-PHS-03", "P104-PHS-04", "P104-PHS-05", "P104-AUX-04")
 async def p104_ini_05_index_kept(dut):
     """Given a motor at index 3, when it is re-initialised,
     then index and pattern stay; after 0xC0 it is index 0.
@@ -152,8 +144,7 @@ async def p104_ini_05_index_kept(dut):
     lab.check("P104-AUX-04", "operations need a new init", await lab.host.command(0x46), 0xA0)
 
 
-@cocotb.test()
-@verifies("P104-INI-08", "P104-SW-02", "P104-SW-03")
+@directed("P104-INI-08", "P104-SW-02", "P104-SW-03")
 async def p104_ini_08_chopping_and_completion(dut):
     """Given S = 1, when re-inits run, then chopping goes on with the old S until completion,
     then starts with ON.
@@ -194,8 +185,7 @@ async def p104_ini_08_chopping_and_completion(dut):
     lab.check("P104-SW-03", "S = 0: no chopping", lab.bench.edges("s", since), [])
 
 
-@cocotb.test()
-@verifies("P104-INI-10", "P104-AUX-04", "P104-AUX-06")
+@directed("P104-INI-10", "P104-AUX-04", "P104-AUX-06")
 async def p104_ini_10_leaves_the_rest(dut):
     """Given pins and registers in use, when init and Excitation OFF come,
     then all but excitation is unchanged.
@@ -225,9 +215,7 @@ async def p104_ini_10_leaves_the_rest(dut):
     await lab.result("P104-AUX-04", 3, 0xC3, 196)
 
 
-@cocotb.test()
-@verifies("P104-AUX-06", "P104-PHS-02")
-@configs(F16, F16X1)
+@directed("P104-AUX-06", "P104-PHS-02", builds=(F16, F16X1))
 async def p104_aux_06_off_before_init(dut):
     """Given a core that was never initialised, when 0xC0 comes, then nothing visible changes."""
     lab = await Lab.start(dut, None)

@@ -4,11 +4,9 @@ priorities, timing.
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.config import F16, F50, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F16, F50, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, forced, rates
 from .lab import Lab
@@ -44,11 +42,16 @@ def bit(pin: str) -> int:
     return {"alm_n": 0x20, "cnp_n": 0}.get(pin, 0x10 if pin in ("l1_n", "l2_n") else 0x08)
 
 
-@cocotb.test()
-@verifies(
-    "P104-LIM-02", "P104-LIM-03", "P104-LIM-04", "P104-LIM-05", "P104-LIM-06", "P104-LIM-08", "P104-OPR-06"
+@directed(
+    "P104-LIM-02",
+    "P104-LIM-03",
+    "P104-LIM-04",
+    "P104-LIM-05",
+    "P104-LIM-06",
+    "P104-LIM-08",
+    "P104-OPR-06",
+    builds=(F16, F50),
 )
-@configs(F16, F50)
 async def p104_lim_02_matrix_in_motion(dut):
     """Given every operation CW and CCW, when each input falls on the plateau,
     then it ends, slows or nothing.
@@ -80,11 +83,16 @@ async def p104_lim_02_matrix_in_motion(dut):
                     await lab.result(what, 12, 0xC0 | low, ALL - 13)
 
 
-@cocotb.test()
-@verifies(
-    "P104-LIM-07", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-LIM-04", "P104-LIM-08", "P104-OPR-06"
+@directed(
+    "P104-LIM-07",
+    "P104-LIM-03",
+    "P104-LIM-05",
+    "P104-LIM-06",
+    "P104-LIM-04",
+    "P104-LIM-08",
+    "P104-OPR-06",
+    builds=(F16, F50),
 )
-@configs(F16, F50)
 async def p104_lim_07_matrix_at_start(dut):
     """Given each input low at the start, when every operation starts,
     then no pulse, one pulse, or a whole move.
@@ -117,8 +125,7 @@ async def p104_lim_07_matrix_at_start(dut):
                 await lab.bench.clocks(4)
 
 
-@cocotb.test()
-@verifies("P104-LIM-03", "P104-LIM-05", "P104-LIM-09", "P104-END-02", "P104-BAD-20")
+@directed("P104-LIM-03", "P104-LIM-05", "P104-LIM-09", "P104-END-02", "P104-BAD-20")
 async def p104_lim_03_every_phase(dut):
     """Given START, ACC, HIGH, DEC, CONST, when ALM or the hard limit falls, then the motion ends there."""
     lab = await Lab.start(dut, None)
@@ -138,8 +145,7 @@ async def p104_lim_03_every_phase(dut):
                 await lab.result("P104-LIM-03", pulses, 0x80 | flag | bit(pin) | op, total - pulses - 1)
 
 
-@cocotb.test()
-@verifies("P104-LIM-04", "P104-FDC-01", "P104-FDC-04")
+@directed("P104-LIM-04", "P104-FDC-01", "P104-FDC-04")
 async def p104_lim_04_per_state(dut):
     """Given each state of ramp moves in phase and POUT mode, when L3 is seen for 3 clk,
     then it acts as listed.
@@ -172,8 +178,7 @@ async def p104_lim_04_per_state(dut):
             lab.check("P104-LIM-04", f"finish, {state} of {code:#x}", await lab.finish() & 0xF8, 0xA0 | cause)
 
 
-@cocotb.test()
-@verifies("P104-LIM-04", "P104-PRO-06", "P104-EX-05")
+@directed("P104-LIM-04", "P104-PRO-06", "P104-EX-05")
 async def p104_lim_04_pout_mode_plateau(dut):
     """Given POUT mode and L3 from any interval on, when the plateau is reached, then it acts from there."""
     lab = await Lab.start(dut, INIT_B)
@@ -197,9 +202,7 @@ async def p104_lim_04_pout_mode_plateau(dut):
         await lab.result("P104-LIM-04", pulses, finish, max(60 - pulses - 1, 0))
 
 
-@cocotb.test()
-@verifies("P104-LIM-01", "P104-GEN-07")
-@configs(F16, F100)
+@directed("P104-LIM-01", "P104-GEN-07", builds=(F16, F100))
 async def p104_lim_01_two_clk_levels(dut):
     """Given levels of 2 clk at every phase of an interval, when they end, then they were seen, each once."""
     lab = await Lab.start(dut, INIT_A)
@@ -219,8 +222,7 @@ async def p104_lim_01_two_clk_levels(dut):
     await lab.result("P104-LIM-01", 0, 0x94, 2)
 
 
-@cocotb.test()
-@verifies("P104-LIM-09", "P104-END-04", "P104-LIM-01")
+@directed("P104-LIM-09", "P104-END-04", "P104-LIM-01")
 async def p104_lim_09_priority_at_a_pulse(dut):
     """Given a pulse event that is due, when ALM falls at each clk around it,
     then one side or the other, no third.
@@ -244,8 +246,7 @@ async def p104_lim_09_priority_at_a_pulse(dut):
     lab.check("P104-LIM-09", "both sides were met", set(outcomes), {3, 4})
 
 
-@cocotb.test()
-@verifies("P104-LIM-09", "P104-END-04", "P104-FDC-01", "P104-STP-04")
+@directed("P104-LIM-09", "P104-END-04", "P104-FDC-01", "P104-STP-04")
 async def p104_lim_09_two_requests_on_one_edge(dut):
     """Given 0x41 and L3 some clk apart, when both ask,
     then the first sets its bit, on one edge both bits, no error.
@@ -277,8 +278,7 @@ async def p104_lim_09_two_requests_on_one_edge(dut):
     )
 
 
-@cocotb.test()
-@verifies("P104-LIM-09", "P104-END-04", "P104-STP-03")
+@directed("P104-LIM-09", "P104-END-04", "P104-STP-03")
 async def p104_lim_09_stop_command_and_hard_limit(dut):
     """Given a stop command and L1 some clk apart in a ramped move, when both come on one edge,
     then 0x40 sets its bit beside that of the limit, 0x41 comes too late for one.
@@ -306,8 +306,7 @@ async def p104_lim_09_stop_command_and_hard_limit(dut):
     lab.check("P104-LIM-09", "0x41 a clk before", set(kinds[0x41][late + 1 :]), {0xD3})
 
 
-@cocotb.test()
-@verifies("P104-LIM-10", "P104-RD-05")
+@directed("P104-LIM-10", "P104-RD-05")
 async def p104_lim_10_nothing_at_rest(dut):
     """Given a core at rest, when all inputs toggle,
     then no output moves and later moves know nothing of it.

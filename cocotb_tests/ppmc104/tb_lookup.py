@@ -4,23 +4,18 @@ from __future__ import annotations
 
 from itertools import repeat
 
-import cocotb
-
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.config import D16, F8, F16, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import D16, F8, F16
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.start import start_bench
 
 from .bench import PPMC104
 
 
-@cocotb.test()
-@verifies("P104-DS-12")
-@configs(D16)
+@directed("P104-DS-12", builds=(D16,))
 async def p104_ds_12_opens_in_a_steep_deceleration(dut):
     """Given DATASHEET and steep ramps, when a byte waits, then it is taken as soon as it may."""
-    bench = await Bench.start(dut, PPMC104)
+    bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     await host.init(0x0A, 120, 3, 12)
     for n in (30, 18, 33, 26):
@@ -30,15 +25,12 @@ async def p104_ds_12_opens_in_a_steep_deceleration(dut):
         await host.command(0xC1, poll=False)
         await host.wait_idle(1_000_000)
         await host.command(0xC2)
-    check_against_model(bench)
 
 
-@cocotb.test()
-@verifies("P104-TIM-05", "P104-BCK-04")
-@configs(F16, F8)
+@directed("P104-TIM-05", "P104-BCK-04", builds=(F16, F8))
 async def p104_tim_05_external_cuts_on_steep_ramps(dut):
     """Given external clocks with short high times, when ramps jump, then every low time is right."""
-    bench = await Bench.start(dut, PPMC104)
+    bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     for slow, fast, steps, period, high in (
         (40, 0, 6, 24, 2),
@@ -54,4 +46,3 @@ async def p104_tim_05_external_cuts_on_steep_ramps(dut):
         clock.cancel()
         bench.set(clock=0)
         await bench.clocks(8)
-    check_against_model(bench)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import cocotb
-
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.config import F16, configs
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.sessions import Sessions
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 
 from .bench import PPMC104
 
@@ -15,16 +14,15 @@ SESSIONS = Sessions("ppmc104", brief=(0x42, 0x52, 0x5A))  # single steps last 10
 blocks, play = SESSIONS.blocks, SESSIONS.play
 
 
-async def begin(dut, first: bool = True) -> tuple[Bench, HostBus]:
-    bench = await Bench.start(dut, PPMC104)
+async def begin(dut, first: bool = True) -> tuple[Side, HostBus]:
+    bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     if first:
         await play(bench, host, blocks(1)[0], "example 1")
     return bench, host
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples(dut):
     """All chapters, each after a reset."""
     bench, host = await begin(dut)  # 1
@@ -40,8 +38,7 @@ async def manual_examples(dut):
     bench.check("example 2", "int_n", bench.level("int_n"), 1)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_3(dut):
     bench, host = await begin(dut)
     start = bench.now
@@ -52,8 +49,7 @@ async def manual_examples_3(dut):
     await play(bench, host, b, "example 3b")
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_5(dut):
     bench, host = await begin(dut)
     bench.set(csel=0)
@@ -68,8 +64,7 @@ async def manual_examples_5(dut):
     await play(bench, host, b, "example 5b")
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_6(dut):
     bench, host = await begin(dut)
     a, b = blocks(6)
@@ -81,8 +76,7 @@ async def manual_examples_6(dut):
     await play(bench, host, b, "example 6b")
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_7(dut):
     bench, host = await begin(dut)
     a, b = blocks(7)
@@ -94,8 +88,7 @@ async def manual_examples_7(dut):
     bench.check("example 7", "int_n", bench.level("int_n"), 1)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_8(dut):
     bench, host = await begin(dut, first=False)
     await play(bench, host, blocks(8)[0], "example 8")
@@ -106,8 +99,7 @@ async def manual_examples_8(dut):
     bench.check("example 8", "phases", gaps, [1200, 2064])
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_9_10(dut):
     bench, host = await begin(dut)
     await play(bench, host, blocks(9)[0], "example 9")
@@ -120,8 +112,7 @@ async def manual_examples_9_10(dut):
     bench.check("example 10", "s", bench.level("s"), 0b00011)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_examples_11_12(dut):
     bench, host = await begin(dut, first=False)
     bench.set(auxi=0b1001)

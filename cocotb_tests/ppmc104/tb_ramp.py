@@ -5,10 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from math import isqrt
 
-import cocotb
-
-from cocotb_tests.harness.config import F8, F16, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F8, F16, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, forced, indices, rate, rates
 from .lab import Lab
@@ -24,9 +22,7 @@ async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int 
     lab.check_train(rule, rates(ramp, indices(n, ramp[2])))
 
 
-@cocotb.test()
-@verifies("P104-RMP-01", "P104-RMP-02")
-@configs(F8, F16)
+@directed("P104-RMP-01", "P104-RMP-02", builds=(F8, F16))
 async def p104_rmp_01_corner_ramps(dut):
     """Given ramps at the corners of the legal values, when the whole table runs, then every rate is exact."""
     lab = await Lab.start(dut, None)
@@ -42,8 +38,7 @@ async def p104_rmp_01_corner_ramps(dut):
         await whole_ramp(lab, "P104-RMP-01", ramp)
 
 
-@cocotb.test()
-@verifies("P104-RMP-01", "P104-RMP-02", "P104-PRO-01")
+@directed("P104-RMP-01", "P104-RMP-02", "P104-PRO-01")
 async def p104_rmp_01_random_ramps(dut):
     """Given random ramps, when the whole table runs, then every rate is exact."""
     lab = await Lab.start(dut, None)
@@ -53,9 +48,7 @@ async def p104_rmp_01_random_ramps(dut):
         await whole_ramp(lab, "P104-RMP-01", (rl, rh, lab.bench.rng.randrange(4, 60)))
 
 
-@cocotb.test()
-@verifies("P104-RMP-01", "P104-RMP-04", "P104-RMP-05", "P104-PRO-02")
-@configs(F8)
+@directed("P104-RMP-01", "P104-RMP-04", "P104-RMP-05", "P104-PRO-02", builds=(F8,))
 async def p104_rmp_04_longest_ramp(dut):
     """Given RL 255, RH 0, PA 11220, when 22444 pulses run, then the widest figures come out exact."""
     lab = await Lab.start(dut, None)
@@ -67,8 +60,7 @@ async def p104_rmp_04_longest_ramp(dut):
     lab.check_train("P104-RMP-04", rates(ramp, indices(n, ramp[2])))
 
 
-@cocotb.test()
-@verifies("P104-RMP-02", "P104-RMP-05")
+@directed("P104-RMP-02", "P104-RMP-05")
 async def p104_rmp_02_thresholds(dut):
     """Given the threshold form, when its first index of each rate is compared with a run, then both agree."""
     lab = await Lab.start(dut, None)
@@ -99,8 +91,7 @@ def half_cases() -> list[tuple[int, int, int]]:
     return found
 
 
-@cocotb.test()
-@verifies("P104-RMP-03", "P104-RMP-01")
+@directed("P104-RMP-03", "P104-RMP-01")
 async def p104_rmp_03_exact_halves(dut):
     """Given ramps with x(k) exactly on a half, when they run, then the half is rounded up."""
     lab = await Lab.start(dut, None)
@@ -111,9 +102,7 @@ async def p104_rmp_03_exact_halves(dut):
     lab.check("P104-RMP-03", "R(0..8)", [rate(4, 0, 8, k) for k in range(9)], [4, 2, 1, 1, 0, 0, 0, 0, 0])
 
 
-@cocotb.test()
-@verifies("P104-PRO-01", "P104-PRO-02", "P104-PRO-03", "P104-PRO-04", "P104-EX-02")
-@configs(F16, F100)
+@directed("P104-PRO-01", "P104-PRO-02", "P104-PRO-03", "P104-PRO-04", "P104-EX-02", builds=(F16, F100))
 async def p104_pro_01_all_lengths(dut):
     """Given a ramp of 6, when N goes from 1 to 24 in both modes,
     then triangles and trapezoids are symmetric.
@@ -127,8 +116,7 @@ async def p104_pro_01_all_lengths(dut):
             await lab.result("P104-PRO-01", n, 0x83, 0)
 
 
-@cocotb.test()
-@verifies("P104-PRO-02", "P104-PRO-03", "P104-EX-02")
+@directed("P104-PRO-02", "P104-PRO-03", "P104-EX-02")
 async def p104_pro_03_shapes_in_full(dut):
     """Given init A, when N = 3, 6, 7, 10, 11 run, then the index lists written out in the rules come out."""
     lab = await Lab.start(dut, INIT_A)
@@ -140,8 +128,7 @@ async def p104_pro_03_shapes_in_full(dut):
         lab.check_train("P104-PRO-03", [by_index[k] for k in which])
 
 
-@cocotb.test()
-@verifies("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
+@directed("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
 async def p104_pro_04_forced_meets_the_end(dut):
     """Given N near the mirrored ramp, when deceleration is forced,
     then the move ends by index or by count.
@@ -167,8 +154,7 @@ async def p104_pro_04_forced_meets_the_end(dut):
             )
 
 
-@cocotb.test()
-@verifies("P104-PRO-05", "P104-STP-04")
+@directed("P104-PRO-05", "P104-STP-04")
 async def p104_pro_05_natural_deceleration_begins(dut):
     """Given several N, when 0x41 comes in each interval, then error 7 starts exactly where PRO-05 says."""
     lab = await Lab.start(dut, INIT_A)
@@ -188,8 +174,7 @@ async def p104_pro_05_natural_deceleration_begins(dut):
             await lab.idle()
 
 
-@cocotb.test()
-@verifies("P104-PRO-06", "P104-LIM-04")
+@directed("P104-PRO-06", "P104-LIM-04")
 async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
     """Given POUT mode and L3 low, when N is 2·PA+1 and 2·PA+2,
     then only the longer one has a HIGH to act in.
@@ -207,8 +192,7 @@ async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
         await lab.result("P104-PRO-06", 10, 0x83 if complete else 0x8B, 0 if complete else n - 11)
 
 
-@cocotb.test()
-@verifies("P104-EX-01", "P104-EX-07", "P104-EX-11", "P104-INT-02")
+@directed("P104-EX-01", "P104-EX-07", "P104-EX-11", "P104-INT-02")
 async def p104_ex_07_worked_examples(dut):
     """Given the examples with vsel = L and with RL = RH, when they run,
     then the printed intervals come out.
@@ -227,9 +211,7 @@ async def p104_ex_07_worked_examples(dut):
     lab.check("P104-EX-11", "intervals", lab.intervals, [352] * 11)
 
 
-@cocotb.test()
-@verifies("P104-EX-03")
-@configs(F8)
+@directed("P104-EX-03", builds=(F8,))
 async def p104_ex_03_slow_base_clock(dut):
     """Given EX-03 with csel = L, when the start of it runs, then every interval is four times as long."""
     lab = await Lab.start(dut, (0x0A, 199, 49, 100), csel=0)

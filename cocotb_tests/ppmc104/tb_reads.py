@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import DATA, OBF
-from cocotb_tests.harness.config import F16, F25, F50, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F16, F25, F50
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, STEP_CODES, steps
 from .lab import PINS_LATEST, Lab
@@ -20,8 +18,7 @@ def output_signals(s: int, hold: int, direction: int) -> int:
     return bits | hold << 2 | direction << 1
 
 
-@cocotb.test()
-@verifies("P104-RD-01", "P104-AUX-03")
+@directed("P104-RD-01", "P104-AUX-03")
 async def p104_rd_01_when_allowed(dut):
     """Given reads and 0x84 before init, after it and in a move, when sent, then only BUSY forbids them."""
     lab = await Lab.start(dut, None)
@@ -42,8 +39,7 @@ async def p104_rd_01_when_allowed(dut):
     await lab.result("P104-RD-01", 4, 0x84, 0)
 
 
-@cocotb.test()
-@verifies("P104-RD-02", "P104-RD-05", "P104-LIM-10")
+@directed("P104-RD-02", "P104-RD-05", "P104-LIM-10")
 async def p104_rd_02_sampled_at_the_c_event(dut):
     """Given pins that change after the command, when the byte is read later,
     then it holds the earlier levels.
@@ -61,8 +57,7 @@ async def p104_rd_02_sampled_at_the_c_event(dut):
     lab.check("P104-LIM-10", "int_n, hold", (lab.bench.edges("int_n"), lab.bench.edges("hold")), ([], []))
 
 
-@cocotb.test()
-@verifies("P104-RD-05", "P104-RD-08", "P104-LIM-10")
+@directed("P104-RD-05", "P104-RD-08", "P104-LIM-10")
 async def p104_rd_05_input_bits(dut):
     """Given every single input and random mixtures, when 0x81 and 0x85 are read,
     then each bit is its own pin.
@@ -82,8 +77,7 @@ async def p104_rd_05_input_bits(dut):
     lab.check("P104-LIM-10", "edges of outputs at rest", quiet, {name: [] for name in quiet})
 
 
-@cocotb.test()
-@verifies("P104-RD-06", "P104-SW-07")
+@directed("P104-RD-06", "P104-SW-07")
 async def p104_rd_06_output_bits(dut):
     """Given all patterns, both logics, hold and dir, when 0x82 is read,
     then its bits are the un-chopped pins.
@@ -112,9 +106,7 @@ async def p104_rd_06_output_bits(dut):
             )
 
 
-@cocotb.test()
-@verifies("P104-RD-03", "P104-RD-04", "P104-END-07")
-@configs(F16, F25)
+@directed("P104-RD-03", "P104-RD-04", "P104-END-07", builds=(F16, F25))
 async def p104_rd_04_read_finish_status(dut):
     """Given an INT, when 0x80 is taken, then it rises without a data read, and bit 7 is there just once."""
     lab = await Lab.start(dut, INIT_A)
@@ -133,8 +125,7 @@ async def p104_rd_04_read_finish_status(dut):
     lab.check("P104-RD-04", "int_n after other reads", lab.bench.level("int_n"), 0)
 
 
-@cocotb.test()
-@verifies("P104-RD-07", "P104-END-06", "P104-EX-10")
+@directed("P104-RD-07", "P104-END-06", "P104-EX-10")
 async def p104_rd_07_remaining_resumes(dut):
     """Given a stopped move, when the rest is read and sent back, then both parts make the whole count."""
     lab = await Lab.start(dut, INIT_A)
@@ -151,9 +142,7 @@ async def p104_rd_07_remaining_resumes(dut):
         await lab.result("P104-END-06", 20 - stop_at, 0x84, 0)
 
 
-@cocotb.test()
-@verifies("P104-AUX-01", "P104-CMD-02")
-@configs(F16, F50)
+@directed("P104-AUX-01", "P104-CMD-02", builds=(F16, F50))
 async def p104_aux_01_aux_pin(dut):
     """Given UNINIT, READY, init and Excitation OFF, when AUX ON and OFF come, then only they move aux_n."""
     lab = await Lab.start(dut, None)
@@ -170,8 +159,7 @@ async def p104_aux_01_aux_pin(dut):
         lab.check("P104-AUX-01", "aux_n untouched by init and 0xC0", lab.bench.level("aux_n"), 0)
 
 
-@cocotb.test()
-@verifies("P104-AUX-02")
+@directed("P104-AUX-02")
 async def p104_aux_02_all_values(dut):
     """Given all 256 data bytes, when each follows 0x86, then auxo is the inverted low nibble, in one edge."""
     lab = await Lab.start(dut, None)
@@ -184,8 +172,7 @@ async def p104_aux_02_all_values(dut):
         lab.check("P104-AUX-02", f"auxo after {byte:#x}", values, [] if now == before else [now])
 
 
-@cocotb.test()
-@verifies("P104-AUX-03", "P104-SW-05", "P104-SW-04")
+@directed("P104-AUX-03", "P104-SW-05", "P104-SW-04")
 async def p104_aux_03_switching_parameters(dut):
     """Given 0x84 before init and while chopping, when sent,
     then both values act together, from a phase boundary.
@@ -210,8 +197,7 @@ async def p104_aux_03_switching_parameters(dut):
     lab.check("P104-SW-05", "phases around the change", got[:4], expected)
 
 
-@cocotb.test()
-@verifies("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
+@directed("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
 async def p104_aux_04_excitation_off(dut):
     """Given a chopping motor, when 0xC0 comes in ON or OFF, then all pins go off and stay; hold runs on."""
     lab = await Lab.start(dut, None)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF
-from cocotb_tests.harness.config import D16, F16, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import D16, F16, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab
@@ -15,8 +13,7 @@ from .states import enter
 LONGEST_BUILD = (0x0A, 255, 0, 11220)
 
 
-@cocotb.test()
-@verifies("P104-STA-01", "P104-STA-02", "P104-STA-03", "P104-STA-04", "P104-STA-05", "P104-GEN-01")
+@directed("P104-STA-01", "P104-STA-02", "P104-STA-03", "P104-STA-04", "P104-STA-05", "P104-GEN-01")
 async def p104_sta_01_status_bits(dut):
     """Given bytes, reads and a motion, when status is read, then each bit shows its own condition only."""
     lab = await Lab.start(dut, None)
@@ -49,8 +46,7 @@ async def p104_sta_01_status_bits(dut):
     check("P104-STA-04", "BUSY after the ramp", await host.status(), 0x00)
 
 
-@cocotb.test()
-@verifies("P104-STA-06", "P104-ERR-00", "P104-ERR-03", "P104-STA-05")
+@directed("P104-STA-06", "P104-ERR-00", "P104-ERR-03", "P104-STA-05")
 async def p104_sta_06_errors_replace(dut):
     """Given every error number in turn, when bytes follow, then the field is that of the last byte taken."""
     lab = await Lab.start(dut, None)
@@ -96,8 +92,7 @@ async def p104_sta_06_errors_replace(dut):
     lab.check("P104-STA-06", "reset clears ERR", await lab.host.status(), 0x00)
 
 
-@cocotb.test()
-@verifies("P104-ERR-01")
+@directed("P104-ERR-01")
 async def p104_err_01_check_order(dut):
     """Given commands with several faults, when checked,
     then the order is undefined, stop at rest, BUSY, init, 7.
@@ -120,8 +115,7 @@ async def p104_err_01_check_order(dut):
         lab.check("P104-ERR-01", f"{code:#x} in {state}", await lab.host.command(code), status)
 
 
-@cocotb.test()
-@verifies("P104-ERR-02", "P104-INI-03")
+@directed("P104-ERR-02", "P104-INI-03")
 async def p104_err_02_init_checks(dut):
     """Given illegal values, when the 4th byte is taken, then error 4 goes before 5, and not earlier."""
     lab = await Lab.start(dut, None)
@@ -133,8 +127,7 @@ async def p104_err_02_init_checks(dut):
         lab.check("P104-ERR-02", f"statuses of {(rl, rh, pa)}", got, [0x40, 0x30, 0x20, 0x10, status])
 
 
-@cocotb.test()
-@verifies("P104-ERR-03", "P104-BAD-01", "P104-BAD-02")
+@directed("P104-ERR-03", "P104-BAD-01", "P104-BAD-02")
 async def p104_err_03_faulty_bytes_are_harmless(dut):
     """Given a motion with INT pending, when faulty bytes rain, then pulses, INT, outputs and queue stay."""
     lab = await Lab.start(dut, INIT_B)
@@ -164,8 +157,7 @@ async def p104_err_03_faulty_bytes_are_harmless(dut):
     await lab.result("P104-ERR-03", 30, 0x83, 0)
 
 
-@cocotb.test()
-@verifies("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
+@directed("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
 async def p104_hsk_04_table_build_window(dut):
     """Given the longest ramp table, when bytes come in its window,
     then they wait, and only the newest is taken.
@@ -191,9 +183,7 @@ async def p104_hsk_04_table_build_window(dut):
     lab.check("P104-HSK-02", "aux_n: C1 of the second run, C2 of the third lost", lab.bench.level("aux_n"), 0)
 
 
-@cocotb.test()
-@verifies("P104-HSK-02", "P104-BAD-06")
-@configs(F16, F100)
+@directed("P104-HSK-02", "P104-BAD-06", builds=(F16, F100))
 async def p104_hsk_02_replacement(dut):
     """Given two writes 2 to 16 clk apart, when they meet a C-event,
     then the second is kept and none is doubled.
@@ -227,9 +217,7 @@ async def p104_hsk_02_replacement(dut):
     lab.check("P104-HSK-02", "command, then its data", set(outcomes[sure:]), {(0x00, 0x0)})
 
 
-@cocotb.test()
-@verifies("P104-HSK-02", "P104-DS-02")
-@configs(D16)
+@directed("P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_hsk_02_replacement_when_closed(dut):
     """Given a closed mailbox, when command and data bytes replace each other, then only the last counts."""
     lab = await Lab.start(dut, INIT_A)
@@ -245,9 +233,7 @@ async def p104_hsk_02_replacement_when_closed(dut):
     lab.check("P104-HSK-02", "aux pins", (lab.bench.edges("aux_n"), lab.bench.edges("auxo")), ([], []))
 
 
-@cocotb.test()
-@verifies("P104-HSK-03", "P104-GEN-07", "P104-OPR-01")
-@configs(F16, F100)
+@directed("P104-HSK-03", "P104-GEN-07", "P104-OPR-01", builds=(F16, F100))
 async def p104_hsk_03_all_on_one_edge(dut):
     """Given the OFF phase of the chopper, when a CCW step starts, then hold, dir and s move on one edge."""
     lab = await Lab.start(dut, (0x2A, 9, 4, 4))
@@ -279,9 +265,7 @@ async def p104_hsk_03_all_on_one_edge(dut):
     lab.check("P104-AUX-02", "auxo: all four at once", [v for _, v in lab.bench.edges("auxo", edge0)], [0])
 
 
-@cocotb.test()
-@verifies("P104-HSK-05", "P104-STA-02", "P104-RD-07")
-@configs(F16, F100)
+@directed("P104-HSK-05", "P104-STA-02", "P104-RD-07", builds=(F16, F100))
 async def p104_hsk_05_output_queue(dut):
     """Given a 3-byte read, when data reads follow at any distance, then OBF goes, comes and never lies."""
     lab = await Lab.start(dut, INIT_A)
@@ -309,8 +293,7 @@ async def p104_hsk_05_output_queue(dut):
         lab.check("P104-HSK-05", f"OBF of a read byte, gap {gap}", await lab.host.status() & OBF, 0)
 
 
-@cocotb.test()
-@verifies("P104-HSK-06", "P104-BAD-07")
+@directed("P104-HSK-06", "P104-BAD-07")
 async def p104_hsk_06_empty_read(dut):
     """Given OBF = 0, when the data register is read, then the last byte comes and nothing changes."""
     lab = await Lab.start(dut, INIT_A)
@@ -324,8 +307,7 @@ async def p104_hsk_06_empty_read(dut):
     lab.check("P104-HSK-06", "stale byte does not follow pins", await lab.host.read(DATA), 0xCF)
 
 
-@cocotb.test()
-@verifies("P104-HSK-07", "P104-BAD-03", "P104-BAD-04", "P104-INI-02")
+@directed("P104-HSK-07", "P104-BAD-03", "P104-BAD-04", "P104-INI-02")
 async def p104_hsk_07_cancel(dut):
     """Given half-entered commands, when any command comes, then they are dropped and it is judged alone."""
     lab = await Lab.start(dut, INIT_A)
@@ -356,8 +338,7 @@ async def p104_hsk_07_cancel(dut):
     lab.check("P104-HSK-07", "auxo", lab.bench.edges("auxo"), [])
 
 
-@cocotb.test()
-@verifies("P104-HSK-08", "P104-BAD-22")
+@directed("P104-HSK-08", "P104-BAD-22")
 async def p104_hsk_08_queue_stays(dut):
     """Given unread bytes, when other commands and motions run,
     then only an executed read command replaces them.

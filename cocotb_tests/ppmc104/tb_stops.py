@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, ERR
-from cocotb_tests.harness.config import F8, F16, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F8, F16, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, forced, rates, steps
 from .lab import PINS_LATEST, Lab
@@ -14,9 +12,7 @@ from .lab import PINS_LATEST, Lab
 ALL = 1 << 24
 
 
-@cocotb.test()
-@verifies("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01")
-@configs(F16, F100)
+@directed("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01", builds=(F16, F100))
 async def p104_stp_01_immediate(dut):
     """Given every kind of move, when 0x40 comes high or low in a pulse,
     then it ends there, energised, bit 6.
@@ -47,8 +43,7 @@ async def p104_stp_01_immediate(dut):
             lab.check("P104-PHS-04", "s stays", lab.bench.level("s"), pattern)
 
 
-@cocotb.test()
-@verifies("P104-STP-01", "P104-LIM-09")
+@directed("P104-STP-01", "P104-LIM-09")
 async def p104_stp_01_no_pulse_after_the_c_event(dut):
     """Given a pulse that is due, when 0x40 comes at each clk around it,
     then the pulse is out or it is not left over.
@@ -71,8 +66,7 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
     lab.check("P104-STP-01", "both outcomes were met", seen, {3, 4})
 
 
-@cocotb.test()
-@verifies("P104-STP-02", "P104-STP-06", "P104-ERR-01")
+@directed("P104-STP-02", "P104-STP-06", "P104-ERR-01")
 async def p104_stp_02_at_rest(dut):
     """Given a core at rest, fresh, initialised or after a move, when a stop comes,
     then error 0 and no effect.
@@ -93,11 +87,16 @@ async def p104_stp_02_at_rest(dut):
     lab.check("P104-STP-02", "finish status is that of the move", await lab.finish(), 0x84)
 
 
-@cocotb.test()
-@verifies(
-    "P104-STP-03", "P104-STP-04", "P104-FDC-01", "P104-FDC-02", "P104-END-03", "P104-OPR-07", "P104-OPR-10"
+@directed(
+    "P104-STP-03",
+    "P104-STP-04",
+    "P104-FDC-01",
+    "P104-FDC-02",
+    "P104-END-03",
+    "P104-OPR-07",
+    "P104-OPR-10",
+    builds=(F16, F8),
 )
-@configs(F16, F8)
 async def p104_stp_03_decelerating(dut):
     """Given 0x43 and 0x46 in phase and POUT mode, when 0x41 comes in any interval,
     then the ramp is mirrored.
@@ -119,8 +118,7 @@ async def p104_stp_03_decelerating(dut):
             )
 
 
-@cocotb.test()
-@verifies("P104-STP-05", "P104-OPR-09", "P104-OPR-11", "P104-OPR-08")
+@directed("P104-STP-05", "P104-OPR-09", "P104-OPR-11", "P104-OPR-08")
 async def p104_stp_05_decelerating_at_constant_speed(dut):
     """Given 0x42, 0x44, 0x45, 0x47, when 0x41 comes, then it acts like 0x40, without an error."""
     lab = await Lab.start(dut, INIT_A)
@@ -140,8 +138,7 @@ def await_end(lab: Lab) -> int:
     return lab.bench.falls("int_n")[-1]
 
 
-@cocotb.test()
-@verifies("P104-STP-07", "P104-END-07")
+@directed("P104-STP-07", "P104-END-07")
 async def p104_stp_07_mask_is_of_the_operation(dut):
     """Given moves with I = 0 and 1, when each stop comes with either bit 4,
     then INT follows the move's bit.
@@ -158,8 +155,7 @@ async def p104_stp_07_mask_is_of_the_operation(dut):
             lab.check("P104-STP-07", "finish bits 7, 6", await lab.finish() & 0xC0, 0xC0)
 
 
-@cocotb.test()
-@verifies("P104-STP-08", "P104-END-05", "P104-END-01")
+@directed("P104-STP-08", "P104-END-05", "P104-END-01")
 async def p104_stp_08_in_fin(dut):
     """Given the low time of the last pulse, when stops come, then no effect on a complete or stopped move."""
     lab = await Lab.start(dut, INIT_A)
@@ -183,8 +179,7 @@ async def p104_stp_08_in_fin(dut):
         await lab.result("P104-STP-08", 3, 0xC0 | code & 7, (n or ALL) - 4)
 
 
-@cocotb.test()
-@verifies("P104-OPR-02", "P104-OPR-03", "P104-GEN-05", "P104-END-06")
+@directed("P104-OPR-02", "P104-OPR-03", "P104-GEN-05", "P104-END-06")
 async def p104_opr_02_counts(dut):
     """Given D over all three bytes, when the move is stopped early, then the rest tells the whole count."""
     lab = await Lab.start(dut, INIT_A)
@@ -208,8 +203,7 @@ async def p104_opr_02_counts(dut):
     await lab.result("P104-OPR-02", 257, 0x83, 0)
 
 
-@cocotb.test()
-@verifies("P104-OPR-04", "P104-OPR-08", "P104-INT-01", "P104-INT-05", "P104-BAD-17")
+@directed("P104-OPR-04", "P104-OPR-08", "P104-INT-01", "P104-INT-05", "P104-BAD-17")
 async def p104_opr_04_all_rates(dut):
     """Given every rate byte 0..255, when 3 pulses run at it,
     then intervals and low times keep to the formula.
@@ -221,8 +215,7 @@ async def p104_opr_04_all_rates(dut):
         lab.check_lows("P104-TIM-05", [r, r])
 
 
-@cocotb.test()
-@verifies("P104-OPR-05", "P104-EX-09", "P104-TIM-04", "P104-PHS-01")
+@directed("P104-OPR-05", "P104-EX-09", "P104-TIM-04", "P104-PHS-01")
 async def p104_opr_05_phase_and_pout_mode(dut):
     """Given a 5-phase half-step motor, when phase and POUT moves run both ways,
     then only phase mode moves s.
@@ -244,8 +237,7 @@ async def p104_opr_05_phase_and_pout_mode(dut):
     lab.check("P104-OPR-05", "CW again from the same index", back, [0b11001, 0b10001, 0b10011, 0b00011])
 
 
-@cocotb.test()
-@verifies("P104-OPR-05", "P104-SW-03")
+@directed("P104-OPR-05", "P104-SW-03")
 async def p104_opr_05_pout_mode_unchopped(dut):
     """Given S = 1, when a POUT move runs, then the pattern stays on all through it."""
     lab = await Lab.start(dut, (0x2A, 9, 4, 4))
@@ -257,9 +249,7 @@ async def p104_opr_05_pout_mode_unchopped(dut):
     lab.check("P104-OPR-05", "edges of s in the move", lab.bench.edges("s", started + 1), [])
 
 
-@cocotb.test()
-@verifies("P104-OPR-06", "P104-TIM-02", "P104-TIM-05")
-@configs(F16, F8, F100)
+@directed("P104-OPR-06", "P104-TIM-02", "P104-TIM-05", builds=(F16, F8, F100))
 async def p104_opr_06_single_step(dut):
     """Given any csel, vsel, clock source and ramp, when single steps run, then all look the same."""
     lab = await Lab.start(dut, (0x0A, 255, 200, 4))
@@ -279,8 +269,7 @@ async def p104_opr_06_single_step(dut):
                 await lab.result("P104-OPR-06", 1, 0x82, 0)
 
 
-@cocotb.test()
-@verifies("P104-OPR-11", "P104-LIM-06", "P104-END-06")
+@directed("P104-OPR-11", "P104-LIM-06", "P104-END-06")
 async def p104_opr_11_origin_search(dut):
     """Given 0x47 CW and CCW, when CNP falls at once or between pulses,
     then it ends, no cause bit, rest kept.
@@ -297,8 +286,7 @@ async def p104_opr_11_origin_search(dut):
             lab.check_train("P104-OPR-11", [12] * (count - 1))
 
 
-@cocotb.test()
-@verifies("P104-OPR-01", "P104-RD-07", "P104-RD-03")
+@directed("P104-OPR-01", "P104-RD-07", "P104-RD-03")
 async def p104_opr_01_status_of_old_move_replaced(dut):
     """Given a stopped move, when a complete one follows,
     then no cause bit and no rest of the old one is left.

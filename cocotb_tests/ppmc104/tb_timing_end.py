@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import cocotb
-
 from cocotb_tests.harness.bus import BUSY, IBF
-from cocotb_tests.harness.config import F8, F11, F16, F25, F50, F100, configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F8, F11, F16, F25, F50, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B
 from .lab import C_EVENT_LATEST, PINS_LATEST, Lab
@@ -16,9 +14,15 @@ OPERATIONS = ((0x42, None, None), (0x43, 6, None), (0x44, 6, 9), (0x45, None, 9)
 OPERATIONS += ((0x47, None, 9), (0xC3, 6, None), (0xC6, None, None))
 
 
-@cocotb.test()
-@verifies("P104-TIM-01", "P104-TIM-02", "P104-TIM-04", "P104-GEN-03", "P104-OPR-01", "P104-DS-09")
-@configs(F16, F8, F11, F25, F50, F100)
+@directed(
+    "P104-TIM-01",
+    "P104-TIM-02",
+    "P104-TIM-04",
+    "P104-GEN-03",
+    "P104-OPR-01",
+    "P104-DS-09",
+    builds=(F16, F8, F11, F25, F50, F100),
+)
 async def p104_tim_02_start(dut):
     """Given every operation, when it starts CCW,
     then hold and dir move together, pulse 1 W..W+2 clk later with s.
@@ -42,9 +46,7 @@ async def p104_tim_02_start(dut):
         lab.check("P104-TIM-04", "edges of s", moves, [] if code >= 0xC0 else [first])
 
 
-@cocotb.test()
-@verifies("P104-TIM-05", "P104-TIM-04")
-@configs(F16, F25)
+@directed("P104-TIM-05", "P104-TIM-04", builds=(F16, F25))
 async def p104_tim_05_external_low_times(dut):
     """Given external clocks and vsel = H, when rates 0..9 run,
     then low times are W or cut at their clock edge.
@@ -66,9 +68,7 @@ async def p104_tim_05_external_low_times(dut):
                 await lab.bench.clocks(8)
 
 
-@cocotb.test()
-@verifies("P104-TIM-05", "P104-INT-03")
-@configs(F16, F25)
+@directed("P104-TIM-05", "P104-INT-03", builds=(F16, F25))
 async def p104_tim_05_vsel_low(dut):
     """Given vsel = L, when any rate runs on any clock, then every low time is W."""
     lab = await Lab.start(dut, (0x1A, 9, 4, 4), vsel=0)
@@ -89,9 +89,7 @@ async def p104_tim_05_vsel_low(dut):
         lab.check("P104-TIM-05", "low times, internal", lab.bench.low_times(lab.since), [lab.cfg.w] * 5)
 
 
-@cocotb.test()
-@verifies("P104-TIM-05", "P104-END-02", "P104-LIM-03")
-@configs(F16, F11)
+@directed("P104-TIM-05", "P104-END-02", "P104-LIM-03", builds=(F16, F11))
 async def p104_tim_05_end_in_the_low_time(dut):
     """Given short and long low times, when a limit hits at each clk of one,
     then its length stays as begun.
@@ -116,8 +114,7 @@ async def p104_tim_05_end_in_the_low_time(dut):
             await lab.result("P104-END-02", count, 0x94, 30 - count - 1)
 
 
-@cocotb.test()
-@verifies("P104-TIM-05", "P104-END-03", "P104-FDC-02")
+@directed("P104-TIM-05", "P104-END-03", "P104-FDC-02")
 async def p104_tim_05_last_pulse_of_a_deceleration(dut):
     """Given top speed at both ends of the ramp, when deceleration is forced, then the last low time is W."""
     lab = await Lab.start(dut, (0x0A, 1, 0, 6))
@@ -134,8 +131,7 @@ async def p104_tim_05_last_pulse_of_a_deceleration(dut):
         await lab.result("P104-END-03", len(lows), 0xC3, 200 - len(lows) - 1)
 
 
-@cocotb.test()
-@verifies("P104-TIM-06", "P104-PHS-07", "P104-STP-01")
+@directed("P104-TIM-06", "P104-PHS-07", "P104-STP-01")
 async def p104_tim_06_dir(dut):
     """Given moves CW and CCW with stops and refused commands, when dir is watched,
     then only starts change it.
@@ -158,9 +154,7 @@ async def p104_tim_06_dir(dut):
     lab.check("P104-PHS-07", "first edge is at a start", lab.bench.edges("dir")[0][0], starts[0])
 
 
-@cocotb.test()
-@verifies("P104-END-01", "P104-TIM-05", "P104-RD-07")
-@configs(F16, F25, F100)
+@directed("P104-END-01", "P104-TIM-05", "P104-RD-07", builds=(F16, F25, F100))
 async def p104_end_01_normal_end(dut):
     """Given all counted moves, when the last pulse rises,
     then BUSY, INT, finish status, rest come in 4 clk.
@@ -178,8 +172,7 @@ async def p104_end_01_normal_end(dut):
         await lab.result("P104-END-01", n or 1, 0x80 | code & 7, 0)
 
 
-@cocotb.test()
-@verifies("P104-END-01", "P104-END-05", "P104-LIM-01", "P104-LIM-09")
+@directed("P104-END-01", "P104-END-05", "P104-LIM-01", "P104-LIM-09")
 async def p104_end_05_too_late(dut):
     """Given all causes, when they come after pulse event N, then they leave no trace."""
     lab = await Lab.start(dut, INIT_A)
@@ -194,9 +187,7 @@ async def p104_end_05_too_late(dut):
                 await lab.result("P104-END-05", n or 1, 0x80 | code & 7, 0)
 
 
-@cocotb.test()
-@verifies("P104-END-02", "P104-LIM-01", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06")
-@configs(F16, F100)
+@directed("P104-END-02", "P104-LIM-01", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", builds=(F16, F100))
 async def p104_end_02_reaction_time(dut):
     """Given a pulse at H and at L, when each cause comes,
     then the end is 8 clk after it or 4 after the rise.
@@ -219,8 +210,7 @@ async def p104_end_02_reaction_time(dut):
             await lab.result("P104-END-02", 2, bits, ALL - 3)
 
 
-@cocotb.test()
-@verifies("P104-END-04", "P104-LIM-09", "P104-BAD-15")
+@directed("P104-END-04", "P104-LIM-09", "P104-BAD-15")
 async def p104_end_04_cause_bits(dut):
     """Given mixtures of causes at the decision and before, when a move ends,
     then exactly their bits are set.
@@ -264,8 +254,7 @@ async def p104_end_04_cause_bits(dut):
     await lab.result("P104-END-04", 7, 0xCB, 92)
 
 
-@cocotb.test()
-@verifies("P104-END-06", "P104-END-05", "P104-RD-07")
+@directed("P104-END-06", "P104-END-05", "P104-RD-07")
 async def p104_end_06_one_left_or_none(dut):
     """Given moves that end one pulse short or complete, when status and rest are read,
     then the bits tell which.
@@ -284,8 +273,7 @@ async def p104_end_06_one_left_or_none(dut):
     await lab.result("P104-END-06", 0, 0x92, 0)
 
 
-@cocotb.test()
-@verifies("P104-END-07", "P104-CMD-02")
+@directed("P104-END-07", "P104-CMD-02")
 async def p104_end_07_int(dut):
     """Given operations with I = 0 and 1 in any order, when INT is pending,
     then only 0x80 or reset releases it.
@@ -311,9 +299,7 @@ async def p104_end_07_int(dut):
     lab.check("P104-END-07", "int_n after reset", lab.bench.level("int_n"), 1)
 
 
-@cocotb.test()
-@verifies("P104-END-08", "P104-DS-09", "P104-LIM-07")
-@configs(F8, F11)
+@directed("P104-END-08", "P104-DS-09", "P104-LIM-07", builds=(F8, F11))
 async def p104_end_08_hold(dut):
     """Given a masked zero-pulse move and a normal one, when BUSY has fallen,
     then hold rises 34.0 ms later.
@@ -332,9 +318,7 @@ async def p104_end_08_hold(dut):
         await lab.bench.clocks(100)
 
 
-@cocotb.test()
-@verifies("P104-END-08", "P104-OPR-01")
-@configs(F8)
+@directed("P104-END-08", "P104-OPR-01", builds=(F8,))
 async def p104_end_08_hold_restarts(dut):
     """Given a second operation before 34 ms are over, when both rest,
     then hold counts from the second end.

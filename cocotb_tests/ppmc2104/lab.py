@@ -1,24 +1,22 @@
-"""`Lab`: a PPMC-2104AFP on the bench with its host and its two axes; `part_test`: a test made of one.
+"""`Lab`: a PPMC-2104AFP on the bench with its host and its two axes.
 
-    @part_test("AC-09", "P2104-EX-01", on=(F16, F11))
-    async def p2104_ac_09_trapezoid(lab):
-        "Given ..., when ..., then ..."
-        axis = await lab.ready(1, INIT_B)
-        await axis.move(0x43, 25)
-        axis.check_train("AC-09", rates(INIT_B[1:], indices(25, 10)))
-
-At its end every such test is replayed into the golden model and compared edge by edge.
+@directed("AC-09", "P2104-EX-01", builds=(F16, F11))
+async def p2104_ac_09_trapezoid(dut):
+    "Given ..., when ..., then ..."
+    lab = await Lab.start(dut)
+    axis = await lab.ready(1, INIT_B)
+    await axis.move(0x43, 25)
+    axis.check_train("AC-09", rates(INIT_B[1:], indices(25, 10)))
 """
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from cocotb_tests.harness.bus import IBF, HostBus
-from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.drive import Drive
-from cocotb_tests.harness.judged import judged_test
 from cocotb_tests.harness.side import Side
 from cocotb_tests.harness.start import start_bench
 
@@ -118,7 +116,7 @@ class Axis(Drive):
 
 
 class Lab:
-    """Bench, host and axes `x1`, `x2`. Made by `part_test`, or with `await Lab.start(dut)`."""
+    """Bench, host and axes `x1`, `x2`. Make one with `await Lab.start(dut)`."""
 
     def __init__(self, bench: Side) -> None:
         self.bench = bench
@@ -175,20 +173,3 @@ class Lab:
         names = ("pout_n", "dir", "hold", "s1_n", "s2_n", "int_n", *others)
         moved = {name: edges for name in names if (edges := self.bench.edges(name, since))}
         self.check(rule, f"edges of outputs since {since}", moved, {})
-
-
-Test = Callable[[Lab], Awaitable[None]]
-
-
-def part_test(
-    *rules: str, on: Sequence[Config] = (F16,), compared: bool = True, **pins: int
-) -> Callable[[Test], Any]:
-    """A cocotb test that gets a `Lab` just out of reset, with input levels `pins`, and verifies `rules`.
-
-    `on` are its build configurations. Only tests of what no rule fixes are not `compared` with the model.
-    """
-
-    async def start(dut: Any) -> Lab:
-        return await Lab.start(dut, **pins)
-
-    return judged_test(start, rules, on, compared)

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from itertools import repeat
+from typing import Any
 
 from cocotb_tests.harness.bus import IBF, OBF
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import NO_PULSES_DONE, steps
 
 from .figures import BUSY1, CMND1, INIT_B, STEP_CODES
-from .lab import Lab, part_test
+from .lab import Lab
 from .tb_acceptance_moves import AC_09, B1
 
 US = 16
 
 
-@part_test("AC-45", "P2104-OPR-02", "P2104-TIM-02", "P2104-STA-04", "P2104-BAD-21")
-async def p2104_ac_45_run(lab: Lab) -> None:
+@directed("AC-45", "P2104-OPR-02", "P2104-TIM-02", "P2104-STA-04", "P2104-BAD-21")
+async def p2104_ac_45_run(dut: Any) -> None:
     """Given run L, when a move is accepted, then it waits; run H starts it, later changes do nothing."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
     await lab.bench.clocks(4)
@@ -33,9 +36,10 @@ async def p2104_ac_45_run(lab: Lab) -> None:
     lab.check("AC-45", "intervals", axis.intervals, AC_09)
 
 
-@part_test("AC-46", "P2104-STP-01", "P2104-END-07", "P2104-FSM-01")
-async def p2104_ac_46_stop_in_run_wait(lab: Lab) -> None:
+@directed("AC-46", "P2104-STP-01", "P2104-END-07", "P2104-FSM-01")
+async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
     """Given RUN wait, when 40 comes, then no pulse, C3, D is left, hold after 3.2 ms."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
     await axis.go(0x43, 25)
@@ -49,9 +53,10 @@ async def p2104_ac_46_stop_in_run_wait(lab: Lab) -> None:
     lab.window("AC-46", "end to hold", hold - end, 51_200 - 4, 51_216 + 4)
 
 
-@part_test("AC-47", "P2104-LIM-03", "P2104-LIM-07")
-async def p2104_ac_47_limit_in_run_wait(lab: Lab) -> None:
+@directed("AC-47", "P2104-LIM-03", "P2104-LIM-07")
+async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
     """Given an origin search in RUN wait, when ORG, then BL falls, then only BL ends it."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
     await axis.go(0x4F, rate=0x31)
@@ -62,9 +67,10 @@ async def p2104_ac_47_limit_in_run_wait(lab: Lab) -> None:
     await axis.result("AC-47", 0, 0x97, NO_PULSES_DONE - 1)
 
 
-@part_test("AC-48", "P2104-LIM-07")
-async def p2104_ac_48_origin_when_run_comes(lab: Lab) -> None:
+@directed("AC-48", "P2104-LIM-07")
+async def p2104_ac_48_origin_when_run_comes(dut: Any) -> None:
     """Given an origin search in RUN wait on the origin, when run comes, then it ends with no pulse."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
     await axis.go(0x47, rate=0x31)
@@ -74,9 +80,10 @@ async def p2104_ac_48_origin_when_run_comes(lab: Lab) -> None:
     await axis.result("AC-48", 0, 0x87, NO_PULSES_DONE - 1)
 
 
-@part_test("AC-49", "P2104-LIM-05", "P2104-FDC-01", "P2104-FDC-04")
-async def p2104_ac_49_slow_down_limit_in_run_wait(lab: Lab) -> None:
+@directed("AC-49", "P2104-LIM-05", "P2104-FDC-01", "P2104-FDC-04")
+async def p2104_ac_49_slow_down_limit_in_run_wait(dut: Any) -> None:
     """Given RUN wait, when FHL is low for 10 clk, then run gives one pulse."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
     await axis.go(0x43, 1000)
@@ -87,9 +94,10 @@ async def p2104_ac_49_slow_down_limit_in_run_wait(lab: Lab) -> None:
     lab.check("AC-49", "83", await lab.run("c 83 rrr"), [0xE6, 3, 0])
 
 
-@part_test("AC-50", "P2104-TIM-02", "P2104-OPR-10", "P2104-BCK-05")
-async def p2104_ac_50_both_axes_together(lab: Lab) -> None:
+@directed("AC-50", "P2104-TIM-02", "P2104-OPR-10", "P2104-BCK-05")
+async def p2104_ac_50_both_axes_together(dut: Any) -> None:
     """Given both axes in RUN wait, when run rises for both, then pulse 1 is on one edge."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     lab.bench.set(run=0)
     await first.go(0x43, 25)
@@ -103,9 +111,10 @@ async def p2104_ac_50_both_axes_together(lab: Lab) -> None:
     lab.check("AC-50", "dir", lab.bench.level("dir"), 0b10)
 
 
-@part_test("AC-51", "P2104-LIM-07", "P2104-OPR-06", "P2104-END-05")
-async def p2104_ac_51_origin(lab: Lab) -> None:
+@directed("AC-51", "P2104-LIM-07", "P2104-OPR-06", "P2104-END-05")
+async def p2104_ac_51_origin(dut: Any) -> None:
     """Given an origin search, when ORG falls, then it ends without a cause bit."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x47, rate=0x31)
     await axis.pulse(7, 400)
@@ -114,9 +123,10 @@ async def p2104_ac_51_origin(lab: Lab) -> None:
     lab.check("AC-51", "83", await lab.run("c 83 rrr"), [0xF8, 0xFF, 0xFF])
 
 
-@part_test("AC-52", "P2104-OPR-08", "P2104-CMD-02")
-async def p2104_ac_52_pout_mode(lab: Lab) -> None:
+@directed("AC-52", "P2104-OPR-08", "P2104-CMD-02")
+async def p2104_ac_52_pout_mode(dut: Any) -> None:
     """Given POUT mode, when C3 and C6 run, then pulses as ever and s1_n stands still."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.move(0xC3, 25)
     lab.check("AC-52", "intervals", axis.intervals, AC_09)
@@ -127,9 +137,10 @@ async def p2104_ac_52_pout_mode(lab: Lab) -> None:
     lab.check("AC-52", "levels of s1_n", [v for _, v in lab.bench.edges("s1_n")], [0b11100])
 
 
-@part_test("AC-53", "P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-EX-11", "P2104-INI-01")
-async def p2104_ac_53_step_lists(lab: Lab) -> None:
+@directed("AC-53", "P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-EX-11", "P2104-INI-01")
+async def p2104_ac_53_step_lists(dut: Any) -> None:
     """Given each motor type, when stepped CW, then CCW, then the lists of section 6.1 both ways."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         for name, code in STEP_CODES.items():
             await axis.send(0xC0)
@@ -146,9 +157,10 @@ async def p2104_ac_53_step_lists(lab: Lab) -> None:
                 lab.check("AC-53", f"{name} by {op:#x}, axis {axis.n}", got, wanted)
 
 
-@part_test("AC-54", "P2104-SW-02", "P2104-SW-03", "P2104-SW-04", "P2104-SW-05", "P2104-INI-07")
-async def p2104_ac_54_switching(lab: Lab) -> None:
+@directed("AC-54", "P2104-SW-02", "P2104-SW-03", "P2104-SW-04", "P2104-SW-05", "P2104-INI-07")
+async def p2104_ac_54_switching(dut: Any) -> None:
     """Given S = 1, when the axis is at rest, then it chops as told, and moves with the full pattern."""
+    lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(0x12, *INIT_B[1:])
     await lab.bench.clocks(10_000)
@@ -181,9 +193,10 @@ async def p2104_ac_54_switching(lab: Lab) -> None:
     lab.check("AC-54", "clk of OFF", await lab.bench.edge("s1_n", 0b11001) - off, 1024)
 
 
-@part_test("AC-55", "P2104-END-07", "P2104-AUX-05", "P2104-HLD-01")
-async def p2104_ac_55_hold_delay(lab: Lab) -> None:
+@directed("AC-55", "P2104-END-07", "P2104-AUX-05", "P2104-HLD-01")
+async def p2104_ac_55_hold_delay(dut: Any) -> None:
     """Given n = 18h, 00, FF, when a step ends, then hold after 3.2, 0.128, 32.768 ms."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for n, clocks in ((None, 51_200), (0x00, 2_048), (0xFF, 524_288)):
         if n is not None:
@@ -201,9 +214,10 @@ async def p2104_ac_55_hold_delay(lab: Lab) -> None:
     lab.check("AC-55", "hold levels", [v for _, v in lab.bench.edges("hold[1]", since)], [0])
 
 
-@part_test("AC-56", "P2104-AUX-02", "P2104-AUX-03")
-async def p2104_ac_56_auxiliary(lab: Lab) -> None:
+@directed("AC-56", "P2104-AUX-02", "P2104-AUX-03")
+async def p2104_ac_56_auxiliary(dut: Any) -> None:
     """Given all states, when C1 D1 E1 F1 and C2 come, then pins follow and are read."""
+    lab = await Lab.start(dut)
     for state in ("initial", "moving"):
         for code, level in ((0xC1, 3), (0xD1, 2), (0xE1, 1), (0xF1, 0)):
             await lab.host.command(code)
@@ -221,9 +235,10 @@ async def p2104_ac_56_auxiliary(lab: Lab) -> None:
     lab.check("AC-56", "e1, e2", await lab.errors(), (0, 0))
 
 
-@part_test("AC-57", "P2104-AUX-01", "P2104-PHS-02", "P2104-PHS-03")
-async def p2104_ac_57_excitation_off(lab: Lab) -> None:
+@directed("AC-57", "P2104-AUX-01", "P2104-PHS-02", "P2104-PHS-03")
+async def p2104_ac_57_excitation_off(dut: Any) -> None:
     """Given a stepped axis, when C0, then another setting comes, then off, error 4, index 0 of the new."""
+    lab = await Lab.start(dut)
     await lab.run(B1)
     axis = lab.x1
     await axis.ready()
@@ -243,9 +258,10 @@ async def p2104_ac_57_excitation_off(lab: Lab) -> None:
     lab.check("AC-57", "s1_n of a 5-phase motor", axis.phases_now, 0b00111)
 
 
-@part_test("AC-58", "P2104-INI-05")
-async def p2104_ac_58_setting_again(lab: Lab) -> None:
+@directed("AC-58", "P2104-INI-05")
+async def p2104_ac_58_setting_again(dut: Any) -> None:
     """Given axis 1 set up, when 1F sets another ramp, then only the ramp changes."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.init(0x1F, 9, 4, 4)
     await axis.move(0x42)
@@ -256,9 +272,10 @@ async def p2104_ac_58_setting_again(lab: Lab) -> None:
     lab.check("AC-58", "intervals", axis.intervals, expected)
 
 
-@part_test("AC-59", "P2104-BCK-04", "P2104-TIM-03", "P2104-BAD-18")
-async def p2104_ac_59_external_clock(lab: Lab) -> None:
+@directed("AC-59", "P2104-BCK-04", "P2104-TIM-03", "P2104-BAD-18")
+async def p2104_ac_59_external_clock(dut: Any) -> None:
     """Given 250 kHz on extck, when rate 9 runs, then 640 clk; without edges it waits for 40."""
+    lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(0x0A, *INIT_B[1:])
     clock = lab.bench.external_clock(repeat(64), axis.clock, high=32)
@@ -275,9 +292,10 @@ async def p2104_ac_59_external_clock(lab: Lab) -> None:
     await axis.result("AC-59", 0, 0xC4, 9)
 
 
-@part_test("AC-60", "P2104-EX-14", "P2104-TIM-05")
-async def p2104_ac_60_external_clock_of_1_mhz(lab: Lab) -> None:
+@directed("AC-60", "P2104-EX-14", "P2104-TIM-05")
+async def p2104_ac_60_external_clock_of_1_mhz(dut: Any) -> None:
     """Given 1 MHz on extck, when rate 0 runs, then 16 clk, low 8, the last one 80."""
+    lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(0x0A, *INIT_B[1:])
     lab.bench.external_clock(repeat(16), axis.clock, high=8)
@@ -289,9 +307,10 @@ async def p2104_ac_60_external_clock_of_1_mhz(lab: Lab) -> None:
     lab.check("AC-60", "last low time", axis.low_times[-1], 80)
 
 
-@part_test("AC-61", "P2104-HSK-07", "P2104-BAD-10", "P2104-BAD-25")
-async def p2104_ac_61_unread_answer(lab: Lab) -> None:
+@directed("AC-61", "P2104-HSK-07", "P2104-BAD-10", "P2104-BAD-25")
+async def p2104_ac_61_unread_answer(dut: Any) -> None:
     """Given two unread bytes, when a step runs, then they stay; 80 replaces them."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x43, 1000)
     await axis.pulse(7, 100)
@@ -305,9 +324,10 @@ async def p2104_ac_61_unread_answer(lab: Lab) -> None:
     lab.check("AC-61", "OBF", await lab.host.status() & OBF, 0)
 
 
-@part_test("AC-62", "P2104-HSK-04", "P2104-HSK-05", "P2104-STA-05")
-async def p2104_ac_62_what_waits(lab: Lab) -> None:
+@directed("AC-62", "P2104-HSK-04", "P2104-HSK-05", "P2104-STA-05")
+async def p2104_ac_62_what_waits(dut: Any) -> None:
     """Given the table of axis 1 being built, when F1, 72, 42 come, then only 42 waits."""
+    lab = await Lab.start(dut)
     first, second = lab.axes
     await lab.ready(2, INIT_B)
     await lab.run("c 02 d 63 d 13 d 0A")
@@ -326,9 +346,10 @@ async def p2104_ac_62_what_waits(lab: Lab) -> None:
     await first.result("AC-62", 1, 0x82)
 
 
-@part_test("AC-63", "P2104-HSK-02", "P2104-BAD-08")
-async def p2104_ac_63_written_over(lab: Lab) -> None:
+@directed("AC-63", "P2104-HSK-02", "P2104-BAD-08")
+async def p2104_ac_63_written_over(dut: Any) -> None:
     """Given 42 waiting, when 52 is written over it, then one pulse and no interrupt."""
+    lab = await Lab.start(dut)
     axis = lab.x1
     await lab.run(B1)
     await axis.go(0x42, poll=False)

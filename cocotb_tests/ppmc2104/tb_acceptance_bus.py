@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import OBF
 from cocotb_tests.harness.config import F8, F11, F16, F16X8, F48, F100
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import differences
 from cocotb_tests.harness.model_bench import rtl_only
 
 from .figures import CMND2, INIT_B
-from .lab import Lab, part_test
+from .lab import Lab
 from .tb_acceptance_errors import EX_03, clk
 from .tb_acceptance_moves import AC_09
 
 
-@part_test("AC-64", "P2104-BCK-03", "P2104-EX-12", "P2104-GEN-04", on=(F11,))
-async def p2104_ac_64_no_drift(lab: Lab) -> None:
+@directed("AC-64", "P2104-BCK-03", "P2104-EX-12", "P2104-GEN-04", builds=(F11,))
+async def p2104_ac_64_no_drift(dut: Any) -> None:
     """Given CLK_HZ = 11 059 200, when rate 1 runs, then fall t + 1 comes ceil(44.2368 t) clk after fall 1."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     pulses = await axis.move(0x44, 1001, 1)
     # 442 368 = 44.2368 · 10^4.
@@ -25,9 +29,10 @@ async def p2104_ac_64_no_drift(lab: Lab) -> None:
     lab.check("AC-64", "last low time: W", axis.low_times[-1], 56)
 
 
-@part_test("AC-65", "P2104-GEN-03", "P2104-GEN-04", on=(F16X8,))
-async def p2104_ac_65_crystal_of_8_mhz(lab: Lab) -> None:
+@directed("AC-65", "P2104-GEN-03", "P2104-GEN-04", builds=(F16X8,))
+async def p2104_ac_65_crystal_of_8_mhz(dut: Any) -> None:
     """Given XTAL_HZ = 8 MHz, when AC-09 and a step run, then all times are doubled."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.move(0x43, 25)
     lab.check("AC-65", "intervals", axis.intervals, [2 * clk for clk in AC_09])
@@ -39,9 +44,10 @@ async def p2104_ac_65_crystal_of_8_mhz(lab: Lab) -> None:
 
 
 @rtl_only("clk_o is not in the model: it never stops and depends on nothing")
-@part_test("AC-66", "P2104-PORT-06", on=(F16, F48, F11, F8, F100, F16X8))
-async def p2104_ac_66_clk_o(lab: Lab) -> None:
+@directed("AC-66", "P2104-PORT-06", builds=(F16, F48, F11, F8, F100, F16X8))
+async def p2104_ac_66_clk_o(dut: Any) -> None:
     """Given each clock, when clk_o is watched from the reset on, then toggle t comes at CYC(2 t)."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     await bench.reset(settle=0)
     release = bench.now
@@ -59,9 +65,10 @@ async def p2104_ac_66_clk_o(lab: Lab) -> None:
         lab.check("AC-66", "half periods", set(differences(edges)), spans)
 
 
-@part_test("AC-77", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-13")
-async def p2104_ac_77_strobes_together(lab: Lab) -> None:
+@directed("AC-77", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-13")
+async def p2104_ac_77_strobes_together(dut: Any) -> None:
     """Given both strobes low, then no access; given cs_n rising first, then the byte is stored."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     bench.set(a0=1, d_i=0xF1, cs_n=0, ds_wrs_n=0, rw_rds_n=0)
     await bench.clocks(10)
@@ -79,9 +86,10 @@ async def p2104_ac_77_strobes_together(lab: Lab) -> None:
     lab.check("AC-77", "auxo after the byte", bench.level("auxo"), 0b00)
 
 
-@part_test("AC-78", "P2104-BAD-23", "P2104-PORT-03", "P2104-AUX-06", "P2104-HLD-01")
-async def p2104_ac_78_reset_in_motion(lab: Lab) -> None:
+@directed("AC-78", "P2104-BAD-23", "P2104-PORT-03", "P2104-AUX-06", "P2104-HLD-01")
+async def p2104_ac_78_reset_in_motion(dut: Any) -> None:
     """Given both axes moving, when rst_n falls between two edges, then everything is as after power-on."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     axes = await lab.both(INIT_B)
     for axis in axes:
@@ -111,9 +119,10 @@ async def p2104_ac_78_reset_in_motion(lab: Lab) -> None:
         await axis.send(0xC0)
 
 
-@part_test("AC-79", "P2104-BUS-08", "P2104-BUS-09", "P2104-HSK-06", "P2104-BAD-09", "P2104-STA-02")
-async def p2104_ac_79_three_bytes(lab: Lab) -> None:
+@directed("AC-79", "P2104-BUS-08", "P2104-BUS-09", "P2104-HSK-06", "P2104-BAD-09", "P2104-STA-02")
+async def p2104_ac_79_three_bytes(dut: Any) -> None:
     """Given 83 after a stopped move, when it is read with 2-clk strobes, then low, mid, high, then stale."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x43, 0x0A0B0C + 5)
     await axis.pulse(4, 50)
@@ -132,9 +141,10 @@ async def p2104_ac_79_three_bytes(lab: Lab) -> None:
         lab.check("AC-79", "status", await lab.host.status(), 0x00)
 
 
-@part_test("AC-80", "P2104-OPR-06", "P2104-EX-10")
-async def p2104_ac_80_thousand_pulses(lab: Lab) -> None:
+@directed("AC-80", "P2104-OPR-06", "P2104-EX-10")
+async def p2104_ac_80_thousand_pulses(dut: Any) -> None:
     """Given constant speed, when FL falls after 1000 pulses, then 95 and 16 776 215 left."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x45, rate=0x31)
     await lab.bench.clocks(999 * 1600)
@@ -144,9 +154,10 @@ async def p2104_ac_80_thousand_pulses(lab: Lab) -> None:
     lab.check("AC-80", "83", await lab.run("c 83 rrr"), [0x17, 0xFC, 0xFF])
 
 
-@part_test("AC-81", "P2104-RD-04", "P2104-LIM-10")
-async def p2104_ac_81_control_input(lab: Lab) -> None:
+@directed("AC-81", "P2104-RD-04", "P2104-LIM-10")
+async def p2104_ac_81_control_input(dut: Any) -> None:
     """Given one input at a time, when 81 reads, then its bit is 0; the other axis does not show."""
+    lab = await Lab.start(dut)
     answers = {"org_n": 0x4F, "alm_n": 0x8F, "fl_n": 0xC7, "fhl_n": 0xCB, "bl_n": 0xCD, "bhl_n": 0xCE}
     for axis in lab.axes:
         for pin, answer in answers.items():
@@ -160,9 +171,10 @@ async def p2104_ac_81_control_input(lab: Lab) -> None:
     lab.check("AC-81", "81, A1", await lab.run("c 81 r c A1 r"), [0xCF, 0x00])
 
 
-@part_test("AC-82", "P2104-STP-07", "P2104-ERR-02")
-async def p2104_ac_82_stop_in_a_data_wait(lab: Lab) -> None:
+@directed("AC-82", "P2104-STP-07", "P2104-ERR-02")
+async def p2104_ac_82_stop_in_a_data_wait(dut: Any) -> None:
     """Given axis 1 moving and axis 2 in a data wait, when 40 comes, then axis 1 stops, error 3."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await first.go(0x45, rate=0x31)
     await first.pulse(20, 400)
@@ -179,9 +191,10 @@ async def p2104_ac_82_stop_in_a_data_wait(lab: Lab) -> None:
     lab.check("AC-82", "pulses of both axes", pulses, (20, 0))
 
 
-@part_test("AC-83", "P2104-STP-07", "P2104-EX-03")
-async def p2104_ac_83_deceleration_stop_in_a_data_wait(lab: Lab) -> None:
+@directed("AC-83", "P2104-STP-07", "P2104-EX-03")
+async def p2104_ac_83_deceleration_stop_in_a_data_wait(dut: Any) -> None:
     """Given axis 1 on its ramp and axis 2 in a data wait, when 41 comes, then axis 1 decelerates."""
+    lab = await Lab.start(dut)
     first, _ = await lab.both(INIT_B)
     await first.go(0x43, 1000)
     await first.pulse(5, 100)
@@ -191,9 +204,10 @@ async def p2104_ac_83_deceleration_stop_in_a_data_wait(lab: Lab) -> None:
     lab.check("AC-83", "intervals", first.intervals, clk(EX_03[5]))
 
 
-@part_test("AC-84", "P2104-ERR-02", "P2104-FSM-05")
-async def p2104_ac_84_refused_stop_in_a_data_wait(lab: Lab) -> None:
+@directed("AC-84", "P2104-ERR-02", "P2104-FSM-05")
+async def p2104_ac_84_refused_stop_in_a_data_wait(dut: Any) -> None:
     """Given constant speed and a data wait, when 41 comes, then error 8; 40 at rest then gives 3, not 6."""
+    lab = await Lab.start(dut)
     first, _ = await lab.both(INIT_B)
     await first.running(0x31)
     lab.check("AC-84", "status, e1", await lab.run("c 64 d 31 c 41 s e1"), [0x84, 8])
@@ -203,9 +217,10 @@ async def p2104_ac_84_refused_stop_in_a_data_wait(lab: Lab) -> None:
     lab.check("AC-84", "e1", await lab.run("c 43 c 40 e1"), [3])
 
 
-@part_test("AC-85", "P2104-HSK-04", "P2104-STP-04")
-async def p2104_ac_85_stops_do_not_wait(lab: Lab) -> None:
+@directed("AC-85", "P2104-HSK-04", "P2104-STP-04")
+async def p2104_ac_85_stops_do_not_wait(dut: Any) -> None:
     """Given the table of axis 1 being built, when stops come, then they are taken at once."""
+    lab = await Lab.start(dut)
     first, second = lab.axes
     await lab.ready(2, INIT_B)
     await second.running(0x31)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from itertools import repeat
+from typing import Any
 
 from cocotb_tests.harness.bus import OBF
+from cocotb_tests.harness.directed import directed
 
 from .figures import BUSY1, INIT_B
-from .lab import Axis, Lab, part_test
+from .lab import Axis, Lab
 from .tb_acceptance_moves import AC_09, B1
 
 E7 = "d E7 d 03 d 00"
@@ -26,22 +28,25 @@ async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
     return await axis.command(code)
 
 
-@part_test("AC-22", "P2104-ERR-06", "P2104-STA-06")
-async def p2104_ac_22_error_bit(lab: Lab) -> None:
+@directed("AC-22", "P2104-ERR-06", "P2104-STA-06")
+async def p2104_ac_22_error_bit(dut: Any) -> None:
     """Given errors of both axes, when they are read in turn, then ERROR falls with the second."""
+    lab = await Lab.start(dut)
     got = await lab.run("c 87 c A7 s e1 s e2 s e2")
     lab.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
 
 
-@part_test("AC-23", "P2104-ERR-01", "P2104-ERR-02")
-async def p2104_ac_23_data_without_need(lab: Lab) -> None:
+@directed("AC-23", "P2104-ERR-01", "P2104-ERR-02")
+async def p2104_ac_23_data_without_need(dut: Any) -> None:
     """Given a data byte nobody wants, when both registers are read, then error 2 is on axis 1."""
+    lab = await Lab.start(dut)
     lab.check("AC-23", "e2, e1", await lab.run("d 55 e2 e1"), [0, 2])
 
 
-@part_test("AC-24", "P2104-ERR-02", "P2104-BAD-04")
-async def p2104_ac_24_code_in_a_data_wait(lab: Lab) -> None:
+@directed("AC-24", "P2104-ERR-02", "P2104-BAD-04")
+async def p2104_ac_24_code_in_a_data_wait(dut: Any) -> None:
     """Given an unfinished operation of axis 1, when a step of axis 2 comes, then both are dropped."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     since = lab.bench.now
     lab.check("AC-24", "status, e1, e2", await lab.run("c 43 d 05 c 62 s e1 e2"), [0x80, 0, 3])
@@ -51,9 +56,10 @@ async def p2104_ac_24_code_in_a_data_wait(lab: Lab) -> None:
     lab.check("AC-24", "pulses", (len(lab.bench.pulses(since, first.pout)), len(second.pulses)), (0, 1))
 
 
-@part_test("AC-25", "P2104-ERR-01")
-async def p2104_ac_25_axisless_code_in_a_data_wait(lab: Lab) -> None:
+@directed("AC-25", "P2104-ERR-01")
+async def p2104_ac_25_axisless_code_in_a_data_wait(dut: Any) -> None:
     """Given an unfinished operation, when C2 comes, then error 3 on axis 1, and nothing is answered."""
+    lab = await Lab.start(dut)
     await lab.run(B1)
     await lab.x1.ready()
     (status,) = await lab.run("c 43 c C2 s")
@@ -65,15 +71,17 @@ async def p2104_ac_25_axisless_code_in_a_data_wait(lab: Lab) -> None:
     lab.check("AC-25", "auxo", lab.bench.level("auxo"), 0b11)
 
 
-@part_test("AC-26", "P2104-BAD-06")
-async def p2104_ac_26_not_set_up(lab: Lab) -> None:
+@directed("AC-26", "P2104-BAD-06")
+async def p2104_ac_26_not_set_up(dut: Any) -> None:
     """Given axis 2 not set up, when 63 and a data byte come, then error 4 there and error 2 on axis 1."""
+    lab = await Lab.start(dut)
     lab.check("AC-26", "e2, e1", await lab.run("c 63 d 01 e2 e1"), [4, 2])
 
 
-@part_test("AC-27", "P2104-FSM-01", "P2104-AUX-02", "P2104-AUX-03", "P2104-RD-08")
-async def p2104_ac_27_busy(lab: Lab) -> None:
+@directed("AC-27", "P2104-FSM-01", "P2104-AUX-02", "P2104-AUX-03", "P2104-RD-08")
+async def p2104_ac_27_busy(dut: Any) -> None:
     """Given a slow operation, when what is not allowed then comes, then error 5, and the motion goes on."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x44, 256, 0xFF)
     for code in ("02", "42", "80", "81", "82", "83", "84", "85", "C0"):
@@ -88,16 +96,18 @@ async def p2104_ac_27_busy(lab: Lab) -> None:
     lab.check("AC-27", "e1", await lab.run("e1"), [0])
 
 
-@part_test("AC-28", "P2104-STP-04")
-async def p2104_ac_28_stops_at_rest(lab: Lab) -> None:
+@directed("AC-28", "P2104-STP-04")
+async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
     """Given axis 1 at rest and axis 2 not set up, when stops come, then errors 6, 6, 4."""
+    lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     lab.check("AC-28", "errors", await lab.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])
 
 
-@part_test("AC-29", "P2104-LIM-06", "P2104-ERR-05")
-async def p2104_ac_29_limit_refuses(lab: Lab) -> None:
+@directed("AC-29", "P2104-LIM-06", "P2104-ERR-05")
+async def p2104_ac_29_limit_refuses(dut: Any) -> None:
     """Given the CW limit, when CW operations come, then error 7; the other direction moves."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(fl_n=0)
     await lab.bench.clocks(4)
@@ -111,9 +121,10 @@ async def p2104_ac_29_limit_refuses(lab: Lab) -> None:
     lab.check("AC-29", "pulses CCW, dir", (len(axis.pulses), axis.level("dir")), (1, 1))
 
 
-@part_test("AC-30", "P2104-LIM-06", "P2104-LIM-02")
-async def p2104_ac_30_what_refuses(lab: Lab) -> None:
+@directed("AC-30", "P2104-LIM-06", "P2104-LIM-02")
+async def p2104_ac_30_what_refuses(dut: Any) -> None:
     """Given one input at a time, when axis 1 starts CW, then only ALM, and ORG for 47, refuse it."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for pin, code, n, rate, error in (
         ("alm_n[1]", 0x42, None, None, 7),
@@ -132,9 +143,10 @@ async def p2104_ac_30_what_refuses(lab: Lab) -> None:
         await lab.bench.clocks(4)
 
 
-@part_test("AC-31", "P2104-STP-03", "P2104-PRO-05")
-async def p2104_ac_31_deceleration_stop_refused(lab: Lab) -> None:
+@directed("AC-31", "P2104-STP-03", "P2104-PRO-05")
+async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
     """Given constant speed, RUN wait, natural deceleration, when 41 comes, then error 8 and no effect."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.running()
     await axis.refused("AC-31", "41 in 45", 8, 0x41)
@@ -152,9 +164,10 @@ async def p2104_ac_31_deceleration_stop_refused(lab: Lab) -> None:
     lab.check("AC-31", "intervals of 43", axis.intervals, AC_09)
 
 
-@part_test("AC-32", "P2104-INI-02", "P2104-INI-03", "P2104-BAD-16")
-async def p2104_ac_32_setting_values(lab: Lab) -> None:
+@directed("AC-32", "P2104-INI-02", "P2104-INI-03", "P2104-BAD-16")
+async def p2104_ac_32_setting_values(dut: Any) -> None:
     """Given values at and beyond their limits, when they are set, then errors 9, 10 or none."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     bad = ((5, 4, 100, 9), (5, 6, 100, 9), (5, 0, 100, 9), (9, 4, 3, 9), (5, 4, 3, 9))
     for rl, rh, pa, error in (*bad, (9, 4, 0x2BD5, 10), (5, 4, 0x2BD5, 9)):
@@ -167,9 +180,10 @@ async def p2104_ac_32_setting_values(lab: Lab) -> None:
         lab.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), 0)
 
 
-@part_test("AC-33", "P2104-OPR-07", "P2104-INI-01")
-async def p2104_ac_33_rate_zero(lab: Lab) -> None:
+@directed("AC-33", "P2104-OPR-07", "P2104-INI-01")
+async def p2104_ac_33_rate_zero(dut: Any) -> None:
     """Given rate 00, when the base clock is internal, then error 9; with the external one it runs."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.refused("AC-33", "45 00", 9, 0x45, 0)
     await lab.run("c C0 c 0A d 63 d 13 d 0A d 00")
@@ -182,16 +196,18 @@ async def p2104_ac_33_rate_zero(lab: Lab) -> None:
     clock.cancel()
 
 
-@part_test("AC-34", "P2104-AUX-04", "P2104-BAD-16")
-async def p2104_ac_34_switching_values(lab: Lab) -> None:
+@directed("AC-34", "P2104-AUX-04", "P2104-BAD-16")
+async def p2104_ac_34_switching_values(dut: Any) -> None:
     """Given switching values around 40, when they are set, then error 11 below it."""
+    lab = await Lab.start(dut)
     got = await lab.run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1")
     lab.check("AC-34", "errors", got, [11, 11, 0])
 
 
-@part_test("AC-35", "P2104-EX-03", "P2104-STP-02", "P2104-FDC-02", "P2104-FDC-03", "P2104-END-03")
-async def p2104_ac_35_deceleration_stop(lab: Lab) -> None:
+@directed("AC-35", "P2104-EX-03", "P2104-STP-02", "P2104-FDC-02", "P2104-FDC-03", "P2104-END-03")
+async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
     """Given ramp B, when 41 comes in I(5), I(2), I(1), then 10, 4, 1 pulses and their remains."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for j, pulses, low in ((5, 10, 0xDD), (2, 4, 0xE3), (1, 1, 0xE6)):
         await asked_in(axis, j)
@@ -200,9 +216,10 @@ async def p2104_ac_35_deceleration_stop(lab: Lab) -> None:
         lab.check("AC-35", "83", await lab.run("c 83 rrr"), [low, 3, 0])
 
 
-@part_test("AC-36", "P2104-EX-05", "P2104-FDC-05", "P2104-PRO-04", "P2104-END-06")
-async def p2104_ac_36_around_the_peak(lab: Lab) -> None:
+@directed("AC-36", "P2104-EX-05", "P2104-FDC-05", "P2104-PRO-04", "P2104-END-06")
+async def p2104_ac_36_around_the_peak(dut: Any) -> None:
     """Given triangles of 10 and 11 pulses, when 41 comes around the peak, then as EX-05 has it."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for n, j, pulses, finish, left, error in (
         (11, 4, 8, 0xC3, 2, 0),
@@ -222,9 +239,10 @@ async def p2104_ac_36_around_the_peak(lab: Lab) -> None:
             lab.check("AC-36", "intervals", axis.intervals, clk(EX_03[5]))
 
 
-@part_test("AC-37", "P2104-EX-06", "P2104-FDC-02")
-async def p2104_ac_37_flat_start_of_the_ramp(lab: Lab) -> None:
+@directed("AC-37", "P2104-EX-06", "P2104-FDC-02")
+async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
     """Given a ramp that begins flat, when 41 comes on its flat piece, then the axis stops at once."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, (0x02, 14, 12, 16))
     for j, pulses, left in ((3, 3, [0xE4, 3, 0]), (5, 10, [0xDD, 3, 0])):
         await asked_in(axis, j)
@@ -235,9 +253,10 @@ async def p2104_ac_37_flat_start_of_the_ramp(lab: Lab) -> None:
     lab.check("AC-37", "N = 100, first to last", pulses[-1] - pulses[0], 42_208)
 
 
-@part_test("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
-async def p2104_ac_38_slow_down_limit(lab: Lab) -> None:
+@directed("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
+async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
     """Given the plateau, when FHL is low for 10 clk, twice, then 31 pulses; BHL does nothing."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):
         await axis.go(code, 1000 if code == 0x43 else None)
@@ -256,9 +275,10 @@ async def p2104_ac_38_slow_down_limit(lab: Lab) -> None:
     lab.check("AC-38", "P2104-EX-02 sum", sum(axis.intervals), 651_008)
 
 
-@part_test("AC-39", "P2104-FDC-04", "P2104-LIM-05", "P2104-OPR-05", "P2104-OPR-09")
-async def p2104_ac_39_started_on_the_slow_down_limit(lab: Lab) -> None:
+@directed("AC-39", "P2104-FDC-04", "P2104-LIM-05", "P2104-OPR-05", "P2104-OPR-09")
+async def p2104_ac_39_started_on_the_slow_down_limit(dut: Any) -> None:
     """Given FHL active, when 43, C3, 46 start, then one pulse each."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(fhl_n=0)
     for script, finish, left in (
@@ -272,18 +292,20 @@ async def p2104_ac_39_started_on_the_slow_down_limit(lab: Lab) -> None:
         lab.check("AC-39", "83", await lab.run("c 83 rrr"), left)
 
 
-@part_test("AC-40", "P2104-FDC-04", "P2104-FDC-05", "P2104-END-05")
-async def p2104_ac_40_complete_all_the_same(lab: Lab) -> None:
+@directed("AC-40", "P2104-FDC-04", "P2104-FDC-05", "P2104-END-05")
+async def p2104_ac_40_complete_all_the_same(dut: Any) -> None:
     """Given FHL active, when one pulse is asked for, then it is complete and has no cause bit."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(fhl_n=0)
     await axis.go(0x43, 1)
     await axis.result("AC-40", 1, 0x83, 0)
 
 
-@part_test("AC-41", "P2104-EX-09", "P2104-END-06", "P2104-STP-01")
-async def p2104_ac_41_immediate_stop(lab: Lab) -> None:
+@directed("AC-41", "P2104-EX-09", "P2104-END-06", "P2104-STP-01")
+async def p2104_ac_41_immediate_stop(dut: Any) -> None:
     """Given N = 1000, when 40 comes in I(7), then 7 pulses; what is left completes the move."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await asked_in(axis, 7, 0x40)
     await axis.result("AC-41", 7, 0xC3)
@@ -294,9 +316,10 @@ async def p2104_ac_41_immediate_stop(lab: Lab) -> None:
     await axis.result("AC-41", 993, 0x83, 0)
 
 
-@part_test("AC-42", "P2104-LIM-03", "P2104-END-02", "P2104-OPR-06")
-async def p2104_ac_42_limit(lab: Lab) -> None:
+@directed("AC-42", "P2104-LIM-03", "P2104-END-02", "P2104-OPR-06")
+async def p2104_ac_42_limit(dut: Any) -> None:
     """Given constant speed CW, when FL falls, then it ends there within 8 clk; BL does nothing."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x45, rate=0x31)
     await axis.pulse(2, 400)
@@ -309,9 +332,10 @@ async def p2104_ac_42_limit(lab: Lab) -> None:
     lab.check("AC-42", "83", await lab.run("c 83 rrr"), [0xFA, 0xFF, 0xFF])
 
 
-@part_test("AC-43", "P2104-END-04", "P2104-LIM-04")
-async def p2104_ac_43_several_causes(lab: Lab) -> None:
+@directed("AC-43", "P2104-END-04", "P2104-LIM-04")
+async def p2104_ac_43_several_causes(dut: Any) -> None:
     """Given a forced deceleration or a plateau, when limit and alarm come, then all bits show."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for slow, pins, finish in (
         (True, ("fl_n",), 0x9B),
@@ -328,9 +352,10 @@ async def p2104_ac_43_several_causes(lab: Lab) -> None:
         axis.set(**dict.fromkeys(pins, 1))
 
 
-@part_test("AC-44", "P2104-END-05", "P2104-LIM-09")
-async def p2104_ac_44_alarm_after_the_last_pulse(lab: Lab) -> None:
+@directed("AC-44", "P2104-END-05", "P2104-LIM-09")
+async def p2104_ac_44_alarm_after_the_last_pulse(dut: Any) -> None:
     """Given a step, when ALM falls while pout_n is low, then the step is complete."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x42)
     await axis.pulse(1, 20)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import IBF
 from cocotb_tests.harness.config import F8
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rates
 from cocotb_tests.harness.model_bench import rtl_only
 
@@ -17,7 +20,7 @@ from .figures import (
     axis_of,
     kind_of,
 )
-from .lab import Lab, part_test
+from .lab import Lab
 from .nanoseconds import PHASES, SlowBus
 
 B1 = "c 02 d 63 d 13 d 0A d 00"
@@ -26,9 +29,10 @@ AC_09 = [*AC_09, *[640] * 4, *AC_09[::-1]]
 EX_02 = {2: 3200, 3: 6400, 4: 8128, 10: 15_776, 11: 16_768, 20: 23_776, 21: 24_448, 22: 25_088}
 
 
-@part_test("AC-01", "P2104-PORT-01", "P2104-PORT-03", "P2104-STA-07", "P2104-GEN-01", "P2104-GEN-02")
-async def p2104_ac_01_reset_levels(lab: Lab) -> None:
+@directed("AC-01", "P2104-PORT-01", "P2104-PORT-03", "P2104-STA-07", "P2104-GEN-01", "P2104-GEN-02")
+async def p2104_ac_01_reset_levels(dut: Any) -> None:
     """Given a reset, when it ends, then all outputs, status and data register have their reset values."""
+    lab = await Lab.start(dut)
     expected = {"int_n": 1, "pout_n": 3, "dir": 0, "hold": 3, "s1_n": 0x1F, "s2_n": 0x1F, "auxo": 3}
     lab.check("AC-01", "outputs", lab.outputs(), expected)
     lab.check("AC-01", "d_oe", lab.bench.level("d_oe"), 0)
@@ -36,9 +40,10 @@ async def p2104_ac_01_reset_levels(lab: Lab) -> None:
     lab.check("AC-01", "data register", await lab.host.read(0), 0x00)
 
 
-@part_test("AC-02", "P2104-RD-01", "P2104-RD-04", "P2104-RD-05", "P2104-RD-06", "P2104-RD-07", "P2104-PHS-02")
-async def p2104_ac_02_reads_after_reset(lab: Lab) -> None:
+@directed("AC-02", "P2104-RD-01", "P2104-RD-04", "P2104-RD-05", "P2104-RD-06", "P2104-RD-07", "P2104-PHS-02")
+async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
     """Given a core after reset, when both axes are read, then the reset values come."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         reads = [await axis.fetch(code) for code in (0x80, 0x81, 0x82)]
         reads += [await axis.fetch(0x83, 3), await axis.fetch(0x86)]
@@ -46,9 +51,10 @@ async def p2104_ac_02_reads_after_reset(lab: Lab) -> None:
 
 
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
-@part_test("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
-async def p2104_ac_03_write_times_of_the_sheet(lab: Lab) -> None:
+@directed("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
+async def p2104_ac_03_write_times_of_the_sheet(dut: Any) -> None:
     """Given 120 ns strobes with 80 ns of data, when written at any phase in both styles, then they act."""
+    lab = await Lab.start(dut)
     bus = SlowBus(lab)
     for busc in (0, 1):
         await lab.style(busc)
@@ -62,9 +68,10 @@ async def p2104_ac_03_write_times_of_the_sheet(lab: Lab) -> None:
 
 
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
-@part_test("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
-async def p2104_ac_04_read_times_of_the_sheet(lab: Lab) -> None:
+@directed("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
+async def p2104_ac_04_read_times_of_the_sheet(dut: Any) -> None:
     """Given 120 ns read strobes, when status is read, then it is there from 100 ns to the end."""
+    lab = await Lab.start(dut)
     bus = SlowBus(lab)
     await lab.host.command(0x87)
     for busc in (0, 1):
@@ -76,9 +83,10 @@ async def p2104_ac_04_read_times_of_the_sheet(lab: Lab) -> None:
 
 
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
-@part_test("AC-05", "P2104-BUS-07", "P2104-STA-03")
-async def p2104_ac_05_no_invisible_write(lab: Lab) -> None:
+@directed("AC-05", "P2104-BUS-07", "P2104-STA-03")
+async def p2104_ac_05_no_invisible_write(dut: Any) -> None:
     """Given a data byte nobody wants, when status is read 75 ns later, then IBF or ERROR is 1."""
+    lab = await Lab.start(dut)
     bus = SlowBus(lab)
     for busc in (0, 1):
         await lab.style(busc)
@@ -90,9 +98,10 @@ async def p2104_ac_05_no_invisible_write(lab: Lab) -> None:
             lab.check("AC-05", f"status {status:#x} tells", bool(status & (IBF | ERROR)), True)
 
 
-@part_test("AC-06", "P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-04", "P2104-ERR-01", "P2104-BAD-01")
-async def p2104_ac_06_all_codes(lab: Lab) -> None:
+@directed("AC-06", "P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-04", "P2104-ERR-01", "P2104-BAD-01")
+async def p2104_ac_06_all_codes(dut: Any) -> None:
     """Given a reset before each of the 256 codes, in both styles, when it is sent, then its errors."""
+    lab = await Lab.start(dut)
     counts = {"undefined": 0, "initial": 0, "data": 0, "free": 0}
     for number in range(512):
         busc, code = divmod(number, 256)
@@ -117,9 +126,10 @@ async def p2104_ac_06_all_codes(lab: Lab) -> None:
     lab.check("AC-06", "codes", {group: count // 2 for group, count in counts.items()}, wanted_counts)
 
 
-@part_test("AC-07", "P2104-STA-05", "P2104-HSK-05")
-async def p2104_ac_07_cmnd(lab: Lab) -> None:
+@directed("AC-07", "P2104-STA-05", "P2104-HSK-05")
+async def p2104_ac_07_cmnd(dut: Any) -> None:
     """Given a setting, when its bytes go in and the table is built, then CMND of its axis is 1."""
+    lab = await Lab.start(dut)
     for code, cmnd in (("02", 0x10), ("22", 0x20)):
         got = await lab.statuses(f"c {code} d 63 d 13 d 0A d 00")
         lab.check("AC-07", f"statuses of {code}", got, [cmnd] * 5)
@@ -128,18 +138,20 @@ async def p2104_ac_07_cmnd(lab: Lab) -> None:
         lab.window("AC-07", "clk until the table is ready", lab.bench.now - begin, 1, BUILD_LATEST)
 
 
-@part_test("AC-08", "P2104-INI-04", "P2104-RD-05")
-async def p2104_ac_08_first_pattern(lab: Lab) -> None:
+@directed("AC-08", "P2104-INI-04", "P2104-RD-05")
+async def p2104_ac_08_first_pattern(dut: Any) -> None:
     """Given a setting for axis 1, when it is taken, then s1_n shows index 0, s2_n nothing."""
+    lab = await Lab.start(dut)
     await lab.run(B1)
     lab.check("AC-08", "s1_n, s2_n", [axis.phases_now for axis in lab.axes], [0b11100, 0b11111])
     await lab.x1.ready()
     lab.check("AC-08", "0x82", await lab.run("c 82 r"), [0x3C])
 
 
-@part_test("AC-09", "P2104-EX-01", "P2104-PRO-02", "P2104-GEN-05")
-async def p2104_ac_09_trapezoid(lab: Lab) -> None:
+@directed("AC-09", "P2104-EX-01", "P2104-PRO-02", "P2104-GEN-05")
+async def p2104_ac_09_trapezoid(dut: Any) -> None:
     """Given ramp B, when 25 pulses are asked for, then the trapezoid of EX-01 comes out."""
+    lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     await lab.run("c 43 d 18 d 00 d 00")
     await lab.x1.idle()
@@ -151,9 +163,10 @@ async def p2104_ac_09_trapezoid(lab: Lab) -> None:
     lab.check("AC-09", "edges of s2_n", lab.bench.edges("s2_n"), [])
 
 
-@part_test("AC-10", "P2104-EX-02", "P2104-PRO-03", "P2104-PRO-01")
-async def p2104_ac_10_triangles(lab: Lab) -> None:
+@directed("AC-10", "P2104-EX-02", "P2104-PRO-03", "P2104-PRO-01")
+async def p2104_ac_10_triangles(dut: Any) -> None:
     """Given ramp B, when D is 0 to 21, then pulse counts, intervals and sums of EX-02 come out."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for d in (0, 1, 2, 3, 9, 10, 19, 20, 21):
         pulses = await axis.move(0x43, d + 1)
@@ -163,9 +176,10 @@ async def p2104_ac_10_triangles(lab: Lab) -> None:
         lab.check("AC-10", f"sum for D = {d}", pulses[-1] - pulses[0], EX_02.get(d + 1, 0))
 
 
-@part_test("AC-11", "P2104-RMP-03", "P2104-EX-07")
-async def p2104_ac_11_half_rounds_up(lab: Lab) -> None:
+@directed("AC-11", "P2104-RMP-03", "P2104-EX-07")
+async def p2104_ac_11_half_rounds_up(dut: Any) -> None:
     """Given RL 3, RH 1, PA 25, when 60 pulses run, then the exact half at index 13 is rounded up."""
+    lab = await Lab.start(dut)
     await lab.run("c 02 d 03 d 01 d 19 d 00 c 43 d 3B d 00 d 00")
     await lab.x1.idle()
     expected = [*[128] * 3, *[96] * 11, *[64] * 31, *[96] * 11, *[128] * 3]
@@ -173,12 +187,13 @@ async def p2104_ac_11_half_rounds_up(lab: Lab) -> None:
     lab.check("AC-11", "sum", sum(lab.x1.intervals), 4864)
 
 
-@part_test("AC-12", "P2104-EX-15", "P2104-RMP-04", on=(F8,))
-async def p2104_ac_12_largest_ramp(lab: Lab) -> None:
+@directed("AC-12", "P2104-EX-15", "P2104-RMP-04", builds=(F8,))
+async def p2104_ac_12_largest_ramp(dut: Any) -> None:
     """Given RL 255, RH 18, PA 11220, when 30 000 pulses run, then they last 30 002 080 periods of 16 MHz.
 
     At 8 MHz a clk is two of them: the same figures in half the clk.
     """
+    lab = await Lab.start(dut)
     await lab.run("c 02 d FF d 12 d D4 d 2B c 43 d 2F d 75 d 00")
     await lab.bench.edge("int_n", 0, 16_000_000)
     pulses = lab.x1.pulses
@@ -187,9 +202,10 @@ async def p2104_ac_12_largest_ramp(lab: Lab) -> None:
     lab.check("AC-12", "first to last", 2 * (pulses[-1] - pulses[0]), 30_002_080)
 
 
-@part_test("AC-13", "P2104-TIM-01", "P2104-TIM-04", "P2104-TIM-05")
-async def p2104_ac_13_first_pulse_and_phases(lab: Lab) -> None:
+@directed("AC-13", "P2104-TIM-01", "P2104-TIM-04", "P2104-TIM-05")
+async def p2104_ac_13_first_pulse_and_phases(dut: Any) -> None:
     """Given AC-09, when it runs, then pulse 1 is 80 to 82 clk after hold, and s1_n moves with each pulse."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_B):
         pulses = await axis.move(0x43, 25)
         (fall, _), *_ = axis.edges("hold")
@@ -200,9 +216,10 @@ async def p2104_ac_13_first_pulse_and_phases(lab: Lab) -> None:
         lab.check("AC-13", "low times", axis.low_times, [80] * 25)
 
 
-@part_test("AC-14", "P2104-EX-13", "P2104-TIM-05")
-async def p2104_ac_14_low_times(lab: Lab) -> None:
+@directed("AC-14", "P2104-EX-13", "P2104-TIM-05")
+async def p2104_ac_14_low_times(dut: Any) -> None:
     """Given rates 1, 2, 3, when they run, then low times are half the interval where it is short."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for rate, interval, low in ((1, 64, 32), (2, 96, 48), (3, 128, 80)):
         await axis.move(0x44, 4, rate)
@@ -210,9 +227,10 @@ async def p2104_ac_14_low_times(lab: Lab) -> None:
         lab.check("AC-14", f"low times at rate {rate}", axis.low_times, [low] * 3 + [80])
 
 
-@part_test("AC-15", "P2104-EX-08", "P2104-BCK-01", "P2104-BCK-02", "P2104-INTV-01")
-async def p2104_ac_15_csel(lab: Lab) -> None:
+@directed("AC-15", "P2104-EX-08", "P2104-BCK-01", "P2104-BCK-02", "P2104-INTV-01")
+async def p2104_ac_15_csel(dut: Any) -> None:
     """Given rate 49, when csel is 1, 0, or falls in motion, then 1600, 6400, 1600 clk."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for csel, later, interval in ((1, 1, 1600), (0, 0, 6400), (1, 0, 1600)):
         axis.set(csel=csel)
@@ -224,9 +242,10 @@ async def p2104_ac_15_csel(lab: Lab) -> None:
         lab.check("AC-15", f"intervals at csel {csel}, {later}", axis.intervals, [interval] * 4)
 
 
-@part_test("AC-16", "P2104-END-01", "P2104-RD-03", "P2104-INT-05")
-async def p2104_ac_16_end_interrupt(lab: Lab) -> None:
+@directed("AC-16", "P2104-END-01", "P2104-RD-03", "P2104-INT-05")
+async def p2104_ac_16_end_interrupt(dut: Any) -> None:
     """Given a single step, when it ends, then int_n falls, 80 is answered 82 and releases it, then 02."""
+    lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     await lab.run("c 42")
     await lab.x1.idle()
@@ -237,9 +256,10 @@ async def p2104_ac_16_end_interrupt(lab: Lab) -> None:
     lab.check("AC-16", "second end status", await lab.run("c 80 r"), [0x02])
 
 
-@part_test("AC-17", "P2104-CMD-02")
-async def p2104_ac_17_no_interrupt(lab: Lab) -> None:
+@directed("AC-17", "P2104-CMD-02")
+async def p2104_ac_17_no_interrupt(dut: Any) -> None:
     """Given I = 1, when a step ends, then int_n stays H and the end status is new all the same."""
+    lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     await lab.run("c 52")
     await lab.x1.idle()
@@ -247,9 +267,10 @@ async def p2104_ac_17_no_interrupt(lab: Lab) -> None:
     lab.check("AC-17", "int_n edges", lab.bench.edges("int_n"), [])
 
 
-@part_test("AC-18", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
-async def p2104_ac_18_two_causes(lab: Lab) -> None:
+@directed("AC-18", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
+async def p2104_ac_18_two_causes(dut: Any) -> None:
     """Given ends of both axes, when they are read in turn, then int_n is H for 5 us between them."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await lab.run("c 42 c 62")
     await first.idle()
@@ -265,9 +286,10 @@ async def p2104_ac_18_two_causes(lab: Lab) -> None:
     lab.check("AC-18", "edges of int_n", [v for _, v in lab.bench.edges("int_n", since)], [1, 0, 1])
 
 
-@part_test("AC-19", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03", errint_n=0)
-async def p2104_ac_19_four_causes(lab: Lab) -> None:
+@directed("AC-19", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
+async def p2104_ac_19_four_causes(dut: Any) -> None:
     """Given ends and errors of both axes, when all four are read, then four releases follow."""
+    lab = await Lab.start(dut, errint_n=0)
     first, second = await lab.both(INIT_B)
     await lab.run("c 42 c 62")
     await first.idle()
@@ -284,9 +306,10 @@ async def p2104_ac_19_four_causes(lab: Lab) -> None:
     lab.check("AC-19", "answers", answers, [0x82, 0x01, 0x01, 0x82])
 
 
-@part_test("AC-20", "P2104-INT-04", errint_n=0)
-async def p2104_ac_20_only_its_own_read(lab: Lab) -> None:
+@directed("AC-20", "P2104-INT-04")
+async def p2104_ac_20_only_its_own_read(dut: Any) -> None:
     """Given an error of axis 1 only, when other registers are read, then int_n does not move."""
+    lab = await Lab.start(dut, errint_n=0)
     await lab.run("c 87")
     since = lab.bench.now
     await lab.run("c 80 r c A0 r c A6 r")
@@ -298,9 +321,10 @@ async def p2104_ac_20_only_its_own_read(lab: Lab) -> None:
     lab.check("AC-20", "levels of int_n", [v for _, v in lab.bench.edges("int_n", since)], [1])
 
 
-@part_test("AC-21", "P2104-INT-01", "P2104-INT-02", "P2104-LIM-08")
-async def p2104_ac_21_errint(lab: Lab) -> None:
+@directed("AC-21", "P2104-INT-01", "P2104-INT-02", "P2104-LIM-08")
+async def p2104_ac_21_errint(dut: Any) -> None:
     """Given errint_n H, then L, when an error comes, then only the second lowers int_n, for good."""
+    lab = await Lab.start(dut)
     await lab.run("c 87")
     lab.bench.set(errint_n=0)
     await lab.bench.clocks(20)

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb.triggers import Timer
 
 from cocotb_tests.harness.bus import IBF, OBF
 from cocotb_tests.harness.config import D16, F11, F16
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rates
 
 from .figures import CMND1, ERROR, INIT_A, kind_of
-from .lab import Lab, part_test
+from .lab import Lab
 
 SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
 
 
-@part_test("P2104-BAD-01", "P2104-BAD-02", "P2104-BAD-03", "P2104-BAD-05", "P2104-ERR-03")
-async def p2104_bad_03_bytes_at_random(lab: Lab) -> None:
+@directed("P2104-BAD-01", "P2104-BAD-02", "P2104-BAD-03", "P2104-BAD-05", "P2104-ERR-03")
+async def p2104_bad_03_bytes_at_random(dut: Any) -> None:
     """Given 600 random bytes without operations, when they go in, then registers as reckoned, pins still."""
+    lab = await Lab.start(dut)
     rng = lab.bench.rng
     await lab.both(INIT_A)
     errors, waiting, left = [0, 0], 0, 0
@@ -50,9 +54,10 @@ async def p2104_bad_03_bytes_at_random(lab: Lab) -> None:
     lab.quiet("P2104-ERR-03", since, "auxo")
 
 
-@part_test("P2104-BAD-16", "P2104-BAD-20", "P2104-BAD-21", "P2104-BAD-22", "P2104-FDC-01")
-async def p2104_bad_22_chattering_inputs(lab: Lab) -> None:
+@directed("P2104-BAD-16", "P2104-BAD-20", "P2104-BAD-21", "P2104-BAD-22", "P2104-FDC-01")
+async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
     """Given inputs that do not matter toggling, when a ramp runs, then no effect; limits act once."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         rng = lab.bench.rng
         await axis.go(0x43, 40)
@@ -84,9 +89,10 @@ async def p2104_bad_22_chattering_inputs(lab: Lab) -> None:
         await axis.result("P2104-BAD-22", 4, 0x95)
 
 
-@part_test("P2104-BAD-23", "P2104-PORT-03", "P2104-END-06", on=(F16, F11))
-async def p2104_bad_23_reset_anywhere(lab: Lab) -> None:
+@directed("P2104-BAD-23", "P2104-PORT-03", "P2104-END-06", builds=(F16, F11))
+async def p2104_bad_23_reset_anywhere(dut: Any) -> None:
     """Given motions, chopping, a data wait, an answer, when rst_n falls between edges, then as new."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     for round_number in range(8):
         first, second = await lab.both((0x16, *INIT_A[1:]))
@@ -114,12 +120,13 @@ async def p2104_bad_23_reset_anywhere(lab: Lab) -> None:
             await axis.refused("P2104-BAD-23", "42", 4, 0x42)
 
 
-@part_test("P2104-BAD-26", "P2104-BAD-14", "P2104-BAD-25", on=(F16, D16), compared=False)
-async def p2104_bad_26_recovery(lab: Lab) -> None:
+@directed("P2104-BAD-26", "P2104-BAD-14", "P2104-BAD-25", builds=(F16, D16), uncompared="WHY")
+async def p2104_bad_26_recovery(dut: Any) -> None:
     """Given noise on all pins, when it ends, then a code, 40, C0, a setting bring both axes back.
 
     Not compared: the noise switches the bus style inside strobes.
     """
+    lab = await Lab.start(dut)
     bench, rng = lab.bench, lab.bench.rng
     widths = {pin: bench.part.width(pin) for pin in bench.part.inputs}
     for _ in range(2 if lab.cfg.datasheet else 12):

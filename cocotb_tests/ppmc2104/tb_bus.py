@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb.triggers import Timer
 
 from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF, STATUS
 from cocotb_tests.harness.config import F8, F11, F16, F48, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A
-from .lab import PINS_LATEST, Lab, part_test
+from .lab import PINS_LATEST, Lab
 from .nanoseconds import SlowBus
 
 STYLES = (0, 1)
@@ -25,9 +27,10 @@ def strobes(busc: int, cs_n: int, ds_wrs_n: int, rw_rds_n: int) -> tuple[bool, b
     return chosen and first and second, chosen and not first and not second
 
 
-@part_test("P2104-BUS-01", "P2104-BUS-02", "P2104-BUS-03", "P2104-BUS-04")
-async def p2104_bus_01_all_combinations(lab: Lab) -> None:
+@directed("P2104-BUS-01", "P2104-BUS-02", "P2104-BUS-03", "P2104-BUS-04")
+async def p2104_bus_01_all_combinations(dut: Any) -> None:
     """Given both styles, when every combination of pins stands for 8 clk, then it is what its style says."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     for busc, a0, cs_n, ds, rw in product(STYLES, (0, 1), (0, 1), (0, 1), (0, 1)):
         await lab.reset()
@@ -50,9 +53,10 @@ async def p2104_bus_01_all_combinations(lab: Lab) -> None:
         lab.check("P2104-BUS-03", f"auxo after {what}", bench.level("auxo"), 0b10 if write and a0 else 0b11)
 
 
-@part_test("P2104-BUS-04")
-async def p2104_bus_04_style_changes(lab: Lab) -> None:
+@directed("P2104-BUS-04")
+async def p2104_bus_04_style_changes(dut: Any) -> None:
     """Given busc changing with the strobes off, when 3 clk have passed, then the new style is spoken."""
+    lab = await Lab.start(dut)
     for i in range(8):
         lab.bench.set(busc=(i + 1) & 1, rw_rds_n=1)
         await lab.bench.clocks(3)
@@ -65,9 +69,10 @@ async def p2104_bus_04_style_changes(lab: Lab) -> None:
         lab.check("P2104-BUS-04", "status", await lab.host.read(STATUS, strobe=3), 0x00)
 
 
-@part_test("P2104-BUS-05", "P2104-GEN-06", "P2104-HSK-03", "P2104-BAD-12", "P2104-BAD-13", on=(F16, F100))
-async def p2104_bus_05_last_sample_counts(lab: Lab) -> None:
+@directed("P2104-BUS-05", "P2104-GEN-06", "P2104-HSK-03", "P2104-BAD-12", "P2104-BAD-13", builds=(F16, F100))
+async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
     """Given d_i and a0 that change each clk, when WS ends in any way, then the last sample is the byte."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     latencies = set()
     for busc in STYLES:
@@ -94,9 +99,10 @@ async def p2104_bus_05_last_sample_counts(lab: Lab) -> None:
     lab.window("P2104-HSK-03", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
 
 
-@part_test("P2104-BUS-06", "P2104-BUS-22", "P2104-GEN-07", on=(F16, F100))
-async def p2104_bus_06_read_edges(lab: Lab) -> None:
+@directed("P2104-BUS-06", "P2104-BUS-22", "P2104-GEN-07", builds=(F16, F100))
+async def p2104_bus_06_read_edges(dut: Any) -> None:
     """Given reads of 1 to 60 clk, when the state changes meanwhile, then d_oe and d_o keep to their edges."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     bench = lab.bench
     for busc, length, early in product(STYLES, (1, 2, 3, 4, 9, 60), range(5)):
@@ -120,9 +126,10 @@ async def p2104_bus_06_read_edges(lab: Lab) -> None:
         await axis.idle()
 
 
-@part_test("P2104-BUS-07", "P2104-HSK-03", "P2104-HSK-01")
-async def p2104_bus_07_no_invisible_byte(lab: Lab) -> None:
+@directed("P2104-BUS-07", "P2104-HSK-03", "P2104-HSK-01")
+async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
     """Given a write, when status is read 1 to 14 clk later, then it shows IBF or the whole effect."""
+    lab = await Lab.start(dut)
     await lab.both(INIT_A)
     cases = ((0x87, 0x80), (0xA7, 0x80), (0x81, 0x01), (0x42, 0x04), (0x62, 0x08), (0x44, 0x10), (0x65, 0x20))
     for busc, (code, final) in product(STYLES, cases):
@@ -146,9 +153,10 @@ async def p2104_bus_07_no_invisible_byte(lab: Lab) -> None:
         lab.check("P2104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, reverse=True))
 
 
-@part_test("P2104-BUS-08", "P2104-HSK-06")
-async def p2104_bus_08_obf_of_a_read_byte(lab: Lab) -> None:
+@directed("P2104-BUS-08", "P2104-HSK-06")
+async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
     """Given an answer, when it is read, then no later status shows its OBF, from 1 clk on."""
+    lab = await Lab.start(dut)
     for busc, length, gap in product(STYLES, (1, 2, 3, 5), range(1, 6)):
         await lab.style(busc)
         await lab.host.command(0x81)
@@ -158,9 +166,10 @@ async def p2104_bus_08_obf_of_a_read_byte(lab: Lab) -> None:
         lab.check("P2104-BUS-08", f"OBF {gap} clk later", await lab.host.read(STATUS, strobe=3) & OBF, 0)
 
 
-@part_test("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
-async def p2104_bus_08_answer_during_a_read(lab: Lab) -> None:
+@directed("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
+async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
     """Given a read instruction taken around a data read, when both meet, then its answer is never lost."""
+    lab = await Lab.start(dut)
     seen = set()
     for busc, length, gap in product(STYLES, (1, 2, 4, 7), range(1, 14)):
         await lab.style(busc)
@@ -176,9 +185,10 @@ async def p2104_bus_08_answer_during_a_read(lab: Lab) -> None:
     lab.check("P2104-BUS-08", "both orders were met", seen >= {(0, 1), (0xCF, 0)}, True)
 
 
-@part_test("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", on=(F8, F11, F16, F48, F100))
-async def p2104_bus_20_shortest_cycles(lab: Lab) -> None:
+@directed("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", builds=(F8, F11, F16, F48, F100))
+async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
     """Given strobes, data and gaps of T + 10 ns, reads of T + 20 ns, when used, then none is lost."""
+    lab = await Lab.start(dut)
     bus = SlowBus(lab)
     period = lab.bench.period / 1000
     short = period + 10
@@ -199,9 +209,10 @@ async def p2104_bus_20_shortest_cycles(lab: Lab) -> None:
             await bus.wait(max(0, short - period - 21))
 
 
-@part_test("P2104-BUS-23", "P2104-BUS-03", "P2104-BUS-09", "P2104-BAD-09")
-async def p2104_bus_23_two_clk_cycles(lab: Lab) -> None:
+@directed("P2104-BUS-23", "P2104-BUS-03", "P2104-BUS-09", "P2104-BAD-09")
+async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
     """Given strobes and gaps of 2 clk, when a host works by them, then every byte goes in and out."""
+    lab = await Lab.start(dut)
     lab.host.read_strobe = 2
     for busc in STYLES:
         await lab.style(busc)
@@ -214,9 +225,10 @@ async def p2104_bus_23_two_clk_cycles(lab: Lab) -> None:
         lab.check("P2104-BUS-09", "status", await lab.host.status(), 0x00)
 
 
-@part_test("P2104-BUS-10", "P2104-BAD-14", on=(F16, F48))
-async def p2104_bus_10_too_short_strobes(lab: Lab) -> None:
+@directed("P2104-BUS-10", "P2104-BAD-14", builds=(F16, F48))
+async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
     """Given strobes shorter than a clk at any phase, when bytes are written, then each is whole or absent."""
+    lab = await Lab.start(dut)
     bench, bus = lab.bench, SlowBus(lab)
     clk = bench.period / 1000
     for busc, part, phase in product(STYLES, (1 / 8, 1 / 2, 7 / 8), range(0, 16, 2)):
@@ -244,9 +256,10 @@ async def p2104_bus_10_too_short_strobes(lab: Lab) -> None:
         await lab.host.read(DATA)
 
 
-@part_test("P2104-BAD-12", "P2104-BUS-05", "P2104-BUS-06", busc=1)
-async def p2104_bad_12_turn_inside_a_strobe(lab: Lab) -> None:
+@directed("P2104-BAD-12", "P2104-BUS-05", "P2104-BUS-06")
+async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
     """Given DS* low, when R/W* or a0 change, then a write before is stored, a read shows its first a0."""
+    lab = await Lab.start(dut, busc=1)
     bench = lab.bench
     await lab.host.command(0x81)
     for length in (1, 2, 5):
@@ -276,9 +289,10 @@ async def p2104_bad_12_turn_inside_a_strobe(lab: Lab) -> None:
         await lab.host.command(0x81)
 
 
-@part_test("P2104-BAD-15", "P2104-BUS-04", compared=False)
-async def p2104_bad_15_style_changes_in_a_strobe(lab: Lab) -> None:
+@directed("P2104-BAD-15", "P2104-BUS-04", uncompared="WHY")
+async def p2104_bad_15_style_changes_in_a_strobe(dut: Any) -> None:
     """Given busc changing in a strobe, when it is over, then whatever it was, later ones are normal."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     for busc, at, write in product(STYLES, range(0, 5), (True, False)):
         await lab.style(busc)

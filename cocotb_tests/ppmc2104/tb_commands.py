@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb_tests.harness.bus import IBF, OBF
+from cocotb_tests.harness.directed import directed
 
 from .figures import (
     CMND1,
@@ -16,7 +18,7 @@ from .figures import (
     axis_of,
     kind_of,
 )
-from .lab import Axis, Lab, part_test
+from .lab import Axis, Lab
 from .states import MOVING, RAMP, RESTING, enter, leave
 
 # One code of each row of the table.
@@ -96,28 +98,32 @@ async def table(lab: Lab, axis: Axis, states: tuple[str, ...]) -> None:
         await leave(axis)
 
 
-@part_test("P2104-FSM-01", "P2104-ERR-04", "P2104-FSM-02", "P2104-FSM-04", "P2104-HSK-04")
-async def p2104_fsm_01_at_rest(lab: Lab) -> None:
+@directed("P2104-FSM-01", "P2104-ERR-04", "P2104-FSM-02", "P2104-FSM-04", "P2104-HSK-04")
+async def p2104_fsm_01_at_rest(dut: Any) -> None:
     """Given INITIAL, INITP, NORMAL, when every instruction comes, then as the table says."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         await table(lab, axis, RESTING)
 
 
-@part_test("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-03", "P2104-CMD-04")
-async def p2104_fsm_01_moving_axis_1(lab: Lab) -> None:
+@directed("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-03", "P2104-CMD-04")
+async def p2104_fsm_01_moving_axis_1(dut: Any) -> None:
     """Given every state of a moving axis 1, when every instruction comes, then as the table says."""
+    lab = await Lab.start(dut)
     await table(lab, lab.x1, MOVING)
 
 
-@part_test("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-02")
-async def p2104_fsm_01_moving_axis_2(lab: Lab) -> None:
+@directed("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-02")
+async def p2104_fsm_01_moving_axis_2(dut: Any) -> None:
     """Given every state of a moving axis 2, when every instruction comes, then as the table says."""
+    lab = await Lab.start(dut)
     await table(lab, lab.x2, MOVING)
 
 
-@part_test("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
-async def p2104_fsm_02_the_other_axis(lab: Lab) -> None:
+@directed("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
+async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
     """Given one axis in any state, when the other one is addressed, then the other's state decides."""
+    lab = await Lab.start(dut)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
         for state in ("INITIAL", "RUNWAIT", "ACC", "DEC", "CONST"):
             await other.init(*INIT_A)
@@ -134,9 +140,10 @@ async def p2104_fsm_02_the_other_axis(lab: Lab) -> None:
             await leave(axis)
 
 
-@part_test("P2104-FSM-01", "P2104-ERR-01", "P2104-ERR-02", "P2104-FSM-05", "P2104-STP-07", "P2104-BAD-04")
-async def p2104_fsm_01_code_in_a_data_wait(lab: Lab) -> None:
+@directed("P2104-FSM-01", "P2104-ERR-01", "P2104-ERR-02", "P2104-FSM-05", "P2104-STP-07", "P2104-BAD-04")
+async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
     """Given data outstanding for either axis, when any code comes, then error 3, dropped; stops act."""
+    lab = await Lab.start(dut)
     for waiting, axis in product(lab.axes, lab.axes):
         states = ("INITIAL", "NORMAL", *MOVING) if waiting is not axis else ("INITIAL", "NORMAL")
         for state in states:
@@ -166,9 +173,10 @@ async def p2104_fsm_01_code_in_a_data_wait(lab: Lab) -> None:
                 await leave(waiting)
 
 
-@part_test("P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-01", "P2104-ERR-03", "P2104-BAD-01")
-async def p2104_cmd_01_all_codes_while_busy(lab: Lab) -> None:
+@directed("P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-01", "P2104-ERR-03", "P2104-BAD-01")
+async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
     """Given axis 1 waiting for its clock and axis 2 set up, when all codes come, then decode comes first."""
+    lab = await Lab.start(dut)
     first, second = lab.axes
     await first.init(*INIT_EXT)
     await second.init(*INIT_A)
@@ -206,9 +214,10 @@ async def p2104_cmd_01_all_codes_while_busy(lab: Lab) -> None:
     await first.halt()
 
 
-@part_test("P2104-CMD-02", "P2104-OPR-08", "P2104-CMD-03")
-async def p2104_cmd_02_operation_bits(lab: Lab) -> None:
+@directed("P2104-CMD-02", "P2104-OPR-08", "P2104-CMD-03")
+async def p2104_cmd_02_operation_bits(dut: Any) -> None:
     """Given I, D, P and the axis bit, when every operation runs, then each bit does its own."""
+    lab = await Lab.start(dut)
     axes = await lab.both(INIT_A)
     for axis, (code, n, rate) in product(
         axes,
@@ -238,9 +247,10 @@ async def p2104_cmd_02_operation_bits(lab: Lab) -> None:
             await axis.finish()
 
 
-@part_test("P2104-CMD-04", "P2104-ERR-05", "P2104-HSK-08", "P2104-BAD-03", "P2104-STA-05")
-async def p2104_cmd_04_data_bytes(lab: Lab) -> None:
+@directed("P2104-CMD-04", "P2104-ERR-05", "P2104-HSK-08", "P2104-BAD-03", "P2104-STA-05")
+async def p2104_cmd_04_data_bytes(dut: Any) -> None:
     """Given each instruction with data, when its bytes come slowly, then CMND till the last, no time-out."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for code, data in (
             (0x43, [2, 0, 0]),
@@ -268,9 +278,10 @@ async def p2104_cmd_04_data_bytes(lab: Lab) -> None:
             await axis.ready()
 
 
-@part_test("P2104-ERR-02", "P2104-HSK-08", "P2104-CMD-04")
-async def p2104_err_02_abandoned_instructions(lab: Lab) -> None:
+@directed("P2104-ERR-02", "P2104-HSK-08", "P2104-CMD-04")
+async def p2104_err_02_abandoned_instructions(dut: Any) -> None:
     """Given each instruction abandoned at each byte, when a code ends it, then nothing of it is in force."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     cases = ((0x02, [20, 10, 9, 0]), (0x43, [5, 0, 0]), (0x44, [9, 3, 0, 0]), (0x47, [9]), (0x84, [64, 64]))
     since = lab.bench.now
@@ -287,9 +298,10 @@ async def p2104_err_02_abandoned_instructions(lab: Lab) -> None:
     lab.check("P2104-ERR-02", "the ramp is the old one", pulses[-1] - pulses[0], 2_720)
 
 
-@part_test("P2104-ERR-05", "P2104-LIM-06", "P2104-OPR-07")
-async def p2104_err_05_order_of_checks(lab: Lab) -> None:
+@directed("P2104-ERR-05", "P2104-LIM-06", "P2104-OPR-07")
+async def p2104_err_05_order_of_checks(dut: Any) -> None:
     """Given several faults at a last byte, when it comes, then the first of the order is reported."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         axis.set(alm_n=0)
         await lab.bench.clocks(4)
@@ -303,9 +315,10 @@ async def p2104_err_05_order_of_checks(lab: Lab) -> None:
         lab.check("P2104-ERR-03", "end status", await axis.finish(), 0x00)
 
 
-@part_test("P2104-ERR-03", "P2104-BAD-05", "P2104-BAD-06", "P2104-BAD-07", "P2104-BAD-02", "P2104-FSM-01")
-async def p2104_err_03_faults_in_motion(lab: Lab) -> None:
+@directed("P2104-ERR-03", "P2104-BAD-05", "P2104-BAD-06", "P2104-BAD-07", "P2104-BAD-02", "P2104-FSM-01")
+async def p2104_err_03_faults_in_motion(dut: Any) -> None:
     """Given both axes moving, when faulty bytes come, then registers change and nothing else."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     await first.go(0x44, 60, 39)
     await second.go(0x4C, 60, 29)
@@ -334,9 +347,10 @@ async def p2104_err_03_faults_in_motion(lab: Lab) -> None:
     await first.result("P2104-BAD-05", 3, 0x84, 0)
 
 
-@part_test("P2104-ERR-01", "P2104-ERR-06", "P2104-RD-07", "P2104-STA-06")
-async def p2104_err_06_registers(lab: Lab) -> None:
+@directed("P2104-ERR-01", "P2104-ERR-06", "P2104-RD-07", "P2104-STA-06")
+async def p2104_err_06_registers(dut: Any) -> None:
     """Given errors on both axes, when newer ones come, then each register has its newest and clears alone."""
+    lab = await Lab.start(dut)
     got = await lab.run("c 87 c 40 s c A7 c 42 c 84 d 00 d 00 s e1 s e1 s e2 s")
     expected = [0x80, 0x80, 11, 0x80, 0, 0x80, 1, 0x00]
     lab.check("P2104-ERR-06", "statuses and registers", got, expected)

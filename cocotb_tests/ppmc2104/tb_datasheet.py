@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import IBF, OBF
 from cocotb_tests.harness.config import D11, D16
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import bytes_of, rates
 
 from .figures import ERROR, INIT_A, INIT_B, slowed
-from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab, part_test
+from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab
 from .sheet import ON, PIN, READ, TOLERANCE, after, last_byte, opens, rest
 
 BOTH = (D16, D11)
 
 
-@part_test("AC-73", "P2104-DS-01", "P2104-INI-07", "P2104-STA-05", "P2104-SW-02", on=BOTH)
-async def p2104_ac_73_setting(lab: Lab) -> None:
+@directed("AC-73", "P2104-DS-01", "P2104-INI-07", "P2104-STA-05", "P2104-SW-02", builds=BOTH)
+async def p2104_ac_73_setting(dut: Any) -> None:
     """Given a setting with S = 1, when taken, then phases at once, CMND for 71 ms, then chopping."""
+    lab = await Lab.start(dut)
     axis = lab.x1
     edge0 = await last_byte(axis, 0x12, *INIT_B[1:], 0)
     shown = await lab.bench.edge(axis.phases)
@@ -43,10 +47,21 @@ async def p2104_ac_73_setting(lab: Lab) -> None:
     )
 
 
-@part_test("AC-71", "P2104-DS-04", "P2104-DS-05", "P2104-DS-06", "P2104-DS-07", "P2104-DS-08", "P2104-DS-09",
-           "P2104-DS-14", "P2104-TIM-01", on=BOTH)  # fmt: skip
-async def p2104_ac_71_starts(lab: Lab) -> None:
+@directed(
+    "AC-71",
+    "P2104-DS-04",
+    "P2104-DS-05",
+    "P2104-DS-06",
+    "P2104-DS-07",
+    "P2104-DS-08",
+    "P2104-DS-09",
+    "P2104-DS-14",
+    "P2104-TIM-01",
+    builds=BOTH,
+)
+async def p2104_ac_71_starts(dut: Any) -> None:
     """Given each operation, when accepted, then BUSY at once and pulse 1 W after its window."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for code, data, micros in (
         (0x42, [], 103),
@@ -76,9 +91,10 @@ async def p2104_ac_71_starts(lab: Lab) -> None:
         await rest(lab)
 
 
-@part_test("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", on=(D16,))
-async def p2104_ds_14_run_in_the_window(lab: Lab) -> None:
+@directed("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", builds=(D16,))
+async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
     """Given run H and L in the window, when it ends, then only the level then counts."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     w = lab.cfg.w
     axis.set(run=0)
@@ -110,9 +126,10 @@ async def p2104_ds_14_run_in_the_window(lab: Lab) -> None:
     lab.check("P2104-DS-22", "error", await axis.error(), 7)
 
 
-@part_test("AC-72", "P2104-DS-02", "P2104-DS-12", "P2104-HSK-01", on=BOTH)
-async def p2104_ac_72_immediate_stop(lab: Lab) -> None:
+@directed("AC-72", "P2104-DS-02", "P2104-DS-12", "P2104-HSK-01", builds=BOTH)
+async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     """Given a motion, when 40 is taken, then pulses are cut, the end comes 400 us later, bytes wait."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x44, 1000, 0x63)
     await axis.pulse(10, 400)
@@ -143,9 +160,10 @@ async def p2104_ac_72_immediate_stop(lab: Lab) -> None:
     lab.check("P2104-STP-05", "end status", await axis.finish(), 0x82)
 
 
-@part_test("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", on=(D16,))
-async def p2104_ds_03_deceleration_stop(lab: Lab) -> None:
+@directed("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", builds=(D16,))
+async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
     """Given 41, when its 32 us are over, then the flag acts, at RL at once, and too late not at all."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     edge0 = 0
 
@@ -182,9 +200,10 @@ async def p2104_ds_03_deceleration_stop(lab: Lab) -> None:
     lab.check("P2104-DS-03", "IBF, ERROR", await lab.host.status() & (IBF | ERROR), ERROR)
 
 
-@part_test("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", on=BOTH)
-async def p2104_ac_74_reads(lab: Lab) -> None:
+@directed("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", builds=BOTH)
+async def p2104_ac_74_reads(dut: Any) -> None:
     """Given each read instruction, when taken, then OBF at the end of its window, with the values of then."""
+    lab = await Lab.start(dut)
     lab.bench.set(errint_n=0)
     await lab.run("c 87")
     for code, micros in ((0x81, 36), (0x82, 32), (0x83, 37), (0x80, 40), (0xC2, 40), (0xA1, 36), (0x86, 43)):
@@ -211,9 +230,10 @@ async def p2104_ac_74_reads(lab: Lab) -> None:
     await opens(lab, "P2104-DS-10", edge0, 40)
 
 
-@part_test("P2104-DS-11", "P2104-DS-12", "P2104-DS-13", "P2104-AUX-05", "P2104-AUX-04", on=(D16,))
-async def p2104_ds_11_auxiliary(lab: Lab) -> None:
+@directed("P2104-DS-11", "P2104-DS-12", "P2104-DS-13", "P2104-AUX-05", "P2104-AUX-04", builds=(D16,))
+async def p2104_ds_11_auxiliary(dut: Any) -> None:
     """Given C0, D1, 84, 85, when taken, then they act at the end of their windows."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, (0x12, *INIT_A[1:]))
     edge0 = await last_byte(axis, 0x84, 0x40, 0x40)
     await opens(lab, "P2104-DS-13", edge0, 36)
@@ -243,9 +263,10 @@ async def p2104_ds_11_auxiliary(lab: Lab) -> None:
         lab.check("P2104-DS-13", f"IBF after {byte:#x}", await lab.host.status() & IBF, 0)
 
 
-@part_test("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", on=BOTH)
-async def p2104_ds_15_as_fast(lab: Lab) -> None:
+@directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
+async def p2104_ds_15_as_fast(dut: Any) -> None:
     """Given complete moves, when they run and end, then pulses, ends, hold and release as in FAST."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(2, INIT_B)
     await axis.go(0x43, 30)
     await axis.idle()

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from itertools import repeat
+from typing import Any
 
 from cocotb_tests.harness.bus import IBF
 from cocotb_tests.harness.config import D11, D16, F16
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import NO_PULSES_DONE
 
 from .figures import INIT_B
-from .lab import Axis, Lab, part_test
+from .lab import Axis, Lab
 from .sheet import last_byte, opens, rest
 
 # Smallest accepted rates: other axis idle, other axis operating, by kind and csel (P2104-DS-30).
@@ -45,9 +47,10 @@ async def tried(lab: Lab, axis: Axis, code: int, error: int, rate: int | None = 
     lab.check("P2104-DS-30", f"error of {what}", await axis.error(), error)
 
 
-@part_test("AC-67", "P2104-DS-30", "P2104-DS-35", "P2104-ERR-05", on=(D16, D11))
-async def p2104_ac_67_rate_bytes(lab: Lab) -> None:
+@directed("AC-67", "P2104-DS-30", "P2104-DS-35", "P2104-ERR-05", builds=(D16, D11))
+async def p2104_ac_67_rate_bytes(dut: Any) -> None:
     """Given axis 2 not set up, when rates around the limits start, then error 12 below them."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for csel in (1, 0):
         axis.set(csel=csel)
@@ -65,9 +68,10 @@ async def p2104_ac_67_rate_bytes(lab: Lab) -> None:
         await tried(lab, axis, 0x44, error, rate, " on ALM")
 
 
-@part_test("AC-68", "AC-69", "P2104-DS-30", "P2104-DS-31", "P2104-DS-32", "P2104-DS-33", on=(D16,))
-async def p2104_ac_68_ramps_and_two_axes(lab: Lab) -> None:
+@directed("AC-68", "AC-69", "P2104-DS-30", "P2104-DS-31", "P2104-DS-32", "P2104-DS-33", builds=(D16,))
+async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
     """Given RH and rates around the limits, when axis 2 is idle or operating, then errors 12, 13 or none."""
+    lab = await Lab.start(dut)
     axis, other = lab.axes
     for rh, level, cases in (
         (0x0B, 1, ((0xC3, 12), (0xC6, 12))),
@@ -118,9 +122,10 @@ async def p2104_ac_68_ramps_and_two_axes(lab: Lab) -> None:
     axis.check_train("P2104-DS-32", [0x04] * (len(axis.pulses) - 1), 0)
 
 
-@part_test("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", on=(D16,))
-async def p2104_ac_70_switching_counts(lab: Lab) -> None:
+@directed("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", builds=(D16,))
+async def p2104_ac_70_switching_counts(dut: Any) -> None:
     """Given axis 2 at rest with S = 1, when axis 1 starts, then the limit of two axes counts."""
+    lab = await Lab.start(dut)
     axis, other = await lab.ready(1, INIT_B), lab.x2
     await other.init(0x12, *INIT_B[1:])
     await tried(lab, axis, 0x44, 13, 0x22, ", axis 2 switching")
@@ -137,9 +142,10 @@ async def p2104_ac_70_switching_counts(lab: Lab) -> None:
     clock.cancel()
 
 
-@part_test("AC-70", "P2104-DS-34", "P2104-INTV-01", on=(F16,))
-async def p2104_ac_70_no_limits_in_fast(lab: Lab) -> None:
+@directed("AC-70", "P2104-DS-34", "P2104-INTV-01", builds=(F16,))
+async def p2104_ac_70_no_limits_in_fast(dut: Any) -> None:
     """Given FAST and both axes, one of them switching, when rate 01 starts, then it runs."""
+    lab = await Lab.start(dut)
     axis, other = lab.axes
     await axis.init(*INIT_B)
     await other.init(0x12, *INIT_B[1:])
@@ -151,9 +157,10 @@ async def p2104_ac_70_no_limits_in_fast(lab: Lab) -> None:
     lab.check("P2104-DS-34", "errors", await lab.errors(), (0, 0))
 
 
-@part_test("AC-75", "P2104-DS-20", "P2104-DS-23", "P2104-LIM-01", on=(D16, D11))
-async def p2104_ac_75_polled_limits(lab: Lab) -> None:
+@directed("AC-75", "P2104-DS-20", "P2104-DS-23", "P2104-LIM-01", builds=(D16, D11))
+async def p2104_ac_75_polled_limits(dut: Any) -> None:
     """Given levels of 10 us at 7 offsets, when they are polled, then some are missed; 36 us never are."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     us = lab.cfg.us
     ended = []
@@ -195,9 +202,10 @@ async def p2104_ac_75_polled_limits(lab: Lab) -> None:
     lab.check("P2104-DS-20", "end status", await axis.finish(), 0x8B)
 
 
-@part_test("AC-76", "P2104-DS-21", "P2104-LIM-07", on=(D16,))
-async def p2104_ac_76_origin_at_pulses(lab: Lab) -> None:
+@directed("AC-76", "P2104-DS-21", "P2104-LIM-07", builds=(D16,))
+async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
     """Given an origin search, when ORG is low between two falls, then nothing; across one, the end."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x47, rate=0x31)
     await axis.pulse(5, 200)
@@ -218,9 +226,10 @@ async def p2104_ac_76_origin_at_pulses(lab: Lab) -> None:
     axis.set(org_n=1)
 
 
-@part_test("P2104-DS-01", "P2104-DS-14", "P2104-HSK-04", "P2104-STP-07", on=(D16,))
-async def p2104_ds_01_window_for_both_axes(lab: Lab) -> None:
+@directed("P2104-DS-01", "P2104-DS-14", "P2104-HSK-04", "P2104-STP-07", builds=(D16,))
+async def p2104_ds_01_window_for_both_axes(dut: Any) -> None:
     """Given axis 2 moving, when axis 1 is set, then bytes for axis 2 wait as well, a stop too."""
+    lab = await Lab.start(dut)
     axis, other = lab.axes
     await other.init(*INIT_B)
     await other.go(0x45, rate=0xFF)

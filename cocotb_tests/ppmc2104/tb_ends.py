@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.config import F11, F16, F48
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import NO_PULSES_DONE
 
 from .figures import INIT_A, INIT_B
-from .lab import Lab, part_test
+from .lab import Lab
 
 
-@part_test("P2104-END-01", "P2104-END-07", "P2104-END-08", "P2104-SW-02", "P2104-INT-05", on=(F16, F11, F48))
-async def p2104_end_01_normal_end(lab: Lab) -> None:
+@directed(
+    "P2104-END-01", "P2104-END-07", "P2104-END-08", "P2104-SW-02", "P2104-INT-05", builds=(F16, F11, F48)
+)
+async def p2104_end_01_normal_end(dut: Any) -> None:
     """Given complete moves of a chopping axis, when the last pulse rises, then all ends on one edge."""
+    lab = await Lab.start(dut)
     q = lab.cfg.quanta
     for axis in lab.axes:
         await axis.init(0x12, *INIT_A[1:])
@@ -37,9 +43,10 @@ async def p2104_end_01_normal_end(lab: Lab) -> None:
         await axis.command(0xC0)
 
 
-@part_test("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", on=(F16, F48))
-async def p2104_end_02_pulse_finishes(lab: Lab) -> None:
+@directed("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", builds=(F16, F48))
+async def p2104_end_02_pulse_finishes(dut: Any) -> None:
     """Given an immediate end anywhere in the low time, when it comes, then the pulse has its whole width."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     w = lab.cfg.w
     for after in (1, 2, w // 2, w - 5, w - 4, w - 3, w - 2, w - 1, w, w + 1, w + 5):
@@ -57,9 +64,10 @@ async def p2104_end_02_pulse_finishes(lab: Lab) -> None:
         lab.check("P2104-END-08", "phases", axis.phases_now, pattern)
 
 
-@part_test("P2104-END-07", "P2104-HLD-01", "P2104-HLD-02", "P2104-OPR-01")
-async def p2104_end_07_hold(lab: Lab) -> None:
+@directed("P2104-END-07", "P2104-HLD-01", "P2104-HLD-02", "P2104-OPR-01")
+async def p2104_end_07_hold(dut: Any) -> None:
     """Given a hold timer of 256 us, when all kinds of codes come, then only moves restart it."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         await axis.send(0x85, [1])
         await axis.move(0x42)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb_tests.harness.config import F11, F16, F48
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import differences, steps
 
 from .figures import INIT_A, STEP_CODES
-from .lab import Lab, part_test
+from .lab import Lab
 
 FULL, OFF = 0b11100, 0b11111
 
 
-@part_test("P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-TIM-04", "P2104-EX-11")
-async def p2104_phs_01_lists_in_motion(lab: Lab) -> None:
+@directed("P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-TIM-04", "P2104-EX-11")
+async def p2104_phs_01_lists_in_motion(dut: Any) -> None:
     """Given each motor type, when ramps run both ways, then one row of its list a pulse, on its edge."""
+    lab = await Lab.start(dut)
     for axis, (name, code) in product(lab.axes, STEP_CODES.items()):
         await axis.init(code, *INIT_A[1:])
         patterns = steps(name, positive=False)
@@ -33,9 +36,10 @@ async def p2104_phs_01_lists_in_motion(lab: Lab) -> None:
         await axis.command(0xC0)
 
 
-@part_test("P2104-PHS-02", "P2104-PHS-03", "P2104-PHS-04", "P2104-AUX-01")
-async def p2104_phs_02_off_until_set(lab: Lab) -> None:
+@directed("P2104-PHS-02", "P2104-PHS-03", "P2104-PHS-04", "P2104-AUX-01")
+async def p2104_phs_02_off_until_set(dut: Any) -> None:
     """Given no setting in force, when all else comes, then all phases H; POUT mode keeps the pattern."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         for _ in range(2):
             since = lab.bench.now
@@ -60,9 +64,10 @@ async def p2104_phs_02_off_until_set(lab: Lab) -> None:
             await lab.errors()
 
 
-@part_test("P2104-SW-01", "P2104-SW-04", "P2104-SW-05", "P2104-AUX-06", "P2104-GEN-04", on=(F16, F11, F48))
-async def p2104_sw_04_times(lab: Lab) -> None:
+@directed("P2104-SW-01", "P2104-SW-04", "P2104-SW-05", "P2104-AUX-06", "P2104-GEN-04", builds=(F16, F11, F48))
+async def p2104_sw_04_times(dut: Any) -> None:
     """Given default and set times, when both axes chop for long, then each phase ± 1 quantum, no drift."""
+    lab = await Lab.start(dut)
     q = lab.cfg.quanta
     for times in ((0x53, 0xA6), (0x40, 0x41), (0xFF, 0x40)):
         for axis in lab.axes:
@@ -84,9 +89,10 @@ async def p2104_sw_04_times(lab: Lab) -> None:
             await axis.command(0xC0)
 
 
-@part_test("P2104-SW-01", "P2104-SW-02", "P2104-SW-03", "P2104-OPR-08", "P2104-END-08", on=(F16, F11))
-async def p2104_sw_03_motions(lab: Lab) -> None:
+@directed("P2104-SW-01", "P2104-SW-02", "P2104-SW-03", "P2104-OPR-08", "P2104-END-08", builds=(F16, F11))
+async def p2104_sw_03_motions(dut: Any) -> None:
     """Given a chopping axis, when it starts in either phase and ends, then full pattern, then a whole ON."""
+    lab = await Lab.start(dut)
     q, w = lab.cfg.quanta, lab.cfg.w
     for axis, (code, n, rate) in product(
         lab.axes, ((0x52, None, None), (0x53, 3, None), (0xD3, 3, None), (0x54, 2, 30))
@@ -128,9 +134,10 @@ async def p2104_sw_03_motions(lab: Lab) -> None:
     lab.check("P2104-GEN-04", "quantum ticks", set(differences([q(i) for i in range(9)])) <= {2, 3, 4}, True)
 
 
-@part_test("P2104-SW-02", "P2104-INI-07", "P2104-SW-01")
-async def p2104_sw_02_at_completion(lab: Lab) -> None:
+@directed("P2104-SW-02", "P2104-INI-07", "P2104-SW-01")
+async def p2104_sw_02_at_completion(dut: Any) -> None:
     """Given a setting with S = 1, when its table is ready, then an ON phase begins, not earlier."""
+    lab = await Lab.start(dut)
     for axis, rl in product(lab.axes, (9, 200)):
         await axis.command(0xC0)
         await axis.host.init(0x12 | axis.axis_bit, rl, 4, 4)

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.config import F8, F16, F48
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.ext_moves import BRISK, ExtMoves, Move, sweep
 
-from .lab import Lab, part_test
+from .lab import Lab
 
 # EXTCK, otherwise the ramp of INIT_A.
 EXTERNAL = (0x0A, 9, 4, 4)
 
 
-@part_test("P2104-BCK-04", "P2104-TIM-05", "P2104-FDC-01", "P2104-BAD-19", on=(F16, F8), compared=False)
-async def p2104_bck_04_sweep(lab: Lab) -> None:
+@directed("P2104-BCK-04", "P2104-TIM-05", "P2104-FDC-01", "P2104-BAD-19", builds=(F16, F8), uncompared="WHY")
+async def p2104_bck_04_sweep(dut: Any) -> None:
     """Given edges 4 to 17 clk apart and RH 0 to 4,
     when axes turn round anywhere, then all is as the formula says.
     """
+    lab = await Lab.start(dut)
     rng = lab.bench.rng
     axes = await lab.both(EXTERNAL)
     tries = [await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n")) for axis in axes]
@@ -28,9 +32,10 @@ async def p2104_bck_04_sweep(lab: Lab) -> None:
             lab.bench.forget()
 
 
-@part_test("P2104-TIM-05", on=(F16, F8, F48))
-async def p2104_tim_05_brisk_threshold(lab: Lab) -> None:
+@directed("P2104-TIM-05", builds=(F16, F8, F48))
+async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
     """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
+    lab = await Lab.start(dut)
     brisk = lab.cfg.cyc(BRISK)
     for axis in await lab.both(EXTERNAL):
         moves = await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n"))

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from itertools import product, repeat
+from typing import Any
 
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rates, steps
 
 from .figures import INIT_A, INIT_B, STEP_CODES
-from .lab import Lab, part_test
+from .lab import Lab
 from .states import MOVING, enter, leave
 
 FULL, OFF = 0b11100, 0b11111
 
 
-@part_test("P2104-INI-01", "P2104-INI-04", "P2104-PHS-01", "P2104-PHS-03")
-async def p2104_ini_01_all_codes(lab: Lab) -> None:
+@directed("P2104-INI-01", "P2104-INI-04", "P2104-PHS-01", "P2104-PHS-03")
+async def p2104_ini_01_all_codes(dut: Any) -> None:
     """Given all 24 bit combinations, when set in INITIAL, then motor type, E, C, S are those of the code."""
+    lab = await Lab.start(dut)
     types = {1: "3", 2: "4", 3: "5"}
     for axis, chop, external, half, mm in product(lab.axes, (0, 1), (0, 1), (0, 1), (1, 2, 3)):
         if axis is lab.x2 and half == chop:
@@ -45,9 +48,10 @@ async def p2104_ini_01_all_codes(lab: Lab) -> None:
         await axis.command(0xC0)
 
 
-@part_test("P2104-INI-02", "P2104-INI-03", "P2104-BAD-16", "P2104-INI-05")
-async def p2104_ini_03_refused_settings(lab: Lab) -> None:
+@directed("P2104-INI-02", "P2104-INI-03", "P2104-BAD-16", "P2104-INI-05")
+async def p2104_ini_03_refused_settings(dut: Any) -> None:
     """Given values out of range, when set in INITIAL or NORMAL, then the error of their order, no change."""
+    lab = await Lab.start(dut)
     cases = (
         ((0x02, 9, 0, 4), 9),
         ((0x0A, 2, 0, 4), 0),
@@ -88,9 +92,10 @@ async def p2104_ini_03_refused_settings(lab: Lab) -> None:
         await axis.finish()
 
 
-@part_test("P2104-INI-05", "P2104-PHS-03", "P2104-INI-06", "P2104-SW-01", "P2104-HLD-02")
-async def p2104_ini_05_again_without_off(lab: Lab) -> None:
+@directed("P2104-INI-05", "P2104-PHS-03", "P2104-INI-06", "P2104-SW-01", "P2104-HLD-02")
+async def p2104_ini_05_again_without_off(dut: Any) -> None:
     """Given a chopping axis, when it is set again, then index, pattern and chopping go on undisturbed."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.init(0x16, *INIT_A[1:])
         await axis.move(0x4A)
@@ -115,9 +120,10 @@ async def p2104_ini_05_again_without_off(lab: Lab) -> None:
         await axis.command(0xC0)
 
 
-@part_test("P2104-INI-06", "P2104-AUX-01", "P2104-HLD-02", "P2104-INT-02", errint_n=0)
-async def p2104_ini_06_what_stays(lab: Lab) -> None:
+@directed("P2104-INI-06", "P2104-AUX-01", "P2104-HLD-02", "P2104-INT-02")
+async def p2104_ini_06_what_stays(dut: Any) -> None:
     """Given results, delays, an error and an interrupt, when C0 and a setting come, then all of them stay."""
+    lab = await Lab.start(dut, errint_n=0)
     axis, other = await lab.both(INIT_A)
     await lab.host.command(0xF1)
     await axis.send(0x85, [0x02])
@@ -146,9 +152,10 @@ async def p2104_ini_06_what_stays(lab: Lab) -> None:
     lab.check("P2104-INI-06", "axis 2", await other.finish(), 0x00)
 
 
-@part_test("P2104-AUX-01", "P2104-PHS-02", "P2104-SW-03")
-async def p2104_aux_01_excitation_off(lab: Lab) -> None:
+@directed("P2104-AUX-01", "P2104-PHS-02", "P2104-SW-03")
+async def p2104_aux_01_excitation_off(dut: Any) -> None:
     """Given either phase of chopping, when C0 comes, then all pins H for good, and the axis is INITIAL."""
+    lab = await Lab.start(dut)
     for axis, pattern in product(lab.axes, (FULL, OFF)):
         await axis.init(0x12, *INIT_A[1:])
         await lab.bench.edge(axis.phases, pattern)
@@ -164,9 +171,10 @@ async def p2104_aux_01_excitation_off(lab: Lab) -> None:
         lab.check("P2104-RD-05", "82", await axis.fetch(0x82), [0xFC])
 
 
-@part_test("P2104-STP-01", "P2104-END-02", "P2104-END-04", "P2104-STP-06", "P2104-STP-05")
-async def p2104_stp_01_every_state(lab: Lab) -> None:
+@directed("P2104-STP-01", "P2104-END-02", "P2104-END-04", "P2104-STP-06", "P2104-STP-05")
+async def p2104_stp_01_every_state(dut: Any) -> None:
     """Given every state of either axis, when 40 comes, then it ends there; its I bit decides about int_n."""
+    lab = await Lab.start(dut)
     done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2, "FIN": 1, "FIN ramp": 1}
     totals = {"DEC natural": 8, "FIN": 1, "FIN ramp": 1}
     for axis, state in product(lab.axes, MOVING):
@@ -195,9 +203,10 @@ async def p2104_stp_01_every_state(lab: Lab) -> None:
         await axis.finish()
 
 
-@part_test("P2104-STP-01", "P2104-STP-02", "P2104-CMD-03", "P2104-STP-03")
-async def p2104_stp_02_ignored_bits(lab: Lab) -> None:
+@directed("P2104-STP-01", "P2104-STP-02", "P2104-CMD-03", "P2104-STP-03")
+async def p2104_stp_02_ignored_bits(dut: Any) -> None:
     """Given bits 3 and 4 of the stop codes, when they are 1, then the stops are the same."""
+    lab = await Lab.start(dut)
     for axis, extra in product(await lab.both(INIT_A), (0x00, 0x08, 0x10, 0x18)):
         await axis.go(0x43, 1000)
         await axis.pulse(3, 30)
@@ -210,9 +219,10 @@ async def p2104_stp_02_ignored_bits(lab: Lab) -> None:
         await axis.result("P2104-STP-02", 13, 0xC3, 986)
 
 
-@part_test("P2104-STP-01", "P2104-LIM-09", "P2104-GEN-07", "P2104-TIM-04")
-async def p2104_stp_01_around_a_pulse(lab: Lab) -> None:
+@directed("P2104-STP-01", "P2104-LIM-09", "P2104-GEN-07", "P2104-TIM-04")
+async def p2104_stp_01_around_a_pulse(dut: Any) -> None:
     """Given a pulse event that is due, when 40 comes at each clk around it, then it is or is not output."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     seen = []
     for before in range(14, -4, -1):
@@ -231,9 +241,10 @@ async def p2104_stp_01_around_a_pulse(lab: Lab) -> None:
     lab.check("P2104-LIM-09", "both sides were met", set(seen), {3, 4})
 
 
-@part_test("P2104-AUX-02", "P2104-AUX-03", "P2104-FSM-01")
-async def p2104_aux_02_pins(lab: Lab) -> None:
+@directed("P2104-AUX-02", "P2104-AUX-03", "P2104-FSM-01")
+async def p2104_aux_02_pins(dut: Any) -> None:
     """Given AUXI levels and codes, when executed in any order, then inverted pins and read bits."""
+    lab = await Lab.start(dut)
     rng = lab.bench.rng
     for _ in range(40):
         code = rng.choice((0xC1, 0xD1, 0xE1, 0xF1))
@@ -247,9 +258,10 @@ async def p2104_aux_02_pins(lab: Lab) -> None:
         lab.check("P2104-AUX-03", "C2", await lab.host.fetch(0xC2), [level])
 
 
-@part_test("P2104-AUX-04", "P2104-AUX-06", "P2104-SW-04", "P2104-SW-05", "P2104-BAD-16")
-async def p2104_aux_04_switching_times(lab: Lab) -> None:
+@directed("P2104-AUX-04", "P2104-AUX-06", "P2104-SW-04", "P2104-SW-05", "P2104-BAD-16")
+async def p2104_aux_04_switching_times(dut: Any) -> None:
     """Given times set before and after the setting, when the axes chop, then each by its own."""
+    lab = await Lab.start(dut)
     await lab.x2.send(0x84, [0x40, 0xFF])
     for axis, on, off in ((lab.x1, 0x53, 0xA6), (lab.x2, 0x40, 0xFF)):
         await axis.init(0x12, *INIT_A[1:])
@@ -271,9 +283,10 @@ async def p2104_aux_04_switching_times(lab: Lab) -> None:
     lab.check("P2104-SW-05", "running phase, then new ones", spans[:4], [664, 576, 1_152, 576])
 
 
-@part_test("P2104-AUX-05", "P2104-AUX-06", "P2104-END-07", "P2104-HLD-01")
-async def p2104_aux_05_running_timer(lab: Lab) -> None:
+@directed("P2104-AUX-05", "P2104-AUX-06", "P2104-END-07", "P2104-HLD-01")
+async def p2104_aux_05_running_timer(dut: Any) -> None:
     """Given a running hold timer, when 85 changes the delay, then only the next one is changed."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await second.send(0x85, [0x07])
     for axis, old, new in ((first, 0x18, 0x03), (second, 0x07, 0x10)):

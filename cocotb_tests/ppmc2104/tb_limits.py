@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb_tests.harness.config import F16, F48, F100
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import NO_PULSES_DONE, forced, rates
 
 from .figures import INIT_A
-from .lab import Lab, part_test
+from .lab import Lab
 from .states import MOVING, enter, leave
 
 PINS = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
@@ -69,21 +71,24 @@ async def matrix_in_motion(lab: Lab, axis_number: int) -> None:
                 await axis.result(what, 12, 0xC0 | low, NO_PULSES_DONE - 13)
 
 
-@part_test("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07", on=(F16, F48))
-async def p2104_lim_02_matrix_axis_1(lab: Lab) -> None:
+@directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07", builds=(F16, F48))
+async def p2104_lim_02_matrix_axis_1(dut: Any) -> None:
     """Given every operation of axis 1, when each input falls on the plateau, then end, slow or nothing."""
+    lab = await Lab.start(dut)
     await matrix_in_motion(lab, 1)
 
 
-@part_test("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07")
-async def p2104_lim_02_matrix_axis_2(lab: Lab) -> None:
+@directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07")
+async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
     """Given every operation of axis 2, when each input falls on the plateau, then end, slow or nothing."""
+    lab = await Lab.start(dut)
     await matrix_in_motion(lab, 2)
 
 
-@part_test("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17", errint_n=0)
-async def p2104_lim_06_matrix_at_start(lab: Lab) -> None:
+@directed("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17")
+async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
     """Given each input low at the start, when every operation starts, then error 7, one pulse, or all."""
+    lab = await Lab.start(dut, errint_n=0)
     for axis in await lab.both(INIT_A):
         # A finished move first: its results must survive every refusal.
         await axis.go(0x44, 10, 9)
@@ -127,9 +132,10 @@ async def p2104_lim_06_matrix_at_start(lab: Lab) -> None:
         axis.set(**dict.fromkeys(PINS, 1))
 
 
-@part_test("P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-07", "P2104-LIM-05", "P2104-OPR-02")
-async def p2104_lim_03_matrix_in_run_wait(lab: Lab) -> None:
+@directed("P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-07", "P2104-LIM-05", "P2104-OPR-02")
+async def p2104_lim_03_matrix_in_run_wait(dut: Any) -> None:
     """Given RUN wait, when each input is low for 3 clk, then end with no pulse, remembered, or nothing."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for (base, n, rate), ccw, pin in product(OPERATIONS, (0, 8), PINS):
             code, low = base | ccw, base & 7
@@ -153,9 +159,10 @@ async def p2104_lim_03_matrix_in_run_wait(lab: Lab) -> None:
             await axis.result(what, pulses, 0x80 | bits | low, max(total - pulses - 1, 0))
 
 
-@part_test("P2104-LIM-03", "P2104-LIM-04", "P2104-END-02", "P2104-LIM-09", "P2104-END-04")
-async def p2104_lim_03_every_state(lab: Lab) -> None:
+@directed("P2104-LIM-03", "P2104-LIM-04", "P2104-END-02", "P2104-LIM-09", "P2104-END-04")
+async def p2104_lim_03_every_state(dut: Any) -> None:
     """Given every state of a moving axis, when limit or alarm falls, then it ends there within 8 clk."""
+    lab = await Lab.start(dut)
     done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2}
     for state, ccw, pin in product(MOVING, (0, 1), ("limit", "alm_n")):
         axis = lab.axes[ccw]
@@ -175,9 +182,10 @@ async def p2104_lim_03_every_state(lab: Lab) -> None:
         await leave(axis)
 
 
-@part_test("P2104-LIM-05", "P2104-FDC-01", "P2104-PRO-05", "P2104-FSM-03")
-async def p2104_lim_05_every_state(lab: Lab) -> None:
+@directed("P2104-LIM-05", "P2104-FDC-01", "P2104-PRO-05", "P2104-FSM-03")
+async def p2104_lim_05_every_state(dut: Any) -> None:
     """Given every state, when the slow-down limit is low for 3 clk, then it flags in four of them only."""
+    lab = await Lab.start(dut)
     for state, ccw in product(MOVING, (0, 1)):
         axis = lab.axes[1 - ccw]
         if state.startswith("FIN"):
@@ -194,9 +202,10 @@ async def p2104_lim_05_every_state(lab: Lab) -> None:
         await leave(axis)
 
 
-@part_test("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", on=(F16, F100))
-async def p2104_lim_01_two_clk_levels(lab: Lab) -> None:
+@directed("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", builds=(F16, F100))
+async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
     """Given levels of 2 clk at every phase of an interval, when they end, then they were seen, each once."""
+    lab = await Lab.start(dut)
     for axis, (pin, bits, code) in product(
         await lab.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
     ):
@@ -216,9 +225,10 @@ async def p2104_lim_01_two_clk_levels(lab: Lab) -> None:
         await axis.result("P2104-LIM-01", 0, bits, 2)
 
 
-@part_test("P2104-LIM-09", "P2104-END-04", "P2104-END-05", "P2104-LIM-01")
-async def p2104_lim_09_priority_at_a_pulse(lab: Lab) -> None:
+@directed("P2104-LIM-09", "P2104-END-04", "P2104-END-05", "P2104-LIM-01")
+async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
     """Given the last pulse event due, when each cause falls at each clk around it, then before or after."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     for pin, code in (("alm_n", 0x44), ("fl_n", 0x44), ("bl_n", 0x4C)):
         outcomes = []
@@ -250,9 +260,10 @@ async def p2104_lim_09_priority_at_a_pulse(lab: Lab) -> None:
     lab.check("P2104-LIM-09", "START or pulse 1", (counts[0], counts[-1], counts), (0, 1, sorted(counts)))
 
 
-@part_test("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
-async def p2104_lim_10_nothing_at_rest(lab: Lab) -> None:
+@directed("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
+async def p2104_lim_10_nothing_at_rest(dut: Any) -> None:
     """Given both axes at rest, when all inputs toggle, then no output moves and later moves know nothing."""
+    lab = await Lab.start(dut)
     axes = await lab.both(INIT_A)
     since = lab.bench.now
     names = (*PINS, "run", "csel", "extck")

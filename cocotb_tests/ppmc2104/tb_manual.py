@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import cocotb
-
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.config import F16, configs
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.sessions import Sessions
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 
 from .bench import PPMC2104
 
@@ -22,24 +20,23 @@ blocks, play = SESSIONS.blocks, SESSIONS.play
 BUSY = 0x0C
 
 
-async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Bench, HostBus]:
+async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Side, HostBus]:
     """A bench after reset, with example 1 played if `ready`."""
-    bench = await Bench.start(dut, PPMC2104, **pins)
+    bench = await start_bench(dut, PPMC2104, **pins)
     host = HostBus(bench)
     if ready:
         await play(bench, host, blocks(1)[0], "example 1")
     return bench, host
 
 
-def axis(bench: Bench, name: str, n: int, since: int) -> list[int]:
+def axis(bench: Side, name: str, n: int, since: int) -> list[int]:
     """Pulses of an axis; `name` of the example for the message."""
     pulses = bench.pulses(since, f"pout_n[{n}]")
     assert pulses, f"{name}: axis {n} made no pulse"
     return pulses
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_2(dut: Any) -> None:
     bench, host = await begin(dut)
     start = bench.now
@@ -55,11 +52,9 @@ async def manual_2104_examples_2(dut: Any) -> None:
     bench.check("example 2", "int_n", bench.level("int_n"), 0)
     await play(bench, host, b, "example 2b")
     bench.check("example 2", "int_n", bench.level("int_n"), 1)
-    check_against_model(bench)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_3(dut: Any) -> None:
     bench, host = await begin(dut, run=0b00)
     start = bench.now
@@ -74,11 +69,9 @@ async def manual_2104_examples_3(dut: Any) -> None:
     bench.check("example 3", "clk", (first[-1] - first[0], second[-1] - second[0]), (1_549_696, 1_551_360))
     bench.check("example 3", "pulses", (len(first), len(second)), (1000, 500))
     bench.check("example 3", "dir", bench.level("dir"), 0b10)
-    check_against_model(bench)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_4(dut: Any) -> None:
     bench, host = await begin(dut)
     start = bench.now
@@ -90,8 +83,7 @@ async def manual_2104_examples_4(dut: Any) -> None:
     bench.check("example 4", "pulses", len(axis(bench, "example 4", 1, start)), 1000)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_5(dut: Any) -> None:
     bench, host = await begin(dut)
     start = bench.now
@@ -109,8 +101,7 @@ async def manual_2104_examples_5(dut: Any) -> None:
     bench.check("example 5", "pulses", len(axis(bench, "example 5", 1, start)), 1)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_6(dut: Any) -> None:
     bench, host = await begin(dut, csel=0b01)
     a, b = blocks(6)
@@ -123,8 +114,7 @@ async def manual_2104_examples_6(dut: Any) -> None:
     await play(bench, host, b, "example 6b")
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_7(dut: Any) -> None:
     bench, host = await begin(dut)
     a, b = blocks(7)
@@ -138,8 +128,7 @@ async def manual_2104_examples_7(dut: Any) -> None:
     bench.check("example 7", "dir", bench.level("dir[1]"), 1)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_8(dut: Any) -> None:
     bench, host = await begin(dut, errint_n=0)
     a, b = blocks(8)
@@ -156,8 +145,7 @@ async def manual_2104_examples_8(dut: Any) -> None:
     bench.check("example 8", "int_n for good", bench.edges("int_n", start)[-1][1], 1)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_9(dut: Any) -> None:
     bench, host = await begin(dut, ready=False)
     await play(bench, host, blocks(9)[0], "example 9")
@@ -173,8 +161,7 @@ async def manual_2104_examples_9(dut: Any) -> None:
     bench.check_window("example 9", "HOLD delay", delay, 159_744, 159_744 + 16)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_10_11(dut: Any) -> None:
     bench, host = await begin(dut)
     await play(bench, host, blocks(10)[0], "example 10")
@@ -188,8 +175,7 @@ async def manual_2104_examples_10_11(dut: Any) -> None:
     bench.check("example 11", "s2_n", bench.edges("s2_n", start), [])
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_12(dut: Any) -> None:
     bench, host = await begin(dut, ready=False, auxi=0b10)
     block = blocks(12)[0]
@@ -199,8 +185,7 @@ async def manual_2104_examples_12(dut: Any) -> None:
     await play(bench, host, block[4:], "example 12")
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_13(dut: Any) -> None:
     bench, host = await begin(dut, ready=False)
     a, b = blocks(13)
@@ -210,11 +195,9 @@ async def manual_2104_examples_13(dut: Any) -> None:
     await play(bench, host, blocks(2)[0], "example 2")
     await bench.until(await bench.nth_fall(20, start, "pout_n[1]") + 400)
     await play(bench, host, b, "example 13b")
-    check_against_model(bench)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_14(dut: Any) -> None:
     bench, host = await begin(dut)
     start = bench.now
@@ -226,11 +209,9 @@ async def manual_2104_examples_14(dut: Any) -> None:
     await play(bench, host, b, "example 14b")
     await bench.clocks(200)
     bench.check("example 14", "pulses of axis 1", len(bench.pulses(start, "pout_n[1]")), 1)
-    check_against_model(bench)
 
 
-@cocotb.test()
-@configs(F16)
+@directed()
 async def manual_2104_examples_15(dut: Any) -> None:
     bench, host = await begin(dut)
     start = bench.now
@@ -248,4 +229,3 @@ async def manual_2104_examples_15(dut: Any) -> None:
     await play(bench, host, c, "example 15c")
     await bench.clocks(200)
     bench.check("example 15", "int_n for good", [v for _, v in bench.edges("int_n", start)], [0, 1, 0, 1])
-    check_against_model(bench)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from itertools import product, repeat
+from typing import Any
 
 from cocotb_tests.harness.config import F8, F11, F16, F16X8, F48, F100
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import NO_PULSES_DONE, indices, rates
 
 from .figures import ERROR, INIT_A, INIT_EXT
-from .lab import Lab, part_test
+from .lab import Lab
 
 CLOCKS = (F8, F11, F16, F16X8, F48, F100)
 
 
-@part_test("P2104-OPR-01", "P2104-TIM-01", "P2104-TIM-06", "P2104-SW-03", "P2104-STA-04", on=CLOCKS)
-async def p2104_tim_01_starts(lab: Lab) -> None:
+@directed("P2104-OPR-01", "P2104-TIM-01", "P2104-TIM-06", "P2104-SW-03", "P2104-STA-04", builds=CLOCKS)
+async def p2104_tim_01_starts(dut: Any) -> None:
     """Given each operation, when accepted with run H, then pulse 1 is W to W + 2 clk after hold and dir."""
+    lab = await Lab.start(dut)
     w = lab.cfg.w
     for axis in await lab.both(INIT_A):
         await axis.send(0x85, [0])
@@ -53,9 +56,10 @@ async def p2104_tim_01_starts(lab: Lab) -> None:
             await axis.finish()
 
 
-@part_test("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", on=(F16, F11, F100))
-async def p2104_tim_02_run(lab: Lab) -> None:
+@directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
+async def p2104_tim_02_run(dut: Any) -> None:
     """Given RUN wait, when run rises, also for 2 clk only, then pulse 1 is W to W + 6 clk after it."""
+    lab = await Lab.start(dut)
     w = lab.cfg.w
     for axis, (code, n, rate) in product(
         await lab.both(INIT_A), ((0x42, None, None), (0x43, 3, None), (0x44, 3, 20))
@@ -94,9 +98,10 @@ async def p2104_tim_02_run(lab: Lab) -> None:
             lab.check("P2104-OPR-02", f"started, run falls {lead}", started, lead == 11)
 
 
-@part_test("P2104-TIM-02", "P2104-OPR-10", on=(F11, F48))
-async def p2104_tim_02_one_edge_for_both(lab: Lab) -> None:
+@directed("P2104-TIM-02", "P2104-OPR-10", builds=(F11, F48))
+async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
     """Given both axes in RUN wait, when both runs rise at any phase of the quantum, then one edge."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     for shift in range(5):
         lab.bench.set(run=0)
@@ -111,9 +116,10 @@ async def p2104_tim_02_one_edge_for_both(lab: Lab) -> None:
         second.check_train("P2104-BCK-05", [3] * 4)
 
 
-@part_test("P2104-BCK-01", "P2104-BCK-03", "P2104-INTV-01", "P2104-TIM-05", "P2104-GEN-04", on=CLOCKS)
-async def p2104_bck_01_intervals(lab: Lab) -> None:
+@directed("P2104-BCK-01", "P2104-BCK-03", "P2104-INTV-01", "P2104-TIM-05", "P2104-GEN-04", builds=CLOCKS)
+async def p2104_bck_01_intervals(dut: Any) -> None:
     """Given each core clock, crystal and csel, when moves run, then every pulse is where the sums put it."""
+    lab = await Lab.start(dut)
     for axis, csel in product(await lab.both((0x02, 30, 3, 9)), (1, 0)):
         axis.set(csel=csel)
         await lab.bench.clocks(4)
@@ -130,9 +136,10 @@ async def p2104_bck_01_intervals(lab: Lab) -> None:
         lab.check("P2104-TIM-05", "low times", set(axis.low_times), {lab.cfg.w})
 
 
-@part_test("P2104-BCK-02", "P2104-BAD-20", "P2104-BCK-05", "P2104-LIM-08")
-async def p2104_bck_02_csel_latched(lab: Lab) -> None:
+@directed("P2104-BCK-02", "P2104-BAD-20", "P2104-BCK-05", "P2104-LIM-08")
+async def p2104_bck_02_csel_latched(dut: Any) -> None:
     """Given csel toggling in motion, when both axes move, then only their own level at the start counts."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     for one, two in product((0, 1), (0, 1)):
         first.set(csel=one)
@@ -149,11 +156,12 @@ async def p2104_bck_02_csel_latched(lab: Lab) -> None:
         second.check_train("P2104-BCK-02", rates(INIT_A[1:], indices(9, 4)), two)
 
 
-@part_test(
-    "P2104-BCK-04", "P2104-BCK-05", "P2104-TIM-03", "P2104-TIM-05", "P2104-GEN-07", on=(F16, F11, F100)
+@directed(
+    "P2104-BCK-04", "P2104-BCK-05", "P2104-TIM-03", "P2104-TIM-05", "P2104-GEN-07", builds=(F16, F11, F100)
 )
-async def p2104_bck_04_external_by_hand(lab: Lab) -> None:
+async def p2104_bck_04_external_by_hand(dut: Any) -> None:
     """Given both axes on clocks of their own, when they move, then each pulse belongs to its own edge."""
+    lab = await Lab.start(dut)
     first, second = await lab.both((0x0A, 5, 2, 4))
     for axis, other in ((first, second), (second, first)):
         for n, rate, period in ((4, 3, 24), (4, 1, 30), (6, None, 18)):
@@ -176,9 +184,10 @@ async def p2104_bck_04_external_by_hand(lab: Lab) -> None:
             await axis.result("P2104-BCK-04", n, 0x84 if rate is not None else 0x83, 0)
 
 
-@part_test("P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19")
-async def p2104_tim_05_external_low_times(lab: Lab) -> None:
+@directed("P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19")
+async def p2104_tim_05_external_low_times(dut: Any) -> None:
     """Given fast external clocks, when rates are small, then low times are cut where the rule says."""
+    lab = await Lab.start(dut)
     axis = lab.x2
     await axis.init(*INIT_EXT)
     for period, high, rate, low in (
@@ -207,12 +216,13 @@ async def p2104_tim_05_external_low_times(lab: Lab) -> None:
         await lab.bench.clocks(period)
 
 
-@part_test("P2104-BAD-19", "P2104-BCK-04", "P2104-END-06", compared=False)
-async def p2104_bad_19_clock_too_fast(lab: Lab) -> None:
+@directed("P2104-BAD-19", "P2104-BCK-04", "P2104-END-06", uncompared="WHY")
+async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
     """Given 4 clk a period, and faster than the core, when an axis runs, then counts and reads are right.
 
     Not compared: how many edges are missed is left open.
     """
+    lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(*INIT_EXT)
     for period, high in ((4, 2), (3, 1), (2, 1)):
@@ -230,9 +240,10 @@ async def p2104_bad_19_clock_too_fast(lab: Lab) -> None:
         await axis.finish()
 
 
-@part_test("P2104-BAD-18", "P2104-TIM-03", "P2104-OPR-04", "P2104-OPR-10")
-async def p2104_bad_18_clock_stopped(lab: Lab) -> None:
+@directed("P2104-BAD-18", "P2104-TIM-03", "P2104-OPR-04", "P2104-OPR-10")
+async def p2104_bad_18_clock_stopped(dut: Any) -> None:
     """Given no external clock, when an axis starts, then it waits; stop and switches end it."""
+    lab = await Lab.start(dut)
     first, second = lab.axes
     await first.init(*INIT_EXT)
     await second.init(*INIT_A)
@@ -273,9 +284,10 @@ async def p2104_bad_18_clock_stopped(lab: Lab) -> None:
     await first.result("P2104-OPR-04", 1, 0x82, 0)
 
 
-@part_test("P2104-OPR-03", "P2104-OPR-05", "P2104-OPR-06", "P2104-RD-06", "P2104-END-06", "P2104-EX-10")
-async def p2104_opr_03_pulse_counts(lab: Lab) -> None:
+@directed("P2104-OPR-03", "P2104-OPR-05", "P2104-OPR-06", "P2104-RD-06", "P2104-END-06", "P2104-EX-10")
+async def p2104_opr_03_pulse_counts(dut: Any) -> None:
     """Given each operation, when it is stopped after three pulses, then N shows in the remaining pulses."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for code, data, total in (
             (0x43, [0, 0, 0], 1),
@@ -299,9 +311,10 @@ async def p2104_opr_03_pulse_counts(lab: Lab) -> None:
             await axis.result(f"P2104-OPR-03 {code:#x}", 3, 0xC0 | code & 7, total - 4)
 
 
-@part_test("P2104-OPR-07", "P2104-ERR-05", "P2104-INTV-01")
-async def p2104_opr_07_rate_bytes(lab: Lab) -> None:
+@directed("P2104-OPR-07", "P2104-ERR-05", "P2104-INTV-01")
+async def p2104_opr_07_rate_bytes(dut: Any) -> None:
     """Given rates 00 and FF, when set with either clock, then 00 only with the external one."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(2, INIT_A)
     for code, data in ((0x44, [0, 2, 0, 0]), (0x45, [0]), (0x47, [0])):
         since = lab.bench.now
@@ -320,9 +333,10 @@ async def p2104_opr_07_rate_bytes(lab: Lab) -> None:
     lab.check("P2104-OPR-07", "ERROR", await lab.host.status() & ERROR, 0)
 
 
-@part_test("P2104-OPR-10", "P2104-BCK-05", "P2104-INT-01", on=(F16, F11))
-async def p2104_opr_10_independent_axes(lab: Lab) -> None:
+@directed("P2104-OPR-10", "P2104-BCK-05", "P2104-INT-01", builds=(F16, F11))
+async def p2104_opr_10_independent_axes(dut: Any) -> None:
     """Given one axis on a long ramp, when the other does all it can, then the ramp is not disturbed."""
+    lab = await Lab.start(dut)
     for axis, other in (lab.axes, lab.axes[::-1]):
         await axis.init(0x02, 40, 3, 20)
         await other.init(0x1E, *INIT_A[1:])

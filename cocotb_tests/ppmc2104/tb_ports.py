@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cocotb
 from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness.bus import COMMAND, DATA, STATUS
 from cocotb_tests.harness.config import D16, F16, F16X8, F48, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A
-from .lab import Lab, part_test
+from .lab import Lab
 
 AXIS_SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
 
 
-@part_test("P2104-PORT-02", "P2104-GEN-08", on=(F16, F48))
-async def p2104_port_02_registers_only(lab: Lab) -> None:
+@directed("P2104-PORT-02", "P2104-GEN-08", builds=(F16, F48))
+async def p2104_port_02_registers_only(dut: Any) -> None:
     """Given glitches between clk edges, when all outputs are watched, then only rising edges move them."""
+    lab = await Lab.start(dut)
     first, _ = await lab.both(INIT_A)
     bench = lab.bench
     rising = (int(get_sim_time("ps")) + bench.half) % bench.period
@@ -53,9 +57,10 @@ async def p2104_port_02_registers_only(lab: Lab) -> None:
     lab.check("P2104-PORT-02", "output changes off the rising edge", wrong, [])
 
 
-@part_test("P2104-PORT-02", "P2104-LIM-01", on=(F16, F100))
-async def p2104_port_02_all_inputs_alike_late(lab: Lab) -> None:
+@directed("P2104-PORT-02", "P2104-LIM-01", builds=(F16, F100))
+async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
     """Given limit, alarm and run pins, when they act, then all after the same two stages, on both axes."""
+    lab = await Lab.start(dut)
     times: dict[str, set[int]] = {}
     for axis in await lab.both(INIT_A):
         for pin, code in (("fl_n", 0x45), ("bl_n", 0x4D), ("alm_n", 0x45), ("org_n", 0x47)):
@@ -78,9 +83,10 @@ async def p2104_port_02_all_inputs_alike_late(lab: Lab) -> None:
     lab.window("P2104-TIM-02", "run to pulse 1, less W", times["run"].pop(), 0, 6)
 
 
-@part_test("P2104-PORT-03", "P2104-PORT-01", "P2104-PHS-02", "P2104-PAR-01", on=(F16, F16X8, F48, D16))
-async def p2104_port_03_reset(lab: Lab) -> None:
+@directed("P2104-PORT-03", "P2104-PORT-01", "P2104-PHS-02", "P2104-PAR-01", builds=(F16, F16X8, F48, D16))
+async def p2104_port_03_reset(dut: Any) -> None:
     """Given bus traffic in reset, when it is released, then nothing was stored and edge 4 takes a byte."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     if not lab.cfg.datasheet:
         for axis in await lab.both(INIT_A):
@@ -109,9 +115,10 @@ async def p2104_port_03_reset(lab: Lab) -> None:
     lab.check("P2104-PORT-03", "status after reset", await lab.host.status(), 0x00)
 
 
-@part_test("P2104-PORT-04", "P2104-BAD-20", "P2104-LIM-08")
-async def p2104_port_04_tied_inputs(lab: Lab) -> None:
+@directed("P2104-PORT-04", "P2104-BAD-20", "P2104-LIM-08")
+async def p2104_port_04_tied_inputs(dut: Any) -> None:
     """Given extck and auxi tied to 0 or 1, when both axes move by the crystal, then nothing disturbs them."""
+    lab = await Lab.start(dut)
     axes = await lab.both(INIT_A)
     for level in (0, 3):
         lab.bench.set(extck=level, auxi=level)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb_tests.harness.config import F11, F16, F48
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rate, rates
 
 from .figures import INIT_A, INIT_B, slowed
-from .lab import Axis, Lab, part_test
+from .lab import Axis, Lab
 
 RAMPS = (
     (9, 4, 4),
@@ -31,9 +33,10 @@ def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
     }
 
 
-@part_test("P2104-RMP-01", "P2104-RMP-02", "P2104-RMP-03", "P2104-RMP-05", "P2104-EX-01", "P2104-EX-06")
-async def p2104_rmp_01_every_index(lab: Lab) -> None:
+@directed("P2104-RMP-01", "P2104-RMP-02", "P2104-RMP-03", "P2104-RMP-05", "P2104-EX-01", "P2104-EX-06")
+async def p2104_rmp_01_every_index(dut: Any) -> None:
     """Given ramps of many shapes, when a move climbs them, then each rate is the exact one, by both forms."""
+    lab = await Lab.start(dut)
     for number, ramp in enumerate(RAMPS):
         axis = lab.axes[number & 1]
         rl, rh, pa = ramp
@@ -62,9 +65,10 @@ async def p2104_rmp_01_every_index(lab: Lab) -> None:
         await axis.finish()
 
 
-@part_test("P2104-RMP-01", "P2104-RMP-02", "P2104-EX-15", "P2104-RMP-04")
-async def p2104_rmp_02_long_ramp_up(lab: Lab) -> None:
+@directed("P2104-RMP-01", "P2104-RMP-02", "P2104-EX-15", "P2104-RMP-04")
+async def p2104_rmp_02_long_ramp_up(dut: Any) -> None:
     """Given the largest ramp, when 120 pulses climb it, then each rate is the exact one."""
+    lab = await Lab.start(dut)
     axis = lab.x2
     ramp = (255, 18, 11_220)
     await axis.init(0x02, *ramp)
@@ -77,9 +81,12 @@ async def p2104_rmp_02_long_ramp_up(lab: Lab) -> None:
     axis.check_train("P2104-RMP-01", rates(ramp, range(120)))
 
 
-@part_test("P2104-PRO-01", "P2104-PRO-02", "P2104-PRO-03", "P2104-PRO-06", "P2104-OPR-05", on=(F16, F11, F48))
-async def p2104_pro_01_every_length(lab: Lab) -> None:
+@directed(
+    "P2104-PRO-01", "P2104-PRO-02", "P2104-PRO-03", "P2104-PRO-06", "P2104-OPR-05", builds=(F16, F11, F48)
+)
+async def p2104_pro_01_every_length(dut: Any) -> None:
     """Given PA = 4, when N is 1 to 14, then triangles odd and even, and trapezoids from 2 PA + 2 on."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for n in range(1, 15):
             await axis.move(0x43 if n & 1 else 0xC3, n)
@@ -99,7 +106,7 @@ async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> N
         await axis.blip(how, 3)
 
 
-@part_test(
+@directed(
     "P2104-FDC-01",
     "P2104-FDC-02",
     "P2104-FDC-03",
@@ -108,8 +115,9 @@ async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> N
     "P2104-PRO-05",
     "P2104-OPR-09",
 )
-async def p2104_fdc_02_every_interval(lab: Lab) -> None:
+async def p2104_fdc_02_every_interval(dut: Any) -> None:
     """Given N = 14 and 9, when deceleration is asked for in each interval, then as ruled."""
+    lab = await Lab.start(dut)
     for axis, (code, pin, n) in product(
         await lab.both(INIT_A),
         ((0x43, "stop", 14), (0xCB, "bhl_n", 14), (0xC3, "fhl_n", 9), (0x4B, "stop", 9)),
@@ -128,9 +136,10 @@ async def p2104_fdc_02_every_interval(lab: Lab) -> None:
             axis.check_train("P2104-FDC-03", wanted)
 
 
-@part_test("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
-async def p2104_fdc_02_flat_start(lab: Lab) -> None:
+@directed("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
+async def p2104_fdc_02_flat_start(dut: Any) -> None:
     """Given a ramp with four flat indices, when asked in each interval, then at once while the rate is RL."""
+    lab = await Lab.start(dut)
     ramp = (14, 12, 16)
     for axis, how in ((lab.x1, "stop"), (lab.x2, "fhl_n")):
         await axis.init(0x02, *ramp)
@@ -148,9 +157,10 @@ async def p2104_fdc_02_flat_start(lab: Lab) -> None:
         await axis.result("P2104-FDC-03", 12, 0x83 | bit, 47)
 
 
-@part_test("P2104-FDC-01", "P2104-FDC-04", "P2104-LIM-05", "P2104-FSM-03", "P2104-STP-02", "P2104-BAD-22")
-async def p2104_fdc_04_before_pulse_1(lab: Lab) -> None:
+@directed("P2104-FDC-01", "P2104-FDC-04", "P2104-LIM-05", "P2104-FSM-03", "P2104-STP-02", "P2104-BAD-22")
+async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
     """Given START or RUN wait, when deceleration is asked for, then exactly one pulse comes."""
+    lab = await Lab.start(dut)
     for axis, code in product(await lab.both(INIT_A), (0x43, 0x4B, 0xC3, 0x46, 0xCE)):
         pin = "bhl_n" if code & 8 else "fhl_n"
         n = 1000 if code & 7 == 3 else None
@@ -176,9 +186,10 @@ async def p2104_fdc_04_before_pulse_1(lab: Lab) -> None:
             await axis.result("P2104-FDC-04", 1, 0x88 | code & 7, left)
 
 
-@part_test("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", on=(F16, F11))
-async def p2104_fdc_06_around_a_pulse(lab: Lab) -> None:
+@directed("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", builds=(F16, F11))
+async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
     """Given a pulse event that is due, when FHL falls at each clk around it, then 4 clk before it counts."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     counts = []
     due = lab.cfg.quanta(8 * 42)
@@ -201,9 +212,10 @@ async def p2104_fdc_06_around_a_pulse(lab: Lab) -> None:
     lab.window("P2104-FDC-06", "interval of rate 41 in clk", due, 900, 1_400)
 
 
-@part_test("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
-async def p2104_lim_09_two_requests_on_one_edge(lab: Lab) -> None:
+@directed("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
+async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
     """Given 41 and FHL some clk apart, when both ask, then the first sets its bit, on one edge both."""
+    lab = await Lab.start(dut)
     axis = await lab.ready(2, INIT_B)
     kinds = []
     for shift in range(-4, 14):
@@ -228,9 +240,10 @@ async def p2104_lim_09_two_requests_on_one_edge(lab: Lab) -> None:
     )
 
 
-@part_test("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", on=(F16, F11))
-async def p2104_intv_01_both_at_full_speed(lab: Lab) -> None:
+@directed("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", builds=(F16, F11))
+async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
     """Given both axes at 250 kpps by the internal clock, then at 500 kpps by EXTCK, then all is exact."""
+    lab = await Lab.start(dut)
     fast = (0x02, 40, 1, 25)
     first, second = await lab.both(fast)
     lab.bench.set(run=0)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb_tests.harness.bus import IBF
 from cocotb_tests.harness.config import F11, F16, F48, F100
+from cocotb_tests.harness.directed import directed
 
 from .figures import INIT_A, INIT_B, STEP_CODES
-from .lab import Lab, part_test
+from .lab import Lab
 
 CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3, 3), (0xC6, 6))
 
 
-@part_test("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
-async def p2104_rd_01_end_status(lab: Lab) -> None:
+@directed("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
+async def p2104_rd_01_end_status(dut: Any) -> None:
     """Given each operation ended by each cause, when 80 is read twice, then its bits, then bit 7 gone."""
+    lab = await Lab.start(dut)
     for axis, (code, low) in product(await lab.both(INIT_A), CODES):
         for cause, bits in (("", 0x00), ("40", 0x40), ("fl_n", 0x10), ("alm_n", 0x20), ("fhl_n", 0x08)):
             if (
@@ -39,9 +42,10 @@ async def p2104_rd_01_end_status(lab: Lab) -> None:
             lab.check("P2104-RD-01", f"{code:#x}, {cause}", got, [0x80 | bits | low, bits | low, bits | low])
 
 
-@part_test("P2104-RD-04", "P2104-RD-08", "P2104-LIM-10")
-async def p2104_rd_04_all_levels(lab: Lab) -> None:
+@directed("P2104-RD-04", "P2104-RD-08", "P2104-LIM-10")
+async def p2104_rd_04_all_levels(dut: Any) -> None:
     """Given all levels of the twelve switches, when both axes are read, then each shows its own."""
+    lab = await Lab.start(dut)
     order = ("org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
     places = (7, 6, 3, 2, 1, 0)
     for value in range(64):
@@ -54,9 +58,10 @@ async def p2104_rd_04_all_levels(lab: Lab) -> None:
             lab.check("P2104-RD-04", f"{value:06b}, axis {axis.n}", await axis.fetch(0x81), [wanted])
 
 
-@part_test("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
-async def p2104_rd_05_output_signal(lab: Lab) -> None:
+@directed("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
+async def p2104_rd_05_output_signal(dut: Any) -> None:
     """Given patterns, directions, hold levels, when 82 reads, then the levels, S1 in bit 7."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         for code in STEP_CODES.values():
             await axis.init(code, *INIT_A[1:])
@@ -77,9 +82,10 @@ async def p2104_rd_05_output_signal(lab: Lab) -> None:
     lab.check("P2104-RD-05", "axis 1 at the end", await lab.x1.fetch(0x82), [0xFC])
 
 
-@part_test("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
-async def p2104_rd_06_remaining_pulses(lab: Lab) -> None:
+@directed("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
+async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
     """Given stopped moves, when 83 is read while the other axis moves, then max(m - 1, 0), to be resumed."""
+    lab = await Lab.start(dut)
     axis, other = await lab.both(INIT_A)
     await other.running(200)
     for n, stop_at, left in (
@@ -104,9 +110,10 @@ async def p2104_rd_06_remaining_pulses(lab: Lab) -> None:
     await lab.errors()
 
 
-@part_test("P2104-RD-07", "P2104-INT-02", "P2104-INT-04", "P2104-ERR-06", errint_n=0)
-async def p2104_rd_07_error_code_read(lab: Lab) -> None:
+@directed("P2104-RD-07", "P2104-INT-02", "P2104-INT-04", "P2104-ERR-06")
+async def p2104_rd_07_error_code_read(dut: Any) -> None:
     """Given errors in every state, when 86 and A6 are read, then own register and interrupt are cleared."""
+    lab = await Lab.start(dut, errint_n=0)
     first, second = await lab.both(INIT_A)
     await first.go(0x45, rate=255)
     await lab.run("c 42 c A7")
@@ -120,9 +127,10 @@ async def p2104_rd_07_error_code_read(lab: Lab) -> None:
     await first.halt()
 
 
-@part_test("P2104-INT-03", "P2104-INT-05", "P2104-INT-01", on=(F16, F11, F48, F100))
-async def p2104_int_03_release_window(lab: Lab) -> None:
+@directed("P2104-INT-03", "P2104-INT-05", "P2104-INT-01", builds=(F16, F11, F48, F100))
+async def p2104_int_03_release_window(dut: Any) -> None:
     """Given causes around a release, when they come in it, then int_n is H for W, and L again at its end."""
+    lab = await Lab.start(dut)
     w = lab.cfg.w
     axis = await lab.ready(1, INIT_A)
     for delay in (3, w // 4, w // 2, *range(w - 9, w + 2), w + 9):
@@ -153,9 +161,10 @@ async def p2104_int_03_release_window(lab: Lab) -> None:
         await lab.bench.clocks(2 * w)
 
 
-@part_test("P2104-INT-03", errint_n=0)
-async def p2104_int_03_windows_restart(lab: Lab) -> None:
+@directed("P2104-INT-03")
+async def p2104_int_03_windows_restart(dut: Any) -> None:
     """Given four causes, when two are read within 5 us, then the second release restarts the window."""
+    lab = await Lab.start(dut, errint_n=0)
     await lab.both(INIT_A)
     await lab.run("c 87 c A7")
     for gap in (4, 12, 30, 50):
@@ -174,9 +183,10 @@ async def p2104_int_03_windows_restart(lab: Lab) -> None:
         await lab.run("c 87 c A7")
 
 
-@part_test("P2104-INT-01", "P2104-INT-02", "P2104-BAD-24", "P2104-AUX-01", "P2104-BAD-20")
-async def p2104_int_02_what_does_not_clear(lab: Lab) -> None:
+@directed("P2104-INT-01", "P2104-INT-02", "P2104-BAD-24", "P2104-AUX-01", "P2104-BAD-20")
+async def p2104_int_02_what_does_not_clear(dut: Any) -> None:
     """Given a pending END1, when all but 80 happens, then int_n stays L and operations go on."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await first.move(0x42)
     since = lab.bench.now
@@ -196,9 +206,10 @@ async def p2104_int_02_what_does_not_clear(lab: Lab) -> None:
     lab.check("P2104-INT-02", "levels", [v for _, v in lab.bench.edges("int_n", since)], [1])
 
 
-@part_test("P2104-INT-01", "P2104-LIM-08", "P2104-BAD-20")
-async def p2104_int_01_errint_when_it_happens(lab: Lab) -> None:
+@directed("P2104-INT-01", "P2104-LIM-08", "P2104-BAD-20")
+async def p2104_int_01_errint_when_it_happens(dut: Any) -> None:
     """Given errint_n falling and rising around an error, when it is charged, then the level then counts."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         outcomes = []
         for lead in range(-4, 12):
@@ -216,9 +227,10 @@ async def p2104_int_01_errint_when_it_happens(lab: Lab) -> None:
         lab.check("P2104-INT-01", "both were met", set(outcomes), {True, False})
 
 
-@part_test("P2104-INT-01", "P2104-CMD-02", "P2104-STP-06", "P2104-LIM-03")
-async def p2104_int_01_every_end(lab: Lab) -> None:
+@directed("P2104-INT-01", "P2104-CMD-02", "P2104-STP-06", "P2104-LIM-03")
+async def p2104_int_01_every_end(dut: Any) -> None:
     """Given I = 0 or 1, when operations end in every way, then int_n falls for I = 0 only."""
+    lab = await Lab.start(dut)
     for axis, masked in product(await lab.both(INIT_A), (0, 0x10)):
         for how in ("itself", "40", "41", "alm_n", "fl_n", "fhl_n", "run wait"):
             axis.set(run=0 if how == "run wait" else 1)

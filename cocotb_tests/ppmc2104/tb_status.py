@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF
 from cocotb_tests.harness.config import F11, F16
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rates
 
 from .figures import BUILD_LATEST, ERROR, INIT_A, INIT_B
-from .lab import Lab, part_test
+from .lab import Lab
 from .states import MOVING, RESTING, enter, leave
 
 # The largest table: all rates, all steps.
 LARGEST = (0x02, 255, 1, 0x2BD4)
 
 
-@part_test("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
-async def p2104_sta_01_every_bit(lab: Lab) -> None:
+@directed("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
+async def p2104_sta_01_every_bit(dut: Any) -> None:
     """Given each state of each axis, when status is read, then BUSY and CMND of that axis alone show it."""
+    lab = await Lab.start(dut)
     for axis, state in product(lab.axes, (*RESTING, *MOVING)):
         await enter(axis, state)
         wanted = axis.busy if state in MOVING else axis.cmnd if state == "INITP" else 0
@@ -31,9 +34,10 @@ async def p2104_sta_01_every_bit(lab: Lab) -> None:
     lab.check("P2104-STA-07", "bit 6 of all statuses", [s for s in statuses if s & 0x40], [])
 
 
-@part_test("P2104-STA-01", "P2104-STA-06", "P2104-STA-02")
-async def p2104_sta_01_all_at_once(lab: Lab) -> None:
+@directed("P2104-STA-01", "P2104-STA-06", "P2104-STA-02")
+async def p2104_sta_01_all_at_once(dut: Any) -> None:
     """Given both axes busy, a data wait, an error and an answer, when status is read, then all bits show."""
+    lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         await axis.go(0x45, rate=255)
     lab.check("P2104-STA-01", "both busy", await lab.host.status(), 0x0C)
@@ -48,9 +52,10 @@ async def p2104_sta_01_all_at_once(lab: Lab) -> None:
     lab.check("P2104-STA-06", "ERROR after error 3", await lab.host.status() & ERROR, ERROR)
 
 
-@part_test("P2104-STA-05")
-async def p2104_sta_05_cmnd(lab: Lab) -> None:
+@directed("P2104-STA-05")
+async def p2104_sta_05_cmnd(dut: Any) -> None:
     """Given data waits, tables and everything else, when status is read, then CMND is 1 for those only."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         for code, data in ((0x84, [0x40, 0x50]), (0x85, [0]), (0x02, [9, 4, 4, 0])):
             await axis.command(code)
@@ -73,9 +78,10 @@ async def p2104_sta_05_cmnd(lab: Lab) -> None:
         await axis.error()
 
 
-@part_test("P2104-STA-07", "P2104-STA-02", "P2104-STA-03")
-async def p2104_sta_07_reading_changes_nothing(lab: Lab) -> None:
+@directed("P2104-STA-07", "P2104-STA-02", "P2104-STA-03")
+async def p2104_sta_07_reading_changes_nothing(dut: Any) -> None:
     """Given an answer, an error and an interrupt, when status is read 100 times, then all stay."""
+    lab = await Lab.start(dut)
     lab.bench.set(errint_n=0)
     await lab.run("c 81 c 87")
     since = lab.bench.now
@@ -85,9 +91,10 @@ async def p2104_sta_07_reading_changes_nothing(lab: Lab) -> None:
     lab.check("P2104-STA-02", "the answer", await lab.run("r s"), [0xCF, 0x80])
 
 
-@part_test("P2104-HSK-02", "P2104-BAD-08", "P2104-HSK-01")
-async def p2104_hsk_02_writes_one_after_the_other(lab: Lab) -> None:
+@directed("P2104-HSK-02", "P2104-BAD-08", "P2104-HSK-01")
+async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
     """Given two codes so many clk apart, when both are written, then the newer always acts, no half byte."""
+    lab = await Lab.start(dut)
     outcomes = []
     for gap in range(1, 12):
         await lab.host.write(COMMAND, 0x87, strobe=1, gap=gap)
@@ -104,9 +111,10 @@ async def p2104_hsk_02_writes_one_after_the_other(lab: Lab) -> None:
     lab.check("P2104-HSK-01", "older code with time enough", outcomes[7:], [1] * 4)
 
 
-@part_test("P2104-HSK-02", "P2104-HSK-04", "P2104-STP-07")
-async def p2104_hsk_02_over_a_waiting_code(lab: Lab) -> None:
+@directed("P2104-HSK-02", "P2104-HSK-04", "P2104-STP-07")
+async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
     """Given a step waiting for its table, when another byte is written over it, then that is taken."""
+    lab = await Lab.start(dut)
     first, second = lab.axes
     await second.init(*INIT_A)
     for code, register in ((0x60, 1), (0x40, 1), (0x87, 1), (0x55, 0), (0xC1, 1)):
@@ -130,9 +138,10 @@ async def p2104_hsk_02_over_a_waiting_code(lab: Lab) -> None:
             await second.halt()
 
 
-@part_test("P2104-HSK-03", "P2104-OPR-01", "P2104-GEN-06", on=(F16, F11))
-async def p2104_hsk_03_one_edge(lab: Lab) -> None:
+@directed("P2104-HSK-03", "P2104-OPR-01", "P2104-GEN-06", builds=(F16, F11))
+async def p2104_hsk_03_one_edge(dut: Any) -> None:
     """Given a chopping axis, when a CCW move starts, then hold, dir and phases change on one edge."""
+    lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.init(0x12, *INIT_A[1:])
         for code in (0x4A, 0x42, 0x4B, 0xC3):
@@ -155,9 +164,10 @@ async def p2104_hsk_03_one_edge(lab: Lab) -> None:
             await axis.finish()
 
 
-@part_test("P2104-HSK-04", "P2104-HSK-03")
-async def p2104_hsk_04_what_waits(lab: Lab) -> None:
+@directed("P2104-HSK-04", "P2104-HSK-03")
+async def p2104_hsk_04_what_waits(dut: Any) -> None:
     """Given the table of one axis being built, when any code comes, then only three kinds for it wait."""
+    lab = await Lab.start(dut)
     waits = (0x02, 0x42, 0x43, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC6, 0xC0)
     taken = (0x40, 0x41, 0x80, 0x81, 0x82, 0x83, 0x84, 0x85, 0x86, 0x87, 0xC1, 0xC2)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
@@ -187,9 +197,10 @@ async def p2104_hsk_04_what_waits(lab: Lab) -> None:
                 await other.init(*INIT_A)
 
 
-@part_test("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
-async def p2104_hsk_04_data_wait_beside_a_table(lab: Lab) -> None:
+@directed("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
+async def p2104_hsk_04_data_wait_beside_a_table(dut: Any) -> None:
     """Given a table being built and a data wait, when a code comes that would wait for it, then error 3."""
+    lab = await Lab.start(dut)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
         for code in (0x42, 0x45, 0x02, 0xC0):
             await axis.host.init(0x02 | axis.axis_bit, 200, 1, 4)
@@ -202,9 +213,10 @@ async def p2104_hsk_04_data_wait_beside_a_table(lab: Lab) -> None:
             await axis.ready()
 
 
-@part_test("P2104-HSK-05", "P2104-RMP-04")
-async def p2104_hsk_05_longest_tables(lab: Lab) -> None:
+@directed("P2104-HSK-05", "P2104-RMP-04")
+async def p2104_hsk_05_longest_tables(dut: Any) -> None:
     """Given the largest tables for both axes at once, when built, then within 40 000 and 80 000 clk."""
+    lab = await Lab.start(dut)
     first, second = lab.axes
     starts, ends = [], []
     for axis in (first, second):
@@ -221,9 +233,10 @@ async def p2104_hsk_05_longest_tables(lab: Lab) -> None:
         axis.check_train("P2104-RMP-04", rates(LARGEST[1:], indices(6, LARGEST[3])))
 
 
-@part_test("P2104-HSK-05", "P2104-OPR-10", "P2104-INI-06")
-async def p2104_hsk_05_beside_a_motion(lab: Lab) -> None:
+@directed("P2104-HSK-05", "P2104-OPR-10", "P2104-INI-06")
+async def p2104_hsk_05_beside_a_motion(dut: Any) -> None:
     """Given an axis on its ramp, when the table of the other is built, then its train is undisturbed."""
+    lab = await Lab.start(dut)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
         await axis.init(0x02, 60, 1, 40)
         await axis.go(0x43, 300)
@@ -235,9 +248,10 @@ async def p2104_hsk_05_beside_a_motion(lab: Lab) -> None:
         other.check_train("P2104-HSK-05", rates((30, 1, 12), indices(30, 12)))
 
 
-@part_test("P2104-HSK-06", "P2104-HSK-07", "P2104-BAD-25", "P2104-BAD-10", "P2104-RD-06")
-async def p2104_hsk_07_answers_stay(lab: Lab) -> None:
+@directed("P2104-HSK-06", "P2104-HSK-07", "P2104-BAD-25", "P2104-BAD-10", "P2104-RD-06")
+async def p2104_hsk_07_answers_stay(dut: Any) -> None:
     """Given an unread answer, when all but reads are executed, then it stays; a read replaces it."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     for axis, other in ((first, second), (second, first)):
         await axis.go(0x43, 0x30201)
@@ -275,9 +289,10 @@ async def p2104_hsk_07_answers_stay(lab: Lab) -> None:
         await other.finish()
 
 
-@part_test("P2104-HSK-08", "P2104-BAD-03")
-async def p2104_hsk_08_no_time_out(lab: Lab) -> None:
+@directed("P2104-HSK-08", "P2104-BAD-03")
+async def p2104_hsk_08_no_time_out(dut: Any) -> None:
     """Given two of three data bytes, when 10 ms pass, then the third starts the move."""
+    lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     await first.send(0x43, [8, 0])
     await lab.bench.clocks(160_000)

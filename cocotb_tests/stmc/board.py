@@ -1,18 +1,18 @@
-"""The board `j105_stmc` as the tests see it: its design, a lab on an ISA bus, and `board_test`."""
+"""The board `j105_stmc` as the tests see it: its design, a lab on an ISA bus."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.build import Design
-from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
-from cocotb_tests.harness.judged import judged_test
 from cocotb_tests.harness.project import include_dirs, part, sources
+from cocotb_tests.harness.start import start_bench
 
 from .bench import J105_STMC
+from .figures import Init
 from .lab import Lab
 
 BASE = 0x3B0
@@ -50,18 +50,16 @@ class BoardLab(Lab):
         self.base = int(dict(bench.config.extra).get("BASE_ADDR", BASE))
         super().__init__(bench, IsaHost(self.master, self.base))
 
+    @classmethod
+    async def start(cls, dut: Any, init: Init | None = None, clock: int = 0, **pins: int) -> BoardLab:
+        """Reset with input levels `pins`; the board makes the clock of its core itself."""
+        bench = await start_bench(dut, J105_STMC, **pins)
+        assert isinstance(bench, Bench)
+        return cls(bench)
+
     async def ended(self, timeout: int = 1_000_000) -> int:
         """Edge on which the last `go` let irq rise; waits for it."""
         if rises := self.bench.rises("irq", self.since):
             await self.bench.align()
             return rises[0]
         return await self.bench.edge("irq", 1, timeout)
-
-
-def board_test(*rules: str, on: Sequence[Config] = (F16,), compared: bool = True) -> Any:
-    """A cocotb test of a `BoardLab` just out of reset, compared with the golden model."""
-
-    async def start(dut: Any) -> BoardLab:
-        return BoardLab(await Bench.start(dut, J105_STMC))
-
-    return judged_test(start, rules, on, compared)

@@ -1,31 +1,27 @@
-"""`Lab`: an STMC core on the bench with its host; `part_test`: a test made of one.
+"""`Lab`: an STMC core on the bench with its host.
 
-    @part_test("AC-05", "STMC-MOV-02", clock=16)
-    async def stmc_ac_05_trapezoid(lab):
-        "Given ..., when ..., then ..."
-        await lab.init(*STANDARD)
-        await lab.move(0x43, 20)
-        lab.train("AC-05", gaps(20))
-
-At its end every such test is replayed into the golden model and compared edge by edge.
+@directed("AC-05", "STMC-MOV-02")
+async def stmc_ac_05_trapezoid(dut):
+    "Given ..., when ..., then ..."
+    lab = await Lab.start(dut, STANDARD, clock=16)
+    await lab.move(0x43, 20)
+    lab.train("AC-05", gaps(20))
 """
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Sequence
 from itertools import repeat
 from typing import Any
 
 from cocotb_tests.harness.bus import BUSY, IBF, HostBus
-from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.drive import Drive
 from cocotb_tests.harness.figures import differences
-from cocotb_tests.harness.judged import judged_test
 from cocotb_tests.harness.side import TIMEOUT, Side
 from cocotb_tests.harness.start import start_bench
 
 from .bench import STMC
-from .figures import STANDARD, TICK, Init, internal_offsets
+from .figures import EXT, STANDARD, TICK, Init, internal_offsets
 
 # Windows of the rules, in clk, counted from edge 0 of a host write (STMC-BUS-12, -13).
 WRITE_EVENT = 2
@@ -49,11 +45,16 @@ class Lab(Drive):
         self.family = dict(self.cfg.extra).get("READ_MAP") == "FAMILY"
 
     @classmethod
-    async def start(cls, dut: Any, period: int = 0, **pins: int) -> Lab:
-        """Reset with these input levels, `ext_clk` of that period from then on; nothing is set up."""
+    async def start(cls, dut: Any, init: Init | None = STANDARD, clock: int = EXT, **pins: int) -> Lab:
+        """Reset with input levels `pins`, then an initialisation (None: the core is as reset leaves it).
+
+        clock: period of `ext_clk` in clk from the reset on, 0 = it stands still.
+        """
         lab = cls(await start_bench(dut, STMC, **pins))
-        if period:
-            lab.run_clock(period)
+        if clock:
+            lab.run_clock(clock)
+        if init:
+            await lab.init(*init)
         return lab
 
     def run_clock(self, period: int) -> Any:
@@ -198,29 +199,3 @@ class Lab(Drive):
         """Reset, until bytes are taken again."""
         await self.bench.reset()
         await self.bench.clocks(6)
-
-
-Test = Callable[[Lab], Awaitable[None]]
-
-
-def part_test(
-    *rules: str,
-    on: Sequence[Config] = (F16,),
-    init: Init | None = STANDARD,
-    clock: int = 16,
-    compared: bool = True,
-    **pins: int,
-) -> Callable[[Test], Any]:
-    """A cocotb test of a `Lab` with input levels `pins` and an initialisation `init` in force.
-
-    clock: period of `ext_clk` in clk, 0 = it stands still. `on` are its build configurations. Only tests of
-    what no rule fixes are not `compared` with the model.
-    """
-
-    async def start(dut: Any) -> Lab:
-        lab = await Lab.start(dut, clock, **pins)
-        if init:
-            await lab.init(*init)
-        return lab
-
-    return judged_test(start, rules, on, compared)

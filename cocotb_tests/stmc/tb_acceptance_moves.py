@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.directed import directed
 
 from .figures import EXT, F10, F12, INTERNAL, STANDARD, T0
-from .lab import Lab, part_test
+from .lab import Lab
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]
@@ -25,9 +28,10 @@ async def first_step(lab: Lab, rule: str, t0: int) -> None:
     lab.window(rule, "hold fall to the first step", lab.pulses[0] - fall, t0, t0 + 2)
 
 
-@part_test("AC-01", "STMC-ST-01", "STMC-FIN-01", "STMC-INP-01", "STMC-OUT-01", "STMC-REM-02", init=None)
-async def stmc_ac_01_reset_values(lab: Lab) -> None:
+@directed("AC-01", "STMC-ST-01", "STMC-FIN-01", "STMC-INP-01", "STMC-OUT-01", "STMC-REM-02")
+async def stmc_ac_01_reset_values(dut: Any) -> None:
     """Given a reset, when it ends, then outputs, status and all registers have their reset values."""
+    lab = await Lab.start(dut, None)
     lab.check("AC-01", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
     lab.check("AC-01", "d_oe, d_o", (lab.bench.level("d_oe"), lab.bench.level("d_o")), (0, 0))
     lab.check("AC-01", "status", await lab.host.status(), 0x00)
@@ -35,17 +39,19 @@ async def stmc_ac_01_reset_values(lab: Lab) -> None:
     lab.check("AC-01", "registers", reads, [0x80, 0x04, 0xCF, 0, 0, 0])
 
 
-@part_test("AC-02", "STMC-MOT-01", "STMC-STP-05", "STMC-BAD-08", init=None)
-async def stmc_ac_02_not_initialised(lab: Lab) -> None:
+@directed("AC-02", "STMC-MOT-01", "STMC-STP-05", "STMC-BAD-08")
+async def stmc_ac_02_not_initialised(dut: Any) -> None:
     """Given no initialisation, when 42, 40, a data byte and C0 come, then errors 2, 0, 3, 0 and no step."""
+    lab = await Lab.start(dut, None)
     lab.check("AC-02", "statuses", await lab.statuses("c 42 c 40 d 55 c C0"), [0xA0, 0x80, 0xB0, 0x80])
     await lab.bench.clocks(500)
     lab.quiet("AC-02", 0)
 
 
-@part_test("AC-03", "STMC-ST-02", "STMC-INI-06", "STMC-INI-08", init=None)
-async def stmc_ac_03_initialisation(lab: Lab) -> None:
+@directed("AC-03", "STMC-ST-02", "STMC-INI-06", "STMC-INI-08")
+async def stmc_ac_03_initialisation(dut: Any) -> None:
     """Given a reset, when an initialisation goes in, then CODE counts down and position 0 appears."""
+    lab = await Lab.start(dut, None)
     got = await lab.statuses("c 0A d 14 d 05 d 08 d 00")
     lab.check("AC-03", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
     await lab.bench.clocks(2)
@@ -53,9 +59,10 @@ async def stmc_ac_03_initialisation(lab: Lab) -> None:
     lab.check("AC-03", "edges of int_n and hold", lab.bench.edges("int_n") + lab.bench.edges("hold"), [])
 
 
-@part_test("AC-04", "STMC-INI-05", "STMC-BAD-06", init=None)
-async def stmc_ac_04_motor_type_00(lab: Lab) -> None:
+@directed("AC-04", "STMC-INI-05", "STMC-BAD-06")
+async def stmc_ac_04_motor_type_00(dut: Any) -> None:
     """Given motor type 00, when sent before and after a good initialisation, then error 0, no change."""
+    lab = await Lab.start(dut, None)
     lab.check("AC-04", "statuses", await lab.statuses("c 08 d 14"), [0x80, 0xB0])
     lab.check("AC-04", "s", lab.bench.level("s"), 0)
     lab.check("AC-04", "42", await lab.statuses("c 42"), [0xA0])
@@ -67,9 +74,10 @@ async def stmc_ac_04_motor_type_00(lab: Lab) -> None:
     await lab.result("AC-04", 4, 0x83, 0)
 
 
-@part_test("AC-05", "STMC-MOV-02", "STMC-MOV-03", "STMC-MOT-08")
-async def stmc_ac_05_trapezoid(lab: Lab) -> None:
+@directed("AC-05", "STMC-MOV-02", "STMC-MOV-03", "STMC-MOT-08")
+async def stmc_ac_05_trapezoid(dut: Any) -> None:
     """Given 20/5/8, when 20 steps are asked for, then the gaps of W1, int_n = 0, FIN 83, REM 0."""
+    lab = await Lab.start(dut)
     await lab.host.run("c 80 r")
     lab.since = lab.bench.now
     await lab.host.run("c 43 d 13 d 00 d 00")
@@ -80,18 +88,20 @@ async def stmc_ac_05_trapezoid(lab: Lab) -> None:
     lab.check("AC-05", "sum of the gaps", lab.pulses[-1] - lab.pulses[0], 161 * EXT)
 
 
-@part_test("AC-06", "AC-07", "STMC-MOV-02", "STMC-RUN-01")
-async def stmc_ac_06_short_moves(lab: Lab) -> None:
+@directed("AC-06", "AC-07", "STMC-MOV-02", "STMC-RUN-01")
+async def stmc_ac_06_short_moves(dut: Any) -> None:
     """Given 20/5/8, when moves of 1 to 18 steps run, then the gaps of W2 to W6."""
+    lab = await Lab.start(dut)
     for rule, table in (("AC-06", AC_06), ("AC-07", AC_07)):
         for number, ticks in table.items():
             await lab.go(0x43, number + 1)
             await lab.outcome(rule, number + 1, 0x83, 0, ticks)
 
 
-@part_test("AC-08", "STMC-RUN-01", "STMC-RMP-01", init=(0x1A, 141, 59, 400))
-async def stmc_ac_08_the_sheets_example(lab: Lab) -> None:
+@directed("AC-08", "STMC-RUN-01", "STMC-RMP-01")
+async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
     """Given 141/59/400, when 32, 3, 0 is sent, then 801 steps that last 66 634 ticks."""
+    lab = await Lab.start(dut, (0x1A, 141, 59, 400))
     lab.since = lab.bench.now
     await lab.host.run("c 43 d 20 d 03 d 00")
     await lab.bench.edge("int_n", 0, 2_000_000)
@@ -102,32 +112,36 @@ async def stmc_ac_08_the_sheets_example(lab: Lab) -> None:
     lab.check("AC-08", "last gaps", gaps[-4:], [139, 139, 140, 141])
 
 
-@part_test("AC-09", "STMC-RMP-01", "STMC-RMP-02", init=(0x1A, 15, 5, 8))
-async def stmc_ac_09_a_tie_rounds_up(lab: Lab) -> None:
+@directed("AC-09", "STMC-RMP-01", "STMC-RMP-02")
+async def stmc_ac_09_a_tie_rounds_up(dut: Any) -> None:
     """Given 15/5/8, when 12 steps run, then the level of exactly 7.5 ticks lasts 8."""
+    lab = await Lab.start(dut, (0x1A, 15, 5, 8))
     await lab.move(0x43, 12)
     lab.check("AC-09", "fourth gap", lab.intervals[3], 8 * EXT)
 
 
-@part_test("AC-10", "STMC-CLK-01", "STMC-MOT-06", init=(0x0A, 5, 5, 0))
-async def stmc_ac_10_internal_clock(lab: Lab) -> None:
+@directed("AC-10", "STMC-CLK-01", "STMC-MOT-06")
+async def stmc_ac_10_internal_clock(dut: Any) -> None:
     """Given the internal clock, when 5 steps at divisor 5 run, then each gap is 6400 clk."""
+    lab = await Lab.start(dut, (0x0A, 5, 5, 0))
     await lab.move(0x43, 5)
     lab.check("AC-10", "gaps", lab.intervals, [6400] * 4)
     await first_step(lab, "AC-10", T0)
 
 
-@part_test("AC-11", "STMC-CLK-01", on=(F10,), init=INTERNAL, clock=0)
-async def stmc_ac_11_slow_core_clock(lab: Lab) -> None:
+@directed("AC-11", "STMC-CLK-01", builds=(F10,))
+async def stmc_ac_11_slow_core_clock(dut: Any) -> None:
     """Given a core clock of 10 MHz, when 4 steps at divisor 10 run, then each gap is 8000 clk."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.move(0x44, 4, 10)
     lab.check("AC-11", "gaps", lab.intervals, [8000] * 3)
     await first_step(lab, "AC-11", 50)
 
 
-@part_test("AC-12", "STMC-CLK-01", on=(F12,), init=INTERNAL, clock=0)
-async def stmc_ac_12_odd_core_clock(lab: Lab) -> None:
+@directed("AC-12", "STMC-CLK-01", builds=(F12,))
+async def stmc_ac_12_odd_core_clock(dut: Any) -> None:
     """Given a core clock of 12.345678 MHz, when 101 steps run, then no step drifts by a clk."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.move(0x44, 101, 10)
     offsets = [t - lab.pulses[0] for t in lab.pulses]
     lab.check("AC-12", "steps", len(offsets), 101)
@@ -138,9 +152,10 @@ async def stmc_ac_12_odd_core_clock(lab: Lab) -> None:
     await first_step(lab, "AC-12", 62)
 
 
-@part_test("AC-13", "STMC-SGL-01", "STMC-SGL-03", "STMC-EXC-04", "STMC-OUT-01", "STMC-MOT-06")
-async def stmc_ac_13_single_steps(lab: Lab) -> None:
+@directed("AC-13", "STMC-SGL-01", "STMC-SGL-03", "STMC-EXC-04", "STMC-OUT-01", "STMC-MOT-06")
+async def stmc_ac_13_single_steps(dut: Any) -> None:
     """Given single steps three cw, one ccw, when they run, then the patterns and the outputs register."""
+    lab = await Lab.start(dut)
     seen = []
     for code, register in ((0x42, None), (0x42, None), (0x42, 0x90), (0x4A, 0x32)):
         begin = lab.bench.now
@@ -168,9 +183,10 @@ async def patterns(lab: Lab, rule: str, code: int, wanted: str) -> None:
     lab.check(rule, f"patterns after {code:#04x}", seen, words)
 
 
-@part_test("AC-14", "AC-15", "AC-16", "AC-17", "STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04", init=None)
-async def stmc_ac_14_patterns(lab: Lab) -> None:
+@directed("AC-14", "AC-15", "AC-16", "AC-17", "STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04")
+async def stmc_ac_14_patterns(dut: Any) -> None:
     """Given each type and mode, when single steps run, then the patterns of the acceptance table."""
+    lab = await Lab.start(dut, None)
     half4 = "00010 00110 00100 01100 01000 01001 00001 00011"
     await patterns(lab, "AC-14", 0x1E, half4)
     await patterns(lab, "AC-15", 0x19, "00110 00101 00011")
@@ -184,9 +200,10 @@ async def stmc_ac_14_patterns(lab: Lab) -> None:
     lab.check("AC-17", "s after a step", lab.bench.level("s"), 0b11001)
 
 
-@part_test("AC-18", "STMC-INI-04")
-async def stmc_ac_18_frozen_bits(lab: Lab) -> None:
+@directed("AC-18", "STMC-INI-04")
+async def stmc_ac_18_frozen_bits(dut: Any) -> None:
     """Given 4-phase full positive, when 05 is sent, then only the clock changes."""
+    lab = await Lab.start(dut)
     lab.check("AC-18", "status", await lab.host.init(0x05, 20, 5, 8), 0x00)
     await lab.ready()
     await lab.move(0x42)
@@ -195,16 +212,18 @@ async def stmc_ac_18_frozen_bits(lab: Lab) -> None:
     lab.check("AC-18", "gaps", lab.intervals, [3840, 3840])
 
 
-@part_test("AC-19", "STMC-MOV-01")
-async def stmc_ac_19_constant_speed(lab: Lab) -> None:
+@directed("AC-19", "STMC-MOV-01")
+async def stmc_ac_19_constant_speed(dut: Any) -> None:
     """Given divisor 7, when 5 steps run, then gaps of 112 clk and FIN 84."""
+    lab = await Lab.start(dut)
     await lab.go(0x44, 5, 7)
     await lab.outcome("AC-19", 5, 0x84, 0, [7] * 4)
 
 
-@part_test("AC-20", "STMC-MOT-03", "STMC-BAD-07", on=(F16,))
-async def stmc_ac_20_divisor_0(lab: Lab) -> None:
+@directed("AC-20", "STMC-MOT-03", "STMC-BAD-07", builds=(F16,))
+async def stmc_ac_20_divisor_0(dut: Any) -> None:
     """Given divisor 0, when the last byte is in, then error 5, no step, FIN as before."""
+    lab = await Lab.start(dut)
     got = await lab.statuses("c 44 d 00 d 04 d 00 d 00")
     lab.check("AC-20", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0xD0])
     lab.check("AC-20", "statuses", await lab.statuses("c 45 d 00"), [0x10, 0xD0])

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
 from cocotb_tests.harness.config import D16
+from cocotb_tests.harness.directed import directed
 
 from .figures import FAMILY, INTERNAL, MOST, STANDARD
-from .lab import WRITE_EVENT, Lab, part_test
+from .lab import WRITE_EVENT, Lab
 
 
-@part_test("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
-async def stmc_ac_35_interrupt(lab: Lab) -> None:
+@directed("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
+async def stmc_ac_35_interrupt(dut: Any) -> None:
     """Given bit 4, motions, reads, when they come, then int_n falls without it and 80 alone releases it."""
+    lab = await Lab.start(dut)
     await lab.move(0x53, 1)
     lab.check("AC-35", "edges of int_n", lab.bench.edges("int_n"), [])
     await lab.move(0x43, 1)
@@ -24,27 +28,30 @@ async def stmc_ac_35_interrupt(lab: Lab) -> None:
     lab.check("AC-35", "FIN", await lab.host.read_data(), 0x82)
 
 
-@part_test("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17", "STMC-INI-03")
-async def stmc_ac_36_bytes_during_a_move(lab: Lab) -> None:
+@directed("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17", "STMC-INI-03")
+async def stmc_ac_36_bytes_during_a_move(dut: Any) -> None:
     """Given a running move, when 80, 0A, C0, 42 and a data byte come, then errors 1, 1, 0, 1, 6."""
+    lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     got = await lab.statuses("c 80 c 0A c C0 c 42 d 00")
     lab.check("AC-36", "statuses", got, [0x94, 0x94, 0x84, 0x94, 0xE4])
     await lab.result("AC-36", 100, 0x83, 0)
 
 
-@part_test("AC-37", "STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-BAD-11")
-async def stmc_ac_37_answer_replaced(lab: Lab) -> None:
+@directed("AC-37", "STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-BAD-11")
+async def stmc_ac_37_answer_replaced(dut: Any) -> None:
     """Given a half-read answer, when 82 is accepted, then only the inputs byte is there."""
+    lab = await Lab.start(dut)
     lab.check("AC-37", "bytes", await lab.host.run("c 84 r c 82 r"), [0, 0xCF])
     lab.check("AC-37", "OBF", await lab.host.status() & OBF, 0)
     lab.check("AC-37", "data register", await lab.host.read(DATA), 0xCF)
     lab.check("AC-37", "status", await lab.host.status(), 0)
 
 
-@part_test("AC-38", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-04")
-async def stmc_ac_38_command_instead_of_data(lab: Lab) -> None:
+@directed("AC-38", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-04")
+async def stmc_ac_38_command_instead_of_data(dut: Any) -> None:
     """Given an unfinished command 3, when 42 comes, then one step, and a later data byte is error 3."""
+    lab = await Lab.start(dut)
     lab.since = lab.bench.now
     await lab.host.run("c 43 d 05 c 42")
     await lab.idle()
@@ -52,9 +59,10 @@ async def stmc_ac_38_command_instead_of_data(lab: Lab) -> None:
     lab.check("AC-38", "status", await lab.statuses("d 00"), [0xB0])
 
 
-@part_test("AC-39", "STMC-INI-02", "STMC-BAD-05", init=None)
-async def stmc_ac_39_refused_initialisation(lab: Lab) -> None:
+@directed("AC-39", "STMC-INI-02", "STMC-BAD-05")
+async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
     """Given nothing, then 20/5/8, when 5/20/8 and the like are sent, then error 5, and the old data stay."""
+    lab = await Lab.start(dut, None)
     refused = ((5, 20), (0, 0), (20, 0), (0, 5), (254, 255))
     for d1, d2 in refused:
         lab.check("AC-39", f"status of {d1}, {d2}", await lab.host.init(0x1A, d1, d2, 8), 0xD0)
@@ -66,9 +74,10 @@ async def stmc_ac_39_refused_initialisation(lab: Lab) -> None:
         lab.train("AC-39", [20, 12, 20])
 
 
-@part_test("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
-async def stmc_ac_40_bytes_meet_the_build(lab: Lab) -> None:
+@directed("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
+async def stmc_ac_40_bytes_meet_the_build(dut: Any) -> None:
     """Given a table build, when 40 and then 80 are written, then 80 is answered without an error."""
+    lab = await Lab.start(dut)
     await lab.host.init(0x1A, 255, 5, 400)
     edge0 = await lab.host.write(1, 0x40)
     await lab.bench.until(edge0 + 12)
@@ -79,9 +88,10 @@ async def stmc_ac_40_bytes_meet_the_build(lab: Lab) -> None:
     lab.check("AC-40", "first gap", lab.intervals[0], 255 * 16)
 
 
-@part_test("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02", on=(FAMILY,), init=None)
-async def stmc_ac_41_chopper(lab: Lab) -> None:
+@directed("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02", builds=(FAMILY,))
+async def stmc_ac_41_chopper(dut: Any) -> None:
     """Given bit 5, when the part rests, steps, rests, then the pattern is chopped but for the step."""
+    lab = await Lab.start(dut, None)
     await lab.host.init(0x3A, 20, 5, 8)
     await lab.bench.level_is("s", 0b00000, 60_000)
     off = lab.bench.now
@@ -104,9 +114,10 @@ async def stmc_ac_41_chopper(lab: Lab) -> None:
     lab.window("AC-41", "hold", rise - step, 1600, 1624)
 
 
-@part_test("AC-42", "STMC-CLK-05", clock=0)
-async def stmc_ac_42_no_ticks(lab: Lab) -> None:
+@directed("AC-42", "STMC-CLK-05")
+async def stmc_ac_42_no_ticks(dut: Any) -> None:
     """Given no external clock, when a move starts, then it waits; 40 ends it, 41 leaves one step."""
+    lab = await Lab.start(dut, clock=0)
     await lab.go(0x43, 6)
     await lab.bench.clocks(5_000)
     lab.check("AC-42", "BUSY", await lab.host.status(), BUSY)
@@ -120,30 +131,34 @@ async def stmc_ac_42_no_ticks(lab: Lab) -> None:
     await lab.result("AC-42", 1, 0xC3, 4)
 
 
-@part_test("AC-43", "STMC-RUN-01")
-async def stmc_ac_43_bit_5_of_a_motion(lab: Lab) -> None:
+@directed("AC-43", "STMC-RUN-01")
+async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
     """Given 63, when it runs, then it is 43."""
+    lab = await Lab.start(dut)
     await lab.go(0x63, 1)
     await lab.result("AC-43", 1, 0x83, 0)
     lab.check("AC-43", "pattern", lab.patterns, [0b00110])
 
 
-@part_test("AC-44", "STMC-RD-01", "STMC-BAD-01", on=(FAMILY,))
-async def stmc_ac_44_family_codes(lab: Lab) -> None:
+@directed("AC-44", "STMC-RD-01", "STMC-BAD-01", builds=(FAMILY,))
+async def stmc_ac_44_family_codes(dut: Any) -> None:
     """Given READ_MAP "FAMILY", when 81, 82, 83, 84 come, then inputs, outputs, three bytes, error 0."""
+    lab = await Lab.start(dut)
     got = await lab.host.run("c 81 r c 82 r c 83 rrr c 84 s")
     lab.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])
 
 
-@part_test("AC-45", "STMC-RD-01", "STMC-BAD-01")
-async def stmc_ac_45_sheet_codes(lab: Lab) -> None:
+@directed("AC-45", "STMC-RD-01", "STMC-BAD-01")
+async def stmc_ac_45_sheet_codes(dut: Any) -> None:
     """Given READ_MAP "SHEET", when 81 and 84 come, then error 0 and three bytes."""
+    lab = await Lab.start(dut)
     lab.check("AC-45", "answers", await lab.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
 
 
-@part_test("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", on=(D16,), init=INTERNAL, clock=0)
-async def stmc_ac_48_datasheet_times(lab: Lab) -> None:
+@directed("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", builds=(D16,))
+async def stmc_ac_48_datasheet_times(dut: Any) -> None:
     """Given the DATASHEET timing, when two steps run, then start, steps, end, answer at their times."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     bench = lab.bench
     edge0 = await lab.go(0x44, 2, 10, poll=False)
     hold = await bench.edge("hold", 0)
@@ -163,9 +178,10 @@ async def stmc_ac_48_datasheet_times(lab: Lab) -> None:
     lab.check("AC-48", "status and byte", (status, await lab.host.read_data()), (OBF, 0x84))
 
 
-@part_test("AC-49", "STMC-BAD-16")
-async def stmc_ac_49_reset_in_motion(lab: Lab) -> None:
+@directed("AC-49", "STMC-BAD-16")
+async def stmc_ac_49_reset_in_motion(dut: Any) -> None:
     """Given a move, when rst_n falls, then all outputs rest at once and everything is forgotten."""
+    lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(5)
     lab.set(rst_n=0)
@@ -179,9 +195,10 @@ async def stmc_ac_49_reset_in_motion(lab: Lab) -> None:
     lab.check("AC-49", "registers", await lab.host.run("c 80 r c 84 rrr c 83 r"), [0x80, 0, 0, 0, 4])
 
 
-@part_test("AC-50", "STMC-DEC-03", "STMC-IN-04")
-async def stmc_ac_50_start_at_the_deceleration_limit(lab: Lab) -> None:
+@directed("AC-50", "STMC-DEC-03", "STMC-IN-04")
+async def stmc_ac_50_start_at_the_deceleration_limit(dut: Any) -> None:
     """Given l3_n low, when 3, 6, 3 with N = 1, 7 start, then 1, 1, 1, 0 steps; with l1_n low, then none."""
+    lab = await Lab.start(dut)
     await lab.pins(l3_n=0)
     for code, n, rate, steps, finish, rest in (
         (0x43, 100, None, 1, 0x8B, 98),
@@ -196,9 +213,10 @@ async def stmc_ac_50_start_at_the_deceleration_limit(lab: Lab) -> None:
     await lab.result("AC-50", 0, 0x93, 99)
 
 
-@part_test("AC-51", "STMC-CMD-01", "STMC-BAD-11")
-async def stmc_ac_51_answer_outlives_a_step(lab: Lab) -> None:
+@directed("AC-51", "STMC-CMD-01", "STMC-BAD-11")
+async def stmc_ac_51_answer_outlives_a_step(dut: Any) -> None:
     """Given a half-read remaining value, when a step runs, then the other two bytes are still there."""
+    lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(10)
     await lab.command(0x40)
@@ -210,9 +228,10 @@ async def stmc_ac_51_answer_outlives_a_step(lab: Lab) -> None:
     lab.check("AC-51", "OBF", await lab.host.status() & OBF, 0)
 
 
-@part_test("AC-52", "STMC-BUS-06", "STMC-BAD-12")
-async def stmc_ac_52_both_strobes(lab: Lab) -> None:
+@directed("AC-52", "STMC-BUS-06", "STMC-BAD-12")
+async def stmc_ac_52_both_strobes(dut: Any) -> None:
     """Given both strobes low together, when they rise together, then nothing was driven or written."""
+    lab = await Lab.start(dut)
     before = await lab.host.status()
     since = lab.bench.now
     await lab.host.raw(10, cs_n=0, rd_n=0, wr_n=0, a0=1, d_i=0x42)

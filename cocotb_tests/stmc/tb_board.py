@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb.triggers import Timer
 
 from cocotb_tests.harness.bus import IBF, OBF
 from cocotb_tests.harness.config import F8, F16
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.isa_master import Times
+from cocotb_tests.harness.model_bench import rtl_only
 
-from .board import OTHER, BoardLab, board_test
+from .board import OTHER, BoardLab
 from .figures import A, gaps
 from .tb_acceptance_moves import W1
 
+NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edges"
 
-@board_test("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
-async def j105_ac_46_a_move(lab: BoardLab) -> None:
+
+@rtl_only(NANOSECONDS)
+@directed("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
+async def j105_ac_46_a_move(dut: Any) -> None:
     """Given the board, when check 5 is played on the bus, then the same steps, drv with s, and irq."""
+    lab = await BoardLab.start(dut)
     bench = lab.bench
     await lab.init(0x1A, *A)
     lab.check("AC-46", "irq", bench.level("irq"), 0)
@@ -32,9 +40,11 @@ async def j105_ac_46_a_move(lab: BoardLab) -> None:
     lab.check("AC-46", "irq after 80", bench.level("irq"), 0)
 
 
-@board_test("AC-46", "J105-01", "J105-03", on=(F16, OTHER))
-async def j105_01_addresses(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("AC-46", "J105-01", "J105-03", builds=(F16, OTHER))
+async def j105_01_addresses(dut: Any) -> None:
     """Given all addresses next to the board's, with and without aen, when used, then only two answer."""
+    lab = await BoardLab.start(dut)
     master, base = lab.master, lab.base
     around = {base ^ bit for bit in (1 << n for n in range(1, 10))} | {base - 1, base + 2, base + 3}
     for address in sorted(around):
@@ -51,9 +61,11 @@ async def j105_01_addresses(lab: BoardLab) -> None:
     lab.check("J105-01", "a data byte", await lab.host.data(0x42), 0xB0)
 
 
-@board_test("J105-03", "J105-04", on=(F16, F8))
-async def j105_03_bus_is_released_at_once(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("J105-03", "J105-04", builds=(F16, F8))
+async def j105_03_bus_is_released_at_once(dut: Any) -> None:
     """Given reads at any phase to clk, when ior_n, sa or aen ends them, then sd_oe falls with it."""
+    lab = await BoardLab.start(dut)
     bench = lab.bench
     await lab.host.command(0xC0)
     for part in range(8):
@@ -78,9 +90,11 @@ async def j105_03_bus_is_released_at_once(lab: BoardLab) -> None:
             await bench.clocks(2)
 
 
-@board_test("AC-47", "J105-06", on=(F16,))
-async def j105_ac_47_step_clock(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("AC-47", "J105-06", builds=(F16,))
+async def j105_ac_47_step_clock(dut: Any) -> None:
     """Given divisor 141 on 48.675 kHz, when 21 steps run, then their distance is exact, without drift."""
+    lab = await BoardLab.start(dut)
     await lab.init(0x1A, 141, 141, 0)
     lab.since = lab.bench.now
     await lab.host.run("c 43 d 14 d 00 d 00")
@@ -92,9 +106,11 @@ async def j105_ac_47_step_clock(lab: BoardLab) -> None:
         lab.window("AC-47", "gap", gap, 46_346, 46_350)
 
 
-@board_test("J105-06", "J105-08", on=(F8, OTHER))
-async def j105_06_other_clocks(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("J105-06", "J105-08", builds=(F8, OTHER))
+async def j105_06_other_clocks(dut: Any) -> None:
     """Given other core clocks and step clocks, when a ramp runs, then every step is where F puts it."""
+    lab = await BoardLab.start(dut)
     ext_hz = int(dict(lab.cfg.extra).get("EXT_HZ", 48_675))
     await lab.init(0x1A, 20, 5, 8)
     lab.since = lab.bench.now
@@ -109,9 +125,11 @@ async def j105_06_other_clocks(lab: BoardLab) -> None:
         )
 
 
-@board_test("J105-07", "J105-02", "J105-06")
-async def j105_07_drivers(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("J105-07", "J105-02", "J105-06")
+async def j105_07_drivers(dut: Any) -> None:
     """Given 5 phases, negative logic and the chopper, when it steps and rests, then drv is s[4:1]."""
+    lab = await BoardLab.start(dut)
     bench = lab.bench
     for code in (0x2F, 0x22, 0x2E):
         await bench.align()
@@ -133,9 +151,11 @@ async def j105_07_drivers(lab: BoardLab) -> None:
     lab.check("J105-07", "edges seen", len(wanted) > 20, True)
 
 
-@board_test("J105-05", "STMC-MOT-09")
-async def j105_05_interrupt(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("J105-05", "STMC-MOT-09")
+async def j105_05_interrupt(dut: Any) -> None:
     """Given bit 4, when motions end, then irq rises only without it and falls with 80, not by its byte."""
+    lab = await BoardLab.start(dut)
     await lab.init(0x0A, 9, 3, 3)
     await lab.move(0x52)
     lab.check("J105-05", "irq", lab.bench.edges("irq"), [])
@@ -147,9 +167,11 @@ async def j105_05_interrupt(lab: BoardLab) -> None:
     lab.check("J105-05", "FIN", await lab.host.read_data(), 0x82)
 
 
-@board_test("J105-02", "STMC-BAD-13", compared=False)
-async def j105_02_short_cycles(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("J105-02", "STMC-BAD-13")
+async def j105_02_short_cycles(dut: Any) -> None:
     """Given cycles of 2 ns to 5 clk at any phase, then each write is done wholly or not at all."""
+    lab = await BoardLab.start(dut)
     bench, master, rng = lab.bench, lab.master, lab.bench.rng
     master.times = Times(late=0)  # data as early as the command: its length alone decides
     clk_ns = bench.period / 1000
@@ -176,9 +198,11 @@ async def j105_02_short_cycles(lab: BoardLab) -> None:
     lab.check("STMC-BAD-13", f"{done} done, {missed} missed", done > 20 and missed > 20, True)
 
 
-@board_test("J105-01", "STMC-INI-07", "STMC-BAD-12")
-async def j105_01_cycles_in_the_table_build(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("J105-01", "STMC-INI-07", "STMC-BAD-12")
+async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
     """Given a table build, when cycles are for others, masked or illegal, then it is not disturbed."""
+    lab = await BoardLab.start(dut)
     bench, master = lab.bench, lab.master
     await lab.host.init(0x1A, 255, 1, 60)
     for n in range(12):
@@ -204,9 +228,11 @@ async def j105_01_cycles_in_the_table_build(lab: BoardLab) -> None:
     lab.check("J105-01", "gaps in ticks", ticks, gaps(4, (255, 1, 60)))
 
 
-@board_test("STMC-INP-01", "STMC-HLD-01", "STMC-CHP-01", "STMC-DS-03", "J105-07", on=(OTHER,))
-async def j105_all_parameters(lab: BoardLab) -> None:
+@rtl_only(NANOSECONDS)
+@directed("STMC-INP-01", "STMC-HLD-01", "STMC-CHP-01", "STMC-DS-03", "J105-07", builds=(OTHER,))
+async def j105_all_parameters(dut: Any) -> None:
     """Given other values of all parameters, when it steps and rests, then codes and times are theirs."""
+    lab = await BoardLab.start(dut)
     bench = lab.bench
     await lab.init(0x2A, 9, 3, 3)
     lab.check("STMC-INP-01", "inputs by the sister parts' code", await lab.inputs(), 0xCF)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb.triggers import Timer
 
 from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF, STATUS
 from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.directed import directed
 
 from .figures import F8X20, F200, INTERNAL, STANDARD
-from .lab import C_EVENT_LATEST, PINS_LATEST, Lab, part_test
+from .lab import C_EVENT_LATEST, PINS_LATEST, Lab
 
 OFF = {"cs_n": 1, "rd_n": 1, "wr_n": 1}
 
@@ -21,9 +24,10 @@ async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
     await Timer(gap_ps, "ps")
 
 
-@part_test("STMC-BUS-01", "STMC-BUS-02", "STMC-BUS-03", "STMC-BUS-04", "STMC-BUS-05", init=None)
-async def stmc_bus_01_access_table(lab: Lab) -> None:
+@directed("STMC-BUS-01", "STMC-BUS-02", "STMC-BUS-03", "STMC-BUS-04", "STMC-BUS-05")
+async def stmc_bus_01_access_table(dut: Any) -> None:
     """Given all levels of cs_n, a0 and the strobes, when used, then only the selected register is touched."""
+    lab = await Lab.start(dut, None)
     bench, host = lab.bench, lab.host
     lab.check("STMC-BUS-04", "a0 = 0 writes data: error 3", await host.data(0x43), 0xB0)
     lab.check("STMC-BUS-05", "a0 = 1 writes a command", await host.command(0x0A), 0x40)
@@ -46,9 +50,10 @@ async def stmc_bus_01_access_table(lab: Lab) -> None:
     lab.check("STMC-BUS-01", "status after accesses with cs_n = 1", await host.status(), 0x00)
 
 
-@part_test("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12", init=None)
-async def stmc_bus_06_overlapping_strobes(lab: Lab) -> None:
+@directed("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12")
+async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
     """Given a write that a read strobe interrupts, when both are low, then the byte so far counts, once."""
+    lab = await Lab.start(dut, None)
     bench = lab.bench
     since = bench.set(a0=COMMAND, d_i=0x0A, cs_n=0, wr_n=0)
     await bench.clocks(4)
@@ -70,9 +75,10 @@ async def stmc_bus_06_overlapping_strobes(lab: Lab) -> None:
     lab.check("STMC-BUS-06", "status after the read", await lab.host.status(), 0x40)
 
 
-@part_test("STMC-BUS-10", init=None)
-async def stmc_bus_10_what_ends_a_write(lab: Lab) -> None:
+@directed("STMC-BUS-10")
+async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
     """Given writes that end by wr_n, cs_n or rd_n, when data change then, then the old byte counts."""
+    lab = await Lab.start(dut, None)
     bench = lab.bench
     for n, levels in enumerate(({"wr_n": 1}, {"cs_n": 1}, {"rd_n": 0}, {"wr_n": 1, "cs_n": 1})):
         bench.set(a0=DATA, d_i=0xFF, cs_n=0, wr_n=0)
@@ -87,9 +93,10 @@ async def stmc_bus_10_what_ends_a_write(lab: Lab) -> None:
         await lab.host.command(0xC0)
 
 
-@part_test("STMC-BUS-11", on=(F16, F8X20, F200), init=None, compared=False)
-async def stmc_bus_11_shortest_cycles(lab: Lab) -> None:
+@directed("STMC-BUS-11", builds=(F16, F8X20, F200))
+async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
     """Given the shortest legal cycles at any phase to clk, when bytes go in, then none is lost."""
+    lab = await Lab.start(dut, None)
     bench = lab.bench
     clk = bench.period
     for part in range(8):
@@ -109,9 +116,10 @@ async def stmc_bus_11_shortest_cycles(lab: Lab) -> None:
         lab.check("STMC-BUS-11", f"(d_oe, status), phase {part}/8", got, (1, 0x20))
 
 
-@part_test("STMC-BUS-12", "STMC-BUS-13")
-async def stmc_bus_12_ibf_and_effects(lab: Lab) -> None:
+@directed("STMC-BUS-12", "STMC-BUS-13")
+async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
     """Given writes, when IBF falls, then the status shows every effect of the byte; pins follow soon."""
+    lab = await Lab.start(dut)
     bench, host = lab.bench, lab.host
     script = ((1, 0x43, 0x30), (0, 9, 0x20), (0, 0, 0x10), (0, 0, BUSY), (1, 0x40, 0x00), (1, 0x82, OBF))
     for delay in range(1, 16):
@@ -136,9 +144,10 @@ async def stmc_bus_12_ibf_and_effects(lab: Lab) -> None:
                 lab.check("STMC-STP-01", "steps", bench.edges("s", since), [])
 
 
-@part_test("STMC-BUS-14", "STMC-BAD-09", init=None)
-async def stmc_bus_14_newest_byte_wins(lab: Lab) -> None:
+@directed("STMC-BUS-14", "STMC-BAD-09")
+async def stmc_bus_14_newest_byte_wins(dut: Any) -> None:
     """Given two writes 5 clk and more apart, when nothing is polled, then the newer one is always taken."""
+    lab = await Lab.start(dut, None)
     for apart in range(5, 16):
         await lab.reset()
         edge0 = await lab.host.write(COMMAND, 0x0A, gap=2)
@@ -150,9 +159,10 @@ async def stmc_bus_14_newest_byte_wins(lab: Lab) -> None:
             lab.check("STMC-BUS-12", f"status of {apart} clk", status, 0x30)
 
 
-@part_test("STMC-BUS-20")
-async def stmc_bus_20_read_cycle(lab: Lab) -> None:
+@directed("STMC-BUS-20")
+async def stmc_bus_20_read_cycle(dut: Any) -> None:
     """Given status reads of many lengths, when they run, then d_o is there in time and does not change."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     for length in (5, 6, 9, 40):
         await lab.go(0x42)
@@ -172,9 +182,10 @@ async def stmc_bus_20_read_cycle(lab: Lab) -> None:
         await bench.clocks(4)
 
 
-@part_test("STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-REM-02", "STMC-ST-04")
-async def stmc_bus_21_answers(lab: Lab) -> None:
+@directed("STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-REM-02", "STMC-ST-04")
+async def stmc_bus_21_answers(dut: Any) -> None:
     """Given answers of one and three bytes, when read, then OBF falls and rises as many times as needed."""
+    lab = await Lab.start(dut)
     bench, host = lab.bench, lab.host
     await lab.go(0x44, 0x030201, 3)
     await lab.in_gap(2)
@@ -192,9 +203,10 @@ async def stmc_bus_21_answers(lab: Lab) -> None:
     lab.check("STMC-BUS-22", "status", await host.status(), 0)
 
 
-@part_test("STMC-BAD-13", compared=False)
-async def stmc_bad_13_short_strobes(lab: Lab) -> None:
+@directed("STMC-BAD-13")
+async def stmc_bad_13_short_strobes(dut: Any) -> None:
     """Given strobes that are too short, when they come at any phase, then nothing or one whole write."""
+    lab = await Lab.start(dut)
     bench = lab.bench
     clk = bench.period
     for part in range(16):
@@ -211,9 +223,10 @@ async def stmc_bad_13_short_strobes(lab: Lab) -> None:
     lab.check("STMC-BAD-13", "a step still runs", len(lab.pulses), 1)
 
 
-@part_test("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", on=(D16,), init=INTERNAL, clock=0)
-async def stmc_bus_13_datasheet(lab: Lab) -> None:
+@directed("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", builds=(D16,))
+async def stmc_bus_13_datasheet(dut: Any) -> None:
     """Given DATASHEET timing, when reads and errors come at rest, then they are as fast as in FAST."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     for byte, after in ((0x82, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x84, OBF), (0x40, 0x80 | OBF)):
         await lab.host.write(COMMAND, byte, gap=C_EVENT_LATEST)
         lab.check("STMC-BUS-13", f"status of {byte:#x}", await lab.host.status(), after)

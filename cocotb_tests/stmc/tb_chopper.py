@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.directed import directed
 
 from .figures import F12, FAMILY, INTERNAL, ODD, T0
-from .lab import Lab, part_test
+from .lab import Lab
 
 CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
 
@@ -33,9 +36,10 @@ def check_chopping(lab: Lab, rule: str, since: int, pattern: int, off: int) -> N
     lab.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
 
 
-@part_test("STMC-CHP-01", on=(F16, F12, ODD), init=None, clock=0)
-async def stmc_chp_01_phases(lab: Lab) -> None:
+@directed("STMC-CHP-01", builds=(F16, F12, ODD))
+async def stmc_chp_01_phases(dut: Any) -> None:
     """Given bit 5 and each logic, when the part rests, then on and off times repeat without drift."""
+    lab = await Lab.start(dut, None, clock=0)
     for code, pattern, off in ((0x2A, 0b00011, 0b00000), (0x22, 0b11100, 0b11111), (0x2F, 0b00011, 0)):
         await lab.reset()
         await lab.host.init(code, 20, 5, 8)
@@ -46,9 +50,10 @@ async def stmc_chp_01_phases(lab: Lab) -> None:
         lab.check("STMC-CHP-01", "hold", lab.bench.edges("hold"), [])
 
 
-@part_test("STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-02", on=(F16, F12), init=CHOP, clock=0)
-async def stmc_chp_02_motion(lab: Lab) -> None:
+@directed("STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-02", builds=(F16, F12))
+async def stmc_chp_02_motion(dut: Any) -> None:
     """Given chopping, when motions start in any phase, then full pattern, then a whole on-time at the end."""
+    lab = await Lab.start(dut, CHOP, clock=0)
     on, slack = lab.cfg.cyc(1_040), lab.cfg.cyc(4) + 1
     table = [0b00011, 0b00110, 0b01100, 0b01001]
     at = 0
@@ -69,9 +74,10 @@ async def stmc_chp_02_motion(lab: Lab) -> None:
         await lab.finish()
 
 
-@part_test("STMC-CHP-02", "STMC-INI-04", "STMC-INI-07", clock=0, init=CHOP)
-async def stmc_chp_02_initialisations(lab: Lab) -> None:
+@directed("STMC-CHP-02", "STMC-INI-04", "STMC-INI-07")
+async def stmc_chp_02_initialisations(dut: Any) -> None:
     """Given chopping, when bit 5 is taken away and set again, then it changes when the build is complete."""
+    lab = await Lab.start(dut, CHOP, clock=0)
     await lab.bench.edge("s", 0)
     await lab.host.init(0x0A, 20, 5, 8)
     since = lab.bench.now
@@ -95,9 +101,10 @@ async def stmc_chp_02_initialisations(lab: Lab) -> None:
     check_chopping(lab, "STMC-CHP-01", since, 0b00011, 0)
 
 
-@part_test("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01", init=CHOP, clock=0)
-async def stmc_chp_01_motion_without_a_step(lab: Lab) -> None:
+@directed("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01")
+async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
     """Given chopping and l1_n low, when 42 comes, then a full on-time begins at its end all the same."""
+    lab = await Lab.start(dut, CHOP, clock=0)
     await lab.pins(l1_n=0)
     for wait in (0, 900, 1_700):
         await lab.bench.clocks(wait)
@@ -109,9 +116,10 @@ async def stmc_chp_01_motion_without_a_step(lab: Lab) -> None:
     lab.check("STMC-HLD-01", "hold", lab.bench.level("hold"), 0)
 
 
-@part_test("STMC-OUT-02", "STMC-OUT-01", init=CHOP, clock=0, on=(FAMILY,))
-async def stmc_out_02_outputs_while_chopped(lab: Lab) -> None:
+@directed("STMC-OUT-02", "STMC-OUT-01", builds=(FAMILY,))
+async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
     """Given chopping, when 83 is read at many moments, then the pattern is there, and HOLD by its pin."""
+    lab = await Lab.start(dut, CHOP, clock=0)
     for wait in (1, 300, 500, 700, 900, 1_100):
         await lab.bench.clocks(wait)
         lab.check("STMC-OUT-02", "outputs", await lab.out(), 0xC4)
@@ -122,9 +130,10 @@ async def stmc_out_02_outputs_while_chopped(lab: Lab) -> None:
     lab.check("STMC-OUT-01", "outputs after hold", await lab.out(), 0x96)
 
 
-@part_test("STMC-HLD-01", "STMC-HLD-02", on=(FAMILY, ODD), init=INTERNAL, clock=0)
-async def stmc_hld_01_hold(lab: Lab) -> None:
+@directed("STMC-HLD-01", "STMC-HLD-02", builds=(FAMILY, ODD))
+async def stmc_hld_01_hold(dut: Any) -> None:
     """Given HOLD_XT, when motions end, restart, do nothing, then hold rises so long after the last end."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     delay = lab.cfg.cyc(xt(lab, "HOLD_XT", 544_000))
     for code, n, rate in ((0x42, None, None), (0x44, 3, 1), (0x43, 1, None)):
         await lab.go(code, n, rate)
@@ -148,9 +157,10 @@ async def stmc_hld_01_hold(lab: Lab) -> None:
     lab.window("STMC-HLD-01", "hold without a step", rise - end, delay, delay + 16)
 
 
-@part_test("STMC-HLD-01", init=INTERNAL, clock=0)
-async def stmc_hld_01_default(lab: Lab) -> None:
+@directed("STMC-HLD-01")
+async def stmc_hld_01_default(dut: Any) -> None:
     """Given the default, when a step has ended, then hold rises 34 ms later."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.go(0x42)
     end = await lab.ended()
     rise = await lab.bench.edge("hold", 1)

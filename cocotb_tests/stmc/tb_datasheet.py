@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import BUSY, IBF, OBF
 from cocotb_tests.harness.config import D16, D25X8
+from cocotb_tests.harness.directed import directed
 
 from .figures import INTERNAL, gaps, slowed
-from .lab import WRITE_EVENT, Lab, part_test
+from .lab import WRITE_EVENT, Lab
 
 TOLERANCE = 16
 PIN = 2
@@ -41,9 +44,10 @@ async def rest(lab: Lab) -> None:
     await lab.finish()
 
 
-@part_test("STMC-DS-01", "STMC-DS-04", "STMC-DS-05", "STMC-DS-06", on=ALL_CLOCKS, init=INTERNAL, clock=0)
-async def stmc_ds_01_starts(lab: Lab) -> None:
+@directed("STMC-DS-01", "STMC-DS-04", "STMC-DS-05", "STMC-DS-06", builds=ALL_CLOCKS)
+async def stmc_ds_01_starts(dut: Any) -> None:
     """Given each motion command, when its last byte is in, then start and step 0 come at their times."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     for code, n, rate, start, step in (
         (0x42, None, None, 432, 1_376),
         (0x43, 2, None, 1_792, 3_200),
@@ -65,11 +69,10 @@ async def stmc_ds_01_starts(lab: Lab) -> None:
         await rest(lab)
 
 
-@part_test(
-    "STMC-DS-02", "STMC-DS-03", "STMC-DS-14", "STMC-INI-04", "STMC-INI-08", on=(D16,), init=None, clock=0
-)
-async def stmc_ds_02_initialisations(lab: Lab) -> None:
+@directed("STMC-DS-02", "STMC-DS-03", "STMC-DS-14", "STMC-INI-04", "STMC-INI-08", builds=(D16,))
+async def stmc_ds_02_initialisations(dut: Any) -> None:
     """Given initialisations, when the 4th byte is in, then pattern and completion come at their times."""
+    lab = await Lab.start(dut, None, clock=0)
     for first, (d1, d2, pa) in enumerate(((20, 5, 8), (20, 20, 0), (255, 1, 400))):
         for byte in (d1, d2, pa & 255):
             if byte == d1:
@@ -97,9 +100,10 @@ async def stmc_ds_02_initialisations(lab: Lab) -> None:
         lab.check("STMC-INI-04", "pattern, as read", await lab.out() & 0xF8, 0x60)
 
 
-@part_test("STMC-DS-06", "STMC-DS-13", on=ALL_CLOCKS, init=INTERNAL, clock=0)
-async def stmc_ds_06_single_step(lab: Lab) -> None:
+@directed("STMC-DS-06", "STMC-DS-13", builds=ALL_CLOCKS)
+async def stmc_ds_06_single_step(dut: Any) -> None:
     """Given a single step, when it ends, then int_n and the taking of bytes are 112 us after its byte."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     t = await event(lab, 0x42)
     await lab.pulse(1)
     end = await lab.ended()
@@ -111,9 +115,10 @@ async def stmc_ds_06_single_step(lab: Lab) -> None:
     lab.check("STMC-DS-13", "answer", await lab.host.read_data(), 0x82)
 
 
-@part_test("STMC-DS-07", "STMC-DS-08", "STMC-DS-13", on=(D16,), init=INTERNAL, clock=0)
-async def stmc_ds_07_normal_ends(lab: Lab) -> None:
+@directed("STMC-DS-07", "STMC-DS-08", "STMC-DS-13", builds=(D16,))
+async def stmc_ds_07_normal_ends(dut: Any) -> None:
     """Given motions of commands 3, 4 and 7, when they end normally or at CNP, then 26 us, bytes at 156 us."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     for code, n, rate in ((0x43, 3, None), (0x44, 2, 4), (0x47, None, 4)):
         await event(lab, code, n, rate)
         last = await lab.pulse(n or 2)
@@ -128,9 +133,10 @@ async def stmc_ds_07_normal_ends(lab: Lab) -> None:
         lab.check("STMC-DS-13", "answer", await lab.host.read_data(), 0x80 | code & 7)
 
 
-@part_test("STMC-DS-09", "STMC-DS-10", "STMC-DS-11", on=ALL_CLOCKS, init=INTERNAL, clock=0)
-async def stmc_ds_09_stops(lab: Lab) -> None:
+@directed("STMC-DS-09", "STMC-DS-10", "STMC-DS-11", builds=ALL_CLOCKS)
+async def stmc_ds_09_stops(dut: Any) -> None:
     """Given motions, when a limit, mon or 40 stops them, then no step more, the end at its time."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     for code, n, rate, stop, end_xt, open_xt in (
         (0x43, 100, None, "l1_n", 3_200, 3_200),
         (0x46, None, None, "mon", 3_200, 3_200),
@@ -153,9 +159,10 @@ async def stmc_ds_09_stops(lab: Lab) -> None:
         lab.check("STMC-DS-13", "answer", await lab.host.read_data() & 0x87, 0x80 | code & 7)
 
 
-@part_test("STMC-DS-09", "STMC-DS-11", on=(D16,), init=INTERNAL, clock=0)
-async def stmc_ds_09_ramp_down(lab: Lab) -> None:
+@directed("STMC-DS-09", "STMC-DS-11", builds=(D16,))
+async def stmc_ds_09_ramp_down(dut: Any) -> None:
     """Given a request, when the ramp down has ended, then the end follows 0.2 ms after its last step."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     for i, how in ((3, "c 41"), (2, "l3_n"), (5, "c 41")):
         n = 12 if i == 5 else 100
         await event(lab, 0x43, n)
@@ -172,9 +179,10 @@ async def stmc_ds_09_ramp_down(lab: Lab) -> None:
         await rest(lab)
 
 
-@part_test("STMC-DS-12", "STMC-DS-14", "STMC-MOT-05", on=(D16,), init=INTERNAL, clock=0)
-async def stmc_ds_12_causes_at_the_start(lab: Lab) -> None:
+@directed("STMC-DS-12", "STMC-DS-14", "STMC-MOT-05", builds=(D16,))
+async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
     """Given a cause at the start, or a stop that waits for it, when it starts, then no step."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.pins(l1_n=0)
     for code, n, rate, start, end_xt in (
         (0x43, 9, None, 1_792, 3_200),
@@ -193,9 +201,10 @@ async def stmc_ds_12_causes_at_the_start(lab: Lab) -> None:
     await lab.result("STMC-DS-14", 0, 0xC3, 8)
 
 
-@part_test("STMC-DS-13", "STMC-BUS-14", on=(D16,), init=INTERNAL, clock=0)
-async def stmc_ds_13_a_newer_byte(lab: Lab) -> None:
+@directed("STMC-DS-13", "STMC-BUS-14", builds=(D16,))
+async def stmc_ds_13_a_newer_byte(dut: Any) -> None:
     """Given a byte that waits for the end, when a newer one is written, then that one is judged."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     await event(lab, 0x44, 2, 3)
     last = await lab.pulse(2)
     await lab.host.write(1, 0x42)
@@ -206,9 +215,10 @@ async def stmc_ds_13_a_newer_byte(lab: Lab) -> None:
     lab.check("STMC-DS-13", "FIN", await lab.host.read_data(), 0x84)
 
 
-@part_test("STMC-DS-04", "STMC-DS-11", "STMC-DS-12", on=(D16,))
-async def stmc_ds_04_external_clock(lab: Lab) -> None:
+@directed("STMC-DS-04", "STMC-DS-11", "STMC-DS-12", builds=(D16,))
+async def stmc_ds_04_external_clock(dut: Any) -> None:
     """Given the external clock, when moves run, then step 0 is the first tick from its time on."""
+    lab = await Lab.start(dut)
     for code, n, rate, xt in ((0x43, 12, None, 3_200), (0x44, 5, 3, 3_104)):
         t = await event(lab, code, n, rate)
         first = await lab.pulse(1)

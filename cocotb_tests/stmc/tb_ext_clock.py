@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.ext_moves import ExtMoves, sweep
 
 from .figures import F8X20, Ramp, divisor
-from .lab import Lab, part_test
+from .lab import Lab
 
 
 def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:
@@ -17,9 +19,10 @@ def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:
     return [divisor((slow + 1, fast + 1, pa), v) - 1 for v in which]
 
 
-@part_test("STMC-CLK-02", "STMC-CLK-04", on=(F16, F8X20), init=None, clock=0, compared=False)
-async def stmc_clk_04_sweep(lab: Lab) -> None:
+@directed("STMC-CLK-02", "STMC-CLK-04", builds=(F16, F8X20))
+async def stmc_clk_04_sweep(dut: Any) -> None:
     """Given edges 4 to 17 clk apart and D2 1 to 5, when moves turn round anywhere, then gaps are exact."""
+    lab = await Lab.start(dut, None, clock=0)
     rng = lab.bench.rng
     await lab.init(0x1A, 10, 5, 4)
     moves = await ExtMoves.of(lab, (9, 4, 4), "l3_n", lows=False, rate_of=rates)

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
 from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.directed import directed
 
 from .figures import FAMILY, STANDARD, STEPS, gaps, steps
-from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab, part_test
+from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab
 
 WRONG = ((0, 0, 8), (0, 5, 8), (20, 0, 8), (5, 20, 8), (19, 20, 0), (254, 255, 65535))
 
 
-@part_test("STMC-INI-02", "STMC-BAD-05", "STMC-ST-03", init=None)
-async def stmc_ini_02_illegal_divisors(lab: Lab) -> None:
+@directed("STMC-INI-02", "STMC-BAD-05", "STMC-ST-03")
+async def stmc_ini_02_illegal_divisors(dut: Any) -> None:
     """Given illegal divisors, when the 4th byte is in, then error 5 and no effect."""
+    lab = await Lab.start(dut, None)
     for good in (False, True):
         if good:
             await lab.init(*STANDARD)
@@ -29,9 +33,10 @@ async def stmc_ini_02_illegal_divisors(lab: Lab) -> None:
     lab.check("STMC-INI-02", "type is not that of a refused one", lab.patterns[0], 0b00110)
 
 
-@part_test("STMC-INI-02", "STMC-MOV-04", "STMC-INI-01")
-async def stmc_ini_02_small_and_flat(lab: Lab) -> None:
+@directed("STMC-INI-02", "STMC-MOV-04", "STMC-INI-01")
+async def stmc_ini_02_small_and_flat(dut: Any) -> None:
     """Given divisors 1..4, PA 0 and 65535, D1 = D2, when moves run, then all are accepted and right."""
+    lab = await Lab.start(dut)
     for d1, d2, pa, n in (
         (4, 3, 2, 8),
         (255, 254, 65535, 3),
@@ -50,9 +55,10 @@ async def stmc_ini_02_small_and_flat(lab: Lab) -> None:
     lab.check("STMC-INI-01", "gaps of divisor 2 in clk", lab.intervals, [2560, 2560])
 
 
-@part_test("STMC-INI-04", "STMC-INI-05", "STMC-INI-06", "STMC-EXC-03")
-async def stmc_ini_04_frozen_bits(lab: Lab) -> None:
+@directed("STMC-INI-04", "STMC-INI-05", "STMC-INI-06", "STMC-EXC-03")
+async def stmc_ini_04_frozen_bits(dut: Any) -> None:
     """Given a part set up, when others are sent, then bits 3..0 stay; a reset frees them."""
+    lab = await Lab.start(dut)
     await lab.move(0x42)
     fin = await lab.finish()
     since = lab.bench.now
@@ -71,9 +77,10 @@ async def stmc_ini_04_frozen_bits(lab: Lab) -> None:
     lab.check("STMC-INI-04", "s after a reset", lab.bench.level("s"), 0b11100)
 
 
-@part_test("STMC-INI-04", "STMC-INI-07")
-async def stmc_ini_04_data_taken_anew(lab: Lab) -> None:
+@directed("STMC-INI-04", "STMC-INI-07")
+async def stmc_ini_04_data_taken_anew(dut: Any) -> None:
     """Given other divisors and the other clock, when sent again, then the next move has them."""
+    lab = await Lab.start(dut)
     await lab.init(0x1A, 30, 10, 4)
     await lab.move(0x43, 10)
     lab.train("STMC-INI-04", gaps(10, (30, 10, 4)))
@@ -82,9 +89,10 @@ async def stmc_ini_04_data_taken_anew(lab: Lab) -> None:
     lab.check("STMC-INI-04", "gaps on the internal clock", lab.intervals, [3840, 2560, 3840])
 
 
-@part_test("STMC-INI-07", "STMC-FSM-03", "STMC-BUS-14")
-async def stmc_ini_07_build(lab: Lab) -> None:
+@directed("STMC-INI-07", "STMC-FSM-03", "STMC-BUS-14")
+async def stmc_ini_07_build(dut: Any) -> None:
     """Given builds of all lengths, when a motion waits, then it is judged afterwards and runs right."""
+    lab = await Lab.start(dut)
     for d1, d2, pa in ((255, 1, 65535), (255, 254, 65535), (2, 1, 1), (200, 3, 255), (20, 20, 9), (9, 3, 0)):
         edge0 = (await lab.host.init(0x1A, d1, d2, pa), lab.bench.now)[1]
         lab.since = lab.bench.now
@@ -96,9 +104,10 @@ async def stmc_ini_07_build(lab: Lab) -> None:
         await lab.outcome("STMC-INI-07", 3, 0x83, 0, gaps(3, (d1, d2, pa)))
 
 
-@part_test("STMC-INI-07", "STMC-FSM-03", "STMC-BAD-16")
-async def stmc_ini_07_reset_in_the_build(lab: Lab) -> None:
+@directed("STMC-INI-07", "STMC-FSM-03", "STMC-BAD-16")
+async def stmc_ini_07_reset_in_the_build(dut: Any) -> None:
     """Given a build, when a reset comes at any moment of it, then the next initialisation is good."""
+    lab = await Lab.start(dut)
     for wait in (2, 40, 500, 3_000):
         await lab.host.init(0x1A, 255, 5, 400)
         await lab.bench.clocks(wait)
@@ -109,9 +118,10 @@ async def stmc_ini_07_reset_in_the_build(lab: Lab) -> None:
         await lab.outcome("STMC-INI-07", 12, 0x83, 0, gaps(12))
 
 
-@part_test("STMC-INI-06", "STMC-INI-08", on=(F16, FAMILY, D16), init=None, clock=0)
-async def stmc_ini_06_first_pattern(lab: Lab) -> None:
+@directed("STMC-INI-06", "STMC-INI-08", builds=(F16, FAMILY, D16))
+async def stmc_ini_06_first_pattern(dut: Any) -> None:
     """Given the idle level, when the first initialisation goes in, then position 0 appears, BUSY stays 0."""
+    lab = await Lab.start(dut, None, clock=0)
     idle = 0x1F if lab.family else 0
     lab.check("STMC-INI-06", "s before", lab.bench.level("s"), idle)
     lab.check("STMC-OUT-02", "outputs before", await lab.out(), 0xFC if idle else 0x04)
@@ -135,11 +145,10 @@ async def stmc_ini_06_first_pattern(lab: Lab) -> None:
         lab.check("STMC-INI-08", "int_n and hold", lab.bench.level("int_n") & lab.bench.level("hold"), 1)
 
 
-@part_test(
-    "STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04", "STMC-EXC-05", "STMC-OUT-01", "STMC-OUT-02", init=None
-)
-async def stmc_exc_01_all_tables(lab: Lab) -> None:
+@directed("STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04", "STMC-EXC-05", "STMC-OUT-01", "STMC-OUT-02")
+async def stmc_exc_01_all_tables(dut: Any) -> None:
     """Given each type, mode, logic, when it runs round twice and back, then every pattern of the table."""
+    lab = await Lab.start(dut, None)
     for low in STEPS:
         for logic in (8, 0):
             code = 0x10 | low | logic
@@ -159,9 +168,10 @@ async def stmc_exc_01_all_tables(lab: Lab) -> None:
             lab.check("STMC-OUT-01", f"outputs of {code:#x}", await lab.out() & ~4, register)
 
 
-@part_test("STMC-MOT-04", "STMC-OUT-01", "STMC-INI-06")
-async def stmc_out_01_direction_bit(lab: Lab) -> None:
+@directed("STMC-MOT-04", "STMC-OUT-01", "STMC-INI-06")
+async def stmc_out_01_direction_bit(dut: Any) -> None:
     """Given motions both ways and refused ones, when 83 is read, then the last executed one counts."""
+    lab = await Lab.start(dut)
     for script, bit in (
         ("c 4A", 1),
         ("c 42", 0),

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from itertools import repeat
+from typing import Any
 
 from cocotb_tests.harness.bus import BUSY
 from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.directed import directed
 
 from .figures import ALL, EXT, F8X20, F12, F200, INTERNAL, MOST, ODD, STANDARD, SWITCHES, T0, divisor, gaps
-from .lab import END_LATEST, Lab, part_test
+from .lab import END_LATEST, Lab
 
 # Command 2 to 7 with n = 4 or without a count.
 MOTIONS = (
@@ -24,9 +26,10 @@ MOTIONS = (
 CLOCKS = (F16, F12, F200, F8X20, ODD)
 
 
-@part_test("STMC-MOT-06", "STMC-CLK-01", "STMC-CLK-03", "STMC-MOV-02", on=CLOCKS, init=INTERNAL, clock=0)
-async def stmc_clk_01_internal_clock(lab: Lab) -> None:
+@directed("STMC-MOT-06", "STMC-CLK-01", "STMC-CLK-03", "STMC-MOV-02", builds=CLOCKS)
+async def stmc_clk_01_internal_clock(dut: Any) -> None:
     """Given any core and crystal clock, when moves run, then T0 and every step are where the formula says."""
+    lab = await Lab.start(dut, INTERNAL, clock=0)
     t0 = lab.cfg.cyc(T0)
     for n in (4, 7):
         begin = lab.bench.now
@@ -39,9 +42,10 @@ async def stmc_clk_01_internal_clock(lab: Lab) -> None:
     await lab.outcome("STMC-MOV-01", 5, 0x84, 0, [3] * 4)
 
 
-@part_test("STMC-MOT-08", "STMC-MOT-09", "STMC-FIN-01")
-async def stmc_mot_08_normal_end(lab: Lab) -> None:
+@directed("STMC-MOT-08", "STMC-MOT-09", "STMC-FIN-01")
+async def stmc_mot_08_normal_end(dut: Any) -> None:
     """Given complete motions, when the last step is made, then BUSY falls and int_n follows at once."""
+    lab = await Lab.start(dut)
     for code, n, rate in (
         (0x42, None, None),
         (0x43, 5, None),
@@ -59,9 +63,10 @@ async def stmc_mot_08_normal_end(lab: Lab) -> None:
         lab.check("STMC-MOT-08", "pattern stays", lab.bench.level("s"), pattern)
 
 
-@part_test("STMC-MOT-06", "STMC-CLK-02", "STMC-CLK-03", clock=0)
-async def stmc_clk_02_external_clock(lab: Lab) -> None:
+@directed("STMC-MOT-06", "STMC-CLK-02", "STMC-CLK-03")
+async def stmc_clk_02_external_clock(dut: Any) -> None:
     """Given uneven external ticks, when moves run, then step 0 is on a tick after T0, gaps count ticks."""
+    lab = await Lab.start(dut, clock=0)
     periods = [64, 16, 33, 20, 90, 17, 16, 24, 41, 128]
     lab.bench.external_clock((p for _ in repeat(0) for p in periods), high=5)
     for n in (2, 9, 12):
@@ -77,9 +82,10 @@ async def stmc_clk_02_external_clock(lab: Lab) -> None:
             lab.check("STMC-MOT-06", "ticks after T0 that were left out", before, [])
 
 
-@part_test("STMC-SGL-01", "STMC-SGL-03", clock=0)
-async def stmc_sgl_01_single_step_without_ticks(lab: Lab) -> None:
+@directed("STMC-SGL-01", "STMC-SGL-03")
+async def stmc_sgl_01_single_step_without_ticks(dut: Any) -> None:
     """Given an external clock that stands still, when 42 comes, then the step is made after T0."""
+    lab = await Lab.start(dut, clock=0)
     for code in (0x42, 0x4A, 0x6A, 0x52):
         begin = lab.bench.now
         await lab.go(code)
@@ -90,9 +96,10 @@ async def stmc_sgl_01_single_step_without_ticks(lab: Lab) -> None:
         await lab.result("STMC-SGL-03", 1, 0x82, 0)
 
 
-@part_test("STMC-SGL-02", "STMC-IN-03", "STMC-IN-05", "STMC-IN-06", "STMC-INP-01", clock=0)
-async def stmc_sgl_02_single_steps_and_switches(lab: Lab) -> None:
+@directed("STMC-SGL-02", "STMC-IN-03", "STMC-IN-05", "STMC-IN-06", "STMC-INP-01")
+async def stmc_sgl_02_single_steps_and_switches(dut: Any) -> None:
     """Given each switch active, when single steps both ways are sent, then limit and mon stop them."""
+    lab = await Lab.start(dut, clock=0)
     for pin, bit in zip(SWITCHES, (0x08, 0x04, 0x02, 0x01, 0x80, 0x40), strict=True):
         since = lab.bench.now
         await lab.pins(**{pin: 0})
@@ -107,11 +114,12 @@ async def stmc_sgl_02_single_steps_and_switches(lab: Lab) -> None:
         await lab.pins(**{pin: 1})
 
 
-@part_test(
+@directed(
     "STMC-MOT-05", "STMC-MOT-04", "STMC-RUN-03", "STMC-IN-03", "STMC-IN-04", "STMC-DEC-03", "STMC-BAD-14"
 )
-async def stmc_mot_05_causes_at_the_start(lab: Lab) -> None:
+async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
     """Given each switch active at the start, when each motion both ways starts, then as table 7.3 says."""
+    lab = await Lab.start(dut)
     for pin in (*SWITCHES, "all"):
         active = SWITCHES[:5] if pin == "all" else (pin,)
         await lab.pins(**dict.fromkeys(active, 0))
@@ -134,9 +142,10 @@ async def stmc_mot_05_causes_at_the_start(lab: Lab) -> None:
         await lab.pins(**dict.fromkeys(active, 1))
 
 
-@part_test("STMC-MOT-05", "STMC-MOT-10", "STMC-HLD-02")
-async def stmc_mot_05_times_without_a_step(lab: Lab) -> None:
+@directed("STMC-MOT-05", "STMC-MOT-10", "STMC-HLD-02")
+async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
     """Given mon low, when a motion is sent, then BUSY is up for at most 8 clk, and int_n falls."""
+    lab = await Lab.start(dut)
     await lab.pins(mon=0)
     for masked in (0, 0x10):
         begin = lab.bench.now
@@ -152,9 +161,10 @@ async def stmc_mot_05_times_without_a_step(lab: Lab) -> None:
     lab.check("STMC-HLD-02", "hold", lab.bench.level("hold"), 0)
 
 
-@part_test("STMC-MOT-03", "STMC-BAD-07")
-async def stmc_mot_03_divisor_0(lab: Lab) -> None:
+@directed("STMC-MOT-03", "STMC-BAD-07")
+async def stmc_mot_03_divisor_0(dut: Any) -> None:
     """Given divisor 0 in commands 4, 5, 7, when the last byte is in, then error 5, nothing changes."""
+    lab = await Lab.start(dut)
     await lab.move(0x4B, 3)
     since = lab.bench.now
     for code, more in ((0x44, (9, 0, 0)), (0x45, ()), (0x47, ())):
@@ -167,9 +177,10 @@ async def stmc_mot_03_divisor_0(lab: Lab) -> None:
     lab.check("STMC-BAD-07", "FIN and REM", (await lab.finish(), await lab.remaining()), (0x83, 0))
 
 
-@part_test("STMC-RUN-02", "STMC-RUN-01", "STMC-MOT-04", "STMC-MOT-07")
-async def stmc_run_02_counts(lab: Lab) -> None:
+@directed("STMC-RUN-02", "STMC-RUN-01", "STMC-MOT-04", "STMC-MOT-07")
+async def stmc_run_02_counts(dut: Any) -> None:
     """Given moves of many lengths, when they stop after two steps, then REM is what was sent less two."""
+    lab = await Lab.start(dut)
     for n in (3, 256, 257, 65_536, 65_537, ALL):
         await lab.go(0x44, n, 6)
         await lab.in_gap(1)
@@ -182,9 +193,10 @@ async def stmc_run_02_counts(lab: Lab) -> None:
         await lab.result("STMC-RUN-02", 5, 0xC0 | code & 7, MOST - 5)
 
 
-@part_test("STMC-CLK-04", "STMC-BAD-15", clock=0, compared=False)
-async def stmc_clk_04_too_fast_a_clock(lab: Lab) -> None:
+@directed("STMC-CLK-04", "STMC-BAD-15")
+async def stmc_clk_04_too_fast_a_clock(dut: Any) -> None:
     """Given gaps far below 64 clk, when moves and stops run, then steps, order, FIN and REM are right."""
+    lab = await Lab.start(dut, clock=0)
     await lab.init(0x1A, 4, 1, 8)
     for period in (4, 6, 9):
         clock = lab.bench.external_clock(repeat(period), high=2)
@@ -210,9 +222,10 @@ async def stmc_clk_04_too_fast_a_clock(lab: Lab) -> None:
         lab.set(ext_clk=0)
 
 
-@part_test("STMC-CLK-05", "STMC-BAD-15", "STMC-IN-01", clock=0)
-async def stmc_clk_05_a_clock_that_stops(lab: Lab) -> None:
+@directed("STMC-CLK-05", "STMC-BAD-15", "STMC-IN-01")
+async def stmc_clk_05_a_clock_that_stops(dut: Any) -> None:
     """Given a clock that stops in mid-move, when limits, 41 and reads come, then they work."""
+    lab = await Lab.start(dut, clock=0)
     await lab.go(0x43, 100)
     await lab.bench.clocks(120)
     await lab.tick_until(4)
@@ -232,9 +245,10 @@ async def stmc_clk_05_a_clock_that_stops(lab: Lab) -> None:
     await lab.result("STMC-CLK-05", 6, 0x96, MOST - 6)
 
 
-@part_test("STMC-BAD-16", "STMC-INI-04")
-async def stmc_bad_16_reset_in_motion(lab: Lab) -> None:
+@directed("STMC-BAD-16", "STMC-INI-04")
+async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
     """Given motions, when rst_n falls between two edges at several moments, then everything is as new."""
+    lab = await Lab.start(dut)
     for moment in (0, 1, 2):
         await lab.go(0x43, 50)
         await lab.in_gap(3 * moment, 20)
@@ -248,9 +262,10 @@ async def stmc_bad_16_reset_in_motion(lab: Lab) -> None:
         await lab.init(*STANDARD)
 
 
-@part_test("STMC-RMP-01", "STMC-RMP-02", "STMC-RMP-03")
-async def stmc_rmp_01_ramps(lab: Lab) -> None:
+@directed("STMC-RMP-01", "STMC-RMP-02", "STMC-RMP-03")
+async def stmc_rmp_01_ramps(dut: Any) -> None:
     """Given the reference ramps, when whole moves run, then every level has its reference value."""
+    lab = await Lab.start(dut)
     table = {
         (10, 5, 4): [10, 8, 6, 6, 5],
         (40, 10, 6): [40, 21, 16, 14, 12, 11, 10],
@@ -267,9 +282,10 @@ async def stmc_rmp_01_ramps(lab: Lab) -> None:
         await lab.outcome("STMC-RMP-01", n, 0x83, 0, [*wanted, wanted[-1], *wanted[-2::-1]])
 
 
-@part_test("STMC-INI-02", "STMC-RMP-02", "STMC-MOV-02", init=(0x1A, 2, 1, 65_535), compared=False)
-async def stmc_rmp_02_the_longest_ramp(lab: Lab) -> None:
+@directed("STMC-INI-02", "STMC-RMP-02", "STMC-MOV-02")
+async def stmc_rmp_02_the_longest_ramp(dut: Any) -> None:
     """Given PA = 65535, when all its levels are climbed, then the speed stays at the top."""
+    lab = await Lab.start(dut, (0x1A, 2, 1, 65_535))
     # x(k) = 1 from the first k on with 7 * 65535 <= 27 * (k - 1): the threshold form of the rule.
     change = 1 + 7 * 65_535 // 27
     await lab.go(0x46)

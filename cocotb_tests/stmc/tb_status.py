@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, ERR, IBF, OBF
 from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.directed import directed
 
 from .figures import FAMILY, STANDARD
-from .lab import Lab, part_test
+from .lab import Lab
 from .states import MOVING, RESTING, enter, leave
 
 READS = {"SHEET": (0x80, 0x82, 0x83, 0x84), "FAMILY": (0x80, 0x81, 0x82, 0x83)}
@@ -51,9 +54,10 @@ def verdict(kind: str, state: str) -> int:
 SAMPLE = (0x0A, 0x08, 0x40, 0x78, 0x41, 0x59, 0x42, 0x43, 0x64, 0x45, 0x46, 0x47, 0x80, 0x84, 0x81, 0xC3)
 
 
-@part_test("STMC-MOT-01", "STMC-STP-05", "STMC-BAD-01", init=None, clock=0, on=(F16, FAMILY))
-async def stmc_all_codes_before_the_initialisation(lab: Lab) -> None:
+@directed("STMC-MOT-01", "STMC-STP-05", "STMC-BAD-01", builds=(F16, FAMILY))
+async def stmc_all_codes_before_the_initialisation(dut: Any) -> None:
     """Given no initialisation, when each of the 256 codes is sent, then the status is as its kind says."""
+    lab = await Lab.start(dut, None, clock=0)
     reads = READS["FAMILY" if lab.family else "SHEET"]
     count = 0
     for code in range(256):
@@ -68,9 +72,10 @@ async def stmc_all_codes_before_the_initialisation(lab: Lab) -> None:
     lab.check("STMC-BAD-01", "number of undefined codes", count, 16 + 124)
 
 
-@part_test("STMC-FSM-01", "STMC-FSM-02", "STMC-CMD-01", "STMC-STP-04", "STMC-ST-03", clock=0, init=None)
-async def stmc_fsm_01_accept_table(lab: Lab) -> None:
+@directed("STMC-FSM-01", "STMC-FSM-02", "STMC-CMD-01", "STMC-STP-04", "STMC-ST-03")
+async def stmc_fsm_01_accept_table(dut: Any) -> None:
     """Given each state, when each kind of byte comes, then the status is as the table says."""
+    lab = await Lab.start(dut, None, clock=0)
     for state in (*RESTING, *MOVING):
         for code in SAMPLE:
             kind = kind_of(code, READS["SHEET"])
@@ -85,9 +90,10 @@ async def stmc_fsm_01_accept_table(lab: Lab) -> None:
                 lab.check("STMC-FSM-01", f"{code:#04x} in {state}", got, wanted | moving)
 
 
-@part_test("STMC-CMD-03", "STMC-BAD-02", "STMC-BAD-03", "STMC-ST-03", clock=0, init=None)
-async def stmc_cmd_03_data_bytes(lab: Lab) -> None:
+@directed("STMC-CMD-03", "STMC-BAD-02", "STMC-BAD-03", "STMC-ST-03")
+async def stmc_cmd_03_data_bytes(dut: Any) -> None:
     """Given each state, when a data byte comes, then it is taken, error 3, or error 6, and nothing else."""
+    lab = await Lab.start(dut, None, clock=0)
     for state in (*RESTING, *MOVING):
         await enter(lab, state)
         since = lab.bench.now
@@ -101,9 +107,10 @@ async def stmc_cmd_03_data_bytes(lab: Lab) -> None:
         await leave(lab)
 
 
-@part_test("STMC-ST-02", "STMC-ST-03", "STMC-ST-04", "STMC-CMD-01", "STMC-CMD-02")
-async def stmc_st_03_error_field(lab: Lab) -> None:
+@directed("STMC-ST-02", "STMC-ST-03", "STMC-ST-04", "STMC-CMD-01", "STMC-CMD-02")
+async def stmc_st_03_error_field(dut: Any) -> None:
     """Given errors, when refused and accepted bytes follow, then only an accepted command clears ERR."""
+    lab = await Lab.start(dut)
     got = await lab.statuses("c C0 d 00")
     lab.check("STMC-ST-03", "statuses", got, [0x80, 0xB0])
     lab.since = lab.bench.now
@@ -119,9 +126,10 @@ async def stmc_st_03_error_field(lab: Lab) -> None:
     lab.check("STMC-ST-02", "80 clears ERR", await lab.host.command(0x80), OBF)
 
 
-@part_test("STMC-CMD-02", "STMC-BAD-04", "STMC-FSM-03")
-async def stmc_cmd_02_unfinished_commands(lab: Lab) -> None:
+@directed("STMC-CMD-02", "STMC-BAD-04", "STMC-FSM-03")
+async def stmc_cmd_02_unfinished_commands(dut: Any) -> None:
     """Given unfinished commands, when time passes and another code comes, then they had no effect at all."""
+    lab = await Lab.start(dut)
     since = lab.bench.now
     for script in ("c 43 d 05 d 00", "c 44 d 07 d 01 d 00", "c 0A d 05 d 05 d 00", "c 45", "c 08", "c 47"):
         await lab.statuses(script)
@@ -133,9 +141,10 @@ async def stmc_cmd_02_unfinished_commands(lab: Lab) -> None:
     await lab.outcome("STMC-CMD-02", 3, 0x83, 0, [20, 20])
 
 
-@part_test("STMC-ST-01", "STMC-BAD-08", init=None)
-async def stmc_bad_08_motion_before_the_initialisation(lab: Lab) -> None:
+@directed("STMC-ST-01", "STMC-BAD-08")
+async def stmc_bad_08_motion_before_the_initialisation(dut: Any) -> None:
     """Given no initialisation, when motions with all their data come, then error 2, then 3 for each byte."""
+    lab = await Lab.start(dut, None)
     lab.check("STMC-ST-01", "status", await lab.host.status(), 0x00)
     for code, count in ((0x42, 0), (0x43, 3), (0x44, 4), (0x45, 1), (0x46, 0), (0x4F, 1)):
         got = [await lab.status_after(code)] + [await lab.status_after(5, DATA) for _ in range(count)]
@@ -145,18 +154,20 @@ async def stmc_bad_08_motion_before_the_initialisation(lab: Lab) -> None:
     lab.check("STMC-BAD-08", "registers", await lab.host.run("c 80 r c 84 rrr"), [0x80, 0, 0, 0])
 
 
-@part_test("STMC-BAD-17", "STMC-BAD-03", "STMC-MOT-02")
-async def stmc_bad_17_two_motions_back_to_back(lab: Lab) -> None:
+@directed("STMC-BAD-17", "STMC-BAD-03", "STMC-MOT-02")
+async def stmc_bad_17_two_motions_back_to_back(dut: Any) -> None:
     """Given a motion just started, when a second one follows without a poll, then errors 1 and 6."""
+    lab = await Lab.start(dut)
     await lab.go(0x43, 3)
     got = await lab.statuses("c 44 d 01 d 00 d 00 d 00")
     lab.check("STMC-BAD-17", "statuses", got, [0x94, *[0xE4] * 4])
     await lab.outcome("STMC-BAD-17", 3, 0x83, 0, [20, 20])
 
 
-@part_test("STMC-RD-01", "STMC-CMD-01", "STMC-BAD-11", "STMC-FIN-04", "STMC-REM-02")
-async def stmc_rd_01_reads(lab: Lab) -> None:
+@directed("STMC-RD-01", "STMC-CMD-01", "STMC-BAD-11", "STMC-FIN-04", "STMC-REM-02")
+async def stmc_rd_01_reads(dut: Any) -> None:
     """Given reads of all kinds, when repeated or left unread, then each accepted one replaces the last."""
+    lab = await Lab.start(dut)
     await lab.go(0x44, 1000, 5)
     await lab.in_gap(4)
     await lab.halt()
@@ -178,9 +189,10 @@ async def stmc_rd_01_reads(lab: Lab) -> None:
     lab.check("STMC-BAD-11", "nothing more", await lab.host.status(), 0)
 
 
-@part_test("STMC-FSM-01", "STMC-FSM-04", "STMC-STP-03", clock=0)
-async def stmc_fsm_04_stops_before_step_0(lab: Lab) -> None:
+@directed("STMC-FSM-01", "STMC-FSM-04", "STMC-STP-03")
+async def stmc_fsm_04_stops_before_step_0(dut: Any) -> None:
     """Given commands 2..7 in state S, when 40 or 41 comes, then no step, but one in commands 3 and 6."""
+    lab = await Lab.start(dut, clock=0)
     for code, n, divisor, number in (
         (0x42, None, None, 2),
         (0x43, 50, None, 3),

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import differences
 
 from .figures import ALL, EXT, MOST, SWITCHES, gaps, slowed
-from .lab import END_LATEST, PINS_LATEST, Lab, part_test
+from .lab import END_LATEST, PINS_LATEST, Lab
 
 REQUESTS = (("c 41", 0x40), ("l3_n", 0x08))
 
@@ -19,9 +22,10 @@ async def request(lab: Lab, how: str) -> None:
         await lab.blip(how)
 
 
-@part_test("STMC-DEC-01", "STMC-DEC-02", "STMC-DEC-04", "STMC-STP-03", "STMC-FIN-02", "STMC-FIN-03")
-async def stmc_dec_04_every_gap_of_a_move(lab: Lab) -> None:
+@directed("STMC-DEC-01", "STMC-DEC-02", "STMC-DEC-04", "STMC-STP-03", "STMC-FIN-02", "STMC-FIN-03")
+async def stmc_dec_04_every_gap_of_a_move(dut: Any) -> None:
     """Given moves of 12 and 24 steps, when a request comes in each gap, then the gaps of the rule."""
+    lab = await Lab.start(dut)
     for n, how, bit in ((12, "c 41", 0x40), (23, "l3_n", 0x08)):
         for i in range(n - 1):
             await lab.go(0x43, n)
@@ -33,9 +37,10 @@ async def stmc_dec_04_every_gap_of_a_move(lab: Lab) -> None:
             await lab.outcome("STMC-DEC-04", made, finish, max(n - 1 - made, 0), ticks)
 
 
-@part_test("STMC-DEC-03", "STMC-MOV-04", "STMC-DEC-04")
-async def stmc_dec_03_start_speed(lab: Lab) -> None:
+@directed("STMC-DEC-03", "STMC-MOV-04", "STMC-DEC-04")
+async def stmc_dec_03_start_speed(dut: Any) -> None:
     """Given ramps that begin flat, flat profiles, when a request comes at D1, then it stops at once."""
+    lab = await Lab.start(dut)
     for ramp, last in (((10, 9, 16), 9), ((10, 6, 16), 4), ((12, 6, 0), 3), ((9, 9, 5), 3), ((50, 49, 3), 3)):
         await lab.init(0x1A, *ramp)
         for how, bit in REQUESTS:
@@ -56,9 +61,10 @@ async def stmc_dec_03_start_speed(lab: Lab) -> None:
             await lab.outcome("STMC-MOV-04", 6, 0x83 | bit, 1, [ramp[1]] * 5)
 
 
-@part_test("STMC-DEC-03", "STMC-MOT-08", "STMC-IN-02")
-async def stmc_dec_03_stop_at_once_is_at_once(lab: Lab) -> None:
+@directed("STMC-DEC-03", "STMC-MOT-08", "STMC-IN-02")
+async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
     """Given gap 0, when a request comes, then BUSY falls within 8 clk of the pin, 12 of the byte."""
+    lab = await Lab.start(dut)
     for how, latest in (("l3_n", 8), ("c 41", PINS_LATEST)):
         await lab.go(0x43, 60)
         await lab.in_gap(0, 60)
@@ -71,9 +77,10 @@ async def stmc_dec_03_stop_at_once_is_at_once(lab: Lab) -> None:
         await lab.outcome("STMC-DEC-03", 1, 0xC3 if how == "c 41" else 0x8B, 58, [])
 
 
-@part_test("STMC-DEC-02", "STMC-STP-04", "STMC-FIN-03", "STMC-DEC-05")
-async def stmc_dec_02_second_requests(lab: Lab) -> None:
+@directed("STMC-DEC-02", "STMC-STP-04", "STMC-FIN-03", "STMC-DEC-05")
+async def stmc_dec_02_second_requests(dut: Any) -> None:
     """Given an accepted request, when others follow, then error 7 or nothing, and only the first counts."""
+    lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(6)
     lab.check("STMC-DEC-02", "41", await lab.command(0x41), BUSY)
@@ -88,9 +95,10 @@ async def stmc_dec_02_second_requests(lab: Lab) -> None:
     await lab.outcome("STMC-FIN-03", len(slowed(100, 6)) + 1, 0x8B, 99 - 14, slowed(100, 6))
 
 
-@part_test("STMC-DEC-06", "STMC-STP-06", "STMC-FIN-02", "STMC-STP-01", "STMC-IN-02")
-async def stmc_dec_06_stops_in_the_ramp_down(lab: Lab) -> None:
+@directed("STMC-DEC-06", "STMC-STP-06", "STMC-FIN-02", "STMC-STP-01", "STMC-IN-02")
+async def stmc_dec_06_stops_in_the_ramp_down(dut: Any) -> None:
     """Given a ramp down by 41 or l3_n, when l1_n, mon or 40 comes, then at once, and all bits are there."""
+    lab = await Lab.start(dut)
     for how, first in REQUESTS:
         for stop, second in (("l1_n", 0x10), ("mon", 0x20), ("c 40", 0x40)):
             await lab.go(0x46)
@@ -104,9 +112,10 @@ async def stmc_dec_06_stops_in_the_ramp_down(lab: Lab) -> None:
             await lab.outcome("STMC-DEC-06", 13, 0x86 | first | second, MOST - 13, gaps(100)[:11] + [5])
 
 
-@part_test("STMC-STP-01", "STMC-STP-02", "STMC-MOT-08", "STMC-MOT-09")
-async def stmc_stp_01_emergency_stop(lab: Lab) -> None:
+@directed("STMC-STP-01", "STMC-STP-02", "STMC-MOT-08", "STMC-MOT-09")
+async def stmc_stp_01_emergency_stop(dut: Any) -> None:
     """Given each motion, when 40 (or 41) comes at many distances before a step, then none comes late."""
+    lab = await Lab.start(dut)
     moves = ((0x43, 200, None), (0x44, 200, 5), (0x45, None, 5), (0x46, None, None), (0x47, None, 5))
     for code, n, rate in moves:
         number = code & 7
@@ -125,9 +134,10 @@ async def stmc_stp_01_emergency_stop(lab: Lab) -> None:
             await lab.result("STMC-STP-01", made, 0xC0 | number, total - 1 - made)
 
 
-@part_test("STMC-IN-01", "STMC-IN-02", "STMC-IN-03", "STMC-MOT-08")
-async def stmc_in_02_pins_before_a_step(lab: Lab) -> None:
+@directed("STMC-IN-01", "STMC-IN-02", "STMC-IN-03", "STMC-MOT-08")
+async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
     """Given a pin that stops, when it changes d clk before a step, then 4 and more suppress it."""
+    lab = await Lab.start(dut)
     for code, pin, bits in (
         (0x45, "l1_n", 0x10),
         (0x4D, "l2_n", 0x10),
@@ -149,9 +159,10 @@ async def stmc_in_02_pins_before_a_step(lab: Lab) -> None:
             await lab.result("STMC-IN-02", made, 0x80 | bits | code & 7, MOST - made)
 
 
-@part_test("STMC-IN-03", "STMC-IN-05", "STMC-FIN-01", "STMC-FIN-04", "STMC-RUN-03")
-async def stmc_in_03_what_is_ignored(lab: Lab) -> None:
+@directed("STMC-IN-03", "STMC-IN-05", "STMC-FIN-01", "STMC-FIN-04", "STMC-RUN-03")
+async def stmc_in_03_what_is_ignored(dut: Any) -> None:
     """Given each motion both ways, when switches that do not count for it come, then nothing happens."""
+    lab = await Lab.start(dut)
     cases = (
         (0x43, 12, None, ("l2_n", "l4_n", "cnp_n"), ("l1_n", "l3_n", "cnp_n")),
         (0x44, 6, 9, ("l2_n", "l4_n", "l3_n", "cnp_n"), ("l1_n", "l3_n", "l4_n", "cnp_n")),
@@ -181,9 +192,10 @@ async def stmc_in_03_what_is_ignored(lab: Lab) -> None:
         lab.check("STMC-FIN-04", "FIN with switches at rest", await lab.finish(), finish)
 
 
-@part_test("STMC-IN-04", "STMC-FIN-02")
-async def stmc_in_04_causes_in_one_clk(lab: Lab) -> None:
+@directed("STMC-IN-04", "STMC-FIN-02")
+async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
     """Given several causes on one edge, when they come, then stop causes are all recorded."""
+    lab = await Lab.start(dut)
     for code, pins, bits, made in (
         (0x43, ("l1_n", "l3_n"), 0x10, 5),
         (0x43, ("l1_n", "mon"), 0x30, 5),
@@ -204,9 +216,10 @@ async def stmc_in_04_causes_in_one_clk(lab: Lab) -> None:
         await lab.result("STMC-IN-04", made, 0x80 | bits | code & 7, total - 1 - made)
 
 
-@part_test("STMC-IN-04", "STMC-DEC-07", "STMC-FIN-02")
-async def stmc_in_04_command_and_limit_together(lab: Lab) -> None:
+@directed("STMC-IN-04", "STMC-DEC-07", "STMC-FIN-02")
+async def stmc_in_04_command_and_limit_together(dut: Any) -> None:
     """Given 41 and l3_n around one edge, when both come, then one or both bits, and one ramp down."""
+    lab = await Lab.start(dut)
     for lead in range(-2, 9):
         await lab.go(0x43, 100)
         step = await lab.in_gap(10, 10)
@@ -221,9 +234,10 @@ async def stmc_in_04_command_and_limit_together(lab: Lab) -> None:
         lab.check("STMC-FIN-02", "FIN", await lab.finish() in (0xC3, 0x8B, 0xCB), True)
 
 
-@part_test("STMC-DEC-07", "STMC-DEC-04")
-async def stmc_dec_07_requests_at_a_step(lab: Lab) -> None:
+@directed("STMC-DEC-07", "STMC-DEC-04")
+async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
     """Given a request d clk before a step, when d is 4 or more, then it counts for the gap before it."""
+    lab = await Lab.start(dut)
     for how, _ in REQUESTS:
         for before in (0, 1, 2, 3, 4, 6, 12):
             await lab.go(0x43, 100)
@@ -237,9 +251,10 @@ async def stmc_dec_07_requests_at_a_step(lab: Lab) -> None:
             await lab.finish()
 
 
-@part_test("STMC-FIN-02", "STMC-FIN-04", "STMC-MOT-08", "STMC-STP-04")
-async def stmc_mot_08_after_the_last_step(lab: Lab) -> None:
+@directed("STMC-FIN-02", "STMC-FIN-04", "STMC-MOT-08", "STMC-STP-04")
+async def stmc_mot_08_after_the_last_step(dut: Any) -> None:
     """Given the last step, when switches or stops come right after it, then they leave no trace."""
+    lab = await Lab.start(dut)
     for wait in range(0, 10):
         for how, code in (("l1_n", 0x43), ("mon", 0x43), ("c 40", 0x43), ("c 41", 0x43), ("c 41", 0x44)):
             await lab.go(code, 3, 20 if code == 0x44 else None)
@@ -258,9 +273,10 @@ async def stmc_mot_08_after_the_last_step(lab: Lab) -> None:
                 lab.check("STMC-FIN-02", f"FIN with {how}", finish & 0x70 > 0, True)
 
 
-@part_test("STMC-DEC-03", "STMC-STP-03", "STMC-MOT-06", clock=0)
-async def stmc_dec_03_requests_before_step_0(lab: Lab) -> None:
+@directed("STMC-DEC-03", "STMC-STP-03", "STMC-MOT-06")
+async def stmc_dec_03_requests_before_step_0(dut: Any) -> None:
     """Given commands 3 and 6 in state S, when a request comes, then step 0 is made and is the last."""
+    lab = await Lab.start(dut, clock=0)
     for code, n in ((0x43, 30), (0x43, 1), (0x46, None)):
         for how, bit in REQUESTS:
             await lab.go(code, n)
@@ -274,9 +290,10 @@ async def stmc_dec_03_requests_before_step_0(lab: Lab) -> None:
             await lab.result("STMC-DEC-03", 1, finish, max(total - 2, 0))
 
 
-@part_test("STMC-REM-01", "STMC-FIN-02", "STMC-RUN-01")
-async def stmc_rem_01_the_rest_can_be_sent_again(lab: Lab) -> None:
+@directed("STMC-REM-01", "STMC-FIN-02", "STMC-RUN-01")
+async def stmc_rem_01_the_rest_can_be_sent_again(dut: Any) -> None:
     """Given stopped moves, when REM is sent as a new command, then exactly the missing steps are made."""
+    lab = await Lab.start(dut)
     for n, gap in ((30, 4), (12, 9), (6, 4)):
         for code, rate in ((0x43, None), (0x44, 6)):
             await lab.go(code, n, rate)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.compare import compare_recording, new_model, replay
+from cocotb_tests.harness.compare import compare_recording, replay
+from cocotb_tests.harness.follower import new_model
 from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.stimulus import Access, Change, Recording, steps
@@ -207,7 +208,7 @@ def test_waves_name_the_registers(tmp_path):
         recording.accesses.append(Access(t + 3, {2: "WCR :=", 3: "WAR :=", 5: "DWR :="}[reg], reg, byte))
         t += 6
     recording.end = t + 200
-    recording.edges = replay(recording, new_model(recording))
+    recording.edges = replay(recording, new_model(recording.part, recording.params))
     comparison = compare_recording(recording)
     assert comparison.mismatch is None
     target = tmp_path / "waves.vcd"
@@ -233,7 +234,7 @@ def test_waves_show_the_steps_of_the_board(tmp_path):
         recording.stimulus += [Change(t + 9, "iow_n", 1)]
         t += 20 if byte in (0x3A, 20, 5, 8) else 40_000
     recording.end = t
-    recording.edges = replay(recording, new_model(recording))
+    recording.edges = replay(recording, new_model(recording.part, recording.params))
     comparison = compare_recording(recording)
     assert comparison.mismatch is None
     found = waves.motor_pulses(comparison, VIEW_STMC)["motor"]
@@ -258,7 +259,7 @@ def test_waves_show_each_axis(tmp_path):
         ]
         t += 20 if byte else 40_000
     recording.end = t + 2000
-    recording.edges = replay(recording, new_model(recording))
+    recording.edges = replay(recording, new_model(recording.part, recording.params))
     comparison = compare_recording(recording)
     assert comparison.mismatch is None
     target = tmp_path / "waves.vcd"

@@ -1,0 +1,67 @@
+"""What the running test has on the bench, for `start_bench` and `directed`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from .side import Side
+
+Judge = Callable[[Any], Any]
+"""Compares what a side has seen with the golden model; raises AssertionError at a difference."""
+
+
+class Running:
+    """One test: the side that it works on now, if any, and who judges it (None: nobody).
+
+    `differs`: a comparison has failed.
+    """
+
+    def __init__(self, judge: Judge | None) -> None:
+        self._judge = judge
+        self.side: Side | None = None
+        self.differs = False
+
+    async def judge(self) -> None:
+        """Compare what the present side has seen; AssertionError at a difference."""
+        if self._judge and self.side and self.side.simulated:
+            await self.side.align()
+            self.differs = True
+            self._judge(self.side)
+            self.differs = False
+
+    async def opinion(self) -> str:
+        """What the golden model says of a run that has failed a check of its test."""
+        if not (self._judge and self.side and self.side.simulated):
+            return "nothing is compared with the golden model here"
+        try:
+            await self.judge()
+        except Exception as other:  # whatever the model does, the failed check is what counts
+            return f"the golden model differs: {other}"
+        return "up to here the golden model shows the same edges"
+
+    async def put_away(self) -> None:
+        """Judge the present side, if there is one, and let its pins rest: another one is to start."""
+        if self.side:
+            await self.judge()
+            self.side.close()
+            self.side = None
+
+
+_now: list[Running] = []
+
+
+def present() -> Running | None:
+    """The directed test that is running; None outside of one."""
+    return _now[-1] if _now else None
+
+
+@contextmanager
+def running_test(judge: Judge | None) -> Iterator[Running]:
+    """Inside, a directed test runs whose sides `judge` compares."""
+    _now.append(Running(judge))
+    try:
+        yield _now[-1]
+    finally:
+        _now.pop()

@@ -1,0 +1,182 @@
+"""`directed`: when a test is compared with the golden model, and what a failure says."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+import pytest
+
+from cocotb_tests.harness import directed as module
+from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness.running import present
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness.verifies import rules_of
+from cocotb_tests.ppmc104.bench import PPMC104
+
+
+class Simulated(ModelBench):
+    """A golden model that says it is the RTL."""
+
+    simulated = True
+
+
+class Judge:
+    """Compares nothing; keeps the sides, and fails if told to."""
+
+    def __init__(self) -> None:
+        self.sides: list[Any] = []
+        self.finds = ""
+
+    def __call__(self, side: Any) -> None:
+        self.sides.append(side)
+        if self.finds:
+            raise AssertionError(self.finds)
+
+
+@pytest.fixture
+def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
+    """In place of the comparison; `start_bench` makes sides that want to be compared."""
+    found = Judge()
+    monkeypatch.setattr(module, "check_against_model", found)
+    monkeypatch.setattr("cocotb_tests.harness.start.ModelBench", Simulated)
+    return found
+
+
+def run(test: Any, **arguments: Any) -> None:
+    """The test on the golden model."""
+    on_model(test.func(OnModel(), **arguments))
+
+
+async def start() -> Any:
+    return await start_bench(OnModel(), PPMC104)
+
+
+def test_a_test_is_compared_at_its_end(judge: Judge) -> None:
+    @directed("P104-STP-01", builds=(F16, D16))
+    async def good(dut: Any) -> None:
+        assert dut.config == F16
+        await start()
+        assert not judge.sides
+
+    run(good)
+    assert len(judge.sides) == 1
+    assert present() is None
+    assert rules_of(good) == ("P104-STP-01",)
+    assert good.func._openppmc_configs == (F16, D16)
+    assert good.func._openppmc_uncompared == ""
+
+
+def test_a_second_start_compares_the_first_side_and_stills_it(judge: Judge) -> None:
+    @directed()
+    async def twice(dut: Any) -> None:
+        first = await start()
+        task = first.at(100, csel=0)
+        second = await start()
+        assert judge.sides == [first] and task.cancelled
+        assert second is not first and present().side is second  # type: ignore[union-attr]
+
+    run(twice)
+    assert len(judge.sides) == 2
+
+
+def test_a_difference_fails_the_test(judge: Judge) -> None:
+    judge.finds = "pout_n differs"
+
+    @directed()
+    async def fine(dut: Any) -> None:
+        await start()
+
+    with pytest.raises(AssertionError, match="^pout_n differs$"):
+        run(fine)
+
+
+def test_a_difference_before_a_second_start_is_told_once(judge: Judge) -> None:
+    judge.finds = "pout_n differs"
+
+    @directed()
+    async def twice(dut: Any) -> None:
+        await start()
+        await start()
+
+    with pytest.raises(AssertionError, match="^pout_n differs$"):
+        run(twice)
+    assert len(judge.sides) == 1
+
+
+@pytest.mark.parametrize(
+    ("finds", "opinion"),
+    [
+        ("", "up to here the golden model shows the same edges"),
+        ("d_o is 3", "the golden model differs: d_o is 3"),
+    ],
+)
+def test_a_failed_check_tells_what_the_model_shows(judge: Judge, finds: str, opinion: str) -> None:
+    judge.finds = finds
+
+    @directed()
+    async def wrong(dut: Any) -> None:
+        await start()
+        raise AssertionError("3 pulses, not 4")
+
+    with pytest.raises(AssertionError) as found:
+        run(wrong)
+    assert str(found.value) == f"3 pulses, not 4\n{opinion}"
+    assert found.traceback[-1].name == "wrong", "the line of the test is in the traceback"
+
+
+def test_a_timeout_stays_one(judge: Judge) -> None:
+    @directed()
+    async def hangs(dut: Any) -> None:
+        await (await start()).edge("pout_n", 0, timeout=50)
+
+    with pytest.raises(TimeoutError, match="(?s)no level 0 of pout_n within 50 clk.*same edges$"):
+        run(hangs)
+
+
+def test_uncompared_is_not_compared(judge: Judge) -> None:
+    @directed("P104-BCK-05", uncompared="no rule fixes it")
+    async def free(dut: Any) -> None:
+        await start()
+        raise AssertionError("wrong")
+
+    with pytest.raises(AssertionError, match="^wrong\nnothing is compared with the golden model here$"):
+        run(free)
+    assert not judge.sides
+    assert free.func._openppmc_uncompared == "no rule fixes it"
+
+
+def test_parameters_go_with_it(judge: Judge) -> None:
+    @directed("P104-STP-01")
+    @cocotb.parametrize(count=[1, 2])
+    async def many(dut: Any, count: int) -> None:
+        await start()
+        assert count in (1, 2)
+
+    @cocotb.parametrize(count=[1, 2])
+    @directed("P104-STP-01")
+    async def others(dut: Any, count: int) -> None:
+        await start()
+
+    for test in (many, others):
+        cases = list(test.generate_tests())
+        assert [case.name.rpartition("/")[2] for case in cases] == ["count=1", "count=2"]
+        for case in cases:
+            on_model(case.func(OnModel(), **case.kwargs))
+    assert len(judge.sides) == 4
+
+
+def test_golden_follows_and_is_never_ahead() -> None:
+    """On a side that is not the model: its pins so far, up to the edge before the next one."""
+    bench, golden = ModelBench(PPMC104, OnModel()), Side.golden.fget
+    model = golden(bench)
+    assert model.now == bench.now - 1
+    on_model(bench.clocks(10))
+    bench.set(csel=0)
+    assert golden(bench) is model and model is not bench.model
+    assert model.now == bench.now - 1
+    on_model(bench.clocks(1))
+    assert golden(bench).inputs["csel"] == 0
