@@ -1,4 +1,4 @@
-"""The sending half of a script's UART: characters with a wrong bit time, noise, gaps, breaks on `rxd`."""
+"""The sending half of a host's UART: characters with a wrong bit time, noise, gaps, breaks on `rxd`."""
 
 from __future__ import annotations
 
@@ -7,15 +7,20 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
+from .side import Side
 
-class SerialLine:
-    """For hosts of scripts (`Script`), beside them.
+Changes = list[tuple[int, int]]
+"""(edge that is the first to sample it, level), in order of time."""
 
-    bit: bit time of the line in clk. error: of the host's own, 0.02 = 2 % too long. middle: the middle of the
-    last stop bit as a receiver with the right bit time has it, from the pin's change on.
+
+class LineTimes:
+    """Where the levels of characters belong.
+
+    t: the next free edge. bit: bit time of the line in clk. error: of the host's own, 0.02 = 2 % too long.
+    middle: the middle of the last stop bit as a receiver with the right bit time has it, from the pin's
+    change on.
     """
 
-    model: Any
     t: int
     bit: Fraction
     error: Fraction
@@ -27,11 +32,12 @@ class SerialLine:
         self.bit, self.error = bit, Fraction(error)
         self.middle = self._free = Fraction(0)
 
-    def character(
-        self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
-    ) -> None:
-        """One character; stop: level of its stop bit. spikes: (place in bits, clk) where the line has the
-        wrong level. bits: how many of it are sent before the line rests."""
+    def back_to(self, t: int) -> None:
+        """The next character begins on edge t, which may lie before the end of the last stop bit's rest."""
+        self.t, self._free = t, Fraction(0)
+
+    def _character(self, byte: int, stop: int, spikes: Sequence[tuple[float, int]], bits: float) -> Changes:
+        """The changes of one character; `t` is behind it then."""
         bit = self.bit * (1 + self.error)
         start = max(self._free, Fraction(self.t))
         levels = [0, *(byte >> place & 1 for place in range(8)), stop]
@@ -42,39 +48,90 @@ class SerialLine:
             begin = start + Fraction(place) * bit
             level = levels[int(place)]
             changes += [(begin, 1 - level), (begin + clk, level)]
-        for at, level in sorted(changes):
-            self._drive(ceil(at), level)
+        changes.sort()
         if not stop or bits < 10:
-            self._drive(ceil(end), 1)
+            changes.append((end, 1))
             end += bit
         self.t, self._free = ceil(end), end
+        return [(ceil(at), level) for at, level in changes]
 
-    def _drive(self, t: int, level: int) -> None:
-        if self.model.inputs["rxd"] != level:
-            self.model.pins(max(t, self.model.now + 1), rxd=level)
+    def _rest(self, gap: float) -> None:
+        """Leave the line idle for so many bits."""
+        self._free += Fraction(gap) * self.bit
+
+    def _low(self, bits: float) -> Changes:
+        """The changes of a break, and a bit time of rest."""
+        begin, self.t = self.t, self.t + ceil(Fraction(bits) * self.bit)
+        changes = [(begin, 0), (self.t, 1)]
+        self.t += ceil(self.bit)
+        return changes
+
+
+class SerialLine(LineTimes):
+    """For hosts on a `Side`, beside them. After each method the next one goes on at `t`; the side itself
+    stands at the last change of the pin, so that something else can be done within the stop bit."""
+
+    side: Side
+
+    async def character(
+        self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
+    ) -> None:
+        """One character; stop: level of its stop bit. spikes: (place in bits, clk) where the line has the
+        wrong level. bits: how many of it are sent before the line rests."""
+        await self._drive(self._character(byte, stop, spikes, bits))
+
+    async def _drive(self, changes: Changes) -> None:
+        for edge, level in changes:
+            if self.side.pin("rxd") != level:
+                await self.side.until(max(edge, self.side.now))
+                self.side.set(rxd=level)
+
+    async def send(self, line: Iterable[int], gap: float = 0) -> None:
+        """Characters as they are; gap: idle time behind each of them in bits."""
+        for byte in line:
+            await self.character(byte)
+            self._rest(gap)
+        self.t = ceil(self._free)
+
+    async def raw(self, text: str) -> None:
+        """The same from hexadecimal text."""
+        await self.send(bytes.fromhex(text))
+
+    async def low(self, bits: float) -> None:
+        """Break: the line is low for so long, then high for a bit time."""
+        await self._drive(self._low(bits))
+
+
+class ScriptLine(LineTimes):
+    """The same for hosts of scripts (`Script`)."""
+
+    model: Any
+
+    def character(
+        self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
+    ) -> None:
+        """As that of `SerialLine`."""
+        self._drive(self._character(byte, stop, spikes, bits))
+
+    def _drive(self, changes: Changes) -> None:
+        for edge, level in changes:
+            if self.model.inputs["rxd"] != level:
+                self.model.pins(max(edge, self.model.now + 1), rxd=level)
 
     def send(self, line: Iterable[int], gap: float = 0) -> None:
-        """Characters as they are; gap: idle time between two of them in bits."""
+        """As that of `SerialLine`."""
         for byte in line:
             self.character(byte)
-            if gap:
-                self._free += Fraction(gap) * self.bit
+            self._rest(gap)
         self.t = ceil(self._free)
 
     def raw(self, text: str) -> None:
         """The same from hexadecimal text."""
         self.send(bytes.fromhex(text))
 
-    def back_to(self, t: int) -> None:
-        """The next character begins on edge t, which may lie before the end of the last stop bit's rest."""
-        self.t, self._free = t, Fraction(0)
-
     def low(self, bits: float) -> None:
-        """Break: the line is low for so long, then high for a bit time."""
-        self._drive(self.t, 0)
-        self.t += ceil(Fraction(bits) * self.bit)
-        self._drive(self.t, 1)
-        self.t += ceil(self.bit)
+        """As that of `SerialLine`."""
+        self._drive(self._low(bits))
 
 
 def characters(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import random
 from abc import ABC, abstractmethod
+from bisect import bisect_left
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Protocol
 
@@ -189,7 +190,7 @@ class Side(ABC):
         changes = self._seen()[port]
         if place is not None:
             changes = bit_changes(changes, place, self.initial[port])
-        return [(t, value) for t, value in changes if t >= since]
+        return changes[bisect_left(changes, (since, 0)) :]
 
     def falls(self, output: str, since: int = 0) -> list[int]:
         """Edges on which an output of one bit fell."""

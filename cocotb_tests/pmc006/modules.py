@@ -9,16 +9,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.config import F16, Config
 
-FAST_LINE = ("BAUD", 115_200)
-F8B = Config("f8b", clk_hz=8_000_000, extra=(FAST_LINE,))
-ODD = Config(
-    "odd11",
-    clk_hz=11_059_200,
-    extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
-)
-BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900), ("T_BLANK_NS", 3_600)))
-"""The blanking is longer than half the off time: so long is FAST at most (P006-CHP-03)."""
-D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
+from .builds import BLANK, D8E, F8B, ODD
 
 MODULES: dict[str, tuple[Config, ...]] = {
     "tests.pmc006.model.test_checks_link": (F8B,),

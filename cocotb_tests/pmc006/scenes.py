@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from cocotb_tests.harness.scripts import parameters
 from openppmc.model.carrier.eeprom import Eeprom24C32
 
 from .bench import PMC006
+from .programs import END, FACTORY_PAGE, P1, WAIT_REST, Op, goto, image, out, page, rot, words  # noqa: F401
 from .script_host import Host
 
 EXT1, EXT2, DECAY, STALL = 0x02, 0x04, 0x08, 0x10
 """Bits of status 1 beside BUSY."""
 FREE_RUN, EXT1_EN, EXT2_EN, SPEED_MODE, FORWARD, OFFLINE = 0x01, 0x02, 0x04, 0x08, 0x10, 0x20
 """Bits of status 2."""
-
-FACTORY_PAGE = bytes.fromhex("503601FF1000000001010000580258022C01E2042003") + bytes(9) + b"\x82"
 
 
 def setup(host: Host) -> Host:
@@ -95,61 +93,6 @@ def still(host: Host, clk: int | None = None) -> bool:
     return not host.steps(since)
 
 
-# ---------------------------------------------------------------------- programs
-
-
-class Op(NamedTuple):
-    """One instruction of a user program: opcode, option, operand (12.2)."""
-
-    code: int
-    option: int = 0
-    operand: int = 0
-
-    @property
-    def words(self) -> tuple[int, int]:
-        """W0, W1."""
-        return self.code | self.option << 8, self.operand & 0xFFFFFFFF
-
-
-END = Op(0x00)
-WAIT_REST = Op(0x10, 8, 0)
-
-
-def rot(count: int) -> Op:
-    """ROT."""
-    return Op(0x01, 0, count)
-
-
-def out(number: int, level: int) -> Op:
-    """OUT on GPO `number`."""
-    return Op(0x11, number, level)
-
-
-def goto(target: int, code: int = 0x0D) -> Op:
-    """JMP, or JNE 0x0E, JEQ 0x0F."""
-    return Op(code, 0, target)
-
-
-P1 = (
-    Op(0x03, 0, 1),
-    Op(0x08, 0, 3200),
-    Op(0x0C),
-    rot(200),
-    WAIT_REST,
-    Op(0x0B),
-    Op(0x12, 8, 3),
-    goto(3, 0x0E),
-    out(1, 1),
-    END,
-)
-"""Program P1 of 12.8."""
-
-
-def words(program: Iterable[Op]) -> list[int]:
-    """All words of a program."""
-    return [word for op in program for word in op.words]
-
-
 def download(host: Host, program: Iterable[Op], first: int = 0) -> None:
     """Write a program from instruction `first` on and point to it."""
     assert host.ask("A", 2 * first) == 2 * first
@@ -162,21 +105,6 @@ def load(host: Host, *program: Op) -> None:
     """Write a program and run it."""
     download(host, program)
     assert host.ask("z") == 1
-
-
-def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x5A) -> bytes:
-    """Content of an EEPROM with a parameter page and a program (13.1)."""
-    code = b"".join(word.to_bytes(4, "little") for word in words(program)).ljust(800, b"\0")
-    return page + code + (sum(code) & 0xFFFF).to_bytes(2, "little") + bytes([mark])
-
-
-def page(**changes: int) -> bytes:
-    """The factory page with other bytes at the addresses given as a00..a1e; its sum is right."""
-    content = bytearray(FACTORY_PAGE)
-    for name, value in changes.items():
-        content[int(name[1:], 16)] = value
-    content[31] = sum(content[:31]) & 0xFF
-    return bytes(content)
 
 
 # ---------------------------------------------------------------------- EEPROM

@@ -11,7 +11,7 @@ from math import ceil
 
 from cocotb_tests.harness.script import Script
 from cocotb_tests.harness.scripts import parameters, simulating
-from cocotb_tests.harness.serial_line import SerialLine, characters
+from cocotb_tests.harness.serial_line import ScriptLine, characters
 from cocotb_tests.harness.stimulus import Access
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.part import Pmc006
@@ -34,7 +34,7 @@ START = 1024
 """clk from the end of a frame to t = 0 of a motion, beside 1 us."""
 
 
-class Host(Watch, SerialLine, Script):
+class Host(Watch, ScriptLine, Script):
     """The host of one part, just booted.
 
     address: of the part, as the host knows it. levels: of input pins from edge 0 on. eeprom: the device on

@@ -9,7 +9,7 @@ from fractions import Fraction
 from math import ceil
 
 from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.serial_line import SerialLine, characters
+from cocotb_tests.harness.serial_line import ScriptLine, characters
 
 from .script_host import TICK, Script
 
@@ -36,7 +36,7 @@ def summed(control: int, data: bytes = b"", mode: str = "BINARY") -> bytes:
     return bytes([control]) + text + bytes([(total ^ 0xFF) & 0x7F])
 
 
-class SerialHost(SerialLine, Script):
+class SerialHost(ScriptLine, Script):
     """mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
 
     Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the

@@ -1,0 +1,26 @@
+"""The builds in which the tests of the PMC006B4 run, and `directed` with the usual one.
+
+Most run at 8 MHz and 115200 baud, where they need the fewest clk; a few at the defaults, at a clock that is
+no multiple of 1 MHz, and in the other timing mode with the other reply to s.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from cocotb_tests.harness import directed as harness
+from cocotb_tests.harness.config import Config
+
+FAST_LINE = ("BAUD", 115_200)
+F8B = Config("f8b", clk_hz=8_000_000, extra=(FAST_LINE,))
+ODD = Config(
+    "odd11",
+    clk_hz=11_059_200,
+    extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
+)
+BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900), ("T_BLANK_NS", 3_600)))
+"""The blanking is longer than half the off time: so long is FAST at most (P006-CHP-03)."""
+D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
+
+directed = partial(harness.directed, builds=(F8B,))
+"""As `harness.directed`, in this build unless told otherwise."""

@@ -1,0 +1,211 @@
+"""A host on the link of a PMC006, which acts on what the part answers.
+
+Its UART is its own: replies are read from the levels of txd and de, and every edge is checked (chapter 2.4).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from math import ceil
+from typing import Any
+
+from cocotb_tests.harness.serial_line import SerialLine, characters
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness.stimulus import Access
+
+from .bench import PMC006
+from .frames import command, number, of_reply
+from .view import View
+
+SYNC = 2
+"""clk from a level of a pin to what the part makes of it."""
+STARTS = tuple(b"szN")
+NEAR = 8
+"""Tolerance of chapter 2.4 in clk."""
+ACT = 4
+"""clk from e to the effect of a frame that finds nobody at work."""
+EXECUTE = 64
+"""clk from the end of a frame to the effect."""
+START = 1024
+"""clk from the end of a frame to t = 0 of a motion, beside 1 us."""
+
+
+class Host(View, SerialLine):
+    """The host of one part. Make one with `await Host.start(dut)`.
+
+    `t` is the next free edge; every method moves it on. Codes are given as letters or numbers. Data and
+    answers are numbers; an answer is the 32-bit reply data, unsigned. `wire` is the last reply as it was on
+    the line, `said` the edge on which the last frame began. `params`: parameters of the part.
+    """
+
+    def __init__(self, side: Side, address: int = 0xFF, error: float = 0) -> None:
+        self.side = side
+        self.params: Mapping[str, Any] = {**side.part.defaults, **side.part.params(side.config)}
+        self.clk_hz, self.baud = int(self.params["CLK_HZ"]), int(self.params["BAUD"])
+        self.echo = self.params["STEP_ACK"] == "ECHO"
+        self.address = address
+        self.t = side.now
+        self.mark = self.said = self._heard = 0
+        self.wire = b""
+        self.open_line(Fraction(self.clk_hz, self.baud), error)
+
+    @classmethod
+    async def start(
+        cls,
+        dut: Any,
+        address: int = 0xFF,
+        levels: Mapping[str, int] | None = None,
+        boot: bool = True,
+        error: float = 0,
+    ) -> Host:
+        """A host on a part just out of reset, and booted unless told otherwise.
+
+        address: of the part, as the host knows it. levels: of input pins from edge 0 on; SDA is held low, so
+        that the part boots at once, unless they say sda_i=1. error: of the host's bit time.
+        """
+        side = await start_bench(dut, PMC006, settle=0, **{"sda_i": 0, **(levels or {})})
+        host = cls(side, address, error)
+        host.t = 1
+        if boot:
+            await host.boot()
+        return host
+
+    # ------------------------------------------------------------------ time
+
+    def pick(self, literal: int, short: int) -> int:
+        """A count or time for the golden model, or the short one for the RTL."""
+        return short if self.side.simulated else literal
+
+    @property
+    def literal(self) -> bool:
+        """Whether the numbers are those of the manual."""
+        return not self.side.simulated
+
+    async def sync(self) -> None:
+        """Let the part come to the present."""
+        await self.side.until(max(self.side.now, self.t))
+
+    async def go(self, t: int) -> None:
+        """Run to just before edge t; the next access or pin change is there."""
+        self.t = t
+        await self.sync()
+
+    async def pause(self, clk: int) -> None:
+        """Let time pass."""
+        await self.go(self.t + clk)
+
+    async def wait_us(self, micros: float) -> None:
+        """Let time pass."""
+        await self.pause(self.us(micros))
+
+    async def ms(self, millis: float) -> None:
+        """Let time pass."""
+        await self.pause(self.us(Fraction(millis) * 1000))
+
+    async def boot(self) -> int:
+        """Run to the end of BOOT; returns its edge."""
+        return await self.until("bridge_a_en", 1)
+
+    async def reset(self, clk: int = 12, **levels: int) -> None:
+        """A pulse on rst_n, with whose end levels come; then BOOT, for which nobody waits here."""
+        await self.pins(rst_n=0)
+        await self.pause(clk)
+        await self.pins(rst_n=1, **levels)
+        self._heard = self.t
+        self.mark = self.t
+
+    # ------------------------------------------------------------------ pins
+
+    async def pins(self, **levels: int) -> None:
+        """Pin levels from edge t on."""
+        await self.sync()
+        self.side.set(**levels)
+        self.t += 1
+
+    async def at(self, t: int, **levels: int) -> None:
+        """Pin levels from edge t on, which may lie before the end of the last stop bit; `t` stays."""
+        await self.side.until(t)
+        self.side.set(**levels)
+
+    async def strobe(self, **levels: int) -> None:
+        """adc_data or bemf_level with its valid for one clk."""
+        valid = {("adc_valid" if "adc_data" in levels else "bemf_valid"): 1}
+        await self.pins(**levels, **valid)
+        await self.pins(**dict.fromkeys(valid, 0))
+
+    # ------------------------------------------------------------------ frames
+
+    async def say(self, code: str | int, data: int = 0, address: int | None = None) -> None:
+        """A good frame. Steps count from an s, N 1 or z on."""
+        self._begin(number(code), data)
+        address = self.address if address is None else address
+        self.side.accesses.append(Access(self.t, f"{code!r} to {address:02X}, data", 0, data & 0xFFFFFFFF))
+        await self.send(command(address, code, data))
+
+    def _begin(self, code: int, data: int) -> None:
+        self.said = self.t
+        if code in STARTS and (data == 1 or code != STARTS[-1]):
+            self.mark = self.t
+
+    @property
+    def e(self) -> int:
+        """Edge of the stop-bit sample of the last byte sent (chapter 2.4), to the nearest clk."""
+        return round(self.middle) + SYNC
+
+    async def rise(self) -> int | None:
+        """Edge of the next rise of de that no `hear` has had, if there is one."""
+        await self.sync()
+        return next((t for t, level in self.edges("de", self._heard) if level), None)
+
+    async def hear(self) -> int:
+        """The reply to the frame that has just been sent; returns its data. Every edge is checked."""
+        e, bit = self.e, self.bit
+        await self.go(max(self.t, e + ceil(bit) + NEAR + 1))
+        rise = await self.rise()
+        assert rise is not None, "no reply"
+        assert abs(rise - e - bit) <= NEAR, f"de rises {rise - e} clk after the frame"
+        await self.go(max(self.t, e + ceil(82 * bit) + NEAR + 1))
+        fall = next((t for t, level in self.edges("de", rise) if not level), None)
+        assert fall is not None and abs(fall - e - 82 * bit) <= NEAR, f"de falls {fall}, the frame ended {e}"
+        edges = [edge for edge in self.edges("txd", rise) if edge[0] <= fall]
+        assert edges and abs(edges[0][0] - e - 2 * bit) <= NEAR, "the start bit is not where it belongs"
+        self._heard = fall + 1
+        self.wire = characters(edges, Fraction(edges[0][0]), bit, 8, within=1)
+        address, data = of_reply(self.wire)
+        self.side.accesses.append(Access(rise, f"reply of {address:02X}, data", 0, data))
+        self.replied = address
+        return data
+
+    async def ask(self, code: str | int, data: int = 0) -> int:
+        """A frame to this part and its reply data."""
+        await self.say(code, data)
+        answer = await self.hear()
+        if code in ("w", 0x77):
+            self.address = self.replied
+        assert self.replied == self.address, f"{self.replied} answers for {self.address}"
+        return answer
+
+    async def swap(self, text: str) -> str:
+        """A whole frame and the whole reply, as texts of hexadecimal bytes."""
+        frame = bytes.fromhex(text)
+        self._begin(frame[2], frame[3])
+        await self.send(frame)
+        await self.hear()
+        return self.wire.hex(" ").upper()
+
+    async def silent(self, clk: int) -> bool:
+        """Whether nothing is sent for so long: de = 0 and txd = 1."""
+        await self.pause(clk)
+        return await self.rise() is None and not await self.out("de") and bool(await self.out("txd"))
+
+    async def forget(self) -> None:
+        """Nobody has listened so far; what is being sent is waited for."""
+        await self.sync()
+        self.t = max(self.t, await self.side.level_is("de", 0))
+        self._heard = self.t
+
+    def accepted(self, count: int) -> int:
+        """Reply data of an accepted s."""
+        return count if self.echo else 3

@@ -1,0 +1,102 @@
+"""The speed that follows the voltage on GPI1, and the clocks behind all times."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from .builds import directed
+from .host import Host
+from .moves import after_steps, cruise, download, load, quick, rest, run, start, still
+from .programs import END, Op, rot
+
+
+async def regulated(dut: Any, full: int, value: int) -> Host:
+    """A host on a part with ANALOG = 1, made so by E; `value` is the last sample."""
+    host = await quick(dut)
+    await host.ok(u=5, o=5)
+    await download(host, [Op(0x08, 1, full)])
+    assert await host.ask("E") == 1 and await host.ask("q") == full
+    await host.strobe(adc_data=value)
+    return host
+
+
+def target(full: int, value: int) -> int:
+    """The live target (P006-MOT-51)."""
+    return full * (value + (value >> 9)) // 1024
+
+
+@cocotb.parametrize(value=[1023, 511, 512, 700])
+@directed("P006-MOT-51", "P006-MOT-50", "P006-STA-02", "P006-STA-04")
+async def p006_targets(dut: Any, value: int) -> None:
+    """Below VSTART the motion runs at the target from its first step on."""
+    assert [target(8000, h) for h in (0, 1, 511, 512, 1023)] == [0, 7, 3992, 4007, 8000]
+    host = await regulated(dut, 3000, value)
+    await run(host)
+    await after_steps(host, 12)
+    steps = host.steps()
+    whole = [-(-number * 1_000_000 // target(3000, value)) for number in range(1, 13)]
+    assert host.intervals() == [b - a for a, b in zip(whole, whole[1:], strict=False)]
+    assert len(steps) == 12 and await host.ask("I") == 0
+
+
+@directed("P006-MOT-21", "P006-STA-04", "P006-MOT-20", "P006-MOT-52")
+async def p006_move_below_its_start_speed(dut: Any) -> None:
+    """No planning and no deceleration; exactly N steps at the target. Acceptance looks at VMAX."""
+    host = await regulated(dut, 3000, 990)
+    await start(host, 256)
+    mark = host.mark
+    await rest(host)
+    assert host.made(mark) == 256 and set(host.intervals(mark)) == {344, 345}
+    await host.ok(L=2000)
+    await download(host, [Op(0x08, 1, 2999)])
+    assert await host.ask("E") == 1 and await host.ask("s", 256) == 0
+
+
+@directed("P006-MOT-31", "P006-MOT-51", "P006-STA-10", "P006-BAD-20")
+async def p006_voltage_of_zero(dut: Any) -> None:
+    """No steps, BUSY stays; the copy of the voltage is renewed every 10 ms; I ends it all."""
+    host = await regulated(dut, 3000, 0)
+    await start(host, 400)
+    mark = host.mark
+    assert await still(host, host.us(4_000)) and await host.busy()
+    await host.strobe(adc_data=800)
+    await cruise(host, 1_000_000 / target(3000, 800), 90_000)
+    begun = host.steps(mark)[0] - host.edges("mon_busy", mark)[0][0]
+    # 1 = a t² / 2 takes 6 ms more.
+    assert host.us(15_500) < begun < host.us(17_500)
+    await host.strobe(adc_data=0)
+    await host.ms(12)
+    count = host.made(mark)
+    assert count and await host.busy()
+    await host.ms(45)
+    assert (
+        await still(host, host.us(2_000))
+        and await host.busy()
+        and await host.ask("I") == 0
+        and not await host.busy()
+    )
+    # A short move does not look at the voltage, and one without samples since the reset has none.
+    await start(host, 5)
+    await rest(host)
+    assert host.made() == 5
+
+
+@directed("P006-MOT-52", "P006-MOT-51", "P006-MOT-50", "P006-CMD-43", "P006-PRG-14")
+async def p006_regulation_survives_the_program_and_v_ends_it(dut: Any) -> None:
+    host = await quick(dut)
+    await host.ok(u=5, o=5)
+    await host.strobe(adc_data=600)
+    await load(host, Op(0x08, 1, 4000), rot(1_000_000), END)
+    mark = host.mark
+    await cruise(host, 1_000_000 / target(4000, 600))
+    await host.strobe(adc_data=900)
+    await cruise(host, 1_000_000 / target(4000, 900))
+    gaps = host.intervals(mark)[-12:]
+    assert all(b <= a + 1 for a, b in zip(gaps, gaps[1:], strict=False))
+    await host.ok(v=3000)
+    await cruise(host, 1_000_000 / 3000)
+    await host.strobe(adc_data=100)
+    await host.ms(12)
+    assert set(host.intervals(mark)[-5:]) <= {333, 334} and await host.ask("I") == 0

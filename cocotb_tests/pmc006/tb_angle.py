@@ -1,0 +1,202 @@
+"""Electrical angle, references, currents, compensation, hold and decay."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from .builds import directed
+from .host import EXECUTE, Host
+from .moves import after_steps, brisk, move, quick, rest, run, start
+from .reference import HOME, boost, code, increment, lead, sines
+
+REFS = 64
+"""clk from a cause to the references."""
+NAMES = ("phase_a_ref", "phase_a_sign", "phase_b_ref", "phase_b_sign")
+
+
+def shown(host: Host, t: int) -> tuple[int, ...]:
+    """References after edge t."""
+    return tuple(host.level_at(name, t) for name in NAMES)
+
+
+@cocotb.parametrize(m=[0, 2, 4, 8, 16, 32, 64, 128])
+@directed(
+    "P006-EXC-01", "P006-EXC-02", "P006-EXC-10", "P006-EXC-11", "P006-EXC-12", "P006-EXC-13", "P006-EXC-15"
+)
+async def p006_angle_of_every_step(dut: Any, m: int) -> None:
+    """A full step at least, both ways, with all four outputs within 64 clk of the step and in one clk."""
+    host = await brisk(await Host.start(dut), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300)
+    angle = HOME
+    for direction in (1, 0):
+        await host.ok(d=direction)
+        await start(host, 9)
+        mark = host.mark
+        await rest(host)
+        await host.pause(REFS)
+        for edge in host.steps(mark):
+            angle += increment(m) if direction else -increment(m)
+            ahead = lead(1000 if m > 1 else 600, m, 300) * (1 if direction else -1)
+            after = edge + REFS
+            raised = min(255, 255 + boost(4000, 1000, m, 100))
+            wanted = {sines(angle, 255), sines(angle + ahead, raised)}
+            assert shown(host, after) in wanted, f"angle {angle}"
+            assert len({t for name in NAMES for t, _ in host.edges(name, edge) if t <= after}) <= 1
+        assert await host.refs() == sines(angle, 255)
+
+
+@directed("P006-EXC-14", "P006-EXC-10", "P006-EXC-11")
+async def p006_table_of_angles(dut: Any) -> None:
+    table = {
+        (0, 64): (64, 0, 0, 0),
+        (32, 64): (59, 0, 25, 0),
+        (128, 64): (0, 0, 64, 0),
+        (192, 64): (45, 1, 45, 0),
+        (256, 64): (64, 1, 0, 0),
+        (320, 64): (45, 1, 45, 1),
+        (384, 64): (0, 0, 64, 1),
+        (448, 64): (45, 0, 45, 1),
+        (96, 255): (98, 0, 236, 0),
+        (320, 255): (180, 1, 180, 1),
+    }
+    assert all(sines(angle, peak) == row for (angle, peak), row in table.items())
+    host = await brisk(await Host.start(dut), 3000, m=4, a=0)
+    for current, peak in ((1000, 64), (4000, 255)):
+        await host.ok(e=current)
+        for number in range(16):
+            assert await host.refs() == sines(HOME + 32 * number, peak)
+            if (key := ((HOME + 32 * number) % 512, peak)) in table:
+                assert await host.refs() == table[key]
+            await move(host, 1)
+            await host.pause(REFS)
+
+
+@directed("P006-EXC-03", "P006-CMD-54")
+async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
+    """From fine to coarse the grid is the angle's own; settings and stops leave it."""
+    host = await brisk(await Host.start(dut), 3000, m=128, a=0)
+    await move(host, 5)
+    await host.pause(REFS)
+    held = await host.refs()
+    assert held == sines(HOME + 5, code(800))
+    for setting in ({"m": 0}, {"d": 0}, {"i": 1000}, {"d": 1}, {"g": 1}, {"g": 0}, {"u": 5}):
+        await host.ok(**setting)
+    assert await host.refs() == held and await host.ask("I") == 0
+    await move(host, 3)
+    await host.pause(REFS)
+    assert await host.refs() == sines(HOME + 5 + 3 * 128, code(800))
+    await host.ok(m=64, d=0)
+    await move(host, 2)
+    await host.pause(REFS)
+    assert await host.refs() == sines(HOME + 5 + 3 * 128 - 4, code(800))
+
+
+@directed("P006-EXC-20", "P006-CMD-26", "P006-CMD-35")
+async def p006_currents(dut: Any) -> None:
+    """Both sides of borders between drive indices, the ends included."""
+    host = await Host.start(dut)
+    await host.ok(a=0)
+    printed = (26, 35, 45, 54, 64, 73, 83, 92, 102, 112, 121, 131, 140, 150, 159, 169, 179, 188, 198, 207)
+    printed += (217, 226, 236, 245, 255)
+    assert printed == tuple(code(400 + 150 * k) for k in range(25))
+    for k in (0, 1, 3, 4, 11, 12, 23, 24):
+        for current in {max(400, 325 + 150 * k), min(4000, 325 + 150 * k + 149)}:
+            await host.ok(e=current)
+            assert await host.refs() == sines(HOME, printed[k]), f"{current} mA"
+            assert await host.ask("n") == current
+
+
+@cocotb.parametrize(
+    case=[
+        (0, 1000, 300, 1250, 3000, 1),
+        (0, 1000, 300, 1250, 3000, 0),
+        (2, 4000, 1200, 2000, 3000, 1),
+        (2, 2000, 1200, 700, 2345, 0),
+        (0, 400, 1200, 2000, 2999, 1),
+        (16, 1000, 300, 1250, 3000, 1),
+    ]
+)
+@directed("P006-EXC-21", "P006-EXC-22", "P006-EXC-23", "P006-EXC-24", "P006-CMD-10", "P006-CMD-13")
+async def p006_compensation(dut: Any, case: Any) -> None:
+    """0 up to the first update tick, then that of the speed in force, 0 again at rest."""
+    m, e, ccomp, scomp, speed, forward = case
+    host = await brisk(await Host.start(dut), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
+    await run(host)
+    mark = host.mark
+    await after_steps(host, 9)
+    peak = min(255, code(e) + boost(e, speed, m, ccomp))
+    sign = 1 if forward else -1
+    angle = HOME
+    for number, edge in enumerate(host.steps(mark)[:8]):
+        angle += sign * increment(m)
+        assert shown(host, edge + REFS) == sines(angle + sign * lead(speed, m, scomp), peak), f"step {number}"
+    first = host.edges("mon_busy", mark)[0][0]
+    assert shown(host, first + host.us(50)) == sines(HOME, code(e))
+    assert await host.ask("I") == 0
+    await host.pause(REFS)
+    assert await host.refs() == sines(HOME + sign * increment(m) * host.made(mark), code(e))
+
+
+@directed("P006-EXC-22", "P006-EXC-23", "P006-CMD-54", "P006-CMD-10", "P006-CMD-13")
+async def p006_factors_act_at_once(dut: Any) -> None:
+    """CCOMP, SCOMP, CUR of a running motion; MSTEP is its own."""
+    host = await brisk(await Host.start(dut), 2000, m=0, a=0, e=1000)
+    await run(host)
+    mark = host.mark
+    for settings in ({"M": 1200}, {"P": 300}, {"e": 2500}, {"m": 128}):
+        await host.ok(**settings)
+    await host.wait_us(400)
+    await after_steps(host, host.made(mark) + 1)
+    await host.pause(REFS)
+    angle = HOME + 128 * host.made(mark)
+    assert await host.refs() == sines(
+        angle + lead(2000, 0, 300), min(255, code(2500) + boost(2500, 2000, 0, 1200))
+    )
+    await host.ask("I")
+
+
+@directed("P006-EXC-30", "P006-EXC-31", "P006-EXC-32", "P006-CMD-14", "P006-CMD-22", "P006-STA-03")
+async def p006_decay(dut: Any) -> None:
+    """100 ms behind the fall of BUSY; all coefficients; what acts at once, and what does not."""
+    host = await quick(dut)
+    await start(host, 1)
+    fall = await rest(host)
+    await host.ok(g=1)
+    await host.ok(g=0)
+    await host.go(fall + host.us(99_990))
+    assert await host.refs() == sines(HOME + 8, code(800))
+    await host.go(fall + host.us(100_010) + REFS)
+    assert await host.refs() == sines(HOME + 8, code(800) >> 1)
+    for factor in (4, 2, 3, 1):
+        await host.ok(Q=factor)
+        assert await host.refs() == sines(HOME + 8, code(800) >> factor)
+    await host.ok(a=0)
+    assert await host.refs() == sines(HOME + 8, code(800))
+    await host.ok(a=1)
+    change = host.edges("phase_a_ref", host.said)[0][0]
+    assert host.e <= change <= host.e + EXECUTE + REFS
+    assert await host.ask("s", 0) == 0 and await host.refs() == sines(HOME + 8, code(800) >> 1)
+    await host.ok(v=100)
+    assert await host.ask("s", 3) == 0 and await host.refs() == sines(HOME + 8, code(800) >> 1)
+    await run(host)
+    change = host.edges("phase_a_ref", host.said)[0][0]
+    assert host.e <= change <= host.e + EXECUTE + REFS and await host.refs() == sines(HOME + 8, code(800))
+    await host.ask("I")
+    assert await host.refs() == sines(HOME + 8, code(800))
+
+
+@directed("P006-STA-12", "P006-EXC-30", "P006-CMD-28")
+async def p006_free(dut: Any) -> None:
+    """Everything off at once; the hold current comes back at the kept angle."""
+    host = await quick(dut)
+    await host.ok(e=2000)
+    await start(host, 500)
+    await after_steps(host, 11)
+    await host.ok(g=1)
+    made = host.made(0)
+    off = host.edges("bridge_a_en", host.said)[0]
+    assert host.e <= off[0] <= host.e + EXECUTE + 5 and not off[1] and await host.refs() == (0, 0, 0, 0)
+    assert not host.steps(off[0] + 5) and await host.position() == made
+    await host.ok(g=0)
+    assert await host.refs() == sines(HOME + 8 * made, code(2000)) and await host.out("bridge_b_en")

@@ -1,0 +1,369 @@
+"""Emergency stops, stall detector, port word; what meets in one clk."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import cocotb
+
+from .builds import directed
+from .host import EXECUTE, Host
+from .moves import (
+    DECAY,
+    EXT1,
+    EXT2,
+    SPEED_MODE,
+    STALL,
+    after_steps,
+    cruise,
+    move,
+    quick,
+    rest,
+    run,
+    start,
+    still,
+)
+
+STOP = 5
+FLAGS = {"ext1": EXT1, "ext2": EXT2}
+CLEAR = {"ext1": "b", "ext2": "l"}
+
+
+@cocotb.parametrize(pin=["ext1", "ext2"])
+@cocotb.parametrize(rising=[0, 1])
+@directed(
+    "P006-EXT-01", "P006-EXT-02", "P006-EXT-05", "P006-EXT-06", "P006-EXT-08", "P006-STA-10", "P006-STA-18"
+)
+async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
+    """The selected edge stops within 5 clk, also speed mode; the other edge and the other pin do nothing."""
+    other = "ext2" if pin == "ext1" else "ext1"
+    host = await quick(dut, levels={"sda_i": 0, pin: 1 - rising})
+    mask = 1 if pin == "ext1" else 2
+    await host.ok(f=mask, J=mask if rising else 3 - mask)
+    assert await host.out(f"{pin}_pu") == 1 - rising
+    for begin in (partial(start, count=5_000), run):
+        await begin(host)
+        mark = host.mark
+        await after_steps(host, 4)
+        await host.pins(**{other: 0})
+        await host.pause(50)
+        await host.pins(**{other: 1})
+        assert await host.busy()
+        await host.pins(**{pin: rising})
+        edge = host.t - 1
+        await host.pause(STOP)
+        assert not await host.out("mon_busy") and not host.steps(edge + STOP + 1)
+        assert await host.status() == DECAY | FLAGS[pin] and not await host.ask("O") & SPEED_MODE
+        assert await host.ask("s", 1) == 0 and await host.ask("N", 1) == 0
+        await host.pins(**{pin: 1 - rising})
+        assert await host.ask(CLEAR[other]) == 0 and await host.status() == DECAY | FLAGS[pin]
+        assert await host.ask(CLEAR[pin]) == 0 and await host.status() == DECAY
+        assert await host.position() == host.made(0) and await still(host, 2_000) and host.made(mark) > 3
+
+
+@directed("P006-EXT-02", "P006-EXT-03", "P006-EXT-04", "P006-EXT-07", "P006-EXT-09", "P006-BAD-26")
+async def p006_levels_never_stop(dut: Any) -> None:
+    """Enabling with an active switch, changing the mode at an active level: no flag, no stop."""
+    for level in (0, 1):
+        host = await quick(dut, levels={"sda_i": 0, "ext1": level, "ext2": level})
+        await start(host, 2_000)
+        for mode in (3, 1, 0):
+            await host.ok(J=mode, f=3)
+            await host.ok(f=0)
+            await host.ok(f=3, J=mode)
+        assert await host.busy() and await host.status() == DECAY | 1
+        await host.ask("I")
+
+
+@directed("P006-EXT-04", "P006-EXT-09")
+async def p006_edges_with_the_enable_off_are_forgotten(dut: Any) -> None:
+    host = await quick(dut)
+    await host.pins(ext1=0)
+    await host.pause(10)
+    await host.ok(f=1)
+    assert await host.status() == DECAY
+    await host.pins(ext1=1)
+    await host.pause(10)
+    await host.pins(ext1=0)
+    assert await host.status() == DECAY | EXT1
+    # f 0 does not clear it; b does.
+    await host.ok(f=0)
+    assert await host.status() == DECAY | EXT1 and await host.ask("s", 1) == 0
+    assert await host.ask("b") == 0 and len(await move(host, 2)) == 1
+
+
+@directed("P006-EXT-05", "P006-EXT-02", "P006-BAD-21", "P006-STA-17")
+async def p006_both_inputs_and_chatter(dut: Any) -> None:
+    host = await quick(dut)
+    await host.ok(f=3)
+    await start(host, 3_000)
+    await after_steps(host, 3)
+    for level in (0, 1, 0, 1, 1, 0, 1):
+        await host.pins(ext1=level, ext2=level)
+        await host.pause(2)
+    assert not await host.busy() and await host.status() == DECAY | EXT1 | EXT2
+    assert await host.ask("b") == 0 and await host.status() == DECAY | EXT2 and await host.ask("s", 1) == 0
+    assert await host.ask("l") == 0 and await host.ask("l") == 0 and await host.status() == DECAY
+    assert len(await move(host, 2)) == 1
+
+
+@directed("P006-EXT-11", "P006-STA-11", "P006-EXT-10")
+async def p006_locked_part_answers_everything_else(dut: Any) -> None:
+    host = await quick(dut)
+    await host.ok(f=1)
+    await host.pins(ext1=0)
+    await host.ok(m=32, d=0, u=2, y=0x50, e=1500, i=-9, T=3, Y=1, Z=40, F=1)
+    assert await host.status() == DECAY | EXT1 and await host.ask("x") == 0xB57
+    assert [await host.ask(code) for code in "kruA"] == [32, 2, 0, 0]
+    await host.ok(g=1, F=0)
+    assert await host.ask("b") == 0 and await host.ask("s", 1) == 0
+    await host.ok(g=0)
+    assert len(await move(host, 2)) == 1 and await host.position() == -11
+
+
+@directed("P006-EXT-10", "P006-EXT-08", "P006-EXT-07")
+async def p006_homing(dut: Any) -> None:
+    """Towards the switch, clear, off it by a fixed count: settings and position are exact."""
+    host = await quick(dut)
+    await host.ok(f=1, d=0)
+    await start(host, 0x7FFFFFFF)
+    await after_steps(host, 12)
+    await host.pins(ext1=0)
+    await host.pause(20)
+    made = host.made()
+    assert await host.position() == -made and await host.ask("b") == 0
+    await host.ok(d=1)
+    await start(host, 20)
+    await after_steps(host, 6)
+    await host.pins(ext1=1)
+    await rest(host)
+    assert host.made() == 20 and await host.position() == 20 - made and await host.status() == DECAY
+    assert [await host.ask(code) for code in "qLS"] == [3000] * 3
+
+
+@directed("P006-STA-14", "P006-EXT-02", "P006-STA-18")
+async def p006_ext_around_the_last_step(dut: Any) -> None:
+    """The edge walks over the clk of the last step: the flag is set, the count is what was made."""
+    for offset in range(-5, 4):
+        host = await quick(dut)
+        await host.ok(f=1)
+        await start(host, 3)
+        edge = await after_steps(host, 2) + host.us(1000) // 3 + offset
+        await host.go(max(host.t, edge))
+        await host.pins(ext1=0)
+        await host.pause(host.us(400))
+        assert not await host.busy() and 2 <= host.made() <= 3
+        assert await host.status() == DECAY | EXT1 and await host.position() == host.made()
+
+
+@directed("P006-STA-14", "P006-STA-17", "P006-EXT-02")
+async def p006_flag_set_and_cleared_in_one_clk(dut: Any) -> None:
+    """Setting wins; b that is executed later clears."""
+    host = await quick(dut)
+    await host.ok(f=1)
+    outcomes = set()
+    for offset in range(-4, 8):
+        await host.pins(ext1=1)
+        await host.pause(20)
+        await host.say("b")
+        answer_end = host.e
+        await host.go(answer_end + offset)
+        await host.pins(ext1=0)
+        assert await host.hear() == 0
+        flag = await host.status() & EXT1
+        outcomes.add((offset, bool(flag)))
+        assert await host.ask("b") == 0
+    flags = [flag for _, flag in sorted(outcomes)]
+    assert flags == sorted(flags) and True in flags
+
+
+# ---------------------------------------------------------------------- stall
+
+
+async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> Host:
+    """A host on a part in speed mode at constant speed, with the stall detector on."""
+    host = await quick(dut)
+    await host.ok(Z=level, T=length, Y=y)
+    await run(host)
+    await cruise(host, 1_000_000 / 3000)
+    return host
+
+
+async def samples(host: Host, *levels: int) -> None:
+    """Strobes of the BEMF."""
+    for level in levels:
+        await host.strobe(bemf_level=level)
+        await host.pause(30)
+
+
+@cocotb.parametrize(case=[(0, 1), (1, 1), (2, 2), (63, 63)])
+@directed("P006-STL-02", "P006-CMD-16")
+async def p006_stall_length(dut: Any, case: Any) -> None:
+    length, needed = case
+    host = await cruising(dut, level=10, length=length)
+    await samples(host, *[9] * (needed - 1), 10, *[9] * (needed - 1))
+    assert not await host.status() & STALL
+    await samples(host, *[0] * needed)
+    assert await host.status() == DECAY | STALL | 1 and 0 < await host.ask("X") <= host.made()
+    await host.ask("I")
+
+
+@directed("P006-STL-06", "P006-STL-05", "P006-STL-01", "P006-CMD-20", "P006-CMD-21")
+async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
+    """Length 64 after reset; at level 0 nothing is below; without Y bit 0 nothing is looked at."""
+    host = await quick(dut)
+    await host.ok(Z=511, Y=1)
+    await run(host)
+    await cruise(host, 1_000_000 / 3000)
+    await samples(host, *[510] * 63)
+    assert not await host.status() & STALL
+    await samples(host, 510)
+    assert await host.status() & STALL and await host.ask("p") == 0
+    await host.ok(Z=0)
+    await samples(host, *[0] * 80)
+    assert not await host.status() & STALL
+    await host.ok(Z=511, Y=0, T=1)
+    await samples(host, *[0] * 4)
+    assert not await host.status() & STALL
+    await host.ask("I")
+    await host.ok(Y=1)
+    await samples(host, *[0] * 4)
+    assert not await host.status() & STALL
+
+
+@directed("P006-STL-01", "P006-STL-02", "P006-BAD-20")
+async def p006_samples_off_constant_speed(dut: Any) -> None:
+    """In a ramp nothing counts, and the count begins anew; a strobe that stays is a sample every clk."""
+    host = await Host.start(dut)
+    await host.ok(L=1000, S=1000, v=1500, u=5, o=5, Z=100, T=3, Y=1)
+    await run(host)
+    await samples(host, *[50] * 20)
+    assert not await host.status() & STALL
+    await cruise(host, 667)
+    await host.ms(3)
+    await samples(host, 50, 50)
+    await host.ok(v=1600)
+    await samples(host, *[50] * 10)
+    await cruise(host, 625)
+    await host.ms(3)
+    await samples(host, 50, 50)
+    assert not await host.status() & STALL
+    await host.pins(bemf_level=50, bemf_valid=1)
+    await host.pause(4)
+    await host.pins(bemf_valid=0)
+    assert await host.status() & STALL
+    await host.ask("I")
+
+
+@directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
+async def p006_the_count_of_low_samples_begins_anew(dut: Any) -> None:
+    """With each start, though no sample came between; and with a sample at rest, low as it is."""
+    host = await quick(dut, 2500)
+    await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
+    for between in ((), (1,)):
+        await run(host)
+        await cruise(host, 400)
+        await samples(host, 1, 1)
+        assert await host.ask("I") == 0
+        await samples(host, *between)
+        await run(host)
+        await cruise(host, 400)
+        await samples(host, 1, 1)
+        assert not await host.status() & STALL
+        await samples(host, 1)
+        assert await host.status() & STALL and await host.ask("I") == 0
+    stalled_at = await host.ask("X")
+    await run(host)
+    assert not await host.status() & STALL and await host.ask("I") == 0 and await host.ask("X") == stalled_at
+
+
+@directed("P006-STL-03", "P006-STL-04", "P006-STA-03", "P006-STA-10", "P006-CMD-37", "P006-IO-01")
+async def p006_what_a_stall_does(dut: Any) -> None:
+    host = await cruising(dut, y=5, length=2)
+    await host.ok(y=0x08)
+    await samples(host, 1, 1)
+    edge = host.edges("gpo")[-1][0]
+    assert await host.out("gpo") == 0x11 and await host.busy() and host.t - edge < 100
+    assert (
+        await host.ask("x") & 0xF8 == 0x88
+        and await host.ask("y", 0x10) == 0x10
+        and await host.out("gpo") == 0x12
+    )
+    stalled_at = await host.ask("X")
+    # Bit 1 set behind the stall stops the motion, too.
+    await host.ok(Y=7)
+    assert not await host.busy() and await host.out("gpo") == 0x12
+    await host.ok(Y=3)
+    assert await host.out("gpo") == 2
+    await host.ok(Y=4)
+    assert await host.out("gpo") == 0x12
+    assert await host.ask("s", 0) == 0 and await host.status() == DECAY | STALL
+    await start(host, 1)
+    assert (
+        not await host.status() & STALL and await host.out("gpo") == 2 and await host.ask("X") == stalled_at
+    )
+    await rest(host)
+    await host.reset()
+    await host.boot()
+    assert await host.ask("X") == 0 and await host.ask("T", 64) == 64
+
+
+@directed("P006-STL-03", "P006-STL-02", "P006-STA-14", "P006-STA-18")
+async def p006_stall_stops_at_once(dut: Any) -> None:
+    host = await cruising(dut, y=3, length=1)
+    mark = host.mark
+    await host.strobe(bemf_level=0)
+    edge = host.t - 2
+    await host.pause(STOP + 1)
+    assert not await host.out("mon_busy") and not host.steps(edge + STOP + 1)
+    assert await host.status() == DECAY | STALL and await host.ask("X") == await host.position() == host.made(
+        mark
+    )
+    assert not await host.ask("O") & SPEED_MODE
+    await run(host)
+    assert not await host.status() & STALL and await host.ask("I") == 0
+
+
+# ---------------------------------------------------------------------- ports
+
+
+@directed("P006-IO-01", "P006-IO-02", "P006-IO-03", "P006-IO-04", "P006-PORT-03")
+async def p006_port_word(dut: Any) -> None:
+    host = await Host.start(dut)
+    await host.ok(J=3, f=3)
+    for number, gpi in enumerate((0, 1, 2, 4, 8, 16, 21, 31)):
+        for ext in (number % 4, 3 - number % 4):
+            await host.pins(gpi=gpi, ext1=ext & 1, ext2=ext >> 1)
+            value = (gpi * 9) & 0xF8
+            await host.ok(y=value)
+            assert await host.ask("x") == ext << 10 | gpi >> 3 << 8 | value | gpi & 7
+            assert await host.out("gpo") == value >> 3
+    await host.ok(g=1)
+    assert await host.ask("I") == 0 and await host.out("gpo") == value >> 3
+    change = host.t
+    await host.reset()
+    assert await host.out("gpo") == 0 and host.edges("gpo", change)
+    await host.boot()
+    assert not host.edges("gpo", change + 20)
+
+
+@directed("P006-STA-14", "P006-STA-15", "P006-STA-10")
+async def p006_frames_executed_around_a_step(dut: Any) -> None:
+    """i, I, g walk over the clk of a step: no step is lost or doubled, none follows a stop."""
+    for code, data in (("i", 500), ("I", 0), ("g", 1)):
+        for offset in range(-2, 5):
+            host = await quick(dut)
+            await start(host, 12)
+            mark = host.mark
+            first = await after_steps(host, 1)
+            target = first + host.us(1000) * 3 + offset
+            await host.go(target - int(79.5 * host.bit) - 2)
+            assert await host.ask(code, data) == data
+            if code == "i":
+                await rest(host)
+                left = sum(t > target - 2 for t in host.steps(mark))
+                assert host.made(mark) == 12 and 0 <= left - (await host.position() - 500) <= 1
+            else:
+                assert not await host.busy() and not host.steps(host.e + EXECUTE + STOP)
+                assert await host.position() == host.made(mark)

@@ -1,0 +1,279 @@
+"""The keys of a user program on GPI1 and GPI2, their filters, what they do in each state (12.7)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from .builds import directed
+from .host import Host
+from .moves import after_steps, load, quick, rest, start, still
+from .programs import END, Op, out, rot
+
+RESET_TO = 3
+HIGH, KEY1, KEY2, BOTH = 0x1F, 0x1E, 0x1D, 0x1C
+FILTER = 1000
+"""us of a key's filter; the event comes 0 .. 2 us later."""
+LATE = 60
+"""clk from an event to the effect of the instruction that it lets start."""
+
+
+def reset_en(target: int, on: int = 1) -> Op:
+    """RESET_EN."""
+    return Op(0x13, on, target)
+
+
+PAUSE_EN = Op(0x14, 1)
+WAIT_GPI3 = Op(0x10, 3, 0)
+
+
+async def level(host: Host, gpi: int) -> int:
+    """Set the inputs; returns the edge that samples them."""
+    await host.pins(gpi=gpi)
+    return host.t - 1
+
+
+async def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
+    """Press for so long, then release and let the filter see that; returns the edge of the fall."""
+    edge = await level(host, gpi)
+    await host.wait_us(us)
+    await level(host, HIGH)
+    await host.wait_us(FILTER + 100)
+    return edge
+
+
+async def armed(dut: Any, **given: Any) -> Host:
+    """A host whose keys are armed by now."""
+    host = await quick(dut, 2500, **given)
+    await host.wait_us(FILTER + 10)
+    return host
+
+
+@directed("P006-PRG-30", "P006-PRG-31")
+async def p006_length_of_the_filter(dut: Any) -> None:
+    """999 us are none, however often; 1000 us and 3 more are one, and the stop comes on its edge."""
+    host = await armed(dut)
+    await load(host, reset_en(RESET_TO), rot(100_000), END, out(1, 1), END)
+    await after_steps(host, 2)
+    for us in (1, 500, FILTER - 1, FILTER - 1):
+        await level(host, KEY1)
+        await host.wait_us(us)
+        await level(host, HIGH)
+        await host.pause(1)
+    await host.wait_us(FILTER + 10)
+    assert await host.busy() and not await host.out("gpo")
+    edge = await level(host, KEY1)
+    await host.wait_us(FILTER + 3)
+    await level(host, HIGH)
+    fall = host.edges("mon_busy", edge)[0][0]
+    assert host.us(FILTER) <= fall - edge <= host.us(FILTER + 2) + 8 and not host.steps(fall + 1)
+    await host.wait_us(2 * FILTER)
+    assert not await host.out("gpo"), "the program had ended"
+
+
+@directed("P006-PRG-31", "P006-PRG-30", "P006-CMD-55")
+async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
+    host = await armed(dut)
+    await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), rot(5), END)
+    await after_steps(host, 3)
+    edge = await level(host, KEY1)
+    await host.wait_us(5 * FILTER)
+    assert not await host.busy() and await still(host, 100) and not await host.out("gpo")
+    # Bounces while it is released.
+    for us in (300, FILTER - 1):
+        await level(host, HIGH)
+        await host.wait_us(us)
+        await level(host, KEY1)
+        await host.pause(2)
+    assert not host.edges("gpo", edge)
+    release = await level(host, HIGH)
+    await host.wait_us(FILTER + 100)
+    up = host.edges("gpo", release)[0][0]
+    assert host.us(FILTER) <= up - release <= host.us(FILTER + 2) + LATE
+    await rest(host)
+    assert len(host.steps(up)) == 5 and await host.ask("z") == 1
+
+
+@directed("P006-PRG-31")
+async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
+    """The second round finds the counter at 1 and FLAG set by the first."""
+    program = (
+        reset_en(4),
+        Op(0x0B),
+        Op(0x12, 8, 1),
+        WAIT_GPI3,
+        Op(0x0E, 0, 0),
+        out(1, 1),
+        Op(0x0B),
+        Op(0x12, 8, 2),
+        Op(0x0F, 0, 10),
+        END,
+        out(2, 1),
+        rot(100_000),
+        WAIT_GPI3,
+    )
+    host = await armed(dut)
+    await load(host, *program)
+    await press(host, KEY1)
+    assert await host.out("gpo") == 0b11 and await host.busy()
+    await press(host, KEY1)
+    # CNTI makes it 3 now, and CMP clears FLAG.
+    assert await host.out("gpo") == 0b11 and not await host.busy() and await host.ask("z") == 1
+
+
+@directed("P006-PRG-30")
+async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> None:
+    """At reset, and when it is enabled; it has to be released first."""
+    host = await quick(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
+    await host.wait_us(3 * FILTER)
+    await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)
+    await host.wait_us(3 * FILTER)
+    assert await host.busy()
+    await level(host, HIGH)
+    await host.wait_us(FILTER - 2)
+    # Not armed by less than 1 ms either.
+    await press(host, KEY1, 2 * FILTER)
+    assert await host.busy() and not await host.out("gpo")
+    await press(host, KEY1)
+    assert not await host.busy() and await host.out("gpo") == 1
+
+
+@cocotb.parametrize(held=[False, True])
+@directed("P006-PRG-30")
+async def p006_enabling_behind_the_event(dut: Any, held: bool) -> None:
+    """The event was before RESET_EN: nothing, though the key is still down."""
+    host = await armed(dut)
+    await level(host, KEY1)
+    await host.wait_us(2 * FILTER)
+    await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)
+    if not held:
+        await level(host, HIGH)
+    await host.wait_us(2 * FILTER)
+    assert await host.busy() and not await host.out("gpo")
+
+
+@directed("P006-PRG-32", "P006-PRG-14")
+async def p006_pause(dut: Any) -> None:
+    """It toggles; a motion goes on, no WAIT ends, no instruction starts."""
+    host = await armed(dut)
+    await load(host, PAUSE_EN, rot(30), Op(0x10, 8, 0), out(1, 1), Op(0x10, 3, 0), out(2, 1), END)
+    edge = await press(host, KEY2)
+    await rest(host)
+    assert len(host.steps()) == 30
+    await host.wait_us(FILTER)
+    assert not await host.out("gpo")
+    # The second press lets it go on.
+    await level(host, KEY2)
+    await host.wait_us(FILTER + 20)
+    assert await host.out("gpo") == 1
+    await level(host, HIGH)
+    await host.wait_us(FILTER + 20)
+    await press(host, KEY2)
+    await level(host, HIGH & ~0b100)
+    await host.wait_us(100)
+    await level(host, HIGH)
+    assert await host.out("gpo") == 1
+    await press(host, KEY2)
+    await host.wait_us(100)
+    assert await host.out("gpo") == 1, "what was right meanwhile is over"
+    await level(host, HIGH & ~0b100)
+    await host.wait_us(50)
+    assert await host.out("gpo") == 0b11 and edge
+
+
+@directed("P006-PRG-32", "P006-PRG-12", "P006-CMD-04")
+async def p006_frames_while_paused(dut: Any) -> None:
+    """The program is not halted: z, E, W are refused; F 0 ends it, and a new start is not paused."""
+    host = await armed(dut)
+    await load(host, PAUSE_EN, WAIT_GPI3, out(1, 1), END)
+    await press(host, KEY2)
+    assert [await host.ask(code) for code in "zEW"] == [0, 0, 0]
+    await level(host, HIGH & ~0b100)
+    await host.wait_us(100)
+    assert not await host.out("gpo")
+    await host.ok(F=0)
+    assert await host.ask("z") == 1
+    await host.wait_us(100)
+    assert await host.out("gpo") == 1
+
+
+@directed("P006-PRG-32", "P006-BAD-23", "P006-PRG-31")
+async def p006_both_keys(dut: Any) -> None:
+    """RESET wins, the other event is gone; while RESET is held PAUSE does nothing."""
+    host = await armed(dut)
+    await load(host, reset_en(4), PAUSE_EN, rot(100_000), WAIT_GPI3, out(1, 1), END)
+    edge = await level(host, BOTH)
+    await host.wait_us(FILTER + 10)
+    assert not await host.busy()
+    for gpi in (KEY1, BOTH, KEY1):
+        await level(host, gpi)
+        await host.wait_us(FILTER + 10)
+    await level(host, HIGH)
+    await host.wait_us(FILTER + 50)
+    assert await host.out("gpo") == 1 and edge
+
+
+@directed("P006-PRG-31", "P006-PRG-32")
+async def p006_reset_ends_a_pause(dut: Any) -> None:
+    host = await armed(dut)
+    await load(host, reset_en(4), PAUSE_EN, rot(100_000), WAIT_GPI3, out(1, 1), END)
+    await press(host, KEY2)
+    await press(host, KEY1)
+    assert not await host.busy() and await host.out("gpo") == 1
+
+
+@directed("P006-PRG-31", "P006-PRG-14")
+async def p006_reset_in_halt_stops_every_motion(dut: Any) -> None:
+    """Also one that the host has started; the program stays where it is until F 0 disarms the key."""
+    host = await armed(dut)
+    await load(host, reset_en(2), END, out(1, 1), END)
+    await start(host, 100_000)
+    await press(host, KEY1)
+    assert not await host.busy() and not await host.out("gpo")
+    assert await host.ask("N", 1) == 1
+    await press(host, KEY1)
+    assert not await host.busy() and await host.ask("O") & 0x08 == 0
+    await host.ok(F=0)
+    await start(host, 100_000)
+    await press(host, KEY1)
+    assert await host.busy() and not await host.out("gpo")
+
+
+@directed("P006-PRG-10", "P006-PRG-30")
+async def p006_keys_are_off_after_a_start_and_when_switched_off(dut: Any) -> None:
+    host = await armed(dut)
+    await load(host, reset_en(0), PAUSE_EN, END)
+    await host.ok(A=6)
+    load_rest = (rot(100_000), WAIT_GPI3, out(1, 1), END)
+    for number, word in enumerate(word for op in load_rest for word in op.words):
+        assert await host.ask("W", word) == word and number < 8
+    await host.ok(A=6)
+    assert await host.ask("z") == 1
+    await press(host, KEY1)
+    await press(host, KEY2)
+    assert await host.busy()
+    await host.ok(F=0)
+    assert await host.ask("I") == 0
+    await host.ok(A=0)
+    await load(host, reset_en(5), PAUSE_EN, reset_en(5, 0), Op(0x14, 0), rot(100_000), out(1, 1), WAIT_GPI3)
+    await press(host, KEY1)
+    await press(host, KEY2)
+    assert await host.busy() and await host.out("gpo") == 1
+
+
+@directed("P006-PRG-33", "P006-PRG-30")
+async def p006_key_pins_are_inputs_as_before(dut: Any) -> None:
+    """WAIT, CMP and x see them at once, without the filter."""
+    host = await armed(dut)
+    await load(
+        host, reset_en(0), PAUSE_EN, Op(0x10, 1, 0), out(1, 1), Op(0x10, 2, 0), out(2, 1), Op(0x12, 9, BOTH)
+    )
+    await level(host, KEY1)
+    await host.wait_us(20)
+    assert await host.out("gpo") == 1
+    await level(host, BOTH)
+    await host.wait_us(20)
+    assert await host.out("gpo") == 0b11
+    await level(host, HIGH)
+    assert await host.ask("x") & 7 == 7

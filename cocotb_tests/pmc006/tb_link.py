@@ -1,0 +1,317 @@
+"""Bytes and frames on the link, good and bad; when replies come, and when none does."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil
+from typing import Any
+
+import cocotb
+
+from .builds import F8B, ODD, directed
+from .frames import checked, command, reply
+from .host import Host
+from .moves import DECAY, quick
+
+BUILDS = (F8B, ODD)
+
+PATTERNS = (0x00000000, 0xFFFFFFFF, 0x55AA33CC, 0x80000001, 0x7F7FFEFE)
+J = command(0xFF, "j")
+
+
+async def echo(host: Host, *values: int) -> None:
+    """Set the position, which takes any 32 bits, and read it back."""
+    for value in values or PATTERNS:
+        assert await host.ask("i", value) == value and await host.ask("c") == value
+
+
+@directed(
+    "P006-UART-01", "P006-UART-02", "P006-UART-05", "P006-FRM-03", "P006-CMD-30", "P006-CMD-24", builds=BUILDS
+)
+async def p006_all_levels_of_all_bits(dut: Any) -> None:
+    host = await Host.start(dut)
+    await echo(host)
+    for bit in range(0, 32, 5):
+        await echo(host, 1 << bit)
+
+
+@cocotb.parametrize(error=[0.025, -0.025, 0.012, -0.012])
+@directed("P006-UART-04", builds=BUILDS)
+async def p006_wrong_bit_rate(dut: Any, error: float) -> None:
+    """2.5 % either way, without gaps; the last sample of a frame shows the sum of it all."""
+    await echo(await Host.start(dut, error=error), *PATTERNS[:3])
+
+
+@directed("P006-UART-04", "P006-FRM-04", builds=BUILDS)
+async def p006_gaps_between_bytes(dut: Any) -> None:
+    host = await Host.start(dut)
+    for gap in (0, 0.3, 1, 7.77, 100):
+        await host.send(command(0xFF, "i", 0x12345678), gap)
+        await host.pause(ceil(gap * host.bit))
+        assert await host.hear() == 0x12345678
+
+
+@directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
+async def p006_spikes_on_an_idle_line(dut: Any) -> None:
+    """Shorter than half a bit: nothing has been."""
+    host = await Host.start(dut)
+    half = host.bit / 2
+    for clk in (1, 2, 3, int(half) - 2):
+        await host.pins(rxd=0)
+        await host.pause(clk - 1)
+        await host.pins(rxd=1)
+        await host.pause(ceil(host.bit))
+        assert await host.ask("j") == DECAY
+    await host.send(J[:3])
+    await host.pins(rxd=0)
+    await host.pause(int(half) - 3)
+    await host.pins(rxd=1)
+    await host.pause(ceil(host.bit))
+    await host.send(J[3:])
+    assert await host.hear() == DECAY
+
+
+@directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
+async def p006_noise_away_from_the_samples(dut: Any) -> None:
+    """Levels are wrong for a fifth of a bit, but not where they are looked at."""
+    host = await Host.start(dut)
+    clk = int(host.bit / 5)
+    for byte in command(0xFF, "i", 0x0FF0A55A):
+        spikes = [(bit + place, clk) for bit in range(10) for place in (0.1, 0.7) if 0.5 < bit + place < 9.4]
+        await host.character(byte, spikes=spikes)
+    assert await host.hear() == 0x0FF0A55A
+
+
+@cocotb.parametrize(place=range(8))
+@directed("P006-UART-03", "P006-BAD-05", builds=BUILDS)
+async def p006_framing_error_in_each_byte(dut: Any, place: int) -> None:
+    """The frame is gone; the rest of it begins nothing."""
+    host = await Host.start(dut)
+    for number, byte in enumerate(command(0xFF, "i", 0xA5A5)):
+        await host.character(byte, stop=int(number != place))
+    assert await host.silent(ceil(90 * host.bit))
+    await host.pause(ceil(200 * host.bit))
+    assert await host.ask("c") == 0
+
+
+@cocotb.parametrize(bits=[9.3, 9.7, 12, 60, 2000])
+@directed("P006-UART-03", "P006-BAD-05", builds=BUILDS)
+async def p006_breaks(dut: Any, bits: float) -> None:
+    """However long it is, no more than the frame it is in is lost; the next one needs no pause."""
+    host = await Host.start(dut)
+    await host.send(J[:4])
+    await host.low(bits)
+    if bits < 9.5:
+        # A good byte of zeros: the frame goes on.
+        await host.send(J[5:])
+        assert await host.hear() == DECAY
+    assert await host.ask("j") == DECAY
+
+
+@directed("P006-UART-03", "P006-BAD-24", builds=BUILDS)
+async def p006_line_low_during_reset(dut: Any) -> None:
+    """No byte begins before the line has been high."""
+    host = await Host.start(dut, levels={"sda_i": 0, "rxd": 0}, boot=False)
+    await host.boot()
+    await host.pause(ceil(30 * host.bit))
+    await host.pins(rxd=1)
+    await host.pause(ceil(2 * host.bit))
+    assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-01", "P006-BAD-01", "P006-FRM-08", builds=BUILDS)
+async def p006_bytes_before_a_frame(dut: Any) -> None:
+    host = await Host.start(dut)
+    await host.send(bytes(byte for byte in range(0, 256, 7) if byte != 0xA5))
+    assert await host.ask("j") == DECAY
+    await host.send(b"\x5a\x00\xff")
+    assert await host.ask("i", 0xA5A5A5A5) == 0xA5A5A5A5
+    await host.send(command(0xA5, "j"))
+    assert await host.ask("c") == 0xA5A5A5A5
+
+
+@directed("P006-FRM-02", "P006-FRM-08", "P006-BAD-02", builds=BUILDS)
+async def p006_every_wrong_bit_of_a_frame(dut: Any) -> None:
+    """One wrong bit is never executed; all eight bytes are gone, and no others."""
+    host = await Host.start(dut)
+    good = command(0xFF, "y", 0xF8)
+    for place in range(1, 8):
+        for bit in (0, 3, 7):
+            frame = bytearray(good)
+            frame[place] ^= 1 << bit
+            await host.send(frame)
+    assert await host.silent(ceil(10 * host.bit)) and not host.edges("de")
+    assert not await host.out("gpo") and await host.ask("y", 0xF8) == 0xF8
+
+
+@directed("P006-FRM-02", "P006-FRM-05", "P006-BAD-03", "P006-CMD-44", builds=BUILDS)
+async def p006_own_address_only(dut: Any) -> None:
+    host = await Host.start(dut)
+    for address in (0, 1, 0x78, 0x79, 0x7A, 0xA5, 0xFE):
+        await host.say("y", 0xF8, address)
+    assert await host.ask("w", 0x78) == 0x78
+    for address in (0, 0x77, 0x79, 0xFF):
+        await host.say("y", 0xF8, address)
+    assert await host.silent(ceil(10 * host.bit)) and not await host.out("gpo")
+    assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-06", "P006-FRM-10", "P006-BAD-03", builds=BUILDS)
+async def p006_traffic_of_other_nodes(dut: Any) -> None:
+    """Commands to others, their replies, whatever they hold; then at once a frame to this one."""
+    host = await Host.start(dut)
+    assert await host.ask("w", 5) == 5
+    for data in (0, 0xA505A505, 0x050505A5):
+        await host.send(command(7, "s", data) + reply(7, data) + reply(5, data) + command(0x7A, "j", data))
+        assert await host.ask("j") == DECAY
+    assert not host.steps(0)
+
+
+@directed("P006-FRM-04", "P006-BAD-04", builds=BUILDS)
+async def p006_silence_within_a_frame(dut: Any) -> None:
+    """Less than 192 bit times between the stop-bit sample and the next start bit are nothing; more end it."""
+    host = await Host.start(dut)
+    for after, answered in ((-12, True), (-5, True), (6, False), (40, False)):
+        # From the middle of the stop bit, where the line has half a bit to go.
+        gap = ceil(192 * host.bit) - int(host.bit / 2) + after
+        await host.send(command(0xFF, "i", 0x77)[:4])
+        await host.pause(gap)
+        await host.send(command(0xFF, "i", 0x77)[4:])
+        if answered:
+            assert await host.hear() == 0x77
+        else:
+            assert await host.silent(ceil(20 * host.bit))
+            await host.pause(ceil(200 * host.bit))
+    assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-04", builds=BUILDS)
+async def p006_the_very_end_of_the_silence(dut: Any) -> None:
+    """Around the last clk either may be; model and RTL agree about it."""
+    host = await Host.start(dut)
+    for after in range(-4, 5):
+        await host.send(J[:4])
+        await host.pause(ceil(192 * host.bit) - int(host.bit / 2) + after)
+        await host.send(J[4:])
+        await host.pause(ceil(6 * host.bit))
+        await host.forget()
+        await host.pause(ceil(200 * host.bit))
+    assert await host.ask("j") == DECAY
+
+
+@cocotb.parametrize(count=range(1, 8))
+@directed("P006-FRM-04", "P006-BAD-04", builds=BUILDS)
+async def p006_frames_cut_short(dut: Any, count: int) -> None:
+    host = await Host.start(dut)
+    await host.send(J[:count])
+    await host.pause(ceil(195 * host.bit))
+    assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-07", "P006-BAD-06", builds=BUILDS)
+async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
+    """Nothing of it is heard, not even the rest of a frame that ends after the reply."""
+    for start in (0, 0.4, 1.2, 5, 40):
+        host = await Host.start(dut)
+        await host.say("c")
+        host.back_to(host.e + ceil(start * host.bit))
+        await host.send(command(0xFF, "y", 0xF8))
+        host.middle -= 80 * host.bit + ceil(start * host.bit) - 0.5 * host.bit
+        await host.forget()
+        assert await host.silent(ceil(12 * host.bit)) and not await host.out("gpo")
+        await host.pause(ceil(200 * host.bit))
+        assert await host.ask("j") == DECAY
+        assert len(host.edges("de")) == 4
+
+
+@directed("P006-FRM-07", "P006-UART-02", "P006-BAD-06", builds=BUILDS)
+async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
+    """No byte begins before the line has been high; what follows soon afterwards is heard."""
+    for gap in (2, 4, 8):
+        host = await Host.start(dut)
+        await host.say("c")
+        await host.go(host.e + ceil(81 * host.bit))
+        await host.pins(rxd=0)
+        await host.pause(ceil(3.5 * host.bit))
+        await host.pins(rxd=1)
+        await host.forget()
+        host.back_to(host.t + ceil(gap * host.bit))
+        assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-07", "P006-BAD-06", builds=BUILDS)
+async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
+    """A host has a reply in the middle of its last stop bit; a frame that begins there or later is heard."""
+    for late in (-1, 0, 1, 9, 25, 33):
+        host = await Host.start(dut)
+        await host.say("c")
+        await host.pause(ceil(3 * host.bit))
+        rise = await host.rise()
+        assert rise is not None
+        middle = rise - ceil(host.bit) + ceil(Fraction(163, 2) * host.bit)
+        await host.go(middle + late)
+        assert await host.out("de")
+        await host.say("y", 0xF8)
+        await host.pause(ceil(90 * host.bit))
+        heard = late >= 0
+        assert await host.out("gpo") == (0x1F if heard else 0), f"{late} clk after the middle"
+        assert len(host.edges("de", rise)) == (4 if heard else 2)
+
+
+@directed("P006-FRM-07", "P006-UART-05", builds=BUILDS)
+async def p006_line_that_echoes(dut: Any) -> None:
+    """A transceiver that lets the node hear itself: the assembler is empty afterwards."""
+    host = await Host.start(dut)
+    await host.say("c")
+    start = host.e + ceil(2 * host.bit)
+    host.back_to(start + 1)
+    await host.send(reply(0xFF, 0))
+    await host.forget()
+    assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-03", "P006-CMD-52", "P006-CMD-53", builds=BUILDS)
+async def p006_reply_shows_the_moment_of_execution(dut: Any) -> None:
+    """Steps go on while a position is being sent."""
+    host = await quick(dut)
+    await host.ask("s", 200)
+    await host.wait_us(3_000)
+    value = await host.ask("c")
+    made = len([t for t in host.steps(0) if t <= host.e + 1])
+    assert abs(value - made) <= 1 and len(host.steps(0)) > made
+    await host.ask("I")
+
+
+@directed("P006-FRM-09", "P006-CMD-40", builds=BUILDS)
+async def p006_worked_frames(dut: Any) -> None:
+    """F1..F6 of chapter 2.5."""
+    host = await Host.start(dut)
+    assert await host.ask("w", 1) == 1
+    await host.ok(v=3000, L=3000, S=3000)
+    assert await host.swap("A5 01 73 1F 01 00 00 39") == reply(1, host.accepted(287)).hex(" ").upper()
+    await host.ask("I")
+    assert await host.ask("w", 2) == 2
+    assert await host.swap("A5 02 6D 04 00 00 00 18") == "A5 7A 02 04 00 00 00 25"
+    assert await host.swap("A5 02 79 08 00 00 00 28") == "A5 7A 02 08 00 00 00 29"
+
+
+@directed("P006-UART-03", "P006-FRM-02", "P006-BAD-24", builds=BUILDS)
+async def p006_reset_in_the_middle_of_a_reply(dut: Any) -> None:
+    """Outputs are at their reset levels at once; afterwards a frame is answered."""
+    for bits in (0.5, 1.5, 2.5, 30):
+        host = await Host.start(dut)
+        await host.say("j")
+        await host.pause(ceil(bits * host.bit))
+        await host.reset()
+        assert await host.out("txd") == 1 and await host.out("de") == 0
+        await host.boot()
+        assert await host.silent(ceil(5 * host.bit))
+        assert await host.ask("j") == DECAY
+
+
+@directed("P006-FRM-01", "P006-FRM-08", "P006-BAD-02", builds=BUILDS)
+async def p006_frames_with_a_wrong_head(dut: Any) -> None:
+    host = await Host.start(dut)
+    await host.send(bytes([0xA4]) + J[1:])
+    await host.send(checked(0xA5, 0xFF, 0x6A, 0, 0, 0, 1)[:-1] + b"\x00")
+    assert await host.ask("j") == DECAY

@@ -1,0 +1,35 @@
+"""Directed part tests of the PMC006B4: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.runner import SimOptions, run_item
+
+from .bench import PMC006
+
+ITEMS = cocotb_items(
+    "cocotb_tests.pmc006",
+    "tb_tour",
+    "tb_link",
+    "tb_codes",
+    "tb_motion",
+    "tb_angle",
+    "tb_bridge",
+    "tb_guard",
+    "tb_analog",
+    "tb_clock",
+    "tb_states",
+    "tb_keys",
+    "tb_program",
+    "tb_waits",
+    "tb_meetings",
+    part=PMC006,
+)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_pmc006(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation."""
+    run_item(item, sim_options)
