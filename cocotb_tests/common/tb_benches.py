@@ -1,0 +1,23 @@
+"""Several benches in one simulation, as groups of tests and batches of random hosts make them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness import native
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.part import PARTS
+
+
+@cocotb.test()
+async def benches_leave_one_watch_a_port(dut: Any) -> None:
+    """Given three benches one after the other, when an output changes, then it is recorded once."""
+    for _ in range(3):
+        bench = await Bench.start(dut, PARTS["ppmc104"])
+    await HostBus(bench).status()
+    rows = list(native.seen())
+    assert [level for _, port, level in rows if port == native.port("d_oe")] == [1, 0]
+    assert len(rows) == len(set(rows)), rows

@@ -1,0 +1,111 @@
+"""The host of directed tests on the parallel pins of the PPMC-312: it acts on what it reads there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, WAR, WCR, clean
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness.stimulus import Access
+
+from .bench import PPMC312
+from .side_host import SideHost
+
+LATE = 10_000
+"""clk that a response may come behind the golden model's."""
+
+
+class Host(SideHost):
+    """Blocks and answers are texts of hexadecimal bytes in logical order.
+
+    `header` is the edge that ended the last strobe of the last block.
+    """
+
+    def __init__(self, side: Side) -> None:
+        super().__init__(side)
+        self.mark = self.t
+        self.header = 0
+
+    @classmethod
+    async def start(cls, dut: Any, *setting: str, **pins: int) -> Host:
+        """A part out of reset with these pins, once it takes blocks, and each block of `setting` answered."""
+        host = cls(await start_bench(dut, PPMC312, settle=8, **pins))
+        host.mark = 0
+        await host.ready(100)
+        for block in setting:
+            await host.ask(block)
+        return host
+
+    # ------------------------------------------------------------------ bus
+
+    async def write(self, reg: int, byte: int) -> None:
+        """One write cycle: a strobe of 3 clk, 3 clk without."""
+        side = self.side
+        side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
+        await side.clocks(3)
+        edge = side.set(cs_n=1, we_n=1)
+        side.accesses.append(Access(edge, NAMES.get(("write", reg), "write"), reg, byte))
+        await side.clocks(3)
+
+    async def read(self, reg: int) -> int:
+        """One read cycle: d_o at the end of a strobe of 5 clk; 3 clk without."""
+        side = self.side
+        edge = side.set(cs_n=0, oe_n=0, rs=reg)
+        await side.clocks(5)
+        value = side.level("d_o")
+        side.accesses.append(Access(edge, NAMES.get(("read", reg), "read"), reg, value))
+        side.set(cs_n=1, oe_n=1)
+        await side.clocks(3)
+        return value
+
+    async def put(self, text: str, war: int | None = None) -> None:
+        """Write a block and no more."""
+        block = bytes.fromhex(text)[::-1]
+        await self.write(WCR, 0x20)
+        await self.write(WAR, 0x20 - len(block) if war is None else war)
+        for byte in block:
+            await self.write(DWR, byte)
+        self.header = self.t - 3
+
+    async def ready(self, every: int = 20, limit: int = 10_000_000) -> None:
+        """Until MWEF = 0."""
+        end = self.t + limit
+        while await self.read(CSR) & MWEF:
+            assert self.t < end, f"no block is taken any more\n{self.side.context()}"
+            await self.pause(every)
+
+    async def issue(self, text: str) -> None:
+        """Write a block when MWEF allows it; pulses and edges count from here."""
+        await self.ready()
+        self.mark = self.t
+        await self.put(text)
+
+    async def response(self, limit: int = 100_000_000) -> str:
+        """The next response block; time passes until there is one."""
+        await self.wait(limit)
+        count = 0x40 - await self.read(RAR)
+        assert count > 0, f"a response without a byte\n{self.side.context()}"
+        block = bytes([await self.read(DRR) for _ in range(count)])[::-1]
+        return clean(block.hex())
+
+    async def wait(self, limit: int = 100_000_000) -> None:
+        """Until MREF = 0, for `limit` clk at most; polled when the golden model has a response."""
+        end, late = self.t + limit, LATE
+        while await self.read(CSR) & MREF:
+            assert late > 0, f"no response comes, though the golden model has one\n{self.side.context()}"
+            late -= 8
+            while not self.side.golden.core.responses.any_waiting:
+                assert self.t < end, f"no response comes any more\n{self.side.context()}"
+                late = LATE
+                await self.step()
+
+    async def ask(self, text: str) -> str:
+        """Issue a block and read one response."""
+        await self.issue(text)
+        return await self.response()
+
+    async def quiet(self, clk: int = 5000) -> bool:
+        """Whether no response comes for so long."""
+        await self.pause(clk)
+        return bool(await self.read(CSR) & MREF)
