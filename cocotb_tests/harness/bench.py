@@ -19,7 +19,7 @@ from cocotb.triggers import First, Timer
 from . import native
 from .config import F16, Config
 from .part import Part
-from .side import TIMEOUT, Side
+from .side import TIMEOUT, PinChange, Side
 from .stimulus import Change
 
 
@@ -200,26 +200,13 @@ class Bench(Side):
                 rows.append((self._t0 + (t - 1) * self.period + self.half, self._ports[port], level))
         native.tape(rows)
 
-    def at(self, edge: int, **levels: int) -> Any:
-        """As `Side.at`; returns the task."""
-
-        async def later() -> None:
-            await self.until(edge)
-            self.set(**levels)
-
-        return self._start(later())
-
-    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Any:
-        """As `Side.external_clock`; returns the task."""
-        name = pin or self.part.clock
+    def drive(self, changes: Iterable[PinChange]) -> Any:
+        """As `Side.drive`; returns the task."""
 
         async def run() -> None:
-            await self.align()
-            for interval in intervals:
-                self.set(**{name: 1})
-                await self.clocks(high)
-                self.set(**{name: 0})
-                await self.clocks(interval - high)
+            for edge, levels in changes:
+                await self.until(edge)
+                self.set(**levels)
 
         return self._start(run())
 

@@ -23,11 +23,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import cocotb
-from cocotb.task import Task
-
-from .bench import Bench
 from .bus import DATA, IBF, OBF, HostBus
+from .side import Handle, PinChange, Side
 
 Action = tuple[Any, ...]
 
@@ -41,15 +38,15 @@ class ExternalClock:
 
     segments: tuple[tuple[int, int, int, int, int], ...] = ()
 
-    def levels(self, rng: random.Random) -> Iterator[tuple[int, int]]:
-        """(clk to wait, level; -1 leaves it) of the pin; its jitter is drawn from `rng`."""
+    def changes(self, pin: str, start: int, rng: random.Random) -> Iterator[PinChange]:
+        """Those of the pin from edge `start` on; its jitter is drawn from `rng`."""
+        t = start
         for count, period, jitter, high, pause in self.segments:
             for _ in range(count):
-                length = period + rng.randint(-jitter, jitter)
-                yield 0, 1
-                yield high, 0
-                yield length - high, -1
-            yield pause, -1
+                yield t, {pin: 1}
+                yield t + high, {pin: 0}
+                t += period + rng.randint(-jitter, jitter)
+            t += pause
 
 
 def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
@@ -82,11 +79,11 @@ def pauses(rng: random.Random) -> Callable[[], int]:
 class Player:
     """Plays actions on a bench. Polls have a limit and go on: a host that gave up is a legal host, too."""
 
-    def __init__(self, bench: Bench, seed: int, pausing: bool) -> None:
+    def __init__(self, bench: Side, seed: int, pausing: bool) -> None:
         self.bench = bench
         self.rng = random.Random(f"player {seed}")
         self.host = HostBus(bench, pause=pauses(self.rng) if pausing else None, timeout=400_000)
-        self._clocks: list[Task[None]] = []
+        self._clocks: list[Handle] = []
 
     async def play(self, actions: list[Action]) -> None:
         """All actions in order."""
@@ -99,15 +96,8 @@ class Player:
 
     def start_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
         """Drive a clock pin by its programme until the actions end."""
-        self._clocks.append(cocotb.start_soon(self._run_clock(pin, clock, seed)))
-
-    async def _run_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
-        await self.bench.align()
-        for wait, level in clock.levels(random.Random(f"clock {seed}")):
-            if wait:
-                await self.bench.clocks(wait)
-            if level >= 0:
-                self.bench.set(**{pin: level})
+        changes = clock.changes(pin, self.bench.now, random.Random(f"clock {seed}"))
+        self._clocks.append(self.bench.drive(changes))
 
     async def polled(self, mask: int, value: int, limit: int) -> bool:
         """Whether the status showed it within so many clk."""

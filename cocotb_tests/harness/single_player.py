@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .bench import Bench
 from .bus import BUSY
 from .config import Config
 from .player import Action, ExternalClock, Player
+from .side import Side
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class SinglePlayer(Player):
     Adds ("finish", clk): poll until BUSY = 0; after clk give up and send 0x40, which the rule says must help.
     """
 
-    def __init__(self, bench: Bench, scenario: Scenario, rule: str) -> None:
+    def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:
         super().__init__(bench, scenario.seed, scenario.pauses)
         self.scenario = scenario
         self.rule = rule

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections import Counter
 
-import pytest
-
-from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.batches import run_batch
 from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
 
 from .random_host import BUILDS, plan, play
@@ -19,15 +18,8 @@ from .random_host import BUILDS, plan, play
 SEEDS = range(1, 151)
 
 
-def random_item(seed: int) -> Item:
-    """The random host of one seed; the seed decides the build configuration, too."""
-    return seed_item("pmc006", "tb_random", "p006_random_host", seed, plan(seed))
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a batch."""
-    if "item" in metafunc.fixturenames:
-        parametrize(metafunc, random_item, SEEDS)
+random_item = RandomItems("pmc006", "tb_random", "p006_random_host", SEEDS, plan)
+pytest_generate_tests = generating(test_random=random_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
@@ -38,7 +30,7 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 def test_scenarios_are_reproducible_and_varied() -> None:
     """The fixed seeds use every build, each seed once; the same seed gives the same build."""
     assert {plan(seed).name for seed in SEEDS} == {config.name for config, _ in BUILDS}
-    assert played(random_item, SEEDS) == list(SEEDS) and len(SEEDS) >= 150
+    assert random_item.complete and len(SEEDS) >= 150
 
 
 LEAST = {

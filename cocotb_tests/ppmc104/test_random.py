@@ -8,15 +8,15 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import pytest
-
-from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.batches import run_batch
 from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import compare_recording
 from cocotb_tests.harness.config import D16, F11, F16, F100
 from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness.random_host import in_turn
+from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
 from cocotb_tests.harness.shortened import shortened
 from cocotb_tests.harness.stimulus import Recording
@@ -27,21 +27,15 @@ SEEDS = range(1, 221)
 CHAOS_SEEDS = range(1, 41)
 
 
-def random_item(seed: int) -> Item:
-    """The random host of one seed; the seed decides the build configuration, too."""
-    return seed_item("ppmc104", "tb_random", "random_host", seed, scenario(seed).config)
-
-
-def chaos_item(seed: int) -> Item:
-    """The noise run of one seed."""
-    return seed_item("ppmc104", "tb_random", "random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a batch."""
-    if "item" in metafunc.fixturenames:
-        chaos = "chaos" in metafunc.function.__name__
-        parametrize(metafunc, *((chaos_item, CHAOS_SEEDS) if chaos else (random_item, SEEDS)))
+random_item = RandomItems("ppmc104", "tb_random", "random_host", SEEDS, lambda seed: scenario(seed).config)
+chaos_item = RandomItems(
+    "ppmc104",
+    "tb_random",
+    "random_chaos",
+    CHAOS_SEEDS,
+    in_turn(F16, F16, F11, F100, F16, D16),
+)
+pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
@@ -83,8 +77,8 @@ def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
 def test_scenarios_are_reproducible_and_varied() -> None:
     """Same seed, same list; the fixed seeds together use every action kind and every build."""
     assert scenario(5) == scenario(5) != scenario(6)
-    assert played(random_item, SEEDS) == list(SEEDS) and len(SEEDS) >= 200
-    assert played(chaos_item, CHAOS_SEEDS) == list(CHAOS_SEEDS)
+    assert random_item.complete and len(SEEDS) >= 200
+    assert chaos_item.complete
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == {

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.player import Player
+from cocotb_tests.harness.side import Side
 from cocotb_tests.ppmc2104.random_host import Scenario
 
 BUSY = {1: 0x04, 2: 0x08}
@@ -15,7 +15,7 @@ class HostPlayer(Player):
     Adds ("finish", axes, clk): poll until BUSY of these axes is 0; after clk give up and stop them.
     """
 
-    def __init__(self, bench: Bench, scenario: Scenario) -> None:
+    def __init__(self, bench: Side, scenario: Scenario) -> None:
         super().__init__(bench, scenario.seed, scenario.pauses)
         self.scenario = scenario
 
