@@ -21,8 +21,8 @@ class PartTests:
     sample: of its random tests, what makes the item of a seed, and the seeds. Together the hosts of a sample
     use every configuration they choose from. builds: names of the configurations that netlists are made of,
     for the reason in `why`; none: all. simulating: test functions that run simulations. not_applicable: those
-    that do not, with what a netlist has to do with them. too_long: directed tests that a netlist would take
-    far too long for, with the reason. quick: test modules or tests of the quick sample, which runs in the
+    that do not, with what a netlist has to do with them. too_long: directed tests, or modules of them, that a
+    netlist would take far too long for, with the reason. quick: those of the quick sample, which runs in the
     build `quick_build`.
     """
 
@@ -49,7 +49,7 @@ class PartTests:
     @property
     def items(self) -> list[Item]:
         """The directed tests that run on netlists."""
-        return [item for item in self._directed if item.test not in self.too_long and self.built(item)]
+        return [item for item in self._directed if not self.is_too_long(item) and self.built(item)]
 
     def built(self, item: Item) -> bool:
         """Whether there are netlists of its configuration."""
@@ -57,8 +57,11 @@ class PartTests:
 
     def is_quick(self, item: Item) -> bool:
         """Whether a directed test is in the quick sample."""
-        listed = item.module.rpartition(".")[2] in self.quick or item.test in self.quick
-        return listed and item.config.name == self.quick_build
+        return not self.quick.isdisjoint(names(item)) and item.config.name == self.quick_build
+
+    def is_too_long(self, item: Item) -> bool:
+        """Whether a directed test would take a netlist far too long."""
+        return not self.too_long.keys().isdisjoint(names(item))
 
     @property
     def unbuilt(self) -> list[str]:
@@ -70,3 +73,8 @@ class PartTests:
         """The test functions of its modules."""
         modules = [module for module in (self.directed, self.random) if module]
         return [name for module in modules for name in vars(module) if name.startswith("test_")]
+
+
+def names(item: Item) -> tuple[str, str]:
+    """How a part's `gates.py` may name a test: by its module or by itself."""
+    return item.module.rpartition(".")[2], item.test

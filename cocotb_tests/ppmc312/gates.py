@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
 
-from . import test_random, test_scripts
+from . import test_part, test_random
 
 SAME_BLOCKS = "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks"
 OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "polls", "resets")
 
 PART = PartTests(
-    test_scripts,
-    frozenset({"test_scripts", "test_random", "test_noise", "test_serial"}),
+    test_part,
+    frozenset({"test_ppmc312", "test_random", "test_noise", "test_serial"}),
     test_random,
     {
         test_random.random_item: (2, 3, 4, 5, 6, 8),
@@ -26,14 +26,18 @@ PART = PartTests(
         "test_hosts_on_the_line_are_rich": GENERATOR,
     },
     too_long={
-        "p312_transactions": (
-            "8 million clk; p312_motion, p312_abnormal and p312_bus have the same instructions"
-        ),
-        "p312_terminals": (
-            "3 million clk, most of them waiting for clear pulses and for the current reduction"
-        ),
+        "tb_transactions": "8 million clk; the other modules have the same instructions",
+        "tb_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
+        "tb_positions": "1 million clk; the other modules have positions and their reports, too",
         **{f"p312_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
-        "p312_checks_motion": "15 million clk; p312_motion and p312_bounds have shorter moves of all kinds",
+        "tb_checks_motion": "15 million clk; tb_motion_walks and tb_bounds have shorter moves of all kinds",
     },
-    quick=frozenset({"p312_bus", "p312_serial_tour"}),
+    quick=frozenset(
+        {
+            "p312_reads_drive_the_bus",
+            "p312_write_window_in_any_order",
+            "p312_forms_of_the_starts",
+            "p312_serial_tour",
+        }
+    ),
 )

@@ -5,32 +5,11 @@ A new module needs a row here; each build of a row is one simulation.
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import D16, F16, F50, Config
+from cocotb_tests.harness.config import D16, F16, Config
 
-F27 = Config("f27m", clk_hz=27_000_000)
-F27X12 = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
-CHARS = Config("chars", extra=(("SUM_MODE", "CHARS"),))
-F8V = Config("f8v34", clk_hz=8_000_000, extra=(("VERSION", 0x34),))
+from .builds import CHARS, F8V, F27, F27X12
 
 MODULES: dict[str, tuple[Config, ...]] = {
-    "tests.ppmc312.model.test_checks_host": (F16, D16),
-    "tests.ppmc312.model.test_checks_events": (F16, D16),
-    "tests.ppmc312.model.test_checks_motion": (F16,),
-    "tests.ppmc312.model.test_searches": (F16,),
-    "tests.ppmc312.model.test_monitors": (F16,),
-    "tests.ppmc312.model.test_transactions": (F16,),
-    "tests.ppmc312.model.test_accept": (F16,),
-    "tests.ppmc312.model.test_edges": (F16, D16, F8V),
-    "tests.ppmc312.model.test_meetings": (F16, D16),
-    "tests.ppmc312.model.test_clock": (F16, F27, F8V),
-    "tests.ppmc312.model.test_datasheet": (D16,),
-    "cocotb_tests.ppmc312.script_bounds": (F16,),
-    "cocotb_tests.ppmc312.script_bus": (F16, D16),
-    "cocotb_tests.ppmc312.script_goals": (F50,),
-    "cocotb_tests.ppmc312.script_settings": (F16,),
-    "cocotb_tests.ppmc312.script_motion": (F16,),
-    "cocotb_tests.ppmc312.script_abnormal": (F16,),
-    "cocotb_tests.ppmc312.script_terminals": (F16, F27, D16),
     "cocotb_tests.ppmc312.script_serial_tour": (F16,),
     "tests.ppmc312.model.test_serial_checks": (F16, CHARS),
     "tests.ppmc312.model.test_serial_transactions": (F16,),

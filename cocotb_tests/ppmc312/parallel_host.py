@@ -39,14 +39,15 @@ class Host(SideHost):
 
     # ------------------------------------------------------------------ bus
 
-    async def write(self, reg: int, byte: int) -> None:
-        """One write cycle: a strobe of 3 clk, 3 clk without."""
+    async def write(self, reg: int, byte: int, gap: int = 3) -> int:
+        """One write cycle: a strobe of 3 clk, `gap` clk without; returns the edge that ends the strobe."""
         side = self.side
         side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
         await side.clocks(3)
         edge = side.set(cs_n=1, we_n=1)
         side.accesses.append(Access(edge, NAMES.get(("write", reg), "write"), reg, byte))
-        await side.clocks(3)
+        await side.clocks(gap)
+        return edge
 
     async def read(self, reg: int) -> int:
         """One read cycle: d_o at the end of a strobe of 5 clk; 3 clk without."""
@@ -59,14 +60,21 @@ class Host(SideHost):
         await side.clocks(3)
         return value
 
-    async def put(self, text: str, war: int | None = None) -> None:
-        """Write a block and no more."""
+    async def strobe(self, length: int, gap: int = 3, **levels: int) -> None:
+        """Any levels on the pins of the bus for `length` clk, then `gap` clk without a strobe."""
+        self.side.set(**levels)
+        await self.side.clocks(length)
+        self.side.set(cs_n=1, we_n=1, oe_n=1)
+        await self.side.clocks(gap)
+
+    async def put(self, text: str, war: int | None = None, gap: int = 3) -> None:
+        """Write a block and no more; returns `gap` clk behind its last strobe."""
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, 0x20)
         await self.write(WAR, 0x20 - len(block) if war is None else war)
-        for byte in block:
+        for byte in block[:-1]:
             await self.write(DWR, byte)
-        self.header = self.t - 3
+        self.header = await self.write(DWR, block[-1], gap)
 
     async def ready(self, every: int = 20, limit: int = 10_000_000) -> None:
         """Until MWEF = 0."""
@@ -91,14 +99,19 @@ class Host(SideHost):
 
     async def wait(self, limit: int = 100_000_000) -> None:
         """Until MREF = 0, for `limit` clk at most; polled when the golden model has a response."""
-        end, late = self.t + limit, LATE
+        end = self.t + limit
+        late = self.t + LATE
         while await self.read(CSR) & MREF:
-            assert late > 0, f"no response comes, though the golden model has one\n{self.side.context()}"
-            late -= 8
-            while not self.side.golden.core.responses.any_waiting:
-                assert self.t < end, f"no response comes any more\n{self.side.context()}"
-                late = LATE
-                await self.step()
+            assert self.t < late, f"no response comes, though the golden model has one\n{self.side.context()}"
+            if not self.side.golden.core.responses.any_waiting:
+                await self.arrival(end)
+                late = self.t + LATE
+
+    async def arrival(self, end: int | None = None) -> None:
+        """Until the golden model has a response: a good moment to look for one; not beyond edge `end`."""
+        while not self.side.golden.core.responses.any_waiting:
+            assert end is None or self.t < end, f"no response comes any more\n{self.side.context()}"
+            await self.step()
 
     async def ask(self, text: str) -> str:
         """Issue a block and read one response."""

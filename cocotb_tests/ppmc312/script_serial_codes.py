@@ -6,7 +6,8 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, SerialHost
+from .serial_frames import TS
+from .serial_host import SerialHost
 
 PARAMETER, STATE, LIMIT, SIZE, REGISTRATION = "B0 42", "B0 43", "B0 44", "B0 48", "B0 49"
 EVENT = "03 01 20 00 00 00 00 00 00 00"

@@ -6,7 +6,8 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import SILENCE, TS, SerialHost, summed
+from .serial_frames import SILENCE, TS, summed
+from .serial_host import SerialHost
 
 NONE = "A0 00 00 00"
 

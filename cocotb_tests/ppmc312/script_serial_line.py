@@ -9,7 +9,8 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, SerialHost, summed
+from .serial_frames import TS, summed
+from .serial_host import SerialHost
 
 PATTERNS = (0x00, 0x55, 0xAA, 0x7F, 0x80, 0xFF, 0x01, 0xFE)
 

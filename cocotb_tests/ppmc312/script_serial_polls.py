@@ -10,7 +10,8 @@ from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 
-from .serial_host import TS, SerialHost, summed
+from .serial_frames import TS, summed
+from .serial_host import SerialHost
 
 ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "02 84 00"))
 

@@ -9,7 +9,8 @@ from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 
 from .host import CSR, Host
-from .serial_host import TS, SerialHost, summed
+from .serial_frames import TS, summed
+from .serial_host import SerialHost
 
 
 def reset(host: SerialHost, clk: int = 12) -> None:

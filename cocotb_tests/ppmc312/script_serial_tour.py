@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness.verifies import verifies
 
-from .serial_host import TS, SerialHost, summed
+from .serial_frames import TS, summed
+from .serial_host import SerialHost
 
 
 @verifies(

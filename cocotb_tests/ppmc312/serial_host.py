@@ -11,29 +11,11 @@ from math import ceil
 from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.serial_line import ScriptLine, characters
 
-from .script_host import TICK, Script
+from .script_host import Script
+from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
 
-__all__ = ["SPEEDS", "T1", "TICK", "TS", "SerialHost", "clean", "summed"]
-
-SPEEDS = {5: Fraction(19_200), 6: Fraction(38_400), 7: Fraction(250_000, 3)}
-"""bits/s by mod[2:0], with a crystal of 16 MHz."""
-T_EXEC, T_INIT = 4_096, 65_536
-SILENCE = 320_000
-"""20 ms in clk at 16 MHz."""
 SLACK = 64
 """clk that a reply may be later."""
-
-T1 = "00 01 03E8 00C8 0007D0"
-"""1 MHz, linear, 1000 to 200, 2000 pulses."""
-TS = "00 00 01F4 00C8 000320"
-"""8 MHz, linear, 500 to 200, 800 pulses: 400 to 1000 clk a pulse."""
-
-
-def summed(control: int, data: bytes = b"", mode: str = "BINARY") -> bytes:
-    """A frame with its checksum (P312-SER-13)."""
-    text = "".join(f"{byte:02x}" for byte in data).encode("ascii")
-    total = sum(text) if mode == "CHARS" else (control + sum(data)) % 256
-    return bytes([control]) + text + bytes([(total ^ 0xFF) & 0x7F])
 
 
 class SerialHost(ScriptLine, Script):

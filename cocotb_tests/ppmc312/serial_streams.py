@@ -13,7 +13,7 @@ from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 from openppmc.model.ppmc312.part import Ppmc312
 
-from .serial_host import SILENCE, summed
+from .serial_frames import SILENCE, summed
 
 CHARACTER = 1_920
 """clk of a character at 83.33 kbit/s and 16 MHz."""

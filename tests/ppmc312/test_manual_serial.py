@@ -7,7 +7,9 @@ from fractions import Fraction
 
 import pytest
 
-from cocotb_tests.ppmc312.serial_host import SPEEDS, SerialHost, clean, summed
+from cocotb_tests.harness.block_host import clean
+from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
+from cocotb_tests.ppmc312.serial_host import SerialHost
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.common.pages import DOCS, chapters
 from tests.ppmc312.test_manual import Player

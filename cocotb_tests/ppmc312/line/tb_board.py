@@ -11,7 +11,7 @@ from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness.unit import same
 from cocotb_tests.harness.wire import Wire
-from cocotb_tests.ppmc312.serial_host import SPEEDS, summed
+from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
 from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL
 
 OPEN = {"mod": 7, "adr": 15}

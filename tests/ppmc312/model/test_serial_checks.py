@@ -7,8 +7,10 @@ from math import ceil
 
 import pytest
 
+from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.serial_host import T1, TS, SerialHost, clean, summed
+from cocotb_tests.ppmc312.serial_frames import T1, TS, summed
+from cocotb_tests.ppmc312.serial_host import SerialHost
 
 
 def exchange(host: SerialHost, text: str, within: int = 4_096) -> str:

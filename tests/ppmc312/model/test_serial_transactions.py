@@ -7,7 +7,8 @@ from typing import NamedTuple
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.serial_host import T_INIT, TS, SerialHost
+from cocotb_tests.ppmc312.serial_frames import T_INIT, TS
+from cocotb_tests.ppmc312.serial_host import SerialHost
 
 ACK = "91 6E"
 SET_POSITION = "43 12345678"

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-import pytest
+from typing import Any
 
-from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import T1, TF, Host
+import cocotb
+
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.ppmc312.host import T1, TF
+from cocotb_tests.ppmc312.parallel_host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Answer, Code
 
@@ -60,29 +63,30 @@ ROWS = [
 CONDITIONS = (0x01, 0x02, 0x04, 0x08, 0x10, 0x20)
 
 
-def in_state(condition: int) -> Host:
+async def in_state(dut: Any, condition: int) -> Host:
     """A host whose part is in this state."""
-    host = Host(*(TF if condition != 0x01 else ()))
+    host = await Host.start(dut, *(TF if condition != 0x01 else ()))
     if condition == 0x04:
-        host.ask(message(Code.RAMP, "00 0000 00001388"))
+        await host.ask(message(Code.RAMP, "00 0000 00001388"))
     elif condition == 0x08:
-        host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
+        await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     elif condition == 0x10:
-        host.pins(alm_n=0)
-        host.response()
-        host.pins(alm_n=1)
+        await host.pins(alm_n=0)
+        await host.response()
+        await host.pins(alm_n=1)
     elif condition == 0x20:
-        host.pins(run=0)
-        host.ask(message(Code.STEP, "00"))
+        await host.pins(run=0)
+        await host.ask(message(Code.STEP, "00"))
     assert host.condition == condition
     return host
 
 
-@pytest.mark.parametrize(("block", "row"), ROWS, ids=[row[0].replace(" ", "") for row in ROWS])
-@verifies("P312-STA-01", "P312-STA-03")
-def test_accept_table(block: str, row: str) -> None:
+@cocotb.parametrize(case=ROWS)
+@directed("P312-STA-01", "P312-STA-03")
+async def p312_accept_table(dut: Any, case: Any) -> None:
+    block, row = case
     for condition, letter in zip(CONDITIONS, row, strict=True):
-        answer = in_state(condition).ask(block)
+        answer = await (await in_state(dut, condition)).ask(block)
         if letter == ".":
             assert answer == message(Answer.STATUS, f"00 {condition:02X}"), hex(condition)
         else:

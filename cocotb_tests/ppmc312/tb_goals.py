@@ -6,13 +6,15 @@ At 50 MHz, where the base clocks are no whole number of clk. The figures are pri
 from __future__ import annotations
 
 from math import ceil
+from typing import Any
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.config import F50
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.ppmc312.host import T1
+from cocotb_tests.ppmc312.parallel_host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 from openppmc.model.ppmc312.stages.tables import build
-
-from .host import T1, Host
 
 MHZ = 50
 CLK = MHZ * 1_000_000
@@ -22,12 +24,12 @@ STARTS += ("86 40 0000", "85 00 0000", "11 00 0000", "10 00 00C8")
 FAST = ("02 03 01 00 03", "00 06 0004 0008 0010", "01 09 000032 000014 00000A")
 
 
-@verifies("P312-MOT-01", "P312-MOT-02", "P312-MOT-05", "P312-MOT-07", "P312-CHK-63")
-def test_two_million_pulses_a_second() -> None:
+@directed("P312-MOT-01", "P312-MOT-02", "P312-MOT-05", "P312-MOT-07", "P312-CHK-63", builds=(F50,))
+async def p312_two_million_pulses_a_second(dut: Any) -> None:
     """Given F = 8 MHz and rate 4, when 3000 pulses have been output, then none is a clk off or missing."""
-    host = Host(*FAST, clk_hz=CLK)
-    host.ask(message(Code.RAMP, "00 0000 00000BB8"))
-    assert host.response() == message(Answer.STOPPED, "40 00 00 0B B8", source=SPONTANEOUS)
+    host = await Host.start(dut, *FAST)
+    await host.ask(message(Code.RAMP, "00 0000 00000BB8"))
+    assert await host.response() == message(Answer.STOPPED, "40 00 00 0B B8", source=SPONTANEOUS)
     pulses = host.pulses()
     rates = [16] * 10 + [8] * 20 + [4] * 50 + [4] * 2840 + [4] * 50 + [8] * 20 + [16] * 10
     ticks = [sum(rates[:k]) for k in range(3000)]
@@ -37,8 +39,8 @@ def test_two_million_pulses_a_second() -> None:
     print(f"{2920 * CLK / fast / 1e6:.4f} Mpps over 2920 pulses, jitter at most 1 clk")
 
 
-@verifies("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
-def test_tables_and_starts_at_50_mhz() -> None:
+@directed("P312-PRT-04", "P312-MOT-01", "P312-CMD-00", builds=(F50,))
+async def p312_tables_and_starts_at_50_mhz(dut: Any) -> None:
     """Given tables of all kinds, when they are set and motions started, then within 5 ms and 20 us."""
     longest = 0.0
     for setting in (
@@ -47,34 +49,35 @@ def test_tables_and_starts_at_50_mhz() -> None:
         message(Code.INITIAL, "11 03E8 01F4 00C8 0007D0 0005DC"),
         SIGMOID,
     ):
-        host = Host(clk_hz=CLK)
-        host.issue(setting)
-        host.wait()
+        host = await Host.start(dut)
+        await host.issue(setting)
+        await host.wait()
         ms = (host.t - host.header) / CLK * 1e3
-        assert host.response() == message(Code.INITIAL) and ms < 5
+        assert await host.response() == message(Code.INITIAL) and ms < 5
         print(f"{setting}: {ms:.2f} ms to the answer")
         for block in STARTS:
             data = bytes.fromhex(block)
-            host.issue(f"03 {len(data):02X} {block}")
+            await host.issue(f"03 {len(data):02X} {block}")
             start = host.header
-            host.pulse(1)
+            await host.pulse(1)
             longest = max(longest, (host.pulses()[0] - start) / MHZ)
-            host.response()
+            await host.response()
             if data[0] not in (0x82, 0x83, 0x84) or len(data) > 2:
-                host.ask(message(Code.STOP, "00"))
-            host.response()
+                await host.ask(message(Code.STOP, "00"))
+            await host.response()
     print(f"{longest:.1f} us from the header to pulse 1 at most, 5 us of it direction set-up")
     assert longest <= 20
 
 
-def test_the_longest_plan() -> None:
+@directed("P312-PRT-04", "P312-MOT-01", builds=(F50,))
+async def p312_the_longest_plan(dut: Any) -> None:
     """Given a table with two sides of all lengths, when a triangle is planned, then pulse 1 is in time."""
     table = build(1000, 328, 200, 3000, 3000)
     assert table.sa == 0 and table.sd > 0
-    host = Host(message(Code.INITIAL, "10 03E8 0148 00C8 000BB8 000BB8"), clk_hz=CLK)
-    host.issue(message(Code.RAMP, f"00 0000 {table.na + table.nd - 1:08X}"))
+    host = await Host.start(dut, message(Code.INITIAL, "10 03E8 0148 00C8 000BB8 000BB8"))
+    await host.issue(message(Code.RAMP, f"00 0000 {table.na + table.nd - 1:08X}"))
     start = host.header
-    host.pulse(1)
+    await host.pulse(1)
     us = (host.pulses()[0] - start) / MHZ
     print(f"{us:.1f} us from the header of a triangle with two different sides to pulse 1")
     assert us <= 20

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.ppmc312.host import T3, TF, Host, clean
+from typing import Any
+
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.ppmc312.host import T3, TF, clean
+from cocotb_tests.ppmc312.parallel_host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
@@ -15,8 +18,8 @@ POLL = 40
 """clk that the host's poll adds."""
 
 
-@verifies("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
-def test_ports() -> None:
+@directed("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
+async def p312_ports(dut: Any) -> None:
     """Every port of table 1.3 and no other; the build of the RTL connects them by name."""
     inputs = (
         "mode d_i rs cs_n we_n oe_n rxd hsp mod adr evt0_n evt1_n auxi epin epdir index_n org_n alm_n end_n"
@@ -27,17 +30,17 @@ def test_ports() -> None:
     assert {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8}.items() <= dict(WIDTHS).items()
     high = {"wrq_n", "irq_n", "txd", "exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "intlk_n"}
     assert OUTPUTS == {name: 0x3F if name == "auxo_n" else int(name in high) for name in outputs.split()}
-    assert Host().model.log.initial == OUTPUTS
+    assert (await Host.start(dut)).side.initial == OUTPUTS
 
 
-@verifies("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
-def test_answers_come_in_time() -> None:
-    host = Host()
+@directed("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
+async def p312_answers_come_in_time(dut: Any) -> None:
+    host = await Host.start(dut)
     for setting in (T3, T3.replace("00 11", "00 19")):
-        host.issue(setting)
-        host.wait()
+        await host.issue(setting)
+        await host.wait()
         assert host.t - host.header <= T_INIT + POLL
-        assert host.response() == message(Code.INITIAL)
+        assert await host.response() == message(Code.INITIAL)
     for block in (
         message(Code.RAMP, "00 0000 00000FA1"),
         message(Code.RAMP, "00 0000 00000065"),
@@ -45,59 +48,59 @@ def test_answers_come_in_time() -> None:
         message(Code.FOREVER_RAMP, "00 0000"),
         message(Code.ZERO_RETURN, "00 01F4"),
     ):
-        host.issue(block)
-        host.wait()
+        await host.issue(block)
+        await host.wait()
         assert host.t - host.header <= T_EXEC + POLL
-        host.response()
+        await host.response()
         # t0 is no more than 64 clk before the answer, TW before pulse 1.
-        host.pulse(1)
-        host.ask(message(Code.STOP, "00"))
-        host.response()
+        await host.pulse(1)
+        await host.ask(message(Code.STOP, "00"))
+        await host.response()
 
 
-@verifies("P312-PRT-04", "P312-MOT-34", "P312-MOT-41", "P312-INP-12", "P312-INP-30")
-def test_stops_come_in_time() -> None:
+@directed("P312-PRT-04", "P312-MOT-34", "P312-MOT-41", "P312-INP-12", "P312-INP-30")
+async def p312_stops_come_in_time(dut: Any) -> None:
     for pin in ("fl_n", "alm_n", "org_n"):
-        host = Host(*BRISK)
-        host.ask(message(Code.ORIGIN_SEARCH, "00 0004"))
+        host = await Host.start(dut, *BRISK)
+        await host.ask(message(Code.ORIGIN_SEARCH, "00 0004"))
         for phase in range(3):
-            host.pulse(20 + phase)
+            await host.pulse(20 + phase)
         low = host.t + 3
-        host.go(low)
-        host.pins(**{pin: 0})
-        host.pause(400)
+        await host.go(low)
+        await host.pins(**{pin: 0})
+        await host.pause(400)
         assert host.pulses() and low - 16 < host.pulses()[-1] <= low + T_PIN
-    host = Host(*BRISK)
-    host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
-    host.issue(message(Code.STOP, "00"))
+    host = await Host.start(dut, *BRISK)
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+    await host.issue(message(Code.STOP, "00"))
     header = host.header
-    host.pause(400)
+    await host.pause(400)
     assert header - 16 < host.pulses()[-1] <= header + T_STOP
-    host = Host(*BRISK, message(Code.STOP, "07"))
-    host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+    host = await Host.start(dut, *BRISK, message(Code.STOP, "07"))
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
     low = host.t
-    host.pins(evt1_n=0)
-    host.pause(400)
+    await host.pins(evt1_n=0)
+    await host.pause(400)
     assert low - 16 < host.pulses()[-1] <= low + T_STOP
 
 
-@verifies("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
-def test_a_stop_by_an_event_during_an_88() -> None:
+@directed("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
+async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
     """The 88 is finished first, which takes the stop beyond 64 clk; whatever the host reads, it stops."""
     longest = 0
     for after in range(1, 260, 6):
-        host = Host(*BRISK, message(Code.STOP, "07"))
-        host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
-        host.put(message(Code.CHANGE, "00 0005"))
-        host.go(host.header + after)
+        host = await Host.start(dut, *BRISK, message(Code.STOP, "07"))
+        await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+        await host.put(message(Code.CHANGE, "00 0005"), gap=0)
+        await host.go(host.header + after)
         low = host.t
-        host.pins(evt1_n=0)
-        host.pause(1000)
+        await host.pins(evt1_n=0)
+        await host.pause(1000)
         took = host.pulses()[-1] - low
         longest = max(longest, took)
         assert took <= T_TRIG, after
-        answers = [host.response() for _ in range(3)]
-        position = f"{host.model.position:08X}"
+        answers = [await host.response() for _ in range(3)]
+        position = f"{host.side.golden.position:08X}"
         if answers[0] == message(
             Code.STOP, source=Source.OVERRIDE
         ):  # it came first; then there is nothing to change
@@ -118,52 +121,54 @@ def test_a_stop_by_an_event_during_an_88() -> None:
             ]
     assert T_STOP < longest <= 200
     # A host that reads the answer in time gets its stop.
-    host = Host(*BRISK, message(Code.STOP, "07"))
-    host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
-    assert host.ask(message(Code.CHANGE, "00 0005")) == message(Code.CHANGE)
+    host = await Host.start(dut, *BRISK, message(Code.STOP, "07"))
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+    assert await host.ask(message(Code.CHANGE, "00 0005")) == message(Code.CHANGE)
     low = host.t
-    host.pins(evt1_n=0)
+    await host.pins(evt1_n=0)
     assert (
-        host.response() == message(Code.STOP, source=Source.OVERRIDE)
-        and host.response()[:11] == "23 06 E0 04"
+        await host.response() == message(Code.STOP, source=Source.OVERRIDE)
+        and (await host.response())[:11] == "23 06 E0 04"
     )
     assert host.pulses()[-1] <= low + T_STOP
 
 
-@verifies("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")
-def test_changes_come_in_time() -> None:
+@directed("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")
+async def p312_changes_come_in_time(dut: Any) -> None:
     """Direct or triggered, at most 512 clk until the rate of the coming intervals has changed."""
     for code, rest in (("88", "0320"), ("87", "0320"), ("81", "")):
         for trigger in ("direct", "pin", "position"):
             flags, place = {"direct": ("00", ""), "pin": ("05", ""), "position": ("04", "0000000A")}[trigger]
             data = bytes.fromhex(code + flags + rest + place)
             block = f"03 {len(data):02X} {data.hex()}"
-            host = Host(*BRISK, *(() if trigger == "direct" else (block,)))
-            host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+            host = await Host.start(dut, *BRISK, *(() if trigger == "direct" else (block,)))
+            await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
             mark = host.mark
             if trigger == "direct":
-                host.issue(block)
+                await host.issue(block)
                 since = host.header
             elif trigger == "pin":
                 since = host.t
-                host.pins(evt0_n=0)
+                await host.pins(evt0_n=0)
             else:
                 host.mark = mark
-                since = host.pulse(10)
-            host.pause(3000)
+                since = await host.pulse(10)
+            await host.pause(3000)
             host.mark = mark
             edges = host.pulses()
             slow = [a for a, b in zip(edges, edges[1:], strict=False) if b - a > 8]
             assert slow and since < slow[0] <= since + T_TRIG + 60
 
 
-@verifies("P312-OVR-11", "P312-MOT-33", "P312-MOT-31")
-def test_a_position_acts_on_the_next_interval() -> None:
-    host = Host(*TF, message(Code.CHANGE, "04 00C8 00000012"), message(Code.CHANGE, "04 0190 00000013"))
-    host.ask(message(Code.RAMP, "00 0000 0000001E"))
+@directed("P312-OVR-11", "P312-MOT-33", "P312-MOT-31")
+async def p312_a_position_acts_on_the_next_interval(dut: Any) -> None:
+    host = await Host.start(
+        dut, *TF, message(Code.CHANGE, "04 00C8 00000012"), message(Code.CHANGE, "04 0190 00000013")
+    )
+    await host.ask(message(Code.RAMP, "00 0000 0000001E"))
     for _ in range(2):
-        assert host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
-    assert host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
+        assert await host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
+    assert await host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
     # 12 pulses are left at the first of them: the walk of the deceleration point starts at 200. The second
     # one makes it constant at 400 for the rest.
     assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

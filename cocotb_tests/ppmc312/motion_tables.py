@@ -1,0 +1,28 @@
+"""Tables for operations of the PPMC-312, and what tests of them have in common."""
+
+from __future__ import annotations
+
+from cocotb_tests.ppmc312.host import TICK
+from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.words import message, rates, stopped
+from openppmc.model.ppmc312.codes import Code
+
+STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")
+ALWAYS = "03 04 86 00"
+# Not monotonic, sides of their own: R[124..126] = 200 300 100, pa 3 4 5, pd - 7 6.
+ODD = ("02 04 01 11 03 02", "00 06 0064 012C 00C8", "00 09 000005 000004 000003", "01 06 000006 000007")
+
+
+def change(code: int, rate: int) -> str:
+    return message(code, f"00 {rate:04X}")
+
+
+async def run_out(host: Host, mark: int, cause: int, pulses: str, sign: int = 1) -> None:
+    """The stop report, all intervals but the last one, and the time from the last pulse to the report."""
+    expected = rates(pulses)
+    await host.wait()
+    seen = host.t
+    assert await host.response() == stopped(cause, sign * len(expected))
+    host.mark = mark
+    assert host.gaps() == expected[:-1] and len(host.pulses()) == len(expected)
+    assert 0 <= seen - host.pulses()[-1] - expected[-1] * TICK < 200

@@ -1,0 +1,196 @@
+"""The master of a serial line with one PPMC-312, which acts on what the station answers.
+
+Its UART is its own: what the part sends is read from the levels of txd, and every edge is checked.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil
+from typing import Any
+
+from cocotb_tests.harness.block_host import clean
+from cocotb_tests.harness.serial_line import SerialLine, characters
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
+
+from .bench import PPMC312
+from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
+from .side_host import SideHost
+
+SLACK = 64
+"""clk that a reply may be later."""
+
+
+class SerialHost(SerialLine, SideHost):
+    """Make one with `await SerialHost.start(dut)`.
+
+    Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the
+    address, and data: "90", "A0 38", "B0 42"; `wire` is the last one as it was on the line,
+    `waited` how many clk after the end of the master's last stop bit snd has risen.
+    """
+
+    def __init__(self, side: Side, adr: int = 1, error: float = 0) -> None:
+        super().__init__(side)
+        self.adr = adr
+        params = {**side.part.defaults, **side.part.params(side.config)}
+        self.sum_mode = str(params["SUM_MODE"])
+        self.wire, self.waited = "", Fraction(0)
+        self._behind = self._heard = 0
+        self.open_line(Fraction(0), error)
+
+    @classmethod
+    async def start(
+        cls, dut: Any, *setting: str, mod: int = 7, adr: int = 1, error: float = 0, mode: int = 0
+    ) -> SerialHost:
+        """A station out of a reset; each instruction of `setting` is acknowledged.
+
+        mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
+        """
+        host = cls(await start_bench(dut, PPMC312, settle=8), adr, error)
+        host.speed(mod)
+        await host.pins(rst_n=0, mode=mode, mod=mod, adr=adr)
+        await host.pause(12)
+        await host.pins(rst_n=1)
+        await host.pause(12)
+        await host.side.level_is("out_oe", 1)
+        await host.pause(4)
+        for instruction in setting:
+            assert await host.ask(instruction) == "90"
+        return host
+
+    def speed(self, mod: int) -> None:
+        """The master takes the speed of mod; that of the part changes with its next reset only."""
+        config = self.side.config
+        self.bit = config.clk_hz / (SPEEDS.get(mod, SPEEDS[7]) * config.xtal_hz / 16_000_000)
+
+    # ------------------------------------------------------------------ time, pins
+
+    @property
+    def t(self) -> int:
+        """The next free edge: that of the side, or the first one behind what has been sent."""
+        return max(self._behind, self.side.now)
+
+    @t.setter
+    def t(self, edge: int) -> None:
+        self._behind = edge
+
+    async def pause(self, clk: int) -> None:
+        """Let time pass, behind what has been sent."""
+        await self.go(self.t + clk)
+
+    async def pins(self, **levels: int) -> None:
+        """Pin levels from edge `t` on."""
+        await self.go(self.t)
+        await super().pins(**levels)
+
+    # ------------------------------------------------------------------ to the part
+
+    async def say(self, text: str, adr: int | None = None) -> None:
+        """An instruction; pulses count from here."""
+        self.mark = self.t
+        control = 0x90 + (self.adr if adr is None else adr)
+        await self.send(summed(control, bytes.fromhex(text), self.sum_mode))
+
+    async def ask_poll(self, adr: int | None = None) -> None:
+        """A poll without waiting."""
+        await self.send(summed(0x80 + (self.adr if adr is None else adr), b"", self.sum_mode))
+
+    # ------------------------------------------------------------------ from the part
+
+    def rise(self) -> int | None:
+        """Edge of the next rise of snd that no `hear` has had, if there is one."""
+        return next(iter(self.side.rises("snd", self._heard)), None)
+
+    async def begin(self, within: int = T_EXEC) -> int:
+        """Edge of the next rise of snd, at most `within` clk after the middle of the last stop bit.
+
+        TimeoutError if there is none by then.
+        """
+        await self.go(self.t)
+        end = ceil(self.middle + max(Fraction(within), self.bit)) + SLACK
+        while (rise := self.rise()) is None:
+            await self.side.edge("snd", 1, max(1, end + 1 - self.t))
+        assert rise <= end, f"snd rises {rise - end} clk too late"
+        return rise
+
+    async def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
+        """The next reply, which starts as `begin` says, but not before half a bit after the end of the frame.
+
+        timed: the last stop bit was the end of the frame that is answered (P312-SER-18).
+        """
+        rise = await self.begin(within)
+        self.waited = rise - self.middle - self.bit / 2
+        assert not timed or self.waited >= self.bit / 2, f"snd rises {self.waited} clk after the frame"
+        while not (falls := self.side.falls("snd", rise)):
+            await self.side.edge("snd", 0)
+        self._heard = falls[0]
+        line = self._decode(rise, falls[0])
+        self.wire = clean(line.hex())
+        return self._meaning(line)
+
+    def _decode(self, rise: int, fall: int) -> bytes:
+        """The characters between two edges of snd; every edge is where it belongs (P312-SER-18)."""
+        bit = self.bit
+        count, rest = divmod(round((fall - rise) / bit) - 1, 10)
+        assert not rest and fall == rise + ceil((10 * count + 1) * bit), "snd falls in a character"
+        edges = [edge for edge in self.side.edges("txd", rise) if edge[0] <= fall]
+        assert not edges or edges[0][0] >= rise + bit, "no idle bit before the first character"
+        return characters(edges, rise + bit, bit, count)
+
+    def _meaning(self, line: bytes) -> str:
+        control, data = line[0], bytes.fromhex(line[1:-1].decode("ascii"))
+        assert line == summed(control, data, self.sum_mode)
+        assert control & 0x0F == self.adr
+        return " ".join([f"{control & 0xF0:02X}", *([clean(data.hex())] if data else [])])
+
+    async def ask(self, text: str, within: int | None = None) -> str:
+        """An instruction and its reply."""
+        await self.say(text)
+        return await self.hear(within or (T_INIT if bytes.fromhex(text)[0] == 0 else T_EXEC))
+
+    async def poll(self, adr: int | None = None) -> str:
+        """A poll and its reply."""
+        await self.ask_poll(adr)
+        return await self.hear()
+
+    async def polls(self, count: int) -> list[str]:
+        """So many polls and their replies."""
+        return [await self.poll() for _ in range(count)]
+
+    async def asks(self, *texts: str) -> list[str]:
+        """Instructions, one after the other, and their replies."""
+        return [await self.ask(text) for text in texts]
+
+    async def status(self) -> str:
+        """Data of 4D: flags, state, what is registered."""
+        return (await self.ask("4D")).removeprefix("A0 ")
+
+    async def state(self) -> int:
+        """State byte of 4D."""
+        return int((await self.status()).split()[1], 16)
+
+    def forget(self) -> None:
+        """Nobody has listened so far."""
+        self._heard = self.t
+
+    async def quiet(self, clk: int = 2 * T_EXEC) -> bool:
+        """Whether nothing is sent for so long."""
+        await self.pause(clk)
+        return self.rise() is None
+
+    async def settle(self) -> list[str]:
+        """Polls until the station is ready; everything else that it has said."""
+        others = []
+        while (said := await self.poll()) != "90":
+            if said != "80":
+                others.append(said)
+        return others
+
+    async def at_rest(self, after: int = 200, limit: int = 4_000_000) -> None:
+        """Let a motion end, which the golden model tells, and `after` clk more."""
+        end = self.t + limit
+        while not self.side.golden.core.operation.at_rest:
+            assert self.t < end, f"the motion does not end\n{self.side.context()}"
+            await self.step()
+        await self.pause(after)

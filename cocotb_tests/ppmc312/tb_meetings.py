@@ -1,0 +1,190 @@
+"""Things that meet on the PPMC-312: events, overrides, host blocks and pins while something is processed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness.config import D16
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.ppmc312.host import DWR, RATES, T1, TF, WAR, WCR, clean
+from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.words import message, stopped
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
+
+FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
+
+
+async def put_with(host: Host, text: str, **pins: int) -> None:
+    """Write a block; the pins change just before its header is written."""
+    block = bytes.fromhex(text)[::-1]
+    await host.write(WCR, 0x20)
+    await host.write(WAR, 0x20 - len(block))
+    for byte in block[:-1]:
+        await host.write(DWR, byte)
+    await host.pins(**pins)
+    await host.write(DWR, block[-1])
+
+
+@directed("P312-OVR-10")
+async def p312_host_goes_next_after_one_event(dut: Any) -> None:
+    host = await Host.start(
+        dut,
+        *TF,
+        message(Code.EVENT_SET, "00", message(Code.INPUT)),
+        message(Code.EVENT_SET, "01", message(Code.TERMINALS)),
+    )
+    await put_with(host, message(Code.SPEED_LIMIT, "0100"), evt0_n=0, evt1_n=0)
+    await host.pause(500)
+    assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
+    # The event on the second pin finds the answer of the first one unread.
+    assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
+    assert await host.response() == message(Code.SPEED_LIMIT)
+
+
+@cocotb.parametrize(gap=range(20, 44))
+@directed("P312-OVR-10", "P312-BLK-01")
+async def p312_host_block_that_comes_as_a_triggered_one_ends(dut: Any, gap: int) -> None:
+    host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
+    block = bytes([0x15, 0x26, 2, 3])
+    await host.write(WCR, 0x20)
+    await host.write(WAR, 0x20 - len(block))
+    for byte in block[:-1]:
+        await host.write(DWR, byte)
+    await host.pins(evt0_n=0)
+    await host.pause(gap)
+    await host.write(DWR, block[-1])
+    await host.pause(100)
+    assert host.out("auxo_n") == 0x2A
+    assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
+    assert await host.response() == message(Code.OUTPUT)
+
+
+@directed("P312-OVR-10")
+async def p312_an_edge_for_a_buffer_that_is_emptied_is_dropped(dut: Any) -> None:
+    host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
+    await host.issue(message(Code.EVENT_SET, "02"))
+    await host.pins(evt0_n=0)
+    assert await host.response() == message(Code.EVENT_SET, "04")
+    assert await host.quiet() and host.condition == 0x02
+    await host.pins(evt0_n=1)
+    await host.issue(message(Code.EVENT_SET, "00", message(Code.INPUT)))
+    await host.pins(evt0_n=0)
+    assert await host.response() == message(Code.EVENT_SET, "00")
+    assert await host.quiet() and host.condition == 0x02
+
+
+@directed("P312-OVR-04", "P312-OVR-12")
+async def p312_pulses_stay_stopped_when_an_earlier_override_fails(dut: Any) -> None:
+    host = await Host.start(
+        dut, *FAST_CURVE, message(Code.CHANGE, "04 FFFF 0000000A"), message(Code.STOP, "04 0000000B")
+    )
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
+    assert await host.response() == message(Answer.OVERRIDE_FAILED, "00", source=Source.OVERRIDE)
+    assert await host.response() == stopped(0x04, 11) and len(host.pulses()) == 11
+
+
+@directed("P312-MOT-34", "P312-OVR-12")
+async def p312_a_limit_after_a_position_stop_changes_nothing(dut: Any) -> None:
+    host = await Host.start(dut, *TF, message(Code.STOP, "04 0000000A"))
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
+    await host.pulse(10, 4)
+    await host.pins(fl_n=0)
+    assert await host.response() == message(Code.STOP, source=Source.OVERRIDE)
+    assert await host.response() == stopped(0x04, 10)
+
+
+@cocotb.parametrize(case=[(0x81, 0x10), (0x80, 0x04)])
+@directed("P312-MOT-43")
+async def p312_stop_between_the_phases_of_a_zero_return(dut: Any, case: Any) -> None:
+    code, cause = case
+    host = await Host.start(dut, *TF, message(code, "05"))
+    pace = host.side.golden.pace
+    await host.ask(message(Code.ZERO_RETURN, "00 0000"))
+    await host.pulse(15)
+    await host.pins(org_n=0)
+    last = await host.pulse(27)
+    done = last + 6400 + pace.turn_back
+    await host.go(done - pace.effect - pace.turn - host.side.golden.latency.input_sync)
+    await host.pins(evt0_n=0)
+    assert await host.response() == message(code, source=Source.OVERRIDE)
+    assert await host.response() == stopped(cause, 27)
+    assert host.out("dir") == 0 and await host.quiet()
+
+
+@directed("P312-INP-31", "P312-INP-33")
+async def p312_a_clear_given_before_the_alarm_does_not_leave_abn(dut: Any) -> None:
+    host = await Host.start(dut, T1, message(Code.ALARM_CLEAR))
+    await host.blip("alm_n", 100, 100)
+    assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
+    assert host.condition == 0x10 and host.out("aclr_n") == 0
+    await host.pause(400_000)
+    assert host.condition == 0x10
+    await host.ask(message(Code.ALARM_CLEAR))
+    assert host.condition == 0x02
+
+
+@directed("P312-INP-30", "P312-INP-32")
+async def p312_reset_with_the_alarm_still_there(dut: Any) -> None:
+    host = await Host.start(dut, T1)
+    await host.pins(alm_n=0)
+    assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
+    await host.issue(message(Code.RESET))
+    assert {await host.response(), await host.response()} == {
+        message(Code.RESET),
+        message(Answer.ALARM, "00", source=SPONTANEOUS),
+    }
+    assert host.condition == 0x10
+    assert await host.quiet()
+
+
+@directed("P312-BLK-02", "P312-OVR-05")
+async def p312_what_a_refusal_leaves(dut: Any) -> None:
+    host = await Host.start(
+        dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)), message(Code.CHANGE, "07 00C8")
+    )
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 61")
+    assert (await host.ask(message(Code.RAMP, "00 0000 00000000"))).startswith("03 0A F0 23")
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 61")
+    assert (await host.ask(message(Code.INITIAL, "01 03E8 03E8 0007D0"))).startswith("03 0B F0 03")
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
+
+
+@directed("P312-INP-11")
+async def p312_high_speed_limit_rate_after_a_setting(dut: Any) -> None:
+    host = await Host.start(dut, T1)
+    await host.pins(fhl_n=0)
+    assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C8")) == message(Answer.LIMIT)
+    assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
+
+
+@directed("P312-INP-01", "P312-TIM-14", builds=(D16,))
+async def p312_datasheet_event_filter(dut: Any) -> None:
+    host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
+    await host.blip("evt0_n", 399_990)
+    assert await host.quiet()
+    low = host.t
+    await host.pins(evt0_n=0)
+    assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
+    assert host.t - low in range(400_000, 400_500)
+
+
+@directed("P312-RSP-22")
+async def p312_enabling_a_monitor_again_reports_again(dut: Any) -> None:
+    host = await Host.start(dut, *TF, message(Code.POSITION_SET, "00 00000064"))
+    await host.ask(message(Code.ENCODE, "03 0005"))
+    assert await host.response() == message(Answer.ENCODE_CHANGE, "01", source=SPONTANEOUS)
+    assert await host.ask(message(Code.ENCODE, "03 0006")) == message(Code.ENCODE)
+    assert await host.response() == message(Answer.ENCODE_CHANGE, "01", source=SPONTANEOUS)
+    assert await host.ask(message(Code.ENCODE, "00 0006")) == message(Code.ENCODE)
+    assert await host.quiet() and await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
+
+
+@directed("P312-CMD-FC-4", "P312-CMD-FC-9")
+async def p312_echo_is_cut_at_28_bytes(dut: Any) -> None:
+    host = await Host.start(dut, "02 03 01 01 14")
+    data = "0064 " * 14 + "0001"
+    answer = await host.ask("00 1E" + data)
+    assert answer == clean("03 1E F0 18" + "0064" * 14)
+    assert await host.ask(RATES) == message(Answer.STATUS, "01 01")

@@ -1,0 +1,246 @@
+"""Positions, windows, interlock and input monitor of the PPMC-312 at their pins (chapters 3.4, 7)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.ppmc312.host import TF
+from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.words import message, stopped
+from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
+
+
+async def encoder(host: Host, count: int) -> None:
+    """So many edges of the encoder, negative ones CCW, as fast as they may come."""
+    for _ in range(abs(count)):
+        await host.pins(epin=1, epdir=int(count < 0))
+        await host.pause(2)
+        await host.pins(epin=0)
+        await host.pause(2)
+
+
+@directed("P312-CMD-42", "P312-CMD-43", "P312-MON-01", "P312-MOT-05", "P312-GEN-03")
+async def p312_positions(dut: Any) -> None:
+    host = await Host.start(dut, *TF)
+    await host.ask(message(Code.POSITION_SET, "00 01234567"))
+    await host.ask(message(Code.POSITION_SET, "01 89ABCDEF"))
+    await encoder(host, 5)
+    await encoder(host, -7)
+    assert await host.ask(message(Code.POSITION_READ, "00")) == message(Code.POSITION_READ, "00 01 23 45 67")
+    assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 89 AB CD ED")
+    await host.ask(message(Code.POSITION_SET, "01 00000001"))
+    await encoder(host, -3)
+    assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 FF FF FF FE")
+    await encoder(host, 4)
+    assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 02")
+    # Falling edges and the direction alone do not count.
+    for levels in ({"epin": 1, "epdir": 1}, {"epdir": 0}, {"epdir": 1}, {"epin": 0}, {"epdir": 0}):
+        await host.pins(**levels)
+        await host.pause(4)
+    assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 01")
+    # Reads while counting: POS follows pout at once.
+    await host.ask(message(Code.POSITION_SET, "00 0000FFFE"))
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
+    mark = host.mark
+    for number, value in ((1, "00 00 FF FF"), (2, "00 01 00 00"), (3, "00 01 00 01")):
+        host.mark = mark
+        await host.pulse(number, 2)
+        assert await host.ask(message(Code.POSITION_READ, "00")) == message(Code.POSITION_READ, f"00 {value}")
+    assert await host.ask(message(Code.POSITION_SET, "00 00000000")) == message(Answer.STATUS, "00 08")
+
+
+@directed(
+    "P312-MON-01",
+    "P312-MON-02",
+    "P312-MON-03",
+    "P312-MON-04",
+    "P312-MON-05",
+    "P312-RSP-22",
+    "P312-CMD-02",
+    "P312-CMD-03",
+    "P312-CHK-46",
+    "P312-CHK-48",
+    "P312-CMD-4D",
+)
+async def p312_windows_at_their_edges(dut: Any) -> None:
+    for code, answer, enabled, outside in (("02", "E4", 0x08, 0x01), ("03", "E3", 0x10, 0x02)):
+        host = await Host.start(dut, f"03 04 {code} 03 0004")
+        for edges, value in ((4, None), (1, 1), (-1, 0), (-9, 1), (1, 0), (4, None), (4, None), (1, 1)):
+            await encoder(host, edges)
+            if value is None:
+                assert await host.quiet(20)
+                continue
+            assert await host.response() == f"23 02 {answer} {value:02X}"
+            assert await host.ask(message(Code.STATUS)) == message(
+                Code.STATUS, f"{enabled | outside * value:02X} 01 00"
+            )
+        # Off: nothing more; enabled again it begins inside, and once with RES = 0.
+        assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
+        assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
+        await host.ask(f"03 04 {code} 01 0004")
+        assert await host.response() == f"23 02 {answer} 01"
+        assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
+        await encoder(host, -5)
+        assert await host.quiet(20)
+        # Distances of a large range, signed.
+        await host.ask(message(Code.POSITION_SET, "00 80000000"))
+        await host.ask(message(Code.POSITION_SET, "01 7FFF0001"))
+        await host.ask(f"03 04 {code} 03 FFFF")
+        assert await host.quiet(20)
+        await encoder(host, -1)
+        assert await host.response() == f"23 02 {answer} 01"
+        for encoder_position, value in (("8000FFFF", 0), ("80010000", 1), ("00000000", None)):
+            await host.ask(message(Code.POSITION_SET, f"01 {encoder_position}"))
+            assert (
+                await host.quiet(20)
+                if value is None
+                else await host.response() == f"23 02 {answer} {value:02X}"
+            )
+
+
+@directed("P312-RSP-22", "P312-MON-05", "P312-RSP-10")
+async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
+    host = await Host.start(dut, message(Code.ENCODE, "03 0002"), message(Code.IN_POSITION, "01 0002"))
+    # Behind an answer: outside and back again leaves nothing of the automatic one; the single one stays.
+    await host.issue(message(Code.VERSION))
+    await host.wait()
+    await encoder(host, 3)
+    await host.pause(20)
+    await encoder(host, -1)
+    assert await host.response() == message(Code.VERSION, "12")
+    assert await host.response() == message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS)
+    assert await host.quiet()
+    # Loaded, then the value returns: the report is read, and the return is a change again.
+    await encoder(host, 1)
+    await host.pause(20)
+    await encoder(host, -1)
+    assert [await host.response(), await host.response()] == [
+        message(Answer.ENCODE_CHANGE, "01", source=SPONTANEOUS),
+        message(Answer.ENCODE_CHANGE, "00", source=SPONTANEOUS),
+    ]
+    assert await host.quiet()
+    # Disabled while it waits behind another one.
+    await host.ask(message(Code.IN_POSITION, "03 0002"))
+    await encoder(host, 1)
+    await host.issue(message(Code.ENCODE, "00 0002"))
+    assert [await host.response(), await host.response()] == [
+        message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS),
+        message(Code.ENCODE),
+    ]
+    assert await host.quiet()
+
+
+@directed("P312-MON-03", "P312-MON-04")
+async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
+    host = await Host.start(dut, *TF, message(Code.IN_POSITION, "03 0001"))
+    await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
+    mark = host.mark
+    await host.pulse(3, 20)
+    # Outside by now, but not looked at; inside again when the output ends.
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "08 08 00")
+    host.mark = mark
+    await host.pulse(4, 20)
+    await encoder(host, 4)
+    assert await host.response() == stopped(0x40, 4) and await host.quiet()
+    await host.ask(message(Code.CONSTANT, "00 0190 00000002"))
+    assert {await host.response(), await host.response()} == {
+        stopped(0x40, 6),
+        message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS),
+    }
+    # In END wait the output is over.
+    await host.ask(message(Code.END_TERMINAL, "01"))
+    await host.ask(message(Code.CONSTANT, "40 0190 00000002"))
+    assert (
+        await host.response() == message(Answer.POSITION_CHANGE, "00", source=SPONTANEOUS)
+        and host.condition == 0x08
+    )
+
+
+@directed("P312-OUT-03", "P312-CMD-04", "P312-CMD-44", "P312-CHK-49", "P312-MOT-05")
+async def p312_interlock_by_its_position(dut: Any) -> None:
+    host = await Host.start(dut, *TF, message(Code.INTERLOCK_POSITION, "00000003"))
+    for sign, first in ((0x00, 3), (0x40, 3)):
+        # Standing on it at the start does not count; arriving from either side does.
+        await host.ask(message(Code.POSITION_SET, f"00 {first if sign else 0:08X}"))
+        assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "01")
+        assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "40 02 00")
+        if sign:
+            await host.ask(message(Code.CONSTANT, "40 0190 00000002"))
+            assert await host.response() == stopped(0x40, 1) and host.out("intlk_n") == 0
+        await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
+        mark = host.mark
+        assert await host.response() == message(Answer.INTERLOCK_END, source=SPONTANEOUS)
+        (edge,) = host.side.rises("intlk_n", mark)
+        number = 2 if sign else 3
+        host.mark = mark
+        assert 0 <= edge - host.pulses()[number - 1] <= 4
+        assert (await host.response())[:11] == "23 06 E0 40"
+        # The position stays; without 44 nothing happens there.
+        await host.ask(message(Code.CONSTANT, "40 0190 00000004"))
+        await host.response()
+        assert await host.quiet()
+    assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "01")
+    assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "00")
+    assert host.out("intlk_n") == 1 and await host.ask(message(Code.STATUS)) == message(
+        Code.STATUS, "00 02 00"
+    )
+    # Set while it runs: equality by setting does not count either.
+    await host.ask(message(Code.INTERLOCK))
+    await host.ask(message(Code.POSITION_SET, "00 00000003"))
+    assert await host.quiet() and host.out("intlk_n") == 0
+
+
+@directed("P312-MON-10", "P312-CMD-28", "P312-RSP-21", "P312-CHK-50", "P312-RSP-10")
+async def p312_input_changes_are_sampled(dut: Any) -> None:
+    host = await Host.start(dut)
+    await host.pins(auxi=0x0F)
+    await host.ask(message(Code.MASK, "FF 3C"))
+    base = None
+    # Shorter than a sample period: seen only if it stands at the sample.
+    for level in (0x33, 0x0F, 0x03, 0x3F):
+        await host.pins(auxi=level)
+        await host.wait()
+        now = host.t
+        await host.response()
+        if base is not None:
+            assert (now - base) % 800 < 60 or (now - base) % 800 > 740
+        base = now
+    # Bits outside of the mask do not report.
+    await host.pins(auxi=0xFC)
+    assert await host.quiet(2000)
+    for first, second in ((0xE0, 0xFC), (0xC0, 0xFC)):
+        await host.pause(800 - (host.t - base) % 800 + 100)
+        await host.pins(auxi=first)
+        await host.pause(300)
+        await host.pins(auxi=second)
+        assert await host.quiet(2000)
+    # Mask 0 stops it, a new 28 takes a new former value and drops what waits.
+    await host.issue(message(Code.MASK, "01 00"))
+    await host.pins(auxi=0xFF)
+    assert await host.response() == message(Code.MASK) and await host.quiet(2000)
+    await host.ask(message(Code.MASK, "01 81"))
+    assert await host.quiet(2000)
+    await host.issue(message(Code.VERSION))
+    await host.wait()
+    await host.pins(auxi=0x7F)
+    await host.pause(2000)
+    await host.read(7), await host.read(7), await host.read(7), await host.read(7)
+    assert await host.response() == message(Answer.INPUT_CHANGE, "00 80", source=SPONTANEOUS)
+    # What waits behind a report in the window is dropped, that one is not.
+    await host.pins(auxi=0xFE)
+    await host.wait()
+    await host.pins(auxi=0x7F)
+    await host.pause(2000)
+    await host.issue(message(Code.MASK, "01 00"))
+    assert [await host.response(), await host.response()] == [
+        message(Answer.INPUT_CHANGE, "00 81", source=SPONTANEOUS),
+        message(Code.MASK),
+    ]
+    assert await host.quiet(2000)
+    # Single mode.
+    await host.ask(message(Code.MASK, "00 01"))
+    await host.pins(auxi=0x00)
+    assert await host.response() == message(Answer.INPUT_CHANGE, "00 01", source=SPONTANEOUS)
+    await host.pins(auxi=0x01)
+    assert await host.quiet(2000)

@@ -1,0 +1,46 @@
+"""Directed part tests of the PPMC-312: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.runner import SimOptions, run_item
+
+from .bench import PPMC312
+
+MODULES = (
+    "tb_checks_host",
+    "tb_checks_events",
+    "tb_checks_motion",
+    "tb_checks_searches",
+    "tb_checks_monitors",
+    "tb_transactions",
+    "tb_accept",
+    "tb_corners",
+    "tb_meetings",
+    "tb_clock",
+    "tb_datasheet",
+    "tb_bounds",
+    "tb_goals",
+    "tb_bus",
+    "tb_resets",
+    "tb_settings",
+    "tb_curves",
+    "tb_motion_starts",
+    "tb_motion_walks",
+    "tb_motion_stops",
+    "tb_motion_searches",
+    "tb_refusals",
+    "tb_abnormal",
+    "tb_terminals",
+    "tb_positions",
+)
+# Scripts of the serial line are still played from tapes.
+ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, "tb_scripts", part=PPMC312)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_ppmc312(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation."""
+    run_item(item, sim_options)
