@@ -35,7 +35,7 @@ noise_item = RandomItems(
     BATCH,
 )
 serial_item = RandomItems(
-    "ppmc312", "tb_random", "p312_random_serial", SERIAL_SEEDS, random_serial.plan, BATCH
+    "ppmc312", "tb_random", "p312_random_serial", SERIAL_SEEDS, random_serial.build, BATCH
 )
 pytest_generate_tests = generating(test_random=random_item, test_noise=noise_item, test_serial=serial_item)
 
@@ -77,10 +77,8 @@ def test_hosts_are_rich() -> None:
 
 def test_hosts_on_the_line_are_rich() -> None:
     """The fixed seeds use every build; each kind of frame, reply and error happens some times."""
-    assert {random_serial.plan(seed).name for seed in SERIAL_SEEDS} == {
-        c.name for c, _ in random_serial.BUILDS
-    }
+    assert {random_serial.build(seed).name for seed in SERIAL_SEEDS} == random_serial.build.names
     with counting_frames() as counts:
         for seed in SERIAL_SEEDS:
-            random_serial.play(seed, random_serial.plan(seed))
+            on_model(random_serial.play(OnModel(random_serial.build(seed), seed), seed))
     assert not thin_frames(counts), f"too rare (seen, needed): {thin_frames(counts)}"
