@@ -69,6 +69,9 @@ class Part:
     such pin, one without a bus has none at all. `clock` is the external base clock. `unwatched` outputs run
     freely all the time: only tests that ask for them record their edges. `defaults` are the parameters of a
     build that names none. `idle`: parameters of one bit that choose the level of an output in reset.
+
+    Of a bench's top with something beside the part: `fed` are inputs of the part that the top makes, which
+    are outputs here; `aside` are inputs of the top alone.
     """
 
     name: str
@@ -83,6 +86,8 @@ class Part:
     unwatched: frozenset[str] = frozenset()
     defaults: Mapping[str, object] = field(default_factory=dict)
     idle: Mapping[str, str] = field(default_factory=dict)
+    fed: frozenset[str] = frozenset()
+    aside: frozenset[str] = frozenset()
 
     @classmethod
     def of_model(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from math import ceil
+from math import ceil, floor
 from typing import Any
 
 from .side import Side
@@ -149,8 +150,9 @@ def characters(
         assert -within <= late <= within, f"edge {t} is {late} clk away from its place"
 
     def level(number: int) -> int:
-        middle = start + (number + Fraction(1, 2)) * bit
-        return next((value for t, value in reversed(edges) if t <= middle), 1)
+        middle = floor(start + (number + Fraction(1, 2)) * bit)
+        before = bisect_left(edges, (middle + 1, 0))
+        return edges[before - 1][1] if before else 1
 
     line = bytearray()
     for first in range(0, 10 * count, 10):

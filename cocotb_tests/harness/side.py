@@ -121,7 +121,18 @@ class Side(ABC):
         """
         if self.follower is None:
             self.follower = Follower(new_model(self.part.name, self.part.params(self.config)))
-        return self.follower.catch_up(self.stimulus, self.now - 1)
+        return self.follower.catch_up(self.pin_changes(), self.now - 1)
+
+    def pin_changes(self) -> list[Change]:
+        """What the part has got on its inputs up to now: as driven, and as the bench's top has made them (what
+        changes at edge t is first sampled by t + 1)."""
+        part = self.part
+        if not part.fed:
+            return self.stimulus
+        seen = self._seen()
+        made = [Change(t + 1, name, level) for name in part.fed for t, level in seen[name]]
+        driven = [change for change in self.stimulus if change.pin not in part.aside]
+        return sorted([*driven, *made], key=lambda change: change.t)
 
     def close(self) -> None:
         """Let the pins rest: whatever was to change them later no longer does."""
@@ -295,7 +306,7 @@ class Side(ABC):
             params=self.part.params(self.config),
             seed=self.seed,
             end=self.now - 1,
-            stimulus=list(self.stimulus),
+            stimulus=list(self.pin_changes()),
             edges=self._all_edges(),
             accesses=list(self.accesses),
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cocotb_tests.harness.part import Part
 from openppmc.model.pmc006 import pins
 
@@ -18,6 +20,8 @@ DEFAULTS = {
     "FW_VERSION": 0x123,
 }
 
+LINES = frozenset({"scl_i", "sda_i"})
+
 PMC006 = Part.of_model(
     "pmc006",
     pins,
@@ -26,4 +30,12 @@ PMC006 = Part.of_model(
     unwatched=frozenset({"pwm_a_ref", "pwm_b_ref"}),
     defaults=DEFAULTS,
 )
+WITH_EEPROM = replace(
+    PMC006,
+    inputs={**{name: level for name, level in PMC006.inputs.items() if name not in LINES}, "ee_on": 0},
+    outputs={**PMC006.outputs, **dict.fromkeys(LINES, (1, 1))},
+    fed=LINES,
+    aside=frozenset({"ee_on"}),
+)
+"""The part and its EEPROM in one top (eeprom_bench.sv), which makes the levels of the lines."""
 PARTS = (PMC006,)

@@ -33,6 +33,7 @@ module pmc006_board_bench (
       .WriteClk(8_000)
   ) u_eeprom (
       .clk_i   (clk),
+      .on_i    (1'b1),
       .scl_i   (scl),
       .sda_i   (sda),
       .scl_oe_o(scl_device),

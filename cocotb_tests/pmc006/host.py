@@ -15,7 +15,8 @@ from cocotb_tests.harness.side import Side
 from cocotb_tests.harness.start import start_bench
 from cocotb_tests.harness.stimulus import Access
 
-from .bench import PMC006
+from .bench import PMC006, WITH_EEPROM
+from .chip import Chip, Eeprom, plug_in
 from .frames import command, number, of_reply
 from .view import View
 
@@ -49,6 +50,7 @@ class Host(View, SerialLine):
         self.t = side.now
         self.mark = self.said = self._heard = 0
         self.wire = b""
+        self.plugged: Eeprom | None = None
         self.open_line(Fraction(self.clk_hz, self.baud), error)
 
     @classmethod
@@ -59,15 +61,20 @@ class Host(View, SerialLine):
         levels: Mapping[str, int] | None = None,
         boot: bool = True,
         error: float = 0,
+        chip: Chip | None = None,
     ) -> Host:
         """A host on a part just out of reset, and booted unless told otherwise.
 
-        address: of the part, as the host knows it. levels: of input pins from edge 0 on; SDA is held low, so
-        that the part boots at once, unless they say sda_i=1. error: of the host's bit time.
+        address: of the part, as the host knows it. levels: of input pins from edge 0 on. error: of the host's
+        bit time. chip: the EEPROM, for tests in the bench that has one (test_eeproms.py); without one SDA is
+        held low, so that the part boots at once, unless `levels` say sda_i=1.
         """
-        side = await start_bench(dut, PMC006, settle=0, **{"sda_i": 0, **(levels or {})})
+        idle = {} if chip else {"sda_i": 0}
+        side = await start_bench(dut, WITH_EEPROM if chip else PMC006, settle=0, **{**idle, **(levels or {})})
         host = cls(side, address, error)
-        host.t = 1
+        if chip:
+            host.plugged = plug_in(side, chip, host.clk_hz, int(host.params["EE_DEV"]))
+        host.t = 1 if idle or levels else 0
         if boot:
             await host.boot()
         return host
@@ -76,7 +83,13 @@ class Host(View, SerialLine):
 
     def pick(self, literal: int, short: int) -> int:
         """A count or time for the golden model, or the short one for the RTL."""
-        return short if self.side.simulated else literal
+        return literal if self.literal else short
+
+    @property
+    def eeprom(self) -> Eeprom:
+        """The EEPROM of a host that was given one."""
+        assert self.plugged is not None, "there is no EEPROM"
+        return self.plugged
 
     @property
     def literal(self) -> bool:

@@ -25,6 +25,14 @@ class I2cBus:
         """Something outside has changed what the device pulls: look at edge t."""
         self._look = t if self._look is None else min(t, self._look)
 
+    @property
+    def due(self) -> int | None:
+        """The next edge on which a line may change or the device does something by itself."""
+        levels, own = self.model.log.levels, self._look
+        if (levels["scl_oe"], levels["sda_oe"]) != self._pulled:
+            own = min(self.model.now + 1, own or self.model.now + 1)
+        return min((t for t in (own, self.device.due) if t is not None), default=None)
+
     def run_until(self, t: int) -> None:
         """As that of the model; the lines follow."""
         model, device, levels, run = self.model, self.device, self.model.log.levels, self._run

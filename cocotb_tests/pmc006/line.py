@@ -1,80 +1,70 @@
-"""Several PMC006 on one pair of wires: rxd of all is the AND of the host's level and of every txd."""
+"""Two PMC006 on one pair of wires: rxd of both is the AND of the host's level and of every txd.
+
+One is the part under test; the other one is a golden model beside it.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
-from .script_host import Host
+from cocotb_tests.harness.model_bench import ModelBench, OnModel
+from cocotb_tests.harness.serial_line import Changes
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
+
+from .bench import PMC006
+from .host import Host
 
 
 class Line:
-    """Common time of the nodes, and what is on the wires. What a part drives at edge t is there at t + 1."""
+    """Common time of the parts, and what is on the wires. What a part drives at edge t is there at t + 1."""
 
-    def __init__(self) -> None:
-        self.t = 0
-        self.models: list[Any] = []
-        self._runs: list[Any] = []
-        self._host = self._level = 1
-        self._look: int | None = None
+    def __init__(self, *sides: Side) -> None:
+        self.sides = sides
+        self.t = 1
+        self._host = 1
 
-    def join(self, model: Any) -> None:
-        """Another part, before any time has passed."""
-        self._runs.append(model.run_until)
-        self.models.append(model)
-        model.run_until = self.run_until
+    @classmethod
+    async def start(cls, dut: Any, first: bool) -> tuple[Node, Node]:
+        """Two nodes just out of reset; `first`: whether the first one is the part under test."""
+        part = await start_bench(dut, PMC006, settle=0, sda_i=0)
+        other = ModelBench(PMC006, OnModel(part.config), 0, sda_i=0)
+        line = cls(*((part, other) if first else (other, part)))
+        return Node(line, 0), Node(line, 1)
 
     @property
     def now(self) -> int:
-        """The last edge that was run."""
-        return min(int(model.now) for model in self.models)
+        """The next edge, of all parts."""
+        return self.sides[0].now
 
-    @property
-    def next_event(self) -> int | None:
-        """The next event of any part."""
-        events = [model.next_event for model in self.models if model.next_event is not None]
-        return min(events, default=None)
-
-    def drive(self, t: int, level: int) -> None:
+    async def drive(self, t: int, level: int) -> None:
         """The host's level from edge t on."""
-        t = max(t, self.now + 1)
-        self.run_until(t - 1)
+        await self.until(max(t, self.now))
         self._host = level
-        self._settle(t)
+        self._settle()
 
-    def run_until(self, t: int) -> None:
-        """All parts up to edge t."""
-        while True:
-            events = [at for at in (self.next_event, self._look) if at is not None]
-            edge = min(events, default=t + 1)
-            if edge > t:
-                break
-            if edge == self._look:
-                self._look = None
-                self._settle(edge)
-            before = [model.outputs["txd"] for model in self.models]
-            for run in self._runs:
-                run(edge)
-            if before != [model.outputs["txd"] for model in self.models]:
-                self._look = edge + 1
-        for model, run in zip(self.models, self._runs, strict=True):
-            if t > model.now:
-                run(t)
+    async def until(self, t: int) -> None:
+        """All parts up to edge t. Whatever a part sends begins with an event of its model."""
+        while self.now < t:
+            events = [side.golden.next_event for side in self.sides]
+            edge = min([t, *(event + 1 for event in events if event is not None)])
+            for side in self.sides:
+                await side.until(edge)
+            self._settle()
 
-    def _settle(self, t: int) -> None:
-        level = int(self._host and all(model.outputs["txd"] for model in self.models))
-        if level != self._level:
-            self._level = level
-            for model in self.models:
-                model.pins(t, rxd=level)
+    def _settle(self) -> None:
+        level = int(self._host and all(side.level("txd") for side in self.sides))
+        for side in self.sides:
+            side.set(rxd=level)
 
 
 class Node(Host):
     """The host, talking to one of the parts on the line."""
 
-    def __init__(self, line: Line, **given: Any) -> None:
+    def __init__(self, line: Line, number: int) -> None:
         self.line = line
-        super().__init__(boot=False, **given)
-        line.join(self.model)
+        super().__init__(line.sides[number])
+        self.t = 1
 
     @property
     def t(self) -> int:  # type: ignore[override]
@@ -85,16 +75,26 @@ class Node(Host):
     def t(self, t: int) -> None:
         self.line.t = t
 
-    def _drive(self, t: int, level: int) -> None:
-        self.line.drive(t, level)
+    async def sync(self) -> None:
+        """As `Host.sync`, for all parts."""
+        await self.line.until(self.t)
 
-    def step(self) -> None:
-        """Run to the next event of any part."""
-        edge = self.line.next_event
-        assert edge is not None
-        self.go(max(self.t, edge + 1))
+    async def _drive(self, changes: Changes) -> None:
+        for edge, level in changes:
+            await self.line.drive(edge, level)
 
-    def ask_other(self, other: Node, code: str, data: int = 0) -> int:
+    async def until(self, signal: str, level: int, limit_us: float = 1_000_000) -> int:
+        """As `View.until`."""
+        end = self.t + self.us(limit_us)
+        await self.sync()
+        while self.side.level(signal) != level:
+            assert self.t < end, f"{signal} does not become {level}"
+            event = self.side.golden.next_event
+            assert event is not None, "nothing happens any more"
+            await self.go(max(self.t, event + 1))
+        return max((t for t, _ in self.edges(signal)[-1:]), default=0)
+
+    async def ask_other(self, other: Node, code: str, data: int = 0) -> int:
         """The same for another node on the line."""
         other.middle, other._free = self.middle, self._free
-        return other.ask(code, data)
+        return await other.ask(code, data)

@@ -63,18 +63,20 @@ async def move(host: Host, count: int) -> list[int]:
 async def after_steps(host: Host, count: int, limit_us: float = 20_000_000) -> int:
     """Run until so many steps have been made since `mark`; returns the edge of that step."""
     end = host.t + host.us(limit_us)
-    while host.made() < count:
-        await host.next_step(end)
+    made = host.made()
+    while made < count:
+        made += len(await host.next_steps(end))
     return host.steps()[count - 1]
 
 
 async def cruise(host: Host, interval: float, limit_us: float = 1_000_000) -> None:
     """Run until the last two intervals are this one, rounded up or down."""
     end = host.t + host.us(limit_us)
+    steps = host.steps()[-2:]
     last: list[int] = []
     while len(last) < 2 or not all(abs(one - interval) < 1 for one in last):
-        await host.next_step(end)
-        last = [host.in_us(b - a) for a, b in pairwise(host.steps()[-3:])]
+        steps = [*steps, *await host.next_steps(end)][-3:]
+        last = [host.in_us(b - a) for a, b in pairwise(steps)]
 
 
 async def still(host: Host, clk: int | None = None) -> bool:

@@ -85,7 +85,7 @@ async def p006_eeprom_device(dut: Any) -> None:
     rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
     stretch = int(dut.StretchClk.value)
     model = Eeprom24C32(CLK_HZ, device=int(dut.Device.value), write_us=WRITE_CLK, stretch_us=stretch)
-    dut.clk_i.value = 0
+    dut.clk_i.value, dut.on_i.value = 0, 1
     t, before, pulls = 0, (1, 1), (0, 0)
     seen = {"sda": 0, "scl": 0}
     master = Master(rng, model.device)

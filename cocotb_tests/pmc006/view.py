@@ -80,12 +80,14 @@ class View(ABC):
         edges = self.steps(since)
         return [self.in_us(b - a) for a, b in zip(edges, edges[1:], strict=False)]
 
-    async def next_step(self, limit: int) -> None:
-        """Run to the next step, which comes before edge `limit`; a step of the past that nobody has had yet
-        is one, too."""
-        await self.side.edge("mon_step", 1, max(1, limit - self.side.now))
+    async def next_steps(self, limit: int) -> list[int]:
+        """Run to the next step, which comes before edge `limit`, but at least to the present; returns it, or
+        all of them."""
+        since = self.side.now
+        await self.side.edge("mon_step", 1, max(1, limit - since))
         self.t = max(self.t, self.side.now)
         await self.sync()
+        return self.steps(since)
 
     # ------------------------------------------------------------------ references
 

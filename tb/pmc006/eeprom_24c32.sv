@@ -2,6 +2,8 @@
 // eeprom_24c32: serial EEPROM of the 24C32 class for benches: 4096 bytes, pages of 32, write time, acknowledge polling.
 // Rules:  the same device as openppmc/model/carrier/eeprom.py; a test compares both.
 // Timing: both lines are looked at on every clk edge; what the device pulls changes on the same edge.
+// Tests:  load and read `memory` by its name, set the options behind it, and read the log of page writes. Without
+//         power (on_i) the device pulls nothing; the memory is blank when the power goes.
 `default_nettype none
 
 module eeprom_24c32 #(
@@ -11,11 +13,14 @@ module eeprom_24c32 #(
     parameter bit Missing = 1'b0
 ) (
     input  wire logic clk_i,
+    input  wire logic on_i,      // power
     input  wire logic scl_i,     // levels of the lines, whoever pulls them
     input  wire logic sda_i,
     output logic      scl_oe_o,  // 1: the device pulls the line low
     output logic      sda_oe_o
 );
+
+  localparam int unsigned Log = 256;
 
   typedef enum logic [2:0] {
     StIdle,
@@ -28,6 +33,22 @@ module eeprom_24c32 #(
   } state_e;
 
   logic [7:0] memory[4096]  /* verilator public_flat_rw */;
+
+  // Options of this device.
+  logic [6:0] device  /* verilator public_flat_rw */ = Device;
+  int unsigned write_clk  /* verilator public_flat_rw */ = WriteClk;
+  int unsigned stretch_clk  /* verilator public_flat_rw */ = StretchClk;
+  logic missing  /* verilator public_flat_rw */ = Missing;
+  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // a line that is held low
+  logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;
+  int unsigned writing  /* verilator public_flat_rw */ = 0;  // clk left of a write cycle
+
+  // Page writes since the power came: first address, number of bytes, bytes; 32 places each.
+  int unsigned writes  /* verilator public_flat_rw */ = 0;
+  logic [11:0] log_address[Log]  /* verilator public_flat_rw */;
+  logic [5:0] log_count[Log]  /* verilator public_flat_rw */;
+  logic [7:0] log_data[32*Log]  /* verilator public_flat_rw */;
+
   logic [7:0] page[32];
   logic [31:0] filled;  // bytes of the page that have come
   state_e state;
@@ -36,28 +57,29 @@ module eeprom_24c32 #(
   logic [7:0] shift, sent;
   logic [11:0] address;
   int unsigned count;  // bytes of this write
-  int unsigned writing, holding;
+  int unsigned holding;
+  logic scl_pull, sda_pull, was_on;
 
-  initial begin
+  initial power_off();
+
+  function automatic void power_off();
     foreach (memory[i]) memory[i] = 8'hFF;
-    state = StIdle;
     {scl_was, sda_was} = 2'b11;
-    {scl_oe_o, sda_oe_o} = 2'b00;
-    bits = '0;
-    shift = '0;
+    scl_pull = 1'b0;
     sent = '0;
     address = '0;
-    filled = '0;
-    count = 0;
     writing = 0;
+    writes = 0;
     holding = 0;
-  end
+    was_on = 1'b0;
+    rest();
+  endfunction
 
   function automatic void rest();
     state = StIdle;
     bits = '0;
     shift = '0;
-    sda_oe_o = 1'b0;
+    sda_pull = 1'b0;
     count = 0;
     filled = '0;
   endfunction
@@ -66,8 +88,12 @@ module eeprom_24c32 #(
   function automatic void stop();
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];
+      log_address[writes] = address;
+      log_count[writes] = count > 32 ? 6'd32 : 6'(count);
+      for (int i = 0; i < 32; i++) log_data[32*writes+i] = page[5'(32'(address[4:0])+i)];
+      if (writes != Log - 1) writes++;
       address = {address[11:5], 5'(32'(address[4:0]) + count)};
-      writing = WriteClk;
+      writing = write_clk;
     end
     rest();
   endfunction
@@ -76,7 +102,7 @@ module eeprom_24c32 #(
   function automatic void take();
     unique case (state)
       StDevice: begin
-        if (shift[7:1] != Device || writing != 0) begin
+        if (shift[7:1] != device || writing != 0) begin
           rest();
           return;
         end
@@ -96,22 +122,22 @@ module eeprom_24c32 #(
         count++;
       end
       default: begin
-        sda_oe_o = 1'b0;
+        sda_pull = 1'b0;
         return;
       end
     endcase
-    sda_oe_o = 1'b1;
+    sda_pull = 1'b1;
   endfunction
 
   function automatic void fall();
     if (bits == 4'd8) take();
     else if (bits == 4'd9) begin
       bits = '0;
-      sda_oe_o = 1'b0;
+      sda_pull = 1'b0;
       if (state == StSend) state = StRead;
-      if (StretchClk != 0) begin
-        scl_oe_o = 1'b1;
-        holding  = StretchClk;
+      if (stretch_clk != 0) begin
+        scl_pull = 1'b1;
+        holding  = stretch_clk;
       end
     end
     if (state == StRead && bits < 4'd8) begin
@@ -119,18 +145,28 @@ module eeprom_24c32 #(
         sent = memory[address];
         address++;
       end
-      sda_oe_o = !sent[3'(7-32'(bits))];
+      sda_pull = !sent[3'(7-32'(bits))];
     end
   endfunction
 
   // Blocking assignments: the order of the steps is that of the model, and nothing else looks inside.
   /* verilator lint_off BLKSEQ */
   always @(posedge clk_i) begin
+    if (was_on && !on_i) power_off();
+    was_on = on_i;
+    if (on_i) step();
+    scl_oe_o <= on_i && (scl_pull || stuck_scl);
+    sda_oe_o <= on_i && (sda_pull || stuck_sda);
+  end
+  /* verilator lint_on BLKSEQ */
+
+  // One clk.
+  function automatic void step();
     if (holding != 0) begin
       holding--;
-      if (holding == 0) scl_oe_o = 1'b0;
+      if (holding == 0) scl_pull = 1'b0;
     end
-    if (!Missing) begin
+    if (!missing) begin
       if (scl_was && scl_i && sda_was != sda_i) begin
         if (sda_i) stop();
         else begin
@@ -146,8 +182,7 @@ module eeprom_24c32 #(
     if (writing != 0) writing--;
     scl_was = scl_i;
     sda_was = sda_i;
-  end
-  /* verilator lint_on BLKSEQ */
+  endfunction
 
 endmodule
 

@@ -1,0 +1,182 @@
+"""The EEPROM of a PMC006 under test: the device in the bench's top, or the Python one on the golden model.
+
+Tests describe it (`Chip`), load it, look at its bytes and at what was written, and put faults on it.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness.model_bench import ModelBench
+from cocotb_tests.harness.side import Side
+from openppmc.model.carrier.eeprom import PAGE, SIZE, Eeprom24C32
+
+from .i2c_bus import I2cBus
+
+
+@dataclass(frozen=True)
+class Chip:
+    """A device, just powered up.
+
+    content: bytes from address 0 on, the rest is FF. write_us: time of a write cycle. stretch_us: how long
+    SCL is held low behind each acknowledge. missing: nothing is there. other: it has another address than the
+    part calls. stuck: "scl" or "sda", a line that is held low. busy_us: a write cycle is under way.
+    """
+
+    content: bytes = b""
+    write_us: int = 5_000
+    stretch_us: int = 0
+    missing: bool = False
+    other: bool = False
+    stuck: str = ""
+    busy_us: int = 0
+
+
+class Written(NamedTuple):
+    """A page write: address of its first byte, the bytes in the order they came."""
+
+    address: int
+    data: bytes
+
+
+class Eeprom(ABC):
+    """The device of a test. Faults count from the present edge on."""
+
+    @property
+    @abstractmethod
+    def writes(self) -> list[Written]:
+        """All page writes so far."""
+
+    @property
+    @abstractmethod
+    def memory(self) -> bytes:
+        """What it holds."""
+
+    @abstractmethod
+    def missing(self, on: bool) -> None:
+        """Whether the device is deaf and dumb."""
+
+    @abstractmethod
+    def stuck(self, line: str, on: bool) -> None:
+        """Whether it holds a line low."""
+
+    @abstractmethod
+    def stretch(self, clk: int) -> None:
+        """How long it holds SCL low behind each acknowledge."""
+
+
+def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
+    """The device on a part just out of reset, before its edge 0; `device`: address that the part calls."""
+    wanted = device ^ chip.other
+    if isinstance(side, ModelBench):
+        return _OnModel(side, chip, clk_hz, wanted)
+    assert isinstance(side, Bench)
+    return _OnBench(side, chip, clk_hz, wanted)
+
+
+class _Bussed:
+    """The golden model and what hangs on its lines, as one."""
+
+    def __init__(self, model: Any, bus: I2cBus) -> None:
+        self._model, self._bus = model, bus
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._model, name)
+
+    @property
+    def next_event(self) -> int | None:
+        """The next edge on which anything happens by itself."""
+        return min((t for t in (self._model.next_event, self._bus.due) if t is not None), default=None)
+
+
+class _OnModel(Eeprom):
+    """The Python device."""
+
+    def __init__(self, side: ModelBench, chip: Chip, clk_hz: int, device: int) -> None:
+        self._side = side
+        self._chip = made = Eeprom24C32(
+            clk_hz, chip.content, device, chip.write_us, chip.stretch_us, chip.missing
+        )
+        made.stuck_scl, made.stuck_sda = chip.stuck == "scl", chip.stuck == "sda"
+        made.occupy(-(-chip.busy_us * clk_hz // 1_000_000))
+        self._bus = I2cBus(side.model, made)
+        side.model = _Bussed(side.model, self._bus)
+
+    @property
+    def writes(self) -> list[Written]:
+        """As `Eeprom.writes`."""
+        return [Written(one.address, one.data) for one in self._chip.writes]
+
+    @property
+    def memory(self) -> bytes:
+        """As `Eeprom.memory`."""
+        return bytes(self._chip.memory)
+
+    def missing(self, on: bool) -> None:
+        """As `Eeprom.missing`."""
+        self._chip.missing = on
+        if on:
+            self._chip.sda = self._chip.scl = 0
+
+    def stuck(self, line: str, on: bool) -> None:
+        """As `Eeprom.stuck`."""
+        setattr(self._chip, f"stuck_{line}", on)
+        self._bus.again(self._side.now)
+
+    def stretch(self, clk: int) -> None:
+        """As `Eeprom.stretch`."""
+        self._chip.stretch_clk = clk
+
+
+class _OnBench(Eeprom):
+    """The device in the bench's top, by names: see tb/pmc006/eeprom_24c32.sv."""
+
+    def __init__(self, bench: Bench, chip: Chip, clk_hz: int, device: int) -> None:
+        self._device = bench.dut.u_eeprom
+        self._log: list[Written] = []
+
+        def clk(micros: int) -> int:
+            return -(-micros * clk_hz // 1_000_000)
+
+        for place, byte in enumerate(chip.content):
+            self._device.memory[place].value = byte
+        self._set(
+            device=device, write_clk=clk(chip.write_us), writing=clk(chip.busy_us), missing=chip.missing
+        )
+        self._set(stuck_scl=chip.stuck == "scl", stuck_sda=chip.stuck == "sda")
+        self.stretch(clk(chip.stretch_us))
+        bench.set(ee_on=1)
+
+    def _set(self, **options: int) -> None:
+        for name, value in options.items():
+            getattr(self._device, name).value = int(value)
+
+    @property
+    def writes(self) -> list[Written]:
+        """As `Eeprom.writes`."""
+        one, log = self._device, self._log
+        for n in range(len(log), int(one.writes.value)):
+            count = int(one.log_count[n].value)
+            data = bytes(int(one.log_data[PAGE * n + place].value) for place in range(count))
+            log.append(Written(int(one.log_address[n].value), data))
+        return log
+
+    @property
+    def memory(self) -> bytes:
+        """As `Eeprom.memory`."""
+        return bytes(int(self._device.memory[place].value) for place in range(SIZE))
+
+    def missing(self, on: bool) -> None:
+        """As `Eeprom.missing`."""
+        self._set(missing=on)
+
+    def stuck(self, line: str, on: bool) -> None:
+        """As `Eeprom.stuck`."""
+        self._set(**{f"stuck_{line}": on})
+
+    def stretch(self, clk: int) -> None:
+        """As `Eeprom.stretch`."""
+        self._set(stretch_clk=clk)

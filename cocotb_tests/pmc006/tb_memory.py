@@ -1,0 +1,69 @@
+"""A part with an EEPROM on its link: frames during the boot, jobs in the background, another rate."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import ceil
+from typing import Any
+
+from .builds import F8B, ODD, directed
+from .chip import Chip
+from .host import Host
+from .moves import DECAY, brisk, rest, start
+from .programs import image, page
+
+
+@directed("P006-FRM-07", "P006-EEP-01", "P006-BAD-06", builds=(F8B, ODD))
+async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
+    """Deaf until then, with an EEPROM or without one: such a frame is lost, and so is one that ends later."""
+    for chip, longest in ((Chip(image(), write_us=500), 60_000), (Chip(missing=True), 15_000)):
+        up = (await Host.start(dut, chip=chip)).t
+        chip = Chip(image(), missing=chip.missing)
+        host = await Host.start(dut, chip=chip, boot=False)
+        for begin in (host.us(500), up // 2, up - ceil(40 * host.bit)):
+            await host.go(begin)
+            await host.say("y", 0xF8)
+        assert host.t > await host.boot() and up <= host.us(longest)
+        assert await host.silent(ceil(30 * host.bit)) and not await host.out("gpo") and not host.edges("de")
+        await host.pause(ceil(200 * host.bit))
+        assert await host.ask("y", 0x08) == 0x08 and await host.ask("j") == DECAY
+
+
+@directed("P006-CMD-02", "P006-CMD-41", "P006-CMD-53", "P006-BAD-12")
+async def p006_eeprom_codes(dut: Any) -> None:
+    """t and B reply at once and work in the background; a second one is refused meanwhile."""
+    host = await Host.start(dut, chip=Chip(write_us=6_000))
+    assert await host.ask("t", -1) == 1 and await host.ask("t") == 0 and await host.ask("B") == 0
+    await host.ms(14)
+    assert (
+        await host.ask("B", 7) == 1
+        and await host.ask("t") == 0
+        and await host.ask("B") == 0
+        and await host.ask("W", 1) == 0
+    )
+    assert await host.ask("A", 0) == 0 and await host.ask("G") == 0
+    await brisk(host, 3000)
+    await start(host, 2)
+    await rest(host)
+    assert len(host.eeprom.writes) < 28
+    await host.reset()
+    await host.boot()
+
+
+@directed("P006-PAR-01", "P006-EEP-01", "P006-EEP-10", builds=(ODD,))
+async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
+    """SCL keeps its rate over the whole transfer, within a clk of its quarter ticks."""
+    host = await Host.start(dut, chip=Chip(image(page(a04=32)), write_us=300))
+    assert await host.ask("k") == 32
+    hz = int(str(host.params["I2C_HZ"]))
+    await host.ok(m=64)
+    assert await host.ask("t") == 1
+    await host.ms(3)
+    assert host.eeprom.memory[4] == 64
+    period = host.clk_hz / hz
+    edges = host.edges("scl_oe", host.said)
+    falls = [t for t, level in edges if level]
+    # START and STOP are longer than a bit.
+    assert {abs(b - a - period) <= 1 for a, b in pairwise(falls) if b - a < 1.2 * period} == {True}
+    lows = [b - a for (a, level), (b, _) in pairwise(edges) if level]
+    assert len(lows) > 600 and all(0 <= low - 0.55 * period < 2 for low in lows)

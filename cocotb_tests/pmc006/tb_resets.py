@@ -1,0 +1,58 @@
+"""A reset in the middle of everything, and a factory restore, of a part without an EEPROM."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .builds import directed
+from .host import Host
+from .moves import DECAY, quick, start
+from .programs import FACTORY_PAGE
+from .tb_boot import FACTORY, values
+from .tb_save import FSET_US
+
+
+@directed("P006-BAD-24", "P006-PORT-01", "P006-PRG-01", "P006-IO-03")
+async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
+    """Outputs are at their reset levels at once; registers, flags and words start anew."""
+    host = await quick(dut)
+    await host.ok(f=3, y=0xF8)
+    await host.ok(A=0)
+    assert await host.ask("W", 77) == 77
+    await start(host, 100_000)
+    await host.pins(ext2=0)
+    await host.pause(30)
+    await host.say("c")
+    await host.pause(int(host.bit * 20))
+    await host.pins(rst_n=0)
+    await host.sync()
+    wanted = host.side.part.reset_levels()
+    assert {pin: host.side.level(pin) for pin in wanted} == wanted
+    await host.pause(10)
+    await host.pins(rst_n=1, ext2=1)
+    await host.forget()
+    await host.boot()
+    assert await values(host) == FACTORY and await host.status() == DECAY and await host.ask("O") == 0x10
+    assert (
+        await host.ask("G") == 0
+        and await host.ask("c") == 0
+        and await host.ask("x") == 0xF07
+        and FACTORY_PAGE[3] == 0xFF
+    )
+
+
+@directed("P006-EEP-21", "P006-EEP-22")
+async def p006_restore_without_a_device(dut: Any) -> None:
+    """Nothing lasts, nothing hangs."""
+    host = await Host.start(dut, levels={"sda_i": 0, "fset_n": 0}, boot=False)
+    await host.boot()
+    assert host.us(FSET_US) <= host.t <= host.us(FSET_US + 2_500)
+    await host.pins(fset_n=1)
+    assert await values(host) == FACTORY and await host.status() == DECAY
+    host = await quick(dut)
+    # What the line says now is no acknowledge.
+    await host.pins(fset_n=0, sda_i=1)
+    await host.wait_us(FSET_US + 100)
+    assert await host.ask("V") == 2 and await host.ask("t") == 1
+    await host.ms(12)
+    assert await host.ask("V") == 2 and await host.ask("t") == 1

@@ -1,0 +1,62 @@
+"""Acceptance checks AC-01 to AC-67 on the golden model: those of the RTL, which stand once, but literally, with
+9600 baud at 16 MHz; and some that last too long for the RTL.
+"""
+
+from __future__ import annotations
+
+import importlib
+
+import pytest
+
+from cocotb_tests.harness.collect import all_tests
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness.model_tests import model_tests
+from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.pmc006.builds import FAST_LINE
+from cocotb_tests.pmc006.host import Host
+from cocotb_tests.pmc006.moves import ready
+
+PACKAGE = "cocotb_tests.pmc006"
+SHORT = ("tb_acceptance_link", "tb_acceptance_motion", "tb_acceptance_guard", "tb_acceptance_program")
+globals().update(model_tests(__name__, PACKAGE, *SHORT, "tb_acceptance_memory", builds=(F16,)))
+globals().update(model_tests(__name__, PACKAGE, "tb_acceptance_modes", "tb_acceptance_long"))
+
+OTHERS = (
+    Config("datasheet", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE,)),
+    Config("echo", clk_hz=8_000_000, extra=(FAST_LINE, ("STEP_ACK", "ECHO"))),
+)
+
+
+@pytest.mark.parametrize("build", OTHERS, ids=[build.name for build in OTHERS])
+@verifies("P006-AC-48", "P006-AC-53")
+def test_ac_48(build: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The checks without an EEPROM under other parameters, in the short form that the RTL has."""
+    monkeypatch.setattr(Host, "literal", False)
+    run = 0
+    for name in SHORT:
+        for test in all_tests(importlib.import_module(f"{PACKAGE}.{name}")):
+            for case in test.generate_tests():
+                on_model(case.func(OnModel(build), **case.kwargs))
+                run += 1
+    assert run > 40
+
+
+@verifies("P006-AC-29", "P006-EXC-40")
+def test_ac_29() -> None:
+    """The bit streams, which are on no record: as many ones in 256 clk as the reference says."""
+
+    async def check() -> None:
+        host = await ready(OnModel(F16))
+        await host.ok(a=0)
+        for current in (400, 1000, 4000):
+            await host.ok(e=current)
+            await host.pause(300)
+            for phase in "ab":
+                ones = 0
+                for _ in range(256):
+                    await host.pause(1)
+                    ones += host.side.golden.pwm(phase)
+                assert ones == await host.out(f"phase_{phase}_ref")
+
+    on_model(check())
