@@ -17,10 +17,13 @@ MODULE = "cocotb_tests.harness.replaying"
 
 
 def attempt_random(
-    item: Item, options: SimOptions | None = None, env: Mapping[str, str] | None = None
+    item: Item,
+    options: SimOptions | None = None,
+    env: Mapping[str, str] | None = None,
+    design: Design | None = None,
 ) -> str:
-    """As `attempt`; the message of a failing run ends with its short list."""
-    message = attempt(item, options, env)
+    """As `attempt`; the message of a failing run ends with its short list, found on the part alone."""
+    message = attempt(item, options, env, design)
     if not message:
         return ""
     seed = options.seed if options and options.seed is not None else item.seed

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from cocotb_tests.harness.batches import run_batch
 from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.collect import Item
@@ -40,12 +39,12 @@ pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_ite
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The scenarios of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery by the documented sequence."""
-    run_batch(item, seeds, sim_options)
+    chaos_item.run(item, seeds, sim_options)
 
 
 def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:

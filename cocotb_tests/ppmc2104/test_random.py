@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.batches import run_batch
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import D16, F11, F16, F100
 from cocotb_tests.harness.random_host import in_turn
@@ -43,17 +42,17 @@ pytest_generate_tests = generating(
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The scenarios of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_independent_axes(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Axis 2 shows the same edges whatever axis 1 is told."""
-    run_batch(item, seeds, sim_options)
+    pair_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery by the documented sequence."""
-    run_batch(item, seeds, sim_options)
+    chaos_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:

@@ -6,7 +6,6 @@ plays as many others as you like.
 
 from __future__ import annotations
 
-from cocotb_tests.harness.batches import run_batch
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import D16, F16, F50
 from cocotb_tests.harness.model_bench import OnModel, on_model
@@ -42,17 +41,17 @@ pytest_generate_tests = generating(test_random=random_item, test_noise=noise_ite
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The hosts of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery."""
-    run_batch(item, seeds, sim_options)
+    noise_item.run(item, seeds, sim_options)
 
 
 def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Hosts on the line of the serial mode."""
-    run_batch(item, seeds, sim_options)
+    serial_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.batches import run_batch
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import D16, F16
 from cocotb_tests.harness.random_host import in_turn
@@ -32,12 +31,12 @@ pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_ite
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The scenarios of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery."""
-    run_batch(item, seeds, sim_options)
+    chaos_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:

@@ -11,14 +11,16 @@ import pytest
 
 from cocotb_tests.harness.acts import Act, acts_of, changes_of
 from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.compare import compare_recording, new_model
+from cocotb_tests.harness.compare import compare_recording
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.follower import new_model
 from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
 from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.replaying import REPLAY
+from cocotb_tests.harness.running import running_test
 from cocotb_tests.harness.shortened import replay_item, shortened
 from cocotb_tests.harness.shrink import Shrinker
 from cocotb_tests.harness.stimulus import Change, Recording
-from cocotb_tests.harness.tape import Tape
 from cocotb_tests.pmc006 import random_host as talker
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc312 import random_host, random_noise, random_serial
@@ -51,7 +53,7 @@ class Mutant:
     """A PPMC-104 that does not see an alarm when csel is not as it was in the reset."""
 
     def __init__(self, recording: Recording) -> None:
-        self.model = new_model(recording)
+        self.model = new_model("ppmc104", recording.params)
         self.csel = first = PPMC104.inputs["csel"]
         self.first = first
 
@@ -74,7 +76,7 @@ def differs(recording: Recording, acts: Sequence[Act]) -> bool:
     some = Recording(
         "ppmc104", recording.params, 1, recording.end, changes_of(PPMC104, acts), recording.edges
     )
-    golden = new_model(some)
+    golden = new_model("ppmc104", some.params)
     for change in some.stimulus:
         golden.pins(change.t, **{change.pin: change.value})
     golden.run_until(some.end)
@@ -117,18 +119,28 @@ def normal(changes: Sequence[Change]) -> list[Change]:
     return sorted(changes)
 
 
-def tapes() -> list[Tape]:
-    hosts = [random_host.play(seed, random_host.plan(seed)) for seed in (1, 2)]
-    hosts += [random_noise.play(3, random_host.plan(1))]
-    serial = [random_serial.play(seed, random_serial.plan(seed)) for seed in (1, 2)]
-    talkers = [talker.play(seed, talker.plan(seed)).host for seed in (1, 2)]
-    return [host.tape for host in (*hosts, *serial, *talkers)]
+HOSTS = (
+    (random_host.play, random_host.build, 1),
+    (random_host.play, random_host.build, 2),
+    (random_noise.play, random_host.build, 1),
+    (random_serial.play, random_serial.build, 1),
+    (random_serial.play, random_serial.build, 2),
+    (talker.play, talker.build, 1),
+    (talker.play, talker.build, 2),
+)
+
+
+def played(play: Any, seed: int, build: Config) -> Recording:
+    """What a random host leaves on the golden model."""
+    with running_test(None, seed) as running:
+        on_model(play(OnModel(build, seed), seed))
+        assert running.side
+        return running.side.recording()
 
 
 def test_all_acts_together_are_the_run() -> None:
     """No pin change is lost or moved, whatever the host: on a bus, on a line, noise, clocks, resets."""
-    recordings = [busy_run()]
-    recordings += [Recording(t.part, t.params, stimulus=t.changes, accesses=t.accesses) for t in tapes()]
+    recordings = [busy_run(), *(played(play, seed, build(seed)) for play, build, seed in HOSTS)]
     for recording in recordings:
         acts = acts_of(recording)
         assert normal(changes_of(PARTS[recording.part], acts)) == normal(recording.stimulus)
