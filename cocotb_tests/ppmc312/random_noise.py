@@ -7,11 +7,12 @@ from typing import Any
 
 from cocotb_tests.harness.block_host import CSR, DWR, MREF, MWEF, WAR, WCR
 from cocotb_tests.ppmc312.words import message
-from openppmc.model.ppmc312.codes import Code, State
+from openppmc.model.ppmc312.codes import Code
 from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
 from .host import TF
 from .parallel_host import Host
+from .rough_host import reset_by_bus
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))
 BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86, 0x80, 0x00, 0x00, 0xFF)
@@ -46,9 +47,7 @@ async def play(dut: Any, seed: int) -> None:
             break
         await host.pause(400)
     await host.write(CSR, 0)
-    await host.put(message(Code.RESET))
-    await host.pause(60)
-    assert await host.response() == message(Code.RESET) and host.condition == State.INI
+    await reset_by_bus(host)
 
 
 Changes = list[tuple[int, dict[str, int]]]

@@ -29,6 +29,16 @@ def some_equal(rates: list[int], share: float) -> list[int]:
     return sorted(rng.choices(rates, k=len(rates))) if rng.random() < share else rates
 
 
+async def reset_by_bus(host: Host) -> None:
+    """FF brings the part back to INI, whatever has been."""
+    await host.put(message(Code.RESET))
+    await host.pause(60)
+    await host.wait()
+    if await host.read(RAR) == 0x40:  # the reset has taken a response away that had just come
+        await host.pause(60)
+    assert await host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
+
+
 class Player(RandomHost):
     """One random host. It acts on what it reads; the golden model only tells it when to do something."""
 
@@ -77,9 +87,7 @@ class Player(RandomHost):
             elif not await host.read(CSR) & MWEF:
                 break
             await host.pause(400)
-        await host.put(message(Code.RESET))
-        await host.pause(60)
-        assert await host.response() == message(Code.RESET) and self.state is State.INI, "FF does not help"
+        await reset_by_bus(host)
         assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
 
     # ------------------------------------------------------------ host
