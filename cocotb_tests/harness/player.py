@@ -20,11 +20,12 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from .bus import DATA, IBF, OBF, HostBus
-from .side import Handle, PinChange, Side
+from .config import Config
+from .side import PinChange, Side
 
 Action = tuple[Any, ...]
 
@@ -76,28 +77,49 @@ def pauses(rng: random.Random) -> Callable[[], int]:
     return pause
 
 
+@dataclass(frozen=True)
+class Scenario:
+    """One random host: build, initial pin levels, actions, programme of each clock pin, bus manners."""
+
+    seed: int
+    config: Config
+    pins: dict[str, int]
+    actions: list[Action]
+    clocks: tuple[ExternalClock, ...]
+    pauses: bool
+    limit_clk: int = field(default=60_000)
+
+    @property
+    def clocked(self) -> bool:
+        """Whether a clock pin is used."""
+        return any(clock.segments for clock in self.clocks)
+
+
 class Player:
-    """Plays actions on a bench. Polls have a limit and go on: a host that gave up is a legal host, too."""
+    """Plays a scenario on a side. Polls have a limit and go on: a host that gave up is a legal host, too."""
 
-    def __init__(self, bench: Side, seed: int, pausing: bool) -> None:
+    def __init__(self, bench: Side, scenario: Scenario) -> None:
         self.bench = bench
-        self.rng = random.Random(f"player {seed}")
-        self.host = HostBus(bench, pause=pauses(self.rng) if pausing else None, timeout=400_000)
-        self._clocks: list[Handle] = []
+        self.scenario = scenario
+        self.rng = random.Random(f"player {scenario.seed}")
+        self.host = HostBus(bench, pause=pauses(self.rng) if scenario.pauses else None, timeout=400_000)
 
-    async def play(self, actions: list[Action]) -> None:
-        """All actions in order."""
-        for action in actions:
+    async def run(self) -> None:
+        """All actions in order, the external clocks beside them."""
+        bench, clocks = self.bench, self.scenario.clocks
+        running = []
+        for number, clock in enumerate(clocks, 1):
+            if clock.segments:
+                pin = f"{bench.part.clock}[{number}]" if len(clocks) > 1 else bench.part.clock
+                seed = (number, self.scenario.seed) if len(clocks) > 1 else self.scenario.seed
+                changes = clock.changes(pin, bench.now, random.Random(f"clock {seed}"))
+                running.append(bench.drive(changes))
+        for action in self.scenario.actions:
             await getattr(self, f"_{action[0]}")(*action[1:])
         await self.host.idle()
-        await self.bench.clocks(20)
-        for clock in self._clocks:
-            clock.cancel()
-
-    def start_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
-        """Drive a clock pin by its programme until the actions end."""
-        changes = clock.changes(pin, self.bench.now, random.Random(f"clock {seed}"))
-        self._clocks.append(self.bench.drive(changes))
+        await bench.clocks(20)
+        for handle in running:
+            handle.cancel()
 
     async def polled(self, mask: int, value: int, limit: int) -> bool:
         """Whether the status showed it within so many clk."""

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from .config import Config
+from .moving_pins import MovingPins
+from .side import Side
 
 T = TypeVar("T")
 Weights = Sequence[tuple[Config, int]]
@@ -45,12 +47,31 @@ def in_turn(*builds: Config) -> Callable[[int], Config]:
     return lambda seed: builds[seed % len(builds)]
 
 
+class OnSide(Protocol):
+    """The host of a part that a random one speaks through."""
+
+    @property
+    def side(self) -> Side:
+        """What it works on."""
+
+
 class RandomHost:
-    """`rng` is that of a seed; `name` begins the seed's text."""
+    """`rng` is that of a seed; `name` begins the seed's text.
+
+    One that acts on what it is answered has a `host`, and a `background` of pins that move by themselves.
+    """
+
+    host: OnSide
+    background: MovingPins
 
     def __init__(self, name: str, seed: int) -> None:
         self.seed = seed
         self.rng = random.Random(f"{name} {seed}")
+
+    @property
+    def model(self) -> Any:
+        """The golden model beside the part: it tells when to do something, not what was answered."""
+        return self.host.side.golden
 
     def pick(self, acts: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
         """One of a table of (what to do, weight)."""

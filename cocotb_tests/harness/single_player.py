@@ -2,25 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from .bus import BUSY
-from .config import Config
-from .player import Action, ExternalClock, Player
+from .player import Player, Scenario
 from .side import Side
-
-
-@dataclass(frozen=True)
-class Scenario:
-    """One random host: build, initial pin levels, actions, clock programme, bus manners."""
-
-    seed: int
-    config: Config
-    pins: dict[str, int]
-    actions: list[Action]
-    clock: ExternalClock
-    pauses: bool
-    limit_clk: int = field(default=60_000)
 
 
 class SinglePlayer(Player):
@@ -30,16 +14,8 @@ class SinglePlayer(Player):
     """
 
     def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:
-        super().__init__(bench, scenario.seed, scenario.pauses)
-        self.scenario = scenario
+        super().__init__(bench, scenario)
         self.rule = rule
-
-    async def run(self) -> None:
-        """All actions in order, the external clock beside them."""
-        clock = self.scenario.clock
-        if clock.segments:
-            self.start_clock(self.bench.part.clock, clock, self.scenario.seed)
-        await self.play(self.scenario.actions)
 
     async def _finish(self, clk: int) -> None:
         if await self.polled(BUSY, 0, clk):

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from math import ceil
-from typing import Any
 
-from cocotb_tests.harness.moving_pins import MovingPins
 from cocotb_tests.harness.random_host import RandomHost
 
 from .frames import command
@@ -44,15 +42,9 @@ class Frames(RandomHost):
     """A random host's mouth. `seen` counts what it did and found, `left` is how much it has still to do."""
 
     host: Host
-    background: MovingPins
     seen: Counter[str]
     left: float
     noisy: bool
-
-    @property
-    def model(self) -> Any:
-        """The golden model beside the part, for aiming."""
-        return self.host.side.golden
 
     async def frame(self, code: str | int, data: int = 0) -> None:
         """A good frame, in a noisy place with wrong levels somewhere; then its reply."""

@@ -10,10 +10,11 @@ from typing import Any
 
 from cocotb_tests.harness.config import D16, F16
 from cocotb_tests.harness.moving_pins import MovingPins
-from cocotb_tests.harness.random_host import Builds, RandomHost
+from cocotb_tests.harness.random_host import Builds
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
+from .aware import Aware
 from .modules import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
 from .serial_master import SerialHost
@@ -36,7 +37,7 @@ async def play(dut: Any, seed: int) -> None:
     await (await Talker.on(dut, seed)).play()
 
 
-class Talker(RandomHost):
+class Talker(Aware):
     """One random host. It acts on what it hears; the golden model only tells it when to do something."""
 
     host: SerialHost
@@ -62,17 +63,6 @@ class Talker(RandomHost):
         talker.frames = rng.randint(20, 30)
         talker.noisy = rng.random() < 0.3
         return talker
-
-    @property
-    def model(self) -> Any:
-        """The golden model beside the station, for aiming."""
-        return self.host.side.golden
-
-    @property
-    def state(self) -> State:
-        """What the part is doing, to choose what makes sense."""
-        state: State = self.model.state
-        return state
 
     # ------------------------------------------------------------ top level
 

@@ -6,14 +6,13 @@ Also what the well-mannered ones of `lively_host` are made of: blocks, tables, m
 from __future__ import annotations
 
 import random
-from typing import Any
 
 from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
 from cocotb_tests.harness.moving_pins import MovingPins
-from cocotb_tests.harness.random_host import RandomHost
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
+from .aware import Aware
 from .parallel_host import Host
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
@@ -39,7 +38,7 @@ async def reset_by_bus(host: Host) -> None:
     assert await host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
 
 
-class Player(RandomHost):
+class Player(Aware):
     """One random host. It acts on what it reads; the golden model only tells it when to do something."""
 
     def __init__(self, host: Host, seed: int) -> None:
@@ -50,17 +49,6 @@ class Player(RandomHost):
         self.reads = self.rng.choice((0.3, 0.9, 0.97, 1.0, 1.0, 1.0))
         self.rates = [100, 200, 400]
         self.end = self.host.t + (900_000 if self.slow else 130_000)
-
-    @property
-    def model(self) -> Any:
-        """The golden model beside the part, for aiming."""
-        return self.host.side.golden
-
-    @property
-    def state(self) -> State:
-        """What the part is doing, to choose what makes sense."""
-        state: State = self.model.state
-        return state
 
     # ------------------------------------------------------------ top level
 
