@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.random_items import RandomItems
+from cocotb_tests.pmc006 import test_random as pmc006
 from cocotb_tests.ppmc104 import test_random as ppmc104
 from cocotb_tests.ppmc312 import test_random as ppmc312
 from cocotb_tests.ppmc2104 import test_random as ppmc2104
@@ -19,6 +20,8 @@ from cocotb_tests.stmc import test_random as stmc
         (stmc.random_item, 3),
         (ppmc312.random_item, 2),
         (ppmc312.noise_item, 1),
+        (ppmc312.serial_item, 1),
+        (pmc006.random_item, 2),
     ],
     ids=lambda value: value.test if isinstance(value, RandomItems) else str(value),
 )
