@@ -2,6 +2,9 @@
 
 comma = $(subst $() ,$(),$(foreach word,$1,$(word),))
 quote = '$(subst ','\'',$1)'
+# T=a,b: names that hold a or b
+, := ,
+any = $(call quote,$(subst $(,), or ,$1))
 # Names from the table of parts, openppmc/parts.py; none without a Python, which preflight.sh then asks for.
 names = $(shell for python in .venv/bin/python $(call quote,$(PYTHON)) python3; do \
           "$$python" openppmc/parts.py names $1 2>/dev/null && break; done)
@@ -26,8 +29,8 @@ J     ?= 2
 
 # --- variables that may be set on the command line, per target -----------------------------------------------------
 GOALS := $(or $(MAKECMDGOALS),help)
-VARS_test  := T SEED CLK_HZ J
-VARS_soak  := SEED COUNT J PART
+VARS_test  := T SEED CLK_HZ J WAVES INSIDE MODEL SIM_MAIN
+VARS_soak  := SEED COUNT J PART SIM_MAIN
 VARS_replay := FILE
 VARS_synth := PART
 VARS_trace := PART
@@ -35,7 +38,7 @@ VARS_bench := PART
 VARS_report := PART
 VARS_size  := PART
 VARS_yardsticks := PEERS
-VARS_test-gates := T SEED J
+VARS_test-gates := T SEED J SIM_MAIN
 VARS_test-board := T J
 VARS_board := SIM PART
 TOP_VARS := XTAL_HZ TIMING PHASE_IDLE PHASE_ON READ_MAP BAUD# parameters of a board's top
@@ -53,7 +56,7 @@ endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
 NEED_ENV := setup demo test soak replay lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
-CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
+CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))
@@ -87,8 +90,9 @@ setup: $(ENVDEV) ## make the whole environment in .venv (other targets do it whe
 demo: $(ENVSIM) ## PART=ppmc104 through a move: what was sent, what came back, plot and waveforms in build/demo/
 	@$(PY) -m scripts.demo --part $(PART)
 
-test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK_HZ=n one clock, J=n workers (2)
-	@$(PYTEST) -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED)) $(if $(CLK_HZ),--clk-hz $(CLK_HZ)) \
+test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK_HZ=n one clock, J=n workers (2); WAVES=1 keeps waves, INSIDE=1 shows inner signals, MODEL=1 runs directed tests on the golden model
+	@$(PYTEST) -n $(J) $(if $(T),-k $(call any,$(T))) $(if $(SEED),--seed $(SEED)) $(if $(CLK_HZ),--clk-hz $(CLK_HZ))\
+	  $(if $(filter 1,$(WAVES)),--waves) $(if $(filter 1,$(INSIDE)),--inside) $(if $(filter 1,$(MODEL)),--model) \
 	  || { code=$$?; [ $$code != 5 ] || echo 'error: no test matches' $(call quote,$(strip $(if $(T),T=$(T)) $(if $(CLK_HZ),CLK_HZ=$(CLK_HZ)))) >&2; exit $$code; }
 
 soak: $(ENVSIM) ## COUNT=n random hosts from SEED=n on against the golden model
@@ -121,7 +125,7 @@ board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top (p
 	@$(PY) -m openppmc.sim $(addprefix part=,$(GIVEN_PART)) $(if $(SIM),$(call quote,$(SIM)))
 
 test-board: $(ENVSIM) ## the host package on the virtual board, through pyserial, unplugging included
-	@$(PYTEST) tests/*/board -n $(J) $(if $(T),-k $(call quote,$(T)))
+	@$(PYTEST) tests/*/board -n $(J) $(if $(T),-k $(call any,$(T)))
 
 report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each, into docs/benchmarks.md and docs/sizes.json
 	@$(PY) -m scripts.report $(addprefix --part ,$(GIVEN_PART))

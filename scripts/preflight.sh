@@ -42,6 +42,7 @@ for word in "$@"; do
             most_baud=$(limit BAUD $most_baud) ;;
         BOARD=*) case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
         HOST=*) case $value in uart | bus) ;; *) problem "HOST=$value: expected uart or bus" ;; esac ;;
+        SIM_MAIN=*) case $value in own | cocotb) ;; *) problem "SIM_MAIN=$value: expected own or cocotb" ;; esac ;;
         TIMING=*) case $value in FAST | DATASHEET) ;; *) problem "TIMING=$value: expected FAST or DATASHEET" ;; esac ;;
         READ_MAP=*) case $value in SHEET | FAMILY) ;; *) problem "READ_MAP=$value: expected SHEET or FAMILY" ;; esac ;;
         PHASE_IDLE=* | PHASE_ON=*) number "$name" "$value" 0 1 ;;
@@ -49,12 +50,13 @@ for word in "$@"; do
         BAUD=*) number "$name" "$value" 1200 "$most_baud" ;;
         T=*)
             case $value in
-                and | or | not | '' | *[!A-Za-z0-9_.:-]*)
-                    problem "T=$value: expected (a part of) one test's name, of letters, digits and _ . : -" ;;
+                and | or | not | '' | ,* | *, | *,,* | *[!A-Za-z0-9_.:,-]*)
+                    problem "T=$value: expected (a part of) a test's name, of letters, digits and _ . : -, or some with commas" ;;
             esac ;;
         SEED=*) number "$name" "$value" 0 4294967295 ;;
         COUNT=*) number "$name" "$value" 1 1000000 ;;
         CLK_HZ=*) number "$name" "$value" 8000000 200000000 ;;
+        WAVES=* | INSIDE=* | MODEL=*) number "$name" "$value" 0 1 ;;
         J=*) number "$name" "$value" 1 64 ;;
     esac
 done

@@ -12,8 +12,9 @@ from pathlib import Path
 
 from cocotb_tests.harness.project import console
 from cocotb_tests.harness.replaying import REPLAY
-from cocotb_tests.harness.runner import REPRO, attempt
+from cocotb_tests.harness.runner import attempt
 from cocotb_tests.harness.shortened import replay_item, replay_line
+from cocotb_tests.harness.simulate import REPRO
 from cocotb_tests.harness.stimulus import Recording
 
 

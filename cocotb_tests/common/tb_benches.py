@@ -6,9 +6,9 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import native
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.part import PARTS
 
 
@@ -18,6 +18,6 @@ async def benches_leave_one_watch_a_port(dut: Any) -> None:
     for _ in range(3):
         bench = await Bench.start(dut, PARTS["ppmc104"])
     await HostBus(bench).status()
-    rows = list(native.seen())
-    assert [level for _, port, level in rows if port == native.port("d_oe")] == [1, 0]
+    rows = list(clockwork().seen())
+    assert [level for _, port, level in rows if port == clockwork().port("d_oe")] == [1, 0]
     assert len(rows) == len(set(rows)), rows

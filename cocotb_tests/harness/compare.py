@@ -7,6 +7,7 @@ rst_n can fall between two edges. A difference gives a text report, a VCD and a 
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,10 @@ from .comparison import Comparison, compare_edges
 from .follower import Follower, new_model
 from .part import PARTS
 from .stimulus import Edge, Recording
+
+DIGESTS = "OPENPPMC_DIGESTS"
+"""Tells a simulation to leave the digest of all that it compares, one a line, in DIGEST_FILE."""
+DIGEST_FILE = "digests.txt"
 
 
 def replay(recording: Recording, model: Any) -> list[Edge]:
@@ -58,6 +63,13 @@ def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
     return text
 
 
+def leave_digest(recording: Recording, folder: Path) -> None:
+    """If DIGESTS asks for it."""
+    if os.environ.get(DIGESTS):
+        with open(folder / DIGEST_FILE, "a", encoding="ascii") as file:
+            file.write(recording.digest() + "\n")
+
+
 def check_against_model(bench: Any) -> Comparison:
     """Compare all that a bench has seen so far; AssertionError with the report at a difference.
 
@@ -65,6 +77,7 @@ def check_against_model(bench: Any) -> Comparison:
     files of the report go to bench.out.
     """
     recording = bench.recording()
+    leave_digest(recording, bench.out)
     follower = bench.follower or Follower(new_model(recording.part, recording.params))
     comparison = _compare(recording, follower)
     if comparison.mismatch is not None:

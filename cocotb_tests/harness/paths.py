@@ -9,6 +9,7 @@ BUILD = ROOT / "build"
 SIM_BUILDS = BUILD / "sim"
 RUNS = BUILD / "runs"
 FAILURES = BUILD / "failures"
+WAVES = BUILD / "waves"
 TRACE = BUILD / "trace"
 
 

@@ -1,4 +1,4 @@
-"""pytest side of the harness: --seed, --clk-hz, rule IDs of every test, build/trace/results.jsonl.
+"""pytest side of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
 
 Loaded by the conftest.py at the project root, so it also sees the plain Python tests below tests/.
 """
@@ -13,37 +13,37 @@ import pytest
 
 from . import native
 from .build import locked
+from .collect import Item
+from .model_items import run_on_model
 from .paths import TRACE
 from .runner import SimOptions
+from .schedule import Groups, Sender, item_of, params_of
+from .summary import Summary, notes
 from .verifies import PREFIXES, part_of_rule, rules_of, unknown_rules
 
 RESULTS = TRACE / "results.jsonl"
+_GROUPS = pytest.StashKey[Groups]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """--seed N repeats random stimuli, --clk-hz HZ keeps only simulations at that core clock."""
+    """What `make test` takes as SEED, CLK_HZ, WAVES, INSIDE and MODEL."""
     group = parser.getgroup("openppmc")
     group.addoption("--seed", type=int, default=None, help="seed of all simulations and random tests")
     group.addoption("--clk-hz", type=int, default=None, help="run only simulations with this CLK_HZ")
+    group.addoption("--waves", action="store_true", help="keep the waveforms of each simulation")
+    group.addoption("--inside", action="store_true", help="show inner signals in every simulation")
+    group.addoption("--model", action="store_true", help="run directed tests on the golden model alone")
 
 
-@pytest.fixture(scope="session")
-def sim_options(pytestconfig: pytest.Config) -> SimOptions:
+@pytest.fixture
+def sim_options(request: pytest.FixtureRequest) -> SimOptions:
     """Options for `run_item`."""
-    return SimOptions(seed=pytestconfig.getoption("--seed"))
-
-
-def _params_of(test: pytest.Item) -> dict[str, Any]:
-    callspec = getattr(test, "callspec", None)
-    return callspec.params if callspec else {}
-
-
-def _item_of(test: pytest.Item) -> Any:
-    return _params_of(test).get("item")
+    groups: Groups = request.config.stash[_GROUPS]
+    return groups.options(request.node)
 
 
 def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
-    sim = _item_of(test)
+    sim = item_of(test)
     rules = tuple(dict.fromkeys((*rules_of(getattr(test, "function", None)), *getattr(sim, "rules", ()))))
     part = getattr(sim, "part", None)
     part = part or next((found for rule in rules if (found := part_of_rule(rule))), None)
@@ -52,26 +52,41 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Apply --clk-hz: plain Python tests and simulations at other clocks are left out."""
-    clk_hz = config.getoption("--clk-hz")
-    if clk_hz is None:
-        return
-    keep = [
-        test for test in items if getattr(getattr(_item_of(test), "config", None), "clk_hz", None) == clk_hz
-    ]
-    config.hook.pytest_deselected(items=[test for test in items if test not in keep])
-    items[:] = keep
+    """--clk-hz leaves out plain Python tests and other clocks, --model all but directed tests."""
+    clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
+    keep = [test for test in items if _wanted(item_of(test), clk_hz, model)]
+    if len(keep) < len(items):
+        config.hook.pytest_deselected(items=[test for test in items if test not in set(keep)])
+        items[:] = keep
+
+
+def _wanted(item: Item | None, clk_hz: int | None, model: bool) -> bool:
+    """Whether a test runs at this clock, and on the golden model."""
+    if item is None:
+        return clk_hz is None and not model
+    return clk_hz in (None, item.config.clk_hz) and not (model and item.uncompared is None)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """--model: a directed test runs on the golden model in place of its simulation."""
+    item = item_of(pyfuncitem)
+    if item is None or not pyfuncitem.config.getoption("--model"):
+        return None
+    run_on_model(item, pyfuncitem.config.getoption("--seed"))
+    return True
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Note the rules of the test for the report; a rule the manual does not list fails it."""
     rules, part = _rules_and_part(item)
-    sim = _item_of(item)
+    sim = item_of(item)
     item.user_properties.append(("rules", list(rules)))
     item.user_properties.append(("part", part))
     item.user_properties.append(("config", sim.config.name if sim else ""))
-    item.user_properties.append(("runs", len(_params_of(item).get("seeds", "1").split())))
+    item.user_properties.append(("runs", len(params_of(item).get("seeds", "1").split())))
+    item.user_properties.extend(notes(sim))
     item.user_properties.append(("name", sim.test if sim else getattr(item, "originalname", item.name)))
     if bad := unknown_rules(rules, part):
         pytest.fail(f"@verifies names rules that docs/ does not list: {', '.join(bad)}", pytrace=False)
@@ -133,7 +148,18 @@ class _Recorder:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Only the controller records; xdist workers have `workerinput`."""
+    """Groups belong to who collects; only the controller records; xdist workers have `workerinput`."""
     native.collect_seldom()
+    options = SimOptions(
+        seed=config.getoption("--seed"),
+        waves=config.getoption("--waves"),
+        inside=config.getoption("--inside"),
+    )
+    config.stash[_GROUPS] = Groups(options)
+    config.pluginmanager.register(config.stash[_GROUPS], "openppmc-groups")
     if not hasattr(config, "workerinput"):
-        config.pluginmanager.register(_Recorder(config), "openppmc-trace")
+        if not config.getoption("--model"):
+            config.pluginmanager.register(_Recorder(config), "openppmc-trace")
+            config.pluginmanager.register(Summary(), "openppmc-summary")
+        if config.pluginmanager.hasplugin("xdist"):
+            config.pluginmanager.register(Sender(), "openppmc-sender")

@@ -1,74 +1,45 @@
-"""Runs one cocotb test per simulator process.
+"""Runs cocotb tests: directed ones of a build together in one process, all others in one of their own.
 
-All simulations of the project go through `run_item` / `run_sim`; the traps of the tool chain that shaped it:
-one process a test (a failed assertion ends the whole process), results.xml must hold exactly the test
-asked for (else nothing ran), exit codes count too, string parameters must be SystemVerilog literals.
+All simulations of the project go through here; the traps of the tool chain that shaped it: results.xml must
+hold exactly the tests asked for (else nothing ran), exit codes count too, a fired assertion of the RTL is an
+error of the test in whose part of the log it stands (`outcome`).
 """
 
 from __future__ import annotations
 
-import os
-import re
-import shutil
-import sys
-import textwrap
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
 
-from .build import Design, SimError, build, from_root, part_design, simulator
+from .build import Design, SimError, part_design
 from .collect import Item
 from .config import CONFIGS, Config
-from .paths import FAILURES, ROOT, RUNS, relative
-from .seeds import last_seed
-
-REPRO = "OPENPPMC_REPRO"
-"""Tells a simulation the command that repeats it, for its messages."""
+from .group import run_group
+from .inside import seen
+from .outcome import PASSED, SKIPPED, XFAILED, Outcome
+from .paths import WAVES, relative
+from .simulate import REPRO, VCD, Job, repro_line, safe, simulate
+from .summary import WAVES_IN
+from .verdict import judged
+from .views import write_views
 
 
 @dataclass(frozen=True)
 class SimOptions:
-    """What the user asked for on the command line; seed None = the fixed default of each test."""
+    """What the user asked for on the command line; seed None = the fixed default of each test.
+
+    waves: keep a VCD of each test, passing ones too. inside: every signal is visible. group: the items that
+    share a simulator process, in order; `done` has the outcomes of those that ran.
+    """
 
     seed: int | None = None
     waves_on_failure: bool = True
-
-
-def _failure_text(log: Path, lines: int = 100) -> str:
-    """The exception of the test from the log if there is one, else the log's end."""
-    if not log.is_file():
-        return "(no log)"
-    text = re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace"))
-    text = from_root(text)
-    error = text.find("%Error")
-    start = error if error >= 0 else text.rfind("Traceback (most recent call last)")
-    chosen = text[max(0, text.rfind("\n", 0, start) + 1) :] if start >= 0 else text
-    # The summary table of cocotb says nothing that the message does not.
-    chosen = re.split(r"\n[^\n]*\*{20,}", chosen)[0]
-    if chosen.lstrip().startswith("Traceback"):
-        chosen = chosen.split("\n", 1)[-1]
-    rows = [*last_seed(text), *textwrap.dedent(chosen.rstrip()).splitlines()]
-    return "\n".join(rows if len(rows) <= lines else [*rows[:6], "  ...", *rows[-lines + 7 :]])
-
-
-def run_folder(item: Item, seed: int) -> Path:
-    """Scratch folder of one run; the process number keeps parallel sessions apart."""
-    return RUNS / f"{_safe(item.id)}-s{seed}.{os.getpid()}"
-
-
-def failure_folder(item: Item, seed: int) -> Path:
-    """Where the files of a failing run are kept."""
-    return FAILURES / f"{_safe(item.id)}-s{seed}"
-
-
-def repro_line(item: Item, seed: int) -> str:
-    """The line that repeats one test."""
-    if item.target != "test":
-        return f"make {item.target} T={item.id} SEED={seed}"
-    return f"make test T={item.id} SEED={seed} CLK_HZ={item.config.clk_hz}"
+    waves: bool = False
+    inside: bool = False
+    group: tuple[Item, ...] = ()
+    done: dict[tuple[Item, ...], dict[Item, tuple[Outcome, Job]]] = field(default_factory=dict, compare=False)
 
 
 def run_sim(
@@ -83,68 +54,56 @@ def run_sim(
     """Build if needed and run one cocotb test in one process; returns the folder of the run.
 
     `folder` (default below build/runs/) receives log.txt, results.xml and what the test writes.
-    Raises SimError unless results.xml holds exactly this test, passed, and the process ended well.
+    Raises SimError unless exactly this test ran and passed, and the process ended well.
     """
-    built = build(design, waves)
-    folder = folder or run_folder(item, seed)
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    if str(ROOT) not in sys.path:
-        sys.path.insert(0, str(ROOT))
-    repro = repro or repro_line(item, seed)
-    log, results = folder / "log.txt", folder / "results.xml"
-    trouble = ""
-    try:
-        simulator().test(
-            test_module=item.module,
-            hdl_toplevel=design.top,
-            hdl_toplevel_lang="verilog",
-            build_dir=built,
-            test_dir=folder,
-            results_xml=str(results),
-            log_file=log,
-            seed=seed,
-            test_filter=rf"\.{re.escape(item.test)}$",
-            waves=waves,
-            plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{seed % 0x7FFFFFFF + 1}"],
-            extra_env={
-                "OPENPPMC_CONFIG": item.config.to_json(),
-                "OPENPPMC_SEED": str(seed),
-                "OPENPPMC_OUT": str(folder),
-                REPRO: repro,
-                "COCOTB_LOG_LEVEL": "INFO",
-                # Values of plain asserts cost a quarter of a second a process: only in the run with waves.
-                "COCOTB_REWRITE_ASSERTION_FILES": "*.py" if waves else "",
-                **(env or {}),
-            },
-        )
-    except (RuntimeError, SystemExit) as error:
-        trouble = f"simulator ended with {error.args[0] if error.args else 'no code'}"
-    trouble = _judge(results, item.test) or trouble
-    if trouble:
+    job = Job(design, (item,), seed, waves, {**(env or {}), **({REPRO: repro} if repro else {})})
+    folder = folder or job.folder
+    outcome = simulate(job, folder)[item]
+    if outcome.kind not in (PASSED, XFAILED):
+        log = relative(folder / "log.txt")
         raise SimError(
-            f"{item.id}: {trouble}\n{_failure_text(log)}\n"
-            f"seed {seed}, log {relative(log)}\nrepeat with: {repro}"
+            f"{item.id}: {outcome.kind}\n{outcome.text}\nseed {seed}, log {log}\nrepeat with: {job.repro}"
         )
     return folder
 
 
-def _judge(results: Path, test: str) -> str:
-    """Empty if results.xml holds exactly `test`, passed; else what is wrong."""
-    if not results.is_file():
-        return "the simulator left no results.xml (crash, $fatal, or wall-clock limit)"
-    cases = list(ElementTree.parse(results).getroot().iter("testcase"))
-    names = [case.get("name") for case in cases]
-    if names != [test]:
-        return f"expected exactly the test {test}, results.xml has {names}"
-    for kind in ("failure", "error", "skipped"):
-        if cases[0].find(kind) is not None:
-            return "failed" if kind != "skipped" else "was skipped"
-    return ""
+def _job(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Job:
+    seed = item.seed if options.seed is None else options.seed
+    design = seen(design or part_design(item.part, item.config), item.inside, options.inside)
+    group = options.group if item in options.group else (item,)
+    return Job(design, group, seed, options.waves, env)
 
 
-def _safe(name: str) -> str:
-    return re.sub(r"[^\w.=-]+", "_", name)
+def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Outcome:
+    """What became of an item; the text of one that failed is the whole message.
+
+    The first item of a group that is asked for runs the group.
+    """
+    try:
+        job = _job(item, options, env, design)
+        if options.waves:
+            return _with_waves(item, job)
+        if job.items not in options.done:
+            options.done[job.items] = run_group(job)
+        outcome, ran = options.done[job.items][item]
+        if outcome.good:
+            return outcome
+        return Outcome(outcome.kind, judged(item, outcome, ran, options.waves_on_failure))
+    except SimError as error:
+        repro = env.get(REPRO) or repro_line([item], item.seed if options.seed is None else options.seed)
+        return Outcome("failed", f"{item.id}: {error}\nrepeat with: {repro}")
+
+
+def _with_waves(item: Item, job: Job) -> Outcome:
+    """Run one item with traces, which stay in build/waves/ with their views."""
+    folder = WAVES / safe(item.id)
+    outcome = simulate(job, folder)[item]
+    views = write_views(folder / VCD, job.design)
+    print(WAVES_IN + ", ".join(relative(path) for path in views))
+    if outcome.good:
+        return outcome
+    text = f"{item.id}: {outcome.kind}\n{outcome.text}\nrepeat with: {job.repro} WAVES=1"
+    return Outcome(outcome.kind, text)
 
 
 def attempt(
@@ -155,36 +114,10 @@ def attempt(
 ) -> str:
     """Run one item; "" if it passed, else a short message with the repro line.
 
-    A failing test is run a second time with waves; its files go to build/failures/<test>/.
     `design` (default: the part of the item) is what is simulated.
     """
-    options = options or SimOptions()
-    seed = item.seed if options.seed is None else options.seed
-    repro = (env or {}).get(REPRO) or repro_line(item, seed)
-    kept, first = failure_folder(item, seed), run_folder(item, seed)
-    shutil.rmtree(kept, ignore_errors=True)
-    try:
-        design = design or part_design(item.part, item.config)
-        shutil.rmtree(run_sim(design, item, seed, env=env, repro=repro), ignore_errors=True)
-        return ""
-    except SimError as error:
-        message = str(error)
-    if not first.is_dir():
-        return f"{item.id}: {message}\nrepeat with: {repro}"
-    if options.waves_on_failure:
-        try:
-            run_sim(design, item, seed, True, env, kept, repro)
-            message += "\n(a second run, with waves, passed: the test is not deterministic)"
-        except SimError as error:
-            if (kept / "dump.vcd").is_file():
-                message = f"{error}\nwaves in {relative(kept / 'dump.vcd')}"
-            else:
-                message += f"\nno waves: {str(error).splitlines()[0]}"
-        shutil.rmtree(first, ignore_errors=True)
-    else:
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        shutil.move(first, kept)
-    return message.replace(relative(first), relative(kept))
+    outcome = outcome_of(item, options or SimOptions(), env or {}, design)
+    return "" if outcome.good else outcome.text
 
 
 def run_item(
@@ -193,10 +126,17 @@ def run_item(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> None:
-    """Run one collected item as a pytest test: silent if it passes, else the message of `attempt`."""
+    """Run one collected item as a pytest test, which ends as the cocotb test did."""
     __tracebackhide__ = True
-    if message := attempt(item, options, env, design):
-        pytest.fail(message, pytrace=False)
+    if item.skipped:
+        pytest.skip(item.skipped)
+    outcome = outcome_of(item, options or SimOptions(), env or {}, design)
+    if outcome.kind == SKIPPED:
+        pytest.skip(outcome.text)
+    if outcome.kind == XFAILED:
+        pytest.xfail(outcome.text)
+    if not outcome.good:
+        pytest.fail(outcome.text, pytrace=False)
 
 
 def config_named(name: str) -> Config:

@@ -8,9 +8,10 @@ from pathlib import Path
 from .build import Design, SimError, part_design
 from .collect import Item
 from .config import Config
-from .paths import relative
+from .paths import FAILURES, relative
 from .replaying import REPLAY, WORDS
-from .runner import SimOptions, attempt, failure_folder, run_sim
+from .runner import SimOptions, attempt, run_sim
+from .simulate import safe
 from .stimulus import Recording
 
 MODULE = "cocotb_tests.harness.replaying"
@@ -27,7 +28,7 @@ def attempt_random(
     if not message:
         return ""
     seed = options.seed if options and options.seed is not None else item.seed
-    return f"{message}\n{shortened(failure_folder(item, seed))}"
+    return f"{message}\n{shortened(FAILURES / f'{safe(item.id)}-s{seed}')}"
 
 
 def replay_item(recording: Recording, test: str = "replay") -> Item:

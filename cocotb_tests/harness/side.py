@@ -124,8 +124,8 @@ class Side(ABC):
         return self.follower.catch_up(self.pin_changes(), self.now - 1)
 
     def pin_changes(self) -> list[Change]:
-        """What the part has got on its inputs up to now: as driven, and as the bench's top has made them (what
-        changes at edge t is first sampled by t + 1)."""
+        """What the part has got on its inputs: as driven, and as the bench's top has made them (what changes
+        at edge t is first sampled by t + 1)."""
         part = self.part
         if not part.fed:
             return self.stimulus

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from .bench import Bench
-from .compare import write_report
+from .compare import leave_digest, write_report
 from .comparison import Comparison, compare_edges
 from .part import PARTS
 from .rerun import rerun
@@ -84,6 +84,7 @@ async def play(bench: Bench, tape: Tape, what: str = "") -> Comparison:
     `what` says what is played. The files of the report go to bench.out.
     """
     recording, part = await record(bench, tape), bench.part
+    leave_digest(recording, bench.out)
     end = recording.end
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock, a recorder of output
 // levels and a player of pin changes that run without them: a clk costs two evaluations of the design and nothing
-// else. `native.py` is the other side. Compiled once for all designs: `verilated_top.inc` is what a design adds.
+// else. `native.py` is the other side. Compiled once for all designs: `top.cpp` is what a design adds.
 // The makefile wants small code.
 #pragma GCC optimize("O2")
 

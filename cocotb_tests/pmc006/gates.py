@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
 
-from . import test_random, test_scripts
-from .modules import F8B
+from . import test_part, test_random
+from .builds import F8B
 
-SAME_BLOCKS = "2 to 15 million clk; p006_tour, _bridge, _current and random hosts have the same blocks"
-SHORT = ("p006_tour", "p006_bridge", "p006_current", "p006_streams")
+SAME_BLOCKS = "2 to 15 million clk a module; tb_tour, tb_bridge and random hosts have the same blocks"
+SHORT = ("tb_tour", "tb_bridge", "tb_current", "tb_streams")
 
 PART = PartTests(
-    test_scripts,
-    frozenset({"test_scripts", "test_random"}),
+    test_part,
+    frozenset({"test_pmc006", "test_random"}),
     test_random,
     {test_random.random_item: (3, 4, 5, 6)},
     frozenset({F8B.name}),
@@ -24,9 +24,9 @@ PART = PartTests(
     },
     too_long={
         item.test: SAME_BLOCKS
-        for item in (param.values[0] for param in test_scripts.ITEMS)
-        if item.test not in SHORT
+        for item in (param.values[0] for param in test_part.ITEMS)
+        if item.module.rpartition(".")[2] not in SHORT
     },
-    quick=frozenset({"p006_tour"}),
+    quick=frozenset({"tb_tour"}),
     quick_build=F8B.name,
 )

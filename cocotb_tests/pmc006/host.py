@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from math import ceil
-from typing import Any
+from typing import Any, TypeVar
 
 from cocotb_tests.harness.serial_line import SerialLine, characters
 from cocotb_tests.harness.side import Side
@@ -19,6 +19,8 @@ from .bench import PMC006, WITH_EEPROM
 from .chip import Chip, Eeprom, plug_in
 from .frames import command, number, of_reply
 from .view import View
+
+H = TypeVar("H", bound="Host")
 
 SYNC = 2
 """clk from a level of a pin to what the part makes of it."""
@@ -55,14 +57,14 @@ class Host(View, SerialLine):
 
     @classmethod
     async def start(
-        cls,
+        cls: type[H],
         dut: Any,
         address: int = 0xFF,
         levels: Mapping[str, int] | None = None,
         boot: bool = True,
         error: float = 0,
         chip: Chip | None = None,
-    ) -> Host:
+    ) -> H:
         """A host on a part just out of reset, and booted unless told otherwise.
 
         address: of the part, as the host knows it. levels: of input pins from edge 0 on. error: of the host's
@@ -98,7 +100,11 @@ class Host(View, SerialLine):
 
     async def sync(self) -> None:
         """Let the part come to the present."""
-        await self.side.until(max(self.side.now, self.t))
+        await self._to(max(self.side.now, self.t))
+
+    async def _to(self, edge: int) -> None:
+        """Let the part come to the moment before an edge."""
+        await self.side.until(edge)
 
     async def go(self, t: int) -> None:
         """Run to just before edge t; the next access or pin change is there."""
@@ -139,7 +145,7 @@ class Host(View, SerialLine):
 
     async def at(self, t: int, **levels: int) -> None:
         """Pin levels from edge t on, which may lie before the end of the last stop bit; `t` stays."""
-        await self.side.until(t)
+        await self._to(t)
         self.side.set(**levels)
 
     async def strobe(self, **levels: int) -> None:

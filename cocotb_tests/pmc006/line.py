@@ -13,7 +13,7 @@ from cocotb_tests.harness.side import Side
 from cocotb_tests.harness.start import start_bench
 
 from .bench import PMC006
-from .host import Host
+from .stepping import Stepping
 
 
 class Line:
@@ -58,7 +58,7 @@ class Line:
             side.set(rxd=level)
 
 
-class Node(Host):
+class Node(Stepping):
     """The host, talking to one of the parts on the line."""
 
     def __init__(self, line: Line, number: int) -> None:
@@ -75,24 +75,12 @@ class Node(Host):
     def t(self, t: int) -> None:
         self.line.t = t
 
-    async def sync(self) -> None:
-        """As `Host.sync`, for all parts."""
-        await self.line.until(self.t)
+    async def _to(self, edge: int) -> None:
+        await self.line.until(edge)
 
     async def _drive(self, changes: Changes) -> None:
         for edge, level in changes:
             await self.line.drive(edge, level)
-
-    async def until(self, signal: str, level: int, limit_us: float = 1_000_000) -> int:
-        """As `View.until`."""
-        end = self.t + self.us(limit_us)
-        await self.sync()
-        while self.side.level(signal) != level:
-            assert self.t < end, f"{signal} does not become {level}"
-            event = self.side.golden.next_event
-            assert event is not None, "nothing happens any more"
-            await self.go(max(self.t, event + 1))
-        return max((t for t, _ in self.edges(signal)[-1:]), default=0)
 
     async def ask_other(self, other: Node, code: str, data: int = 0) -> int:
         """The same for another node on the line."""

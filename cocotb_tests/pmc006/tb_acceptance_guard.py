@@ -134,9 +134,8 @@ async def p006_ac_31(dut: Any) -> None:
     await host.strobe(bemf_level=100)
     edge = host.t
     assert await stopped(host, edge)
-    assert await host.status() == DECAY | STALL and await host.ask("X") == await host.position() == len(
-        host.steps(0)
-    )
+    assert await host.status() == DECAY | STALL
+    assert await host.ask("X") == await host.position() == len(host.steps(0))
     assert not await host.out("gpo")
     await start(host, 1)
     assert not await host.status() & STALL

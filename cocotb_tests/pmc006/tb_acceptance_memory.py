@@ -107,12 +107,10 @@ async def p006_ac_41(dut: Any) -> None:
     await host.ms(20)
     await host.reset()
     await host.boot()
-    assert (
-        await still(host)
-        and not await host.busy()
-        and await host.ask("q") == 1000
-        and await host.ask("G") == P1[0].words[0]
-    )
+    assert await still(host)
+    assert not await host.busy()
+    assert await host.ask("q") == 1000
+    assert await host.ask("G") == P1[0].words[0]
 
 
 @directed("P006-AC-66", "P006-EEP-11", "P006-BAD-15", "P006-BAD-24")

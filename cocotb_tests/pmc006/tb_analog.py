@@ -71,12 +71,10 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     count = host.made(mark)
     assert count and await host.busy()
     await host.ms(45)
-    assert (
-        await still(host, host.us(2_000))
-        and await host.busy()
-        and await host.ask("I") == 0
-        and not await host.busy()
-    )
+    assert await still(host, host.us(2_000))
+    assert await host.busy()
+    assert await host.ask("I") == 0
+    assert not await host.busy()
     # A short move does not look at the voltage, and one without samples since the reset has none.
     await start(host, 5)
     await rest(host)

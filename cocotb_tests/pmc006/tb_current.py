@@ -8,18 +8,18 @@ from typing import Any
 from openppmc.model.pmc006.bench.motor import Motor, Plant
 
 from .builds import directed
-from .host import Host
 from .moves import brisk, run, start
+from .stepping import MotorHost
 
 
-async def ready(dut: Any, motor: Motor | None = None, **settings: int) -> tuple[Host, Plant]:
+async def ready(dut: Any, motor: Motor | None = None, **settings: int) -> tuple[MotorHost, Plant]:
     """A part that holds its full current in a motor."""
-    host = await Host.start(dut)
+    host = await MotorHost.start(dut)
     await host.ok(a=0, **settings)
-    return host, Plant(host.model, host.clk_hz, motor)
+    return host, host.attach(motor)
 
 
-async def off_by(host: Host, plant: Plant, since: int, until: int | None = None) -> float:
+async def off_by(host: MotorHost, plant: Plant, since: int, until: int | None = None) -> float:
     """Largest difference of a current and its reference between two edges, ampere."""
     await host.sync()
     times = [t / host.clk_hz for t in range(since, until or host.t, 40)]

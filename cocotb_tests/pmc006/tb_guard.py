@@ -1,4 +1,4 @@
-"""Emergency stops, stall detector, port word; what meets in one clk."""
+"""Emergency stops, port word; what meets in one clk."""
 
 from __future__ import annotations
 
@@ -14,9 +14,7 @@ from .moves import (
     EXT1,
     EXT2,
     SPEED_MODE,
-    STALL,
     after_steps,
-    cruise,
     move,
     quick,
     rest,
@@ -176,156 +174,6 @@ async def p006_flag_set_and_cleared_in_one_clk(dut: Any) -> None:
         assert await host.ask("b") == 0
     flags = [flag for _, flag in sorted(outcomes)]
     assert flags == sorted(flags) and True in flags
-
-
-# ---------------------------------------------------------------------- stall
-
-
-async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> Host:
-    """A host on a part in speed mode at constant speed, with the stall detector on."""
-    host = await quick(dut)
-    await host.ok(Z=level, T=length, Y=y)
-    await run(host)
-    await cruise(host, 1_000_000 / 3000)
-    return host
-
-
-async def samples(host: Host, *levels: int) -> None:
-    """Strobes of the BEMF."""
-    for level in levels:
-        await host.strobe(bemf_level=level)
-        await host.pause(30)
-
-
-@cocotb.parametrize(case=[(0, 1), (1, 1), (2, 2), (63, 63)])
-@directed("P006-STL-02", "P006-CMD-16")
-async def p006_stall_length(dut: Any, case: Any) -> None:
-    length, needed = case
-    host = await cruising(dut, level=10, length=length)
-    await samples(host, *[9] * (needed - 1), 10, *[9] * (needed - 1))
-    assert not await host.status() & STALL
-    await samples(host, *[0] * needed)
-    assert await host.status() == DECAY | STALL | 1 and 0 < await host.ask("X") <= host.made()
-    await host.ask("I")
-
-
-@directed("P006-STL-06", "P006-STL-05", "P006-STL-01", "P006-CMD-20", "P006-CMD-21")
-async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
-    """Length 64 after reset; at level 0 nothing is below; without Y bit 0 nothing is looked at."""
-    host = await quick(dut)
-    await host.ok(Z=511, Y=1)
-    await run(host)
-    await cruise(host, 1_000_000 / 3000)
-    await samples(host, *[510] * 63)
-    assert not await host.status() & STALL
-    await samples(host, 510)
-    assert await host.status() & STALL and await host.ask("p") == 0
-    await host.ok(Z=0)
-    await samples(host, *[0] * 80)
-    assert not await host.status() & STALL
-    await host.ok(Z=511, Y=0, T=1)
-    await samples(host, *[0] * 4)
-    assert not await host.status() & STALL
-    await host.ask("I")
-    await host.ok(Y=1)
-    await samples(host, *[0] * 4)
-    assert not await host.status() & STALL
-
-
-@directed("P006-STL-01", "P006-STL-02", "P006-BAD-20")
-async def p006_samples_off_constant_speed(dut: Any) -> None:
-    """In a ramp nothing counts, and the count begins anew; a strobe that stays is a sample every clk."""
-    host = await Host.start(dut)
-    await host.ok(L=1000, S=1000, v=1500, u=5, o=5, Z=100, T=3, Y=1)
-    await run(host)
-    await samples(host, *[50] * 20)
-    assert not await host.status() & STALL
-    await cruise(host, 667)
-    await host.ms(3)
-    await samples(host, 50, 50)
-    await host.ok(v=1600)
-    await samples(host, *[50] * 10)
-    await cruise(host, 625)
-    await host.ms(3)
-    await samples(host, 50, 50)
-    assert not await host.status() & STALL
-    await host.pins(bemf_level=50, bemf_valid=1)
-    await host.pause(4)
-    await host.pins(bemf_valid=0)
-    assert await host.status() & STALL
-    await host.ask("I")
-
-
-@directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
-async def p006_the_count_of_low_samples_begins_anew(dut: Any) -> None:
-    """With each start, though no sample came between; and with a sample at rest, low as it is."""
-    host = await quick(dut, 2500)
-    await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
-    for between in ((), (1,)):
-        await run(host)
-        await cruise(host, 400)
-        await samples(host, 1, 1)
-        assert await host.ask("I") == 0
-        await samples(host, *between)
-        await run(host)
-        await cruise(host, 400)
-        await samples(host, 1, 1)
-        assert not await host.status() & STALL
-        await samples(host, 1)
-        assert await host.status() & STALL and await host.ask("I") == 0
-    stalled_at = await host.ask("X")
-    await run(host)
-    assert not await host.status() & STALL and await host.ask("I") == 0 and await host.ask("X") == stalled_at
-
-
-@directed("P006-STL-03", "P006-STL-04", "P006-STA-03", "P006-STA-10", "P006-CMD-37", "P006-IO-01")
-async def p006_what_a_stall_does(dut: Any) -> None:
-    host = await cruising(dut, y=5, length=2)
-    await host.ok(y=0x08)
-    await samples(host, 1, 1)
-    edge = host.edges("gpo")[-1][0]
-    assert await host.out("gpo") == 0x11 and await host.busy() and host.t - edge < 100
-    assert (
-        await host.ask("x") & 0xF8 == 0x88
-        and await host.ask("y", 0x10) == 0x10
-        and await host.out("gpo") == 0x12
-    )
-    stalled_at = await host.ask("X")
-    # Bit 1 set behind the stall stops the motion, too.
-    await host.ok(Y=7)
-    assert not await host.busy() and await host.out("gpo") == 0x12
-    await host.ok(Y=3)
-    assert await host.out("gpo") == 2
-    await host.ok(Y=4)
-    assert await host.out("gpo") == 0x12
-    assert await host.ask("s", 0) == 0 and await host.status() == DECAY | STALL
-    await start(host, 1)
-    assert (
-        not await host.status() & STALL and await host.out("gpo") == 2 and await host.ask("X") == stalled_at
-    )
-    await rest(host)
-    await host.reset()
-    await host.boot()
-    assert await host.ask("X") == 0 and await host.ask("T", 64) == 64
-
-
-@directed("P006-STL-03", "P006-STL-02", "P006-STA-14", "P006-STA-18")
-async def p006_stall_stops_at_once(dut: Any) -> None:
-    host = await cruising(dut, y=3, length=1)
-    mark = host.mark
-    await host.strobe(bemf_level=0)
-    edge = host.t - 2
-    await host.pause(STOP + 1)
-    assert not await host.out("mon_busy") and not host.steps(edge + STOP + 1)
-    assert await host.status() == DECAY | STALL and await host.ask("X") == await host.position() == host.made(
-        mark
-    )
-    assert not await host.ask("O") & SPEED_MODE
-    await run(host)
-    assert not await host.status() & STALL and await host.ask("I") == 0
-
-
-# ---------------------------------------------------------------------- ports
 
 
 @directed("P006-IO-01", "P006-IO-02", "P006-IO-03", "P006-IO-04", "P006-PORT-03")

@@ -35,12 +35,10 @@ async def p006_eeprom_codes(dut: Any) -> None:
     host = await Host.start(dut, chip=Chip(write_us=6_000))
     assert await host.ask("t", -1) == 1 and await host.ask("t") == 0 and await host.ask("B") == 0
     await host.ms(14)
-    assert (
-        await host.ask("B", 7) == 1
-        and await host.ask("t") == 0
-        and await host.ask("B") == 0
-        and await host.ask("W", 1) == 0
-    )
+    assert await host.ask("B", 7) == 1
+    assert await host.ask("t") == 0
+    assert await host.ask("B") == 0
+    assert await host.ask("W", 1) == 0
     assert await host.ask("A", 0) == 0 and await host.ask("G") == 0
     await brisk(host, 3000)
     await start(host, 2)

@@ -45,9 +45,9 @@ async def p006_moves_of_the_table(dut: Any, row: Move) -> None:
     fall = await rest(host)
     steps = host.steps()
     gaps = (row.head[0], *host.intervals())
-    assert (
-        len(steps) == row.count and gaps[: len(row.head)] == row.head and gaps[-len(row.tail) :] == row.tail
-    )
+    assert len(steps) == row.count
+    assert gaps[: len(row.head)] == row.head
+    assert gaps[-len(row.tail) :] == row.tail
     assert host.in_us(steps[-1] - steps[0]) == row.end - row.head[0] and 0 <= fall - steps[-1] <= 2
     assert 0 <= steps[0] - host.us(row.head[0]) - e <= EXECUTE + START + host.us(1)
 

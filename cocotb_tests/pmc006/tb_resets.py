@@ -33,12 +33,10 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
     await host.forget()
     await host.boot()
     assert await values(host) == FACTORY and await host.status() == DECAY and await host.ask("O") == 0x10
-    assert (
-        await host.ask("G") == 0
-        and await host.ask("c") == 0
-        and await host.ask("x") == 0xF07
-        and FACTORY_PAGE[3] == 0xFF
-    )
+    assert await host.ask("G") == 0
+    assert await host.ask("c") == 0
+    assert await host.ask("x") == 0xF07
+    assert FACTORY_PAGE[3] == 0xFF
 
 
 @directed("P006-EEP-21", "P006-EEP-22")

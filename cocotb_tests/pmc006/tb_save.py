@@ -37,12 +37,10 @@ async def p006_save(dut: Any) -> None:
     await host.reset(ext1=1)
     await host.boot()
     assert await values(host) == VALUES and host.replied == 120
-    assert (
-        await host.ask("q") == 1000
-        and await host.ask("O") == 0x10
-        and await host.ask("T", -1) == 64
-        and await host.ask("A", -1) == 0
-    )
+    assert await host.ask("q") == 1000
+    assert await host.ask("O") == 0x10
+    assert await host.ask("T", -1) == 64
+    assert await host.ask("A", -1) == 0
 
 
 @directed("P006-EEP-10", "P006-CMD-54")
@@ -226,11 +224,9 @@ async def p006_restore_in_operation(dut: Any) -> None:
     host.address = 0xFF
     await host.reset()
     await host.boot()
-    assert (
-        await values(host) == FACTORY
-        and await host.ask("G") == words(BLINK)[0]
-        and await host.out("gpo") == 0
-    )
+    assert await values(host) == FACTORY
+    assert await host.ask("G") == words(BLINK)[0]
+    assert await host.out("gpo") == 0
 
 
 @directed("P006-EEP-22", "P006-BAD-12")

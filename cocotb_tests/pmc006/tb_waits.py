@@ -89,12 +89,10 @@ async def p006_wait_for_a_stall(dut: Any) -> None:
         await host.strobe(bemf_level=3)
         await host.pause(20)
     await host.pause(2 * SLOT)
-    assert (
-        await host.out("gpo") == 1
-        and await host.ask("p") == 0
-        and await host.out("gpo") == 3
-        and await host.busy()
-    )
+    assert await host.out("gpo") == 1
+    assert await host.ask("p") == 0
+    assert await host.out("gpo") == 3
+    assert await host.busy()
 
 
 RIGHT = ((1, 0), (2, 1), (3, 1), (4, 0), (5, 1), (6, 1), (7, 0), (8, 0), (9, 0b10110))
@@ -143,12 +141,10 @@ async def p006_offline_0_leaves_everything_else(dut: Any) -> None:
     await load(host, out(1, 1), Op(0x08, 1, 3000), Op(0x08, 0, 3000), rot(100_000), goto(4))
     await after_steps(host, 4)
     await host.ok(F=0)
-    assert (
-        not await still(host, host.us(2_000))
-        and await host.busy()
-        and await host.out("gpo") == 1
-        and await host.ask("q") == 3000
-    )
+    assert not await still(host, host.us(2_000))
+    assert await host.busy()
+    assert await host.out("gpo") == 1
+    assert await host.ask("q") == 3000
     assert await host.ask("z") == 1 and await host.ask("F", 0) == 0 and await host.ask("O") & FREE_RUN == 0
 
 

@@ -11,13 +11,20 @@ from .bench import PMC006
 
 ITEMS = cocotb_items(
     "cocotb_tests.pmc006",
+    "tb_acceptance_link",
+    "tb_acceptance_motion",
+    "tb_acceptance_guard",
+    "tb_acceptance_modes",
+    "tb_acceptance_program",
     "tb_tour",
     "tb_link",
     "tb_codes",
     "tb_motion",
     "tb_angle",
     "tb_bridge",
+    "tb_current",
     "tb_guard",
+    "tb_stall",
     "tb_analog",
     "tb_clock",
     "tb_states",
@@ -25,6 +32,8 @@ ITEMS = cocotb_items(
     "tb_program",
     "tb_waits",
     "tb_meetings",
+    "tb_resets",
+    "tb_streams",
     part=PMC006,
 )
 

@@ -7,7 +7,7 @@ from cocotb_tests.harness.elaborate import check_ranges, ports
 from cocotb_tests.harness.verifies import verifies
 
 from .bench import PMC006
-from .modules import F8B
+from .builds import F8B
 
 RANGES = {
     "BAUD": (["1200", "115200"], ["1199", "115201"]),

@@ -1,1 +1,1 @@
-"""Tests of the PPMC-312 core: scripts on the golden model that are played on the RTL, and random hosts."""
+"""Tests of the PPMC-312 core: directed tests, closed loop on the bus and on the line, and random hosts."""

@@ -7,7 +7,7 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
 from . import test_part, test_random
 
 SAME_BLOCKS = "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks"
-OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "polls", "resets")
+OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "motions", "polls", "resets")
 
 PART = PartTests(
     test_part,
@@ -29,7 +29,7 @@ PART = PartTests(
         "tb_transactions": "8 million clk; the other modules have the same instructions",
         "tb_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
         "tb_positions": "1 million clk; the other modules have positions and their reports, too",
-        **{f"p312_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
+        **{f"tb_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
         "tb_checks_motion": "15 million clk; tb_motion_walks and tb_bounds have shorter moves of all kinds",
     },
     quick=frozenset(

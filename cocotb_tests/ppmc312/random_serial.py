@@ -15,7 +15,7 @@ from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
 from .aware import Aware
-from .modules import CHARS, F8V, F27X12
+from .builds import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
 from .serial_master import SerialHost
 

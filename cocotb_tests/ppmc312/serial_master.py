@@ -5,6 +5,7 @@ Its UART is its own: what the part sends is read from the levels of txd, and eve
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from math import ceil
 from typing import Any
@@ -20,6 +21,7 @@ from .side_host import SideHost
 
 SLACK = 64
 """clk that a reply may be later."""
+FRAME = re.compile(rb"[\x80-\xFF](?:[0-9a-f]{2})*[\x00-\x7F]", re.DOTALL)
 
 
 class SerialHost(SerialLine, SideHost):
@@ -121,7 +123,8 @@ class SerialHost(SerialLine, SideHost):
         """
         rise = await self.begin(within)
         self.waited = rise - self.middle - self.bit / 2
-        assert not timed or self.waited >= self.bit / 2, f"snd rises {self.waited} clk after the frame"
+        late = f"snd rises {float(self.waited):.1f} clk after the frame"
+        assert not timed or self.waited >= self.bit / 2, late
         while not (falls := self.side.falls("snd", rise)):
             await self.side.edge("snd", 0)
         self._heard = falls[0]
@@ -139,9 +142,10 @@ class SerialHost(SerialLine, SideHost):
         return characters(edges, rise + bit, bit, count)
 
     def _meaning(self, line: bytes) -> str:
+        assert FRAME.fullmatch(line), f"no frame: {self.wire}"
         control, data = line[0], bytes.fromhex(line[1:-1].decode("ascii"))
-        assert line == summed(control, data, self.sum_mode)
-        assert control & 0x0F == self.adr
+        assert line == summed(control, data, self.sum_mode), f"wrong checksum: {self.wire}"
+        assert control & 0x0F == self.adr, f"not from station {self.adr}: {self.wire}"
         return " ".join([f"{control & 0xF0:02X}", *([clean(data.hex())] if data else [])])
 
     async def ask(self, text: str, within: int | None = None) -> str:

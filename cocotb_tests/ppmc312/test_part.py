@@ -35,9 +35,17 @@ MODULES = (
     "tb_abnormal",
     "tb_terminals",
     "tb_positions",
+    "tb_serial_tour",
+    "tb_serial_checks",
+    "tb_serial_transactions",
+    "tb_serial_line",
+    "tb_serial_frames",
+    "tb_serial_codes",
+    "tb_serial_motions",
+    "tb_serial_polls",
+    "tb_serial_resets",
 )
-# Scripts of the serial line are still played from tapes.
-ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, "tb_scripts", part=PPMC312)
+ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312)
 
 
 @pytest.mark.parametrize("item", ITEMS)

@@ -21,22 +21,23 @@ module ppmc104_setup
 );
 
   logic programmed_q;
+  logic [7:0] on_q, off_q;  // programmed parts of the times
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, params_i};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      programmed_q     <= 1'b0;
-      chop_o.on_units  <= '0;
-      chop_o.off_units <= '0;
-      auxo_o           <= '1;
-      aux_no           <= 1'b1;
+      programmed_q <= 1'b0;
+      on_q         <= '0;
+      off_q        <= '0;
+      auxo_o       <= '1;
+      aux_no       <= 1'b1;
     end else begin
       if (act_i.switching) begin
-        programmed_q     <= 1'b1;
-        chop_o.on_units  <= params_i[23:16];
-        chop_o.off_units <= params_i[31:24];
+        programmed_q <= 1'b1;
+        on_q         <= params_i[23:16];
+        off_q        <= params_i[31:24];
       end
       if (act_i.aux_out) auxo_o <= ~aux_i;
       if (act_i.aux_on || act_i.aux_off) aux_no <= act_i.aux_off;
@@ -45,8 +46,10 @@ module ppmc104_setup
 
   // The fixed part of the chopper's times; the chopper samples it with the beginning of each phase.
   always_comb begin
-    chop_o.on_base  = vsel_i ? CHOP_ON_VSEL_H : CHOP_ON_VSEL_L;
-    chop_o.off_base = vsel_i ? CHOP_OFF_VSEL_H : CHOP_OFF_VSEL_L;
+    chop_o.on_units  = on_q;
+    chop_o.off_units = off_q;
+    chop_o.on_base   = vsel_i ? CHOP_ON_VSEL_H : CHOP_ON_VSEL_L;
+    chop_o.off_base  = vsel_i ? CHOP_OFF_VSEL_H : CHOP_OFF_VSEL_L;
     if (!programmed_q) begin
       chop_o.on_base  = CHOP_ON_DEFAULT;
       chop_o.off_base = CHOP_OFF_DEFAULT;

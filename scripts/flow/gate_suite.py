@@ -113,9 +113,13 @@ def everything(seed: int | None = None) -> list[GateTest]:
 
 
 def chosen(tests: Sequence[GateTest], word: str | None) -> list[GateTest]:
-    """The tests whose name holds `word` (case does not count); `quick` stands for the quick subset."""
+    """The tests whose name holds `word`, or one of several with commas between them (case does not count).
+
+    `quick` stands for the quick subset.
+    """
     if word is None:
         return list(tests)
     if word == QUICK:
         return [test for test in tests if test.quick]
-    return [test for test in tests if word.lower() in test.item.id.lower()]
+    words = word.lower().split(",")
+    return [test for test in tests if any(word in test.item.id.lower() for word in words)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import random
-import signal
 from typing import Any
 
 import cocotb
@@ -12,7 +11,8 @@ from cocotb.handle import Immediate
 from cocotb.triggers import Event, FallingEdge, RisingEdge, Timer, ValueChange, with_timeout
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness import native
+from cocotb_tests.harness import watchdog
+from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import Config
 from openppmc.host.bridge.frames import Broken, Deframer, encode
 
@@ -59,7 +59,7 @@ class Bench:
     @classmethod
     async def start(cls, dut: Any, slave: Toy | None = None) -> Bench:
         """Clock, reset, monitors."""
-        signal.alarm(int(os.environ.get("OPENPPMC_WALL_S", "300")))
+        watchdog.arm()
         bench = cls(dut, slave or Toy())
         dut.clk_i.set(Immediate(0))
         dut.rst_ni.set(Immediate(1))
@@ -67,7 +67,7 @@ class Bench:
             getattr(dut, pin).value = level
         await Timer(bench.period // 2, "ps")
         dut.rst_ni.value = 0
-        native.clock(native.port("clk_i"), bench.period // 2)
+        clockwork().clock(clockwork().port("clk_i"), bench.period // 2)
         await Timer(4 * bench.period, "ps")
         dut.rst_ni.value = 1
         await bench.clocks(4)

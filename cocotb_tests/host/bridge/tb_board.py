@@ -10,7 +10,7 @@ import cocotb
 from cocotb.handle import Immediate
 from cocotb.triggers import Timer, ValueChange
 
-from cocotb_tests.harness import native
+from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import configs
 from cocotb_tests.harness.part import PARTS
 
@@ -36,7 +36,7 @@ async def start(dut: Any) -> Bench:
     dut.uart_rxd.value = 1
     await Timer(bench.period // 2, "ps")
     dut.rst_n.value = 0
-    native.clock(native.port("clk"), bench.period // 2)
+    clockwork().clock(clockwork().port("clk"), bench.period // 2)
     await Timer(4 * bench.period, "ps")
     dut.rst_n.value = 1
     await bench.clocks(10)

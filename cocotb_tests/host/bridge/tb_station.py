@@ -8,7 +8,7 @@ import cocotb
 from cocotb.handle import Immediate
 from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
-from cocotb_tests.harness import native
+from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import Config, configs
 from cocotb_tests.harness.part import PARTS, BusStyle
 
@@ -67,7 +67,7 @@ async def start(dut: Any, busc: int) -> Host:
         getattr(dut, pin).value = level
     await Timer(PERIOD // 2, "ps")
     dut.lock.value = 0
-    native.clock(native.port("clk"), PERIOD // 2)
+    clockwork().clock(clockwork().port("clk"), PERIOD // 2)
     await Timer(4 * PERIOD, "ps")
     same("lamps in reset", int(dut.lamps.value), 0)
     dut.lock.value = 1

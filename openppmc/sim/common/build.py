@@ -108,7 +108,7 @@ def copy_runtime(source: Path, target: Path) -> None:
     with _locked(target.parent / "runtime.lock"):
         target.mkdir(parents=True, exist_ok=True)
         if not any(target.glob("verilated*.o")):
-            # Not verilator.o: that is cocotb's main program, compiled for the ports of one design.
+            # Not verilator.o, cocotb's main program, nor top.o: they are compiled for one design.
             for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
                 shutil.copy(path, target)
                 # Newer than the makefile that is yet to be written, or make would compile them again.

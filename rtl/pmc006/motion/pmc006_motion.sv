@@ -30,8 +30,9 @@ module pmc006_motion
   logic short_q, speed_q, stop_q, analog_q, rest, busy_q, forward_q, steady_q;
   logic [11:0] ve_q, cur_q;
   logic [2:0] acc_q, dec_q;
-  logic [10:0] ccomp_q, scomp_q, bump;
-  logic [6:0] lead;
+  logic [10:0] ccomp_q, scomp_q, bump, bump_now;
+  logic [6:0] lead, lead_now;
+  logic [7:0] increment_q;
   logic [13:0] v, next, vmax_q;
   logic [30:0] left;
   logic [9:0] adc_q, h_q;
@@ -40,9 +41,10 @@ module pmc006_motion
 
   assign load = launch_i.start || launch_i.run;
   assign rest = speed_q && phase == PhEnd && !launch_i.speed;
+  assign thrust_o = '{increment: increment_q, bump: bump_now, lead: lead_now};
   assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q && busy_q};
 
-  always_comb for (int unsigned i = 0; i < 8; i++) mstep[i] = thrust_o.increment[7-i];
+  always_comb for (int unsigned i = 0; i < 8; i++) mstep[i] = increment_q[7-i];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -69,8 +71,8 @@ module pmc006_motion
       ve_q    <= settings_i.vstop;
       acc_q   <= settings_i.acc;
       dec_q   <= settings_i.dec;
-      for (int unsigned i = 1; i < 8; i++) thrust_o.increment[7-i] <= settings_i.mstep[i];
-      thrust_o.increment[7] <= settings_i.mstep == '0;
+      for (int unsigned i = 1; i < 8; i++) increment_q[7-i] <= settings_i.mstep[i];
+      increment_q[7] <= settings_i.mstep == '0;
     end
     if (load || launch || update) begin
       vmax_q   <= settings_i.vmax;
@@ -134,8 +136,8 @@ module pmc006_motion
       .stop_o   (stop),
       .v_o      (v),
       .left_o   (left),
-      .bump_o   (thrust_o.bump),
-      .lead_o   (thrust_o.lead)
+      .bump_o   (bump_now),
+      .lead_o   (lead_now)
   );
 
   logic unused_settings;

@@ -8,7 +8,7 @@ import pytest
 
 from cocotb_tests.harness import gate_tests
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.runner import repro_line
+from cocotb_tests.harness.simulate import repro_line
 from cocotb_tests.ppmc104 import test_part
 from scripts.flow import gate_suite, gates
 from scripts.pool import as_done
@@ -43,7 +43,7 @@ def test_names_are_unique_and_hold_the_family() -> None:
 
 def test_a_failure_is_repeated_by_the_same_target() -> None:
     test = EVERYTHING[0]
-    assert repro_line(test.item, 7) == f"make test-gates T={test.item.id} SEED=7"
+    assert repro_line([test.item], 7) == f"make test-gates T={test.item.id} SEED=7"
 
 
 def test_the_line_that_repeats_a_random_host_chooses_it() -> None:

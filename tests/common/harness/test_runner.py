@@ -1,4 +1,4 @@
-"""The simulation runner's own judgement: nothing but "exactly this test ran and passed" counts."""
+"""What is read of a simulation from its log and results: only "exactly these tests ran and passed" counts."""
 
 from __future__ import annotations
 
@@ -6,72 +6,104 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness import runner
 from cocotb_tests.harness.build import Design, SimError, build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import ALL_CONFIGS, D16, F11, F16, Config
+from cocotb_tests.harness.group import groups_of
+from cocotb_tests.harness.outcome import Outcome, failure_text, outcomes
+from cocotb_tests.harness.simulate import repro_line
+
+A, B = (Item("m", name, F16, "x", ()) for name in "ab")
+HEAD = "     0.00ns INFO     cocotb.regression                  "
+GOOD, BAD = (
+    f"{HEAD}m.%s passed\n",
+    f"{HEAD}m.%s failed\n  Traceback (most recent call last):\n    x\n  AssertionError: no\n",
+)
 
 
-def results(tmp_path: Path, *cases: str) -> Path:
-    """A results.xml with these test cases."""
-    path = tmp_path / "results.xml"
-    path.write_text(
-        f'<testsuites name="r"><testsuite name="a">{"".join(cases)}</testsuite></testsuites>',
-        encoding="utf-8",
-    )
-    return path
+def read(tmp_path: Path, text: str, names: str | None = "ab", trouble: str = "") -> dict[str, Outcome]:
+    """Outcomes of tests a and b from such a log, and a results.xml with these names."""
+    log, results = tmp_path / "log.txt", tmp_path / "results.xml"
+    log.write_text(text, encoding="utf-8")
+    if names is not None:
+        cases = "".join(f'<testcase name="{name}" classname="m"/>' for name in names)
+        results.write_text(
+            f'<testsuites><testsuite name="m">{cases}</testsuite></testsuites>', encoding="utf-8"
+        )
+    return {item.test: outcome for item, outcome in outcomes([A, B], log, results, trouble).items()}
 
 
-GOOD = '<testcase name="t" classname="m"/>'
-BAD = '<testcase name="t" classname="m"><failure message="no"/></testcase>'
-SKIPPED = '<testcase name="t" classname="m"><skipped/></testcase>'
-
-
-def test_one_passed_test_is_good(tmp_path: Path) -> None:
-    assert runner._judge(results(tmp_path, GOOD), "t") == ""
+def part(name: str, rest: str) -> str:
+    """A test's part of a log."""
+    return f"{HEAD}running m.{name} (1/2)\n    Its first line.\n{rest}"
 
 
 @pytest.mark.parametrize(
-    ("cases", "word"),
+    ("log", "kinds"),
     [
-        ((), "exactly"),
-        ((GOOD, GOOD), "exactly"),
-        ((BAD,), "failed"),
-        ((SKIPPED,), "skipped"),
-        ((GOOD.replace('"t"', '"other"'),), "exactly"),
+        (part("a", GOOD % "a") + part("b", GOOD % "b"), "passed passed"),
+        (part("a", BAD % "a") + part("b", GOOD % "b"), "failed passed"),
+        (part("a", "[10] %Error: x.sv:3: no\n" + GOOD % "a") + part("b", GOOD % "b"), "failed passed"),
+        (
+            part("a", f"{HEAD}skipping m.a: why\n") + part("b", f"{HEAD}m.b xfailed: known\n"),
+            "skipped xfailed",
+        ),
     ],
 )
-def test_everything_else_is_not(tmp_path: Path, cases: tuple[str, ...], word: str) -> None:
-    assert word in runner._judge(results(tmp_path, *cases), "t")
+def test_each_part_of_the_log_is_one_test(tmp_path: Path, log: str, kinds: str) -> None:
+    found = read(tmp_path, log)
+    assert [found[name].kind for name in "ab"] == kinds.split()
 
 
-def test_missing_results_are_a_failure(tmp_path: Path) -> None:
-    assert "no results.xml" in runner._judge(tmp_path / "results.xml", "t")
+def test_a_process_that_ends_within_a_test(tmp_path: Path) -> None:
+    """That test crashed, those behind it did not run."""
+    found = read(tmp_path, part("a", "x\n"), None, "the simulator ended: -11")
+    assert (found["a"].kind, found["b"].kind) == ("crashed", "did not run")
+    assert found["a"].text.startswith("the simulator ended: -11\n")
 
 
-def test_failure_text_prefers_the_first_simulator_error(tmp_path: Path) -> None:
-    log = tmp_path / "log.txt"
-    log.write_text(
-        "INFO start\n[10] %Error: a.sv:3: Assertion failed\n%Error: $stop\n"
-        "  Traceback (most recent call last):\n x",
-        encoding="utf-8",
+@pytest.mark.parametrize("names", ["", "a", "abb", "ac"])
+def test_other_tests_than_those_asked_for_are_a_failure(tmp_path: Path, names: str) -> None:
+    found = read(tmp_path, part("a", GOOD % "a") + part("b", GOOD % "b"), names)
+    assert all(outcome.kind == "failed" and "exactly" in outcome.text for outcome in found.values())
+
+
+def test_a_bad_end_of_good_tests_is_a_failure(tmp_path: Path) -> None:
+    """Nothing says which test it was."""
+    found = read(tmp_path, part("a", GOOD % "a") + part("b", GOOD % "b"), "ab", "the simulator ended: 1")
+    assert {outcome.kind for outcome in found.values()} == {"failed"}
+
+
+def test_no_log_is_a_failure(tmp_path: Path) -> None:
+    assert {outcome.kind for outcome in read(tmp_path, "", None).values()} == {"did not run"}
+
+
+def test_failure_text_prefers_the_first_simulator_error() -> None:
+    text = "INFO start\n[10] %Error: a.sv:3: Assertion failed\n%Error: $stop\n"
+    text += "  Traceback (most recent call last):\n x"
+    assert failure_text(text).startswith("[10] %Error: a.sv:3: Assertion failed")
+
+
+def test_failure_text_shows_the_exception() -> None:
+    text = "INFO\n   Traceback (most recent call last):\n     File x\n   AssertionError: AC-01\n"
+    assert failure_text(text) == "  File x\nAssertionError: AC-01"
+
+
+def test_groups_keep_the_order_and_are_even() -> None:
+    """Tests of two builds, and some that stay alone."""
+    made = groups_of(range(100), lambda n: n % 2 or None)
+    assert [len(group) for group in made] == [1, 25, 25] + [1] * 49
+    assert made[1] == tuple(range(1, 50, 2)) and sorted(n for group in made for n in group) == list(
+        range(100)
     )
-    assert runner._failure_text(log).startswith("[10] %Error: a.sv:3: Assertion failed")
-
-
-def test_failure_text_shows_the_exception_without_colours(tmp_path: Path) -> None:
-    log = tmp_path / "log.txt"
-    log.write_text(
-        "INFO\n   \x1b[31mTraceback (most recent call last):\n     File x\n   AssertionError: AC-01\n",
-        encoding="utf-8",
-    )
-    assert "AssertionError: AC-01" in runner._failure_text(log)
-    assert "\x1b" not in runner._failure_text(log) and "INFO" not in runner._failure_text(log)
 
 
 def test_repro_line_names_test_seed_and_clock() -> None:
     item = Item("m", "p104_x/k=3", F11, "ppmc104", ())
-    assert runner.repro_line(item, 9) == "make test T=p104_x.k.3-f11m SEED=9 CLK_HZ=11059200"
+    assert (
+        repro_line([item, item.with_seed(2)], 9)
+        == "make test T=p104_x.k.3-f11m,p104_x.k.3-f11m SEED=9 CLK_HZ=11059200"
+    )
 
 
 def test_configs_have_distinct_names_none_a_prefix_of_another() -> None:

@@ -1,5 +1,5 @@
-"""Acceptance checks AC-01 to AC-67 on the golden model: those of the RTL, which stand once, but literally, with
-9600 baud at 16 MHz; and some that last too long for the RTL.
+"""Acceptance checks AC-01 to AC-67 on the golden model: those of the RTL, which stand once, but literally,
+with 9600 baud at 16 MHz; and some that last too long for the RTL.
 """
 
 from __future__ import annotations

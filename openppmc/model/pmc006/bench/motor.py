@@ -7,7 +7,7 @@ EMF. Switches and diodes are ideal. Times are edges of clk outside and seconds i
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import atan2, exp, hypot, pi, sin
 from typing import NamedTuple, Protocol, TypeVar
@@ -211,6 +211,14 @@ class Plant:
 
     def run_until(self, t: int) -> None:
         """As that of the model; currents and comparators follow."""
+        for edge, levels in self.legs(t):
+            self._run(edge)
+            if levels:
+                self._model.pins(edge + 1, **levels)
+
+    def legs(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
+        """Time up to edge t in pieces: the last edge of each, and levels of comparators behind it. Whoever
+        runs the part runs it up to there and sets them before going on."""
         model = self._model
         while model.now < t:
             event = model.next_event
@@ -218,14 +226,13 @@ class Plant:
             flips = [self._flip(winding, edge) for winding in self.windings.values()]
             flip = min((at for at in flips if at is not None), default=None)
             if flip is None:
-                self._run(edge)
+                yield edge, {}
             else:
-                self._run(flip - 1)
                 changed = [w for w, at in zip(self.windings.values(), flips, strict=True) if at == flip]
                 for winding in changed:
                     winding.cmp ^= 1
-                model.pins(flip, **{winding.cmp_pin: winding.cmp for winding in changed})
-                self._run(flip)
+                yield flip - 1, {winding.cmp_pin: winding.cmp for winding in changed}
+                yield flip, {}
             self._look()
 
     def _look(self, anew: bool = False) -> None:

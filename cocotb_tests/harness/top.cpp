@@ -1,7 +1,10 @@
-// Appended to Verilator's class of the design: what verilated_sim.cpp, compiled once for all designs, calls.
+// SPDX-License-Identifier: Apache-2.0
+// What a design adds to verilated_sim.cpp, which is compiled once for all of them: the calls of its own class.
+#include "Vtop.h"
 #if VM_TRACE
 #include "verilated_vcd_c.h"
 #endif
+
 namespace {
 Vtop* the_top;
 }

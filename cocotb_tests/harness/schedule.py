@@ -1,0 +1,106 @@
+"""Which pytest items share a simulator process, and that xdist sends such a group to one worker.
+
+Groups are made of what is left to run (`-k`, a node's id, --lf), in its order. Each worker knows them from
+its own collection; the controller, which collects nothing, gets them in a file, whose path it gives to its
+workers.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Hashable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from .collect import Item
+from .group import groups_of
+from .paths import BUILD
+from .runner import SimOptions
+
+_SCOPES = "openppmc_scopes"
+
+
+def params_of(test: pytest.Item) -> dict[str, Any]:
+    """Parameters of a pytest item."""
+    callspec = getattr(test, "callspec", None)
+    return callspec.params if callspec else {}
+
+
+def item_of(test: pytest.Item) -> Item | None:
+    """The simulation that a pytest item is, if it is one."""
+    item = params_of(test).get("item")
+    return item if isinstance(item, Item) else None
+
+
+def _key(test: pytest.Item) -> Hashable:
+    """The same for those that may share a process: one test function, which knows the design, one build."""
+    item = item_of(test)
+    if item is None or not item.together or len(params_of(test)) > 1:
+        return None
+    return (test.nodeid.partition("[")[0], item.part, item.config.name, item.seed, item.inside)
+
+
+class Groups:
+    """The groups of a session, in a worker or where there are none."""
+
+    def __init__(self, options: SimOptions) -> None:
+        self._options = options
+        self._group: dict[str, tuple[Item, ...]] = {}
+
+    def options(self, test: pytest.Item) -> SimOptions:
+        """Options for `run_item` of a test."""
+        return replace(self._options, group=self._group.get(test.nodeid, ()))
+
+    def pytest_collection_finish(self, session: pytest.Session) -> None:
+        """Make the groups; with waves each test is alone."""
+        key = (lambda test: None) if self._options.waves else _key
+        scopes = {}
+        for tests in groups_of(session.items, key):
+            items = tuple(item for test in tests if (item := item_of(test)))
+            for test in tests:
+                scopes[test.nodeid] = tests[0].nodeid
+                if len(tests) > 1:
+                    self._group[test.nodeid] = items
+        path = getattr(session.config, "workerinput", {}).get(_SCOPES)
+        if path:
+            written = Path(f"{path}.{os.getpid()}")
+            written.write_text(json.dumps(scopes), encoding="utf-8")
+            written.replace(path)
+
+
+class Sender:
+    """xdist's controller: whole groups to one worker each, all other tests one by one."""
+
+    def __init__(self) -> None:
+        self._file = BUILD / f"scopes-{os.getpid()}.json"
+
+    def pytest_configure_node(self, node: Any) -> None:
+        """Tell a worker where to write its groups."""
+        self._file.parent.mkdir(parents=True, exist_ok=True)
+        node.workerinput[_SCOPES] = str(self._file)
+
+    def pytest_xdist_make_scheduler(self, config: pytest.Config, log: Any) -> Any:
+        """xdist's scheduler for scopes, with the groups as scopes; if the user asks for one, that."""
+        from xdist.scheduler import LoadScopeScheduling
+
+        if config.getoption("dist") != "load":
+            return None
+        file = self._file
+
+        class Scheduler(LoadScopeScheduling):  # type: ignore[misc]
+            _scopes: dict[str, str] | None = None
+
+            def _split_scope(self, nodeid: str) -> str:
+                if self._scopes is None:
+                    self._scopes = json.loads(file.read_text(encoding="utf-8"))
+                return self._scopes[nodeid]
+
+        return Scheduler(config, log)
+
+    def pytest_sessionfinish(self) -> None:
+        """Remove the file."""
+        self._file.unlink(missing_ok=True)

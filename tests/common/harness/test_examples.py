@@ -1,0 +1,53 @@
+"""examples/cocotb: its tests pass on cocotb's main program, and say what is wrong if something is.
+
+`.ci/run` has the way of its Makefile.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.build import SimError, part_design
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.project import ROOT
+from cocotb_tests.harness.runner import run_sim
+
+EXAMPLE = ROOT / "examples" / "cocotb"
+PLAIN = Item("test_ppmc104", "ramp_of_fourteen_pulses", F16, "ppmc104", ())
+WITH_MODEL = Item("test_with_model", "ramp_as_the_golden_model_has_it", F16, "ppmc104", ())
+
+
+def run(item: Item, folder: Path) -> None:
+    """As the Makefile does; SimError with what went wrong."""
+    run_sim(replace(part_design(item.part, item.config), main="cocotb"), item, 1, folder=folder)
+
+
+@pytest.mark.parametrize("item", [PLAIN, WITH_MODEL], ids=lambda item: item.module)
+def test_the_example_passes(item: Item, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(EXAMPLE)
+    run(item, tmp_path / "run")
+
+
+def test_it_imports_nothing_of_this_project() -> None:
+    text = (EXAMPLE / "test_ppmc104.py").read_text(encoding="utf-8")
+    imports = [line for line in text.splitlines() if line.startswith(("import ", "from "))]
+    assert {line.split()[1].partition(".")[0] for line in imports} == {"cocotb"}
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"), [("== 14", "== 15"), ("5 * [100]", "5 * [101]"), ("(DATA, 13)", "(DATA, 14)")]
+)
+def test_it_fails_when_broken(
+    right: str, wrong: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Given a wrong expectation, or a host that orders another move."""
+    text = (EXAMPLE / "test_ppmc104.py").read_text(encoding="utf-8")
+    assert right in text
+    (tmp_path / "broken_ppmc104.py").write_text(text.replace(right, wrong), encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(SimError, match="AssertionError"):
+        run(replace(PLAIN, module="broken_ppmc104"), tmp_path / "run")

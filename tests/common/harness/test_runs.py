@@ -1,0 +1,168 @@
+"""Every way in which a cocotb test can end, alone and among others: what the run says of it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.build import Design, locked
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.group import run_group
+from cocotb_tests.harness.inside import HINT, inside, seen
+from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.paths import BUILD, FAILURES, ROOT, relative
+from cocotb_tests.harness.runner import SimOptions, attempt, outcome_of, run_item
+from cocotb_tests.harness.simulate import Job
+
+ITEMS: dict[str, Item] = {
+    param.values[0].test: replace(param.values[0], tag="own")
+    for param in cocotb_items("cocotb_tests.common", "tb_runs", part=Part("x", {}))
+}
+SOURCE = """module runs_inner (input wire logic clk, output logic q);
+  logic [3:0] count = 4'd0;
+  always_ff @(posedge clk) count <= count + 4'd1;
+  assign q = count[0];
+endmodule
+module runs_top (input wire logic clk, input wire logic fire, input wire logic die, output logic q);
+  runs_inner u_inner (.clk, .q);
+  always_ff @(posedge clk) begin
+    a_quiet: assert (!fire) else $error("it fired");
+    if (die) $fatal(1, "it died");
+  end
+endmodule
+"""
+
+
+def counter() -> Design:
+    """A counter that can be made to complain; its inside is hidden."""
+    path = BUILD / "blocks" / "runs_top.sv"
+    with locked(path.with_suffix(".lock")):
+        path.write_text(SOURCE, encoding="ascii")
+    return Design("runs_top", [path], ports=("clk", "fire", "die", "q"))
+
+
+@pytest.fixture(scope="module", name="design")
+def _design() -> Design:
+    return counter()
+
+
+def kinds(design: Design, *names: str, **env: str) -> dict[str, str]:
+    """What becomes of tests in one group."""
+    job = Job(design, tuple(ITEMS[name] for name in names), 1, env=env)
+    return {item.test: outcome.kind for item, (outcome, _) in run_group(job).items()}
+
+
+def said(design: Design, *names: str, **env: str) -> str:
+    """The message of the last one, of a group of these tests."""
+    items = tuple(ITEMS[name] for name in names)
+    return attempt(items[-1], SimOptions(group=items), env, design)
+
+
+def test_each_ends_in_its_own_way(design: Design) -> None:
+    """raises, skip, xfail, parametrize and a fired assertion in the middle of a group."""
+    names = "passes fires raises skips xfails expected cases/step=1 cases/step=-2 follows".split()
+    ends = "passed failed passed skipped xfailed xfailed passed failed passed".split()
+    assert kinds(design, *names) == dict(zip(names, ends, strict=True))
+
+
+@pytest.mark.parametrize("end", ["dies", "crashes", "loops"])
+def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
+    """$fatal, a segmentation fault and an endless loop are named; the others have results of their own."""
+    found = kinds(design, "passes", end, "raises", "shows", OPENPPMC_WALL_S="6")
+    assert found.pop(end) in ("failed", "crashed")
+    assert found == {"passes": "passed", "raises": "passed", "shows": "failed"}
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("shows", r"assert \[[01], [01]\] == \[7, 7\]"),
+        ("fires", r"%Error: .*it fired"),
+        ("dies", r"it died"),
+        ("crashes", r"crashed\n(.*\n)*.*Segmentation fault(.*\n)*.*tb_runs\.py\", line \d+ in crashes"),
+        ("loops", r"no end within the wall-clock limit\n(.*\n)*.*tb_runs\.py\", line \d+ in loops"),
+        ("cases/step=-2", r"assert -2 > 0"),
+    ],
+)
+def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
+    """The message names the test, shows values or the line, and how to repeat it, with no word of doubt."""
+    text = said(design, "passes", name, OPENPPMC_WALL_S="6")
+    assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
+    assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
+    assert "determin" not in text and "not reproduced" not in text and "behind" not in text
+
+
+def test_a_failure_leaves_log_and_waves(design: Design) -> None:
+    """Both are in build/failures/."""
+    text = said(design, "shows")
+    folder = FAILURES / "shows-f16-own-s1"
+    assert f"log {relative(folder / 'log.txt')}" in text
+    assert f"waves in {relative(folder / 'waves' / 'dump.vcd')}" in text
+    assert (folder / "log.txt").is_file() and (folder / "waves" / "dump.vcd").stat().st_size > 100
+
+
+def test_what_needs_another_test_names_it(design: Design) -> None:
+    """Of three tests before it one leaks; the line repeats those two."""
+    text = said(design, "passes", "leaks", "raises", "follows")
+    assert "(fails only behind leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
+    assert "repeat with: make test T=leaks-f16-own,follows-f16-own SEED=1 CLK_HZ=16000000" in text
+
+
+@pytest.mark.parametrize("others", [(), ("passes",)])
+def test_only_the_same_run_once_more_tells_of_chance(
+    design: Design, tmp_path: Path, others: tuple[str, ...]
+) -> None:
+    """A test that fails the first time only, alone and in a group, is called not deterministic."""
+    text = said(design, *others, "wavers", OPENPPMC_SEEN=str(tmp_path / "seen"))
+    assert "once more" in text and "it is not deterministic)" in text and "the first time" in text
+
+
+def test_waves_may_hide_a_failure(design: Design) -> None:
+    """That says nothing about the test."""
+    text = said(design, "shy")
+    assert "nobody looks" in text and "(not reproduced with waves: there it passed)" in text
+    assert "determin" not in text
+
+
+def test_a_hidden_signal_says_so(design: Design) -> None:
+    """Alone and in a group; with everything visible the test passes."""
+    for names in (("pries",), ("passes", "pries")):
+        text = said(design, *names)
+        assert "AttributeError: runs_top contains no child object named u_inner" in text and HINT in text
+        assert "not reproduced" not in text
+    assert attempt(ITEMS["pries"], SimOptions(inside=True), design=design) == ""
+
+
+def test_a_test_may_look_inside(design: Design) -> None:
+    """What it names is visible; other names stay hidden."""
+    assert ITEMS["looks"].inside == ("u_inner.count",)
+    assert attempt(ITEMS["looks"], design=design) == ""
+    assert seen(design, ()) == design and not seen(design, ("q",), True).ports
+    with pytest.raises(ValueError, match="expected paths"):
+        inside("u_inner/count")
+
+
+def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixture[str]) -> None:
+    """The VCD has views of the ports beside it, and its path is printed."""
+    assert outcome_of(ITEMS["passes"], SimOptions(waves=True), {}, design).good
+    folder = "build/waves/passes-f16-own/dump"
+    assert capsys.readouterr().out == f"waves in {folder}.vcd, {folder}.gtkw, {folder}.sucl\n"
+    assert (ROOT / f"{folder}.gtkw").read_text().splitlines()[-1].endswith("runs_top.q")
+    assert "variable_add runs_top.clk" in (ROOT / f"{folder}.sucl").read_text()
+
+
+@pytest.mark.parametrize(("name", "reason"), [("skips", "nothing to do"), ("skipped", "skip=True")])
+def test_a_skip_is_a_skip_of_pytest(design: Design, name: str, reason: str) -> None:
+    """With its reason."""
+    with pytest.raises(pytest.skip.Exception, match=reason):
+        run_item(ITEMS[name], design=design)
+
+
+@pytest.mark.parametrize(("name", "reason"), [("xfails", "known fault"), ("expected", "failed as expected")])
+def test_an_expected_failure_is_one_of_pytest(design: Design, name: str, reason: str) -> None:
+    """With its reason."""
+    with pytest.raises(pytest.xfail.Exception, match=reason):
+        run_item(ITEMS[name], design=design)
