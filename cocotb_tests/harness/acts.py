@@ -39,6 +39,11 @@ class Act:
     access: Access | None = None
 
     @property
+    def kind(self) -> str:
+        """Register and direction of an access, name of a pin, "frame", "reset"."""
+        return f"{self.access.kind} {self.access.reg}" if self.access else self.what.split()[0]
+
+    @property
     def begin(self) -> int:
         """Edge of its first pin change."""
         return self.steps[0].t

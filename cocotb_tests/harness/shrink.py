@@ -1,12 +1,14 @@
 """Shrinks a list of acts that shows a fault to a short one that still shows it (delta debugging).
 
-Parts of the list are left out, ever smaller ones, for as long as what is left still fails; then the pauses
-between the acts that remain are closed. `fails` carries a list out, each time on a part fresh out of reset.
+All acts of a kind, then parts of the list are left out, ever smaller ones, for as long as what is left still
+fails; then the pauses between the acts that remain are closed. `fails` carries a list out, each time on a
+part fresh out of reset.
 """
 
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -26,7 +28,8 @@ class _EnoughError(Exception):
 class Shrinker:
     """`acts` is the shortest list so far, `trials` how often one was carried out.
 
-    trials_at_most, seconds: limits. kept: called with each list that is shorter than the ones before it.
+    trials_at_most, seconds (of this process on the processor): limits. kept: called with each list that is
+    shorter than the ones before it.
     """
 
     acts: list[Act]
@@ -40,8 +43,9 @@ class Shrinker:
 
     async def run(self) -> None:
         """Shrink; `stopped` says which limit ended it before nothing could be left out any more."""
-        self._end = time.monotonic() + self.seconds
+        self._end = time.process_time() + self.seconds
         try:
+            await self._leave_out_kinds()
             await self._leave_out()
             await self._close_pauses()
             await self._leave_out()
@@ -54,7 +58,7 @@ class Shrinker:
             return False
         if self.trials >= self.trials_at_most:
             raise _EnoughError(f"after {self.trials} trials")
-        if time.monotonic() > self._end:
+        if time.process_time() >= self._end:
             raise _EnoughError(f"after {self.seconds:g} s")
         self._tried.add(tuple(acts))
         self.trials += 1
@@ -63,6 +67,11 @@ class Shrinker:
         self.acts = list(acts)
         self.kept()
         return True
+
+    async def _leave_out_kinds(self) -> None:
+        """Without all acts of a kind, the most frequent first: polls, clocks, what other pins do."""
+        for kind, _ in Counter(act.kind for act in self.acts).most_common():
+            await self._try([act for act in self.acts if act.kind != kind])
 
     async def _leave_out(self) -> None:
         """Without halves, quarters, …, single acts, until no single one can be missed."""
