@@ -31,6 +31,7 @@ J     ?= 2
 GOALS := $(or $(MAKECMDGOALS),help)
 VARS_test  := T SEED CLK_HZ J WAVES INSIDE MODEL SIM_MAIN
 VARS_soak  := SEED COUNT J PART SIM_MAIN
+VARS_replay := FILE
 VARS_synth := PART
 VARS_trace := PART
 VARS_bench := PART
@@ -54,7 +55,7 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
-NEED_ENV := setup demo test soak lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
+NEED_ENV := setup demo test soak replay lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
 CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
@@ -73,7 +74,7 @@ unexport VERILATOR_ROOT
 export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup demo test test-gates test-board soak lint format synth report size yardsticks bench trace waves docs board \
+.PHONY: help setup demo test test-gates test-board soak replay lint format synth report size yardsticks bench trace waves docs board \
         bitstream flash packages boards rom clean distclean
 .DEFAULT_GOAL := help
 
@@ -96,6 +97,9 @@ test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK
 
 soak: $(ENVSIM) ## COUNT=n random hosts from SEED=n on against the golden model
 	@$(PY) -m scripts.soak $(PART) --seed $(or $(SEED),1) --count $(or $(COUNT),1000)
+
+replay: $(ENVSIM) ## FILE=build/failures/…/recording.json on RTL and golden model: what a failing random test has left, long or short
+	@$(PY) -m scripts.replay $(call quote,$(FILE))
 
 lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang, ruff, import contracts and mypy; no warning passes
 	@$(PY) -m scripts.lint

@@ -58,7 +58,7 @@ class Row:
     computed for them. carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
     on a serial line, with commands of its own.
     demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
-    on the pins of a part. soak: what makes the test of a seed for `make soak`, or a campaign of many a seed.
+    on the pins of a part. soak: who plays a seed for `make soak`.
     gates: which tests `make test-gates` runs.
     """
 
@@ -217,7 +217,7 @@ ROWS = (
         carrier=True,
         line=True,
         demo="demo:DEMO",
-        soak="test_random:random_item",
+        soak="test_random:SOAK",
         gates="gates:PART",
     ),
 )

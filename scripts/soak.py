@@ -10,8 +10,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import partial
 from typing import Protocol
 
@@ -24,15 +23,13 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.project import ProjectError, console
-from cocotb_tests.harness.runner import attempt
 from openppmc import parts
 from scripts.pool import as_done
 
 
 class Campaign(Protocol):
-    """What a part may have in its column `soak`, if a seed is more than one simulation."""
+    """What a part has in its column `soak`: `RandomItems`, or what does more with a seed."""
 
     def one(self, seed: int) -> tuple[int, str, str]:
         """Run one seed in this process; returns (seed, test id, message or "")."""
@@ -43,30 +40,13 @@ class Campaign(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Simulations:
-    """The usual campaign: each seed is one simulation, whose item `make` makes."""
-
-    make: Callable[[int], Item]
-
-    def one(self, seed: int) -> tuple[int, str, str]:
-        """Run one seed."""
-        item = self.make(seed)
-        return seed, item.id, attempt(item)
-
-    def summary(self, first: int, count: int) -> str:
-        """What has been done."""
-        return "every output edge as in the golden model"
-
-
 def campaign(part_name: str) -> Campaign:
     """That of a part; ProjectError if it has none."""
     known = [row.name for row in parts.having("soak")]
     if part_name not in known:
         raise ProjectError(f"PART={part_name}: no random hosts of it (there are of {', '.join(known)})")
-    found = parts.part(part_name).load("soak")
-    usual: Campaign = Simulations(found) if callable(found) else found
-    return usual
+    found: Campaign = parts.part(part_name).load("soak")
+    return found
 
 
 def one(part_name: str, seed: int) -> tuple[int, str, str]:

@@ -8,11 +8,13 @@ from functools import cache
 
 import pytest
 
+from .build import Design
 from .collect import Item, cocotb_items
 from .config import Config
 from .part import PARTS
-from .runner import REPRO, SimOptions, run_item
+from .runner import REPRO, SimOptions
 from .seeds import SEEDS
+from .shortened import attempt_random
 
 BATCH = 25
 
@@ -41,20 +43,20 @@ def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
 
 
 def parametrize(
-    metafunc: pytest.Metafunc, make: Callable[[int], Item], fixed: Iterable[int], size: int = BATCH
+    metafunc: pytest.Metafunc, make: Callable[[int], Item], seeds: Iterable[int], size: int = BATCH
 ) -> None:
-    """One pytest item (`item`, `seeds`) a batch of the fixed seeds; with --seed N that one alone."""
-    chosen = metafunc.config.getoption("--seed")
-    sets = batches([make(seed) for seed in (fixed if chosen is None else [chosen])], size)
+    """One pytest item (`item`, `seeds`) a batch of the seeds."""
+    sets = batches([make(seed) for seed in seeds], size)
     metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
 
 
-def run_batch(item: Item, seeds: str, options: SimOptions) -> None:
+def run_batch(item: Item, seeds: str, options: SimOptions, design: Design | None = None) -> None:
     """The seeds of a batch in one simulation, as a pytest test."""
     __tracebackhide__ = True
     print(f"seeds {seeds}")
     whole = {REPRO: f"make {item.target} T={item.id}"} if " " in seeds else {}
-    run_item(item, options, {SEEDS: seeds, **whole})
+    if message := attempt_random(item, options, {SEEDS: seeds, **whole}, design):
+        pytest.fail(message, pytrace=False)
 
 
 def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:

@@ -20,7 +20,7 @@ from .clockwork import clockwork
 from .config import F16, Config
 from .native import collect_seldom
 from .part import Part
-from .side import TIMEOUT, Side
+from .side import TIMEOUT, PinChange, Side
 from .stimulus import Change
 
 
@@ -190,26 +190,13 @@ class Bench(Side):
                 rows.append((self._t0 + (t - 1) * self.period + self.half, self._ports[port], level))
         self._clockwork.tape(rows)
 
-    def at(self, edge: int, **levels: int) -> Any:
-        """As `Side.at`; returns the task."""
-
-        async def later() -> None:
-            await self.until(edge)
-            self.set(**levels)
-
-        return self._start(later())
-
-    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Any:
-        """As `Side.external_clock`; returns the task."""
-        name = pin or self.part.clock
+    def drive(self, changes: Iterable[PinChange]) -> Any:
+        """As `Side.drive`; returns the task."""
 
         async def run() -> None:
-            await self.align()
-            for interval in intervals:
-                self.set(**{name: 1})
-                await self.clocks(high)
-                self.set(**{name: 0})
-                await self.clocks(interval - high)
+            for edge, levels in changes:
+                await self.until(edge)
+                self.set(**levels)
 
         return self._start(run())
 

@@ -37,7 +37,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
         @functools.wraps(function)
         async def run(dut: Any, **arguments: Any) -> None:
             with running_test(None if uncompared else check_against_model) as running:
-                await _judged(running, function(dut, **arguments))
+                await judged(running, function(dut, **arguments))
 
         # The simulator side must see the arguments of `run`.
         del run.__wrapped__  # type: ignore[attr-defined]
@@ -52,7 +52,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
     return mark
 
 
-async def _judged(running: Running, test: Any) -> None:
+async def judged(running: Running, test: Any) -> None:
     """Run the test, then compare; a failed check says whether the golden model shows the same edges."""
     try:
         await test

@@ -5,18 +5,15 @@ Every random decision comes from `rng`, in one order, so that a seed always give
 
 from __future__ import annotations
 
-import random
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
-from .config import Config
 from .player import Action
+from .random_host import RandomHost, Weights, weighted
 
-Weights = Sequence[tuple[Config, int]]
 
-
-class HostWriter(ABC):
+class HostWriter(RandomHost, ABC):
     """rng, config, scale (clk per XTAL cycle), externals (clock pins in use), limit_clk, actions so far.
 
     name: begins the seed text. weights: builds of FAST and of DATASHEET, which one host in ten has. external:
@@ -26,10 +23,9 @@ class HostWriter(ABC):
     def __init__(
         self, name: str, seed: int, weights: Weights, datasheet: Weights, external: Sequence[float] = (0.3,)
     ) -> None:
-        self.seed = seed
-        self.rng = rng = random.Random(f"{name} host {seed}")
-        table = datasheet if rng.random() < 0.1 else weights
-        self.config: Config = rng.choices([c for c, _ in table], [w for _, w in table])[0]
+        super().__init__(f"{name} host", seed)
+        rng = self.rng
+        self.config = weighted(rng, datasheet if rng.random() < 0.1 else weights)
         self.scale = self.config.clk_hz / self.config.xtal_hz
         self.externals = tuple(rng.random() < chance for chance in external)
         self.limit_clk = round(rng.choice((20_000, 30_000, 50_000)) * max(1.0, self.scale / 2))

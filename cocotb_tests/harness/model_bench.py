@@ -7,7 +7,7 @@ coroutine with one `send(None)`. What changes pins beside the test waits in a qu
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Coroutine, Iterable, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import Any, TypeVar
@@ -15,13 +15,11 @@ from typing import Any, TypeVar
 from .config import F16, Config
 from .follower import new_model
 from .part import Part
-from .side import TIMEOUT, Side
+from .side import TIMEOUT, PinChange, Side
 from .stimulus import Change
 
 T = TypeVar("T")
 F = TypeVar("F")
-PinChange = tuple[int, dict[str, int]]
-"""Edge that is the first to sample these levels."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +59,7 @@ class ModelBench(Side):
         self.initial = {name: levels[name] for name in part.watched}
         self._edges: dict[str, list[tuple[int, int]]] = {name: [] for name in part.watched}
         self._taken = 0
-        self._due: list[tuple[int, int, dict[str, int], _Later]] = []
+        self._due: list[tuple[int, int, Mapping[str, int], _Later]] = []
         self._order = count()
         self._now = 0
         self.set(**pins)
@@ -118,8 +116,9 @@ class ModelBench(Side):
         """As `Side.set_between`; there is no time between two edges here."""
         return self.set(**levels)
 
-    def _start(self, changes: Iterator[PinChange]) -> _Later:
-        later = _Later(changes)
+    def drive(self, changes: Iterable[PinChange]) -> _Later:
+        """As `Side.drive`."""
+        later = _Later(iter(changes))
         self._later.append(later)
         self._schedule(later)
         return later
@@ -128,25 +127,6 @@ class ModelBench(Side):
         for edge, levels in later.changes:
             heapq.heappush(self._due, (edge, next(self._order), levels, later))
             break
-
-    def at(self, edge: int, **levels: int) -> _Later:
-        """As `Side.at`."""
-        if edge < self._now:
-            raise ValueError(f"at({edge}): it is already edge {self._now}")
-        return self._start(iter([(edge, levels)]))
-
-    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> _Later:
-        """As `Side.external_clock`."""
-        name, start = pin or self.part.clock, self._now
-
-        def ticks() -> Iterator[PinChange]:
-            t = start
-            for interval in intervals:
-                yield t, {name: 1}
-                yield t + high, {name: 0}
-                t += interval
-
-        return self._start(ticks())
 
     # ---------------------------------------------------------------- outputs
 

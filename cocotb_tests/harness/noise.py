@@ -8,6 +8,9 @@ from cocotb.triggers import Timer
 
 from .bench import Bench
 
+UNCOMPARED = "levels change between two edges of clk, where either of the two may see them first"
+"""Why runs with this noise are not compared with the golden model."""
+
 
 class Noise:
     """Drives random levels; each call of `make` goes on where the last one ended.

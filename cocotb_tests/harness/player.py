@@ -20,14 +20,12 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-import cocotb
-from cocotb.task import Task
-
-from .bench import Bench
 from .bus import DATA, IBF, OBF, HostBus
+from .config import Config
+from .side import PinChange, Side
 
 Action = tuple[Any, ...]
 
@@ -41,15 +39,15 @@ class ExternalClock:
 
     segments: tuple[tuple[int, int, int, int, int], ...] = ()
 
-    def levels(self, rng: random.Random) -> Iterator[tuple[int, int]]:
-        """(clk to wait, level; -1 leaves it) of the pin; its jitter is drawn from `rng`."""
+    def changes(self, pin: str, start: int, rng: random.Random) -> Iterator[PinChange]:
+        """Those of the pin from edge `start` on; its jitter is drawn from `rng`."""
+        t = start
         for count, period, jitter, high, pause in self.segments:
             for _ in range(count):
-                length = period + rng.randint(-jitter, jitter)
-                yield 0, 1
-                yield high, 0
-                yield length - high, -1
-            yield pause, -1
+                yield t, {pin: 1}
+                yield t + high, {pin: 0}
+                t += period + rng.randint(-jitter, jitter)
+            t += pause
 
 
 def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
@@ -79,35 +77,49 @@ def pauses(rng: random.Random) -> Callable[[], int]:
     return pause
 
 
+@dataclass(frozen=True)
+class Scenario:
+    """One random host: build, initial pin levels, actions, programme of each clock pin, bus manners."""
+
+    seed: int
+    config: Config
+    pins: dict[str, int]
+    actions: list[Action]
+    clocks: tuple[ExternalClock, ...]
+    pauses: bool
+    limit_clk: int = field(default=60_000)
+
+    @property
+    def clocked(self) -> bool:
+        """Whether a clock pin is used."""
+        return any(clock.segments for clock in self.clocks)
+
+
 class Player:
-    """Plays actions on a bench. Polls have a limit and go on: a host that gave up is a legal host, too."""
+    """Plays a scenario on a side. Polls have a limit and go on: a host that gave up is a legal host, too."""
 
-    def __init__(self, bench: Bench, seed: int, pausing: bool) -> None:
+    def __init__(self, bench: Side, scenario: Scenario) -> None:
         self.bench = bench
-        self.rng = random.Random(f"player {seed}")
-        self.host = HostBus(bench, pause=pauses(self.rng) if pausing else None, timeout=400_000)
-        self._clocks: list[Task[None]] = []
+        self.scenario = scenario
+        self.rng = random.Random(f"player {scenario.seed}")
+        self.host = HostBus(bench, pause=pauses(self.rng) if scenario.pauses else None, timeout=400_000)
 
-    async def play(self, actions: list[Action]) -> None:
-        """All actions in order."""
-        for action in actions:
+    async def run(self) -> None:
+        """All actions in order, the external clocks beside them."""
+        bench, clocks = self.bench, self.scenario.clocks
+        running = []
+        for number, clock in enumerate(clocks, 1):
+            if clock.segments:
+                pin = f"{bench.part.clock}[{number}]" if len(clocks) > 1 else bench.part.clock
+                seed = (number, self.scenario.seed) if len(clocks) > 1 else self.scenario.seed
+                changes = clock.changes(pin, bench.now, random.Random(f"clock {seed}"))
+                running.append(bench.drive(changes))
+        for action in self.scenario.actions:
             await getattr(self, f"_{action[0]}")(*action[1:])
         await self.host.idle()
-        await self.bench.clocks(20)
-        for clock in self._clocks:
-            clock.cancel()
-
-    def start_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
-        """Drive a clock pin by its programme until the actions end."""
-        self._clocks.append(cocotb.start_soon(self._run_clock(pin, clock, seed)))
-
-    async def _run_clock(self, pin: str, clock: ExternalClock, seed: object) -> None:
-        await self.bench.align()
-        for wait, level in clock.levels(random.Random(f"clock {seed}")):
-            if wait:
-                await self.bench.clocks(wait)
-            if level >= 0:
-                self.bench.set(**{pin: level})
+        await bench.clocks(20)
+        for handle in running:
+            handle.cancel()
 
     async def polled(self, mask: int, value: int, limit: int) -> bool:
         """Whether the status showed it within so many clk."""

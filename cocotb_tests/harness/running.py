@@ -17,11 +17,12 @@ Judge = Callable[[Any], Any]
 class Running:
     """One test: the side that it works on now, if any, and who judges it (None: nobody).
 
-    `differs`: a comparison has failed.
+    `differs`: a comparison has failed. `seed`: that of its sides, if not the one of the run.
     """
 
-    def __init__(self, judge: Judge | None) -> None:
+    def __init__(self, judge: Judge | None, seed: int | None = None) -> None:
         self._judge = judge
+        self.seed = seed
         self.side: Side | None = None
         self.differs = False
 
@@ -56,14 +57,14 @@ _now: list[Running] = []
 
 
 def present() -> Running | None:
-    """The directed test that is running; None outside of one."""
+    """The directed or random test that is running; None outside of one."""
     return _now[-1] if _now else None
 
 
 @contextmanager
-def running_test(judge: Judge | None) -> Iterator[Running]:
-    """Inside, a directed test runs whose sides `judge` compares."""
-    _now.append(Running(judge))
+def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Running]:
+    """Inside, a test runs whose sides `judge` compares; see `Running`."""
+    _now.append(Running(judge, seed))
     try:
         yield _now[-1]
     finally:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Awaitable, Callable
+from typing import Any
 
 import cocotb
 
@@ -12,7 +13,7 @@ SEEDS = "OPENPPMC_SEEDS"
 _ALONE = re.compile(r"seed -?\d+ alone: make .*")
 
 
-async def each_seed(test: str, play: Callable[[int], Awaitable[None]]) -> None:
+async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
     """Play the seeds of the batch, or the one of the run; the log tells how to repeat each alone."""
     seeds = os.environ.get(SEEDS, os.environ.get("OPENPPMC_SEED", "1")).split()
     for seed in map(int, seeds):

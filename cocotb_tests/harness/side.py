@@ -10,7 +10,7 @@ from __future__ import annotations
 import random
 from abc import ABC, abstractmethod
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, ClassVar, Protocol
 
 from .config import Config
@@ -20,6 +20,10 @@ from .stimulus import Access, Change, Edge, Recording, bit_changes, level_at
 
 TIMEOUT = 1_000_000
 """clk that a wait lasts at most, if nobody says otherwise."""
+
+
+PinChange = tuple[int, Mapping[str, int]]
+"""Edge that is the first to sample these levels."""
 
 
 class Handle(Protocol):
@@ -83,15 +87,10 @@ class Side(ABC):
         """As `set`, but at a moment between two edges, for a reset; returns just after it, with its stamp."""
 
     @abstractmethod
-    def at(self, edge: int, **levels: int) -> Handle:
-        """Schedule pin levels so that rising edge `edge` is the first to sample them."""
+    def drive(self, changes: Iterable[PinChange]) -> Handle:
+        """Make pin changes beside the test, in order of time, none in the past; read one by one as time goes.
 
-    @abstractmethod
-    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
-        """Run the external clock: each item is the clk count from one rising edge to the next.
-
-        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
-        with the iterable. Each high time is `high` clk. cancel() of what is returned stops it.
+        cancel() of what is returned stops it.
         """
 
     @abstractmethod
@@ -139,6 +138,34 @@ class Side(ABC):
         """Let the pins rest: whatever was to change them later no longer does."""
         for handle in self._later:
             handle.cancel()
+
+    # ---------------------------------------------------------------- pins that move beside the test
+
+    def at(self, edge: int, **levels: int) -> Handle:
+        """Schedule pin levels so that rising edge `edge` is the first to sample them.
+
+        Raises ValueError if that moment has passed.
+        """
+        if edge < self.now:
+            raise ValueError(f"at({edge}): it is already edge {self.now}")
+        return self.drive([(edge, levels)])
+
+    def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
+        """Run the external clock: each item is the clk count from one rising edge to the next.
+
+        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
+        with the iterable. Each high time is `high` clk. cancel() of what is returned stops it.
+        """
+        name, start = pin or self.part.clock, self.now
+
+        def ticks() -> Iterator[PinChange]:
+            t = start
+            for interval in intervals:
+                yield t, {name: 1}
+                yield t + high, {name: 0}
+                t += interval
+
+        return self.drive(ticks())
 
     # ---------------------------------------------------------------- time, reset
 

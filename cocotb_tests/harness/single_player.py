@@ -2,25 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
-from .bench import Bench
 from .bus import BUSY
-from .config import Config
-from .player import Action, ExternalClock, Player
-
-
-@dataclass(frozen=True)
-class Scenario:
-    """One random host: build, initial pin levels, actions, clock programme, bus manners."""
-
-    seed: int
-    config: Config
-    pins: dict[str, int]
-    actions: list[Action]
-    clock: ExternalClock
-    pauses: bool
-    limit_clk: int = field(default=60_000)
+from .player import Player, Scenario
+from .side import Side
 
 
 class SinglePlayer(Player):
@@ -29,17 +13,9 @@ class SinglePlayer(Player):
     Adds ("finish", clk): poll until BUSY = 0; after clk give up and send 0x40, which the rule says must help.
     """
 
-    def __init__(self, bench: Bench, scenario: Scenario, rule: str) -> None:
-        super().__init__(bench, scenario.seed, scenario.pauses)
-        self.scenario = scenario
+    def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:
+        super().__init__(bench, scenario)
         self.rule = rule
-
-    async def run(self) -> None:
-        """All actions in order, the external clock beside them."""
-        clock = self.scenario.clock
-        if clock.segments:
-            self.start_clock(self.bench.part.clock, clock, self.scenario.seed)
-        await self.play(self.scenario.actions)
 
     async def _finish(self, clk: int) -> None:
         if await self.polled(BUSY, 0, clk):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from .bench import Bench
@@ -20,10 +21,11 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
     test = present()
     if test:
         await test.put_away()
+    seed = test.seed if test else None
     if isinstance(dut, OnModel):
-        side: Side = ModelBench(part, dut, settle, **pins)
+        side: Side = ModelBench(part, dut if seed is None else replace(dut, seed=seed), settle, **pins)
     else:
-        side = await Bench.start(dut, part, settle=settle, **pins)
+        side = await Bench.start(dut, part, settle=settle, seed=seed, **pins)
     if test:
         test.side = side
     return side

@@ -15,6 +15,7 @@ from .bench import Bench
 from .compare import leave_digest, write_report
 from .comparison import Comparison, compare_edges
 from .part import PARTS
+from .rerun import rerun
 from .stimulus import Access, Change, Edge, Recording
 
 TAIL = 24
@@ -65,24 +66,14 @@ def taping() -> Iterator[list[Tape]]:
 
 async def record(bench: Bench, tape: Tape) -> Recording:
     """Reset the part and play the tape; what was recorded, from the first edge on."""
-    end, part = tape.finish(), bench.part
-    await bench.align()
-    bench.set(rst_n=0)
-    await bench.clocks(1)
-    bench.set(**part.inputs)
-    await bench.clocks(3)
-    base = bench.set(rst_n=1)
-    bench.forget()
-    bench.play(Change(base + t, pin, value) for t, pin, value in tape.changes)
-    await bench.until(base + end + 1)
-    seen = bench.recording()
+    end = tape.finish()
     return Recording(
-        part=part.name,
+        part=bench.part.name,
         params=tape.params,
         seed=bench.seed,
         end=end,
         stimulus=tape.changes,
-        edges=[Edge(edge.t - base, edge.signal, edge.value) for edge in seen.edges],
+        edges=await rerun(bench, tape.changes, end),
         accesses=tape.accesses,
     )
 

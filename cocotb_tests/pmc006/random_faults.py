@@ -11,7 +11,7 @@ from .random_frames import Frames
 class Faults(Frames):
     """Bad input, and silence."""
 
-    def bad_frame(self) -> None:
+    async def bad_frame(self) -> None:
         """Wrong check, too short, too long, a byte of noise, wrong head."""
         rng, host = self.rng, self.host
         self.left -= 1
@@ -28,53 +28,53 @@ class Faults(Frames):
             line = rng.randbytes(rng.randint(1, 9))
         else:
             line = checked(0xA5, host.address, rng.randrange(256), *rng.randbytes(4))
-        self.put(line)
+        await self.put(line)
         if kind == 1 and rng.random() < 0.5:
-            host.pause(ceil(192 * host.bit) + rng.choice((-40, -36, -35, -34, -33, -3, 0, 40)))
-        self.await_reply()
+            await host.pause(ceil(192 * host.bit) + rng.choice((-40, -36, -35, -34, -33, -3, 0, 40)))
+        await self.await_reply()
 
-    def foreign(self) -> None:
+    async def foreign(self) -> None:
         """Traffic of other nodes."""
         rng = self.rng
         self.left -= 1
         other = rng.choice((1, 5, 0x78, 0, 0x7A))
         data = rng.choice((0, 0xA5FFA5FF, 7))
-        self.put(command(other, rng.choice("jsI"), data) + reply(other, data))
-        self.await_reply()
+        await self.put(command(other, rng.choice("jsI"), data) + reply(other, data))
+        await self.await_reply()
 
-    def talk_out_of_turn(self) -> None:
+    async def talk_out_of_turn(self) -> None:
         """Another frame while the reply to one is on its way."""
         rng, host = self.rng, self.host
         self.left -= 2
-        host.say(rng.choice("cjy"), 0)
+        await host.say(rng.choice("cjy"), 0)
         host.back_to(host.e + rng.choice((0, 1, 30, 60, 100, 400, 4_000)))
-        self.put(command(host.address, rng.choice("yj"), 0xF8))
-        host.forget()
+        await self.put(command(host.address, rng.choice("yj"), 0xF8))
+        await host.forget()
         if rng.random() < 0.7:
-            host.pause(ceil(200 * host.bit))
+            await host.pause(ceil(200 * host.bit))
 
-    def noise(self) -> None:
+    async def noise(self) -> None:
         """Levels on an idle line, breaks."""
         rng, host = self.rng, self.host
         for _ in range(rng.randint(1, 5)):
-            host.low(rng.choice((0.01, 0.1, 0.48, 0.5, 0.52, 1, 3, 9.3, 9.6, 12, 30)))
+            await host.low(rng.choice((0.01, 0.1, 0.48, 0.5, 0.52, 1, 3, 9.3, 9.6, 12, 30)))
             host.t += rng.choice((0, 3, 50, 1_000))
-        self.await_reply()
+        await self.await_reply()
 
-    def pause(self) -> None:
+    async def pause(self) -> None:
         """Nothing, for a while."""
-        self.host.pause(self.rng.choice((100, 3_000, 9_000)))
+        await self.host.pause(self.rng.choice((100, 3_000, 9_000)))
         self.left -= 0.5
 
-    def reset(self) -> None:
+    async def reset(self) -> None:
         """rst_n in the middle of anything."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
-            host.say("s", 100)
-            host.pause(rng.choice((0, 10, 500, 3_000)))
-        host.reset(rng.choice((3, 12, 300)))
-        host.boot()
-        host.forget()
+            await host.say("s", 100)
+            await host.pause(rng.choice((0, 10, 500, 3_000)))
+        await host.reset(rng.choice((3, 12, 300)))
+        await host.boot()
+        await host.forget()
         self.left -= 2
         for code in "LSv":
-            self.frame(code, 3000)
+            await self.frame(code, 3000)

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import random
 from collections import Counter
 from math import ceil
-from typing import Any
 
-from cocotb_tests.harness.background import Background
+from cocotb_tests.harness.random_host import RandomHost
 
 from .frames import command
+from .host import Host
 from .random_program import SPEEDS
-from .script_host import Host
 
 EDGES = (-1, 0x100, 0x10000, 0x7FFFFFFF, -0x80000000)
 DATA: dict[str, tuple[int, ...]] = {
@@ -40,66 +38,63 @@ DATA: dict[str, tuple[int, ...]] = {
 READS = "cjOxXKRknqrhU"
 
 
-class Frames:
+class Frames(RandomHost):
     """A random host's mouth. `seen` counts what it did and found, `left` is how much it has still to do."""
 
-    rng: random.Random
     host: Host
-    model: Any
-    background: Background
     seen: Counter[str]
     left: float
     noisy: bool
 
-    def frame(self, code: str | int, data: int = 0) -> None:
+    async def frame(self, code: str | int, data: int = 0) -> None:
         """A good frame, in a noisy place with wrong levels somewhere; then its reply."""
         rng, host = self.rng, self.host
         self.left -= 1
         if rng.random() < 0.5:
-            host.pause(rng.choice((1, 3, 20, 100, 700, 3_000)))
-        host.say(code, data) if not self.noisy else self.put(command(host.address, code, data))
+            await host.pause(rng.choice((1, 3, 20, 100, 700, 3_000)))
+        await host.say(code, data) if not self.noisy else await self.put(command(host.address, code, data))
         self.seen[f"code {code}"] += 1
-        self.await_reply()
+        await self.await_reply()
 
-    def put(self, line: bytes) -> None:
+    async def put(self, line: bytes) -> None:
         """Bytes, sometimes with spikes or gaps."""
         rng, host = self.rng, self.host
         for byte in line:
             spikes = []
             if self.noisy and rng.random() < 0.1:
                 spikes = [(rng.uniform(0, 9.4), rng.randint(1, int(host.bit * 0.9)))]
-            host.character(byte, spikes=spikes, stop=int(not self.noisy or rng.random() > 0.01))
+            await host.character(byte, spikes=spikes, stop=int(not self.noisy or rng.random() > 0.01))
             if rng.random() < 0.04:
-                host.pause(rng.choice((5, 70, 900)))
+                await host.pause(rng.choice((5, 70, 900)))
 
-    def await_reply(self) -> None:
+    async def await_reply(self) -> None:
         """Wait for the reply if one comes; now and then do not, but then know nothing of the line."""
         host = self.host
-        host.go(max(host.t, host.e + ceil(host.bit) + 9))
-        if host.out("de"):
+        await host.go(max(host.t, host.e + ceil(host.bit) + 9))
+        if await host.out("de"):
             self.seen["reply"] += 1
         if self.rng.random() < 0.97:
-            host.forget()
+            await host.forget()
         host.address = self.model.desk.settings.addr
 
-    def setting(self) -> None:
+    async def setting(self) -> None:
         """A register, mostly with legal data."""
         code = self.rng.choice(list(DATA))
         data = self.rng.choice(DATA[code]) if self.rng.random() < 0.93 else self.rng.choice(EDGES)
-        self.frame(code, data)
+        await self.frame(code, data)
 
-    def read(self) -> None:
+    async def read(self) -> None:
         """Something that has no effect."""
-        self.frame(self.rng.choice(READS), self.rng.choice((0, 0, -1)))
+        await self.frame(self.rng.choice(READS), self.rng.choice((0, 0, -1)))
 
-    def unknown(self) -> None:
+    async def unknown(self) -> None:
         """Any code."""
-        self.frame(self.rng.choice((0, 0x40, 0x48, 0x5B, 0x7B, 0xA5, 0xFF, self.rng.randrange(256))), 1)
+        await self.frame(self.rng.choice((0, 0x40, 0x48, 0x5B, 0x7B, 0xA5, 0xFF, self.rng.randrange(256))), 1)
 
-    def outputs(self) -> None:
+    async def outputs(self) -> None:
         """GPO."""
-        self.frame("y", self.rng.choice((0x08, 0xF8, 0x50, 0x87, 0, -1)))
+        await self.frame("y", self.rng.choice((0x08, 0xF8, 0x50, 0x87, 0, -1)))
 
-    def save(self) -> None:
+    async def save(self) -> None:
         """t or B."""
-        self.frame(self.rng.choice("ttB"))
+        await self.frame(self.rng.choice("ttB"))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from math import ceil, gcd
 
+from .host import ACT
 from .random_frames import DATA
 from .random_motion import Motions
-from .script_host import ACT
 
 LIMIT_US = 6_000
 """So long a motion is watched for something to meet."""
@@ -24,7 +25,7 @@ Course = tuple[tuple[str, int], ...]
 class Meetings(Motions):
     """Two things at a time."""
 
-    def meeting(self) -> None:
+    async def meeting(self) -> None:
         """A short motion, then the same where something comes about an edge that the first has shown."""
         rng, host = self.rng, self.host
         course: Course = (("s", rng.choice((5, 6, 8, 12))),)
@@ -32,55 +33,56 @@ class Meetings(Motions):
             course = (("N", 1), ("N", 0))
         for code, data in (*EASY, *(MOVE if len(course) == 1 else RUN)):
             if rng.random() < 0.9:
-                self.frame(code, data)
-        host.forget()
-        begin, e = self._start(course)
+                await self.frame(code, data)
+        await host.forget()
+        begin, e = await self._start(course)
         # Behind the reply a whole frame must have room.
         least = e + ceil(82 * host.bit) + e - host.said + 2 * NEAR
-        while host.busy and host.t < e + host.us(LIMIT_US):
-            host.step()
+        with suppress(TimeoutError):
+            await host.until("mon_busy", 0, LIMIT_US)
+        await host.go(max(host.t, host.side.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # of the clk on which µs begin
         for _ in range(4):
-            if host.busy or not found["mon_busy"]:
+            if await host.busy() or not found["mon_busy"]:
                 return
-            host.pause(rng.choice((1, 2, 500)))
-            host.go(host.t + (begin - host.t) % period)
+            await host.pause(rng.choice((1, 2, 500)))
+            await host.go(host.t + (begin - host.t) % period)
             times = found[rng.choice(SIGNALS)] or found["mon_busy"]
-            self._meet(course, rng.choice(times))
+            await self._meet(course, rng.choice(times))
 
-    def _meet(self, course: Course, after: int) -> None:
+    async def _meet(self, course: Course, after: int) -> None:
         """The motion again, and what comes so many clk after the end of its last frame, more or less."""
         rng, host = self.rng, self.host
-        _, e = self._start(course)
+        _, e = await self._start(course)
         at = e + after + rng.randint(-NEAR, NEAR)
         if rng.random() < 0.3:
             self._pins(at - 2 + rng.randint(-NEAR, NEAR))
-        host.go(max(host.t, at - ACT - (e - host.said)))
+        await host.go(max(host.t, at - ACT - (e - host.said)))
         code = rng.choice("ssssNNNvvIgdicjmufbp")
-        host.say(code, 8 if code == "s" else rng.choice(DATA.get(code, (1, 1, 0))))
-        self.await_reply()
-        host.forget()
+        await host.say(code, 8 if code == "s" else rng.choice(DATA.get(code, (1, 1, 0))))
+        await self.await_reply()
+        await host.forget()
         self.seen["met"] += 1
         self.left -= 1
-        if host.busy:
-            self.host.pause(rng.choice((0, 1_000, 4_000)))
-            self.frame("I")
+        if await host.busy():
+            await self.host.pause(rng.choice((0, 1_000, 4_000)))
+            await self.frame("I")
 
-    def _start(self, course: Course) -> tuple[int, int]:
+    async def _start(self, course: Course) -> tuple[int, int]:
         """A motion, and the replies; returns the edges of the first frame's begin and the last one's end."""
         host, begin = self.host, self.host.t
         for place, (code, data) in enumerate(course):
-            host.go(begin + place * ceil(175 * host.bit))
-            host.say(code, data)
-            host.go(max(host.t, host.e + ceil(host.bit) + 9))
-            host.forget()
+            await host.go(begin + place * ceil(175 * host.bit))
+            await host.say(code, data)
+            await host.go(max(host.t, host.e + ceil(host.bit) + 9))
+            await host.forget()
         return begin, host.e
 
     def _pins(self, t: int) -> None:
         """What comes from the machine at edge t."""
         pin = self.rng.choice(("ext1", "ext2", "cmp_a", "bemf_valid"))
-        level = 1 - self.model.inputs[pin]
+        level = 1 - self.host.side.pin(pin)
         self.background.add(t, **{pin: level})
         if pin == "bemf_valid":
             self.background.add(t + 1, bemf_valid=0)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from .programs import words
 from .random_frames import DATA, Frames
 from .random_program import some_op, some_program
-from .scenes import words
 
 COUNTS = (1, 2, 3, 5, 12, 60, 255, 256, 260, 300, 1000, 0x7FFFFFFF, 0, -1)
 
@@ -12,61 +12,61 @@ COUNTS = (1, 2, 3, 5, 12, 60, 255, 256, 260, 300, 1000, 0x7FFFFFFF, 0, -1)
 class Motions(Frames):
     """What moves the motor."""
 
-    def start(self) -> None:
+    async def start(self) -> None:
         """A motion, if there can be one."""
         rng = self.rng
         if rng.random() < 0.3:
-            self.frame("N", rng.choice((1, 1, 1, 0, 2)))
+            await self.frame("N", rng.choice((1, 1, 1, 0, 2)))
         else:
-            self.frame("s", rng.choice(COUNTS))
+            await self.frame("s", rng.choice(COUNTS))
         if rng.random() < 0.4:
-            self.host.pause(rng.choice((500, 4_000, 12_000)))
+            await self.host.pause(rng.choice((500, 4_000, 12_000)))
 
-    def meddle(self) -> None:
+    async def meddle(self) -> None:
         """What hosts do while something moves."""
         rng = self.rng
         code = rng.choice("vvvvINNNgissecbbllpmdu")
         data = rng.choice(DATA.get(code, (0, 1, 1))) if code != "s" else rng.choice(COUNTS)
-        self.frame(code, data)
+        await self.frame(code, data)
         if code == "g" and data:
-            self.frame("g", 0)
+            await self.frame("g", 0)
 
-    def single(self) -> None:
+    async def single(self) -> None:
         """One instruction by E."""
         rng = self.rng
         place = rng.randrange(100)
-        self.frame("A", 2 * place)
+        await self.frame("A", 2 * place)
         for word in some_op(rng, 100).words:
-            self.frame("W", word)
-        self.frame("A", 2 * place)
+            await self.frame("W", word)
+        await self.frame("A", 2 * place)
         for _ in range(rng.randint(1, 2)):
-            self.frame("E")
+            await self.frame("E")
         self.left += 3
 
-    def program(self) -> None:
+    async def program(self) -> None:
         """A program, from the host or, quicker, from one that is already there; then life goes on."""
         rng = self.rng
         program = some_program(rng)[: rng.choice((3, 5))]
-        self.frame("A", 0)
+        await self.frame("A", 0)
         for word in words(program):
-            self.frame("W", word)
-        self.frame("A", rng.choice((0, 0, 0, 2)))
-        self.frame("z")
+            await self.frame("W", word)
+        await self.frame("A", rng.choice((0, 0, 0, 2)))
+        await self.frame("z")
         self.left += len(program)
         if rng.random() < 0.5:
-            self.host.pause(rng.choice((2_000, 9_000)))
+            await self.host.pause(rng.choice((2_000, 9_000)))
 
-    def analog(self) -> None:
+    async def analog(self) -> None:
         """A voltage on GPI1; a motion that follows it is started by E."""
         rng = self.rng
         t = self.host.t + 1
         self.background.add(t, adc_data=rng.choice((0, 1, 300, 512, 1023)), adc_valid=1)
         self.background.add(t + 1, adc_valid=0)
         if rng.random() < 0.5:
-            self.frame("A", 198)
+            await self.frame("A", 198)
             for word in (0x08 | 0x100, rng.choice((8000, 3000, 16_000))):
-                self.frame("W", word)
-            self.frame("A", 198)
-            self.frame("E")
+                await self.frame("W", word)
+            await self.frame("A", 198)
+            await self.frame("E")
             self.left += 3
-        self.start()
+        await self.start()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from .scenes import END, Op, goto, out, rot
+from .programs import END, Op, goto, out, rot
 
 COUNTS = (0, 1, 2, 3, 5, 9, 30, 255, 256, 300, 1000, 0x7FFFFFFF, -1)
 SPEEDS = (3000, 3000, 2999, 5000, 9000, 16_000, 1, 0, 500, 16_001, -5)

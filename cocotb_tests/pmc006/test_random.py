@@ -8,37 +8,58 @@ from __future__ import annotations
 
 from collections import Counter
 
-import pytest
-
-from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
 from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
 
-from .random_host import BUILDS, plan, play
+from .random_host import build, play, with_chip
+from .test_memory import design
 
 SEEDS = range(1, 151)
 
 
-def random_item(seed: int) -> Item:
-    """The random host of one seed; the seed decides the build configuration, too."""
-    return seed_item("pmc006", "tb_random", "p006_random_host", seed, plan(seed))
+WITH_CHIP = [seed for seed in SEEDS if with_chip(seed)]
+ALONE = [seed for seed in SEEDS if seed not in WITH_CHIP]
+random_item = RandomItems(
+    "pmc006", "tb_random", "p006_random_host", ALONE, build, takes=lambda seed: not with_chip(seed)
+)
+chip_item = RandomItems(
+    "pmc006", "tb_random", "p006_random_host", WITH_CHIP, build, design=design, takes=with_chip
+)
+pytest_generate_tests = generating(test_random=random_item, test_random_with_eeprom=chip_item)
 
 
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a batch."""
-    if "item" in metafunc.fixturenames:
-        parametrize(metafunc, random_item, SEEDS)
+class Either:
+    """For `make soak`: a seed decides whether its host has an EEPROM."""
+
+    def one(self, seed: int) -> tuple[int, str, str]:
+        """As `RandomItems.one`."""
+        return (chip_item if with_chip(seed) else random_item).one(seed)
+
+    def summary(self, first: int, count: int) -> str:
+        """As `RandomItems.summary`."""
+        return random_item.summary(first, count)
+
+
+SOAK = Either()
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The hosts of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
+
+
+def test_random_with_eeprom(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """Those that have an EEPROM, or hold its address and nobody is there."""
+    chip_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
     """The fixed seeds use every build, each seed once; the same seed gives the same build."""
-    assert {plan(seed).name for seed in SEEDS} == {config.name for config, _ in BUILDS}
-    assert played(random_item, SEEDS) == list(SEEDS) and len(SEEDS) >= 150
+    assert {build(seed).name for seed in SEEDS} == build.names
+    assert random_item.complete and chip_item.complete
+    assert sorted([*ALONE, *WITH_CHIP]) == list(SEEDS) and len(SEEDS) >= 150 and len(WITH_CHIP) >= 10
 
 
 LEAST = {
@@ -54,6 +75,6 @@ def test_hosts_are_rich() -> None:
     """Each kind of thing happens some times, and the part is at work."""
     seen: Counter[str] = Counter()
     for seed in SEEDS[::3]:
-        seen += play(seed, plan(seed)).seen
+        seen += on_model(play(OnModel(build(seed), seed), seed))
     thin = {kind: (seen[kind], least) for kind, least in LEAST.items() if seen[kind] < least}
     assert not thin, f"too rare (seen, needed): {thin}"

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
 from cocotb_tests.harness.host_writer import HostWriter
-from cocotb_tests.harness.player import ExternalClock, random_clock
-from cocotb_tests.harness.single_player import Scenario
+from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
@@ -58,7 +57,7 @@ class _Writer(HostWriter):
         if rng.random() < 0.4:
             pins = {"csel": rng.getrandbits(1), "vsel": rng.getrandbits(1), "auxi": rng.getrandbits(4)}
         return Scenario(
-            self.seed, self.config, pins, self.actions, self.clock(), rng.random() < 0.5, self.limit_clk
+            self.seed, self.config, pins, self.actions, (self.clock(),), rng.random() < 0.5, self.limit_clk
         )
 
     def clock(self) -> ExternalClock:

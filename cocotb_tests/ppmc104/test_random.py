@@ -5,50 +5,79 @@
 
 from __future__ import annotations
 
-import pytest
+import re
+from pathlib import Path
 
-from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
+from cocotb_tests.harness.build import part_design
+from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.compare import compare_recording
 from cocotb_tests.harness.config import D16, F11, F16, F100
+from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness.random_host import in_turn
+from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
+from cocotb_tests.harness.shortened import shortened
+from cocotb_tests.harness.stimulus import Recording
+from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc104.random_host import scenario
 
 SEEDS = range(1, 221)
 CHAOS_SEEDS = range(1, 41)
 
 
-def random_item(seed: int) -> Item:
-    """The random host of one seed; the seed decides the build configuration, too."""
-    return seed_item("ppmc104", "tb_random", "random_host", seed, scenario(seed).config)
-
-
-def chaos_item(seed: int) -> Item:
-    """The noise run of one seed."""
-    return seed_item("ppmc104", "tb_random", "random_chaos", seed, (F16, F16, F11, F100, F16, D16)[seed % 6])
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a batch."""
-    if "item" in metafunc.fixturenames:
-        chaos = "chaos" in metafunc.function.__name__
-        parametrize(metafunc, *((chaos_item, CHAOS_SEEDS) if chaos else (random_item, SEEDS)))
+random_item = RandomItems("ppmc104", "tb_random", "random_host", SEEDS, lambda seed: scenario(seed).config)
+chaos_item = RandomItems(
+    "ppmc104",
+    "tb_random",
+    "random_chaos",
+    CHAOS_SEEDS,
+    in_turn(F16, F16, F11, F100, F16, D16),
+)
+pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The scenarios of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery by the documented sequence."""
-    run_batch(item, seeds, sim_options)
+    chaos_item.run(item, seeds, sim_options)
+
+
+def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
+    """Given a run whose golden model has another crystal than the RTL, then a few bytes show it."""
+
+    async def run(bench: ModelBench) -> None:
+        host = HostBus(bench)
+        for number in range(9):
+            bench.set(auxi=number, vsel=number & 1)
+            await host.command(0x80, poll=False)
+            await bench.clocks(300)
+        await host.init(0x0A, 9, 4, 4)
+        await host.move(0x43, 3)
+        await bench.clocks(9_000)
+
+    bench = ModelBench(PPMC104, OnModel())
+    on_model(run(bench))
+    recording = bench.recording()
+    recording.params["XTAL_HZ"] = 8_000_000
+    (tmp_path / "recording.json").write_text(recording.to_json(), encoding="utf-8")
+    text = shortened(tmp_path, part_design("ppmc104", F16)).splitlines()
+    assert re.match(r"shrunk from \d\d acts to [1-9] in \d+ trials:$", text[0]), text
+    assert text[1].startswith("  write C ") and " differs at edge " in text[-2]
+    short = Recording.from_json((tmp_path / "short" / "recording.json").read_text(encoding="utf-8"))
+    assert len(short.stimulus) < len(recording.stimulus) / 3 and short.accesses
+    assert compare_recording(short).mismatch is not None
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
     """Same seed, same list; the fixed seeds together use every action kind and every build."""
     assert scenario(5) == scenario(5) != scenario(6)
-    assert played(random_item, SEEDS) == list(SEEDS) and len(SEEDS) >= 200
-    assert played(chaos_item, CHAOS_SEEDS) == list(CHAOS_SEEDS)
+    assert random_item.complete and len(SEEDS) >= 200
+    assert chaos_item.complete
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == {
@@ -67,4 +96,4 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     assert {plan.config.name for plan in plans} == {
         "f16", "f8m", "f11m", "f25m", "f50m", "f100m", "d16", "d11m", "d25x8",
     }  # fmt: skip
-    assert sum(bool(plan.clock.segments) for plan in plans) > 30
+    assert sum(plan.clocked for plan in plans) > 30

@@ -7,11 +7,9 @@ and their data look like: `random_codes`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from cocotb_tests.harness.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
 from cocotb_tests.harness.host_writer import HostWriter
-from cocotb_tests.harness.player import Action, ExternalClock, random_clock
+from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.ppmc2104.random_codes import KNOWN_CODES, Codes
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
@@ -21,19 +19,6 @@ DATASHEET_WEIGHTS: list[tuple[Config, int]] = [(D16, 7), (D11, 4), (D25X8, 3)]
 SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n")
 CLOCK_PERIODS = (16, 20, 33, 64, 100, 127, 128, 129, 144, 160, 320)
 READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x86, 1), (0x86, 1))
-
-
-@dataclass(frozen=True)
-class Scenario:
-    """One random host: build, initial pin levels, actions, clock programme per axis, bus manners."""
-
-    seed: int
-    config: Config
-    pins: dict[str, int]
-    actions: list[Action]
-    clocks: tuple[ExternalClock, ExternalClock]
-    pauses: bool
-    limit_clk: int = field(default=60_000)
 
 
 def scenario(seed: int) -> Scenario:

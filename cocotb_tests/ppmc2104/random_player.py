@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.player import Player
-from cocotb_tests.ppmc2104.random_host import Scenario
 
 BUSY = {1: 0x04, 2: 0x08}
 
@@ -14,17 +12,6 @@ class HostPlayer(Player):
 
     Adds ("finish", axes, clk): poll until BUSY of these axes is 0; after clk give up and stop them.
     """
-
-    def __init__(self, bench: Bench, scenario: Scenario) -> None:
-        super().__init__(bench, scenario.seed, scenario.pauses)
-        self.scenario = scenario
-
-    async def run(self) -> None:
-        """All actions in order, the external clocks beside them."""
-        for axis, clock in enumerate(self.scenario.clocks, 1):
-            if clock.segments:
-                self.start_clock(f"extck[{axis}]", clock, (axis, self.scenario.seed))
-        await self.play(self.scenario.actions)
 
     async def _finish(self, axes: list[int], clk: int) -> None:
         mask = sum(BUSY[axis] for axis in axes)

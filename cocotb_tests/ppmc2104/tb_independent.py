@@ -6,13 +6,10 @@ from collections.abc import Iterator
 from itertools import repeat
 from typing import Any
 
-import cocotb
-
-from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.harness.seeds import each_seed
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.random_test import random_test
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 
 from .bench import PPMC2104
@@ -25,7 +22,7 @@ READY, INSTRUCTION = 40_000, 80
 class Run:
     """One of the two runs, from a reset on."""
 
-    def __init__(self, bench: Bench, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
+    def __init__(self, bench: Side, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
         self.bench = bench
         self.plan = plan
         self.host = HostBus(bench)
@@ -77,22 +74,16 @@ class Run:
         await bench.until(until)
 
 
-@cocotb.test()
-@verifies("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05")
-async def p2104_axis_2_alone_and_beside_axis_1(dut: Any) -> None:
+@random_test("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05", least=1)
+async def p2104_axis_2_alone_and_beside_axis_1(dut: Any, seed: int) -> None:
     """Given a host for axis 2, when axis 1 gets traffic between, then axis 2 shows the same edges."""
-
-    async def play(seed: int) -> None:
-        plan = pair(seed)
-        bench = await Bench.start(dut, PPMC2104, seed=seed, busc=plan.busc)
-        alone = await Run(bench, plan, iter(())).play()
-        before = len(bench.accesses)
-        things = traffic(bench.seed, 40 * len(plan.slots) * 5)
-        beside = await Run(bench, plan, iter(things)).play()
-        assert len(bench.accesses) > 4 * before, "hardly any traffic"
-        for name in WAVES:
-            bench.check("P2104-OPR-10", f"edges of {name} beside a working axis 1", beside[name], alone[name])
-        assert len(alone["pout_n[2]"]) > 3, "axis 2 did next to nothing"
-        check_against_model(bench)
-
-    await each_seed("p2104_axis_2_alone_and_beside_axis_1", play)
+    plan = pair(seed)
+    bench = await start_bench(dut, PPMC2104, busc=plan.busc)
+    alone = await Run(bench, plan, iter(())).play()
+    before = len(bench.accesses)
+    things = traffic(bench.seed, 40 * len(plan.slots) * 5)
+    beside = await Run(bench, plan, iter(things)).play()
+    assert len(bench.accesses) > 4 * before, "hardly any traffic"
+    for name in WAVES:
+        bench.check("P2104-OPR-10", f"edges of {name} beside a working axis 1", beside[name], alone[name])
+    assert len(alone["pout_n[2]"]) > 3, "axis 2 did next to nothing"

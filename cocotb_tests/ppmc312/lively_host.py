@@ -6,29 +6,29 @@ fit in. Now and then it does what a rough host does.
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.block_host import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code, State
 
-from .host import CSR, MREF, MWEF
+from .parallel_host import Host
 from .scenes import Scenes
 
 
 class Lively(Scenes):
     """One random host of this kind."""
 
-    def __init__(self, seed: int, config: Config) -> None:
-        super().__init__(seed, config)
+    def __init__(self, host: Host, seed: int) -> None:
+        super().__init__(host, seed)
         self.reads = self.rng.choice((1.0, 1.0, 1.0, 1.0, 1.0, 0.97, 0.8))
         self.end = self.host.t + (900_000 if self.slow else 120_000)
 
-    def play(self) -> object:
+    async def play(self) -> None:
         """Scenes until the time is up."""
         rng, host = self.rng, self.host
-        host.write(CSR, rng.choice((0, 0, 0x10, 0x20, 0x30, 0x40, 0x70)))
+        await host.write(CSR, rng.choice((0, 0, 0x10, 0x20, 0x30, 0x40, 0x70)))
         if rng.random() < 0.25:
             self.disturb_pins()
-        self.curve()
+        await self.curve()
         scenes = (
             (self.finite, 26),
             (self.endless, 14),
@@ -52,39 +52,39 @@ class Lively(Scenes):
             (self.curve, 4),
         )
         while host.t < self.end:
-            rng.choices([scene for scene, _ in scenes], [weight for _, weight in scenes])[0]()
-            self.settle()
-        self.recover()
-        return host
+            await self.pick(scenes)()
+            await self.settle()
+        await self.recover()
 
-    def rough(self) -> None:
+    async def rough(self) -> None:
         """What a rough host does."""
-        self.rng.choices(
+        await self.rng.choices(
             (self.bad_block, self.registers, self.reset, self.setting, self.motion, self.registration),
             (3, 2, 1, 1, 1, 1),
         )[0]()
 
-    def several(self) -> None:
+    async def several(self) -> None:
         """Any instructions, one after the other."""
         for _ in range(self.rng.randint(1, 5)):
             if self.rng.random() < 0.5:
-                self.tell(self.block(self.rng.choice((0x26, 0x42, 0x4D, 0x25, 0x27, 0x47, 0x84, 0x43))).hex())
+                await self.tell(
+                    self.block(self.rng.choice((0x26, 0x42, 0x4D, 0x25, 0x27, 0x47, 0x84, 0x43))).hex()
+                )
             else:
-                self.instruction()
-                self.attend(100)
+                await self.instruction()
+                await self.attend(100)
 
-    def settle(self) -> None:
+    async def settle(self) -> None:
         """Bring the part to rest, mostly in NOR, with everything read."""
-        host, rng, model = self.host, self.rng, self.model
+        host, rng = self.host, self.rng
         for pin in ("run", "end_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n"):
-            if not model.inputs[pin] and rng.random() < 0.95:
-                host.pins(**{pin: 1})
+            if not host.side.pin(pin) and rng.random() < 0.95:
+                await host.pins(**{pin: 1})
         for attempt in range(8):
-            if model.state in (State.ACC, State.FIX):
-                self.attend(2_500 if model.motion.active and attempt < 3 else 400)
-            host.sync()
-            if model.state in (State.ACC, State.FIX) and attempt in (2, 4, 6):
-                self.tell(
+            if self.state in (State.ACC, State.FIX):
+                await self.attend(2_500 if self.model.motion.active and attempt < 3 else 400)
+            if self.state in (State.ACC, State.FIX) and attempt in (2, 4, 6):
+                await self.tell(
                     rng.choice(
                         (
                             message(Code.STOP, "00"),
@@ -93,17 +93,17 @@ class Lively(Scenes):
                         )
                     )
                 )
-            elif model.state is State.ABN:
-                self.attend(60)
-                self.tell(message(Code.ALARM_CLEAR))
-            elif model.state is State.INI:
-                self.curve()
-            elif model.state is State.WRN:
-                self.tell(message(Code.RUN_MONITOR))
-            elif model.state is State.NOR:
+            elif self.state is State.ABN:
+                await self.attend(60)
+                await self.tell(message(Code.ALARM_CLEAR))
+            elif self.state is State.INI:
+                await self.curve()
+            elif self.state is State.WRN:
+                await self.tell(message(Code.RUN_MONITOR))
+            elif self.state is State.NOR:
                 break
-        self.attend(rng.choice((0, 60, 600)))
-        while not host.read(CSR) & MREF and not host.read(CSR) & MWEF:
+        await self.attend(rng.choice((0, 60, 600)))
+        while not await host.read(CSR) & MREF and not await host.read(CSR) & MWEF:
             if rng.random() > self.reads:
                 break
-            self.response()
+            await self.response()

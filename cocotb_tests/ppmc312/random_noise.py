@@ -3,28 +3,30 @@
 from __future__ import annotations
 
 import random
+from typing import Any
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.block_host import CSR, DWR, MREF, MWEF, WAR, WCR
 from cocotb_tests.ppmc312.words import message
-from openppmc.model.ppmc312.codes import Code, State
+from openppmc.model.ppmc312.codes import Code
 from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
-from .host import CSR, DWR, MREF, MWEF, TF, WAR, WCR, Host
-from .random_host import host_of
+from .host import TF
+from .parallel_host import Host
+from .rough_host import reset_by_bus
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))
 BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86, 0x80, 0x00, 0x00, 0xFF)
 
 
-def play(seed: int, config: Config) -> Host:
-    """Noise on the model, then a host that brings the part back."""
+async def play(dut: Any, seed: int) -> None:
+    """Noise, then a host that brings the part back."""
     rng = random.Random(f"p312 noise {seed}")
-    host = host_of(config)
+    host = await Host.start(dut)
     if rng.random() < 0.7:
         for block in TF:
-            host.ask(block)
-        host.put(message(Code.FOREVER_CONSTANT, "00 0064"))
-        host.pause(rng.choice((10, 400)))
+            await host.ask(block)
+        await host.put(message(Code.FOREVER_CONSTANT, "00 0064"))
+        await host.pause(rng.choice((10, 400)))
     end = host.t + rng.choice((3_000, 10_000, 25_000))
     changes: dict[int, dict[str, int]] = {}
     for source in (_bus, _switches):
@@ -34,22 +36,18 @@ def play(seed: int, config: Config) -> Host:
                 changes.setdefault(at, {}).update(levels)
                 t = at
             t += rng.choice((1, 1, 1, 2, 2, 3, 3, 4, 7, 20))
-    for t in sorted(changes):
-        host.model.pins(t, **changes[t])
-    host.t = max(changes) + 4
-    host.pins(**{pin: level for pin, level in INPUTS.items() if pin != "rst_n"})
-    host.pause(20)
+    host.side.drive(sorted(changes.items()))
+    await host.go(max(changes) + 4)
+    await host.pins(**{pin: level for pin, level in INPUTS.items() if pin != "rst_n"})
+    await host.pause(20)
     for _ in range(200):
-        if not host.read(CSR) & MREF:
-            host.response()
-        elif not host.read(CSR) & MWEF:
+        if not await host.read(CSR) & MREF:
+            await host.response()
+        elif not await host.read(CSR) & MWEF:
             break
-        host.pause(400)
-    host.write(CSR, 0)
-    host.put(message(Code.RESET))
-    host.pause(60)
-    assert host.response() == message(Code.RESET) and host.condition == State.INI
-    return host
+        await host.pause(400)
+    await host.write(CSR, 0)
+    await reset_by_bus(host)
 
 
 Changes = list[tuple[int, dict[str, int]]]

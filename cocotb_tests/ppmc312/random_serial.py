@@ -1,24 +1,25 @@
 """Random hosts on the line of a PPMC-312: good frames and bad ones, noise, events, moves, resets.
 
-A seed decides all of it, `plan` the build. The host plays on the golden model; the tape goes to the RTL.
+A seed decides all of it, `build` the build; `play(dut, seed)` plays.
 """
 
 from __future__ import annotations
 
-import random
-from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
-from cocotb_tests.harness.background import Background
-from cocotb_tests.harness.config import D16, F16, Config
+from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.moving_pins import MovingPins
+from cocotb_tests.harness.random_host import Builds
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
+from .aware import Aware
 from .builds import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
-from .serial_host import SerialHost
+from .serial_master import SerialHost
 
-BUILDS: tuple[tuple[Config, int], ...] = ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4))
+build = Builds("p312 serial", ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4)))
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 RATES = (500, 450, 400, 300, 250, 200, 199, 501, 0)
 COUNTS = (1, 2, 3, 6, 12, 25, 0)
@@ -31,47 +32,46 @@ TABLE = "00 00 01F4 00C8 000320"
 """8 MHz, linear, 500 to 200, 800 pulses."""
 
 
-def plan(seed: int) -> Config:
-    """Build of a seed (any int)."""
-    builds, weights = zip(*BUILDS, strict=True)
-    return random.Random(f"p312 serial build {seed}").choices(builds, weights)[0]
+async def play(dut: Any, seed: int) -> None:
+    """Play one seed; AssertionError if the station hangs or answers nonsense."""
+    await (await Talker.on(dut, seed)).play()
 
 
-def play(seed: int, config: Config) -> SerialHost:
-    """Play one seed on the model; AssertionError if the station hangs or answers nonsense."""
-    return Talker(seed, config).play()
+class Talker(Aware):
+    """One random host. It acts on what it hears; the golden model only tells it when to do something."""
 
+    host: SerialHost
+    background: MovingPins
 
-class Talker:
-    """One random host. `late`: something was sent that the station may still answer."""
+    def __init__(self, seed: int) -> None:
+        super().__init__("p312 serial", seed)
+        self.frames = 0
+        self.noisy = False
 
-    def __init__(self, seed: int, config: Config) -> None:
-        self.rng = rng = random.Random(f"p312 serial {seed}")
-        parameters: dict[str, object] = {
-            "clk_hz": config.clk_hz,
-            "xtal_hz": config.xtal_hz,
-            "timing": config.timing,
-        }
-        parameters |= {name.lower(): value for name, value in config.extra}
-        self.host = SerialHost(
+    @classmethod
+    async def on(cls, dut: Any, seed: int) -> Talker:
+        """The host of a seed, on a station that is ready."""
+        talker = cls(seed)
+        rng = talker.rng
+        talker.host = host = await SerialHost.start(
+            dut,
             mod=rng.choice((7, 7, 7, 7, 7, 7, 7, 6)),
             adr=rng.randrange(16),
             error=rng.choice((0, 0, 0, 0.02, -0.02, rng.uniform(-0.03, 0.03))),
-            **parameters,
         )
-        self.model = self.host.model
-        self.background = Background(self.model, ("mode", "mod", "adr"))
-        self.frames = rng.randint(20, 30)
-        self.noisy = rng.random() < 0.3
+        talker.background = MovingPins(host.side, ("mode", "mod", "adr"))
+        talker.frames = rng.randint(20, 30)
+        talker.noisy = rng.random() < 0.3
+        return talker
 
     # ------------------------------------------------------------ top level
 
-    def play(self) -> SerialHost:
+    async def play(self) -> None:
         """Frames of all kinds; then one poll is enough, whatever has been."""
         rng = self.rng
         if rng.random() < 0.93:
-            self.instruct(TABLE)
-        actions: tuple[tuple[Callable[[], object], float], ...] = (
+            await self.instruct(TABLE)
+        actions = (
             (self.poll, 24),
             (self.start, 14),
             (self.during, 12),
@@ -88,78 +88,77 @@ class Talker:
             (self.reset, 0.7),
         )
         for _ in range(self.frames):
-            rng.choices([act for act, _ in actions], [weight for _, weight in actions])[0]()
+            await self.pick(actions)()
             if rng.random() < 0.4:
                 self.disturb()
-            if self.model.state is State.ABN and rng.random() < 0.7:
-                self.instruct("24")
-            if self.model.state is State.INI and rng.random() < 0.5:
-                self.instruct(TABLE)
-        self.recover()
-        return self.host
+            if self.state is State.ABN and rng.random() < 0.7:
+                await self.instruct("24")
+            if self.state is State.INI and rng.random() < 0.5:
+                await self.instruct(TABLE)
+        await self.recover()
 
-    def recover(self) -> None:
+    async def recover(self) -> None:
         """At most one poll brings the station back."""
         host = self.host
-        self.background.stop(host.t + 1)
+        await host.pause(1)
+        self.background.stop()
         host.error = Fraction(0)
-        host.t += 2
-        host.pause(int(14 * host.bit))
-        self.swallow()
-        host.poll()
-        host.say("FF")
-        host.pause(200)
-        self.swallow()
-        assert host.poll() == "90" and host.condition == State.INI, "FF does not help"
+        await host.pause(1)
+        await host.pause(int(14 * host.bit))
+        await self.swallow()
+        await host.poll()
+        await host.say("FF")
+        await host.pause(200)
+        await self.swallow()
+        assert await host.poll() == "90" and self.state is State.INI, "FF does not help"
 
     # ------------------------------------------------------------ line
 
-    def swallow(self) -> None:
+    async def swallow(self) -> None:
         """Whatever is being sent, and what has been."""
         host = self.host
-        host.sync()
-        while self.model.outputs["snd"]:
-            host.step()
+        await host.go(host.t)
+        await host.side.level_is("snd", 0)
         host.forget()
 
-    def listen(self) -> None:
+    async def listen(self) -> None:
         """Wait for the reply, if one comes; now and then do not."""
         host, rng = self.host, self.rng
         if rng.random() < 0.04:
-            host.pause(rng.choice((20, 200, 2_000)))
+            await host.pause(rng.choice((20, 200, 2_000)))
             return
-        host.pause(rng.choice((120, 120, 400)))
+        await host.pause(rng.choice((120, 120, 400)))
         for _ in range(60):
             if host.rise() is not None or not self.model.station.busy:
                 break
-            host.pause(2_000)
-        self.swallow()
+            await host.pause(2_000)
+        await self.swallow()
         if rng.random() < 0.3:
-            host.pause(rng.choice((5, 100, 1_500, 12_000)))
+            await host.pause(rng.choice((5, 100, 1_500, 12_000)))
 
-    def put(self, line: bytes) -> None:
+    async def put(self, line: bytes) -> None:
         """Characters, in a noisy place with wrong levels somewhere."""
         rng, host = self.rng, self.host
         if not (self.noisy and rng.random() < 0.25):
-            host.send(line, rng.choice((0, 0, 0, 0, 0.4, 3)) if len(line) < 12 else 0)
+            await host.send(line, rng.choice((0, 0, 0, 0, 0.4, 3)) if len(line) < 12 else 0)
             return
         for byte in line:
             spikes = []
             if rng.random() < 0.3:
                 spikes = [(rng.uniform(0, 9.4), rng.randint(1, int(host.bit * 0.9)))]
-            host.character(byte, spikes=spikes)
+            await host.character(byte, spikes=spikes)
 
-    def instruct(self, text: str) -> None:
+    async def instruct(self, text: str) -> None:
         """A good frame and its reply."""
         host = self.host
-        self.put(summed(0x90 + host.adr, bytes.fromhex(text), host.sum_mode))
-        self.listen()
+        await self.put(summed(0x90 + host.adr, bytes.fromhex(text), host.sum_mode))
+        await self.listen()
 
-    def poll(self) -> None:
+    async def poll(self) -> None:
         """A good poll."""
         for _ in range(self.rng.choice((1, 1, 2, 3))):
-            self.put(summed(0x80 + self.host.adr, b"", self.host.sum_mode))
-            self.listen()
+            await self.put(summed(0x80 + self.host.adr, b"", self.host.sum_mode))
+            await self.listen()
 
     # ------------------------------------------------------------ instructions
 
@@ -188,86 +187,86 @@ class Talker:
             data = rng.randbytes(n)
         return bytes([code, *data]).hex()
 
-    def start(self) -> None:
+    async def start(self) -> None:
         """A motion, if there can be one."""
         rng = self.rng
-        if self.model.state not in (State.NOR, State.INI) and rng.random() < 0.9:
-            self.during()
+        if self.state not in (State.NOR, State.INI) and rng.random() < 0.9:
+            await self.during()
             return
         code = rng.choice(STARTS) + rng.choice((0, 0x20))
         if code & 0x0F in (7, 8) and rng.random() < 0.5:
             code += 0x10
-        self.instruct(self.data(code))
+        await self.instruct(self.data(code))
         if rng.random() < 0.4:
-            self.host.pause(rng.choice((500, 4_000, 9_000)))
+            await self.host.pause(rng.choice((500, 4_000, 9_000)))
 
-    def during(self) -> None:
+    async def during(self) -> None:
         """What makes sense while something moves."""
-        moving = self.model.state in (State.ACC, State.FIX)
-        self.instruct(self.data(self.rng.choice(DURING if moving else SETTINGS)))
+        moving = self.state in (State.ACC, State.FIX)
+        await self.instruct(self.data(self.rng.choice(DURING if moving else SETTINGS)))
 
-    def setting(self) -> None:
+    async def setting(self) -> None:
         """Settings and terminals, mostly at rest."""
-        if self.model.state in (State.ACC, State.FIX) and self.rng.random() < 0.7:
-            self.instruct(self.rng.choice(("80", "81", "80")))
-        self.instruct(self.data(self.rng.choice(SETTINGS)))
+        if self.state in (State.ACC, State.FIX) and self.rng.random() < 0.7:
+            await self.instruct(self.rng.choice(("80", "81", "80")))
+        await self.instruct(self.data(self.rng.choice(SETTINGS)))
 
-    def table(self) -> None:
+    async def table(self) -> None:
         """00, good or bad."""
         bad = self.rng.choice(("00 00 01F4 00C8 000200", "00 00 01F4 0001 000320", "00 06 01F4 00C8 000320"))
-        self.instruct(bad if self.rng.random() < 0.4 else TABLE)
-        if self.model.state is State.INI:
-            self.instruct(TABLE)
+        await self.instruct(bad if self.rng.random() < 0.4 else TABLE)
+        if self.state is State.INI:
+            await self.instruct(TABLE)
 
-    def register(self) -> None:
+    async def register(self) -> None:
         """Overrides and events; a motion that meets them."""
         rng = self.rng
-        if self.model.state in (State.ACC, State.FIX) and rng.random() < 0.5:
-            self.instruct("80")
+        if self.state in (State.ACC, State.FIX) and rng.random() < 0.5:
+            await self.instruct("80")
         if rng.random() < 0.5:
-            self.instruct(self.data(rng.choice((0x49, 0x49, 0x49, 0x59, 0x59, 0x59, 0x69, 0x79))))
-            self.event()
+            await self.instruct(self.data(rng.choice((0x49, 0x49, 0x49, 0x59, 0x59, 0x59, 0x69, 0x79))))
+            await self.event()
             return
         for _ in range(rng.randint(1, 2)):
-            self.instruct(
+            await self.instruct(
                 self.data(rng.choice((0x80, 0x81, 0x89, 0x8A)) + rng.choice((0x10, 0x10, 0x20, 0x30)))
             )
         if rng.random() < 0.7:
-            self.start()
+            await self.start()
 
-    def reports(self) -> None:
+    async def reports(self) -> None:
         """What makes reports: monitors, interlock, a held motion, a limit."""
-        rng, host, model = self.rng, self.host, self.model
-        if model.state in (State.ACC, State.FIX):
-            self.instruct("80")
+        rng, host = self.rng, self.host
+        if self.state in (State.ACC, State.FIX):
+            await self.instruct("80")
         kind = rng.randrange(5)
         if kind == 0:
-            self.instruct(f"{rng.choice(('02', '03'))} {rng.choice(('01', '05'))} 0001")
+            await self.instruct(f"{rng.choice(('02', '03'))} {rng.choice(('01', '05'))} 0001")
         elif kind == 1:
-            self.instruct(f"04 {model.position + rng.choice((1, 2)) & 0xFFFFFFFF:08X}")
-            if not model.core.interlock.on:
-                self.instruct("44")
+            await self.instruct(f"04 {self.model.position + rng.choice((1, 2)) & 0xFFFFFFFF:08X}")
+            if not self.model.core.interlock.on:
+                await self.instruct("44")
         elif kind == 2:
-            host.pins(run=0)
+            await host.pins(run=0)
         elif kind == 3:
-            self.instruct("28 FF")
+            await self.instruct("28 FF")
             for k in range(rng.randint(1, 4)):
                 self.background.add(host.t + 900 * (k + 1), auxi=rng.randrange(256))
         else:
             self.background.blip(
                 host.t + rng.randrange(15_000), rng.choice(("fl_n", "bl_n", "fhl_n")), 0, 9_000
             )
-        self.start()
-        host.pins(run=1)
-        self.poll()
+        await self.start()
+        await host.pins(run=1)
+        await self.poll()
         if kind == 0:
-            self.instruct("80")
-            self.poll()
+            await self.instruct("80")
+            await self.poll()
             for code in ("43", "63"):
-                self.instruct(f"{code} 00000000")
-            self.poll()
+                await self.instruct(f"{code} 00000000")
+            await self.poll()
 
-    def event(self) -> None:
+    async def event(self) -> None:
         """Edges of the event pins, near the end of a frame."""
         rng, host = self.rng, self.host
         frame = rng.choice(
@@ -276,12 +275,12 @@ class Talker:
         pin = rng.choice(("evt0_n", "evt1_n"))
         end = host.t + int((10 * len(frame) - 0.5) * host.bit)
         self.background.blip(end + rng.randint(-70, 30), pin, 0, rng.choice((3, 40, 900)))
-        self.put(frame)
-        self.listen()
+        await self.put(frame)
+        await self.listen()
 
     # ------------------------------------------------------------ bad things
 
-    def bad_frame(self) -> None:
+    async def bad_frame(self) -> None:
         """Wrong checksum, wrong digits, too short, too long, foreign, unknown, nonsense."""
         rng, host = self.rng, self.host
         code = rng.choice(list(LENGTHS))
@@ -304,34 +303,38 @@ class Talker:
             line = summed(0x90 + host.adr, rng.randbytes(rng.randint(1, 4)), host.sum_mode)
         else:
             line = rng.randbytes(rng.randint(1, 6))
-        self.put(line)
-        self.listen()
+        await self.put(line)
+        await self.listen()
 
-    def talk_out_of_turn(self) -> None:
+    async def talk_out_of_turn(self) -> None:
         """More frames while the reply to one is pending or on its way."""
         rng, host = self.rng, self.host
         first = rng.choice(("25", "42", "4d", "20", "4f"))
-        self.put(summed(0x90 + host.adr, bytes.fromhex(first), host.sum_mode))
+        await self.put(summed(0x90 + host.adr, bytes.fromhex(first), host.sum_mode))
         host.back_to(host.t + rng.choice((0, 1, 50, 300, 900)))
         for _ in range(rng.randint(1, 3)):
-            self.put(summed(rng.choice((0x80, 0x90)) + host.adr, rng.choice((b"", b"\x25")), host.sum_mode))
-        self.listen()
+            await self.put(
+                summed(rng.choice((0x80, 0x90)) + host.adr, rng.choice((b"", b"\x25")), host.sum_mode)
+            )
+        await self.listen()
 
-    def noise(self) -> None:
+    async def noise(self) -> None:
         """Levels on an idle line."""
         rng, host = self.rng, self.host
         for _ in range(rng.randint(1, 6)):
-            host.low(rng.choice((0.01, 0.1, 0.49, 0.5, 0.51, 1, 3, 9.3, 9.6, 12, 30)))
+            await host.low(rng.choice((0.01, 0.1, 0.49, 0.5, 0.51, 1, 3, 9.3, 9.6, 12, 30)))
             host.t += rng.choice((0, 3, 50, 1_000))
-        self.listen()
+        await self.listen()
 
-    def silence(self) -> None:
+    async def silence(self) -> None:
         """20 ms, more or less, behind something unfinished or unknown."""
         rng, host = self.rng, self.host
-        self.put(bytes([0x90 + host.adr]) + rng.choice((b"", b"2", b"26", b"2A", b"33", b"G0", b"4704")))
+        await self.put(
+            bytes([0x90 + host.adr]) + rng.choice((b"", b"2", b"26", b"2A", b"33", b"G0", b"4704"))
+        )
         timebase = self.model.timebase
-        host.pause(timebase.cyc(SILENCE) + rng.choice((-9_000, -3, 0, 2, 3_000)))
-        self.poll()
+        await host.pause(timebase.cyc(SILENCE) + rng.choice((-9_000, -3, 0, 2, 3_000)))
+        await self.poll()
 
     def disturb(self) -> None:
         """Pins that move by themselves."""
@@ -345,23 +348,22 @@ class Talker:
             for k in range(rng.randint(1, 4)):
                 self.background.blip(t + 200 * k + rng.randrange(90), "epin", 1, 40)
 
-    def alarm(self) -> None:
+    async def alarm(self) -> None:
         """alm_n is low for a while."""
         self.background.blip(
             self.host.t + self.rng.randrange(4_000), "alm_n", 0, self.rng.choice((30, 9_000))
         )
 
-    def reset(self) -> None:
+    async def reset(self) -> None:
         """By the pin or by FF; then other pins may count."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
-            self.instruct("FF")
+            await self.instruct("FF")
         else:
-            host.pins(rst_n=0)
-            host.pause(12)
-            host.pins(rst_n=1)
-            host.pause(30)
-            while not self.model.outputs["out_oe"]:
-                host.step()
+            await host.pins(rst_n=0)
+            await host.pause(12)
+            await host.pins(rst_n=1)
+            await host.pause(30)
+            await host.side.level_is("out_oe", 1)
         host.forget()
-        self.instruct(TABLE)
+        await self.instruct(TABLE)

@@ -6,14 +6,14 @@ Also what the well-mannered ones of `lively_host` are made of: blocks, tables, m
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
 
-from cocotb_tests.harness.background import Background
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
+from cocotb_tests.harness.moving_pins import MovingPins
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
-from .host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR, Host
+from .aware import Aware
+from .parallel_host import Host
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)
@@ -22,138 +22,137 @@ RECOVERY = 3000
 """Polls of a host that reads everything until the part is quiet."""
 
 
-def host_of(config: Config) -> Host:
-    """A host on a model with the parameters of a build."""
-    return Host(clk_hz=config.clk_hz, xtal_hz=config.xtal_hz, timing=config.timing)
-
-
 def some_equal(rates: list[int], share: float) -> list[int]:
     """The rates, in this share of cases with equal neighbours; they decide themselves, no draw is taken."""
     rng = random.Random(f"equal {rates}")
     return sorted(rng.choices(rates, k=len(rates))) if rng.random() < share else rates
 
 
-class Player:
-    """One random host."""
+async def reset_by_bus(host: Host) -> None:
+    """FF brings the part back to INI, whatever has been."""
+    await host.put(message(Code.RESET))
+    await host.pause(60)
+    await host.wait()
+    if await host.read(RAR) == 0x40:  # the reset has taken a response away that had just come
+        await host.pause(60)
+    assert await host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
 
-    def __init__(self, seed: int, config: Config) -> None:
-        self.rng = random.Random(f"p312 {seed}")
-        self.host = host_of(config)
-        self.slow = config.datasheet
-        self.model = self.host.model
-        self.background = Background(self.model, ("mode", "mod", "adr"))
+
+class Player(Aware):
+    """One random host. It acts on what it reads; the golden model only tells it when to do something."""
+
+    def __init__(self, host: Host, seed: int) -> None:
+        super().__init__("p312", seed)
+        self.host = host
+        self.slow = host.side.config.datasheet
+        self.background = MovingPins(host.side, ("mode", "mod", "adr"))
         self.reads = self.rng.choice((0.3, 0.9, 0.97, 1.0, 1.0, 1.0))
         self.rates = [100, 200, 400]
         self.end = self.host.t + (900_000 if self.slow else 130_000)
 
     # ------------------------------------------------------------ top level
 
-    def play(self) -> Host:
-        rng = self.rng
+    async def play(self) -> None:
+        """Until the time is up; then the part can be brought back."""
         self.disturb_pins()
-        self.setting()
+        await self.setting()
         while self.host.t < self.end:
-            action: Callable[[], object] = rng.choices(
-                (self.motion, self.instruction, self.aligned, self.bad_block, self.registers, self.setting,
-                 self.reset, self.wait, self.registration),
-                (34, 20, 14, 3, 4, 3, 1.5, 8, 12),
-            )[0]  # fmt: skip
-            action()
-        self.recover()
-        return self.host
+            acts = ((self.motion, 34), (self.instruction, 20), (self.aligned, 14), (self.bad_block, 3),
+                    (self.registers, 4), (self.setting, 3), (self.reset, 1.5), (self.wait, 8),
+                    (self.registration, 12))  # fmt: skip
+            await self.pick(acts)()
+        await self.recover()
 
-    def recover(self) -> None:
+    async def recover(self) -> None:
         """A host that reads everything and then resets has a working part again (P312-BAD-09)."""
         host = self.host
-        self.background.stop(host.t + 1)
-        host.t += 2
+        await host.pause(1)
+        self.background.stop()
+        await host.pause(1)
         for _ in range(RECOVERY):
-            if not host.read(CSR) & MREF:
-                host.response()
-            elif not host.read(CSR) & MWEF:
+            if not await host.read(CSR) & MREF:
+                await host.response()
+            elif not await host.read(CSR) & MWEF:
                 break
-            host.pause(400)
-        host.put(message(Code.RESET))
-        host.pause(60)
-        assert host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
-        assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
+            await host.pause(400)
+        await reset_by_bus(host)
+        assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
 
     # ------------------------------------------------------------ host
 
-    def send(self, text: str) -> None:
+    async def send(self, text: str) -> None:
         """Write a block if the part takes it; now and then without asking."""
         host, rng = self.host, self.rng
-        if not host.read(CSR) & MWEF or rng.random() < 0.1:
-            host.put(text)
-            host.pause(rng.choice((0, 5, 40, 60, 250)))
-        self.fetch()
+        if not await host.read(CSR) & MWEF or rng.random() < 0.1:
+            await host.put(text)
+            await host.pause(rng.choice((0, 5, 40, 60, 250)))
+        await self.fetch()
 
-    def fetch(self) -> None:
+    async def fetch(self) -> None:
         """Read what there is, if this host reads."""
         host, rng = self.host, self.rng
         for _ in range(6):
-            if host.read(CSR) & MREF:
+            if await host.read(CSR) & MREF:
                 return
             if rng.random() > self.reads:
                 return
             if rng.random() < 0.05:
                 for _ in range(rng.randint(1, 3)):
-                    host.read(rng.choice((DRR, DRR, RCR)))
+                    await host.read(rng.choice((DRR, DRR, RCR)))
                 continue
             # A reset may have taken it away meanwhile.
-            for _ in range(0x40 - host.read(RAR)):
-                host.read(DRR)
-            host.sync()
+            for _ in range(0x40 - await host.read(RAR)):
+                await host.read(DRR)
             if rng.random() < 0.1:
-                host.pause(rng.randint(1, 40))
+                await host.pause(rng.randint(1, 40))
 
-    def wait(self) -> None:
+    async def wait(self) -> None:
         rng = self.rng
-        self.host.pause(rng.choice((20, 300, 3_000, 12_000)) * (5 if self.slow else 1))
-        self.fetch()
-        if self.model.state is State.ABN:
-            self.send(message(Code.ALARM_CLEAR))
+        await self.host.pause(rng.choice((20, 300, 3_000, 12_000)) * (5 if self.slow else 1))
+        await self.fetch()
+        if self.state is State.ABN:
+            await self.send(message(Code.ALARM_CLEAR))
 
-    def registers(self) -> None:
+    async def registers(self) -> None:
         """Accesses in any order."""
         host, rng = self.host, self.rng
         for _ in range(rng.randint(1, 8)):
             if rng.random() < 0.5:
-                host.write(
+                await host.write(
                     rng.choice((CSR, WCR, WAR, DWR, 1, 4, 6, 7)),
                     rng.choice((0x20, 0x70, 0x1D, 0x03, 0x10, 0)),
                 )
             else:
-                host.read(rng.choice((CSR, RCR, RAR, DRR, 1, 5)))
+                await host.read(rng.choice((CSR, RCR, RAR, DRR, 1, 5)))
         if rng.random() < 0.3:
-            host.write(CSR, rng.choice((0, 0x10, 0x20, 0x30, 0x70)))
+            await host.write(CSR, rng.choice((0, 0x10, 0x20, 0x30, 0x70)))
 
-    def reset(self) -> None:
+    async def reset(self) -> None:
         """At any moment, also in the middle of a block."""
         host, rng = self.host, self.rng
         if rng.random() < 0.5:
-            host.write(WCR, 0x20)
-            host.write(WAR, 0x18)
-            host.write(DWR, 0x03)
+            await host.write(WCR, 0x20)
+            await host.write(WAR, 0x18)
+            await host.write(DWR, 0x03)
         if rng.random() < 0.4:
-            host.put(message(Code.RESET))
-            host.pause(rng.choice((0, 25, 30, 60)))
+            await host.put(message(Code.RESET))
+            await host.pause(rng.choice((0, 25, 30, 60)))
         elif not self.slow:
-            host.pins(rst_n=0)
-            host.pause(rng.randint(1, 12))
-            host.pins(rst_n=1)
-            host.pause(rng.choice((0, 1, 8)))
-            host.t += 4
-        self.setting()
+            await host.pins(rst_n=0)
+            await host.pause(rng.randint(1, 12))
+            await host.pins(rst_n=1)
+            await host.pause(rng.choice((0, 1, 8)))
+            await host.pause(4)
+        await self.setting()
 
     # ------------------------------------------------------------ blocks
 
-    def bad_block(self) -> None:
+    async def bad_block(self) -> None:
         rng = self.rng
         data = bytes(rng.choice((0, 1, 2, 3, 3, rng.randrange(256))) for _ in range(rng.randint(1, 32)))
-        self.send(data.hex())
+        await self.send(data.hex())
 
-    def setting(self) -> None:
+    async def setting(self) -> None:
         """A table: mostly a short free curve, sometimes one that is computed; often a new base clock."""
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
@@ -170,9 +169,9 @@ class Player:
                 )
             )
             flags = rng.choice("08")
-            self.send("03 " + tail.format(flags if "1{}" in tail else f"0{flags}"))
-            self.host.pause(21_000)
-            self.fetch()
+            await self.send("03 " + tail.format(flags if "1{}" in tail else f"0{flags}"))
+            await self.host.pause(21_000)
+            await self.fetch()
             return
         count = rng.choice((2, 3, 3, 3, 4, 7))
         least = rng.choice((2, 4, 12, 40, 40)) if clk == 0 else rng.choice((4, 10))
@@ -195,9 +194,9 @@ class Player:
             data = b"".join(value.to_bytes(width, "big") for value in values)
             blocks.append(f"{int(last):02X} {len(data):02X} {data.hex()}")
         for block in blocks:
-            self.send(block)
-            self.host.pause(60)
-            self.fetch()
+            await self.send(block)
+            await self.host.pause(60)
+            await self.fetch()
         self.background.external(self.host.t + 2, clk >= 6, rng)
 
     def rate(self) -> int:
@@ -250,41 +249,41 @@ class Player:
             data = data[:-1]
         return bytes([3, len(data) + 1, code]) + data
 
-    def instruction(self) -> None:
+    async def instruction(self) -> None:
         rng = self.rng
         code = rng.choice(
             [code for code in LENGTHS if code not in (0x00, 0x01, 0xFF)] + [0x46, 0x49, 0x02, 0x03]
         )
         if code == 0x41 and rng.random() < 0.7:
             code = 0x44
-        self.send(self.block(code).hex())
+        await self.send(self.block(code).hex())
 
-    def registration(self) -> None:
+    async def registration(self) -> None:
         """Something that waits for a position or an event."""
         rng = self.rng
         if rng.random() < 0.3:
-            self.send(self.block(0x49).hex())
+            await self.send(self.block(0x49).hex())
             return
         trigger = rng.choice((0, 0, 0, 1, 3, 2))
         codes = (0x80, 0x81, 0x87, 0x88) if trigger in (0, 2) else (*MOTIONS[:5], 0x80, 0x81, 0x87, 0x88)
         for _ in range(rng.choice((1, 1, 2, 9))):
-            self.send(self.block(rng.choice(codes), trigger).hex())
+            await self.send(self.block(rng.choice(codes), trigger).hex())
 
-    def motion(self) -> None:
+    async def motion(self) -> None:
         """A motion, and what happens meanwhile."""
         rng = self.rng
-        self.send(self.block(rng.choice(MOTIONS)).hex())
+        await self.send(self.block(rng.choice(MOTIONS)).hex())
         for _ in range(rng.choice((0, 0, 1, 1, 2, 3))):
             if rng.random() < 0.5:
-                self.host.pause(rng.choice((30, 300, 1_500, 5_000)))
+                await self.host.pause(rng.choice((30, 300, 1_500, 5_000)))
             if rng.random() < 0.5:
-                self.send(self.block(rng.choice(DURING)).hex())
+                await self.send(self.block(rng.choice(DURING)).hex())
             else:
-                self.aligned()
+                await self.aligned()
         if rng.random() < 0.7:
-            self.wait()
+            await self.wait()
 
-    def aligned(self) -> None:
+    async def aligned(self) -> None:
         """Something whose effect falls within a few clk of the end of an interval."""
         host, rng, motion = self.host, self.rng, self.model.motion
         if not motion.active or motion.sequence.running is None:
@@ -301,15 +300,15 @@ class Player:
             interval = max(4, due - host.t)
             while near - ahead < host.t:
                 near += interval
-            if near - ahead < host.t + 60_000 and not host.read(CSR) & MWEF:
-                host.go(max(host.t, near - ahead))
-                host.put(text.hex())
+            if near - ahead < host.t + 60_000 and not await host.read(CSR) & MWEF:
+                await host.go(max(host.t, near - ahead))
+                await host.put(text.hex())
         elif near - 2 > host.t:
             pin = rng.choice(PINS[:-2])
-            host.go(near - 2)
-            host.pins(**{pin: 0})
-            host.pause(rng.choice((1, 2, 3, 20, 500)))
-            host.pins(**{pin: 1})
+            await host.go(near - 2)
+            await host.pins(**{pin: 0})
+            await host.pause(rng.choice((1, 2, 3, 20, 500)))
+            await host.pins(**{pin: 1})
 
     # ------------------------------------------------------------ pins
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from cocotb_tests.harness.block_host import CSR, DRR, MREF, MWEF, RAR
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code, State
 from openppmc.model.ppmc312.stages.plan import ramped
 
-from .host import CSR, DRR, MREF, MWEF, RAR
 from .rough_host import Player, some_equal
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
@@ -32,54 +32,53 @@ class Scenes(Player):
 
     # ------------------------------------------------------------ the host's side
 
-    def response(self) -> None:
+    async def response(self) -> None:
         """Read what is loaded."""
         host = self.host
-        for _ in range(0x40 - host.read(RAR)):
-            host.read(DRR)
-        host.sync()
+        for _ in range(0x40 - await host.read(RAR)):
+            await host.read(DRR)
 
-    def attend(self, clk: int) -> None:
+    async def attend(self, clk: int) -> None:
         """Let time pass; read what comes, and let the encoder follow."""
         host, rng = self.host, self.rng
         end = host.t + clk * (4 if self.slow else 1)
         while True:
-            while not host.read(CSR) & MREF and rng.random() < self.reads:
-                self.response()
+            while not await host.read(CSR) & MREF and rng.random() < self.reads:
+                await self.response()
             if self.follows:
-                self.follow()
+                await self.follow()
             if host.t >= end:
                 return
-            host.pause(min(POLL, end - host.t))
+            await host.pause(min(POLL, end - host.t))
 
-    def follow(self) -> None:
+    async def follow(self) -> None:
         """The encoder goes after the position, with slips."""
         counters, host = self.model.core.counters, self.host
         behind = counters.pulse - counters.encoder & 0xFFFFFFFF
         if behind and self.rng.random() < self.follows:
             wrong = self.rng.random() < 0.04
-            host.pins(epdir=int(behind >> 31) ^ wrong)
-            host.pins(epin=1)
-            host.pause(self.rng.randint(1, 4))
-            host.pins(epin=0)
+            await host.pins(epdir=int(behind >> 31) ^ wrong)
+            await host.pins(epin=1)
+            await host.pause(self.rng.randint(1, 4))
+            await host.pins(epin=0)
 
-    def tell(self, text: str) -> None:
+    async def tell(self, text: str) -> None:
         """Write a block as soon as it is taken, and read until its answer has come (or nearly so)."""
         host, rng = self.host, self.rng
         for _ in range(40):
-            if not host.read(CSR) & MWEF:
+            if not await host.read(CSR) & MWEF:
                 break
-            self.attend(POLL)
-        host.put(text)
+            await self.attend(POLL)
+        await host.put(text)
         if rng.random() < 0.06:
             return
         for _ in range(14):
-            self.attend(40)
-            if not host.read(CSR) & MWEF:
+            await self.attend(40)
+            if not await host.read(CSR) & MWEF:
                 break
-        self.attend(10)
+        await self.attend(10)
 
-    def curve(self) -> None:
+    async def curve(self) -> None:
         """A short free curve on a fast base clock, so that whole operations are short."""
         host, rng = self.host, self.rng
         clk = rng.choice((0, 0, 0, 0, 0, 0, 0, 1, 2, 6, 7)) if not self.slow else rng.choice((0, 1))
@@ -96,10 +95,10 @@ class Scenes(Player):
         )
         lists = [(2, self.rates), *((3, [rng.randint(2, 4) for _ in range(n)])
                                     for n in ((up, down) if separate else (up,)))]  # fmt: skip
-        self.tell(head)
+        await self.tell(head)
         for number, (width, values) in enumerate(lists):
             data = b"".join(value.to_bytes(width, "big") for value in values)
-            self.tell(f"{int(number == len(lists) - 1):02X} {len(data):02X} {data.hex()}")
+            await self.tell(f"{int(number == len(lists) - 1):02X} {len(data):02X} {data.hex()}")
         self.background.external(host.t + 2, clk >= 6, rng)
 
     # ------------------------------------------------------------ numbers
@@ -154,101 +153,104 @@ class Scenes(Player):
 
     # ------------------------------------------------------------ motions
 
-    def meanwhile(self, times: int) -> None:
+    async def meanwhile(self, times: int) -> None:
         """What comes in the middle of an operation, often at a boundary."""
-        host, rng, model = self.host, self.rng, self.model
+        host, rng = self.host, self.rng
         for _ in range(times):
-            if model.state not in (State.ACC, State.FIX, State.WRN):
+            if self.state not in (State.ACC, State.FIX, State.WRN):
                 return
             what = rng.random()
             if what < 0.4:
-                self.aligned()
+                await self.aligned()
             elif what < 0.65:
-                self.tell(self.change_block().hex())
+                await self.tell(self.change_block().hex())
             elif what < 0.8:
-                self.tell(rng.choice(ASKED))
+                await self.tell(rng.choice(ASKED))
             elif what < 0.84:
                 pin = rng.choice((*LIMITS, "org_n", "end_n", "alm_n", "index_n"))
                 self.background.blip(host.t + rng.randint(1, 900), pin, 0, rng.choice((1, 4, 400)))
-            self.attend(rng.choice((0, 30, 300, 900)))
+            await self.attend(rng.choice((0, 30, 300, 900)))
 
-    def finite(self) -> None:
+    async def finite(self) -> None:
         """A move, with or without disturbance."""
         rng = self.rng
         if rng.random() < 0.35:
-            self.changed()
+            await self.changed()
             return
-        self.tell(self.finite_block().hex())
-        self.meanwhile(rng.choice((0, 0, 1, 2, 4)))
-        self.attend(4_000)
+        await self.tell(self.finite_block().hex())
+        await self.meanwhile(rng.choice((0, 0, 1, 2, 4)))
+        await self.attend(4_000)
 
-    def changed(self) -> None:
+    async def changed(self) -> None:
         """A move with changes of speed, which has to find its deceleration point again."""
-        rng, motion = self.rng, self.model.motion
-        self.tell(self.finite_block(rng.randint(12, 40)).hex())
+        rng = self.rng
+        await self.tell(self.finite_block(rng.randint(12, 40)).hex())
         for _ in range(rng.choice((1, 1, 2, 3))):
-            if not motion.active:
+            if not self.model.motion.active:
                 break
-            self.attend(rng.choice((0, 200, 900)))
+            await self.attend(rng.choice((0, 200, 900)))
             if rng.random() < 0.7:
-                self.tell(self.change_block(codes=(0x87, 0x88)).hex())
+                await self.tell(self.change_block(codes=(0x87, 0x88)).hex())
             else:
-                self.aligned()
-                self.attend(120)
-        self.attend(6_000)
+                await self.aligned()
+                await self.attend(120)
+        await self.attend(6_000)
 
-    def meeting_point(self) -> None:
+    async def meeting_point(self) -> None:
         """Two 87 shortly before the deceleration point, after an 88 to where a ramp has many stages."""
-        host, rng, motion, table = self.host, self.rng, self.model.motion, self.model.core.table
+        host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:
             return
         rate = rng.choice(self.rates)
         full = ramped(table, rate, None).up + sum(table.pd[table.sd : table.stage(rate) + 1])
         count = full + rng.randint(16, 24)
-        self.tell(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
+        await self.tell(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
         before = rng.randint(6, 12)
-        while motion.active and count - motion.sequence.done > motion.sequence.plan.down + before:
-            self.attend(30)
-        self.tell(message(Code.CHANGE, f"00 {max(self.rates):04X}"))
-        self.attend(rng.choice((30, 200)))
-        self.tell(message(Code.RAMP_CHANGE, f"00 {min(self.rates):04X}"))
+        while (motion := self.model.motion).active:
+            if count - motion.sequence.done <= motion.sequence.plan.down + before:
+                break
+            await self.attend(30)
+        await self.tell(message(Code.CHANGE, f"00 {max(self.rates):04X}"))
+        await self.attend(rng.choice((30, 200)))
+        await self.tell(message(Code.RAMP_CHANGE, f"00 {min(self.rates):04X}"))
+        motion = self.model.motion
         if motion.active and motion.due and rng.random() < 0.8:
-            host.go(max(host.t, motion.due - rng.randint(70, 150)))
-        self.tell(message(Code.RAMP_CHANGE, f"00 {self.speed():04X}"))
-        self.attend(3_000)
+            await host.go(max(host.t, motion.due - rng.randint(70, 150)))
+        await self.tell(message(Code.RAMP_CHANGE, f"00 {self.speed():04X}"))
+        await self.attend(3_000)
 
-    def walk_change(self) -> None:
+    async def walk_change(self) -> None:
         """88 in the walk of an 81."""
-        self.tell(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
-        self.attend(self.rng.choice((1_000, 2_500)))
-        self.tell(message(Code.SLOW_STOP, "00"))
-        self.tell(message(Code.CHANGE, f"00 {self.speed():04X}"))
-        self.attend(800)
-        self.tell(message(Code.STOP, "00"))
+        await self.tell(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
+        await self.attend(self.rng.choice((1_000, 2_500)))
+        await self.tell(message(Code.SLOW_STOP, "00"))
+        await self.tell(message(Code.CHANGE, f"00 {self.speed():04X}"))
+        await self.attend(800)
+        await self.tell(message(Code.STOP, "00"))
 
-    def start_on_a_limit(self) -> None:
+    async def start_on_a_limit(self) -> None:
         """A limit of the same or the other direction is low when a motion starts."""
         pin = self.rng.choice((*LIMITS, *SLOW_LIMITS))
-        self.host.pins(**{pin: 0})
-        self.tell(self.finite_block().hex())
-        self.attend(300)
-        self.host.pins(**{pin: 1})
+        await self.host.pins(**{pin: 0})
+        await self.tell(self.finite_block().hex())
+        await self.attend(300)
+        await self.host.pins(**{pin: 1})
 
-    def endless(self) -> None:
+    async def endless(self) -> None:
         """85 or 86 with changes, then a stop."""
-        self.tell(self.endless_block().hex())
-        self.meanwhile(self.rng.choice((2, 4, 7)))
+        await self.tell(self.endless_block().hex())
+        await self.meanwhile(self.rng.choice((2, 4, 7)))
         if self.model.motion.active:
-            self.tell(self.rng.choice((STOPS[0], STOPS[1], STOPS[1])))
-        self.attend(1_500)
+            await self.tell(self.rng.choice((STOPS[0], STOPS[1], STOPS[1])))
+        await self.attend(1_500)
 
-    def overrides(self) -> None:
+    async def overrides(self) -> None:
         """Entries of the command FIFO for positions and events, before or during a motion."""
         rng = self.rng
         before = rng.random() < 0.4
         start = self.endless_block() if rng.random() < 0.6 else self.finite_block()
         if not before:
-            self.tell(start.hex())
+            await self.tell(start.hex())
         ahead, pins = 0, []
         for _ in range(rng.choice((1, 2, 3, 3, 5, 9))):
             trigger = rng.choice((0, 0, 0, 0, 2, 1, 3))
@@ -258,17 +260,17 @@ class Scenes(Player):
                 pins.append("evt0_n" if trigger == 1 else "evt1_n")
                 if rng.random() < 0.3:
                     block = self.finite_block() if rng.random() < 0.6 else self.endless_block()
-                    self.tell((block[:3] + bytes([block[3] | 4 | trigger]) + block[4:]).hex())
+                    await self.tell((block[:3] + bytes([block[3] | 4 | trigger]) + block[4:]).hex())
                     continue
-            self.tell(self.change_block(trigger, ahead).hex())
+            await self.tell(self.change_block(trigger, ahead).hex())
         if before:
-            self.tell(start.hex())
+            await self.tell(start.hex())
         for pin in (*pins, *pins):
-            self.attend(rng.choice((100, 500, 1_200)))
-            self.press(pin)
-        self.attend(3_000)
+            await self.attend(rng.choice((100, 500, 1_200)))
+            await self.press(pin)
+        await self.attend(3_000)
 
-    def press(self, pin: str) -> None:
+    async def press(self, pin: str) -> None:
         """An event, now and then with a limit that forbids what it starts."""
         if self.rng.random() < 0.06:
             for limit in LIMITS:
@@ -277,10 +279,10 @@ class Scenes(Player):
         if self.slow and self.rng.random() < 0.5:
             low = 30
         self.background.blip(self.host.t + 2, pin, 0, low)
-        self.host.pause(3 if not self.slow else low + 8)
-        self.attend(250)
+        await self.host.pause(3 if not self.slow else low + 8)
+        await self.attend(250)
 
-    def register(self, number: int, count: int) -> None:
+    async def register(self, number: int, count: int) -> None:
         """Fill an event buffer."""
         rng = self.rng
         for _ in range(count):
@@ -295,67 +297,67 @@ class Scenes(Player):
                 block = self.change_block()
             else:
                 block = bytes.fromhex(rng.choice(ASKED))
-            self.tell(message(Code.EVENT_SET, f"{number:02X} {block.hex()}"))
+            await self.tell(message(Code.EVENT_SET, f"{number:02X} {block.hex()}"))
 
-    def events(self) -> None:
+    async def events(self) -> None:
         """An event buffer filled and worked off."""
         rng = self.rng
         numbers = rng.choice(((0,), (1,), (0, 1)))
         for number in numbers:
-            self.register(number, rng.randint(1, 3))
+            await self.register(number, rng.randint(1, 3))
         if rng.random() < 0.5:
-            self.tell(self.endless_block().hex())
+            await self.tell(self.endless_block().hex())
         for _ in range(rng.randint(2, 7 if not self.slow else 2)):
-            self.press(f"evt{rng.choice(numbers)}_n")
-            self.attend(rng.choice((0, 200, 700)))
+            await self.press(f"evt{rng.choice(numbers)}_n")
+            await self.attend(rng.choice((0, 200, 700)))
         for number in numbers:
             if rng.random() < 0.4:
-                self.tell(message(Code.EVENT_SET, f"{2 | number:02X}"))
+                await self.tell(message(Code.EVENT_SET, f"{2 | number:02X}"))
 
-    def meeting(self) -> None:
+    async def meeting(self) -> None:
         """Events and a host block at nearly the same time."""
         host, rng = self.host, self.rng
         for number in (0, 1):
             if rng.random() < 0.7:
-                self.register(number, 1)
+                await self.register(number, 1)
         if rng.random() < 0.7:
-            self.tell(self.endless_block().hex())
-            self.tell(self.change_block(rng.choice((0, 1, 3)), rng.randint(8, 16)).hex())
+            await self.tell(self.endless_block().hex())
+            await self.tell(self.change_block(rng.choice((0, 1, 3)), rng.randint(8, 16)).hex())
         for _ in range(rng.randint(1, 4)):
-            self.attend(200)
+            await self.attend(200)
             block = bytes.fromhex(rng.choice((*ASKED, *STOPS))) \
                 if rng.random() < 0.6 else self.change_block()  # fmt: skip
             header = host.t + 3 * (len(block) + 2)
             for pin in ("evt0_n", "evt1_n"):
                 if rng.random() < 0.7:
                     self.background.blip(max(host.t + 1, header + rng.randint(-50, 40)), pin, 0, 20)
-            if not host.read(CSR) & MWEF:
-                host.put(block.hex())
-            self.attend(500)
+            if not await host.read(CSR) & MWEF:
+                await host.put(block.hex())
+            await self.attend(500)
 
     # ------------------------------------------------------------ what is around the motor
 
-    def origin(self) -> None:
+    async def origin(self) -> None:
         """10 or 11 with an origin that comes, and goes."""
         host, rng = self.host, self.rng
-        self.tell(self.endless_block((0x10, 0x11, 0x11)).hex())
+        await self.tell(self.endless_block((0x10, 0x11, 0x11)).hex())
         for _ in range(rng.randint(1, 3)):
-            self.attend(rng.choice((300, 900, 2_000)))
+            await self.attend(rng.choice((300, 900, 2_000)))
             if rng.random() < 0.4:
-                self.meanwhile(1)
+                await self.meanwhile(1)
             due = self.model.motion.due
             at = max(host.t + 1, (due or host.t) + rng.randint(-9, 5))
             self.background.blip(at, "org_n", 0, rng.choice((1, 5, 700, 3_000)))
             self.background.blip(at + rng.choice((0, 2, 300)), "index_n", 0, rng.choice((1, 30, 900)))
-        self.attend(2_500)
+        await self.attend(2_500)
 
-    def slow_limit(self) -> None:
+    async def slow_limit(self) -> None:
         """High-speed limits and limits met while running."""
         host, rng = self.host, self.rng
         if rng.random() < 0.85:
-            self.tell(message(Code.SPEED_LIMIT, f"{rng.choice((max(self.rates), self.speed())):04X}"))
+            await self.tell(message(Code.SPEED_LIMIT, f"{rng.choice((max(self.rates), self.speed())):04X}"))
         block = self.endless_block() if rng.random() < 0.6 else self.finite_block()
-        self.tell(block.hex())
+        await self.tell(block.hex())
         pins = SLOW_LIMITS if rng.random() < 0.8 else LIMITS
         for _ in range(rng.randint(1, 3)):
             due = self.model.motion.due
@@ -363,105 +365,105 @@ class Scenes(Player):
             pin = pins[self.model.motion.direction ^ (rng.random() < 0.1)]
             self.background.blip(at, pin, 0, rng.choice((1, 3, 100, 1_000, 3_000)))
             if rng.random() < 0.3:
-                self.meanwhile(1)
-            self.attend(rng.choice((300, 900, 2_000)))
+                await self.meanwhile(1)
+            await self.attend(rng.choice((300, 900, 2_000)))
 
-    def inputs(self) -> None:
+    async def inputs(self) -> None:
         """28 and a general input that changes, with a host that is slow to read."""
         host, rng = self.host, self.rng
-        self.tell(
+        await self.tell(
             message(Code.MASK, f"{rng.choice((1, 1, 1, 0)):02X} {rng.choice((0xFF, 0x0F, 0x5A, 1)):02X}")
         )
         if rng.random() < 0.5:
-            self.tell(self.finite_block().hex())
+            await self.tell(self.finite_block().hex())
         for _ in range(rng.randint(2, 6)):
-            host.pins(auxi=rng.randrange(256))
-            host.pause(self.model.timebase.cyc(rng.choice((30, 500, 810, 1_000))))
+            await host.pins(auxi=rng.randrange(256))
+            await host.pause(self.model.timebase.cyc(rng.choice((30, 500, 810, 1_000))))
             if rng.random() < 0.35:
-                self.attend(50)
+                await self.attend(50)
 
-    def encoder(self) -> None:
+    async def encoder(self) -> None:
         """Monitors on, an encoder that follows."""
         rng = self.rng
         self.follows = rng.choice((1.0, 0.9, 0.6, 0.2))
-        self.tell(
+        await self.tell(
             message(
                 Code.POSITION_SET, f"01 {self.model.position + rng.choice((0, 0, 1, -3)) & 0xFFFFFFFF:08X}"
             )
         )
         for code in rng.choice(((2,), (3,), (2, 3))):
             flags, distance = rng.choice((1, 3, 3, 5, 7, 7)), rng.choice((1, 2, 2, 4))
-            self.tell(message(code, f"{flags:02X} 00 {distance:02X}"))
+            await self.tell(message(code, f"{flags:02X} 00 {distance:02X}"))
         for _ in range(rng.randint(1, 3)):
-            self.tell(self.finite_block().hex())
-            self.meanwhile(rng.choice((0, 1)))
-            self.attend(rng.choice((1_500, 4_000)))
+            await self.tell(self.finite_block().hex())
+            await self.meanwhile(rng.choice((0, 1)))
+            await self.attend(rng.choice((1_500, 4_000)))
         if rng.random() < 0.7:
             self.follows = 0.0
 
-    def interlock(self) -> None:
+    async def interlock(self) -> None:
         """The control, and a motion over its position."""
         rng = self.rng
         step = rng.choice((1, 3, 9, -2, -5))
-        self.tell(message(Code.INTERLOCK_POSITION, f"{self.model.position + step & 0xFFFFFFFF:08X}"))
-        self.tell(message(Code.INTERLOCK))
-        self.finite()
+        await self.tell(message(Code.INTERLOCK_POSITION, f"{self.model.position + step & 0xFFFFFFFF:08X}"))
+        await self.tell(message(Code.INTERLOCK))
+        await self.finite()
 
-    def held(self) -> None:
+    async def held(self) -> None:
         """RUN low: a motion that waits."""
         host, rng = self.host, self.rng
-        host.pins(run=0)
-        self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
+        await host.pins(run=0)
+        await self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
         for _ in range(rng.randint(0, 2)):
-            self.tell(rng.choice((*ASKED, message(Code.ALARM_CLEAR), message(Code.STOP, "00"))))
+            await self.tell(rng.choice((*ASKED, message(Code.ALARM_CLEAR), message(Code.STOP, "00"))))
         if rng.random() < 0.2:
-            self.tell(message(Code.RUN_MONITOR))
+            await self.tell(message(Code.RUN_MONITOR))
         if rng.random() < 0.1:
             self.background.blip(host.t + 2, "alm_n", 0, 50)
-        self.attend(300)
-        host.pins(run=1)
-        self.attend(2_000)
+        await self.attend(300)
+        await host.pins(run=1)
+        await self.attend(2_000)
 
-    def end_wait(self) -> None:
+    async def end_wait(self) -> None:
         """The positioning end monitored."""
         host, rng = self.host, self.rng
-        self.tell(message(Code.END_TERMINAL, "01"))
-        self.tell(self.finite_block().hex())
-        self.meanwhile(rng.choice((0, 1)))
-        self.attend(4_000)
+        await self.tell(message(Code.END_TERMINAL, "01"))
+        await self.tell(self.finite_block().hex())
+        await self.meanwhile(rng.choice((0, 1)))
+        await self.attend(4_000)
         for _ in range(rng.randint(0, 2)):
-            self.tell(self.change_block().hex())
+            await self.tell(self.change_block().hex())
         if rng.random() < 0.7:
             self.background.blip(host.t + 3, "end_n", 0, 60)
-            self.attend(200)
-        self.tell(message(Code.END_TERMINAL, "00"))
+            await self.attend(200)
+        await self.tell(message(Code.END_TERMINAL, "00"))
 
-    def alarm(self) -> None:
+    async def alarm(self) -> None:
         """alm_n in the middle of something; cleared at once or with the pin still low."""
         host, rng = self.host, self.rng
         if rng.random() < 0.8:
-            self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
+            await self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
         self.background.blip(host.t + rng.randint(1, 600), "alm_n", 0, rng.choice((3, 200, 1_500)))
-        self.attend(rng.choice((300, 700)))
-        self.tell(message(Code.ALARM_CLEAR))
+        await self.attend(rng.choice((300, 700)))
+        await self.tell(message(Code.ALARM_CLEAR))
 
-    def unread(self) -> None:
+    async def unread(self) -> None:
         """Reports that stay unread until there are more of their class than places (P312-RSP-20)."""
         host, rng = self.host, self.rng
         held = rng.random() < 0.4
         for _ in range(rng.randint(2, 3)):
             if held:
-                host.pins(run=0)
+                await host.pins(run=0)
             for _ in range(12):
-                if not host.read(CSR) & MWEF:
+                if not await host.read(CSR) & MWEF:
                     break
-                host.pause(100)
+                await host.pause(100)
             # An answer is read with the first chance, so that the next instruction is executed.
             if self.model.core.responses.answer:
-                self.response()
-            host.put(message(Code.STEP, "00"))
-            host.pause(400)
-            host.pins(run=1)
-            host.pause(rng.choice((600, 3_000)))
-            if not host.read(CSR) & MREF and rng.random() < 0.9:
-                self.response()
+                await self.response()
+            await host.put(message(Code.STEP, "00"))
+            await host.pause(400)
+            await host.pins(run=1)
+            await host.pause(rng.choice((600, 3_000)))
+            if not await host.read(CSR) & MREF and rng.random() < 0.9:
+                await self.response()

@@ -4,19 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import cocotb
-
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.seeds import each_seed
-from cocotb_tests.harness.tape import play
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.random_test import random_test
 
 from . import random_host, random_noise, random_serial
-from .bench import PPMC312
 
 
-@cocotb.test()
-@verifies(
+@random_test(
     "P312-GEN-01",
     "P312-GEN-12",
     "P312-PAR-05",
@@ -34,34 +27,22 @@ from .bench import PPMC312
     "P312-MOT-34",
     "P312-INP-12",
     "P312-BAD-09",
+    least=200,
 )
-async def p312_random_host(dut: Any) -> None:
+async def p312_random_host(dut: Any, seed: int) -> None:
     """Given random hosts, when the RTL gets their pins, then all outputs change as in the golden model."""
-    bench = await Bench.start(dut, PPMC312)
-
-    async def one(seed: int) -> None:
-        host = random_host.play(seed, bench.config)
-        result = await play(bench, host.tape)
-        assert result.edges_compared > 200, f"seed {seed} did next to nothing"
-
-    await each_seed("p312_random_host", one)
+    await random_host.play(dut, seed)
 
 
-@cocotb.test()
-@verifies("P312-BAD-01", "P312-BAD-02", "P312-BAD-09", "P312-PAR-09", "P312-PAR-10", "P312-GEN-01")
-async def p312_random_noise(dut: Any) -> None:
+@random_test(
+    "P312-BAD-01", "P312-BAD-02", "P312-BAD-09", "P312-PAR-09", "P312-PAR-10", "P312-GEN-01", least=1
+)
+async def p312_random_noise(dut: Any, seed: int) -> None:
     """Given noise on all pins, when the RTL gets it, then all outputs change as in the golden model."""
-    bench = await Bench.start(dut, PPMC312)
-
-    async def one(seed: int) -> None:
-        host = random_noise.play(seed, bench.config)
-        await play(bench, host.tape)
-
-    await each_seed("p312_random_noise", one)
+    await random_noise.play(dut, seed)
 
 
-@cocotb.test()
-@verifies(
+@random_test(
     "P312-SER-01",
     "P312-SER-10",
     "P312-SER-11",
@@ -76,14 +57,8 @@ async def p312_random_noise(dut: Any) -> None:
     "P312-SER-30",
     "P312-BAD-16",
     "P312-PRT-01",
+    least=200,
 )
-async def p312_random_serial(dut: Any) -> None:
+async def p312_random_serial(dut: Any, seed: int) -> None:
     """Given random hosts on the line, when the RTL gets their pins, then it does what the model does."""
-    bench = await Bench.start(dut, PPMC312)
-
-    async def one(seed: int) -> None:
-        host = random_serial.play(seed, bench.config)
-        result = await play(bench, host.tape)
-        assert result.edges_compared > 200, f"seed {seed} did next to nothing"
-
-    await each_seed("p312_random_serial", one)
+    await random_serial.play(dut, seed)

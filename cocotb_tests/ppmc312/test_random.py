@@ -6,17 +6,17 @@ plays as many others as you like.
 
 from __future__ import annotations
 
-import pytest
-
-from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import D16, F16, F50
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness.random_host import in_turn
+from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
 
 from . import random_serial
 from .census import counting, thin
 from .census_serial import counting_frames, thin_frames
-from .random_host import BUILDS, ODD, plan, play
+from .random_host import ODD, build, play
 
 SEEDS = range(1, 151)
 NOISE_SEEDS = range(1, 33)
@@ -24,65 +24,50 @@ SERIAL_SEEDS = range(1, 41)
 BATCH = 14
 
 
-def random_item(seed: int) -> Item:
-    """The random host of one seed; the seed decides the build configuration, too."""
-    return seed_item("ppmc312", "tb_random", "p312_random_host", seed, plan(seed))
-
-
-def noise_item(seed: int) -> Item:
-    """The noise run of one seed."""
-    config = (F16, F16, F50, ODD, F16, D16)[seed % 6]
-    return seed_item("ppmc312", "tb_random", "p312_random_noise", seed, config)
-
-
-def serial_item(seed: int) -> Item:
-    """The random host on the line of one seed; the seed decides the build configuration, too."""
-    return seed_item("ppmc312", "tb_random", "p312_random_serial", seed, random_serial.plan(seed))
-
-
-KINDS = {
-    "test_random": (random_item, SEEDS),
-    "test_noise": (noise_item, NOISE_SEEDS),
-    "test_serial": (serial_item, SERIAL_SEEDS),
-}
-"""What makes the item of a seed, and the seeds of `make test`."""
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a batch."""
-    if "item" in metafunc.fixturenames:
-        parametrize(metafunc, *KINDS[metafunc.function.__name__], BATCH)
+random_item = RandomItems("ppmc312", "tb_random", "p312_random_host", SEEDS, build, BATCH)
+noise_item = RandomItems(
+    "ppmc312",
+    "tb_random",
+    "p312_random_noise",
+    NOISE_SEEDS,
+    in_turn(F16, F16, F50, ODD, F16, D16),
+    BATCH,
+)
+serial_item = RandomItems(
+    "ppmc312", "tb_random", "p312_random_serial", SERIAL_SEEDS, random_serial.build, BATCH
+)
+pytest_generate_tests = generating(test_random=random_item, test_noise=noise_item, test_serial=serial_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The hosts of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery."""
-    run_batch(item, seeds, sim_options)
+    noise_item.run(item, seeds, sim_options)
 
 
 def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Hosts on the line of the serial mode."""
-    run_batch(item, seeds, sim_options)
+    serial_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
     """The fixed seeds use every build, each seed once; the same seed gives the same build."""
-    configs = [plan(seed) for seed in SEEDS]
-    assert configs == [plan(seed) for seed in SEEDS]
-    assert {config.name for config in configs} == {config.name for config, _ in BUILDS}
-    assert played(random_item, SEEDS) == list(SEEDS)
+    builds = [build(seed) for seed in SEEDS]
+    assert builds == [build(seed) for seed in SEEDS]
+    assert {config.name for config in builds} == build.names
+    assert random_item.complete and noise_item.complete and serial_item.complete
 
 
 def test_hosts_are_rich() -> None:
     """Of every third host with FAST times: each kind of thing happens some times, and the part is at work."""
     with counting() as counts:
         for seed in SEEDS[::3]:
-            if not plan(seed).datasheet:
-                play(seed, plan(seed))
+            if not build(seed).datasheet:
+                on_model(play(OnModel(build(seed), seed), seed))
     assert not thin(counts), f"too rare (seen, needed): {thin(counts)}"
     clk = sum(number for kind, number in counts.items() if kind.startswith("clk "))
     assert (counts["clk ABN"] + counts["clk INI"]) / clk < 0.3
@@ -91,10 +76,8 @@ def test_hosts_are_rich() -> None:
 
 def test_hosts_on_the_line_are_rich() -> None:
     """The fixed seeds use every build; each kind of frame, reply and error happens some times."""
-    assert {random_serial.plan(seed).name for seed in SERIAL_SEEDS} == {
-        c.name for c, _ in random_serial.BUILDS
-    }
+    assert {random_serial.build(seed).name for seed in SERIAL_SEEDS} == random_serial.build.names
     with counting_frames() as counts:
         for seed in SERIAL_SEEDS:
-            random_serial.play(seed, random_serial.plan(seed))
+            on_model(random_serial.play(OnModel(random_serial.build(seed), seed), seed))
     assert not thin_frames(counts), f"too rare (seen, needed): {thin_frames(counts)}"

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.config import D16, D25X8, F16, Config
 from cocotb_tests.harness.host_writer import HostWriter
-from cocotb_tests.harness.player import ExternalClock, random_clock
-from cocotb_tests.harness.single_player import Scenario
+from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 
 from .figures import F8X20, F12, F200, FAMILY, ODD, SWITCHES
 
@@ -65,7 +64,7 @@ class _Writer(HostWriter):
             self.add("wait", self.config.cyc(546_000))  # let the hold timer run out
         pins = {rng.choice(SWITCHES): 0} if rng.random() < 0.15 else {}
         return Scenario(
-            self.seed, self.config, pins, self.actions, self.clock(), rng.random() < 0.5, self.limit_clk
+            self.seed, self.config, pins, self.actions, (self.clock(),), rng.random() < 0.5, self.limit_clk
         )
 
     def clock(self) -> ExternalClock:

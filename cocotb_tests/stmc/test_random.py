@@ -5,11 +5,10 @@
 
 from __future__ import annotations
 
-import pytest
-
-from cocotb_tests.harness.batches import parametrize, played, run_batch, seed_item
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.random_host import in_turn
+from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
 
 from .figures import F12, ODD
@@ -19,40 +18,34 @@ SEEDS = range(1, 151)
 CHAOS_SEEDS = range(1, 17)
 
 
-def random_item(seed: int) -> Item:
-    """The random host of one seed; the seed decides the build configuration, too."""
-    return seed_item("stmc", "tb_random", "stmc_random_host", seed, scenario(seed).config)
-
-
-def chaos_item(seed: int) -> Item:
-    """The noise run of one seed."""
-    return seed_item("stmc", "tb_random", "stmc_random_chaos", seed, (F16, F16, F12, ODD, F16, D16)[seed % 6])
-
-
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One pytest item a batch."""
-    if "item" in metafunc.fixturenames:
-        chaos = "chaos" in metafunc.function.__name__
-        parametrize(metafunc, *((chaos_item, CHAOS_SEEDS) if chaos else (random_item, SEEDS)))
+random_item = RandomItems("stmc", "tb_random", "stmc_random_host", SEEDS, lambda seed: scenario(seed).config)
+chaos_item = RandomItems(
+    "stmc",
+    "tb_random",
+    "stmc_random_chaos",
+    CHAOS_SEEDS,
+    in_turn(F16, F16, F12, ODD, F16, D16),
+)
+pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """The scenarios of some seeds: every output edge equals the golden model's."""
-    run_batch(item, seeds, sim_options)
+    random_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """Noise on all pins, then recovery."""
-    run_batch(item, seeds, sim_options)
+    chaos_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
     """Same seed, same list; the fixed seeds together use every action kind and every build."""
     assert scenario(5) == scenario(5) != scenario(6)
-    assert played(random_item, SEEDS) == list(SEEDS) and len(SEEDS) >= 150
+    assert random_item.complete and chaos_item.complete and len(SEEDS) >= 150
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == set("write send status read fetch finish wait pins blip raw reset".split())
     builds = {config.name for config, _ in (*WEIGHTS, *DATASHEET_WEIGHTS)}
     assert {plan.config.name for plan in plans} == builds
-    assert 50 < sum(bool(plan.clock.segments) for plan in plans) < 120  # the external clock
+    assert 50 < sum(plan.clocked for plan in plans) < 120  # the external clock

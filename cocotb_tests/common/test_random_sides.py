@@ -1,0 +1,31 @@
+"""Random hosts act on what they are answered: on the golden model alone they do what they do on the RTL."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.random_items import RandomItems
+from cocotb_tests.pmc006 import test_random as pmc006
+from cocotb_tests.ppmc104 import test_random as ppmc104
+from cocotb_tests.ppmc312 import test_random as ppmc312
+from cocotb_tests.ppmc2104 import test_random as ppmc2104
+from cocotb_tests.stmc import test_random as stmc
+
+
+@pytest.mark.parametrize(
+    ("items", "seed"),
+    [
+        (ppmc104.random_item, 3),
+        (ppmc2104.random_item, 1),
+        (stmc.random_item, 3),
+        (ppmc312.random_item, 2),
+        (ppmc312.noise_item, 1),
+        (ppmc312.serial_item, 1),
+        (pmc006.random_item, 2),
+    ],
+    ids=lambda value: value.test if isinstance(value, RandomItems) else str(value),
+)
+def test_a_host_does_the_same_on_both_sides(items: RandomItems, seed: int) -> None:
+    """Given a seed, when it is played on RTL and on the model alone, then all pin changes are the same."""
+    on_rtl, on_the_model = items.pins(seed)
+    assert on_rtl == on_the_model != ""

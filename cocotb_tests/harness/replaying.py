@@ -1,0 +1,127 @@
+"""Recordings carried out anew on the RTL: as they are (`replay`), or made as short as possible (`shrink`).
+
+`shortened` and `make replay` run these, in a simulation of their own; OPENPPMC_REPLAY names the recording.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import cocotb
+
+from .acts import Act, acts_of, changes_of
+from .bench import Bench
+from .compare import compare_recording, write_report
+from .comparison import Comparison
+from .part import PARTS
+from .rerun import rerun
+from .shrink import Shrinker
+from .stimulus import Recording
+
+REPLAY = "OPENPPMC_REPLAY"
+SECONDS = "OPENPPMC_SHRINK_S"
+WORDS = "short.txt"
+ROWS = 40
+"""Acts that the message shows at most."""
+
+
+async def compared(bench: Bench, recording: Recording) -> Comparison:
+    """The recording's pin changes on the RTL and on a golden model, each fresh out of reset."""
+    edges = await rerun(bench, recording.stimulus, recording.end)
+    return compare_recording(replace(recording, edges=edges))
+
+
+class Search:
+    """For a short list of acts that shows the difference `first` of a recording on the same output.
+
+    The best one so far is in recording.json and short.txt of the bench's folder at any time.
+    """
+
+    def __init__(self, bench: Bench, first: Comparison) -> None:
+        assert first.mismatch is not None
+        self.bench, self.last, self.signal = bench, first, first.mismatch.signal
+        t, acts = first.mismatch.t, acts_of(first.recording)
+        self.whole = len(acts)
+        # What comes later matters no more; but with less before it the difference may come later.
+        self.end = min(first.recording.end, t + t // 8 + 2_000)
+        seconds = float(os.environ.get(SECONDS, "60"))
+        acts = [act for act in acts if act.begin <= t]
+        self.shrinker = Shrinker(acts, self.fails, seconds=seconds, kept=self.keep)
+
+    async def run(self) -> bool:
+        """Search; whether the acts show the difference at all."""
+        if not await self.fails(self.shrinker.acts):
+            return False
+        self.keep()
+        await self.shrinker.run()
+        write_report(self.last, self.bench.out, self.bench.repro)
+        self.keep()
+        return True
+
+    async def fails(self, acts: Sequence[Act]) -> bool:
+        """Whether these acts alone make the output differ, and no other one before it."""
+        recording = replace(
+            self.last.recording,
+            end=self.end,
+            stimulus=changes_of(self.bench.part, acts),
+            accesses=[act.access for act in acts if act.access],
+        )
+        try:
+            found = await compared(self.bench, recording)
+        except (AssertionError, ValueError):  # nothing that the golden model can be asked to do
+            return False
+        if found.mismatch is None or found.mismatch.signal != self.signal:
+            return False
+        self.last = found
+        return True
+
+    def keep(self) -> None:
+        """Write the files."""
+        out, m, shrinker = self.bench.out, self.last.mismatch, self.shrinker
+        assert m is not None
+        short = replace(self.last.recording, end=min(self.end, m.t + 200))
+        (out / "recording.json").write_text(short.to_json(), encoding="utf-8")
+        acts = shrinker.acts
+        rows = [f"  {act}" for act in acts]
+        (out / "acts.txt").write_text("\n".join([*rows, ""]), encoding="utf-8")
+        head = f"shrunk from {self.whole} acts to {len(acts)} in {shrinker.trials} trials"
+        head += f", stopped {shrinker.stopped}" if shrinker.stopped else ""
+        more = [f"  … and {len(rows) - ROWS} more in acts.txt"] if len(rows) > ROWS else []
+        expected, actual = (_told(side) for side in (m.expected, m.actual))
+        tail = f"then {m.signal} differs at edge {m.t}: expected {expected}, got {actual}"
+        (out / WORDS).write_text("\n".join([f"{head}:", *rows[:ROWS], *more, tail]), encoding="utf-8")
+
+
+def _told(side: tuple[int, int] | None) -> str:
+    return "no further edge" if side is None else f"{side[1]:#x} at {side[0]}"
+
+
+async def _begun() -> tuple[Bench, Comparison]:
+    recording = Recording.from_json(Path(os.environ[REPLAY]).read_text(encoding="utf-8"))
+    bench = await Bench.start(cocotb.top, PARTS[recording.part], seed=recording.seed)
+    return bench, await compared(bench, recording)
+
+
+@cocotb.test()
+async def replay(dut: Any) -> None:
+    """Given a recording, when the RTL gets its pins, then all outputs change as in the golden model."""
+    bench, comparison = await _begun()
+    if comparison.mismatch is not None:
+        raise AssertionError(write_report(comparison, bench.out, bench.repro))
+
+
+@cocotb.test()
+async def shrink(dut: Any) -> None:
+    """Given a recording with a difference, when acts are left out, then a short list is on file."""
+    bench, first = await _begun()
+    if first.mismatch is None:
+        why = "its pins show no difference from another reset"
+    elif not await Search(bench, first).run():
+        why = "taken apart into single acts it shows no difference"
+    else:
+        return
+    (bench.out / WORDS).write_text(f"not shrunk: {why}", encoding="utf-8")
