@@ -164,10 +164,10 @@ class Bench(Side):
             self._drive(stamp, pin, level)
         return stamp
 
-    async def set_between(self, **levels: int) -> int:
-        """As `Side.set_between`: three quarters of a clk after an edge."""
+    async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
+        """As `Side.set_between`."""
         await self.align()
-        await Timer(self.period // 4 // 2 * 2, "ps")
+        await Timer(max(2, int(self.half * share) // 2 * 2), "ps")
         stamp = self.set_between_edges(**levels)
         await Timer(2, "ps")
         return stamp
