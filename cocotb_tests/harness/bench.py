@@ -194,9 +194,16 @@ class Bench(Side):
         """As `Side.drive`; returns the task."""
 
         async def run() -> None:
+            fall = self._t0 - self.half
             for edge, levels in changes:
-                await self.until(edge)
-                self.set(**levels)
+                delta = fall + edge * self.period - self._time()
+                if delta > 0:
+                    await Timer(delta, "step")
+                else:
+                    await self.until(edge)
+                for pin, level in levels.items():
+                    if self.pin(pin) != level:
+                        self._drive(edge, pin, level)
 
         return self._start(run())
 
