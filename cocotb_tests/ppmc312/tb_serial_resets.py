@@ -12,7 +12,7 @@ from cocotb_tests.harness.directed import directed
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 
-from .parallel_host import Host
+from .host import Host
 from .serial_frames import TS, summed
 from .serial_master import SerialHost
 
