@@ -20,6 +20,17 @@ PAUSE = 20
 """clk between two acts whose pause is closed; every bus of ours has room in it."""
 
 
+def bursts(acts: Sequence[Act]) -> list[list[Act]]:
+    """Acts that follow each other at once, such as the bytes of a block, together."""
+    found: list[list[Act]] = []
+    for act in acts:
+        if found and act.begin - found[-1][-1].end < PAUSE:
+            found[-1].append(act)
+        else:
+            found.append([act])
+    return found
+
+
 class _EnoughError(Exception):
     """A limit is reached."""
 
@@ -46,9 +57,10 @@ class Shrinker:
         self._end = time.process_time() + self.seconds
         try:
             await self._leave_out_kinds()
-            await self._leave_out()
+            await self._leave_out(bursts(self.acts))
+            await self._leave_out([[act] for act in self.acts])
             await self._close_pauses()
-            await self._leave_out()
+            await self._leave_out([[act] for act in self.acts])
         except _EnoughError as limit:
             self.stopped = str(limit)
 
@@ -73,15 +85,18 @@ class Shrinker:
         for kind, _ in Counter(act.kind for act in self.acts).most_common():
             await self._try([act for act in self.acts if act.kind != kind])
 
-    async def _leave_out(self) -> None:
-        """Without halves, quarters, …, single acts, until no single one can be missed."""
-        size = len(self.acts)
+    async def _leave_out(self, runs: list[list[Act]]) -> None:
+        """Without halves, quarters, …, single ones of the runs, until no single one can be missed."""
+        size = len(runs)
         while size:
-            before, first = len(self.acts), 0
-            while first < len(self.acts):
-                if not await self._try(self.acts[:first] + self.acts[first + size :]):
+            before, first = len(runs), 0
+            while first < len(runs):
+                rest = runs[:first] + runs[first + size :]
+                if await self._try([act for run in rest for act in run]):
+                    runs = rest
+                else:
                     first += size
-            if size > 1 or len(self.acts) == before:
+            if size > 1 or len(runs) == before:
                 size //= 2
 
     async def _close_pauses(self) -> None:
