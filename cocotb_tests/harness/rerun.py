@@ -17,6 +17,6 @@ async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]
     await bench.clocks(3)
     base = bench.set(rst_n=1)
     bench.forget()
-    bench.play(Change(base + t, pin, value) for t, pin, value in changes)
+    bench.drive((base + t, {pin: value}) for t, pin, value in changes)
     await bench.until(base + end + 1)
     return [edge._replace(t=edge.t - base) for edge in bench.recording().edges]

@@ -14,7 +14,7 @@ from openppmc.model.ppmc312.codes import Code
 
 from .host import Host
 from .serial_frames import TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 
 async def reset(host: SerialHost, clk: int = 12) -> None:
