@@ -164,10 +164,10 @@ class Bench(Side):
             self._drive(stamp, pin, level)
         return stamp
 
-    async def set_between(self, **levels: int) -> int:
-        """As `Side.set_between`: three quarters of a clk after an edge."""
+    async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
+        """As `Side.set_between`."""
         await self.align()
-        await Timer(self.period // 4 // 2 * 2, "ps")
+        await Timer(max(2, int(self.half * share) // 2 * 2), "ps")
         stamp = self.set_between_edges(**levels)
         await Timer(2, "ps")
         return stamp
@@ -194,9 +194,16 @@ class Bench(Side):
         """As `Side.drive`; returns the task."""
 
         async def run() -> None:
+            fall = self._t0 - self.half
             for edge, levels in changes:
-                await self.until(edge)
-                self.set(**levels)
+                delta = fall + edge * self.period - self._time()
+                if delta > 0:
+                    await Timer(delta, "step")
+                else:
+                    await self.until(edge)
+                for pin, level in levels.items():
+                    if self.pin(pin) != level:
+                        self._drive(edge, pin, level)
 
         return self._start(run())
 

@@ -7,7 +7,7 @@ coroutine with one `send(None)`. What changes pins beside the test waits in a qu
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Coroutine, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import Any, TypeVar
@@ -31,15 +31,22 @@ class OnModel:
 
 
 class _Later:
-    """Pin changes to come, in order of time."""
+    """Pin changes to come, in order of time; `step` goes to the next change of any pin."""
 
-    def __init__(self, changes: Iterator[PinChange]) -> None:
+    def __init__(self, changes: Iterator[PinChange], step: Callable[[], None]) -> None:
         self.changes = changes
-        self.cancelled = False
+        self.over = False
+        self._step = step
 
     def cancel(self) -> None:
         """Let the pins rest from now on."""
-        self.cancelled = True
+        self.over = True
+
+    def __await__(self) -> Generator[Any, Any, None]:
+        """Let time pass until the last change; nothing suspends."""
+        while not self.over:
+            self._step()
+        yield from ()
 
 
 class ModelBench(Side):
@@ -92,7 +99,7 @@ class ModelBench(Side):
         """Let time pass, with all that is due on the pins up to then."""
         while self._due and self._due[0][0] <= edge:
             self._now, _, levels, later = heapq.heappop(self._due)
-            if not later.cancelled:
+            if not later.over:
                 self.set(**levels)
                 self._schedule(later)
         self._now = edge
@@ -112,13 +119,13 @@ class ModelBench(Side):
             self.stimulus.append(Change(self._now, port, value))
         return self._now
 
-    async def set_between(self, **levels: int) -> int:
+    async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
         """As `Side.set_between`; there is no time between two edges here."""
         return self.set(**levels)
 
     def drive(self, changes: Iterable[PinChange]) -> _Later:
         """As `Side.drive`."""
-        later = _Later(iter(changes))
+        later = _Later(iter(changes), lambda: self._go(self._due[0][0]))
         self._later.append(later)
         self._schedule(later)
         return later
@@ -126,7 +133,8 @@ class ModelBench(Side):
     def _schedule(self, later: _Later) -> None:
         for edge, levels in later.changes:
             heapq.heappush(self._due, (edge, next(self._order), levels, later))
-            break
+            return
+        later.over = True
 
     # ---------------------------------------------------------------- outputs
 

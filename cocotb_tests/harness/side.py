@@ -10,7 +10,7 @@ from __future__ import annotations
 import random
 from abc import ABC, abstractmethod
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Generator, Iterable, Iterator, Mapping
 from typing import Any, ClassVar, Protocol
 
 from .config import Config
@@ -27,7 +27,9 @@ PinChange = tuple[int, Mapping[str, int]]
 
 
 class Handle(Protocol):
-    """Something that changes pins later."""
+    """Something that changes pins later; `await` it: until it has made its last change."""
+
+    def __await__(self) -> Generator[Any, Any, Any]: ...
 
     def cancel(self) -> Any:
         """Let it rest from now on."""
@@ -83,14 +85,17 @@ class Side(ABC):
         """
 
     @abstractmethod
-    async def set_between(self, **levels: int) -> int:
-        """As `set`, but at a moment between two edges, for a reset; returns just after it, with its stamp."""
+    async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
+        """As `set`, but at a moment between two edges, for a reset; returns just after it, with its stamp.
+
+        `share` of the low half of clk is over then (0 to 1).
+        """
 
     @abstractmethod
     def drive(self, changes: Iterable[PinChange]) -> Handle:
         """Make pin changes beside the test, in order of time, none in the past; read one by one as time goes.
 
-        cancel() of what is returned stops it.
+        cancel() of what is returned stops it, and awaiting it waits for the last change.
         """
 
     @abstractmethod
@@ -154,7 +159,7 @@ class Side(ABC):
         """Run the external clock: each item is the clk count from one rising edge to the next.
 
         `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
-        with the iterable. Each high time is `high` clk. cancel() of what is returned stops it.
+        with the iterable. Each high time is `high` clk. What is returned: see `drive`.
         """
         name, start = pin or self.part.clock, self.now
 

@@ -9,6 +9,7 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness.bus import COMMAND, DATA, IBF, STATUS
 from cocotb_tests.harness.config import F8, F16, F50, F100
 from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.model_bench import rtl_only
 
 from .figures import INIT_A
 from .lab import PINS_LATEST, Lab
@@ -84,6 +85,7 @@ async def p104_bus_02_overlapping_strobes(dut):
     lab.check("P104-BUS-02", "aux_n after the read", bench.edges("aux_n"), [])
 
 
+@rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
     """Given the shortest legal strobes at any phase, when bytes go in and out,
@@ -202,6 +204,7 @@ async def p104_bus_07_no_invisible_byte(dut):
         )
 
 
+@rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P104-PORT-02", builds=(F16, F50))
 async def p104_port_02_registers_only(dut):
     """Given short glitches between clk edges, when all outputs are watched,
@@ -283,6 +286,7 @@ async def p104_port_04_tied_inputs(dut):
         lab.check("P104-PORT-04", "input signals", await lab.host.fetch(0x81), [0xCF])
 
 
+@rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BAD-09")
 async def p104_bad_09_too_short_strobes(dut):
     """Given strobes and gaps below the limits at any phase, when bytes are written,

@@ -168,6 +168,13 @@ class Lab:
         await self.bench.reset()
         await self.bench.clocks(6)
 
+    def all_reset(self, rule: str) -> None:
+        """Every output there is to see has its level of the reset."""
+        reset = self.bench.part.reset_levels()
+        names = self.bench.outputs
+        levels = {name: self.bench.level(name) for name in names}
+        self.check(rule, "outputs in reset", levels, {name: reset[name] for name in names})
+
     def quiet(self, rule: str, since: int, *others: str) -> None:
         """No motor pin and no int_n moved since that edge; `others` are further outputs."""
         names = ("pout_n", "dir", "hold", "s1_n", "s2_n", "int_n", *others)

@@ -9,6 +9,7 @@ from cocotb.triggers import Timer
 from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF, STATUS
 from cocotb_tests.harness.config import D16, F16
 from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.model_bench import rtl_only
 
 from .figures import F8X20, F200, INTERNAL, STANDARD
 from .lab import C_EVENT_LATEST, PINS_LATEST, Lab
@@ -93,6 +94,7 @@ async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
         await lab.host.command(0xC0)
 
 
+@rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BUS-11", builds=(F16, F8X20, F200))
 async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
     """Given the shortest legal cycles at any phase to clk, when bytes go in, then none is lost."""
@@ -203,6 +205,7 @@ async def stmc_bus_21_answers(dut: Any) -> None:
     lab.check("STMC-BUS-22", "status", await host.status(), 0)
 
 
+@rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BAD-13")
 async def stmc_bad_13_short_strobes(dut: Any) -> None:
     """Given strobes that are too short, when they come at any phase, then nothing or one whole write."""

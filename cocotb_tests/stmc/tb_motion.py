@@ -252,7 +252,7 @@ async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
     for moment in (0, 1, 2):
         await lab.go(0x43, 50)
         await lab.in_gap(3 * moment, 20)
-        lab.bench.set_between_edges(rst_n=0)
+        await lab.bench.set_between(rst_n=0)
         await lab.bench.clocks(3)
         lab.check("STMC-BAD-16", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
         lab.set(rst_n=1)
