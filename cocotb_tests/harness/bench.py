@@ -172,24 +172,6 @@ class Bench(Side):
         await Timer(2, "ps")
         return stamp
 
-    def play(self, changes: Iterable[Change]) -> None:
-        """Have pin changes made at their stamps, in order of time and none in the past.
-
-        Those of `now` are made at once; the caller waits until the others have been. Until then `pins` is
-        ahead of the pins, and nobody else may drive any.
-        """
-        rows, now = [], self.now
-        for t, pin, value in changes:
-            if t <= now:
-                self.set(**{pin: value})
-                continue
-            port, level = self._levelled(pin, value)
-            if self.pins[port] != level:
-                self.pins[port] = level
-                self.stimulus.append(Change(t, port, level))
-                rows.append((self._t0 + (t - 1) * self.period + self.half, self._ports[port], level))
-        self._clockwork.tape(rows)
-
     def drive(self, changes: Iterable[PinChange]) -> Any:
         """As `Side.drive`; returns the task."""
 

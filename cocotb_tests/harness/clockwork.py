@@ -42,9 +42,6 @@ class Clockwork(Protocol):
         A port's changes are in order; of each time step it is the last level that counts.
         """
 
-    def tape(self, changes: Iterable[tuple[int, int, int]]) -> None:
-        """Have (time, port, level) changes made, in order and all to come; they replace earlier ones."""
-
 
 @cache
 def clockwork() -> Clockwork:

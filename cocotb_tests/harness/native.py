@@ -1,4 +1,4 @@
-"""`Native`: the `Clockwork` of `verilated_sim.cpp`, our main program: clock, pins, recorder and tapes in C++.
+"""`Native`: the `Clockwork` of `verilated_sim.cpp`, our main program: clock, pins and recorder in C++.
 
 What a bench does a million times costs a call of C instead of a trigger of cocotb. Ports that are wider than
 64 bits are left to `Stock`.
@@ -39,7 +39,6 @@ class Native:
         self.clock = _function("openppmc_clock", None, ctypes.c_int, ctypes.c_uint64)
         self._watch = _function("openppmc_watch", None, ctypes.c_int)
         self._seen = _function("openppmc_seen", ctypes.c_void_p, ctypes.POINTER(ctypes.c_uint64))
-        self._tape = _function("openppmc_tape", None, ctypes.c_char_p, ctypes.c_uint64)
 
     @staticmethod
     def offered() -> bool:
@@ -79,11 +78,6 @@ class Native:
         narrow = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
         wide = [(time, _WIDE + port, level) for time, port, level in self._wide.seen()]
         return chain(narrow, wide)
-
-    def tape(self, changes: Iterable[tuple[int, int, int]]) -> None:
-        """As `Clockwork.tape`; OverflowError or struct.error for a port of more than 64 bits."""
-        rows = b"".join(_ROW.pack(*change) for change in changes)
-        self._tape(rows, len(rows) // _ROW.size)
 
 
 def collect_seldom() -> None:

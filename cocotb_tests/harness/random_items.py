@@ -23,7 +23,7 @@ from .runner import SimOptions, run_sim
 from .shortened import attempt_random
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RandomItems:
     """`random_item(seed)` is the simulation of a seed of any number.
 

@@ -17,6 +17,7 @@ async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]
     await bench.clocks(3)
     base = bench.set(rst_n=1)
     bench.forget()
-    bench.play(Change(base + t, pin, value) for t, pin, value in changes)
+    driven = bench.drive((base + t, {pin: value}) for t, pin, value in changes)
     await bench.until(base + end + 1)
+    driven.cancel()  # what is beyond the end belongs to no other run
     return [edge._replace(t=edge.t - base) for edge in bench.recording().edges]

@@ -6,7 +6,6 @@ from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import ceil, floor
-from typing import Any
 
 from .side import Side
 
@@ -101,38 +100,6 @@ class SerialLine(LineTimes):
     async def low(self, bits: float) -> None:
         """Break: the line is low for so long, then high for a bit time."""
         await self._drive(self._low(bits))
-
-
-class ScriptLine(LineTimes):
-    """The same for hosts of scripts (`Script`)."""
-
-    model: Any
-
-    def character(
-        self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
-    ) -> None:
-        """As that of `SerialLine`."""
-        self._drive(self._character(byte, stop, spikes, bits))
-
-    def _drive(self, changes: Changes) -> None:
-        for edge, level in changes:
-            if self.model.inputs["rxd"] != level:
-                self.model.pins(max(edge, self.model.now + 1), rxd=level)
-
-    def send(self, line: Iterable[int], gap: float = 0) -> None:
-        """As that of `SerialLine`."""
-        for byte in line:
-            self.character(byte)
-            self._rest(gap)
-        self.t = ceil(self._free)
-
-    def raw(self, text: str) -> None:
-        """The same from hexadecimal text."""
-        self.send(bytes.fromhex(text))
-
-    def low(self, bits: float) -> None:
-        """As that of `SerialLine`."""
-        self._drive(self._low(bits))
 
 
 def characters(

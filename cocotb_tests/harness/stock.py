@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import groupby
 from typing import Any
 
 import cocotb
@@ -11,13 +10,12 @@ from cocotb import simtime
 from cocotb.clock import Clock
 from cocotb.simtime import get_sim_time
 from cocotb.task import Task
-from cocotb.triggers import Timer
 
 PICOSECOND = -12
 
 
 class Stock:
-    """See `Clockwork`. Clock, recorder and tape are tasks of the running test and end with it."""
+    """See `Clockwork`. Clock and recorder are tasks of the running test and end with it."""
 
     def __init__(self) -> None:
         if simtime.time_precision != PICOSECOND:
@@ -26,7 +24,6 @@ class Stock:
         self._numbers: dict[str, int] = {}
         self._handles: list[Any] = []
         self._clock: Clock | None = None
-        self._player: Task[None] | None = None
         self._recorders: dict[int, Task[None]] = {}
         self._levels: dict[int, int] = {}
         self._rows: dict[tuple[int, int], int] = {}
@@ -80,15 +77,3 @@ class Stock:
                 changed.append((time, port, level))
         self._rows.clear()
         return changed
-
-    def tape(self, changes: Iterable[tuple[int, int, int]]) -> None:
-        """As `Clockwork.tape`."""
-        if self._player is not None:
-            self._player.cancel()
-        self._player = cocotb.start_soon(self._play(list(changes)))
-
-    async def _play(self, changes: list[tuple[int, int, int]]) -> None:
-        for time, group in groupby(changes, key=lambda change: change[0]):
-            await Timer(time - self.now())
-            for _, port, level in group:
-                self.put(port, level)

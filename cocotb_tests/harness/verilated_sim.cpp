@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock, a recorder of output
-// levels and a player of pin changes that run without them: a clk costs two evaluations of the design and nothing
-// else. `native.py` is the other side. Compiled once for all designs: `top.cpp` is what a design adds.
+// Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock and a recorder of
+// output levels that run without them: a clk costs two evaluations of the design and nothing else. `native.py` is the other side. Compiled once for all designs: `top.cpp` is what a design adds.
 // The makefile wants small code.
 #pragma GCC optimize("O2")
 
@@ -56,8 +55,7 @@ struct Watched {
 
 std::vector<Port> ports;
 std::vector<Watched> watched;
-std::vector<Row> seen, taken, tape, deposits;
-std::size_t tape_place = 0;
+std::vector<Row> seen, taken, deposits;
 int clock_port = -1;
 std::uint64_t clock_level = 0, clock_next = NEVER, clock_half = 0;
 bool dirty = false;  // a port has been written since the last evaluation
@@ -98,19 +96,12 @@ void record() {
     }
 }
 
-// Clock and tape at this moment, unless it is not theirs.
-void drive() {
-    while (tape_place < tape.size() && tape[tape_place].time <= main_time) {
-        ports[tape[tape_place].port].store(tape[tape_place].value);
-        ++tape_place;
-        dirty = true;
-    }
-    if (main_time >= clock_next) {
-        clock_level ^= 1;
-        ports[clock_port].store(clock_level);
-        clock_next += clock_half;
-        dirty = true;
-    }
+// An edge of the clock.
+void tick() {
+    clock_level ^= 1;
+    ports[clock_port].store(clock_level);
+    clock_next += clock_half;
+    dirty = true;
 }
 
 // Evaluate until nothing changes any more, with all callbacks of the time step.
@@ -125,10 +116,6 @@ void settle() {
         do_puts();
         value_callbacks();
     } while (eval_needed());
-}
-
-std::uint64_t driven_next() {
-    return tape_place < tape.size() && tape[tape_place].time < clock_next ? tape[tape_place].time : clock_next;
 }
 
 #if VM_TRACE
@@ -196,12 +183,6 @@ const Row* openppmc_seen(std::uint64_t* count) {
     *count = taken.size();
     return taken.data();
 }
-
-// Changes of ports to come, in order of time, all of them in the future.
-void openppmc_tape(const Row* rows, std::uint64_t count) {
-    tape.assign(rows, rows + count);
-    tape_place = 0;
-}
 }
 
 int main(int argc, char** argv) {
@@ -239,8 +220,8 @@ int main(int argc, char** argv) {
         woken = false;
         // What is due may have been cancelled.
         if (waiting || deadline <= main_time) deadline = VerilatedVpi::cbNextDeadline();
-        const std::uint64_t own = driven_next(), timing = top_next_time();
-        std::uint64_t next = own < timing ? own : timing;
+        const std::uint64_t timing = top_next_time();
+        std::uint64_t next = clock_next < timing ? clock_next : timing;
         if (deadline < next) next = deadline;
         if (next == NEVER) break;
         main_time = next;
@@ -253,7 +234,7 @@ int main(int argc, char** argv) {
             if (eval_needed()) evaluate();
             do_puts();
         }
-        if (own <= next) drive();
+        if (clock_next <= next) tick();
         value_callbacks();
         if (woken) {
             settle();

@@ -1,4 +1,4 @@
-"""Frames of the PMC006 (chapters 2.2, 2.3), as the host of the scripts makes and reads them."""
+"""Frames of the PMC006 (chapters 2.2, 2.3), as the host of the tests makes and reads them."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 class I2cBus:
     """Takes the place of `model.run_until`: what the part pulls at edge t is on the lines from edge t + 1 on.
 
-    So is what the device pulls. The pin changes go through `model.pins`, thus on the tape.
+    So is what the device pulls. The pin changes go through `model.pins`.
     """
 
     def __init__(self, model: Any, device: Eeprom24C32) -> None:

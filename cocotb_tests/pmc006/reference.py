@@ -1,4 +1,4 @@
-"""Currents as the rules of chapter 6 say, from the sine itself: what scripts compare references with."""
+"""Currents as the rules of chapter 6 say, from the sine itself: what tests compare references with."""
 
 from __future__ import annotations
 

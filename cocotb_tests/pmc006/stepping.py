@@ -84,6 +84,10 @@ class MotorHost(Stepping):
         self.plant = Plant(_Seen(self.side), self.clk_hz, motor)
         return self.plant
 
+    def detach(self) -> None:
+        """No motor any more; the comparators stay as they are."""
+        self.plant = None
+
     async def _to(self, edge: int) -> None:
         if self.plant:
             for t, levels in self.plant.legs(edge - 1):

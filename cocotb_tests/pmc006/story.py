@@ -1,5 +1,4 @@
-"""What `make demo PART=pmc006` plays: a script on the golden model with a motor on its bridges, whose tape
-the RTL gets.
+"""What `make demo PART=pmc006` plays: a host, and a motor on the bridges of the part.
 
 Three moves of the same way with finer and finer steps; then a program, loaded over the line, homes on a
 switch and shuttles without a host. The motor is there for the moves only: its comparators change often.
@@ -7,13 +6,10 @@ switch and shuttles without a host. The motor is there for the moves only: its c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any
-
 from cocotb_tests.harness.config import Config
-from cocotb_tests.pmc006.script_host import Host
-from openppmc.model.pmc006.bench.motor import Motor, Plant
+from cocotb_tests.harness.story import Story
+from cocotb_tests.pmc006.stepping import MotorHost
+from openppmc.model.pmc006.bench.motor import Motor
 from openppmc.model.pmc006.program import assemble
 
 BUILD = Config("demo8m", clk_hz=8_000_000, extra=(("BAUD", 115_200), ("T_OFF_NS", 40_000)))
@@ -28,6 +24,8 @@ MOVES = ((4, 2), (16, 4), (32, 5))
 """Microsteps, and the coefficient that makes 1700 full steps/s^2 of them."""
 FINE = 8
 """Microsteps of the program."""
+LONG = 2_000_000
+"""us; nothing that is waited for lasts longer."""
 PROGRAM = f"""\
         MIC   {FINE}
         ACC   5
@@ -57,71 +55,52 @@ again:  ROT   {50 * FINE}
 """
 
 
-class Story:
-    """The script; `chapters` as those of `story.Story`."""
+async def tell(host: MotorHost, story: Story) -> None:
+    """All of it, on a part just booted."""
+    host.attach(MOTOR)
+    with story.chapter("set", "settings"):
+        await host.ask("j")
+        await host.ok(e=CURRENT, f=1)
+        await host.ms(5)
+    for number, (fine, coefficient) in enumerate(MOVES):
+        with story.chapter(f"move{fine}", f"{WAY} full steps in {fine} microsteps each"):
+            await move(host, fine, coefficient, forward=number != 1)
+    with story.chapter("load", "load a program"):
+        await host.ok(A=0)
+        for word in assemble(PROGRAM).words[: 2 * PROGRAM.count("\n")]:
+            await host.ask("W", word)
+        await host.ok(A=0, L=START * FINE, S=START * FINE)
+    host.detach()
+    await host.pins(cmp_a=0, cmp_b=0)
+    with story.chapter("program", "home and shuttle without a host"):
+        await host.ask("z")
+        await homing(host)
+        await host.until("gpo[0]", 0, LONG)
+        await host.ms(4)
 
-    def __init__(self, **parameters: object) -> None:
-        self.host = Host(**parameters)
-        self.plant = Plant(self.host.model, self.host.clk_hz, MOTOR)
-        self.chapters: list[dict[str, Any]] = []
-        self.place = 0.0
 
-    @contextmanager
-    def chapter(self, key: str, title: str) -> Iterator[None]:
-        """Everything that the block does belongs to this chapter."""
-        begin = self.host.t
-        yield
-        self.chapters.append({"key": key, "title": title, "begin": begin, "end": self.host.t})
+async def move(host: MotorHost, fine: int, coefficient: int, forward: bool) -> None:
+    """A move with this number of microsteps, polled to its end."""
+    await host.ok(
+        m=fine,
+        v=SPEED * fine,
+        L=START * fine,
+        S=START * fine,
+        u=coefficient,
+        o=coefficient,
+        d=int(forward),
+    )
+    await host.ask("s", WAY * fine)
+    while await host.ask("j") & 1:
+        await host.ms(20)
+    await host.ask("c")
 
-    def tell(self) -> None:
-        """All of it."""
-        host = self.host
-        with self.chapter("set", "settings"):
-            host.ask("j")
-            host.ok(e=CURRENT, f=1)
-            host.ms(5)
-        for number, (fine, coefficient) in enumerate(MOVES):
-            with self.chapter(f"move{fine}", f"{WAY} full steps in {fine} microsteps each"):
-                self.move(fine, coefficient, forward=number != 1)
-        with self.chapter("load", "load a program"):
-            host.ok(A=0)
-            for word in assemble(PROGRAM).words[: 2 * PROGRAM.count("\n")]:
-                host.ask("W", word)
-            host.ok(A=0, L=START * FINE, S=START * FINE)
-        self.plant.detach()
-        host.pins(cmp_a=0, cmp_b=0)
-        with self.chapter("program", "home and shuttle without a host"):
-            host.ask("z")
-            self.watch()
-            host.ms(4)
 
-    def move(self, fine: int, coefficient: int, forward: bool) -> None:
-        """A move with this number of microsteps, polled to its end."""
-        host = self.host
-        host.ok(
-            m=fine,
-            v=SPEED * fine,
-            L=START * fine,
-            S=START * fine,
-            u=coefficient,
-            o=coefficient,
-            d=int(forward),
-        )
-        host.ask("s", WAY * fine)
-        while host.ask("j") & 1:
-            host.ms(20)
-        host.ask("c")
-
-    def watch(self) -> None:
-        """Until the program has switched GPO1 on and off; the switch is on behind its place."""
-        host, model = self.host, self.host.model
-        begin, place, level, homed = model.position, (1 if len(MOVES) % 2 else 0) * WAY, 1, False
-        while True:
-            host.step()
-            now = int((model.position - begin) / FINE + place > -LEAD)
-            if now != level:
-                host.pins(ext1=now)
-                level = now
-            homed |= bool(model.outputs["gpo"] & 1)
-            if homed and not model.outputs["gpo"] & 1:
-                return
+async def homing(host: MotorHost) -> None:
+    """The switch, which is closed behind its place, until the program has switched GPO1 on."""
+    side, steps = host.side, host.steps()
+    place = (len(MOVES) % 2) * WAY * FINE
+    while not side.level("gpo[0]"):
+        place += sum(1 if side.level_at("mon_dir", t) else -1 for t in steps)
+        await host.pins(ext1=int(place > -LEAD * FINE))
+        steps = await host.next_steps(host.t + host.us(LONG))

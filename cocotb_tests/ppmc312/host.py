@@ -1,121 +1,124 @@
-"""A polling host on the parallel pins of the PPMC-312: scripts for the golden model, taped for the RTL."""
+"""The host of directed tests on the parallel pins of the PPMC-312: it acts on what it reads there."""
 
 from __future__ import annotations
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, RCR, WAR, WCR, clean
+from typing import Any
+
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, WAR, WCR, clean
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 from cocotb_tests.harness.stimulus import Access
-from cocotb_tests.ppmc312.words import message
-from openppmc.model.ppmc312.codes import Code
 
-from .script_host import TICK, Script
+from .bench import PPMC312
+from .side_host import SideHost
 
-__all__ = [
-    "CSR",
-    "DRR",
-    "DWR",
-    "MREF",
-    "MWEF",
-    "RAR",
-    "RATES",
-    "RCR",
-    "T1",
-    "T2",
-    "T3",
-    "T4",
-    "TF",
-    "TG",
-    "TH",
-    "TICK",
-    "WAR",
-    "WCR",
-    "Host",
-    "clean",
-]
-
-T1 = message(Code.INITIAL, "01 03E8 00C8 0007D0")
-T2 = message(Code.INITIAL, "09 03E8 00C8 0007D0")
-T3 = message(Code.INITIAL, "11 03E8 01F4 00C8 0007D0 0005DC")
-T4 = message(Code.INITIAL, "11 01F4 03E8 00C8 0005DC 0007D0")
-RATES = "00 06 0064 00C8 0190"
-TF = ("02 03 01 01 03", RATES, "01 09 000005 000004 000003")
-TG = ("02 04 01 11 03 02", RATES, "00 09 000005 000004 000003", "01 06 000006 000004")
-TH = ("02 04 01 11 02 03", RATES, "00 06 000006 000004", "01 09 000005 000004 000003")
+LATE = 10_000
+"""clk that a response may come behind the golden model's."""
 
 
-class Host(Script):
-    """The host on the parallel bus. Blocks and answers are texts of hexadecimal bytes in logical order."""
+class Host(SideHost):
+    """Blocks and answers are texts of hexadecimal bytes in logical order.
 
-    def __init__(self, *setting: str, **parameters: object) -> None:
-        super().__init__(**parameters)
-        self.t = 8
+    `header` is the edge that ended the last strobe of the last block.
+    """
+
+    def __init__(self, side: Side) -> None:
+        super().__init__(side)
+        self.mark = self.t
         self.header = 0
-        while self.read(CSR) & MWEF:
-            self.t += 100
-        for block in setting:
-            self.ask(block)
 
     @classmethod
-    def on(cls, other: Script) -> Host:
-        """The bus of a part that another host has had so far."""
-        host = cls.__new__(cls)
-        host.model, host.tape, host.t, host.mark, host.header = other.model, other.tape, other.t, other.t, 0
+    async def start(cls, dut: Any, *setting: str, **pins: int) -> Host:
+        """A part out of reset with these pins, once it takes blocks, and each block of `setting` answered."""
+        host = cls(await start_bench(dut, PPMC312, settle=8, **pins))
+        host.mark = 0
+        await host.ready(100)
+        for block in setting:
+            await host.ask(block)
         return host
 
     # ------------------------------------------------------------------ bus
 
-    def write(self, reg: int, byte: int) -> None:
-        """One write cycle of 3 clk."""
-        edge = self.model.write(self.t, reg, byte, 3)
-        self.tape.accesses.append(Access(edge, NAMES.get(("write", reg), "write"), reg, byte))
-        self.t = edge + 3
+    async def write(self, reg: int, byte: int, gap: int = 3) -> int:
+        """One write cycle: a strobe of 3 clk, `gap` clk without; returns the edge that ends the strobe."""
+        side = self.side
+        side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
+        await side.clocks(3)
+        edge = side.set(cs_n=1, we_n=1)
+        side.accesses.append(Access(edge, NAMES.get(("write", reg), "write"), reg, byte))
+        await side.clocks(gap)
+        return edge
 
-    def read(self, reg: int) -> int:
-        """One read cycle."""
-        value = self.model.read(self.t, reg, 5)
-        self.tape.accesses.append(Access(self.t, NAMES.get(("read", reg), "read"), reg, value))
-        self.t += 8
+    async def read(self, reg: int) -> int:
+        """One read cycle: d_o at the end of a strobe of 5 clk; 3 clk without."""
+        side = self.side
+        edge = side.set(cs_n=0, oe_n=0, rs=reg)
+        await side.clocks(5)
+        value = side.level("d_o")
+        side.accesses.append(Access(edge, NAMES.get(("read", reg), "read"), reg, value))
+        side.set(cs_n=1, oe_n=1)
+        await side.clocks(3)
         return value
 
-    def put(self, text: str, war: int | None = None) -> None:
-        """Write a block and no more; `header` is the edge that ends the last strobe."""
+    async def strobe(self, length: int, gap: int = 3, **levels: int) -> None:
+        """Any levels on the pins of the bus for `length` clk, then `gap` clk without a strobe."""
+        self.side.set(**levels)
+        await self.side.clocks(length)
+        self.side.set(cs_n=1, we_n=1, oe_n=1)
+        await self.side.clocks(gap)
+
+    async def put(self, text: str, war: int | None = None, gap: int = 3) -> None:
+        """Write a block and no more; returns `gap` clk behind its last strobe."""
         block = bytes.fromhex(text)[::-1]
-        self.write(WCR, 0x20)
-        self.write(WAR, 0x20 - len(block) if war is None else war)
-        for byte in block:
-            self.write(DWR, byte)
-        self.header = self.t - 3
+        await self.write(WCR, 0x20)
+        await self.write(WAR, 0x20 - len(block) if war is None else war)
+        for byte in block[:-1]:
+            await self.write(DWR, byte)
+        self.header = await self.write(DWR, block[-1], gap)
 
-    def issue(self, text: str) -> None:
+    async def ready(self, every: int = 20, limit: int = 10_000_000) -> None:
+        """Until MWEF = 0."""
+        end = self.t + limit
+        while await self.read(CSR) & MWEF:
+            assert self.t < end, f"no block is taken any more\n{self.side.context()}"
+            await self.pause(every)
+
+    async def issue(self, text: str) -> None:
         """Write a block when MWEF allows it; pulses and edges count from here."""
-        while self.read(CSR) & MWEF:
-            self.t += 20
+        await self.ready()
         self.mark = self.t
-        self.put(text)
+        await self.put(text)
 
-    def response(self, limit: int = 100_000_000) -> str:
+    async def response(self, limit: int = 100_000_000) -> str:
         """The next response block; time passes until there is one."""
-        self.wait(limit)
-        count = 0x40 - self.read(RAR)
-        assert count > 0
-        block = bytes(self.read(DRR) for _ in range(count))[::-1]
-        self.sync()
+        await self.wait(limit)
+        count = 0x40 - await self.read(RAR)
+        assert count > 0, f"a response without a byte\n{self.side.context()}"
+        block = bytes([await self.read(DRR) for _ in range(count)])[::-1]
         return clean(block.hex())
 
-    def wait(self, limit: int = 100_000_000) -> None:
-        """Until MREF = 0."""
+    async def wait(self, limit: int = 100_000_000) -> None:
+        """Until MREF = 0, for `limit` clk at most; polled when the golden model has a response."""
         end = self.t + limit
-        while self.read(CSR) & MREF:
-            self.sync()
-            while not self.model.core.responses.any_waiting:
-                assert self.t < end, "no response comes any more"
-                self.step()
+        late = self.t + LATE
+        while await self.read(CSR) & MREF:
+            assert self.t < late, f"no response comes, though the golden model has one\n{self.side.context()}"
+            if not self.side.golden.core.responses.any_waiting:
+                await self.arrival(end)
+                late = self.t + LATE
 
-    def ask(self, text: str) -> str:
+    async def arrival(self, end: int | None = None) -> None:
+        """Until the golden model has a response: a good moment to look for one; not beyond edge `end`."""
+        while not self.side.golden.core.responses.any_waiting:
+            assert end is None or self.t < end, f"no response comes any more\n{self.side.context()}"
+            await self.step()
+
+    async def ask(self, text: str) -> str:
         """Issue a block and read one response."""
-        self.issue(text)
-        return self.response()
+        await self.issue(text)
+        return await self.response()
 
-    def quiet(self, clk: int = 5000) -> bool:
+    async def quiet(self, clk: int = 5000) -> bool:
         """Whether no response comes for so long."""
-        self.pause(clk)
-        return bool(self.read(CSR) & MREF)
+        await self.pause(clk)
+        return bool(await self.read(CSR) & MREF)

@@ -10,7 +10,7 @@ from cocotb_tests.harness.block_host import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code, State
 
-from .parallel_host import Host
+from .host import Host
 from .scenes import Scenes
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.ppmc312.host import TICK
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.side_host import TICK
 from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import Code
 

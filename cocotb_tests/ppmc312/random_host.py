@@ -12,8 +12,8 @@ from typing import Any
 from cocotb_tests.harness.config import D16, F16, F50, Config
 from cocotb_tests.harness.random_host import Builds
 
+from .host import Host
 from .lively_host import Lively
-from .parallel_host import Host
 from .rough_host import Player
 
 ODD = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)

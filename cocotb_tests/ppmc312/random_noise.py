@@ -10,8 +10,8 @@ from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
 
-from .host import TF
-from .parallel_host import Host
+from .blocks import TF
+from .host import Host
 from .rough_host import reset_by_bus
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))

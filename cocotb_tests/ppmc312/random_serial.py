@@ -17,7 +17,7 @@ from openppmc.model.ppmc312.front.serial import LENGTHS
 from .aware import Aware
 from .builds import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 build = Builds("p312 serial", ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4)))
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")

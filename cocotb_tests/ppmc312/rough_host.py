@@ -13,7 +13,7 @@ from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
 from .aware import Aware
-from .parallel_host import Host
+from .host import Host
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)

@@ -1,96 +1,134 @@
-"""The master of a serial line with one PPMC-312: scripts for the golden model, taped for the RTL.
+"""The master of a serial line with one PPMC-312, which acts on what the station answers.
 
 Its UART is its own: what the part sends is read from the levels of txd, and every edge is checked.
 """
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from math import ceil
+from typing import Any
 
 from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.serial_line import ScriptLine, characters
+from cocotb_tests.harness.serial_line import SerialLine, characters
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
 
-from .script_host import Script
+from .bench import PPMC312
 from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
+from .side_host import SideHost
 
 SLACK = 64
 """clk that a reply may be later."""
+FRAME = re.compile(rb"[\x80-\xFF](?:[0-9a-f]{2})*[\x00-\x7F]", re.DOTALL)
 
 
-class SerialHost(ScriptLine, Script):
-    """mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
+class SerialHost(SerialLine, SideHost):
+    """Make one with `await SerialHost.start(dut)`.
 
     Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the
     address, and data: "90", "A0 38", "B0 42"; `wire` is the last one as it was on the line,
     `waited` how many clk after the end of the master's last stop bit snd has risen.
     """
 
-    def __init__(
-        self, *setting: str, mod: int = 7, adr: int = 1, error: float = 0, mode: int = 0, **parameters: object
-    ) -> None:
-        super().__init__(**parameters)
-        model, self.adr = self.model, adr
-        self.sum_mode = str(parameters.get("sum_mode", "BINARY"))
-        self.pins(rst_n=0, mode=mode, mod=mod, adr=adr)
-        self.pause(12)
-        self.open_line(Fraction(0), error)
-        self.speed(mod)
+    def __init__(self, side: Side, adr: int = 1, error: float = 0) -> None:
+        super().__init__(side)
+        self.adr = adr
+        params = {**side.part.defaults, **side.part.params(side.config)}
+        self.sum_mode = str(params["SUM_MODE"])
         self.wire, self.waited = "", Fraction(0)
-        self._heard = 0
-        self.pins(rst_n=1)
-        self.pause(12)
-        while not model.outputs["out_oe"]:
-            self.step()
-        self.pause(4)
+        self._behind = self._heard = 0
+        self.open_line(Fraction(0), error)
+
+    @classmethod
+    async def start(
+        cls, dut: Any, *setting: str, mod: int = 7, adr: int = 1, error: float = 0, mode: int = 0
+    ) -> SerialHost:
+        """A station out of a reset; each instruction of `setting` is acknowledged.
+
+        mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
+        """
+        host = cls(await start_bench(dut, PPMC312, settle=8), adr, error)
+        host.speed(mod)
+        await host.pins(rst_n=0, mode=mode, mod=mod, adr=adr)
+        await host.pause(12)
+        await host.pins(rst_n=1)
+        await host.pause(12)
+        await host.side.level_is("out_oe", 1)
+        await host.pause(4)
         for instruction in setting:
-            assert self.ask(instruction) == "90"
+            assert await host.ask(instruction) == "90"
+        return host
 
     def speed(self, mod: int) -> None:
         """The master takes the speed of mod; that of the part changes with its next reset only."""
-        timebase = self.model.timebase
-        rate = SPEEDS.get(mod, SPEEDS[7]) * timebase.xtal_hz / 16_000_000
-        self.bit = timebase.clk_hz / rate
+        config = self.side.config
+        self.bit = config.clk_hz / (SPEEDS.get(mod, SPEEDS[7]) * config.xtal_hz / 16_000_000)
+
+    # ------------------------------------------------------------------ time, pins
+
+    @property
+    def t(self) -> int:
+        """The next free edge: that of the side, or the first one behind what has been sent."""
+        return max(self._behind, self.side.now)
+
+    @t.setter
+    def t(self, edge: int) -> None:
+        self._behind = edge
+
+    async def pause(self, clk: int) -> None:
+        """Let time pass, behind what has been sent."""
+        await self.go(self.t + clk)
+
+    async def pins(self, **levels: int) -> None:
+        """Pin levels from edge `t` on."""
+        await self.go(self.t)
+        await super().pins(**levels)
 
     # ------------------------------------------------------------------ to the part
 
-    def say(self, text: str, adr: int | None = None) -> None:
+    async def say(self, text: str, adr: int | None = None) -> None:
         """An instruction; pulses count from here."""
         self.mark = self.t
         control = 0x90 + (self.adr if adr is None else adr)
-        self.send(summed(control, bytes.fromhex(text), self.sum_mode))
+        await self.send(summed(control, bytes.fromhex(text), self.sum_mode))
+
+    async def ask_poll(self, adr: int | None = None) -> None:
+        """A poll without waiting."""
+        await self.send(summed(0x80 + (self.adr if adr is None else adr), b"", self.sum_mode))
 
     # ------------------------------------------------------------------ from the part
 
     def rise(self) -> int | None:
         """Edge of the next rise of snd that no `hear` has had, if there is one."""
-        self.sync()
-        return next((t for t, level in self.model.log.of("snd", self._heard) if level), None)
+        return next(iter(self.side.rises("snd", self._heard)), None)
 
-    def begin(self, within: int = T_EXEC) -> int:
-        """Edge of the next rise of snd, at most `within` clk after the middle of the last stop bit."""
+    async def begin(self, within: int = T_EXEC) -> int:
+        """Edge of the next rise of snd, at most `within` clk after the middle of the last stop bit.
+
+        TimeoutError if there is none by then.
+        """
+        await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit)) + SLACK
         while (rise := self.rise()) is None:
-            assert self.model.next_event is not None and self.model.next_event <= end, (
-                "no reply comes any more"
-            )
-            self.step()
+            await self.side.edge("snd", 1, max(1, end + 1 - self.t))
         assert rise <= end, f"snd rises {rise - end} clk too late"
         return rise
 
-    def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
+    async def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
         """The next reply, which starts as `begin` says, but not before half a bit after the end of the frame.
 
         timed: the last stop bit was the end of the frame that is answered (P312-SER-18).
         """
-        rise = self.begin(within)
+        rise = await self.begin(within)
         self.waited = rise - self.middle - self.bit / 2
-        assert not timed or self.waited >= self.bit / 2, f"snd rises {self.waited} clk after the frame"
-        while (fall := next((t for t, level in self.model.log.of("snd", rise) if not level), None)) is None:
-            self.step()
-        self._heard = fall
-        self.go(max(self.t, fall + 1))
-        line = self._decode(rise, fall)
+        late = f"snd rises {float(self.waited):.1f} clk after the frame"
+        assert not timed or self.waited >= self.bit / 2, late
+        while not (falls := self.side.falls("snd", rise)):
+            await self.side.edge("snd", 0)
+        self._heard = falls[0]
+        line = self._decode(rise, falls[0])
         self.wire = clean(line.hex())
         return self._meaning(line)
 
@@ -99,52 +137,64 @@ class SerialHost(ScriptLine, Script):
         bit = self.bit
         count, rest = divmod(round((fall - rise) / bit) - 1, 10)
         assert not rest and fall == rise + ceil((10 * count + 1) * bit), "snd falls in a character"
-        edges = [edge for edge in self.model.log.of("txd", rise) if edge[0] <= fall]
+        edges = [edge for edge in self.side.edges("txd", rise) if edge[0] <= fall]
         assert not edges or edges[0][0] >= rise + bit, "no idle bit before the first character"
         return characters(edges, rise + bit, bit, count)
 
     def _meaning(self, line: bytes) -> str:
+        assert FRAME.fullmatch(line), f"no frame: {self.wire}"
         control, data = line[0], bytes.fromhex(line[1:-1].decode("ascii"))
-        assert line == summed(control, data, self.sum_mode)
-        assert control & 0x0F == self.adr
+        assert line == summed(control, data, self.sum_mode), f"wrong checksum: {self.wire}"
+        assert control & 0x0F == self.adr, f"not from station {self.adr}: {self.wire}"
         return " ".join([f"{control & 0xF0:02X}", *([clean(data.hex())] if data else [])])
 
-    def ask(self, text: str, within: int | None = None) -> str:
+    async def ask(self, text: str, within: int | None = None) -> str:
         """An instruction and its reply."""
-        self.say(text)
-        return self.hear(within or (T_INIT if bytes.fromhex(text)[0] == 0 else T_EXEC))
+        await self.say(text)
+        return await self.hear(within or (T_INIT if bytes.fromhex(text)[0] == 0 else T_EXEC))
 
-    def poll(self, adr: int | None = None) -> str:
+    async def poll(self, adr: int | None = None) -> str:
         """A poll and its reply."""
-        self.ask_poll(adr)
-        return self.hear()
+        await self.ask_poll(adr)
+        return await self.hear()
 
-    def ask_poll(self, adr: int | None = None) -> None:
-        """A poll without waiting."""
-        self.send(summed(0x80 + (self.adr if adr is None else adr), b"", self.sum_mode))
+    async def polls(self, count: int) -> list[str]:
+        """So many polls and their replies."""
+        return [await self.poll() for _ in range(count)]
+
+    async def asks(self, *texts: str) -> list[str]:
+        """Instructions, one after the other, and their replies."""
+        return [await self.ask(text) for text in texts]
+
+    async def status(self) -> str:
+        """Data of 4D: flags, state, what is registered."""
+        return (await self.ask("4D")).removeprefix("A0 ")
+
+    async def state(self) -> int:
+        """State byte of 4D."""
+        return int((await self.status()).split()[1], 16)
 
     def forget(self) -> None:
         """Nobody has listened so far."""
         self._heard = self.t
 
-    def quiet(self, clk: int = 2 * T_EXEC) -> bool:
+    async def quiet(self, clk: int = 2 * T_EXEC) -> bool:
         """Whether nothing is sent for so long."""
-        self.pause(clk)
+        await self.pause(clk)
         return self.rise() is None
 
-    def until(self, answer: str, limit: int = 2_000_000) -> list[str]:
-        """Polls until this answer comes; all others but busy and ready that came before it."""
-        end, others = self.t + limit, []
-        while (said := self.poll()) != answer:
-            assert self.t < end, f"{answer} does not come"
-            if said not in ("80", "90"):
-                others.append(said)
-        return others
-
-    def settle(self) -> list[str]:
+    async def settle(self) -> list[str]:
         """Polls until the station is ready; everything else that it has said."""
         others = []
-        while (said := self.poll()) != "90":
+        while (said := await self.poll()) != "90":
             if said != "80":
                 others.append(said)
         return others
+
+    async def at_rest(self, after: int = 200, limit: int = 4_000_000) -> None:
+        """Let a motion end, which the golden model tells, and `after` clk more."""
+        end = self.t + limit
+        while not self.side.golden.core.operation.at_rest:
+            assert self.t < end, f"the motion does not end\n{self.side.context()}"
+            await self.step()
+        await self.pause(after)

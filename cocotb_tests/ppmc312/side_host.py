@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import side_host
 
-from .script_host import TICK
+TICK = 16
+"""clk of a tick at F = 1 MHz and a clock of 16 MHz."""
 
 
 class SideHost(side_host.SideHost):

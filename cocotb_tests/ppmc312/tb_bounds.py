@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import T3, TF, clean
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import T3, TF
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS

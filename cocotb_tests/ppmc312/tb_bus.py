@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
 from cocotb_tests.harness.config import D16, F16
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, T1, WAR, WCR
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import T1
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Answer, Code
 

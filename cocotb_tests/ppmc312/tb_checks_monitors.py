@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import TF
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import TF
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 

@@ -6,9 +6,10 @@ from typing import Any
 
 import cocotb
 
+from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import T1, T2, T3, T4, TF, TG, TH, clean
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import T1, T2, T3, T4, TF, TG, TH
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 

@@ -6,9 +6,9 @@ from math import ceil
 from typing import Any
 
 from cocotb_tests.harness.directed import directed
+from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.builds import F8V, F27
-from cocotb_tests.ppmc312.host import TF
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message, stopped
 from openppmc.model.ppmc312.codes import Code
 

@@ -7,9 +7,10 @@ from typing import Any
 import cocotb
 from cocotb import Param
 
+from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import RATES, T1, TF, TG, TH, clean
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import RATES, T1, TF, TG, TH
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.table_read import read_table
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code

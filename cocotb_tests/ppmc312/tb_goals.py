@@ -10,8 +10,8 @@ from typing import Any
 
 from cocotb_tests.harness.config import F50
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import T1
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import T1
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 from openppmc.model.ppmc312.stages.tables import build

@@ -6,10 +6,11 @@ from typing import Any
 
 import cocotb
 
+from cocotb_tests.harness.block_host import DWR, WAR, WCR, clean
 from cocotb_tests.harness.config import D16
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import DWR, RATES, T1, TF, WAR, WCR, clean
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import RATES, T1, TF
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import TF, TG, TICK
+from cocotb_tests.ppmc312.blocks import TF, TG
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.motion_tables import SLOW_STOP, STOP
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.side_host import TICK
 from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import TF
+from cocotb_tests.ppmc312.blocks import TF
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, SLOW_STOP, STOP, change
-from cocotb_tests.ppmc312.parallel_host import Host
 from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 

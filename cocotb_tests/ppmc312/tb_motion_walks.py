@@ -7,9 +7,10 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import TF, TG, TH, TICK
+from cocotb_tests.ppmc312.blocks import TF, TG, TH
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, ODD, SLOW_STOP, STOP, change, run_out
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.side_host import TICK
 from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import Code, Source
 

@@ -14,7 +14,7 @@ from cocotb_tests.harness.directed import directed
 
 from .builds import CHARS
 from .serial_frames import T1, TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 
 async def exchange(host: SerialHost, text: str, within: int = 4_096) -> str:

@@ -9,7 +9,7 @@ import cocotb
 from cocotb_tests.harness.directed import directed
 
 from .serial_frames import TS
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 PARAMETER, STATE, LIMIT, SIZE, REGISTRATION = "B0 42", "B0 43", "B0 44", "B0 48", "B0 49"
 EVENT = "03 01 20 00 00 00 00 00 00 00"

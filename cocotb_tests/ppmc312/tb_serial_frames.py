@@ -11,7 +11,7 @@ from cocotb_tests.harness.directed import directed
 
 from .builds import CHARS, F8V
 from .serial_frames import SILENCE, TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 NONE = "A0 00 00 00"
 

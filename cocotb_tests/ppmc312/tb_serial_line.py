@@ -13,7 +13,7 @@ from cocotb_tests.harness.directed import directed
 
 from .builds import F27, F27X12
 from .serial_frames import TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 PATTERNS = (0x00, 0x55, 0xAA, 0x7F, 0x80, 0xFF, 0x01, 0xFE)
 

@@ -9,7 +9,7 @@ import cocotb
 from cocotb_tests.harness.directed import directed
 
 from .serial_frames import TS
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 PARAMETER, STATE = "B0 42", "B0 43"
 STOPPED = "A0 37"

@@ -12,7 +12,7 @@ from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 
 from .serial_frames import TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "02 84 00"))
 

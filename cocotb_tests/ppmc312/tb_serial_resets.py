@@ -12,9 +12,9 @@ from cocotb_tests.harness.directed import directed
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 
-from .parallel_host import Host
+from .host import Host
 from .serial_frames import TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 
 async def reset(host: SerialHost, clk: int = 12) -> None:

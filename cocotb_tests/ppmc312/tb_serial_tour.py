@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness.directed import directed
 
 from .serial_frames import TS, summed
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 
 @directed(

@@ -9,7 +9,7 @@ import cocotb
 from cocotb_tests.harness.directed import directed
 
 from .serial_frames import T_INIT, TS
-from .serial_master import SerialHost
+from .serial_host import SerialHost
 
 ACK = "91 6E"
 SET_POSITION = "43 12345678"

@@ -6,9 +6,10 @@ from typing import Any
 
 import cocotb
 
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR, clean
 from cocotb_tests.harness.directed import directed
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, MREF, MWEF, RAR, T1, TF, WAR, WCR, clean
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.blocks import T1, TF
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 

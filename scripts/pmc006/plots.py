@@ -8,35 +8,41 @@ from itertools import pairwise
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.pmc006.script_host import Host
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.pmc006.builds import F8B
+from cocotb_tests.pmc006.host import Host
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
-CLK_HZ, BAUD = 8_000_000, 115_200
+CLK_HZ = F8B.clk_hz
 LONGEST = 60_000  # ms
 Settings = dict[str, int]
 FAST = {"u": 3, "o": 3, "v": 3200}
 
 
-def new(settings: Settings) -> Host:
+async def new(settings: Settings) -> Host:
     """A controller with these settings."""
-    host = Host(clk_hz=CLK_HZ, baud=BAUD)
+    host = await Host.start(OnModel(F8B))
     for letter, value in settings.items():
-        host.ask(letter, value)
+        await host.ask(letter, value)
     return host
 
 
-def finish(host: Host) -> list[int]:
+async def finish(host: Host) -> list[int]:
     """Run to the end of the motion; edges of its steps."""
-    begin = host.mark
-    host.until("mon_busy", 0, LONGEST * 1000)
-    return host.model.log.rises("mon_step", begin)
+    await host.until("mon_busy", 0, LONGEST * 1000)
+    return host.steps()
+
+
+async def made(count: int, settings: Settings) -> list[int]:
+    """A move."""
+    host = await new(settings)
+    await host.ask("s", count)
+    return await finish(host)
 
 
 def steps(count: int, **settings: int) -> list[int]:
     """Edges of the steps of a move."""
-    host = new(settings)
-    host.ask("s", count)
-    return finish(host)
+    return on_model(made(count, settings))
 
 
 def _speed(axes: Axes, edges: Sequence[int], colour: str, label: str) -> None:
@@ -65,10 +71,10 @@ def moves() -> bytes:
     return svg(figure)
 
 
-def retarget() -> bytes:
-    """Speed mode: changes of speed, its end, and a return in the ramp down."""
-    host = new(FAST | {"v": 3000})
-    host.ask("N", 1)
+async def retargeted() -> tuple[list[int], list[tuple[int, str]]]:
+    """Edges of the steps in speed mode, edge and text of each instruction."""
+    host = await new(FAST | {"v": 3000})
+    await host.ask("N", 1)
     begin, marks = host.mark, []
     for pause, letter, value in (
         (300, "v", 1200),
@@ -77,11 +83,16 @@ def retarget() -> bytes:
         (90, "N", 1),
         (200, "N", 0),
     ):
-        host.ms(pause)
+        await host.ms(pause)
         marks.append((host.t, f"{letter} {value}"))
-        host.ask(letter, value)
+        await host.ask(letter, value)
     host.mark = begin
-    edges = finish(host)
+    return await finish(host), marks
+
+
+def retarget() -> bytes:
+    """Speed mode: changes of speed, its end, and a return in the ramp down."""
+    edges, marks = on_model(retargeted())
     figure, axes = plt.subplots(figsize=(9.2, 2.8), layout="constrained")
     _speed(axes, _from(edges), BLUE, "speed")
     for t, text in marks:

@@ -6,7 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR, Host
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, RAR, WAR, WCR
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.model_bench import OnModel
+from cocotb_tests.ppmc312.blocks import TF
+from cocotb_tests.ppmc312.host import Host
 from scripts.pictures.recorded import Levels, Row, Samples, Schedule, clock, labels, record, wave
 
 Drawing = dict[str, Any]
@@ -43,11 +47,11 @@ def during(strobe: str, name: str) -> Callable[[Levels], int | None]:
     return lambda levels: None if levels[strobe] else levels[name]
 
 
-def ready(*setting: str, **parameters: object) -> Host:
-    """A host on a part that has been set up, with interrupts for answers."""
-    host = Host(*setting, **parameters)
-    host.write(CSR, ANSWERS)
-    host.pause(40)
+async def ready(*setting: str, build: Config = F16) -> Host:
+    """A host on a model that has been set up, with interrupts for answers."""
+    host = await Host.start(OnModel(build), *setting)
+    await host.write(CSR, ANSWERS)
+    await host.pause(40)
     return host
 
 
@@ -72,29 +76,30 @@ def block_cycles(edge: int, block: str) -> tuple[Schedule, int]:
     return schedule, edge + 6 * len(accesses) - 3
 
 
-def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, int]:
+async def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, int]:
     """A host shortly before pulse `number` of a motion, and that pulse's edge.
 
     origin: the pulse after which the origin switch closes; it opens again five pulses later.
     """
     edge = 0
     while True:
-        host = ready(*TF)
-        host.ask(block)
+        host = await ready(*TF)
+        await host.ask(block)
         if origin:
-            host.pulse(origin)
-            host.pins(org_n=0)
-            host.pulse(origin + 5)
-            host.pins(org_n=1)
+            await host.pulse(origin)
+            await host.pins(org_n=0)
+            await host.pulse(origin + 5)
+            await host.pins(org_n=1)
         if edge:
-            host.go(edge - 20)
+            await host.go(edge - 20)
             return host, edge
-        edge = host.pulse(number)
+        edge = await host.pulse(number)
 
 
 def look(host: Host, schedule: Schedule, columns: Sequence[int | None]) -> Samples:
     """The model's pins and flags on the edges of the columns."""
-    return record(host.model, host.model.inputs, schedule, columns, flags)
+    model = host.side.golden
+    return record(model, model.inputs, schedule, columns, flags)
 
 
 def table(

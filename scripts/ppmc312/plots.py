@@ -8,7 +8,9 @@ from itertools import accumulate, pairwise
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.ppmc312.host import TF, Host
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.ppmc312.blocks import TF
+from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import ramped
 from openppmc.model.ppmc312.stages.tables import LAST, Table, build
@@ -69,18 +71,18 @@ def shapes() -> bytes:
     return svg(figure)
 
 
-def _played(block: str, number: int, change: str) -> list[int]:
+async def _played(block: str, number: int, change: str) -> list[int]:
     """Intervals in ticks of a move during which `change` is given after pulse `number`."""
-    host = Host(*TF)
-    host.ask(block)
+    host = await Host.start(OnModel(), *TF)
+    await host.ask(block)
     if change:
-        host.pulse(number, 40)
-        host.issue(change)
+        await host.pulse(number, 40)
+        await host.issue(change)
     for _ in range(2000):
-        if host.model.next_event is None or len(host.model.log.rises("pout")) >= SHOWN:
+        if host.side.golden.next_event is None or len(host.side.rises("pout")) >= SHOWN:
             break
-        host.step()
-    edges = host.model.log.rises("pout")[:SHOWN]
+        await host.step()
+    edges = host.side.rises("pout")[:SHOWN]
     return [(b - a) // CLK for a, b in pairwise(edges)]
 
 
@@ -102,7 +104,7 @@ def changes() -> bytes:
     )
     for axes, cases in ((left, endless), (right, counted)):
         for block, number, change, colour, label in cases:
-            intervals = _played(block, number, change)
+            intervals = on_model(_played(block, number, change))
             _stairs(axes, intervals, colour, label)
             if change:
                 at = sum(intervals[: number - 1]) / 1000
@@ -114,20 +116,25 @@ def changes() -> bytes:
     return svg(figure)
 
 
+async def _returned(switch: int, free: int, out: int) -> list[int]:
+    """Pulses of a zero return whose walk has `out` of them; the switch is that of `origin`."""
+    host = await Host.start(OnModel(), *TF)
+    await host.ask("03 04 11 00 0000")
+    await host.pulse(switch)
+    await host.pins(org_n=0)
+    await host.pulse(switch + free)
+    await host.pins(org_n=1)
+    await host.pulse(out + out - switch - free)
+    await host.pins(org_n=0)
+    await host.response()
+    return host.side.rises("pout")
+
+
 def origin() -> bytes:
     """A zero return: speed over time and over position."""
     switch, free = 24, 4  # the switch closes after so many pulses, and is so many pulses wide
-    host = Host(*TF)
-    host.ask("03 04 11 00 0000")
-    host.pulse(switch)
-    host.pins(org_n=0)
-    host.pulse(switch + free)
-    host.pins(org_n=1)
     out = switch + 12
-    host.pulse(out + out - switch - free)
-    host.pins(org_n=0)
-    host.response()
-    edges = host.model.log.rises("pout")
+    edges = on_model(_returned(switch, free, out))
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.0), layout="constrained")
     there, back = edges[:out], edges[out:]
     for part, colour, label in ((there, BLUE, "out"), (back, RED, "back")):

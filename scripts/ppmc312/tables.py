@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from cocotb_tests.ppmc312.host import CSR, T1, T2, T3, Host
+from cocotb_tests.harness.block_host import CSR
+from cocotb_tests.harness.config import D16, F16, F50, Config
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.ppmc312.blocks import T1, T2, T3
+from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.stages.curve import curve
 from openppmc.model.ppmc312.stages.plan import Step, constant, ramped
 from openppmc.model.ppmc312.stages.tables import Table, build
@@ -100,56 +104,53 @@ STARTS = (
 )
 
 
-MODES: tuple[tuple[str, dict[str, object]], ...] = (
-    ("FAST, 16 MHz", {}),
-    ("FAST, 50 MHz", {"clk_hz": 50_000_000}),
-    ("DATASHEET", {"timing": "DATASHEET"}),
-)
+MODES: tuple[tuple[str, Config], ...] = (("FAST, 16 MHz", F16), ("FAST, 50 MHz", F50), ("DATASHEET", D16))
 
 
-def _us(clk: int, mode: dict[str, object]) -> str:
+def _us(clk: int, mode: Config) -> str:
     """A time in the unit that fits."""
-    us = clk * 1e6 / float(str(mode.get("clk_hz", 16_000_000)))
+    us = clk * 1e6 / mode.clk_hz
     return f"{us / 1000:.3g} ms" if us >= 999 else f"{us:.3g} µs"
 
 
-def _set_up(mode: dict[str, object], block: str) -> int:
+async def _set_up(mode: Config, block: str) -> int:
     """clk from the header to the answer."""
-    host = Host(**mode)
-    host.write(CSR, 0x10)
-    host.issue(block)
-    host.response()
-    return host.model.log.falls("irq_n", host.header)[0] - host.header
+    host = await Host.start(OnModel(mode))
+    await host.write(CSR, 0x10)
+    await host.issue(block)
+    await host.response()
+    return host.side.falls("irq_n", host.header)[0] - host.header
 
 
-def _start(mode: dict[str, object], block: str) -> int:
+async def _start(mode: Config, block: str) -> int:
     """clk from the header to pulse 1."""
-    host = Host(T1, **mode)
-    host.issue(block)
-    return host.pulse(1) - host.header
+    host = await Host.start(OnModel(mode), T1)
+    await host.issue(block)
+    return await host.pulse(1) - host.header
 
 
-def _ready(mode: dict[str, object], _: str) -> int:
+async def _ready(mode: Config, _: str) -> int:
     """clk from the release of rst_n to out_oe."""
-    return Host(**mode).model.log.of("out_oe")[0][0]
+    host = await Host.start(OnModel(mode))
+    return host.side.rises("out_oe")[0]
 
 
-def _stop(mode: dict[str, object], block: str) -> int:
+async def _stop(mode: Config, block: str) -> int:
     """clk from the header, at a constant rate, to the answer: no pulse begins after it."""
-    host = Host(T1, "03 04 86 00 03E8", **mode)
-    host.write(CSR, 0x10)
-    host.pulse(2)
-    host.issue(block)
-    host.response()
-    return host.model.log.falls("irq_n", host.header)[0] - host.header
+    host = await Host.start(OnModel(mode), T1, "03 04 86 00 03E8")
+    await host.write(CSR, 0x10)
+    await host.pulse(2)
+    await host.issue(block)
+    await host.response()
+    return host.side.falls("irq_n", host.header)[0] - host.header
 
 
-def _output(mode: dict[str, object], block: str) -> int:
+async def _output(mode: Config, block: str) -> int:
     """clk from the header to the auxiliary output."""
-    host = Host(**mode)
-    host.issue(block)
-    host.wait()
-    return host.model.log.of("auxo_n")[0][0] - host.header
+    host = await Host.start(OnModel(mode))
+    await host.issue(block)
+    await host.wait()
+    return host.side.edges("auxo_n")[0][0] - host.header
 
 
 TIMES = (
@@ -166,6 +167,6 @@ def times_table() -> str:
     lines = [f"| Event | {' | '.join(name for name, _ in MODES)} |", "|---|---|---|---|"]
     for rows, measure in TIMES:
         for text, block in rows:
-            times = [_us(measure(mode, block), mode) for _, mode in MODES]
+            times = [_us(on_model(measure(mode, block)), mode) for _, mode in MODES]
             lines.append(f"| {text} | {' | '.join(times)} |")
     return "\n".join(lines)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from typing import Any
 
-from cocotb_tests.ppmc312.host import CSR, DRR, DWR, RAR, TF, WAR, WCR
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, RAR, WAR, WCR
+from cocotb_tests.harness.config import D16
+from cocotb_tests.harness.model_bench import on_model
+from cocotb_tests.ppmc312.blocks import TF
 from scripts.pictures.recorded import Levels, Row, wave
 from scripts.ppmc312.bench import (
     NAMES,
@@ -24,11 +28,11 @@ from scripts.ppmc312.bench import (
 )
 
 
-def write() -> Drawing:
+async def write() -> Drawing:
     """The write of a header."""
-    host = ready()
+    host = await ready()
     for reg, byte in ((WCR, 0x20), (WAR, 0x1D), (DWR, 0x40), (DWR, 0x01)):
-        host.write(reg, byte)
+        await host.write(reg, byte)
     rows = (
         (Row("cs_n, we_n", "we_n", host=True), ".A"),
         (Row("rs", during("we_n", "rs"), str, host=True), ""),
@@ -43,14 +47,14 @@ def write() -> Drawing:
     return cycle(host, write_cycle(host.t, DWR, 3), range(host.t - 1, host.t + 10), rows, core, -4, texts)
 
 
-def read() -> Drawing:
+async def read() -> Drawing:
     """The read of the last byte of an answer."""
-    host = ready()
-    host.issue("03 01 40")
-    host.wait()
+    host = await ready()
+    await host.issue("03 01 40")
+    await host.wait()
     for _ in range(3):
-        host.read(DRR)
-    host.t += 8
+        await host.read(DRR)
+    start = host.t + 8
     rows = (
         (Row("cs_n, oe_n", "oe_n", host=True), "AB"),
         (Row("rs", during("oe_n", "rs"), str, host=True), ""),
@@ -66,16 +70,16 @@ def read() -> Drawing:
         "what the read does, it does when the strobe has ended",
         ["A~>C", "B~>D", "B~>E"],
     )
-    return cycle(host, read_cycle(host.t, DRR), range(host.t - 2, host.t + 12), rows, core, -2, texts)
+    return cycle(host, read_cycle(start, DRR), range(start - 2, start + 12), rows, core, -2, texts)
 
 
-def wrq() -> Drawing:
+async def wrq() -> Drawing:
     """Two DWR strobes that are too close for the old chip."""
-    host = ready(timing="DATASHEET")
-    host.write(CSR, 0x40)
-    host.write(WCR, 0x20)
-    host.write(WAR, 0x1D)
-    host.pause(40)
+    host = await ready(build=D16)
+    await host.write(CSR, 0x40)
+    await host.write(WCR, 0x20)
+    await host.write(WAR, 0x1D)
+    await host.pause(40)
     schedule = [*write_cycle(host.t, DWR, 0x40), *write_cycle(host.t + 6, DWR, 0x01, 11)]
     rows = (
         (Row("cs_n, we_n", "we_n", host=True), "..BD"),
@@ -90,9 +94,9 @@ def wrq() -> Drawing:
     return cycle(host, schedule, range(host.t - 1, host.t + 21), rows, core, -1, texts)
 
 
-def block() -> Drawing:
+async def block() -> Drawing:
     """All accesses of a version read."""
-    host = ready()
+    host = await ready()
     begin = host.t + 4
     schedule, end = block_cycles(begin, "03 01 40")
     there = end + 100
@@ -124,18 +128,18 @@ def block() -> Drawing:
     }
 
 
-def start() -> Drawing:
+async def start() -> Drawing:
     """From the header of a move to pulse 2."""
     move = "03 08 83 40 0064 00000005"
-    ahead = ready(*TF)
-    ahead.issue(move)
-    ahead.pause(8)  # the block is being processed
-    while flags(ahead.model)["mwef"]:
-        ahead.pause(1)
-    free = ahead.model.now - ahead.header
-    first = ahead.pulse(1) - ahead.header
-    turned = ahead.model.log.rises("dir")[0] - ahead.header
-    host = ready(*TF)
+    ahead = await ready(*TF)
+    await ahead.issue(move)
+    await ahead.pause(8)  # the block is being processed
+    while flags(ahead.side.golden)["mwef"]:
+        await ahead.pause(1)
+    free = ahead.t - 1 - ahead.header
+    first = await ahead.pulse(1) - ahead.header
+    turned = ahead.side.rises("dir")[0] - ahead.header
+    host = await ready(*TF)
     schedule, end = block_cycles(host.t + 4, move)
     columns = (
         -1, 0, 1, 2, None, turned - 1, turned, turned + 1, None, free - 1, free, None,
@@ -151,9 +155,9 @@ def start() -> Drawing:
     return table(host, schedule, end, columns, rows, title, ["A~>B 5 us", "B<->C 5 us"])
 
 
-def end() -> Drawing:
+async def end() -> Drawing:
     """The last pulse of a move, its report, and cd_n."""
-    host, last = on_the_way(3, "03 08 83 00 0064 00000003")
+    host, last = await on_the_way(3, "03 08 83 00 0064 00000003")
     over = 1600
     down = over + 1_600_000
     columns = (-1, 0, 1, None, 79, 80, 81, None, over - 1, *range(over, over + 10), None,
@@ -167,10 +171,10 @@ def end() -> Drawing:
     return table(host, [], last, columns, rows, title)
 
 
-def stop() -> Drawing:
+async def stop() -> Drawing:
     """A limit shortly before a pulse is due."""
     going = "03 04 86 00 0064"
-    host, due = on_the_way(5, going)
+    host, due = await on_the_way(5, going)
     press = due - 4
 
     def undisturbed(levels: Levels) -> int:
@@ -187,12 +191,12 @@ def stop() -> Drawing:
     return table(host, [(press, {"fl_n": 0})], press, columns, rows, title)
 
 
-def hold() -> Drawing:
+async def hold() -> Drawing:
     """A move that waits for RUN."""
-    host = ready(*TF)
-    host.pins(run=0)
-    host.ask("03 08 83 40 0064 00000005")
-    host.pause(200)
+    host = await ready(*TF)
+    await host.pins(run=0)
+    await host.ask("03 08 83 40 0064 00000005")
+    await host.pause(200)
     go = host.t + 4
     columns = (*range(-2, 14), None, 82, 83, 84, 85, 86)
     rows = (
@@ -205,13 +209,13 @@ def hold() -> Drawing:
     return table(host, [(go, {"run": 1})], go, columns, rows, title, ["A~>B", "B~>C 5 us"])
 
 
-def turn() -> Drawing:
+async def turn() -> Drawing:
     """The end of phase 1 of a zero return and the begin of phase 2."""
     back = "03 04 11 00 0000"
-    ahead, last = on_the_way(27, back, 15)
-    again = ahead.pulse(28) - last
-    turned = ahead.model.log.rises("dir")[0] - last
-    host, last = on_the_way(27, back, 15)
+    ahead, last = await on_the_way(27, back, 15)
+    again = await ahead.pulse(28) - last
+    turned = ahead.side.rises("dir")[0] - last
+    host, last = await on_the_way(27, back, 15)
     columns = (-1, 0, 1, None, 79, 80, 81, None, 6399, 6400, *range(6401, turned + 3), None,
                *range(again - 1, again + 3))  # fmt: skip
     rows = ((Row("pout", "pout"), "..D"), (Row("dir", "dir"), "C"))
@@ -219,14 +223,10 @@ def turn() -> Drawing:
     return table(host, [], last, columns, rows, title, ["C~>D 5 us"])
 
 
-DIAGRAMS: dict[str, Callable[[], Drawing]] = {
-    "write": write,
-    "read": read,
-    "wrq": wrq,
-    "block": block,
-    "start": start,
-    "end": end,
-    "stop": stop,
-    "hold": hold,
-    "turn": turn,
-}
+def _drawn(scene: Callable[[], Coroutine[Any, Any, Drawing]]) -> Callable[[], Drawing]:
+    """The drawing of a scene, which is played on the golden model."""
+    return lambda: on_model(scene())
+
+
+SCENES = (write, read, wrq, block, start, end, stop, hold, turn)
+DIAGRAMS: dict[str, Callable[[], Drawing]] = {scene.__name__: _drawn(scene) for scene in SCENES}

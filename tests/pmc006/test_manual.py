@@ -6,7 +6,9 @@ import re
 
 import pytest
 
-from cocotb_tests.pmc006.script_host import Host
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.pmc006.builds import F8B
+from cocotb_tests.pmc006.host import Host
 from openppmc.model.pmc006.codes import LETTERS
 from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
@@ -24,7 +26,7 @@ class Session:
              "pin": "pin", "ms": "ms"}  # fmt: skip
 
     def __init__(self) -> None:
-        self.host = Host(clk_hz=8_000_000, baud=115_200)
+        self.host = on_model(Host.start(OnModel(F8B)))
         self.since = 0
 
     def play(self, lines: list[str], where: str) -> None:
@@ -32,50 +34,51 @@ class Session:
         for number, line in enumerate(lines, 1):
             # Two spaces begin a comment.
             kind, _, words = re.split(r"\s{2,}", line.strip())[0].partition(" ")
-            found = getattr(self, self.KINDS[kind])(words)
+            found = on_model(getattr(self, self.KINDS[kind])(words))
             assert found is None or found == words, f"{where}, line {number}: {line!r} gave {found}"
 
-    def raw(self, words: str) -> None:
-        self.host.raw(words)
+    async def raw(self, words: str) -> None:
+        await self.host.raw(words)
 
-    def reply(self, words: str) -> str:
+    async def reply(self, words: str) -> str:
         if not words:
-            assert self.host.silent(self.host.us(2000)), "a reply"
+            assert await self.host.silent(self.host.us(2000)), "a reply"
             return words
-        self.host.hear()
+        await self.host.hear()
         return self.host.wire.hex(" ").upper()
 
-    def order(self, words: str) -> None:
+    async def order(self, words: str) -> None:
         code, data = (*words.split(), "0")[:2]
-        self.host.say(int(code, 16) if code.startswith("0x") else code, int(data, 0))
+        await self.host.say(int(code, 16) if code.startswith("0x") else code, int(data, 0))
 
-    def data(self, words: str) -> str:
-        got = self.host.hear()
+    async def data(self, words: str) -> str:
+        got = await self.host.hear()
         return words if got == int(words, 0) & 0xFFFF_FFFF else str(got)
 
-    def idle(self, words: str) -> None:
-        self.host.until("mon_busy", 0, LONG)
+    async def idle(self, words: str) -> None:
+        await self.host.until("mon_busy", 0, LONG)
 
     def made(self) -> int:
         """Steps since the last `=`."""
-        self.host.sync()
-        return len(self.host.model.log.rises("mon_step", self.since))
+        return self.host.made(self.since)
 
-    def at(self, words: str) -> None:
+    async def at(self, words: str) -> None:
+        await self.host.sync()
         while self.made() < int(words):
-            self.host.step()
+            await self.host.next_steps(self.host.t + self.host.us(LONG))
 
-    def count(self, words: str) -> str:
+    async def count(self, words: str) -> str:
+        await self.host.sync()
         found = self.made()
         self.since = self.host.t
         return str(found)
 
-    def pin(self, words: str) -> None:
+    async def pin(self, words: str) -> None:
         name, level = words.split()
-        self.host.pins(**{name: int(level)})
+        await self.host.pins(**{name: int(level)})
 
-    def ms(self, words: str) -> None:
-        self.host.ms(int(words))
+    async def ms(self, words: str) -> None:
+        await self.host.ms(int(words))
 
 
 SESSIONS = {

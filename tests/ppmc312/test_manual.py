@@ -8,7 +8,7 @@ import pytest
 
 from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.model_bench import OnModel, on_model
-from cocotb_tests.ppmc312.parallel_host import Host
+from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 from tests.common.pages import DOCS, chapters
 

@@ -10,7 +10,7 @@ import pytest
 from cocotb_tests.harness.block_host import clean
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
-from cocotb_tests.ppmc312.serial_master import SerialHost
+from cocotb_tests.ppmc312.serial_host import SerialHost
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS
 from tests.common.pages import DOCS, chapters
 from tests.ppmc312.test_manual import Player

@@ -8,8 +8,9 @@ from math import inf, pi, sin
 
 import pytest
 
+from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.verifies import verifies
-from cocotb_tests.pmc006.script_host import Host
+from cocotb_tests.pmc006.stepping import MotorHost
 from openppmc.model.pmc006.bench.currents import (
     CLK_HZ,
     MS,
@@ -22,7 +23,7 @@ from openppmc.model.pmc006.bench.currents import (
     left_at_zero,
     ripple,
 )
-from openppmc.model.pmc006.bench.motor import Arc, Emf, Motor, Plant
+from openppmc.model.pmc006.bench.motor import Arc, Emf, Motor
 
 T_OFF, T_BLANK, LATE = 20e-6, 1e-6, 3 / CLK_HZ
 
@@ -172,15 +173,19 @@ def test_too_much_back_emf() -> None:
 
 
 @verifies("P006-STA-12", "P006-CHP-01")
-def test_beside_the_host_of_a_script() -> None:
-    """Comparator levels are on the tape like all else that a script does; FREE lets the current die."""
-    host = Host()
-    plant = Plant(host.model, host.clk_hz)
-    host.ok(a=0, e=1000)
-    host.ms(2)
-    assert {change.pin for change in host.tape.changes} > {"cmp_a", "cmp_b"}
-    winding = plant.windings["a"]
-    assert abs(winding.current(plant.seconds(host.t)) - 45 * 4 / 255) < 0.03
-    host.ok(g=1)
-    host.wait_us(200)
-    assert winding.current(plant.seconds(host.t)) == 0
+def test_beside_a_host() -> None:
+    """A motor on the bridges of a part that a host talks to; FREE lets the current die."""
+
+    async def check() -> None:
+        host = await MotorHost.start(OnModel())
+        plant = host.attach()
+        await host.ok(a=0, e=1000)
+        await host.ms(2)
+        assert {change.pin for change in host.side.stimulus} > {"cmp_a", "cmp_b"}
+        winding = plant.windings["a"]
+        assert abs(winding.current(plant.seconds(host.t)) - 45 * 4 / 255) < 0.03
+        await host.ok(g=1)
+        await host.wait_us(200)
+        assert winding.current(plant.seconds(host.t)) == 0
+
+    on_model(check())

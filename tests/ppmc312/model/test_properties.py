@@ -7,6 +7,8 @@ from math import ceil
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.stages.curve import curve
@@ -46,15 +48,16 @@ def test_any_move(
     rate = data.draw(st.integers(min(table.high, table.slowest), max(table.high, table.slowest)))
     ramp = data.draw(st.booleans())
     plan = ramped(table, rate, n) if ramp else constant(table, rate, n)
-    host = Host(*free_curve(clk, rates, pa, pd), clk_hz=mhz * 1_000_000)
+    build = Config(f"{mhz}m", clk_hz=mhz * 1_000_000)
+    host = on_model(Host.start(OnModel(build), *free_curve(clk, rates, pa, pd)))
     code, kind = (0x82, plan.kind) if ramp else (0x83, 0)
     flags = 0x40 if ccw else 0
-    assert host.ask(f"03 08 {code:02X} {flags:02X} {rate:04X} {n:08X}") == f"03 02 {code:02X} {kind:02X}"
+    block = f"03 08 {code:02X} {flags:02X} {rate:04X} {n:08X}"
+    assert on_model(host.ask(block)) == f"03 02 {code:02X} {kind:02X}"
     position = -n & 0xFFFFFFFF if ccw else n
-    while not host.model.core.responses.any_waiting:
-        host.step()
-    stored = host.model.now
-    assert host.response().replace(" ", "") == f"2306E040{position:08X}"
+    on_model(host.arrival())
+    stored = host.t - 1
+    assert on_model(host.response()).replace(" ", "") == f"2306E040{position:08X}"
 
     def clks(ticks: int) -> int:
         return ceil(ticks * DIVIDERS[clk] * mhz / 16)
@@ -64,7 +67,7 @@ def test_any_move(
     edges = host.pulses()
     assert [edge - edges[0] for edge in edges] == [clks(ticks) for ticks in begins[:n]]
     assert 0 <= stored - edges[0] - clks(begins[n]) <= 64
-    changes = host.model.log.of("pout", host.mark)
+    changes = host.side.edges("pout", host.mark)
     falls = [t for t, level in changes if not level]
     for k, (rise, fall) in enumerate(zip(edges, falls, strict=True)):
         half = clks(begins[k] + steps[k].rate // 2) - clks(begins[k])

@@ -7,7 +7,11 @@ import random
 
 import pytest
 
-from cocotb_tests.ppmc312.host import CSR, MREF, MWEF, TF, TG, TH, Host
+from cocotb_tests.harness.block_host import CSR, MREF, MWEF
+from cocotb_tests.harness.config import D16, F16
+from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.ppmc312.blocks import TF, TG, TH
+from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
@@ -40,21 +44,26 @@ def instruction(rng: random.Random) -> bytes:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_random_host(seed: int) -> None:
     print(f"seed {seed}: OPENPPMC_SEED={seed} repeats it")
-    rng = random.Random(seed)
-    host = Host(*rng.choice((TF, TG, TH)), timing=rng.choice(("FAST", "FAST", "DATASHEET")))
-    model, reads = host.model, rng.choice((0.2, 0.9, 1.0))
+    on_model(play(random.Random(seed)))
+
+
+async def play(rng: random.Random) -> None:
+    """All that the host does."""
+    setting, build = rng.choice((TF, TG, TH)), rng.choice((F16, F16, D16))
+    host = await Host.start(OnModel(build), *setting)
+    model, reads = host.side.golden, rng.choice((0.2, 0.9, 1.0))
     for _ in range(60):
-        if not host.read(CSR) & MWEF:
-            host.put(instruction(rng)[:32].hex())
-        host.pause(rng.choice((50, 500, 5_000, 30_000)))
+        if not await host.read(CSR) & MWEF:
+            await host.put(instruction(rng)[:32].hex())
+        await host.pause(rng.choice((50, 500, 5_000, 30_000)))
         if rng.random() < 0.3:
-            host.blip(rng.choice(PINS), rng.choice((10, 100, 5_000)), rng.choice((10, 1_000)))
+            await host.blip(rng.choice(PINS), rng.choice((10, 100, 5_000)), rng.choice((10, 1_000)))
         if rng.random() < 0.1:
-            host.pins(run=rng.randrange(2), auxi=rng.randrange(256), epin=rng.randrange(2))
+            await host.pins(run=rng.randrange(2), auxi=rng.randrange(256), epin=rng.randrange(2))
         if rng.random() < 0.03:
-            host.blip("alm_n", 4_000)
-        while rng.random() < reads and not host.read(CSR) & MREF:
-            response = host.response().split()
+            await host.blip("alm_n", 4_000)
+        while rng.random() < reads and not await host.read(CSR) & MREF:
+            response = (await host.response()).split()
             assert int(response[1], 16) == len(response) - 2 and response[0] in (
                 "00",
                 "01",
@@ -64,18 +73,18 @@ def test_random_host(seed: int) -> None:
                 "1B",
                 "23",
             )
-        if model.state is State.ABN and rng.random() < 0.5 and not host.read(CSR) & MWEF:
-            host.put(message(Code.ALARM_CLEAR))
-            host.pause(200)
+        if model.state is State.ABN and rng.random() < 0.5 and not await host.read(CSR) & MWEF:
+            await host.put(message(Code.ALARM_CLEAR))
+            await host.pause(200)
     # A host that reads everything and then resets has a working part again.
     for _ in range(2500):
-        host.pause(2000)
-        if not host.read(CSR) & MREF:
-            host.response()
-        elif not host.read(CSR) & MWEF:
+        await host.pause(2000)
+        if not await host.read(CSR) & MREF:
+            await host.response()
+        elif not await host.read(CSR) & MWEF:
             break
-    assert host.ask(message(Code.RESET)) == message(Code.RESET) and host.condition == State.INI
-    edges = model.log.of("pout")
+    assert await host.ask(message(Code.RESET)) == message(Code.RESET) and host.condition == State.INI
+    edges = host.side.edges("pout")
     highs = [b - a for (a, level), (b, _) in zip(edges, edges[1:], strict=False) if level]
     assert all(high == 80 for high in highs[:-1])
-    assert host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
+    assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")

@@ -174,7 +174,7 @@ def _of(pieces: list[Piece], t: float) -> Piece:
 
 
 class Plant:
-    """Takes the place of `model.run_until`; comparator pins go through `model.pins`, thus on a host's tape.
+    """Takes the place of `model.run_until`; comparator pins go through `model.pins`.
 
     clk_hz: of the model. tau: of the reference's low-pass filter, s; 0: an ideal one. windings: "a", "b".
     """
