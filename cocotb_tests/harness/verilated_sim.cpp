@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock and a recorder of
-// output levels that run without them: a clk costs two evaluations of the design and nothing else. `native.py` is the other side. Compiled once for all designs: `top.cpp` is what a design adds.
+// output levels that run without them: a clk costs two evaluations of the design and nothing else. `native.py` is
+// the other side. Compiled once for all designs: `top.cpp` is what a design adds.
 // The makefile wants small code.
 #pragma GCC optimize("O2")
 
