@@ -1,8 +1,9 @@
 """Shrinks a list of acts that shows a fault to a short one that still shows it (delta debugging).
 
-All acts of a kind are left out, then parts of the list: exchanges, messages, single acts, ever fewer at a
-time, for as long as what is left still fails; and the pauses between the acts that remain are closed. What
-makes trials short comes first. `fails` carries a list out, each time on a part fresh out of reset.
+The last exchanges may be enough. Then all acts of a kind are left out, then parts of the list: exchanges,
+messages, single acts, ever fewer at a time, for as long as what is left still fails; and the pauses between
+the acts that remain are closed. What makes trials short comes first. `fails` carries a list out, each time on
+a part fresh out of reset.
 """
 
 from __future__ import annotations
@@ -47,6 +48,7 @@ class Shrinker:
         """Shrink; `stopped` says which limit ended it before nothing could be left out any more."""
         self._end = time.process_time() + self.seconds
         try:
+            await self._keep_the_end()
             await self._leave_out_kinds()
             await self._leave_out(exchanges(self.acts))
             await self._cap_pauses()
@@ -76,10 +78,30 @@ class Shrinker:
         self.kept()
         return True
 
+    async def _keep_the_end(self) -> None:
+        """Only the last exchanges, soon after the reset: ever more of them until they are enough.
+
+        A part left out further on shifts what is read later; and short lists are cheap to try.
+        """
+        runs, count = exchanges(self.acts), 1
+        head = [act for act in self.acts if act.begin < PAUSE]
+        start = max((act.end for act in head), default=0) + PAUSE
+        while count < len(runs):
+            end = together(runs[-count:])
+            if end[0].begin <= start:
+                return
+            if await self._try([*head, *(act.moved(start - end[0].begin) for act in end)]):
+                return
+            count += 1 + count // 4
+
     async def _leave_out_kinds(self) -> None:
-        """Without all acts of a kind, the most frequent first: polls, clocks, what other pins do."""
+        """Without all acts of a kind, the most frequent first: polls, clocks, what other pins do.
+
+        The last message stays: it may be the poll that shows the difference.
+        """
         for kind, _ in Counter(act.kind for act in self.acts).most_common():
-            await self._try([act for act in self.acts if act.kind != kind])
+            last = max(messages(self.acts), key=lambda run: run[-1].end)
+            await self._try([act for act in self.acts if act.kind != kind or act in last])
 
     async def _leave_out(self, runs: list[list[Act]]) -> None:
         """Without halves, quarters, …, single ones of the runs."""

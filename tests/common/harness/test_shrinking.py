@@ -141,12 +141,13 @@ def played(play: Any, seed: int, build: Config) -> Recording:
 
 
 def test_all_acts_together_are_the_run() -> None:
-    """No pin change is lost or moved, whatever the host: on a bus, on a line, noise, clocks, resets."""
+    """No pin change is lost or moved, no act by its messages: on a bus, on a line, noise, clocks, resets."""
     recordings = [busy_run(), *(played(play, seed, build(seed)) for play, build, seed in HOSTS)]
     for recording in recordings:
         acts = acts_of(recording)
         assert normal(changes_of(PARTS[recording.part], acts)) == normal(recording.stimulus)
         assert len(acts) < len(recording.stimulus)
+        assert together(messages(acts)) == together(exchanges(acts)) == acts
 
 
 def place(words: Sequence[str], wanted: Sequence[str], start: int = 0) -> int | None:
@@ -182,14 +183,6 @@ def test_messages_are_left_out_together() -> None:
     assert [act.what for act in shrinker.acts] == sum(wanted, [])
     assert len(acts) > 1_000 and len(told(shrinker.acts)) == 3
     assert not shrinker.stopped and shrinker.trials < 200
-
-
-def test_messages_together_are_all_acts() -> None:
-    """In the same order, each once, and fewer of them than acts."""
-    for play, build, seed in HOSTS:
-        acts = acts_of(played(play, seed, build(seed)))
-        assert together(messages(acts)) == together(exchanges(acts)) == acts
-        assert len(exchanges(acts)) <= len(messages(acts)) <= len(acts)
 
 
 def access(t: int, kind: str, byte: int, reg: int = 0) -> Act:
