@@ -86,7 +86,7 @@ class Shrinker:
         runs, count = exchanges(self.acts), 1
         head = [act for act in self.acts if act.begin < PAUSE]
         start = max((act.end for act in head), default=0) + PAUSE
-        while count < len(runs):
+        while count <= len(runs) // 2:
             end = together(runs[-count:])
             if end[0].begin <= start:
                 return
@@ -97,9 +97,11 @@ class Shrinker:
     async def _leave_out_kinds(self) -> None:
         """Without all acts of a kind, the most frequent first: polls, clocks, what other pins do.
 
-        The last message stays: it may be the poll that shows the difference.
+        Rare ones can wait. The last message stays: it may be the poll that shows the difference.
         """
-        for kind, _ in Counter(act.kind for act in self.acts).most_common():
+        for kind, count in Counter(act.kind for act in self.acts).most_common():
+            if count < len(self.acts) // 20:
+                return
             last = max(messages(self.acts), key=lambda run: run[-1].end)
             await self._try([act for act in self.acts if act.kind != kind or act in last])
 
