@@ -44,6 +44,11 @@ class Act:
         return f"{self.access.kind} {self.access.reg}" if self.access else self.what.split()[0]
 
     @property
+    def reads(self) -> bool:
+        """Whether it is a read access."""
+        return self.access is not None and self.access.kind.endswith("read")
+
+    @property
     def begin(self) -> int:
         """Edge of its first pin change."""
         return self.steps[0].t
@@ -133,6 +138,8 @@ def _access(steps: list[Step], done: dict[int, Access]) -> Act:
         what = f"write {'C' if access.reg else 'D'} {access.byte:02X}"
     elif access.kind == "read":
         what = f"read {'status' if access.reg else 'data'}"
+    elif access.kind.endswith("read"):
+        what = access.kind
     else:
         what = f"{access.kind} {access.byte:02X}"
     return Act(what, tuple(steps), access)
@@ -143,8 +150,7 @@ def _access(steps: list[Step], done: dict[int, Access]) -> Act:
 
 def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
     """Runs of characters: the line rests behind each, for longer than a character of ones lasts."""
-    lengths = Counter(b - a for (a, _), (b, _) in pairwise(rows))
-    bit = lengths.most_common(1)[0][0] if lengths else 1
+    bit = _bit(rows)
     run: list[tuple[int, int]] = []
     for t, level in rows:
         if run and run[-1][1] and t - run[-1][0] > 11 * bit:
@@ -153,6 +159,19 @@ def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
         run.append((t, level))
     if run:
         yield _frame(run, bit)
+
+
+def _bit(rows: Sequence[tuple[int, int]]) -> int:
+    """clk of a bit: the longest time between two changes of which most others are multiples, nearly."""
+    lengths = Counter(b - a for (a, _), (b, _) in pairwise(rows))
+
+    def fitting(bit: int) -> int:
+        whole = {length: round(length / bit) for length in lengths}
+        near = (d for d, bits in whole.items() if 0 < bits < 11 and abs(d - bit * bits) * 10 <= bit)
+        return sum(lengths[length] for length in near)
+
+    often = sorted((length for length, _ in lengths.most_common(40)), reverse=True)
+    return max(often, key=fitting, default=1)
 
 
 def _frame(run: Sequence[tuple[int, int]], bit: int) -> Act:

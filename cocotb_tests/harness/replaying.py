@@ -17,6 +17,7 @@ from .acts import Act, acts_of, changes_of
 from .bench import Bench
 from .compare import compare_recording, write_report
 from .comparison import Comparison
+from .messages import told
 from .part import PARTS
 from .rerun import rerun
 from .shrink import Shrinker
@@ -26,7 +27,7 @@ REPLAY = "OPENPPMC_REPLAY"
 SECONDS = "OPENPPMC_SHRINK_S"
 WORDS = "short.txt"
 ROWS = 40
-"""Acts that the message shows at most."""
+"""Lines of acts that the message shows at most."""
 
 
 async def compared(bench: Bench, recording: Recording) -> Comparison:
@@ -43,18 +44,18 @@ class Search:
 
     def __init__(self, bench: Bench, first: Comparison) -> None:
         assert first.mismatch is not None
-        self.bench, self.last, self.signal = bench, first, first.mismatch.signal
+        self.bench, self.signal = bench, first.mismatch.signal
         t, acts = first.mismatch.t, acts_of(first.recording)
         self.whole = len(acts)
-        # What comes later matters no more; but with less before it the difference may come later.
-        self.end = min(first.recording.end, t + t // 8 + 2_000)
+        self.end = first.recording.end
+        self.see(first)
         seconds = float(os.environ.get(SECONDS, "60"))
         acts = [act for act in acts if act.begin <= t]
         self.shrinker = Shrinker(acts, self.fails, seconds=seconds, kept=self.keep)
 
     async def run(self) -> bool:
         """Search; whether the acts show the difference at all."""
-        if not await self.fails(self.shrinker.acts):
+        if await self.fails(self.shrinker.acts) is None:
             return False
         self.keep()
         await self.shrinker.run()
@@ -62,8 +63,14 @@ class Search:
         self.keep()
         return True
 
-    async def fails(self, acts: Sequence[Act]) -> bool:
-        """Whether these acts alone make the output differ, and no other one before it."""
+    def see(self, found: Comparison) -> None:
+        """The best so far. What comes later matters no more; but with less before it the difference may."""
+        assert found.mismatch is not None
+        self.last, t = found, found.mismatch.t
+        self.end = min(self.end, t + t // 8 + 2_000)
+
+    async def fails(self, acts: Sequence[Act]) -> int | None:
+        """Edge at which the output differs, if these acts alone do that, and no other one before it."""
         recording = replace(
             self.last.recording,
             end=self.end,
@@ -73,11 +80,11 @@ class Search:
         try:
             found = await compared(self.bench, recording)
         except (AssertionError, ValueError):  # nothing that the golden model can be asked to do
-            return False
+            return None
         if found.mismatch is None or found.mismatch.signal != self.signal:
-            return False
-        self.last = found
-        return True
+            return None
+        self.see(found)
+        return found.mismatch.t
 
     def keep(self) -> None:
         """Write the files."""
@@ -86,9 +93,10 @@ class Search:
         short = replace(self.last.recording, end=min(self.end, m.t + 200))
         (out / "recording.json").write_text(short.to_json(), encoding="utf-8")
         acts = shrinker.acts
-        rows = [f"  {act}" for act in acts]
+        rows = [f"  {line}" for line in told(acts)]
         (out / "acts.txt").write_text("\n".join([*rows, ""]), encoding="utf-8")
         head = f"shrunk from {self.whole} acts to {len(acts)} in {shrinker.trials} trials"
+        head += f", {len(rows)} lines" if len(rows) < len(acts) else ""
         head += f", stopped {shrinker.stopped}" if shrinker.stopped else ""
         more = [f"  … and {len(rows) - ROWS} more in acts.txt"] if len(rows) > ROWS else []
         expected, actual = (_told(side) for side in (m.expected, m.actual))

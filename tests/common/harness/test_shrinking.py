@@ -9,18 +9,19 @@ from typing import Any
 
 import pytest
 
-from cocotb_tests.harness.acts import Act, acts_of, changes_of
+from cocotb_tests.harness.acts import Act, Step, acts_of, changes_of
 from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.compare import compare_recording
 from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.follower import new_model
+from cocotb_tests.harness.messages import exchanges, messages, together, told
 from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
 from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.replaying import REPLAY
 from cocotb_tests.harness.running import running_test
 from cocotb_tests.harness.shortened import replay_item, shortened
 from cocotb_tests.harness.shrink import Shrinker
-from cocotb_tests.harness.stimulus import Change, Recording
+from cocotb_tests.harness.stimulus import Access, Change, Recording
 from cocotb_tests.pmc006 import random_host as talker
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc312 import random_host, random_noise, random_serial
@@ -71,8 +72,8 @@ class Mutant:
         return self.model.edges
 
 
-def differs(recording: Recording, acts: Sequence[Act]) -> bool:
-    """Whether the mutant is told from the golden model by these acts."""
+def difference(recording: Recording, acts: Sequence[Act]) -> int | None:
+    """Edge at which the mutant is told from the golden model by these acts."""
     some = Recording(
         "ppmc104", recording.params, 1, recording.end, changes_of(PPMC104, acts), recording.edges
     )
@@ -81,12 +82,13 @@ def differs(recording: Recording, acts: Sequence[Act]) -> bool:
         golden.pins(change.t, **{change.pin: change.value})
     golden.run_until(some.end)
     some.edges = list(golden.edges)
-    return compare_recording(some, Mutant(some)).mismatch is not None
+    mismatch = compare_recording(some, Mutant(some)).mismatch
+    return mismatch.t if mismatch else None
 
 
 def shrunk(recording: Recording, **limits: Any) -> Shrinker:
-    async def fails(acts: Sequence[Act]) -> bool:
-        return differs(recording, acts)
+    async def fails(acts: Sequence[Act]) -> int | None:
+        return difference(recording, acts)
 
     shrinker = Shrinker(acts_of(recording), fails, **limits)
     asyncio.run(shrinker.run())
@@ -96,7 +98,7 @@ def shrunk(recording: Recording, **limits: Any) -> Shrinker:
 def test_a_mutant_is_shrunk_to_a_handful() -> None:
     """Two of sixty acts set the trap, two look into it; the rest goes, and the pauses, too."""
     recording = busy_run()
-    assert len(acts_of(recording)) >= 60 and differs(recording, acts_of(recording))
+    assert len(acts_of(recording)) >= 60 and difference(recording, acts_of(recording))
     shrinker = shrunk(recording)
     assert [act.what for act in shrinker.acts] == [
         f"csel = {1 - PPMC104.inputs['csel']}", "alm_n = 0", "write C 81", "read data",
@@ -110,7 +112,7 @@ def test_limits_end_the_search_with_the_best_so_far() -> None:
     recording = busy_run()
     for limits, said in (({"trials_at_most": 12}, "after 12 trials"), ({"seconds": 0}, "after 0 s")):
         shrinker = shrunk(recording, **limits)
-        assert shrinker.stopped == said and differs(recording, shrinker.acts)
+        assert shrinker.stopped == said and difference(recording, shrinker.acts)
     assert 4 < len(shrunk(recording, trials_at_most=12).acts) < len(acts_of(recording))
 
 
@@ -139,17 +141,82 @@ def played(play: Any, seed: int, build: Config) -> Recording:
 
 
 def test_all_acts_together_are_the_run() -> None:
-    """No pin change is lost or moved, whatever the host: on a bus, on a line, noise, clocks, resets."""
+    """No pin change is lost or moved, no act by its messages: on a bus, on a line, noise, clocks, resets."""
     recordings = [busy_run(), *(played(play, seed, build(seed)) for play, build, seed in HOSTS)]
     for recording in recordings:
         acts = acts_of(recording)
         assert normal(changes_of(PARTS[recording.part], acts)) == normal(recording.stimulus)
         assert len(acts) < len(recording.stimulus)
+        assert together(messages(acts)) == together(exchanges(acts)) == acts
+
+
+def place(words: Sequence[str], wanted: Sequence[str], start: int = 0) -> int | None:
+    """Where a run of words ends in a list, at the earliest."""
+    size = len(wanted)
+    ends = range(start + size, len(words) + 1)
+    return next((end for end in ends if words[end - size : end] == list(wanted)), None)
+
+
+def test_messages_are_left_out_together() -> None:
+    """Two blocks that say nothing unless they are whole, then a response: found among some thousand acts."""
+    acts = acts_of(played(random_host.play, 1, random_host.build(1)))
+    blocks = [run for run in messages(acts) if run[0].what == "WCR := 20" and len(run) > 9]
+    responses = [run for run in messages(acts) if run[-1].kind.startswith("DRR")]
+    table, motion = blocks[0], blocks[len(blocks) // 2]
+    answer = next(run for run in responses if run[0].begin > motion[-1].end)
+    wanted = [
+        [act.what for act in run] for run in (table, motion, [act for act in answer if "DRR" in act.what])
+    ]
+
+    async def fails(some: Sequence[Act]) -> int | None:
+        done = [act for act in some if act.access and act.access.kind != "CSR read"]
+        words, end = [act.what for act in done], 0
+        for run in wanted:
+            found = place(words, run, end)
+            if found is None:
+                return None
+            end = found
+        return done[end - 1].end
+
+    shrinker = Shrinker(acts, fails)
+    asyncio.run(shrinker.run())
+    assert [act.what for act in shrinker.acts] == sum(wanted, [])
+    assert len(acts) > 1_000 and len(told(shrinker.acts)) == 3
+    assert not shrinker.stopped and shrinker.trials < 200
+
+
+def access(t: int, kind: str, byte: int, reg: int = 0) -> Act:
+    strobe = (Step(t, "rd_n", 1, 0), Step(t + 4, "rd_n", 1, 1))
+    word = kind if kind.endswith("read") else f"{kind} {byte:02X}"
+    return Act(word, strobe, Access(t, kind, reg, byte))
+
+
+def test_a_message_is_told_in_a_line() -> None:
+    """A block, a response, polls; what comes after a pause has its own time."""
+    block = [access(20, "WCR :=", 0x20, 2), access(28, "WAR :=", 0x1E, 3)]
+    block += [access(36, "DWR :=", 0x40, 5), access(44, "DWR :=", 0x03, 5)]
+    polls = [access(60, "CSR read", 4), access(68, "CSR read", 0)]
+    response = [access(90, "RAR read", 0x3E, 3), access(98, "DRR read", 1, 7), access(106, "DRR read", 2, 7)]
+    reads = [*polls, *response, access(500, "CSR read", 4)]
+    assert told([*block, *reads]) == [
+        "WCR := 20, WAR := 1E, DWR := 40 03 at 20",
+        "CSR read 2 times, RAR read, DRR read 2 times at 60",
+        "CSR read at 500",
+    ]  # fmt: skip
+    again = [act.moved(900) for act in block]
+    assert [len(run) for run in messages([*block, *reads, *again])] == [4, 5, 1, 4]
+    assert [len(run) for run in exchanges([*reads, *block, *reads, *again])] == [6, 10, 4]
 
 
 def rows(part: str, *changes: tuple[int, str, int]) -> list[str]:
     acts = acts_of(Recording(part, {}, stimulus=[Change(*change) for change in changes]))
     return [str(act) for act in acts]
+
+
+def line(t: int, byte: int) -> list[tuple[int, str, int]]:
+    """A character with bits of 192 clk."""
+    bits = [0, *(byte >> place & 1 for place in range(8)), 1]
+    return [(t + 192 * k, "rxd", bit) for k, bit in enumerate(bits) if bit != [1, *bits][k]]
 
 
 def test_acts_are_told_in_words() -> None:
@@ -159,9 +226,11 @@ def test_acts_are_told_in_words() -> None:
     ]  # fmt: skip
     assert rows("ppmc2104", (7, "alm_n", 1)) == ["alm_n[2] = 0 at 7"]
     assert rows("ppmc104", (9, "auxi", 6)) == ["auxi = 0x6 at 9"]
-    bits = [0, *(0x73 >> place & 1 for place in range(8)), 1]
-    line = [(192 * k, "rxd", level) for k, level in enumerate(bits) if level != ([1, *bits])[k]]
-    assert rows("pmc006", *line, *((t + 1920, pin, level) for t, pin, level in line)) == ["frame 73 73 at 0"]
+    frames = [*line(0, 0x73), *line(1920, 0x73)]
+    assert rows("pmc006", *frames) == ["frame 73 73 at 0"]
+    # Most levels last two bits, whose lengths are not quite the same.
+    frames = [change for k in range(4) for change in line(1957 * k + k % 2, 0x33)]
+    assert rows("pmc006", *frames) == ["frame 33 33 33 33 at 0"]
     ticks = [(100 * k, "clock", (k + 1) % 2) for k in range(400)]
     clock = rows("ppmc104", *ticks)
     assert len(clock) == 50 and clock[1] == "clock: 4 periods of 200 clk at 800"
