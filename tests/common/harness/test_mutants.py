@@ -1,0 +1,29 @@
+"""The mutants by hand (`python -m scripts.mutants`): each entry still fits the RTL and the tests."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from scripts.mutants.table import Mutant, mutants
+
+EVERY = list(mutants())
+
+
+@pytest.mark.parametrize("mutant", [pytest.param(one, id=one.id) for one in EVERY])
+def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
+    """Its old text stands in its file once, the new one is another; its tests exist and simulate the file."""
+    assert mutant.new != mutant.old
+    mutant.source()
+    items = mutant.items()
+    assert items
+    assert ROOT / mutant.file in mutant.whole(items[0]).sources
+    assert not mutant.caught or mutant.caught in {item.test for item in mutant.items(wide=True)}
+    assert bool(mutant.caught) == bool(mutant.by) != bool(mutant.why)
+
+
+def test_there_are_enough() -> None:
+    """At least forty, and of each part some."""
+    assert len(EVERY) >= 40
+    assert {one.part for one in EVERY} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006"}
+    assert len({one.id for one in EVERY}) == len(EVERY)
