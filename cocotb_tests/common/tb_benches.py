@@ -21,3 +21,14 @@ async def benches_leave_one_watch_a_port(dut: Any) -> None:
     rows = list(clockwork().seen())
     assert [level for _, port, level in rows if port == clockwork().port("d_oe")] == [1, 0]
     assert len(rows) == len(set(rows)), rows
+
+
+@cocotb.test()
+async def a_bench_records_what_it_watches_itself(dut: Any) -> None:
+    """Given a bench that watches one more port, when the next one starts, then that is forgotten."""
+    await Bench.start(dut, PARTS["ppmc104"])
+    clockwork().watch(clockwork().port("d_i"))
+    bench = await Bench.start(dut, PARTS["ppmc104"])
+    bench.set(d_i=1)
+    await bench.clocks(2)
+    assert all("d_i" != edge.signal for edge in bench.recording().edges)

@@ -27,7 +27,7 @@ def _function(name: str, result: Any, *arguments: Any) -> Any:
 
 
 class Native:
-    """See `Clockwork`. The clock goes on and ports stay watched until the simulation ends."""
+    """See `Clockwork`. The clock goes on, and ports stay watched, until it is started again."""
 
     def __init__(self) -> None:
         self._wide = Stock()

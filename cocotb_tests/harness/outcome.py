@@ -20,6 +20,7 @@ MISSING = "did not run"
 TIMEOUT = "no end within the wall-clock limit"
 
 _SAID = re.compile(r"^ *[-\d.]+ns [A-Z]+ +cocotb\.regression +(?P<text>.*)$", re.MULTILINE)
+_FAILED_LINE = re.compile(r"\s*(\w+\.)*\w*(Error|Exception|Failed)\b")
 _TABLE = re.compile(r"^[^\n]*\*{20,}", re.MULTILINE)
 
 
@@ -39,7 +40,7 @@ class Outcome:
     def headline(self) -> str:
         """The last line that is not indented of an exception, or the first one: what failed."""
         rows = [row for row in self.text.splitlines() if row.strip()]
-        errors = [row.strip() for row in rows if re.match(r"\s*(\w+\.)*\w*(Error|Exception|Failed)\b", row)]
+        errors = [row.strip() for row in rows if _FAILED_LINE.match(row)]
         return (errors or [row.strip() for row in rows] or [self.kind])[0]
 
 
@@ -62,7 +63,16 @@ def failure_text(text: str, lines: int = 100) -> str:
     if chosen.lstrip().startswith("Traceback"):
         chosen = chosen.split("\n", 1)[-1]
     rows = [*last_seed(text), *textwrap.dedent(chosen.rstrip()).splitlines()]
-    return "\n".join(rows if len(rows) <= lines else [*rows[:6], "  ...", *rows[-lines + 7 :]])
+    return "\n".join(rows if len(rows) <= lines else _shortened(rows, lines))
+
+
+def _shortened(rows: list[str], lines: int) -> list[str]:
+    """About so many lines: begin, what failed, end."""
+    what = next((n for n, row in enumerate(rows) if _FAILED_LINE.match(row)), 0)
+    middle = range(max(6, what), min(max(6, what) + lines // 3, len(rows)))
+    end = range(max(middle.stop, len(rows) - lines + lines // 3 + 8), len(rows))
+    gaps = [["  ..."] if a < b else [] for a, b in ((6, middle.start), (middle.stop, end.start))]
+    return [*rows[:6], *gaps[0], *(rows[n] for n in middle), *gaps[1], *(rows[n] for n in end)]
 
 
 def _parts(text: str) -> Iterator[tuple[str, str]]:

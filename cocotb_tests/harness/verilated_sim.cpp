@@ -157,8 +157,9 @@ void openppmc_put(int port, std::uint64_t value) {
     deposits.push_back({main_time, static_cast<std::uint64_t>(port), value});
 }
 
-// Low now, first rising edge after `half`.
+// Low now, first rising edge after `half`. Whoever starts the clock begins anew: nothing is watched yet.
 void openppmc_clock(int port, std::uint64_t half) {
+    watched.clear();
     clock_port = port;
     clock_half = half;
     clock_level = 0;

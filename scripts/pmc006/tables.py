@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 
+from cocotb_tests.harness.model_bench import on_model
 from scripts.pmc006.plots import CLK_HZ, FAST, finish, new, steps
 
 MOVES = (
@@ -38,41 +39,42 @@ def moves_table() -> str:
     return "\n".join([*lines, "", "Time from the first step to the last."])
 
 
-def _start() -> tuple[str, int]:
-    host = new(FAST)
-    host.ask("s", 300)
+async def _start() -> tuple[str, int]:
+    host = await new(FAST)
+    await host.ask("s", 300)
     e = host.e
-    return "`s` to `mon_busy`", next(t for t in host.model.log.rises("mon_busy", e)) - e
+    return "`s` to `mon_busy`", next(t for t in host.side.golden.log.rises("mon_busy", e)) - e
 
 
-def _first_step() -> tuple[str, int]:
-    host = new(FAST | {"L": 2000, "S": 2000})
-    host.ask("s", 200)
-    e, edges = host.e, finish(host)
+async def _first_step() -> tuple[str, int]:
+    host = await new(FAST | {"L": 2000, "S": 2000})
+    await host.ask("s", 200)
+    e = host.e
+    edges = await finish(host)
     return "`s` to the begin of the engine", round(edges[0] - e - CLK_HZ / 2000)
 
 
-def _stop() -> tuple[str, int]:
-    host = new(FAST | {"f": 1})
-    host.ask("s", 300)
-    host.ms(20)
-    host.pins(ext1=0)
+async def _stop() -> tuple[str, int]:
+    host = await new(FAST | {"f": 1})
+    await host.ask("s", 300)
+    await host.ms(20)
+    await host.pins(ext1=0)
     t = host.t - 1
-    host.ms(1)
-    return "EXT1 to `mon_busy` low", next(edge for edge in host.model.log.falls("mon_busy", t)) - t
+    await host.ms(1)
+    return "EXT1 to `mon_busy` low", next(edge for edge in host.side.golden.log.falls("mon_busy", t)) - t
 
 
-def _output() -> tuple[str, int]:
-    host = new({})
-    host.ask("y", 8)
-    return "`y` to `gpo`", host.model.log.of("gpo", host.e)[0][0] - host.e
+async def _output() -> tuple[str, int]:
+    host = await new({})
+    await host.ask("y", 8)
+    return "`y` to `gpo`", host.side.golden.log.of("gpo", host.e)[0][0] - host.e
 
 
-CASES: tuple[Callable[[], tuple[str, int]], ...] = (_start, _first_step, _stop, _output)
+CASES: tuple[Callable[[], Awaitable[tuple[str, int]]], ...] = (_start, _first_step, _stop, _output)
 
 
 def times_table() -> str:
     """Markdown table: latencies of this core, in clk from the last stop-bit sample or the pin."""
-    rows = "\n".join(f"| {text} | {clk} |" for text, clk in (case() for case in CASES))
+    rows = "\n".join(f"| {text} | {clk} |" for text, clk in (on_model(case()) for case in CASES))
     head = f"This core, at {CLK_HZ // 1_000_000} MHz, in `clk` (from the stop bit or the pin):"
     return f"{head}\n\n| | `clk` |\n|---|---|\n{rows}"
