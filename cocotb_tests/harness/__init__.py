@@ -3,29 +3,22 @@
 In short, for someone who writes tests:
 
     # cocotb_tests/ppmc104/tb_stops.py                       (runs inside the simulator)
-    import cocotb
-    from cocotb_tests.harness.bench import Bench
-    from cocotb_tests.harness.bus import HostBus
-    from cocotb_tests.harness.config import D16, F16, F11, configs
-    from cocotb_tests.harness.verifies import verifies
-    from .bench import PPMC104
+    from cocotb_tests.harness.config import F11, F16
+    from cocotb_tests.harness.directed import directed
+    from .figures import INIT_A
+    from .lab import Lab
 
-    @cocotb.test()
-    @verifies("P104-STP-01", "AC-20")
-    @configs(F16, F11)                                        # optional; default is F16 only
+    @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; default is F16 only
     async def p104_stp_01_immediate_stop(dut):
         "Given a constant-speed move, when 0x40 is taken, then no further pulse comes."
-        bench = await Bench.start(dut, PPMC104)               # clk, reset 1-0-1, monitors; now == 0
-        host = HostBus(bench)
-        await host.init(0x0A, 9, 4, 4)                        # or: await host.run("c 0A d 09 d 04 d 04 d 00")
-        start = bench.now
-        await host.move(0x44, n=1000, rate=99)
-        tenth = await bench.nth_fall(10, since=start)         # edge index; now on the next falling edge
-        await bench.until(tenth + 400)                        # now == tenth + 400: the stamp of pins set here
-        await host.send("40")
-        await host.wait_idle()
-        bench.check("P104-STP-01", "pulses", len(bench.pulses(start)), 10)
-        bench.check("AC-20", "finish status", await host.run("c 80 r"), [0xC4])
+        lab = await Lab.start(dut, INIT_A)                    # clk, reset 1-0-1, initialisation
+        await lab.go(0x44, 1000, rate=99)
+        await lab.pulse(10, 400)                              # 400 clk after the tenth pulse
+        await lab.host.command(0x40)
+        await lab.idle()
+        lab.check("P104-STP-01", "pulses", len(lab.pulses), 10)
+        lab.check("AC-20", "finish status", await lab.finish(), 0xC4)
+                                                              # here every output edge is compared
 
     # cocotb_tests/ppmc104/test_part.py                    (runs under pytest)
     ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus", part=PPMC104)
