@@ -290,7 +290,9 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
         await lab.host.command(0x81)
 
 
-@directed("P2104-BAD-15", "P2104-BUS-04", uncompared="WHY")
+@directed(
+    "P2104-BAD-15", "P2104-BUS-04", uncompared="the bus style changes inside strobes, which no rule fixes"
+)
 async def p2104_bad_15_style_changes_in_a_strobe(dut: Any) -> None:
     """Given busc changing in a strobe, when it is over, then whatever it was, later ones are normal."""
     lab = await Lab.start(dut)

@@ -25,7 +25,7 @@ SHARED = {
     "openppmc/cli": {"common"},
     "openppmc/sim": {"common"},
     "cocotb_tests": {"harness", "common", "motion", "single", "host", "board", "gates"},
-    "scripts": {"flow", "boards", "demo", "pictures", "packages"},
+    "scripts": {"flow", "boards", "demo", "mutants", "pictures", "packages"},
     "tests": {"common"},
     "docs": {"img"},
     "rtl": {"common", "motion", "single", "host", "boards"},
