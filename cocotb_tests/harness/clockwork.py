@@ -31,10 +31,11 @@ class Clockwork(Protocol):
         """Level for an input; the design sees it with its next evaluation, in this time step."""
 
     def clock(self, port: int, half: int) -> None:
-        """Start the clock, or start it anew: low now, first rising edge after `half`."""
+        """Start the clock (anew): low now, first rising edge after `half`. Nothing is watched yet."""
 
     def watch(self, port: int) -> None:
-        """Record the changes of a port from now on, until the test ends. Once is enough for each port."""
+        """Record the changes of a port from now on, until the clock is started anew or the test ends. Once is
+        enough for each port."""
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
         """(time, port, level) of all changes of watched ports since the last call, this moment's among them.

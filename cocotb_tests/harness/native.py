@@ -36,7 +36,7 @@ class Native:
         self._port = _function("openppmc_port", ctypes.c_int, ctypes.c_char_p)
         self._read = _function("openppmc_read", ctypes.c_uint64, ctypes.c_int)
         self._put = _function("openppmc_put", None, ctypes.c_int, ctypes.c_uint64)
-        self.clock = _function("openppmc_clock", None, ctypes.c_int, ctypes.c_uint64)
+        self._clock = _function("openppmc_clock", None, ctypes.c_int, ctypes.c_uint64)
         self._watch = _function("openppmc_watch", None, ctypes.c_int)
         self._seen = _function("openppmc_seen", ctypes.c_void_p, ctypes.POINTER(ctypes.c_uint64))
 
@@ -63,6 +63,11 @@ class Native:
             self._put(port, level)
         else:
             self._wide.put(port - _WIDE, level)
+
+    def clock(self, port: int, half: int) -> None:
+        """As `Clockwork.clock`."""
+        self._clock(port, half)
+        self._wide.unwatch()
 
     def watch(self, port: int) -> None:
         """As `Clockwork.watch`."""

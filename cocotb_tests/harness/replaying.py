@@ -64,7 +64,7 @@ class Search:
         return True
 
     def see(self, found: Comparison) -> None:
-        """The best so far. What comes later matters no more; but with less before it the difference may."""
+        """Note the best so far; a shorter list may show the difference a little later, but not much."""
         assert found.mismatch is not None
         self.last, t = found, found.mismatch.t
         self.end = min(self.end, t + t // 8 + 2_000)

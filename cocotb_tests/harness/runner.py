@@ -15,7 +15,6 @@ import pytest
 
 from .build import Design, SimError, part_design
 from .collect import Item
-from .config import CONFIGS, Config
 from .group import run_group
 from .inside import seen
 from .outcome import PASSED, SKIPPED, XFAILED, Outcome
@@ -137,11 +136,3 @@ def run_item(
         pytest.xfail(outcome.text)
     if not outcome.good:
         pytest.fail(outcome.text, pytrace=False)
-
-
-def config_named(name: str) -> Config:
-    """Shared configuration by name; KeyError lists what there is."""
-    try:
-        return CONFIGS[name]
-    except KeyError:
-        raise KeyError(f"no configuration {name!r}; there are {', '.join(CONFIGS)}") from None

@@ -49,6 +49,14 @@ class Stock:
             self._clock.stop()
         self._clock = Clock(self._handles[port], 2 * half, impl="gpi")
         self._clock.start(start_high=False)
+        self.unwatch()
+
+    def unwatch(self) -> None:
+        """Watch nothing any more."""
+        for recorder in self._recorders.values():
+            recorder.cancel()
+        for record in (self._recorders, self._levels, self._rows):
+            record.clear()
 
     def watch(self, port: int) -> None:
         """As `Clockwork.watch`."""

@@ -11,8 +11,6 @@ from cocotb_tests.harness.directed import directed
 from .figures import INIT_A, INIT_B, forced, indices, rate, rates
 from .lab import Lab
 
-EX_01 = (9, 4, 4)
-
 
 async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:
     """Run a trapezoid with a short plateau over the whole table and check every pulse."""

@@ -16,8 +16,6 @@ from cocotb_tests.harness.model_bench import rtl_only
 from .figures import INIT_A
 from .lab import Lab
 
-AXIS_SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
-
 
 @rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P2104-PORT-02", "P2104-GEN-08", builds=(F16, F48))
