@@ -23,7 +23,7 @@ EXACT_LOW = 6
 # A period below so many crystal cycles lets a pulse of rate 0 end with the high time (P104-TIM-05 c).
 BRISK = 128
 # Why a `sweep` is not compared with the golden model, too.
-TOO_MANY = "each pulse is held against the formula; 800,000 changes of a clock are too many for the golden model here"
+TOO_MANY = "each pulse is held against the formula; 800,000 changes of a clock are too many for the model"
 
 RateOf = Callable[[Ramp, Sequence[int]], list[int]]
 
