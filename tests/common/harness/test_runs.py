@@ -55,10 +55,11 @@ def kinds(design: Design, *names: str, **env: str) -> dict[str, str]:
     return {item.test: outcome.kind for item, (outcome, _) in run_group(job).items()}
 
 
-def said(design: Design, *names: str, **env: str) -> str:
-    """The message of the last one, of a group of these tests."""
+def said(design: Design, *names: str, seed: int = 1, **env: str) -> str:
+    """The message of the last one, of a group of these tests. Two that fail at the same time need two seeds: what
+    a failure leaves has the seed in its name."""
     items = tuple(ITEMS[name] for name in names)
-    return attempt(items[-1], SimOptions(group=items), env, design)
+    return attempt(items[-1], SimOptions(seed=seed, group=items), env, design)
 
 
 def test_each_ends_in_its_own_way(design: Design) -> None:
@@ -97,8 +98,8 @@ def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
 
 def test_a_failure_leaves_log_and_waves(design: Design) -> None:
     """Both are in build/failures/."""
-    text = said(design, "shows")
-    folder = FAILURES / "shows-f16-own-s1"
+    text = said(design, "shows", seed=2)
+    folder = FAILURES / "shows-f16-own-s2"
     assert f"log {relative(folder / 'log.txt')}" in text
     assert f"waves in {relative(folder / 'waves' / 'dump.vcd')}" in text
     assert (folder / "log.txt").is_file() and (folder / "waves" / "dump.vcd").stat().st_size > 100
