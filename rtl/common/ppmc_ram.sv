@@ -21,7 +21,7 @@ module ppmc_ram #(
   logic [Width-1:0] mem[2**AddrBits];
   logic [Width-1:0] read_q;
 
-  initial for (int unsigned i = 0; i < 2 ** AddrBits; i++) mem[i] = '0;
+  initial mem = '{default: '0};
 
   always_ff @(posedge clk_i) begin
     if (we_i) mem[waddr_i] <= wdata_i;

@@ -2,9 +2,7 @@
 // ppmc_excitation: the phases that are energised, for 3-, 4- and 5-phase motors in full and half step.
 // Rules:  P104-PHS-01..06 (tables of section 6.1), P104-PHS-03/05 home and off.
 // Timing: pattern_o changes at the edge that ends the cycle of home_i, off_i or step_i.
-// How:    there is no table. Full step turns the pair of phases by one place. Half step takes, in turn, the
-//         phases that the pattern and its turned self share (AND) or cover together (OR); a 5-phase motor
-//         starts with OR, the others with AND.
+// How:    see ppmc_motion_pkg.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -22,32 +20,7 @@ module ppmc_excitation
     output logic        [5:1] pattern_o  // 1 = energised
 );
 
-  logic [5:1] turned;  // pattern moved by one phase in the direction of the step
-  logic       pair_q;  // even index of the half-step table: two neighbours are on
-
-  always_comb begin
-    if (ccw_i) begin
-      turned = {1'b0, pattern_o[5:2]};
-      unique case (motor_i)
-        Motor3:  turned[3] = pattern_o[1];
-        Motor4:  turned[4] = pattern_o[1];
-        default: turned[5] = pattern_o[1];
-      endcase
-    end else begin
-      turned = {pattern_o[4:1], 1'b0};
-      unique case (motor_i)
-        Motor3: begin
-          turned[4] = 1'b0;
-          turned[1] = pattern_o[3];
-        end
-        Motor4: begin
-          turned[5] = 1'b0;
-          turned[1] = pattern_o[4];
-        end
-        default: turned[1] = pattern_o[5];
-      endcase
-    end
-  end
+  logic pair_q;  // even index of the half-step table: two neighbours are on
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -57,10 +30,8 @@ module ppmc_excitation
       pattern_o <= {3'b000, {2{home_i}}};
       pair_q    <= 1'b1;
     end else if (step_i) begin
-      if (!half_i) pattern_o <= turned;
-      else if (pair_q == (motor_i == Motor5)) pattern_o <= pattern_o | turned;
-      else pattern_o <= pattern_o & turned;
-      pair_q <= pair_q ^ half_i;
+      pattern_o <= stepped(pattern_o, pair_q, half_i, motor_i, ccw_i);
+      pair_q    <= pair_q ^ half_i;
     end
   end
 

@@ -75,6 +75,42 @@ package ppmc_motion_pkg;
     logic [7:0]  off_units;
   } chop_t;
 
+  // Phases of a motor, 1 = energised. There is no table: full step turns the pair of phases by one place. Half step
+  // takes, in turn, the phases that the pattern and its turned self share (AND) or cover together (OR); a 5-phase
+  // motor starts with OR, the others with AND. pair: two neighbours are on, an even index of the half-step table.
+  function automatic logic [5:1] turned(logic [5:1] pattern, motor_e motor, logic ccw);
+    logic [5:1] t;
+    if (ccw) begin
+      t = {1'b0, pattern[5:2]};
+      unique case (motor)
+        Motor3:  t[3] = pattern[1];
+        Motor4:  t[4] = pattern[1];
+        default: t[5] = pattern[1];
+      endcase
+    end else begin
+      t = {pattern[4:1], 1'b0};
+      unique case (motor)
+        Motor3: begin
+          t[4] = 1'b0;
+          t[1] = pattern[3];
+        end
+        Motor4: begin
+          t[5] = 1'b0;
+          t[1] = pattern[4];
+        end
+        default: t[1] = pattern[5];
+      endcase
+    end
+    return t;
+  endfunction
+
+  function automatic logic [5:1] stepped(logic [5:1] pattern, logic pair, logic half, motor_e motor, logic ccw);
+    logic [5:1] t;
+    t = turned(pattern, motor, ccw);
+    if (half) t = (pair == (motor == Motor5)) ? pattern | t : pattern & t;
+    return t;
+  endfunction
+
 endpackage
 
 `default_nettype wire

@@ -78,6 +78,14 @@ package ppmc_code_pkg;
     logic read;
   } action_t;
 
+  // What a command unit remembers between two bytes.
+  typedef struct packed {
+    logic        error;   // the last byte was faulty
+    logic [2:0]  number;  // then the error number, else parameters still to come
+    logic [7:0]  code;    // code that they are for
+    logic [31:0] params;  // those that came, the last one in the high bits
+  } asking_t;
+
   // What the initialisation sets (ppmc_setup).
   typedef struct packed {
     logic [7:0]  slow;      // start-up rate

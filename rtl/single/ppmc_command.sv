@@ -41,86 +41,49 @@ module ppmc_command
 
   decoded_t dec_q;  // of byte_i, a clk behind it
   error_e value_q;  // as dec_q: the byte stands still for a clk before it is taken
-  logic error_q;
-  logic [2:0] number_q;  // error number, or parameters still to come
-  logic [7:0] code_q;
-  logic [31:0] params_q;
-  logic stop, harmless, last, error;
-  error_e number;
+  asking_t asking_q, asking;
+  logic stop;
 
-  assign status_o = {error_q, number_q};
-  assign params_o = {data_i, params_q[31:8]};
-  assign params_held_o = params_q;
-  assign code_held_o = code_q;
-  assign code_o = command_i ? byte_i : code_q;
-
-  // Judgement. Order of the checks: P104-ERR-01, P104-ERR-02.
-  always_comb begin
-    stop     = dec_q.kind inside {KindHalt, KindDecel};
-    harmless = dec_q.kind inside {KindAuxOut, KindExcOff, KindAuxOn, KindAuxOff};
-    last     = !error_q && number_q == 3'd1;
-    error    = 1'b1;
-    number   = ErrUndefined;
-    if (command_i) begin
-      if (dec_q.kind == KindUndefined || (stop && !busy_i)) number = ErrUndefined;
-      else if (busy_i && !stop && !harmless) number = ErrBusy;
-      else if (dec_q.kind == KindOperation && !initialised_i) number = ErrNotReady;
-      else if (dec_q.kind == KindDecel && ramp_i && decelerating_i) number = ErrDecelAgain;
-      else error = 1'b0;
-    end else begin
-      if (error_q || number_q == '0) number = busy_i ? ErrDataBusy : ErrData;
-      else if (last && judged_i && value_q != ErrUndefined) number = value_q;
-      else error = 1'b0;
-    end
-  end
-
+  assign status_o = {asking_q.error, asking_q.number};
+  assign params_o = {data_i, asking_q.params[31:8]};
+  assign params_held_o = asking_q.params;
+  assign code_held_o = asking_q.code;
+  assign code_o = command_i ? byte_i : asking_q.code;
   assign take_o = ready_i && open_i && (!stops_only_i || (command_i && stop));
+
+  ppmc_judge u_judge (
+      .take_i    (take_o),
+      .command_i,
+      .byte_i,
+      .data_i,
+      .decoded_i (dec_q),
+      .value_i   (value_q),
+      .judged_i,
+      .busy_i,
+      .ramp_i,
+      .decelerating_i,
+      .initialised_i,
+      .asking_i  (asking_q),
+      .asking_o  (asking),
+      .act_o,
+      .stop_o    (stop)
+  );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       dec_q    <= '0;
       value_q  <= ErrUndefined;
-      error_q  <= 1'b0;
-      number_q <= '0;
-      code_q   <= '0;
-      params_q <= '0;
+      asking_q <= '0;
     end else begin
-      dec_q   <= decoded_i;
-      value_q <= value_i;
-      if (take_o) begin
-        error_q <= error;
-        if (error) number_q <= number;
-        else number_q <= command_i ? dec_q.params : number_q - 1'b1;
-        if (command_i) code_q <= byte_i;
-        else params_q <= params_o;
-      end
-    end
-  end
-
-  // Action: at once for codes without parameters, else with the last parameter.
-  always_comb begin
-    act_o = '0;
-    if (take_o && !error) begin
-      if (command_i) begin
-        act_o.start   = dec_q.kind == KindOperation && dec_q.params == '0;
-        act_o.halt    = dec_q.kind == KindHalt;
-        act_o.decel   = dec_q.kind == KindDecel;
-        act_o.exc_off = dec_q.kind == KindExcOff && !busy_i;
-        act_o.aux_on  = dec_q.kind == KindAuxOn || (dec_q.kind == KindExcOff && busy_i);
-        act_o.aux_off = dec_q.kind == KindAuxOff;
-        act_o.read    = dec_q.kind == KindRead;
-      end else if (last) begin
-        act_o.init      = code_q[7:6] == 2'b00;
-        act_o.start     = code_q[6];
-        act_o.switching = code_q[7:6] == 2'b10 && !code_q[1];
-        act_o.aux_out   = code_q[7:6] == 2'b10 && code_q[1];
-      end
+      dec_q    <= decoded_i;
+      value_q  <= value_i;
+      asking_q <= asking;
     end
   end
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_opr_12, !(act_o.start && busy_i))
-  `PPMC_ASSERT(p104_err_03, !(take_o && error) || act_o == '0)
+  `PPMC_ASSERT(p104_err_03, !(take_o && asking.error) || act_o == '0)
 `endif
 
 endmodule

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank: 4 to 64 axes, each a PPMC-104 to its host, served by one engine.
+// Rules:  BANK-GEN-01..05 and, through its blocks, all others. Manual: docs/bank/README.md.
+// Timing: axis a is visited every R = max(AXES, 8) clk; edges are exact to the clk. d_o stands 5 clk after a read strobe
+//         has begun.
+`default_nettype none
+
+module ppmc_bank
+  import ppmc_bank_pkg::*;
+  import ppmc_motion_pkg::*;
+#(
+    parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
+    parameter int unsigned CLK_HZ     = 100_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,   // crystal of the old chip in Hz, 1e6 .. 16e6
+    parameter bit          PHASE_IDLE = 1'b1          // level of s until the first initialisation
+) (
+    input  wire logic              clk,
+    input  wire logic              rst_n,
+    // host bus
+    input  wire logic [       9:0] a,       // 9..4 axis, 3..0 register
+    input  wire logic              cs_n,
+    input  wire logic              rd_n,
+    input  wire logic              wr_n,
+    input  wire logic [       7:0] d_i,
+    output logic      [       7:0] d_o,
+    output logic                   d_oe,
+    output logic                   int_n,   // L: a motion has ended
+    // switches, L = active, one bit an axis
+    input  wire logic [  AXES-1:0] l1_n,    // CW limit
+    input  wire logic [  AXES-1:0] l2_n,    // CCW limit
+    input  wire logic [  AXES-1:0] l3_n,    // CW slow-down limit
+    input  wire logic [  AXES-1:0] l4_n,    // CCW slow-down limit
+    input  wire logic [  AXES-1:0] cnp_n,   // origin
+    input  wire logic [  AXES-1:0] alm_n,   // alarm
+    // motors, one bit an axis; five bits S5..S1
+    output logic      [5*AXES-1:0] s,
+    output logic      [  AXES-1:0] hold,
+    output logic      [  AXES-1:0] pout_n,
+    output logic      [  AXES-1:0] dir      // 0 = CW
+);
+
+  localparam int unsigned RoundBits = (AXES < 8) ? 3 : $clog2(AXES);
+  localparam int unsigned Round = 1 << RoundBits;
+
+  if (!(AXES inside {4, 8, 16, 32, 64})) begin : g_check_axes
+    $fatal(1, "ppmc_bank: AXES must be 4, 8, 16, 32 or 64");
+  end
+  if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
+    $fatal(1, "ppmc_bank: CLK_HZ must be 8e6 .. 200e6");
+  end
+  if (XTAL_HZ < 1_000_000 || XTAL_HZ > 16_000_000) begin : g_check_xtal
+    $fatal(1, "ppmc_bank: XTAL_HZ must be 1e6 .. 16e6");
+  end
+  if (64'd4 * CLK_HZ % XTAL_HZ != 0) begin : g_check_quantum
+    $fatal(1, "ppmc_bank: 4 * CLK_HZ must be a multiple of XTAL_HZ");
+  end
+  if (64'd16 * CLK_HZ < 64'(Round) * XTAL_HZ) begin : g_check_round
+    $fatal(1, "ppmc_bank: CLK_HZ is too low for so many axes: 16 * CLK_HZ / XTAL_HZ must be at least AXES and 8");
+  end
+
+  logic rst;
+
+  ppmc_reset u_reset (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .rst_no(rst)
+  );
+
+  logic [6*AXES-1:0] unused_meta, levels;
+  switches_t switches[AXES];
+
+  ppmc_sync #(
+      .Width(6 * AXES)
+  ) u_sync (
+      .clk_i (clk),
+      .rst_ni(rst),
+      .d_i   ({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+      .q1_o  (unused_meta),
+      .q2_o  (levels)
+  );
+
+  // ---- host, engine --------------------------------------------------------------------------------
+
+  logic ready, go, stop, answer_we, call, calm;
+  logic [RoundBits-1:0] clock, see, done_axis, at;
+  mail_t mail;
+  progress_t progress;
+  logic [1:0] config_n;
+  status_t status;
+  logic [31:0] position;
+  answer_t answer;
+  order_t order;
+  seen_t seen;
+  logic [AXES-1:0] mask, pending_q;
+
+  ppmc_bank_window #(
+      .Axes     (AXES),
+      .RoundBits(RoundBits)
+  ) u_window (
+      .clk_i      (clk),
+      .rst_ni     (rst),
+      .a_i        (a),
+      .cs_ni      (cs_n),
+      .rd_ni      (rd_n),
+      .wr_ni      (wr_n),
+      .d_i,
+      .d_o,
+      .d_oe_o     (d_oe),
+      .ready_i    (ready),
+      .axis_i     (clock),
+      .mail_o     (mail),
+      .progress_o (progress),
+      .config_no  (config_n),
+      .done_axis_i(done_axis),
+      .status_i   (status),
+      .position_i (position),
+      .answer_we_i(answer_we),
+      .answer_i   (answer),
+      .map_i      (pending_q),
+      .mask_o     (mask),
+      .go_o       (go),
+      .stop_o     (stop)
+  );
+
+  ppmc_bank_engine #(
+      .ClkHz    (CLK_HZ),
+      .XtalHz   (XTAL_HZ),
+      .PhaseIdle(PHASE_IDLE),
+      .RoundBits(RoundBits)
+  ) u_engine (
+      .clk_i      (clk),
+      .rst_ni     (rst),
+      .ready_o    (ready),
+      .clock_o    (clock),
+      .mail_i     (mail),
+      .progress_i (progress),
+      .config_ni  (config_n),
+      .go_i       (go),
+      .see_o      (see),
+      .seen_i     (seen),
+      .axis_o     (done_axis),
+      .status_o   (status),
+      .position_o (position),
+      .answer_we_o(answer_we),
+      .answer_o   (answer),
+      .order_o    (order),
+      .at_o       (at),
+      .call_o     (call),
+      .calm_o     (calm)
+  );
+
+  // ---- axes ----------------------------------------------------------------------------------------
+
+  seen_t views[Round];
+  logic [Round-1:0] turn_q;  // whose order it is
+  logic stopping_q;
+  logic [RoundBits-1:0] stop_left_q;
+
+  assign seen = views[see];
+
+  // The ring is at axis 0 five clk after clock is.
+  always_ff @(posedge clk or negedge rst) begin
+    if (!rst) begin
+      turn_q      <= Round'(1) << (Round - 5);
+      stopping_q  <= 1'b0;
+      stop_left_q <= '0;
+    end else begin
+      turn_q <= {turn_q[Round-2:0], turn_q[Round-1]};
+      if (stop) begin
+        stopping_q  <= 1'b1;
+        stop_left_q <= '1;
+      end else begin
+        stopping_q <= stopping_q && stop_left_q != '0;
+        stop_left_q <= stop_left_q - 1'b1;
+      end
+    end
+  end
+
+  for (genvar i = 0; i < Round; i++) begin : g_axis
+    if (i < AXES) begin : g_cell
+      assign switches[i] = '{
+              limit_cw: !levels[i],
+              limit_ccw: !levels[AXES+i],
+              slow_cw: !levels[2*AXES+i],
+              slow_ccw: !levels[3*AXES+i],
+              origin: !levels[4*AXES+i],
+              alarm: !levels[5*AXES+i]
+          };
+      assign views[i].mask = mask[i];
+      assign views[i].switches = switches[i];
+
+      ppmc_bank_cell #(
+          .RoundBits(RoundBits),
+          .PhaseIdle(PHASE_IDLE)
+      ) u_cell (
+          .clk_i     (clk),
+          .rst_ni    (rst),
+          .clock_i   (clock),
+          .load_i    (turn_q[i]),
+          .order_i   (order),
+          .at_i      (at),
+          .stop_i    (stopping_q),
+          .switches_i(switches[i]),
+          .armed_o   (views[i].armed),
+          .emitted_o (views[i].emitted),
+          .stopped_o (views[i].stop),
+          .alarm_o   (views[i].alarm),
+          .limit_o   (views[i].limit),
+          .s_o       (s[5*i+:5]),
+          .hold_o    (hold[i]),
+          .pout_no   (pout_n[i]),
+          .dir_o     (dir[i])
+      );
+
+      always_ff @(posedge clk or negedge rst) begin
+        if (!rst) pending_q[i] <= 1'b0;
+        else if (turn_q[i] && (call || calm)) pending_q[i] <= call;
+      end
+    end else begin : g_none
+      assign views[i] = '0;
+    end
+  end
+
+  always_ff @(posedge clk or negedge rst) begin
+    if (!rst) int_n <= 1'b1;
+    else int_n <= pending_q == '0;
+  end
+
+endmodule
+
+`default_nettype wire

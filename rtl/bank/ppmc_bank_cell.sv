@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_cell: the pins of one axis of a bank: carries out the orders of its visits, each at its clk, and lets no
+// pulse pass a switch.
+// Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
+// Timing: an order stands in the cell from the clk after load_i on and is carried out at the end of the clk in which
+//         clock_i = at_i; halt at the end of the first one. A switch acts in the clk in which switches_i shows it.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_bank_cell
+  import ppmc_bank_pkg::*;
+  import ppmc_motion_pkg::*;
+#(
+    parameter int unsigned RoundBits = 5,
+    parameter bit          PhaseIdle = 1'b1  // level of s_o until the first order
+) (
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire logic [RoundBits-1:0] clock_i,     // clk of the round
+    // orders
+    input  wire logic                 load_i,      // the order is for this axis
+    input  wire order_t               order_i,
+    input  wire logic [RoundBits-1:0] at_i,        // when
+    input  wire logic                 stop_i,      // end every motion
+    input  wire switches_t            switches_i,  // synchronous levels
+    // what the visits see
+    output logic                      armed_o,     // pulses may come
+    output logic                      emitted_o,   // the last one that was ordered has come
+    output logic                      stopped_o,   // why it is not armed any more: STOP or a stop command
+    output logic                      alarm_o,     // the alarm
+    output logic                      limit_o,     // the limit of its direction
+    // pins
+    output logic      [          5:1] s_o,         // phases
+    output logic                      hold_o,      // at rest for the hold time
+    output logic                      pout_no,     // pulse, L = active
+    output logic                      dir_o        // 0 = CW
+);
+
+  order_t order_q;
+  logic [RoundBits-1:0] at_q;
+  logic now, limit, halt, ends, pulse, rise, set, unused_slow;
+
+  assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
+  assign now   = at_q == clock_i;
+  assign limit = order_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign halt  = order_q.halt || stop_i;
+  assign ends  = halt || limit || switches_i.alarm || (switches_i.origin && order_q.search);
+  assign pulse = now && order_q.pulse && armed_o && !ends;
+  assign rise  = now && order_q.rise;
+  assign set   = now && order_q.set;
+
+  // One of an order's three may still wait when the next order comes: it is then carried out in that very clk.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      order_q   <= '0;
+      at_q      <= '0;
+      armed_o   <= 1'b0;
+      emitted_o <= 1'b1;
+      {stopped_o, alarm_o, limit_o} <= '0;
+    end else begin
+      order_q.halt <= 1'b0;
+      if (load_i) {order_q, at_q} <= {order_i, at_i};
+      if (set) armed_o <= order_q.arm;
+      else if (ends || (pulse && !order_q.arm)) armed_o <= 1'b0;
+      if (load_i && order_i.pulse) emitted_o <= 1'b0;
+      else if (pulse || set) emitted_o <= 1'b1;
+      if (armed_o) {stopped_o, alarm_o, limit_o} <= {halt, switches_i.alarm, limit};
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      s_o     <= {5{PhaseIdle}};
+      hold_o  <= 1'b1;
+      pout_no <= 1'b1;
+      dir_o   <= 1'b0;
+    end else begin
+      if (pulse || rise) pout_no <= rise;
+      if (pulse || set) s_o <= order_q.s;
+      if (set) {hold_o, dir_o} <= {order_q.hold, order_q.ccw};
+    end
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(bank_one_order, !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.set)
+               && !(order_q.rise && order_q.set))
+  `PPMC_ASSERT(bank_mot_02, !(pulse && ends))
+  `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
+`endif
+
+endmodule
+
+`default_nettype wire

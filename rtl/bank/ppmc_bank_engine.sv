@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_engine: visits one axis a clk: reads its state, decides, and writes it back.
+// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02, BANK-GRP-02/03; the others in ppmc_bank_plan and ppmc_bank_step.
+// Timing: seven clk from the address of an axis to the edge of its visit, one axis behind the other:
+//         0 address    1 RAM    2 compare (seen_i, of axis see_o)    3 plan    4 step    5 write; order_o is loaded
+//         6 the order stands in the cell: the first clk whose end an edge may be ordered for
+//         The rate is read two clk earlier: it is part of the address of its threshold.
+`default_nettype none
+
+module ppmc_bank_engine
+  import ppmc_bank_pkg::*;
+  import ppmc_code_pkg::error_e;
+  import ppmc_code_pkg::decoded_t;
+#(
+    parameter int unsigned ClkHz     = 100_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          PhaseIdle = 1'b1,
+    parameter int unsigned RoundBits = 5
+) (
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    output logic                      ready_o,     // all axes have been reset
+    output logic      [RoundBits-1:0] clock_o,     // clk of the round, axis of stage 0
+    // from the window
+    input  wire mail_t                mail_i,      // stage 1
+    input  wire progress_t            progress_i,
+    input  wire logic [          1:0] config_ni,
+    input  wire logic                 go_i,        // GO is written, at the coming edge
+    // from cells and switches
+    output logic      [RoundBits-1:0] see_o,       // axis of stage 2
+    input  wire seen_t                seen_i,      // stage 2
+    // results of stage 4, stage 5
+    output logic      [RoundBits-1:0] axis_o,
+    output status_t                   status_o,
+    output logic      [         31:0] position_o,
+    output logic                      answer_we_o,
+    output answer_t                   answer_o,
+    output order_t                    order_o,
+    output logic      [RoundBits-1:0] at_o,        // clk of its edge
+    output logic                      call_o,      // an interrupt is pending from now on
+    output logic                      calm_o       // and no more
+);
+
+  localparam int unsigned Round = 1 << RoundBits;
+  localparam int unsigned Quantum = 4 * ClkHz / XtalHz;
+  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);
+  localparam int unsigned HoldRounds = (136_000 * Quantum + Round - 1) / Round;
+  localparam int unsigned HoldBits = $clog2(HoldRounds);
+  localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
+
+  typedef logic [RoundBits-1:0] axis_t;
+
+  // ---- which axis is where -------------------------------------------------------------------------
+
+  axis_t clock_q;
+  logic [6:0] clear_q;  // stages that reset their axis; [0]: stage 0
+
+  assign clock_o = clock_q;
+  assign see_o   = clock_q - axis_t'(2);
+  assign axis_o  = clock_q - axis_t'(5);
+  assign ready_o = !clear_q[6];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      clock_q <= '0;
+      clear_q <= '1;
+    end else begin
+      clock_q <= clock_q + 1'b1;
+      clear_q <= {clear_q[5:0], clear_q[0] && clock_q != '1};
+    end
+  end
+
+  // GO acts for a round; one more waits.
+  logic go_q, again_q;
+  logic [RoundBits:0] since_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {go_q, again_q} <= '0;
+      since_q         <= '0;
+    end else if (go_q && !since_q[RoundBits]) begin
+      since_q <= since_q + 1'b1;
+      again_q <= again_q || go_i;
+    end else begin
+      go_q    <= go_i || again_q;
+      again_q <= go_i && again_q;
+      since_q <= (RoundBits + 1)'(1);
+    end
+  end
+
+  // ---- memories ------------------------------------------------------------------------------------
+
+  typedef struct packed {
+    logic [1:0]  taken;
+    logic        error;
+    logic [2:0]  number;
+    logic [7:0]  code;
+    logic [23:0] params;
+  } bytes_t;
+
+  // Needed for comparisons, and only later.
+  typedef struct packed {
+    logic [TimeBits-1:0] rem;  // clk to the awaited edge
+    walk_t               walk;
+    ramp_t               ramp;
+    bytes_t              bytes;
+  } early_t;
+
+  typedef struct packed {
+    rest_t               rest;
+    logic [HoldBits-1:0] left;
+    logic [31:0]         position;
+  } late_t;
+
+  (* ram_style = "block", no_rw_check *)early_t earlies[Round];
+  (* ram_style = "block", no_rw_check *)late_t lates[Round];
+  (* ram_style = "block", no_rw_check *)pace_t paces[Round];
+
+  initial
+    for (int unsigned i = 0; i < Round; i++) begin
+      earlies[i] = '0;
+      lates[i]   = '0;
+      paces[i]   = '0;
+    end
+
+  early_t early1_q, early2_q, early3_q, early4_q, early, early5_q;
+  late_t late2_q, late3_q, late4_q, late, late5_q;
+  pace_t pace_r_q, pace0_q, pace1_q, pace2_q, pace3_q, pace4_q, pace, pace5_q;
+  logic [7:0] probe0_q;
+  logic [StepBits-1:0] threshold;
+  logic [TimeBits-1:0] after, after3_q;
+
+  always_ff @(posedge clk_i) begin
+    pace_r_q <= paces[clock_q+axis_t'(2)];
+    early1_q <= earlies[clock_q];
+    late2_q  <= lates[clock_q-axis_t'(1)];
+    earlies[axis_o] <= early5_q;
+    lates[axis_o]   <= late5_q;
+    paces[axis_o]   <= pace5_q;
+    // On the way down the threshold of the next slower rate counts.
+    pace0_q  <= pace_r_q;
+    probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
+    pace1_q  <= pace0_q;
+    pace2_q  <= pace1_q;
+    early2_q <= early1_q;
+    late3_q  <= late2_q;
+  end
+
+  ppmc_bank_times #(
+      .ClkHz   (ClkHz),
+      .XtalHz  (XtalHz),
+      .Round   (Round),
+      .TimeBits(TimeBits)
+  ) u_times (
+      .clk_i,
+      .pace_i(pace0_q),
+      .rest_o(after)
+  );
+
+  // ---- stage 2: comparisons ------------------------------------------------------------------------
+
+  mail_t mail2_q, mail3_q;
+  progress_t progress2_q, progress3_q, progress4_q;
+  logic [1:0] config2_q, config3_q, config4_q;
+  seen_t seen3_q, seen4_q;
+  facts_t facts3_q, facts3;
+  logic new3_q, busy2, reached, moves;
+  decoded_t decoded3_q;
+  error_e value3_q;
+  logic [RoundBits:0] since3_q;
+  walk_t walk2;
+
+  assign walk2   = early2_q.walk;
+  assign reached = {walk2.climb[StepBits-1:0], !pace2_q.down} >= {threshold, pace2_q.down};
+  assign moves   = walk2.busy && walk2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
+
+  always_ff @(posedge clk_i) begin
+    {mail2_q, progress2_q, config2_q} <= {mail_i, progress_i, config_ni};
+    {mail3_q, progress3_q, config3_q} <= {mail2_q, progress2_q, config2_q};
+    {early3_q, pace3_q, after3_q} <= {early2_q, pace2_q, after};
+    seen3_q <= seen_i;
+    since3_q <= since_q;
+    new3_q <= mail2_q.seq != early2_q.bytes.taken;
+    decoded3_q <= decode(mail2_q.data);
+    value3_q <= ppmc104_pkg::judge({mail2_q.data, early2_q.bytes.params});
+    facts3_q.fire <= early2_q.rem[TimeBits-1:RoundBits] == '0;
+    if (pace2_q.down) facts3_q.more <= moves && (walk2.run || (walk2.low && !walk2.last)) && !reached
+                                       && pace2_q.rate != early2_q.ramp.slow;
+    else facts3_q.more <= moves && walk2.run && !walk2.low && !walk2.held && reached && pace2_q.rate != early2_q.ramp.fast;
+    facts3_q.zero  <= walk2.slack == '0;
+    facts3_q.minus <= walk2.slack[24];
+    facts3_q.foot  <= walk2.climb[14:1] == '0;
+    facts3_q.full  <= walk2.climb[StepBits-1:0] == early2_q.ramp.steps + 1'b1;
+    facts3_q.go    <= go_q;
+    facts3_q.free  <= 1'b0;
+    facts3_q.built <= 1'b0;
+  end
+
+  // ---- stage 3: plan -------------------------------------------------------------------------------
+
+  plan_t plan, plan4_q;
+  logic take, anew, booked, anew4_q;
+  axis_t booked_for, axis3;
+  logic [7:0] code, code4_q;
+  logic [31:0] params, params4_q;
+  logic [TimeBits-1:0] add, add4_q;
+  ppmc_code_pkg::asking_t asking, asking3;
+  bytes_t bytes3, bytes4_q;
+
+  assign axis3   = clock_q - axis_t'(3);
+  assign bytes3  = early3_q.bytes;
+  assign asking3 = '{error: bytes3.error, number: bytes3.number, code: bytes3.code, params: {bytes3.params, 8'd0}};
+
+  always_comb begin
+    facts3       = facts3_q;
+    facts3.free  = !booked;
+    facts3.built = !(booked && booked_for == axis3);
+  end
+
+  ppmc_bank_plan #(
+      .Quantum  (Quantum),
+      .RoundBits(RoundBits),
+      .TimeBits (TimeBits)
+  ) u_plan (
+      .walk_i   (early3_q.walk),
+      .pace_i   (pace3_q),
+      .ramp_i   (early3_q.ramp),
+      .rest_i   (late3_q.rest),
+      .over_i   (late3_q.left == '0),
+      .seen_i   (seen3_q),
+      .facts_i  (facts3),
+      .extra_i  (config3_q[1]),
+      .mail_i   (mail3_q),
+      .new_i    (new3_q),
+      .decoded_i(decoded3_q),
+      .value_i  (value3_q),
+      .asking_i (asking3),
+      .asking_o (asking),
+      .take_o   (take),
+      .code_o   (code),
+      .params_o (params),
+      .since_i  (since3_q),
+      .after_i  (after3_q),
+      .plan_o   (plan),
+      .anew_o   (anew),
+      .add_o    (add)
+  );
+
+  ppmc_bank_tables #(
+      .AxisBits(RoundBits),
+      .StepBits(StepBits)
+  ) u_tables (
+      .clk_i,
+      .rst_ni,
+      .book_i     (plan.init),
+      .book_axis_i(axis3),
+      .slow_i     (params[7:0]),
+      .fast_i     (params[15:8]),
+      .steps_i    (params[16+:StepBits]),
+      .booked_o   (booked),
+      .for_o      (booked_for),
+      .axis_i     (clock_q),
+      .rate_i     (probe0_q),
+      .threshold_o(threshold)
+  );
+
+  always_ff @(posedge clk_i) begin
+    {early4_q, pace4_q, late4_q, seen4_q} <= {early3_q, pace3_q, late3_q, seen3_q};
+    {progress4_q, config4_q} <= {progress3_q, config3_q};
+    {plan4_q, code4_q, params4_q, anew4_q, add4_q} <= {clear_q[3] ? '0 : plan, code, params, anew, add};
+    bytes4_q <= '{
+        taken: take ? mail3_q.seq : bytes3.taken,
+        error: asking.error,
+        number: asking.number,
+        code: asking.code,
+        params: asking.params[31:8]
+    };
+  end
+
+  // ---- stage 4: step -------------------------------------------------------------------------------
+
+  order_t order;
+  answer_t answer;
+  logic call, calm;
+
+  ppmc_bank_step #(
+      .HoldRounds(HoldRounds),
+      .HoldBits  (HoldBits)
+  ) u_step (
+      .plan_i    (plan4_q),
+      .seen_i    (seen4_q),
+      .code_i    (code4_q),
+      .params_i  (params4_q),
+      .config_ni (config4_q),
+      .read_seq_i(progress4_q.seq),
+      .walk_i    (early4_q.walk),
+      .pace_i    (pace4_q),
+      .ramp_i    (early4_q.ramp),
+      .rest_i    (late4_q.rest),
+      .left_i    (late4_q.left),
+      .position_i(late4_q.position),
+      .walk_o    (early.walk),
+      .pace_o    (pace),
+      .ramp_o    (early.ramp),
+      .rest_o    (late.rest),
+      .left_o    (late.left),
+      .position_o(late.position),
+      .order_o   (order),
+      .answer_o  (answer),
+      .call_o    (call),
+      .calm_o    (calm)
+  );
+
+  assign early.rem   = (anew4_q ? '0 : early4_q.rem) + add4_q;
+  assign early.bytes = bytes4_q;
+
+  // ---- stage 5: write, order -----------------------------------------------------------------------
+
+  localparam early_t EarlyReset = '0;
+  localparam late_t LateReset = '{
+      rest: '{hold: 1'b1, on: 1'b1, pair: 1'b1, positive: !PhaseIdle, default: '0},
+      left: '0,
+      position: '0
+  };
+
+  always_ff @(posedge clk_i) begin
+    early5_q    <= clear_q[4] ? EarlyReset : early;
+    late5_q     <= clear_q[4] ? LateReset : late;
+    pace5_q     <= clear_q[4] ? '0 : pace;
+    answer_o    <= clear_q[4] ? '0 : answer;
+    answer_we_o <= clear_q[4] || plan4_q.read;
+    order_o     <= clear_q[4] ? '0 : order;
+    // At once, or so many clk after the first one that can be ordered for.
+    at_o        <= clock_q + axis_t'(2) + ((order.set && !plan4_q.toggle) ? '0 : early4_q.rem[RoundBits-1:0]);
+    call_o      <= call && !clear_q[4];
+    calm_o      <= calm && !clear_q[4];
+  end
+
+  assign status_o = '{
+          taken: early5_q.bytes.taken,
+          error: early5_q.bytes.error,
+          number: early5_q.bytes.number,
+          busy: early5_q.walk.busy
+      };
+  assign position_o = late5_q.position;
+
+endmodule
+
+`default_nettype wire

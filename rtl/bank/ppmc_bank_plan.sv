@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_plan: what a visit decides: which byte it takes, what that and the switches do to the motion, which edge it
+// orders, and how many clk it is to the next one. Combinational.
+// Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05, P104-FDC-01..05,
+//         P104-TIM-05, P104-LIM-01..09.
+// Times:  time_i counts clk from the visit to the awaited edge. What is added to it has a round taken off, for the next
+//         visit is a round away.
+`default_nettype none
+
+module ppmc_bank_plan
+  import ppmc_bank_pkg::*;
+  import ppmc_code_pkg::*;
+  import ppmc_motion_pkg::*;
+  import ppmc_op_pkg::*;
+#(
+    parameter int unsigned Quantum   = 25,  // clk
+    parameter int unsigned RoundBits = 5,
+    parameter int unsigned TimeBits  = 20
+) (
+    // the axis
+    input  wire walk_t                walk_i,
+    input  wire pace_t                pace_i,
+    input  wire ramp_t                ramp_i,
+    input  wire rest_t                rest_i,
+    input  wire logic                 over_i,    // but ends with this visit
+    input  wire seen_t                seen_i,
+    input  wire facts_t               facts_i,
+    // its command unit
+    input  wire logic                 extra_i,   // vsel = L in CONFIG
+    input  wire mail_t                mail_i,
+    input  wire logic                 new_i,     // it has not been taken
+    input  wire decoded_t             decoded_i, // meaning of its byte
+    input  wire error_e               value_i,   // what is wrong with an initialisation that it completes
+    input  wire asking_t              asking_i,
+    output asking_t                   asking_o,
+    output logic                      take_o,    // it is taken
+    output logic       [         7:0] code_o,    // code of what it makes happen
+    output logic       [        31:0] params_o,  // and its parameters
+    // decisions
+    input  wire logic [RoundBits:0]   since_i,   // clk since GO
+    input  wire logic [TimeBits-1:0]  after_i,   // see ppmc_bank_times
+    output plan_t                     plan_o,
+    output logic                      anew_o,    // time_i does not count
+    output logic       [TimeBits-1:0] add_o      // to time_i
+);
+
+  localparam int unsigned Round = 1 << RoundBits;
+  localparam int unsigned Width = 20 * Quantum;  // W
+  localparam int unsigned Half = 4 * Quantum;  // half a fast base clock
+
+  typedef logic [TimeBits-1:0] clk_t;
+
+  action_t act;
+  logic ramp, finished, open, dec, halt, slow, fast_plain, grows, counts, forced, unused_stop;
+
+  // ---- what has happened since the last visit ------------------------------------------------------
+
+  always_comb begin
+    ramp = walk_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
+    plan_o.kill = walk_i.busy && !seen_i.armed && (walk_i.run || !seen_i.emitted);
+    plan_o.undo = plan_o.kill && !seen_i.emitted;
+    plan_o.finish = walk_i.busy && (plan_o.kill ? plan_o.undo || !walk_i.low : !walk_i.run && !walk_i.low);
+    plan_o.ready = ramp_i.building && facts_i.built;
+    plan_o.proceed = facts_i.go && seen_i.mask && walk_i.held && walk_i.run && !plan_o.kill;
+    plan_o.refuse = facts_i.go && seen_i.mask && !plan_o.proceed;
+    plan_o.unit = !walk_i.busy && rest_i.chop && facts_i.fire && !plan_o.ready;
+    plan_o.toggle = plan_o.unit && walk_i.climb == '0;
+  end
+
+  // ---- the byte ------------------------------------------------------------------------------------
+
+  assign finished = !walk_i.run || plan_o.kill;
+  assign open = !plan_o.finish && !ramp_i.building && !(facts_i.go && seen_i.mask) && !plan_o.toggle
+      && (facts_i.free || mail_i.command || asking_i.code[7:6] != 2'b00 || asking_i.number != 3'd1 || asking_i.error);
+  assign take_o = new_i && open;
+  assign code_o = mail_i.command ? mail_i.data : asking_i.code;
+  assign params_o = {mail_i.data, asking_i.params[31:8]};
+
+  asking_t asking;
+  always_comb begin
+    asking_o = asking;
+    if (plan_o.refuse) begin
+      asking_o.error  = 1'b1;
+      asking_o.number = (walk_i.busy && !plan_o.finish) ? ErrBusy : ramp_i.initialised ? ErrUndefined : ErrNotReady;
+    end
+  end
+
+  ppmc_judge #(
+      .Aux(1'b0)
+  ) u_judge (
+      .take_i        (take_o),
+      .command_i     (mail_i.command),
+      .byte_i        (mail_i.data),
+      .data_i        (mail_i.data),
+      .decoded_i,
+      .value_i,
+      .judged_i      (asking_i.code[7:6] == 2'b00),
+      .busy_i        (walk_i.busy),
+      .ramp_i        (ramp),
+      .decelerating_i(walk_i.forced || walk_i.natural || finished),
+      .initialised_i (ramp_i.initialised),
+      .asking_i,
+      .asking_o      (asking),
+      .act_o         (act),
+      .stop_o        (unused_stop)
+  );
+
+  // ---- the motion ----------------------------------------------------------------------------------
+
+  always_comb begin
+    fast_plain = !pace_i.slow && !pace_i.extra;
+    slow = walk_i.ccw ? seen_i.switches.slow_ccw : seen_i.switches.slow_cw;
+    halt = act.halt || (act.decel && !ramp);
+    dec = walk_i.forced || walk_i.natural || finished;
+    counts = ramp && !dec && !halt && (!walk_i.pout_only || facts_i.full);
+    plan_o.halt = halt;
+    plan_o.flag_stop = act.decel && ramp && !dec;
+    plan_o.flag_slow = slow && counts;
+    forced = walk_i.forced || plan_o.flag_stop || plan_o.flag_slow;
+
+    plan_o.pulse = walk_i.run && !walk_i.held && !walk_i.low && facts_i.fire && !facts_i.more && !plan_o.kill && !halt;
+    // A low time that may still grow does not end before it is known how far.
+    grows = facts_i.more && fast_plain && !walk_i.last && pace_i.rate < 8'd3;
+    plan_o.rise = walk_i.low && facts_i.fire && !grows && !plan_o.undo;
+    plan_o.probe = facts_i.more && !plan_o.rise && !plan_o.undo;
+    plan_o.back = ramp && (forced || facts_i.minus);
+    plan_o.up = ramp && !forced && !pace_i.down && !facts_i.minus && !facts_i.zero && !facts_i.full;
+    plan_o.turn = ramp && !pace_i.down && (forced || facts_i.minus || facts_i.zero);
+    plan_o.natural = ramp && (facts_i.minus || (facts_i.zero && !facts_i.full));
+    plan_o.last = (plan_o.back && facts_i.foot) || (facts_i.zero && walk_i.climb == '0);
+
+    plan_o.start = act.start;
+    plan_o.init = act.init;
+    plan_o.first = act.init && !ramp_i.initialised;
+    plan_o.exc_off = act.exc_off;
+    plan_o.switching = act.switching;
+    plan_o.read = act.read;
+    plan_o.select = mail_i.data[2:0];
+    plan_o.rest = !walk_i.busy && !rest_i.hold && !act.start;
+    plan_o.hold = plan_o.rest && over_i && !plan_o.toggle;
+  end
+
+  // ---- clk to the next edge ------------------------------------------------------------------------
+
+  // Low time at a rate; rates beyond the third get W.
+  function automatic clk_t low_time(logic [7:0] rate, logic halves);
+    unique case ({halves && rate[7:2] == '0, rate[1:0]})
+      3'b100:  return clk_t'(Half);
+      3'b101:  return clk_t'(2 * Half);
+      3'b110:  return clk_t'(3 * Half);
+      default: return clk_t'(Width);
+    endcase
+  endfunction
+
+  // How much longer that of the next slower rate is.
+  function automatic clk_t longer(logic [7:0] rate, logic halves);
+    if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return '0;
+    return (rate[1:0] == 2'd2) ? clk_t'(Width - 3 * Half) : clk_t'(Half);
+  endfunction
+
+  // Fixed time of a phase of the chopper.
+  function automatic clk_t phase(logic on, logic host, logic extra);
+    unique case ({on, host, extra})
+      3'b100, 3'b101: return clk_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum);
+      3'b000, 3'b001: return clk_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum);
+      3'b110:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum);
+      3'b010:         return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum);
+      3'b111:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum);
+      default:        return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum);
+    endcase
+  endfunction
+
+  always_comb begin
+    anew_o     = plan_o.start || plan_o.proceed || plan_o.finish || plan_o.ready;
+    add_o      = '0;
+    if (plan_o.start || plan_o.proceed) begin
+      add_o = clk_t'(Width);
+    end else if (plan_o.finish || plan_o.ready || plan_o.toggle) begin
+      add_o = phase(plan_o.toggle ? !rest_i.on : 1'b1, rest_i.programmed, extra_i);
+    end else if (plan_o.unit) begin
+      add_o = clk_t'(ppmc104_pkg::CHOP_UNIT * Quantum);
+    end else if (plan_o.pulse) begin
+      add_o = low_time(pace_i.rate, fast_plain && !plan_o.last);
+    end else if (plan_o.probe && pace_i.down) begin
+      if (walk_i.low) add_o = longer(pace_i.rate, fast_plain && !walk_i.last);
+      else add_o = pace_i.slow ? clk_t'(32 * Quantum) : clk_t'(8 * Quantum);
+    end
+    // A GO that acted since_i clk ago has its round counted from there.
+    add_o = add_o - (plan_o.proceed ? clk_t'(since_i) : clk_t'(Round));
+    if (plan_o.rise) add_o = after_i;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_tables: the ramp tables of all axes in one RAM, and the one builder that fills them.
+// Rules:  P104-RMP-02, P104-INI-07, BANK-INI-01, BANK-HSK-05.
+// Timing: book_i in a clk with booked_o = 0; the table is complete when booked_o falls. threshold_o stands two clk after
+//         axis_i and rate_i.
+`default_nettype none
+
+module ppmc_bank_tables #(
+    parameter int unsigned AxisBits = 5,
+    parameter int unsigned StepBits = 14
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    // build
+    input  wire logic                book_i,       // build a table, from these
+    input  wire logic [AxisBits-1:0] book_axis_i,  // for this axis
+    input  wire logic [         7:0] slow_i,       // start-up rate
+    input  wire logic [         7:0] fast_i,       // high-speed rate
+    input  wire logic [StepBits-1:0] steps_i,      // acceleration pulses PA
+    output logic                     booked_o,     // the builder is at work
+    output logic      [AxisBits-1:0] for_o,        // for this axis
+    // look up
+    input  wire logic [AxisBits-1:0] axis_i,
+    input  wire logic [         7:0] rate_i,       // r
+    output logic      [StepBits-1:0] threshold_o   // first index with a rate below r
+);
+
+  logic start_q, busy, we;
+  logic [7:0] slow_q, fast_q, waddr;
+  logic [StepBits-1:0] steps_q, wdata;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {booked_o, start_q} <= '0;
+    else begin
+      start_q  <= book_i;
+      booked_o <= book_i || (booked_o && (start_q || busy));
+    end
+  end
+
+  always_ff @(posedge clk_i) if (book_i) {for_o, slow_q, fast_q, steps_q} <= {book_axis_i, slow_i, fast_i, steps_i};
+
+  ppmc_ramp_builder #(
+      .StepBits(StepBits)
+  ) u_builder (
+      .clk_i,
+      .rst_ni,
+      .start_i(start_q),
+      .slow_i (slow_q),
+      .fast_i (fast_q),
+      .steps_i(steps_q),
+      .busy_o (busy),
+      .we_o   (we),
+      .addr_o (waddr),
+      .data_o (wdata)
+  );
+
+  ppmc_ram #(
+      .Width   (StepBits),
+      .AddrBits(AxisBits + 8)
+  ) u_tables (
+      .clk_i,
+      .we_i   (we),
+      .waddr_i({for_o, waddr}),
+      .wdata_i(wdata),
+      .raddr_i({axis_i, rate_i}),
+      .rdata_o(threshold_o)
+  );
+
+endmodule
+
+`default_nettype wire

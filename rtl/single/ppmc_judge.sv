@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_judge: what a byte of the host means to a part with one axis: right or faulty, what it makes happen, what is
+// remembered of it. Combinational; who keeps asking_o is the user's business.
+// Rules:  P104-STA-04..06, P104-ERR-00..03, P104-HSK-07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08,
+//         P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
+`default_nettype none
+
+module ppmc_judge
+  import ppmc_code_pkg::*;
+#(
+    parameter bit Aux = 1'b1  // Excitation OFF is AUX ON while a motion is under way; 0: it is refused then
+) (
+    input  wire logic            take_i,          // a byte is taken
+    input  wire logic            command_i,       // it was written as a command
+    input  wire logic     [ 7:0] byte_i,          // the byte
+    input  wire logic     [ 7:0] data_i,          // the byte as a parameter is kept
+    input  wire decoded_t        decoded_i,       // the byte as a code
+    input  wire error_e          value_i,         // what is wrong with complete parameters; ErrUndefined: nothing
+    input  wire logic            judged_i,        // value_i counts for the code at hand
+    input  wire logic            busy_i,          // a motion is under way
+    input  wire logic            ramp_i,          // running operation has a ramp
+    input  wire logic            decelerating_i,  // DEC, or pulses over
+    input  wire logic            initialised_i,   // operations may start
+    input  wire asking_t         asking_i,        // what is remembered of the bytes before
+    output asking_t              asking_o,        // and of this one
+    output action_t              act_o,           // what it makes happen
+    output logic                 stop_o           // byte_i is a stop command; whatever take_i says
+);
+
+  logic harmless, last, error;
+  error_e number;
+  logic unused_param;
+
+  assign unused_param = ^asking_i.params[7:0];
+
+  // Order of the checks: P104-ERR-01, P104-ERR-02.
+  always_comb begin
+    stop_o   = decoded_i.kind inside {KindHalt, KindDecel};
+    harmless = decoded_i.kind inside {KindAuxOut, KindAuxOn, KindAuxOff} || (Aux && decoded_i.kind == KindExcOff);
+    last     = !asking_i.error && asking_i.number == 3'd1;
+    error    = 1'b1;
+    number   = ErrUndefined;
+    if (command_i) begin
+      if (decoded_i.kind == KindUndefined || (stop_o && !busy_i)) number = ErrUndefined;
+      else if (busy_i && !stop_o && !harmless) number = ErrBusy;
+      else if (decoded_i.kind == KindOperation && !initialised_i) number = ErrNotReady;
+      else if (decoded_i.kind == KindDecel && ramp_i && decelerating_i) number = ErrDecelAgain;
+      else error = 1'b0;
+    end else begin
+      if (asking_i.error || asking_i.number == '0) number = busy_i ? ErrDataBusy : ErrData;
+      else if (last && judged_i && value_i != ErrUndefined) number = value_i;
+      else error = 1'b0;
+    end
+  end
+
+  always_comb begin
+    asking_o = asking_i;
+    if (take_i) begin
+      asking_o.error = error;
+      if (error) asking_o.number = number;
+      else asking_o.number = command_i ? decoded_i.params : asking_i.number - 1'b1;
+      if (command_i) asking_o.code = byte_i;
+      else asking_o.params = {data_i, asking_i.params[31:8]};
+    end
+  end
+
+  // At once for codes without parameters, else with the last parameter.
+  always_comb begin
+    act_o = '0;
+    if (take_i && !error) begin
+      if (command_i) begin
+        act_o.start   = decoded_i.kind == KindOperation && decoded_i.params == '0;
+        act_o.halt    = decoded_i.kind == KindHalt;
+        act_o.decel   = decoded_i.kind == KindDecel;
+        act_o.exc_off = decoded_i.kind == KindExcOff && !busy_i;
+        act_o.aux_on  = decoded_i.kind == KindAuxOn || (decoded_i.kind == KindExcOff && busy_i);
+        act_o.aux_off = decoded_i.kind == KindAuxOff;
+        act_o.read    = decoded_i.kind == KindRead;
+      end else if (last) begin
+        act_o.init      = asking_i.code[7:6] == 2'b00;
+        act_o.start     = asking_i.code[6];
+        act_o.switching = asking_i.code[7:6] == 2'b10 && !asking_i.code[1];
+        act_o.aux_out   = asking_i.code[7:6] == 2'b10 && asking_i.code[1];
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire
