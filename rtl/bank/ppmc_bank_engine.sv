@@ -52,13 +52,15 @@ module ppmc_bank_engine
 
   // ---- which axis is where -------------------------------------------------------------------------
 
-  axis_t clock_q;
+  axis_t clock_q, axis1_q, axis2_q, axis3_q, axis4_q, axis5_q;
   logic [6:0] clear_q;  // stages that reset their axis; [0]: stage 0
 
   assign clock_o = clock_q;
-  assign see_o   = clock_q - axis_t'(2);
-  assign axis_o  = clock_q - axis_t'(5);
+  assign see_o   = axis2_q;
+  assign axis_o  = axis5_q;
   assign ready_o = !clear_q[6];
+
+  always_ff @(posedge clk_i) {axis1_q, axis2_q, axis3_q, axis4_q, axis5_q} <= {clock_q, axis1_q, axis2_q, axis3_q, axis4_q};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -73,18 +75,22 @@ module ppmc_bank_engine
   // GO acts for a round; one more waits.
   logic go_q, again_q;
   logic [RoundBits:0] since_q;
+  logic [TimeBits-1:0] due_q;  // W - since_q
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {go_q, again_q} <= '0;
       since_q         <= '0;
+      due_q           <= '0;
     end else if (go_q && !since_q[RoundBits]) begin
       since_q <= since_q + 1'b1;
+      due_q   <= due_q - 1'b1;
       again_q <= again_q || go_i;
     end else begin
       go_q    <= go_i || again_q;
       again_q <= go_i && again_q;
       since_q <= (RoundBits + 1)'(1);
+      due_q   <= TimeBits'(20 * Quantum - 1);
     end
   end
 
@@ -133,7 +139,7 @@ module ppmc_bank_engine
   always_ff @(posedge clk_i) begin
     pace_r_q <= paces[clock_q+axis_t'(2)];
     early1_q <= earlies[clock_q];
-    late2_q  <= lates[clock_q-axis_t'(1)];
+    late2_q  <= lates[axis1_q];
     earlies[axis_o] <= early5_q;
     lates[axis_o]   <= late5_q;
     paces[axis_o]   <= pace5_q;
@@ -164,10 +170,11 @@ module ppmc_bank_engine
   logic [1:0] config2_q, config3_q, config4_q;
   seen_t seen3_q, seen4_q;
   facts_t facts3_q, facts3;
-  logic new3_q, busy2, reached, moves;
+  logic new3_q, reached, moves, booked;
+  axis_t booked_for;
   decoded_t decoded3_q;
   error_e value3_q;
-  logic [RoundBits:0] since3_q;
+  logic [TimeBits-1:0] due3_q;
   walk_t walk2;
 
   assign walk2   = early2_q.walk;
@@ -179,7 +186,7 @@ module ppmc_bank_engine
     {mail3_q, progress3_q, config3_q} <= {mail2_q, progress2_q, config2_q};
     {early3_q, pace3_q, after3_q} <= {early2_q, pace2_q, after};
     seen3_q <= seen_i;
-    since3_q <= since_q;
+    due3_q <= due_q;
     new3_q <= mail2_q.seq != early2_q.bytes.taken;
     decoded3_q <= decode(mail2_q.data);
     value3_q <= ppmc104_pkg::judge({mail2_q.data, early2_q.bytes.params});
@@ -193,34 +200,31 @@ module ppmc_bank_engine
     facts3_q.full  <= walk2.climb[StepBits-1:0] == early2_q.ramp.steps + 1'b1;
     facts3_q.go    <= go_q;
     facts3_q.free  <= 1'b0;
-    facts3_q.built <= 1'b0;
+    facts3_q.built <= !(booked && booked_for == axis2_q);
   end
 
   // ---- stage 3: plan -------------------------------------------------------------------------------
 
   plan_t plan, plan4_q;
-  logic take, anew, booked, anew4_q;
-  axis_t booked_for, axis3;
+  logic take, anew, anew4_q;
   logic [7:0] code, code4_q;
   logic [31:0] params, params4_q;
   logic [TimeBits-1:0] add, add4_q;
   ppmc_code_pkg::asking_t asking, asking3;
   bytes_t bytes3, bytes4_q;
 
-  assign axis3   = clock_q - axis_t'(3);
   assign bytes3  = early3_q.bytes;
   assign asking3 = '{error: bytes3.error, number: bytes3.number, code: bytes3.code, params: {bytes3.params, 8'd0}};
 
   always_comb begin
-    facts3       = facts3_q;
-    facts3.free  = !booked;
-    facts3.built = !(booked && booked_for == axis3);
+    facts3      = facts3_q;
+    facts3.free = !booked;
   end
 
   ppmc_bank_plan #(
-      .Quantum  (Quantum),
-      .RoundBits(RoundBits),
-      .TimeBits (TimeBits)
+      .Quantum (Quantum),
+      .Round   (Round),
+      .TimeBits(TimeBits)
   ) u_plan (
       .walk_i   (early3_q.walk),
       .pace_i   (pace3_q),
@@ -239,7 +243,7 @@ module ppmc_bank_engine
       .take_o   (take),
       .code_o   (code),
       .params_o (params),
-      .since_i  (since3_q),
+      .due_i    (due3_q),
       .after_i  (after3_q),
       .plan_o   (plan),
       .anew_o   (anew),
@@ -253,7 +257,7 @@ module ppmc_bank_engine
       .clk_i,
       .rst_ni,
       .book_i     (plan.init),
-      .book_axis_i(axis3),
+      .book_axis_i(axis3_q),
       .slow_i     (params[7:0]),
       .fast_i     (params[15:8]),
       .steps_i    (params[16+:StepBits]),

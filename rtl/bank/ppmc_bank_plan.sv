@@ -14,7 +14,7 @@ module ppmc_bank_plan
   import ppmc_op_pkg::*;
 #(
     parameter int unsigned Quantum   = 25,  // clk
-    parameter int unsigned RoundBits = 5,
+    parameter int unsigned Round     = 32,  // clk
     parameter int unsigned TimeBits  = 20
 ) (
     // the axis
@@ -37,21 +37,20 @@ module ppmc_bank_plan
     output logic       [         7:0] code_o,    // code of what it makes happen
     output logic       [        31:0] params_o,  // and its parameters
     // decisions
-    input  wire logic [RoundBits:0]   since_i,   // clk since GO
+    input  wire logic [TimeBits-1:0]  due_i,     // W less the clk since GO
     input  wire logic [TimeBits-1:0]  after_i,   // see ppmc_bank_times
     output plan_t                     plan_o,
     output logic                      anew_o,    // time_i does not count
     output logic       [TimeBits-1:0] add_o      // to time_i
 );
 
-  localparam int unsigned Round = 1 << RoundBits;
   localparam int unsigned Width = 20 * Quantum;  // W
   localparam int unsigned Half = 4 * Quantum;  // half a fast base clock
 
   typedef logic [TimeBits-1:0] clk_t;
 
   action_t act;
-  logic ramp, finished, open, dec, halt, slow, fast_plain, grows, counts, forced, unused_stop;
+  logic ramp, finished, open, dec, halt, slow, fast_plain, grows, counts, forced, pulse, unused_stop;
 
   // ---- what has happened since the last visit ------------------------------------------------------
 
@@ -118,7 +117,8 @@ module ppmc_bank_plan
     plan_o.flag_slow = slow && counts;
     forced = walk_i.forced || plan_o.flag_stop || plan_o.flag_slow;
 
-    plan_o.pulse = walk_i.run && !walk_i.held && !walk_i.low && facts_i.fire && !facts_i.more && !plan_o.kill && !halt;
+    pulse = walk_i.run && !walk_i.held && !walk_i.low && facts_i.fire && !facts_i.more && !plan_o.kill;
+    plan_o.pulse = pulse && !halt;
     // A low time that may still grow does not end before it is known how far.
     grows = facts_i.more && fast_plain && !walk_i.last && pace_i.rate < 8'd3;
     plan_o.rise = walk_i.low && facts_i.fire && !grows && !plan_o.undo;
@@ -145,49 +145,50 @@ module ppmc_bank_plan
   // Low time at a rate; rates beyond the third get W.
   function automatic clk_t low_time(logic [7:0] rate, logic halves);
     unique case ({halves && rate[7:2] == '0, rate[1:0]})
-      3'b100:  return clk_t'(Half);
-      3'b101:  return clk_t'(2 * Half);
-      3'b110:  return clk_t'(3 * Half);
-      default: return clk_t'(Width);
+      3'b100:  return clk_t'(Half - Round);
+      3'b101:  return clk_t'(2 * Half - Round);
+      3'b110:  return clk_t'(3 * Half - Round);
+      default: return clk_t'(Width - Round);
     endcase
   endfunction
 
   // How much longer that of the next slower rate is.
   function automatic clk_t longer(logic [7:0] rate, logic halves);
-    if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return '0;
-    return (rate[1:0] == 2'd2) ? clk_t'(Width - 3 * Half) : clk_t'(Half);
+    if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -clk_t'(Round);
+    return (rate[1:0] == 2'd2) ? clk_t'(Width - 3 * Half - Round) : clk_t'(Half - Round);
   endfunction
 
   // Fixed time of a phase of the chopper.
   function automatic clk_t phase(logic on, logic host, logic extra);
     unique case ({on, host, extra})
-      3'b100, 3'b101: return clk_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum);
-      3'b000, 3'b001: return clk_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum);
-      3'b110:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum);
-      3'b010:         return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum);
-      3'b111:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum);
-      default:        return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum);
+      3'b100, 3'b101: return clk_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum - Round);
+      3'b000, 3'b001: return clk_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum - Round);
+      3'b110:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum - Round);
+      3'b010:         return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_H * Quantum - Round);
+      3'b111:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_L * Quantum - Round);
+      default:        return clk_t'(ppmc104_pkg::CHOP_OFF_VSEL_L * Quantum - Round);
     endcase
   endfunction
 
+  // What the byte decides comes last: it is the slowest. After a halt nothing is timed any more.
   always_comb begin
-    anew_o     = plan_o.start || plan_o.proceed || plan_o.finish || plan_o.ready;
-    add_o      = '0;
-    if (plan_o.start || plan_o.proceed) begin
-      add_o = clk_t'(Width);
+    anew_o = plan_o.start || plan_o.proceed || plan_o.finish || plan_o.ready;
+    add_o  = -clk_t'(Round);
+    if (plan_o.proceed) begin
+      add_o = due_i;
     end else if (plan_o.finish || plan_o.ready || plan_o.toggle) begin
       add_o = phase(plan_o.toggle ? !rest_i.on : 1'b1, rest_i.programmed, extra_i);
     end else if (plan_o.unit) begin
-      add_o = clk_t'(ppmc104_pkg::CHOP_UNIT * Quantum);
-    end else if (plan_o.pulse) begin
-      add_o = low_time(pace_i.rate, fast_plain && !plan_o.last);
+      add_o = clk_t'(ppmc104_pkg::CHOP_UNIT * Quantum - Round);
+    end else if (plan_o.rise) begin
+      add_o = after_i;
+    end else if (pulse) begin
+      add_o = low_time(pace_i.rate, fast_plain);
     end else if (plan_o.probe && pace_i.down) begin
       if (walk_i.low) add_o = longer(pace_i.rate, fast_plain && !walk_i.last);
-      else add_o = pace_i.slow ? clk_t'(32 * Quantum) : clk_t'(8 * Quantum);
+      else add_o = pace_i.slow ? clk_t'(32 * Quantum - Round) : clk_t'(8 * Quantum - Round);
     end
-    // A GO that acted since_i clk ago has its round counted from there.
-    add_o = add_o - (plan_o.proceed ? clk_t'(since_i) : clk_t'(Round));
-    if (plan_o.rise) add_o = after_i;
+    if (plan_o.start || (pulse && plan_o.last)) add_o = clk_t'(Width - Round);
   end
 
 endmodule
