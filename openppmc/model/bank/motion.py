@@ -1,8 +1,8 @@
 """What is special in the motion of an axis of the bank: visits decide and get to know (BANK-MOT, BANK-GRP).
 
-Pins act on the edges of their events. From the edge on which a motion is cut to the visit that knows of it the
-engine goes on as if nothing had happened (BANK-MOT-03): a pulse that is due there is *lost*, it counts for the
-engine until then but never shows.
+Pins act on the edges of their events. From the edge on which a motion is cut to the visit that knows of it
+the engine goes on as if nothing had happened (BANK-MOT-03): a pulse that is due there is *lost*, it counts
+for the engine until then but never shows.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..common.blocks import Context, Phase
-from ..motion.chopper import Chopper
 from ..motion.codes import FINISH_SLOW, FINISH_STOP, Command
 from ..motion.excitation import Excitation
 from ..motion.guard import Seen, inspect
@@ -19,6 +18,7 @@ from ..ppmc104 import motion
 from ..ppmc104.pins import GUARD
 from ..single.hostport import BytePort
 from ..single.strobes import SpeedGate
+from .chopper import Chopper
 from .group import Group
 from .visits import END_LEAD, GROUP_LEAD, Visits
 
@@ -40,7 +40,7 @@ class Motion(motion.Motion):
     ) -> None:
         super().__init__(context, port, SpeedGate(lambda t: None), excitation, chopper)
         self._visits, self._switches, self._group, self._axis = visits, switches, group, axis
-        self._bank_chopper = chopper
+        self._orders = chopper.orders
         self.held = False
         self.ended = -1
         self._cut: int | None = None
@@ -67,7 +67,7 @@ class Motion(motion.Motion):
         return self._group.holds(self._axis)
 
     def release(self, go: int) -> None:
-        """A held operation goes on; pulse 1 waits until all axes have found the GO of edge `go` (BANK-GRP-02)."""
+        """A held operation goes on; pulse 1 waits until all axes have found this GO (BANK-GRP-02)."""
         self.held = False
         self._arm(go + GROUP_LEAD - 1 + self._visits.round + self._context.timebase.w)
 
@@ -176,7 +176,7 @@ class Motion(motion.Motion):
 
     def _hold_rises(self, t: int) -> None:
         """BANK-HLD-01: not at a visit that orders an edge of the chopper."""
-        if self._bank_chopper.orders(t):
+        if self._orders(t):
             self._plan_hold(t + 1)
         else:
             super()._hold_rises(t)
