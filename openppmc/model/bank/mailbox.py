@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from ..common.blocks import Context, Phase
+from ..common.scheduler import Event
 from .visits import BYTE_LEAD, Visits
 
 Take = Callable[[int, int, bool], None]
@@ -20,7 +21,8 @@ class Mailbox:
         self._queue, self._visits = context.queue, visits
         self._take, self._waits = take, waits
         self._written: list[tuple[int, int, bool]] = []
-        self._planned = False
+        self._planned: Event | None = None
+        self._next = -1
         self._closed_until = -1
         self.obf = False
         self.shown = 0
@@ -37,7 +39,7 @@ class Mailbox:
     def store(self, t: int, byte: int, command: bool) -> None:
         """Write event t. What it replaces may still be taken by a visit that does not see it."""
         self._written.append((t, byte, command))
-        if not self._planned:
+        if self._planned is None or self._visits.first(t + BYTE_LEAD) < self._next:
             self._plan(t + BYTE_LEAD)
 
     def close_until(self, t: int) -> None:
@@ -45,11 +47,14 @@ class Mailbox:
         self._closed_until = t
 
     def _plan(self, edge: int) -> None:
-        self._planned = True
-        self._queue.at(self._visits.first(edge), Phase.COMMAND, self._visit)
+        """The first visit from an edge on has something to look at."""
+        if self._planned:
+            self._planned.cancel()
+        self._next = self._visits.first(edge)
+        self._planned = self._queue.at(self._next, Phase.COMMAND, self._visit)
 
     def _visit(self, t: int) -> None:
-        self._planned = False
+        self._planned = None
         seen = [entry for entry in self._written if entry[0] + BYTE_LEAD <= t]
         later = t + 1
         if seen:

@@ -85,8 +85,7 @@ class Motion(motion.Motion):
 
     def halt(self, t: int) -> None:
         """STOP acts at edge t on what runs (BANK-GRP-04)."""
-        if self.busy and self._cut is None:
-            super().stop(t)
+        super().stop(t)
 
     def judge(self, t: int) -> None:
         """As there; the first decision stands (BANK-MOT-02)."""

@@ -12,7 +12,7 @@ INIT_B = "c 0A d 13 d 09 d 0A d 00"
 
 
 class Host:
-    """`t` is the next free edge. Eight axes at 100 MHz unless told otherwise: R = 8, W = 500, a quantum 25."""
+    """`t` is the next free edge. Eight axes at 100 MHz unless told: R = 8, W = 500, a quantum 25."""
 
     def __init__(self, axes: int = 8, **parameters: int) -> None:
         self.model = PpmcBank(axes, **parameters)

@@ -127,7 +127,7 @@ def test_mask_taken_away_from_a_held_operation():
 
 
 def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
-    """Axis 0 holds an operation that the GO of the returned edge does not find, but those `gaps` clk later."""
+    """Axis 0 holds an operation that a GO (its edge) does not find, but those `gaps` clk later do."""
     host = held(64, count=1)
     host.mask(0)
     go = host.visit(0) - 6

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from openppmc.model.single.codes import IBF
-from tests.bank.model.host import DATA, INIT_B, STATUS, Host
+from tests.bank.model.host import DATA, GO, INIT_B, STATUS, Host
 
 SEEN = 2
 """First edge that samples a switch to the edge that sees it."""
@@ -77,6 +77,21 @@ def test_end_after_low_time(clk_hz, wait):
     other = Host(32)
     visit = start(other, 5, "c 42")
     assert other.idle(5) == visit + 1024
+
+
+@pytest.mark.parametrize("late", range(8))
+def test_end_after_low_time_on_any_edge(late):
+    """BANK-MOT-04: V >= f + 1; GO moves the low time clk by clk."""
+    host = Host()
+    host.ready(5)
+    host.mask(1 << 5)
+    held = host.send(5, "c 42")
+    go = held + 80 + late
+    host.write_at(go, 5, GO, 0)
+    low_ended = go + 4 + 8 + 2 * host.w
+    ends = [edge for edge in range(low_ended + 1, low_ended + 9) if (edge - held) % 8 == 0]
+    assert [host.idle(5)] == ends
+    assert host.changes("pout_n", 5, held) == [(low_ended - host.w, 0), (low_ended, 1)]
 
 
 def test_low_time_ends_first_in_an_immediate_end():

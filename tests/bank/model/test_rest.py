@@ -86,7 +86,7 @@ def test_reinitialisation_keeps_chopping_until_it_completes():
 
 @pytest.mark.parametrize("init", ["c 0A d 05 d 05 d 04 d 00", FLAT])
 def test_hold(init):
-    """BANK-HLD-01, P104-END-08: rises at a visit CYC(544000) after the end that orders no edge of the chopper."""
+    """BANK-HLD-01, P104-END-08: rises at the visit CYC(544000) after the end, whether it chops or not."""
     host = Host(4, clk_hz=32_000_000)
     host.ready(1, init)
     host.send(1, "c 42")
@@ -130,3 +130,14 @@ def test_excitation_off_and_second_initialisation():
     assert all(host.out("s", axis) == 31 for axis in range(8) if axis != 2)
     host.send(2, "c 82")
     assert host.read(2, DATA) == 0xC4
+
+
+def test_output_register_shows_pins_of_its_axis():
+    """P104-RD-06 on an axis of a bank: S1 S2 or S4 S1, hold, dir."""
+    host = Host()
+    for axis, code in ((0, 0x42), (2, 0x4A)):
+        host.ready(axis)
+        host.send(axis, f"c {code:02X}")
+        host.idle(axis)
+    host.ready(3)
+    assert [host.answer(axis, 0x82) for axis in (0, 2, 3, 4)] == [0x60, 0x92, 0xC4, 0xFC]
