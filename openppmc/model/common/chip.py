@@ -25,13 +25,14 @@ class Chip(ABC):
 
     clk_hz 8e6..200e6, xtal_hz 1e6..XTAL_MAX, timing "FAST" or "DATASHEET"; ValueError for anything else. The
     model starts just released from reset, before edge 0. Subclasses name their pins in INPUTS (idle
-    levels), WIDTHS (bits, where not 1) and HOST_PINS (the bus).
+    levels), WIDTHS (bits, where not 1) and HOST_PINS (the bus); where a parameter decides about them, before
+    they call `__init__`.
     """
 
     XTAL_MAX: ClassVar[int] = 16_000_000
 
-    INPUTS: ClassVar[Mapping[str, int]]
-    WIDTHS: ClassVar[Mapping[str, int]]
+    INPUTS: Mapping[str, int]
+    WIDTHS: Mapping[str, int]
     HOST_PINS: ClassVar[tuple[str, ...]]
 
     def __init__(

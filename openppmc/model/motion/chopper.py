@@ -16,12 +16,16 @@ class Switching(Protocol):
 
 
 class Chopper:
-    """Alternates ON and OFF phases, counted in ticks of the quantum counter, while it is allowed to run."""
+    """Alternates ON and OFF phases, counted in ticks of the quantum counter, while it is allowed to run.
+
+    `due`: edge on which the next phase begins, None while it does not run.
+    """
 
     def __init__(self, context: Context, times: Switching) -> None:
         self._context = context
         self._times = times
         self.on = True
+        self.due: int | None = None
         self._tick = 0
         self._event: Event | None = None
 
@@ -36,12 +40,17 @@ class Chopper:
         if self._event:
             self._event.cancel()
             self._event = None
+        self.due = None
         self.on = True
 
     def _plan(self) -> None:
-        self._tick += self._times.quanta(self.on)
-        edge = self._context.counter.edge_of(self._tick)
-        self._event = self._context.queue.at(edge, Phase.CHOPPER, self._boundary)
+        self._tick += self._length()
+        self.due = self._context.counter.edge_of(self._tick)
+        self._event = self._context.queue.at(self.due, Phase.CHOPPER, self._boundary)
+
+    def _length(self) -> int:
+        """Quanta of the phase that begins now."""
+        return self._times.quanta(self.on)
 
     def _boundary(self, t: int) -> None:
         self.on = not self.on

@@ -62,22 +62,16 @@ class Motion:
         self._chopper = chopper
         self._guard = guard
         self._on_end = on_end
-        self.busy = self.finishing = self.low = False
-        self.hold, self.direction = 1, 0
-        self.finish, self.remaining = 0, 0
+        self.busy = self.finishing = self.low = self._natural = False
+        self.hold, self.direction, self.finish, self.remaining = 1, 0, 0, 0
         self.intervals: list[Interval] = []
         self.index: int | None = None
-        self.operation = 0
-        self.done = 0
-        self._total = 0
+        self.operation = self.done = self._total = 0
         self._flag_edge: int | None = None
-        self._natural = False
         self._external: ExternalInterval | None = None
         self._armed_from: int | None = None
         self._last_rise: int | None = None
-        self._cut_at = 0
-        self._cut_on_fall = False
-        self._low_ended = -1
+        self._cut_at, self._cut_on_fall, self._low_ended = 0, False, -1
         self._events: dict[str, Event] = {}
 
     # ------------------------------------------------------------------ start
@@ -107,8 +101,7 @@ class Motion:
         self.done, self.index = 0, None
         self.intervals = []
         self._flag_edge, self._natural = None, False
-        self._flag_bits = self._stop_bits = 0
-        self._stop_wanted = False
+        self._flag_bits, self._stop_bits, self._stop_wanted = 0, 0, False
         self._began, self._end_after = t, 0
         self._chopper.stop()
         self._cancel("hold")
@@ -119,7 +112,10 @@ class Motion:
         if self._external:
             self._armed_from = first
         else:
-            self._events["pulse"] = self._context.queue.at(first, Phase.PULSE, self._pulse)
+            self._plan_pulse(first)
+
+    def _plan_pulse(self, edge: int) -> None:
+        self._events["pulse"] = self._context.queue.at(edge, Phase.PULSE, self._pulse)
 
     def _cancel(self, name: str) -> None:
         event = self._events.pop(name, None)
@@ -234,7 +230,7 @@ class Motion:
         if due == 0:
             self._pulse(t, gap, on_edge=True)
         elif due is not None:
-            self._events["pulse"] = self._context.queue.at(t + due, Phase.PULSE, self._pulse)
+            self._plan_pulse(t + due)
         elif self.low and self._cut_at and external.edges == self._cut_at:
             self._cut_low(t)
 
@@ -252,10 +248,8 @@ class Motion:
         if self.done == 1:
             context.counter.restart(t)
             self._quanta = 0
-        if not self._command.pulse_only:
-            self._excitation.step(self.direction)
         rate = self._next_rate(t)
-        self._begin_low(t, rate, gap)
+        self._put_out(t, rate, gap)
         if rate is None:
             self.finishing = True
             self._train_over(t)
@@ -267,9 +261,14 @@ class Motion:
         else:
             assert quanta is not None
             self._quanta += quanta
-            edge = context.counter.edge_of(self._quanta)
-            self._events["pulse"] = context.queue.at(edge, Phase.PULSE, self._pulse)
+            self._plan_pulse(context.counter.edge_of(self._quanta))
         self._interval_begun(t)
+
+    def _put_out(self, t: int, rate: int | None, gap: int | None) -> None:
+        """The pins of a pulse: next pattern, pout_n low."""
+        if not self._command.pulse_only:
+            self._excitation.step(self.direction)
+        self._begin_low(t, rate, gap)
 
     def _interval_begun(self, t: int) -> None:
         """A pulse event at edge t has opened an interval."""
@@ -330,8 +329,8 @@ class Motion:
     def _finish(self, t: int) -> None:
         """End actions, all on one edge (P104-END-01..08)."""
         context = self._context
-        for name in ("flag", "slow"):
-            self._cancel(name)
+        self._cancel("flag")
+        self._cancel("slow")
         left = self._total - self.done
         bits = self._stop_bits | self._flag_bits if left else 0
         self.finish = FINISH_NEW | bits | self.operation
@@ -342,8 +341,10 @@ class Motion:
         context.counter.restart(t)
         if self._setup.chopping:
             self._chopper.start(t)
-        at = t + context.timebase.cyc(self.hold_cycles)
-        self._events["hold"] = context.queue.at(at, Phase.CHOPPER, self._hold_rises)
+        self._plan_hold(t + context.timebase.cyc(self.hold_cycles))
+
+    def _plan_hold(self, edge: int) -> None:
+        self._events["hold"] = self._context.queue.at(edge, Phase.CHOPPER, self._hold_rises)
 
     def _hold_rises(self, t: int) -> None:
         self.hold = 1

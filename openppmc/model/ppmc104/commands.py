@@ -16,7 +16,7 @@ from ..motion.guard import input_register
 from ..motion.ramp import Ramp
 from ..single.codes import Command, Error, Kind, decode
 from ..single.commands import ByteUnit
-from ..single.hostport import HostPort
+from ..single.hostport import BytePort
 from .chopper import Switching
 from .motion import Motion
 from .pins import INPUT_REGISTER
@@ -30,7 +30,7 @@ class CommandUnit(ByteUnit):
     def __init__(
         self,
         context: Context,
-        port: HostPort,
+        port: BytePort,
         motion: Motion,
         excitation: Excitation,
         chopper: Chopper,
@@ -93,12 +93,16 @@ class CommandUnit(ByteUnit):
         if code == 0x81:
             return [input_register(levels, INPUT_REGISTER)]
         if code == 0x82:
-            pins, pattern = self._context.log.levels, self._excitation.pattern
+            pattern = self._excitation.pattern
             phases = sum((pattern >> i & 1) << (7 - i) for i in range(5))
-            return [phases | pins["hold"] << 2 | pins["dir"] << 1]
+            return [phases | self._pin("hold") << 2 | self._pin("dir") << 1]
         if code == 0x83:
             return list(motion.remaining.to_bytes(3, "little"))
         return [levels["auxi"]]
+
+    def _pin(self, name: str) -> int:
+        """Present level of a motor pin."""
+        return self._context.log.levels[name]
 
     # ------------------------------------------------------------------ initialisation
 

@@ -7,7 +7,7 @@ from ..motion.chopper import Chopper
 from ..motion.codes import FINISH_STOP, Command
 from ..motion.excitation import Excitation
 from ..motion.motion import Setup
-from ..single.hostport import HostPort
+from ..single.hostport import BytePort
 from ..single.strobes import SpeedGate
 from ..single.timed_motion import TimedMotion
 from .pins import GUARD
@@ -22,7 +22,7 @@ class Motion(TimedMotion):
     hold_cycles = 544_000
 
     def __init__(
-        self, context: Context, port: HostPort, gate: SpeedGate, excitation: Excitation, chopper: Chopper
+        self, context: Context, port: BytePort, gate: SpeedGate, excitation: Excitation, chopper: Chopper
     ) -> None:
         super().__init__(context, port, excitation, chopper, GUARD)
         self._gate = gate

@@ -7,6 +7,7 @@ Parameters: P104-HSK-07. What the commands do is the business of the part's own 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import ClassVar
 
 from ..common.blocks import Context, Phase
 from ..motion.chopper import Chopper
@@ -14,28 +15,28 @@ from ..motion.excitation import Excitation
 from ..motion.motion import Setup
 from ..motion.ramp import Ramp
 from .codes import BUSY, ERR, Command, Error, Kind
-from .hostport import HostPort
+from .hostport import BytePort
 from .timed_motion import TimedMotion
 
 _DS_PATTERN = 704  # crystal cycles to the first pattern (P104-DS-01)
-
-_WHILE_BUSY = (
-    Kind.STOP,
-    Kind.SLOW_STOP,
-    Kind.AUX_ON,
-    Kind.AUX_OFF,
-    Kind.AUX_OUTPUT,
-    Kind.EXCITATION_OFF,
-)
 
 
 class ByteUnit(ABC):
     """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
 
+    while_busy: ClassVar[tuple[Kind, ...]] = (
+        Kind.STOP,
+        Kind.SLOW_STOP,
+        Kind.AUX_ON,
+        Kind.AUX_OFF,
+        Kind.AUX_OUTPUT,
+        Kind.EXCITATION_OFF,
+    )
+
     def __init__(
         self,
         context: Context,
-        port: HostPort,
+        port: BytePort,
         motion: TimedMotion,
         excitation: Excitation,
         chopper: Chopper,
@@ -91,7 +92,7 @@ class ByteUnit(ABC):
             return Error.UNDEFINED
         if kind in (Kind.STOP, Kind.SLOW_STOP) and not motion.busy:
             return Error.UNDEFINED
-        if motion.busy and kind not in _WHILE_BUSY:
+        if motion.busy and kind not in self.while_busy:
             return Error.NOT_WHILE_BUSY
         if kind is Kind.OPERATION and self.setup is None:
             return Error.NOT_INITIALISED
@@ -138,8 +139,12 @@ class ByteUnit(ABC):
             done = reference + context.timebase.cyc(ds_build)
         else:
             done = t + context.latency.build(ramp.rl, ramp.rh, ramp.pa)
+        self._complete_after(done)
+
+    def _complete_after(self, done: int) -> None:
+        """The table stands on edge `done`; until the initialisation completes no byte is taken."""
         self._port.close_until(done)
-        context.queue.at(done, Phase.BEGIN, self._complete)
+        self._context.queue.at(done, Phase.BEGIN, self._complete)
 
     def _complete(self, t: int) -> None:
         """End of the table build: bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""

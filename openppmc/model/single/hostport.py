@@ -8,6 +8,7 @@ what makes a byte wait are the part's business.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from typing import Protocol
 
 from ..common.blocks import Context, Phase
 from ..common.scheduler import Event
@@ -19,6 +20,16 @@ Waits = Callable[[int, int, bool], bool]
 
 WRITE_SYNC = 2
 READ_SYNC = 2
+
+
+class BytePort(Protocol):
+    """What commands and motion need of the way to the host."""
+
+    def answer(self, values: Iterable[int]) -> None:
+        """A read command loads its bytes."""
+
+    def close_until(self, t: int) -> None:
+        """Processing window: no byte is taken before edge t."""
 
 
 class HostPort:

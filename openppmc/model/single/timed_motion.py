@@ -14,7 +14,7 @@ from ..motion.codes import SINGLE_STEP, Command
 from ..motion.excitation import Excitation
 from ..motion.guard import GuardPins
 from ..motion.motion import Motion, Setup
-from .hostport import HostPort
+from .hostport import BytePort
 
 DS_BUSY_RAMP, DS_BUSY_CONSTANT = 1792, 432
 DS_PULSE_CONSTANT, DS_PULSE_RAMP, DS_PULSE_STEP = 3104, 3200, 1376
@@ -25,7 +25,7 @@ class TimedMotion(Motion):
     """The axis of a part whose mailbox is closed while an operation starts and ends."""
 
     def __init__(
-        self, context: Context, port: HostPort, excitation: Excitation, chopper: Chopper, guard: GuardPins
+        self, context: Context, port: BytePort, excitation: Excitation, chopper: Chopper, guard: GuardPins
     ) -> None:
         super().__init__(context, excitation, chopper, guard, self._interrupt)
         self._port = port

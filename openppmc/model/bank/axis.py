@@ -1,0 +1,161 @@
+"""One axis of the bank: the blocks of a PPMC-104, served at its visits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..common.blocks import Context, Phase
+from ..common.scheduler import Callback, Event, Scheduler
+from ..common.timebase import QuantumCounter
+from ..motion.codes import IBF, OBF
+from ..motion.excitation import Excitation
+from ..ppmc104.chopper import Switching
+from ..single.codes import Error
+from .chopper import Chopper
+from .commands import Builder, CommandUnit
+from .group import Group
+from .mailbox import Mailbox
+from .motion import Motion
+from .pins import SWITCHES
+from .visits import CONFIG_LEAD, SWITCH_LEAD, Visits
+
+CONFIG_RESET = 0b11
+
+
+class Touched(Scheduler):
+    """The queue of the part for the blocks of one axis: whatever runs notes the axis in `touched`."""
+
+    def __init__(self, queue: Scheduler, touched: set[int], axis: int) -> None:
+        super().__init__()
+        self._shared, self._touched, self._axis = queue, touched, axis
+
+    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
+        """As there."""
+
+        def run(now: int) -> None:
+            self._touched.add(self._axis)
+            action(now)
+
+        return self._shared.at(t, phase, run, kind)
+
+
+@dataclass
+class AxisContext(Context):
+    """Context of one axis; its interrupt is a bit of the map."""
+
+    interrupt: bool = False
+
+    def drive(self, t: int, signal: str, value: int) -> None:
+        """`int_n` is the only output on the host's side that the blocks drive."""
+        assert signal == "int_n"
+        self.interrupt = not value
+
+
+class Axis:
+    """Axis `number`; config: its register. shared: services of the bank; touched: collects the axes on which
+    something may have changed."""
+
+    def __init__(
+        self,
+        number: int,
+        shared: Context,
+        touched: set[int],
+        visits: Visits,
+        group: Group,
+        builder: Builder,
+        phase_idle: int,
+    ) -> None:
+        self.visits = visits
+        self.config = CONFIG_RESET
+        self._spent = -1
+        self._switches = dict.fromkeys(SWITCHES, 1)
+        self.context = context = AxisContext(
+            shared.timebase,
+            shared.latency,
+            False,
+            Touched(shared.queue, touched, number),
+            shared.log,
+            QuantumCounter(shared.timebase, visits.first(0)),
+            {**self._switches, "csel": 1, "vsel": 1},
+        )
+        self.excitation = Excitation(phase_idle)
+        switching = Switching(context)
+        self.chopper = Chopper(context, switching, visits)
+        self.mailbox = Mailbox(context, visits, self._take, self._waits)
+        self.motion = Motion(
+            context, self.mailbox, self.excitation, self.chopper, visits, self._switches, group, number
+        )
+        self.commands = CommandUnit(
+            context,
+            self.mailbox,
+            self.motion,
+            self.excitation,
+            self.chopper,
+            switching,
+            visits,
+            builder,
+            number,
+        )
+
+    # ------------------------------------------------------------------ visits
+
+    def _take(self, t: int, byte: int, command: bool) -> None:
+        self.commands.take(t, byte, command, t)
+
+    def _waits(self, t: int, command: bool) -> int | None:
+        """What keeps visit t from taking a byte (BANK-HSK-02, -05)."""
+        if t in (self.motion.ended, self.commands.completed, self._spent) or self.chopper.orders(t):
+            return t + 1
+        edge = self.commands.waits_until(command)
+        return edge if t < edge else None
+
+    def go(self, t: int, go: int) -> None:
+        """Visit t finds the GO of edge `go` (BANK-GRP-02)."""
+        motion, commands = self.motion, self.commands
+        if not motion.in_group:
+            return
+        self._spent = t
+        if motion.held:
+            motion.release(go)
+        elif motion.busy:
+            commands.refuse(Error.NOT_WHILE_BUSY)
+        else:
+            commands.refuse(Error.NOT_INITIALISED if commands.setup is None else Error.UNDEFINED)
+
+    def halt(self, t: int) -> None:
+        """STOP acts at edge t."""
+        self.motion.halt(t)
+
+    # ------------------------------------------------------------------ inputs
+
+    def write_config(self, t: int, byte: int) -> None:
+        """Write event t of CONFIG (BANK-WIN-02, BANK-GEN-04)."""
+        self.config = config = byte & CONFIG_RESET
+        levels = {"csel": config & 1, "vsel": config >> 1}
+        self.context.queue.at(t + CONFIG_LEAD, Phase.LEVELS, lambda now: self.context.levels.update(levels))
+
+    def see(self, t: int, levels: Mapping[str, int]) -> None:
+        """Switches that edge t sees changed."""
+        self._switches.update(levels)
+        queue = self.context.queue
+        queue.at(t, Phase.GUARD, self.motion.judge)
+        queue.at(t + SWITCH_LEAD, Phase.LEVELS, lambda now: self._visits_see(now, levels))
+
+    def _visits_see(self, t: int, levels: Mapping[str, int]) -> None:
+        self.context.levels.update(levels)
+        self.motion.look_after(t)
+
+    # ------------------------------------------------------------------ what there is to see
+
+    @property
+    def status(self) -> int:
+        """Status register."""
+        box = self.mailbox
+        return self.commands.state() | (IBF if box.ibf else 0) | (OBF if box.obf else 0)
+
+    def pins(self) -> tuple[int, int, int, int]:
+        """Levels of pout_n, dir, hold and s."""
+        motion, excitation = self.motion, self.excitation
+        phases = excitation.pattern if self.chopper.on else excitation.chopped
+        return int(not motion.low), motion.direction, motion.hold, phases

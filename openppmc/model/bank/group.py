@@ -1,0 +1,71 @@
+"""MASK, GO and STOP (BANK-GRP-01..04)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from ..common.blocks import Phase
+from ..common.scheduler import Scheduler
+from .visits import GROUP_LEAD, Visits
+
+
+class Member(Protocol):
+    """An axis as GO and STOP see it."""
+
+    visits: Visits
+
+    def go(self, t: int, go: int) -> None:
+        """Visit t finds the GO of edge `go`."""
+
+    def halt(self, t: int) -> None:
+        """STOP acts at edge t."""
+
+
+class Group:
+    """The group registers of a bank; `mask` is MASK as it reads, bit i = axis i."""
+
+    def __init__(self, queue: Scheduler, axes: int, round_clk: int) -> None:
+        self._queue = queue
+        self._all = (1 << axes) - 1
+        self._round = round_clk
+        self.mask = 0
+        self._seen = 0
+        self._go = -round_clk
+        self._stopped = -1
+        self.members: Sequence[Member] = ()
+
+    def write_mask(self, t: int, k: int, byte: int) -> None:
+        """Write event t of MASK byte k."""
+        self.mask = mask = (self.mask & ~(0xFF << 8 * k) | byte << 8 * k) & self._all
+        self._queue.at(t + GROUP_LEAD, Phase.LEVELS, lambda now: self._show(mask))
+
+    def _show(self, mask: int) -> None:
+        self._seen = mask
+
+    def holds(self, axis: int) -> bool:
+        """MASK bit of an axis as its present visit sees it."""
+        return bool(self._seen >> axis & 1)
+
+    def go(self, t: int) -> None:
+        """Write event t of GO: acts from `t` on, or when the one that acts is over (BANK-GRP-03)."""
+        if self._go > t:
+            return
+        self._go = max(t, self._go + self._round)
+        for member in self.members:
+            visit = member.visits.first(self._go + GROUP_LEAD)
+            self._queue.at(visit, Phase.BEGIN, self._at_visit(member, self._go))
+
+    @staticmethod
+    def _at_visit(member: Member, go: int) -> Callable[[int], None]:
+        return lambda now: member.go(now, go)
+
+    def stop(self, t: int) -> None:
+        """Write event t of STOP."""
+        self._stopped = t
+        for member in self.members:
+            self._queue.at(t + 1, Phase.COMMAND, member.halt)
+
+    def stops(self, visit: int) -> bool:
+        """Whether an operation that starts at this visit is ended by a STOP before it."""
+        return 0 <= self._stopped < visit <= self._stopped + self._round

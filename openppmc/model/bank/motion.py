@@ -1,0 +1,181 @@
+"""What is special in the motion of an axis of the bank: visits decide and get to know (BANK-MOT, BANK-GRP).
+
+Pins act on the edges of their events. From the edge on which a motion is cut to the visit that knows of it
+the engine goes on as if nothing had happened (BANK-MOT-03): a pulse that is due there is *lost*, it counts
+for the engine until then but never shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..common.blocks import Context, Phase
+from ..motion.codes import FINISH_SLOW, FINISH_STOP, Command
+from ..motion.excitation import Excitation
+from ..motion.guard import Seen, inspect
+from ..motion.motion import Setup
+from ..ppmc104 import motion
+from ..ppmc104.pins import GUARD
+from ..single.hostport import BytePort
+from ..single.strobes import SpeedGate
+from .chopper import Chopper
+from .group import Group
+from .visits import END_LEAD, GROUP_LEAD, Visits
+
+
+class Motion(motion.Motion):
+    """The motion of axis `axis`. switches: their levels as this edge sees them; those in context.levels are
+    what a visit sees. Readable: held (BANK-GRP-01), ended (the visit that ended the last motion, or -1)."""
+
+    def __init__(
+        self,
+        context: Context,
+        port: BytePort,
+        excitation: Excitation,
+        chopper: Chopper,
+        visits: Visits,
+        switches: Mapping[str, int],
+        group: Group,
+        axis: int,
+    ) -> None:
+        super().__init__(context, port, SpeedGate(lambda t: None), excitation, chopper)
+        self._visits, self._switches, self._group, self._axis = visits, switches, group, axis
+        self._orders = chopper.orders
+        self.held = False
+        self.ended = -1
+        self._cut: int | None = None
+        self._lost = 0
+        self._next: int | None = None
+        self._position = 0
+
+    # ------------------------------------------------------------------ start
+
+    def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
+        """Visit that takes an operation's last byte (BANK-MOT-01, BANK-GRP-01, -04)."""
+        self._latch_operation(command, data, setup)
+        self._begin(t)
+        self.held = self.in_group
+        if not self.held:
+            self._arm(t + self._context.timebase.w)
+        if self._group.stops(t):
+            self._context.queue.at(t + 1, Phase.COMMAND, self.halt)
+        self.look_after(t + 1)
+
+    @property
+    def in_group(self) -> bool:
+        """MASK bit as the present visit sees it."""
+        return self._group.holds(self._axis)
+
+    def release(self, go: int) -> None:
+        """A held operation goes on; pulse 1 waits until all axes have found this GO (BANK-GRP-02)."""
+        self.held = False
+        self._arm(go + GROUP_LEAD - 1 + self._visits.round + self._context.timebase.w)
+
+    # ------------------------------------------------------------------ stops and inputs
+
+    def stop(self, t: int) -> None:
+        """Immediate stop taken at visit t, which orders no pulse. If the motion was cut before without the
+        visit knowing, only the finish bit is added (BANK-MOT-03)."""
+        if self._cut is None:
+            super().stop(t)
+        elif not self.finishing:
+            self._stop_bits |= FINISH_STOP
+        if not self.finishing:
+            self._cancel("pulse")
+
+    def halt(self, t: int) -> None:
+        """STOP acts at edge t on what runs (BANK-GRP-04)."""
+        super().stop(t)
+
+    def judge(self, t: int) -> None:
+        """As there; the first decision stands (BANK-MOT-02)."""
+        if self._cut is None:
+            super().judge(t)
+
+    def _seen(self, t: int) -> Seen:
+        return inspect(GUARD, self._switches, self.operation, self.direction)._replace(slow=False)
+
+    def look_after(self, edge: int) -> None:
+        """The slow-down limit, if it is active, is looked at in the first visit from an edge on."""
+        if self.busy and self.is_ramp and self._slow_active():
+            self._context.queue.at(self._visits.first(edge), Phase.GUARD, self._look)
+
+    def _slow_active(self) -> bool:
+        return not self._context.levels[GUARD.slow_limits[self.direction]]
+
+    def _look(self, t: int) -> None:
+        """Visit t: the slow-down limit (BANK-MOT-05)."""
+        if not self.busy or self.finishing or t <= self._began:
+            return
+        if self.is_ramp and self._slow_active() and self._slow_counts():
+            self._request(t, "slow", FINISH_SLOW)
+
+    def _interval_begun(self, t: int) -> None:
+        if self._command.pulse_only and self.high:
+            self.look_after(t + 1)
+
+    # ------------------------------------------------------------------ pulses
+
+    def position(self, after: int) -> int:
+        """Position register as it stands after an edge (BANK-WIN-07)."""
+        due = self._next
+        ordered = due is not None and self._visits.last(due) <= after < due
+        return self._position + (self._step if ordered else 0)
+
+    @property
+    def _step(self) -> int:
+        return -1 if self.direction else 1
+
+    def _plan_pulse(self, edge: int) -> None:
+        self._next = edge
+        super()._plan_pulse(edge)
+
+    def _cancel(self, name: str) -> None:
+        if name == "pulse":
+            self._next = None
+        super()._cancel(name)
+
+    def _put_out(self, t: int, rate: int | None, gap: int | None) -> None:
+        self._position += self._step
+        if self._cut is None:
+            super()._put_out(t, rate, gap)
+        else:
+            self._lost += 1
+
+    # ------------------------------------------------------------------ end
+
+    def _end_now(self, t: int, bits: int) -> None:
+        """No pulse comes from edge t on; the visits get to know (BANK-MOT-02, -03)."""
+        self._cut, self._stop_bits = t, bits
+        self._context.queue.at(self._visits.first(t + END_LEAD), Phase.CHOPPER, self._learn)
+
+    def _learn(self, t: int) -> None:
+        """Visit t is the first that knows of the cut. A low time that has begun ends first (BANK-MOT-04)."""
+        self.finishing = True
+        self._cancel("pulse")
+        if self._lost:
+            self.done -= self._lost
+            self._position -= self._lost * self._step
+            del self.intervals[self.done :]
+            self._lost = 0
+        if not self.low:
+            self._finish(t)
+
+    def _plan_end(self, low_ended: int) -> None:
+        """BUSY falls at the first visit after the low time, which is longer than END_LEAD (BANK-MOT-04)."""
+        self._context.queue.at(self._visits.first(low_ended + 1), Phase.CHOPPER, self._finish)
+
+    def _finish(self, t: int) -> None:
+        super()._finish(t)
+        self.held, self._cut = False, None
+        self.ended = t
+
+    def _plan_hold(self, edge: int) -> None:
+        super()._plan_hold(self._visits.first(edge))
+
+    def _hold_rises(self, t: int) -> None:
+        """BANK-HLD-01: not at a visit that orders an edge of the chopper."""
+        if self._orders(t):
+            self._plan_hold(t + 1)
+        else:
+            super()._hold_rises(t)

@@ -1,0 +1,171 @@
+"""Golden model of the bank at pin level, event driven and exact to the clk: N times a PPMC-104 at visits.
+
+Pins and time: `common.chip`. Here: BANK-GEN-01, -02, -05. `visits`: rounds and their lead times. `window`:
+BANK-WIN. Per axis `axis` (BANK-GEN-04), with `mailbox` (BANK-HSK-01..04), `commands` (BANK-GEN-03, BANK-INI,
+BANK-HSK-05), `motion` (BANK-MOT, BANK-HLD), `chopper` (BANK-CHP). `group`: BANK-GRP. All else is the
+PPMC-104's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..common.blocks import Context
+from ..common.chip import Chip
+from ..common.timebase import Latency, QuantumCounter
+from ..motion.motion import Interval
+from .axis import Axis
+from .commands import Builder
+from .group import Group
+from .pins import HOST_PINS, PHASES, SWITCHES, inputs, outputs, widths
+from .visits import Visits, round_clk
+from .window import Window
+
+SIZES = (4, 8, 16, 32, 64)
+
+
+class PpmcBank(Chip):
+    """One bank.
+
+    axes 4, 8, 16, 32 or 64, clk_hz 8e6..200e6, xtal_hz 1e6..16e6, phase_idle 0 or 1; ValueError for anything
+    else and for clocks that BANK-GEN-02 forbids. The model starts just released from reset, before edge 0.
+    Axes count from 0.
+    """
+
+    HOST_PINS = HOST_PINS
+
+    def __init__(
+        self,
+        axes: int = 32,
+        clk_hz: int = 100_000_000,
+        xtal_hz: int = 16_000_000,
+        phase_idle: int = 1,
+    ) -> None:
+        if axes not in SIZES:
+            raise ValueError(f"axes {axes} is none of {', '.join(map(str, SIZES))}")
+        if phase_idle not in (0, 1):
+            raise ValueError(f"phase_idle {phase_idle} is neither 0 nor 1")
+        self.INPUTS, self.WIDTHS = inputs(axes), widths(axes)
+        super().__init__(clk_hz, xtal_hz, "FAST", outputs(axes, phase_idle), Latency(motor_pins=0))
+        self.round = round_clk(axes)
+        if 4 * clk_hz % xtal_hz:
+            raise ValueError(f"clk_hz {clk_hz}: a quantum of {xtal_hz} Hz is no whole number of clk")
+        if self.timebase.cyc(16) < self.round:
+            raise ValueError(
+                f"clk_hz {clk_hz}: 16 XTAL cycles of {xtal_hz} Hz are shorter than {self.round} clk"
+            )
+        self._size, self._phase_idle = axes, phase_idle
+        self._build(0)
+
+    def _build(self, released: int) -> None:
+        """Fresh blocks in their reset state; `released` is the first edge after the reset."""
+        self._levels = {pin: self.INPUTS[pin] for pin in SWITCHES}
+        self._touched: set[int] = set()
+        self._motors = {name: self._reset_levels[name] for name in ("pout_n", "dir", "hold", "s")}
+        counter = QuantumCounter(self.timebase, released)
+        context = Context(self.timebase, self.latency, False, self._queue, self.log, counter, {})
+        group, builder = Group(self._queue, self._size, self.round), Builder()
+        self._axes = [
+            Axis(
+                number,
+                context,
+                self._touched,
+                Visits(number, self._size, released),
+                group,
+                builder,
+                self._phase_idle,
+            )
+            for number in range(self._size)
+        ]
+        group.members = self._axes
+        self._window = Window(self._queue, self.log, self._axes, group, released)
+
+    # ------------------------------------------------------------------ inside of `chip`
+
+    def _latch(self, t: int) -> None:
+        """Compose the ports of all axes from those on which something happened."""
+        if not self._touched:
+            return
+        pout_n, directions, hold, phases = self._motors.values()
+        for number in self._touched:
+            pulse, direction, rest, pattern = self._axes[number].pins()
+            bit, low = 1 << number, PHASES * number
+            pout_n = pout_n | bit if pulse else pout_n & ~bit
+            directions = directions | bit if direction else directions & ~bit
+            hold = hold | bit if rest else hold & ~bit
+            phases = phases & ~(0b11111 << low) | pattern << low
+        self._touched.clear()
+        self._motors = {"pout_n": pout_n, "dir": directions, "hold": hold, "s": phases}
+        for signal, value in self._motors.items():
+            self.log.set(t, signal, value)
+        self.log.set(t, "int_n", int(not any(axis.context.interrupt for axis in self._axes)))
+
+    def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
+        self._window.sample(t, pins)
+
+    def _see(self, t: int, levels: Mapping[str, int]) -> None:
+        changed = 0
+        for pin in SWITCHES:
+            changed |= self._levels[pin] ^ levels[pin]
+            self._levels[pin] = levels[pin]
+        for number, axis in enumerate(self._axes):
+            if changed >> number & 1:
+                axis.see(t, {pin: levels[pin] >> number & 1 for pin in SWITCHES})
+
+    def _restart(self) -> None:
+        self._build(0)
+
+    def _released(self, t: int) -> None:
+        self._build(t)
+
+    def _strobe(self, write: bool, reg: int) -> dict[str, int]:
+        return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a": reg}
+
+    def read(self, t: int, reg: int, strobe: int = 6) -> int:
+        """Read cycle at address `reg`; the next access may begin at t + strobe + 3."""
+        return super().read(t, reg, strobe)
+
+    # ------------------------------------------------------------------ what there is to see
+
+    def visit(self, axis: int, edge: int) -> int:
+        """First visit of an axis at or after an edge."""
+        return self._axes[axis].visits.first(edge)
+
+    def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
+        """Changes (t, level) of one axis's bit of a port of all, from edge `since` on; of `s` its five."""
+        width = PHASES if signal == "s" else 1
+        place, ones, changes = width * axis, (1 << width) - 1, []
+        level = self.log.initial[signal] >> place & ones
+        for t, value in self.log.of(signal):
+            if (bits := value >> place & ones) != level:
+                level = bits
+                changes.append((t, bits))
+        return [(t, bits) for t, bits in changes if t >= since]
+
+    def pulses(self, axis: int, since: int = 0) -> list[int]:
+        """Edges of the pulses of an axis: falls of its pout_n (P104-GEN-05)."""
+        return [t for t, level in self.bits("pout_n", axis, since) if level == 0]
+
+    def busy(self, axis: int) -> bool:
+        """BUSY of an axis."""
+        return self._axes[axis].motion.busy
+
+    def status(self, axis: int) -> int:
+        """Status register of an axis."""
+        return self._axes[axis].status
+
+    def position(self, axis: int) -> int:
+        """Position of an axis after edge `now`, two's complement."""
+        return self._axes[axis].motion.position(self.now)
+
+    def initialised(self, axis: int) -> bool:
+        """An initialisation of an axis is in force (its table build may still run)."""
+        return self._axes[axis].commands.setup is not None
+
+    def intervals(self, axis: int) -> list[Interval]:
+        """Intervals of the present or last operation of an axis."""
+        return self._axes[axis].motion.intervals
+
+    def index(self, axis: int) -> int | None:
+        """Ramp index of the running interval of an axis, None at rest and in constant speed."""
+        return self._axes[axis].motion.index

@@ -1,0 +1,127 @@
+"""The window of the bank: strobes, registers, snapshots (BANK-WIN-01..08, BANK-GEN-05)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ..common.blocks import Phase
+from ..common.edges import EdgeLog
+from ..common.scheduler import Scheduler
+from ..motion.codes import IBF
+from ..single.strobes import strobes
+from .axis import Axis
+from .group import Group
+from .visits import round_clk
+
+DATA, STATUS, CONFIG, POSITION = 0x0, 0x1, 0x2, 0x4
+MASK, MAP, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC
+NOTHING = 0xFF
+INFO_START = (0x42, 0x01)
+
+_SYNC = 2
+_READY = 7
+
+
+class Window:
+    """Bus strobes to registers and back. released: edge 0 of the bank."""
+
+    def __init__(
+        self, queue: Scheduler, log: EdgeLog, axes: Sequence[Axis], group: Group, released: int
+    ) -> None:
+        self._queue, self._log, self._axes, self._group = queue, log, axes, group
+        self._ready = released + round_clk(len(axes)) + _READY
+        self._pins: dict[str, int] = {}
+        self._writing = self._reading = False
+        self._address = 0
+        self._position = 0
+        self._first = self._second = 0
+
+    # ------------------------------------------------------------------ strobes
+
+    def sample(self, t: int, pins: Mapping[str, int]) -> None:
+        """Edge t samples new levels of the bus pins (BANK-WIN-04..06)."""
+        writing, reading = strobes(pins)
+        if self._writing and not writing:
+            address, byte = self._pins["a"], self._pins["d_i"]
+            self._queue.at(t + _SYNC, Phase.STORE, lambda now: self._write(now, address, byte))
+        self._writing = writing
+        self._pins = dict(pins)
+        if reading != self._reading:
+            self._reading = reading
+            self._queue.at(t + _SYNC, Phase.PIN, lambda now: self._log.set(now, "d_oe", int(reading)))
+            (self._begin_read if reading else self._end_read)(t, pins["a"])
+
+    def _begin_read(self, t: int, address: int) -> None:
+        """Snapshots are taken just before the edges that follow edges 1 and 2, each is shown one later."""
+        self._address = address
+
+        def load(now: int) -> None:
+            self._first = self._register(now - 1, address)
+
+        def show(now: int) -> None:
+            self._log.set(now, "d_o", self._first)
+            self._second = self._register(now - 1, address)
+            axis = self._axis(address)
+            if axis and self._is_ready(now - 1) and address & 0xF == DATA:
+                axis.mailbox.snapshot()
+
+        self._queue.at(t + 2, Phase.BUS, load)
+        self._queue.at(t + 3, Phase.BUS, show)
+        self._queue.at(t + 4, Phase.BUS, lambda now: self._log.set(now, "d_o", self._second))
+
+    def _end_read(self, t: int, _: int) -> None:
+        axis = self._axis(self._address)
+        if axis and self._address & 0xF == DATA:
+            self._queue.at(t + _SYNC, Phase.QUEUE, lambda now: axis.mailbox.read_ended())
+
+    # ------------------------------------------------------------------ registers
+
+    def _axis(self, address: int) -> Axis | None:
+        number = address >> 4
+        return self._axes[number] if number < len(self._axes) else None
+
+    def _is_ready(self, after: int) -> bool:
+        """Whether the bank is ready after an edge (BANK-GEN-05)."""
+        return after >= self._ready
+
+    def _write(self, t: int, address: int, byte: int) -> None:
+        """Write event t."""
+        axis, register = self._axis(address), address & 0xF
+        if axis is None or not self._is_ready(t - 1):
+            return
+        if register in (DATA, STATUS):
+            axis.mailbox.store(t, byte, register == STATUS)
+        elif register == CONFIG:
+            axis.write_config(t, byte)
+        elif register == MASK:
+            self._group.write_mask(t, address >> 4 & 7, byte)
+        elif register == GO:
+            self._group.go(t)
+        elif register == STOP:
+            self._group.stop(t)
+
+    def _register(self, after: int, address: int) -> int:
+        """What a register holds after an edge."""
+        axis, register, k = self._axis(address), address & 0xF, address >> 4 & 7
+        if axis is None or register not in (*range(3), *range(POSITION, INFO + 1)):
+            return NOTHING
+        if not self._is_ready(after):
+            return IBF if register == STATUS else 0
+        if register == DATA:
+            return axis.mailbox.shown
+        if register == STATUS:
+            return axis.status
+        if register == CONFIG:
+            return axis.config
+        if register == POSITION:
+            self._position = axis.motion.position(after) & 0xFFFFFFFF
+        if register < MASK:
+            return self._position >> 8 * (register - POSITION) & 0xFF
+        if register == MASK:
+            return self._group.mask >> 8 * k & 0xFF
+        if register == MAP:
+            group = self._axes[8 * k : 8 * k + 8]
+            return sum(axis.context.interrupt << i for i, axis in enumerate(group))
+        if register == INFO:
+            return (*INFO_START, len(self._axes), *[0] * 8)[k]
+        return 0

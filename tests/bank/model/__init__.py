@@ -1,0 +1,1 @@
+"""Self-tests of the golden model of the bank."""

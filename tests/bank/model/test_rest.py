@@ -1,0 +1,143 @@
+"""What the bank's model does at rest: initialisation, chopper, hold (BANK-INI, BANK-CHP, BANK-HLD)."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.bank.model.host import CONFIG, DATA, STATUS, Host
+
+FLAT = "c 2A d 05 d 05 d 04 d 00"
+
+
+@pytest.mark.parametrize("rl, rh", [(9, 4), (200, 20), (255, 0), (30, 29)])
+def test_completion(rl, rh):
+    """BANK-INI-01, -02: s at the visit of the last byte, the chopper from the completion on."""
+    for axis in range(8):
+        host = Host()
+        last = host.send(axis, f"c 2A d {rl:02X} d {rh:02X} d 04 d 00")
+        done = last + 1990 + 51 * rl + 67 * (rl - rh)
+        complete = next(edge for edge in range(done + 5, done + 13) if (edge - axis) % 8 == 0)
+        host.go(complete + 260 * 25)
+        assert host.changes("s", axis, 0) == [(last, 0b00011), (complete + 260 * 25, 0)]
+
+
+@pytest.mark.parametrize("rl, wait", [(12, 7), (15, 5), (20, 12)])
+def test_completion_to_the_clk(rl, wait):
+    """BANK-INI-02: the first visit from D + 5 on; builds that end 4, 5 and 7 clk before a visit."""
+    build = next(1990 + 51 * rl + 67 * d for d in range(1, rl) if (1990 + 51 * rl + 67 * d + wait) % 8 == 0)
+    rh = rl - (build - 1990 - 51 * rl) // 67
+    host = Host()
+    last = host.send(2, f"c 0A d {rl:02X} d {rh:02X} d 04 d 00")
+    host.write_at(last + 20, 2, STATUS, 0x42)
+    # The visit that completes takes no byte; the next one does.
+    started = last + build + wait + 8
+    host.go(started - 1)
+    assert not host.model.busy(2)
+    host.go(started)
+    assert host.model.busy(2)
+
+
+def test_chopper_after_completion_and_after_a_motion():
+    """BANK-CHP-01, P104-SW-02..04: exact to the clk."""
+    host = Host()
+    complete = host.send(3, FLAT) + 8
+    host.go(complete + 1000 * 25)
+    s = [(complete + 260 * 25, 0), (complete + 695 * 25, 3), (complete + 955 * 25, 0)]
+    assert host.changes("s", 3, complete) == s
+    start = host.send(3, "c 42")
+    end = host.idle(3)
+    host.go(end + 700 * 25)
+    assert host.changes("s", 3, start) == [
+        (start, 3),
+        (start + 500, 6),
+        (end + 260 * 25, 0),
+        (end + 695 * 25, 6),
+    ]
+
+
+@pytest.mark.parametrize("early, off", [(7, 115), (6, 115), (5, 132)])
+def test_config_of_a_phase(early, off):
+    """BANK-GEN-04: a phase takes vsel as written 6 clk before the visit that orders its first edge."""
+    host = Host()
+    host.send(3, "c 84 d 00 d 00")
+    complete = host.send(3, FLAT) + 8
+    boundary = complete + 108 * 25
+    ordering = boundary - 4
+    assert host.model.visit(3, ordering) == ordering
+    host.write_at(ordering - early, 3, CONFIG, 0b01)
+    host.go(boundary + (off + 100) * 25)
+    assert host.changes("s", 3, complete)[:2] == [(boundary, 0), (boundary + off * 25, 3)]
+
+
+def test_reinitialisation_keeps_chopping_until_it_completes():
+    """P104-INI-08, BANK-INI-02, BANK-CHP-01."""
+    host = Host()
+    complete = host.send(3, FLAT) + 8
+    host.go(complete + 5000)
+    last = host.send(3, "c 2A d FF d 00 d 04 d 00")
+    second = host.model.visit(3, last + 1990 + 51 * 255 + 67 * 255 + 5)
+    host.go(second + 300 * 25)
+    edges = host.changes("s", 3, complete)
+    cycle = [complete + n * 695 * 25 + phase for n in range(9) for phase in (260 * 25, 695 * 25)]
+    before = [edge for edge in cycle if edge < second]
+    assert [edge for edge, _ in edges if edge < second] == before
+    assert [edge for edge, level in edges if edge >= second and not level] == [second + 260 * 25]
+
+
+@pytest.mark.parametrize("init", ["c 0A d 05 d 05 d 04 d 00", FLAT])
+def test_hold(init):
+    """BANK-HLD-01, P104-END-08: rises at the visit CYC(544000) after the end, whether it chops or not."""
+    host = Host(4, clk_hz=32_000_000)
+    host.ready(1, init)
+    host.send(1, "c 42")
+    end = host.idle(1)
+    due = end + host.model.timebase.cyc(544_000)
+    assert host.model.visit(1, due) == due
+    host.go(due + 100)
+    assert host.changes("hold", 1, end) == [(due, 1)]
+    start = host.send(1, "c 42")
+    assert host.changes("hold", 1, due + 1) == [(start, 0)]
+
+
+def _on_time(on: int, off: int) -> bool:
+    """Whether an edge of the chopper comes 136 000 quanta after its start."""
+    return 136_000 % (on + off) in (0, on)
+
+
+@pytest.mark.parametrize("hit", [True, False])
+def test_hold_on_an_edge_of_the_chopper(hit):
+    """BANK-HLD-01: not at a visit that orders one; the next does it."""
+    p_on, p_off = next((a, b) for a in range(256) for b in range(256) if _on_time(12 * a + 100, 12 * b + 115))
+    host = Host(4, clk_hz=32_000_000)
+    host.write(1, CONFIG, 0b01)
+    host.send(1, f"c 84 d {p_on:02X} d {p_off if hit else p_off ^ 1:02X}")
+    host.ready(1, FLAT)
+    host.send(1, "c 42")
+    end = host.idle(1)
+    due = end + host.model.timebase.cyc(544_000)
+    host.go(due + 100)
+    assert (due in [edge for edge, _ in host.changes("s", 1, end)]) == hit
+    assert host.changes("hold", 1, end) == [(due + (8 if hit else 0), 1)]
+
+
+def test_excitation_off_and_second_initialisation():
+    """P104-INI-05, P104-AUX-04 on an axis of a bank: pins at once, the others untouched."""
+    host = Host()
+    host.ready(2)
+    off = host.send(2, "c C0")
+    last = host.send(2, "c 0E d 05 d 05 d 04 d 00")
+    assert host.changes("s", 2, off) == [(off, 0), (last, 3)]
+    assert all(host.out("s", axis) == 31 for axis in range(8) if axis != 2)
+    host.send(2, "c 82")
+    assert host.read(2, DATA) == 0xC4
+
+
+def test_output_register_shows_pins_of_its_axis():
+    """P104-RD-06 on an axis of a bank: S1 S2 or S4 S1, hold, dir."""
+    host = Host()
+    for axis, code in ((0, 0x42), (2, 0x4A)):
+        host.ready(axis)
+        host.send(axis, f"c {code:02X}")
+        host.idle(axis)
+    host.ready(3)
+    assert [host.answer(axis, 0x82) for axis in (0, 2, 3, 4)] == [0x60, 0x92, 0xC4, 0xFC]
