@@ -121,7 +121,8 @@ class Axis:
         elif motion.busy:
             commands.refuse(Error.NOT_WHILE_BUSY)
         else:
-            commands.refuse(Error.NOT_INITIALISED if commands.setup is None else Error.UNDEFINED)
+            commands.refuse(Error.UNDEFINED if commands.initialised else Error.NOT_INITIALISED)
+        self.mailbox.look_again(t)
 
     def halt(self, t: int) -> None:
         """STOP acts at edge t."""

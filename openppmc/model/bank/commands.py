@@ -16,7 +16,7 @@ from ..ppmc104.chopper import Switching
 from ..single.codes import Command, Error, Kind, decode
 from ..single.hostport import BytePort
 from .motion import Motion
-from .visits import END_LEAD, Visits
+from .visits import BUILD_LEAD, READY_LEAD, Visits
 
 _LEFT_OUT = (Kind.AUX_ON, Kind.AUX_OFF, Kind.AUX_OUTPUT)
 _READ_AUXILIARY = 0x85
@@ -31,7 +31,8 @@ class Builder:
 
 
 class CommandUnit(commands.CommandUnit):
-    """Commands of axis `axis`. completed: the visit that completed the last initialisation, or -1."""
+    """Commands of axis `axis`. completed: the visit that completed the last initialisation, or -1.
+    initialised: one is complete and in force."""
 
     while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)
 
@@ -50,6 +51,7 @@ class CommandUnit(commands.CommandUnit):
         super().__init__(context, port, motion, excitation, chopper, switching)
         self._visits, self._builder, self._axis = visits, builder, axis
         self.completed = -1
+        self.initialised = False
 
     def _decode(self, byte: int) -> Command:
         command = decode(byte)
@@ -66,18 +68,22 @@ class CommandUnit(commands.CommandUnit):
         self._pending, self._data = None, []
         self.error = error
 
+    def _excitation_off(self, t: int) -> None:
+        super()._excitation_off(t)
+        self.initialised = False
+
     def waits_until(self, command: bool) -> int:
         """First edge on which the next byte may be taken as far as the builder is concerned."""
         last = self._pending is not None and self._pending.kind is Kind.INITIALISE and self.expected == 1
         return self._builder.free_from if last and not command else 0
 
     def _complete_after(self, done: int) -> None:
-        self._builder.free_from = done + 1
-        visit = self._visits.first(done + END_LEAD)
+        self._builder.free_from = done + BUILD_LEAD
+        visit = self._visits.first(done + READY_LEAD)
         self._port.close_until(visit)
         self._context.queue.at(visit, Phase.CHOPPER, self._complete)
 
     def _complete(self, t: int) -> None:
-        self.completed = t
+        self.completed, self.initialised = t, True
         self._context.counter.restart(t)
         super()._complete(t)

@@ -46,6 +46,11 @@ class Mailbox:
         """No visit before edge t takes a byte."""
         self._closed_until = t
 
+    def look_again(self, t: int) -> None:
+        """What kept a byte waiting at visit t may be gone at the next one."""
+        if self._planned:
+            self._plan(t + 1)
+
     def _plan(self, edge: int) -> None:
         """The first visit from an edge on has something to look at."""
         if self._planned:

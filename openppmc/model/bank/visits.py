@@ -8,10 +8,14 @@ FIRST = 8
 BYTE_LEAD = 7
 """Write event to the first visit that sees the byte (BANK-HSK-01)."""
 END_LEAD = 5
-"""Decided end of a motion, or end of a build, to the first visit that knows (BANK-MOT-03, BANK-INI-02)."""
+"""Decided end of a motion to the first visit that knows (BANK-MOT-03)."""
+BUILD_LEAD = 2
+"""End of a build to the first visit that may begin the next one (BANK-INI-01)."""
+READY_LEAD = 3
+"""End of a build to the first visit that completes the initialisation (BANK-INI-02)."""
 GROUP_LEAD = 5
 """Write event of MASK or GO to the first visit that sees it (BANK-GRP-01, -02)."""
-CONFIG_LEAD = 6
+CONFIG_LEAD = 7
 """Write event of CONFIG to the first visit that sees it (BANK-GEN-04)."""
 SWITCH_LEAD = 4
 """Edge on which a switch is seen to the first visit that sees it (BANK-MOT-05)."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ..common.blocks import Phase
 from ..common.edges import EdgeLog
-from ..common.scheduler import Scheduler
+from ..common.scheduler import Event, Scheduler
 from ..motion.codes import IBF
 from ..single.strobes import strobes
 from .axis import Axis
@@ -19,6 +19,7 @@ NOTHING = 0xFF
 INFO_START = (0x42, 0x01)
 
 _SYNC = 2
+_SHORTEST_READ = 3
 _READY = 7
 
 
@@ -34,7 +35,9 @@ class Window:
         self._writing = self._reading = False
         self._address = 0
         self._position = 0
-        self._first = self._second = 0
+        self._snapshot = 0
+        self._began = 0
+        self._shows: tuple[Event, ...] = ()
 
     # ------------------------------------------------------------------ strobes
 
@@ -52,24 +55,26 @@ class Window:
             (self._begin_read if reading else self._end_read)(t, pins["a"])
 
     def _begin_read(self, t: int, address: int) -> None:
-        """Snapshots are taken just before the edges that follow edges 1 and 2, each is shown one later."""
+        """The snapshot is taken after edge 2 and shown on edge 4 (BANK-WIN-05)."""
         self._address = address
 
-        def load(now: int) -> None:
-            self._first = self._register(now - 1, address)
-
-        def show(now: int) -> None:
-            self._log.set(now, "d_o", self._first)
-            self._second = self._register(now - 1, address)
+        def look(now: int) -> None:
+            self._snapshot = self._register(now - 1, address)
             axis = self._axis(address)
             if axis and self._is_ready(now - 1) and address & 0xF == DATA:
                 axis.mailbox.snapshot()
 
-        self._queue.at(t + 2, Phase.BUS, load)
-        self._queue.at(t + 3, Phase.BUS, show)
-        self._queue.at(t + 4, Phase.BUS, lambda now: self._log.set(now, "d_o", self._second))
+        self._shows = (
+            self._queue.at(t + 3, Phase.BUS, look),
+            self._queue.at(t + 4, Phase.BUS, lambda now: self._log.set(now, "d_o", self._snapshot)),
+        )
+        self._began = t
 
     def _end_read(self, t: int, _: int) -> None:
+        if t < self._began + _SHORTEST_READ:
+            for event in self._shows:
+                event.cancel()
+            return
         axis = self._axis(self._address)
         if axis and self._address & 0xF == DATA:
             self._queue.at(t + _SYNC, Phase.QUEUE, lambda now: axis.mailbox.read_ended())
