@@ -119,7 +119,7 @@ class Window:
         if register == CONFIG:
             return axis.config
         if register == POSITION:
-            self._position = axis.motion.position(after) & 0xFFFFFFFF
+            self._position = axis.motion.position(after)
         if register < MASK:
             return self._position >> 8 * (register - POSITION) & 0xFF
         if register == MASK:

@@ -174,6 +174,30 @@ def test_a_pulse_that_did_not_come_counts_until_the_end_is_known(seen, status, f
     assert len(host.model.pulses(5)) == host.position(5) == seen
 
 
+def test_interval_after_a_pulse_that_did_not_come():
+    """BANK-MOT-03: the engine takes it back, and what it had planned from it."""
+    host = Host()
+    due = start(host, 5, "c 43 d 09 d 00 d 00") + host.w
+    host.pin(due - SEEN, 5, l1_n=0)
+    host.go(due + 1)
+    assert len(host.model.intervals(5)) == 1
+    assert host.finish(5) == (0x93, 9) and host.model.intervals(5) == []
+
+
+def test_interval_of_a_stopped_move_dies_with_it():
+    """BANK-MOT-02, BANK-WIN-07: no pulse of the old move in the next one, none counted."""
+    host = Host()
+    first = start(host, 5, "c 45 d FF") + host.w
+    host.pin(first + 2000, 5, l1_n=0)
+    host.pin(first + 2100, 5, l1_n=1)
+    begun = host.send(5, "c 45 d FF")
+    second = begun + host.w
+    host.go(first + 51_200 + 8)
+    assert host.model.pulses(5) == [first, second] and host.model.position(5) == 2
+    host.go(second + 51_200)
+    assert host.model.pulses(5) == [first, second, second + 51_200]
+
+
 @pytest.mark.parametrize("stop_at, pulses", [(-8, 1), (0, 1), (8, 2)])
 def test_immediate_stop_and_the_pulse_of_its_own_edge(stop_at, pulses):
     """BANK-MOT-03, P104-LIM-09: a stop taken at V suppresses a pulse due at V and is not counted."""

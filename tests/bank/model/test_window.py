@@ -75,7 +75,7 @@ def test_writes_before_ready_do_nothing(event, mask):
 
 
 def test_addresses():
-    """BANK-WIN-01, -02, -03."""
+    """BANK-WIN-01, BANK-WIN-02, BANK-WIN-03."""
     host = Host(16)
     for register in (0x3, 0xD, 0xE, 0xF):
         assert host.read(2, register) == 0xFF
@@ -108,7 +108,7 @@ def test_mask_has_a_byte_for_eight_axes():
 @pytest.mark.parametrize("strobe", [1, 2, 6])
 @pytest.mark.parametrize("event, seen", [(0, [(3, 2)]), (1, [(3, 2)]), (2, [(3, 3), (4, 2)])])
 def test_snapshots_of_a_read(strobe, event, seen):
-    """BANK-WIN-05: d_oe on edge 2, d_o on edges 3 and 4, each what stood two edges before."""
+    """BANK-WIN-04, BANK-WIN-05: d_oe on edge 2, d_o on edges 3 and 4, each what stood two edges before."""
     model, edge, address = Host().model, 60, 0x20 | CONFIG
     model.pins(edge + event - 4, cs_n=0, wr_n=0, a=address, d_i=2)
     if event < 2:
