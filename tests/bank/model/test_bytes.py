@@ -132,13 +132,13 @@ def test_new_answer_while_the_old_one_is_read(late, left):
 @pytest.mark.parametrize("rl", range(9, 13))
 @pytest.mark.parametrize("axis", [5, 6])
 def test_one_builder(axis, rl):
-    """BANK-HSK-05, BANK-INI-01: the last byte waits for the table of another axis, from D + 1 on it goes."""
+    """BANK-HSK-05, BANK-INI-01: the last byte waits for the table of another axis, from D + 2 on it goes."""
     host = Host()
     host.send(1, f"c 0A d {rl:02X} d 04 d 04")
     host.send(axis, "c 0A d 09 d 04 d 04")
     done = host.send(1, "d 00") + 1990 + 51 * rl + 67 * (rl - 4)
     host.write(axis, DATA, 0)
-    (taken,) = (edge for edge in range(done + 1, done + 9) if edge % 8 == axis)
+    (taken,) = (edge for edge in range(done + 2, done + 10) if edge % 8 == axis)
     host.go(taken - 1)
     assert host.status(axis) == 0x10 | IBF
     host.go(taken)
@@ -189,9 +189,9 @@ def test_codes_while_busy():
     assert host.status(0) == 0x04
 
 
-@pytest.mark.parametrize("early, slow", [(7, True), (6, True), (5, False)])
+@pytest.mark.parametrize("early, slow", [(8, True), (7, True), (6, False)])
 def test_config_of_an_operation(early, slow):
-    """BANK-GEN-04: written at the latest 6 clk before the visit that starts it."""
+    """BANK-GEN-04: written at the latest 7 clk before the visit that starts it."""
     host = Host(64)
     host.ready(4)
     host.send(4, "c 44 d 09 d 01 d 00")

@@ -16,14 +16,14 @@ def test_completion(rl, rh):
         host = Host()
         last = host.send(axis, f"c 2A d {rl:02X} d {rh:02X} d 04 d 00")
         done = last + 1990 + 51 * rl + 67 * (rl - rh)
-        complete = next(edge for edge in range(done + 5, done + 13) if (edge - axis) % 8 == 0)
+        complete = next(edge for edge in range(done + 3, done + 11) if (edge - axis) % 8 == 0)
         host.go(complete + 260 * 25)
         assert host.changes("s", axis, 0) == [(last, 0b00011), (complete + 260 * 25, 0)]
 
 
-@pytest.mark.parametrize("rl, wait", [(12, 7), (15, 5), (20, 12)])
+@pytest.mark.parametrize("rl, wait", [(12, 4), (15, 3), (20, 10)])
 def test_completion_to_the_clk(rl, wait):
-    """BANK-INI-02: the first visit from D + 5 on; builds that end 4, 5 and 7 clk before a visit."""
+    """BANK-INI-02: the first visit from D + 3 on; builds that end 2, 3 and 4 clk before a visit."""
     build = next(1990 + 51 * rl + 67 * d for d in range(1, rl) if (1990 + 51 * rl + 67 * d + wait) % 8 == 0)
     rh = rl - (build - 1990 - 51 * rl) // 67
     host = Host()
@@ -55,9 +55,9 @@ def test_chopper_after_completion_and_after_a_motion():
     ]
 
 
-@pytest.mark.parametrize("early, off", [(7, 115), (6, 115), (5, 132)])
+@pytest.mark.parametrize("early, off", [(8, 115), (7, 115), (6, 132)])
 def test_config_of_a_phase(early, off):
-    """BANK-GEN-04: a phase takes vsel as written 6 clk before the visit that orders its first edge."""
+    """BANK-GEN-04: a phase takes vsel as written 7 clk before the visit that orders its first edge."""
     host = Host()
     host.send(3, "c 84 d 00 d 00")
     complete = host.send(3, FLAT) + 8

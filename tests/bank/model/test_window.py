@@ -105,10 +105,10 @@ def test_mask_has_a_byte_for_eight_axes():
     assert small.read(0, MASK) == 0x0F
 
 
-@pytest.mark.parametrize("strobe", [1, 2, 6])
-@pytest.mark.parametrize("event, seen", [(0, [(3, 2)]), (1, [(3, 2)]), (2, [(3, 3), (4, 2)])])
-def test_snapshots_of_a_read(strobe, event, seen):
-    """BANK-WIN-04, BANK-WIN-05: d_oe on edge 2, d_o on edges 3 and 4, each what stood two edges before."""
+@pytest.mark.parametrize("strobe", [1, 2, 3, 6])
+@pytest.mark.parametrize("event", [0, 1, 2])
+def test_snapshot_of_a_read(strobe, event):
+    """BANK-WIN-04, BANK-WIN-05: d_oe on edge 2, d_o on edge 4 what stood after edge 2; too short: nothing."""
     model, edge, address = Host().model, 60, 0x20 | CONFIG
     model.pins(edge + event - 4, cs_n=0, wr_n=0, a=address, d_i=2)
     if event < 2:
@@ -116,7 +116,7 @@ def test_snapshots_of_a_read(strobe, event, seen):
     model.pins(edge, cs_n=0, wr_n=1, rd_n=0)
     model.pins(edge + strobe, cs_n=1, rd_n=1)
     model.run_until(edge + 40)
-    assert [(t - edge, value) for t, value in model.log.of("d_o")] == seen
+    assert [(t - edge, value) for t, value in model.log.of("d_o")] == [(4, 2)] * (strobe >= 3)
     assert [(t - edge, value) for t, value in model.log.of("d_oe")] == [(2, 1), (2 + strobe, 0)]
 
 
