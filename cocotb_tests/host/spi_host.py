@@ -82,16 +82,16 @@ class SpiHost:
         """Leave the pins as they are for a while."""
         await self.until(self.now + clk)
 
-    async def frame(self, bits: list[int], pace: Pace = Pace()) -> list[int]:
-        """One frame; returns the level of miso at each rise of sck."""
+    async def frame(self, bits: list[int], pace: Pace = Pace(), short: int = -1) -> list[int]:
+        """One frame; returns the level of miso at each rise of sck. The bit `short` has a low time of 2."""
         put, seen = self.unit.put, []
         put(sck_i=pace.idle)
         await self.wait(pace.gap)
         put(cs_ni=0)
         await self.wait(pace.lead - pace.low)
-        for bit in bits:
+        for n, bit in enumerate(bits):
             put(sck_i=0, mosi_i=bit)
-            await self.wait(pace.low)
+            await self.wait(2 if n == short else pace.low)
             assert self.unit.get("miso_oe_o"), "miso is not driven"
             seen.append(self.unit.get("miso_o"))
             put(sck_i=1)

@@ -1,0 +1,17 @@
+"""Unit tests of what is around a bank, one simulation each."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.blocks import BLOCKS, run_block
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.runner import SimOptions
+
+ITEMS = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS)
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_view(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation."""
+    run_block(item, sim_options)
