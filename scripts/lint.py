@@ -23,7 +23,7 @@ from cocotb_tests.harness.project import ProjectError, console, relative
 from openppmc.parts import tops
 from openppmc.sim.common import verilator as start
 from openppmc.sources import needed, walls
-from scripts.flow.boards import HOSTS, parameters
+from scripts.flow.boards import HOSTS_OF, parameters
 from scripts.flow.boards import sources as board_sources
 from scripts.flow.module_rules import all_findings
 
@@ -201,7 +201,7 @@ def board_checks() -> list[Check]:
     every = []
     on_boards = [path.stem for path in project.listed()["boards"].files if path.stem.startswith("board_")]
     for top in ["ppmc104_carrier", *on_boards]:
-        hosts = HOSTS if "HOST" in parameters(top) else ("",)
+        hosts = HOSTS_OF.get(top, ("uart", "bus")) if "HOST" in parameters(top) else ("",)
         for host in hosts:
             params: dict[str, int | str] = {"HOST": host.upper()} if host else {}
             label, files = f"{top} {host}".rstrip(), board_sources(top)

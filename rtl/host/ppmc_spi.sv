@@ -49,8 +49,8 @@ module ppmc_spi #(
 
   typedef struct packed {
     logic write;
-    logic axis;  // the address grows by 16 with each access
-    logic next;  // by 1
+    logic axis;   // the address grows by 16 with each access
+    logic next;   // by 1
   } mode_t;
 
   // ---- pins ------------------------------------------------------------------------------------------
@@ -71,7 +71,7 @@ module ppmc_spi #(
 
   logic rise, fall, whole, ended;
   logic [2:0] count_q;  // bits of this byte that are in
-  logic [6:0] bits_q;   // they
+  logic [6:0] bits_q;  // they
   logic [7:0] byte_in;
 
   assign rise    = !cs_n && sck && !sck_q[0];

@@ -62,7 +62,7 @@ def fitted(folder: Path, text: str = BOARD) -> Fitted:
     """Its first part on that board."""
     board = described(folder, text)
     on = board.parts[0]
-    return fit(board, on, carrier.read(carrier.path_of(on.row.folder)))
+    return fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
 
 
 def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
