@@ -136,7 +136,7 @@ size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth 
 yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose sources and peers.json lie in PEERS=folder, into docs/benchmarks.md
 	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
-bitstream: $(ENVDEV) ## bitstream of BOARD=… (docs/boards.md: which carries which part) with PART=… and HOST=uart or bus, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
+bitstream: $(ENVDEV) ## bitstream of BOARD=… (docs/boards.md: which carries which part) with PART=… and HOST=uart, bus or spi, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \
 	  $(foreach v,$(GIVEN_TOP),-G $v=$($v))
 

@@ -203,6 +203,17 @@ ROWS = (
         soak="line.soak:SOAK",
     ),
     Row(
+        name="bank",
+        title="PPMC bank",
+        number=32,
+        rules=("BANK",),
+        rtl="ppmc_bank",
+        top="ppmc_bank",
+        families=("ecp5",),
+        docs=("carrier.md", "spi.md"),
+        carrier=True,
+    ),
+    Row(
         name="pmc006",
         title="PMC006B4",
         rules=("P006",),
@@ -261,7 +272,7 @@ def folders() -> tuple[Row, ...]:
 
 def tops() -> tuple[Row, ...]:
     """The parts with a top module of their own, those in another one's folder among them."""
-    return tuple(row for row in PARTS.values() if row.top == row.name)
+    return tuple(row for row in PARTS.values() if not row.of or row.top != PARTS[row.of].top)
 
 
 def by_number(number: int) -> Row | None:

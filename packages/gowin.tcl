@@ -50,6 +50,7 @@ add_file -type verilog $root/rtl/host/ppmc_uart_bridge.sv
 add_file -type verilog $root/rtl/host/ppmc_uart_host.sv
 add_file -type verilog $root/rtl/host/ppmc_wishbone.sv
 add_file -type verilog $root/rtl/host/ppmc_axil.sv
+add_file -type verilog $root/rtl/host/ppmc_spi.sv
 add_file -type verilog $root/rtl/host/ppmc_isa.sv
 add_file -type verilog $root/rtl/single/ppmc_code_pkg.sv
 add_file -type verilog $root/rtl/single/ppmc_single_pkg.sv
@@ -150,6 +151,7 @@ add_file -type verilog $root/rtl/ppmc2104/ppmc2104.sv
 add_file -type verilog $root/rtl/stmc/stmc_pkg.sv
 add_file -type verilog $root/rtl/stmc/stmc.sv
 add_file -type verilog $root/rtl/stmc/j105_stmc.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank.sv
 add_file -type verilog $root/rtl/ppmc2104/isa/isa_4axis.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_host.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_reset.sv
@@ -160,4 +162,6 @@ add_file -type verilog $root/rtl/ppmc2104/ppmc2104_carrier.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_steps.sv
 add_file -type verilog $root/rtl/stmc/stmc_carrier.sv
 add_file -type verilog $root/rtl/ppmc312/ppmc312_carrier.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_view.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_carrier.sv
 add_file -type verilog $root/rtl/pmc006/pmc006_carrier.sv

@@ -47,6 +47,7 @@
 ../rtl/host/ppmc_uart_host.sv
 ../rtl/host/ppmc_wishbone.sv
 ../rtl/host/ppmc_axil.sv
+../rtl/host/ppmc_spi.sv
 ../rtl/host/ppmc_isa.sv
 ../rtl/ppmc2104/ppmc2104_pkg.sv
 ../rtl/ppmc2104/ppmc2104_command.sv

@@ -47,6 +47,7 @@
 ../rtl/host/ppmc_uart_host.sv
 ../rtl/host/ppmc_wishbone.sv
 ../rtl/host/ppmc_axil.sv
+../rtl/host/ppmc_spi.sv
 ../rtl/host/ppmc_isa.sv
 ../rtl/single/ppmc_code_pkg.sv
 ../rtl/single/ppmc_single_pkg.sv

@@ -49,6 +49,7 @@ set files [list \
   $root/rtl/host/ppmc_uart_host.sv \
   $root/rtl/host/ppmc_wishbone.sv \
   $root/rtl/host/ppmc_axil.sv \
+  $root/rtl/host/ppmc_spi.sv \
   $root/rtl/host/ppmc_isa.sv \
   $root/rtl/single/ppmc_code_pkg.sv \
   $root/rtl/single/ppmc_single_pkg.sv \
@@ -149,6 +150,7 @@ set files [list \
   $root/rtl/stmc/stmc_pkg.sv \
   $root/rtl/stmc/stmc.sv \
   $root/rtl/stmc/j105_stmc.sv \
+  $root/rtl/bank/ppmc_bank.sv \
   $root/rtl/ppmc2104/isa/isa_4axis.sv \
   $root/rtl/boards/common/ppmc_board_host.sv \
   $root/rtl/boards/common/ppmc_board_reset.sv \
@@ -159,6 +161,8 @@ set files [list \
   $root/rtl/boards/common/ppmc_board_steps.sv \
   $root/rtl/stmc/stmc_carrier.sv \
   $root/rtl/ppmc312/ppmc312_carrier.sv \
+  $root/rtl/bank/ppmc_bank_view.sv \
+  $root/rtl/bank/ppmc_bank_carrier.sv \
   $root/rtl/pmc006/pmc006_carrier.sv \
 ]
 add_files -norecurse $files

@@ -10,7 +10,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -20,14 +20,23 @@ from rich.markup import escape
 
 from cocotb_tests.harness import header, project
 from cocotb_tests.harness.project import ProjectError, console, relative
-from openppmc.parts import tops
+from openppmc.parts import Row, tops
 from openppmc.sim.common import verilator as start
 from openppmc.sources import needed, walls
-from scripts.flow.boards import HOSTS, parameters
+from scripts.flow.boards import HOSTS_OF, parameters
 from scripts.flow.boards import sources as board_sources
 from scripts.flow.module_rules import all_findings
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
+BANKS = (
+    (4, 8_000_000, 16_000_000),
+    (8, 25_000_000, 12_500_000),
+    (16, 54_000_000, 13_500_000),
+    (32, 25_000_000, 12_500_000),
+    (32, 100_000_000, 16_000_000),
+    (64, 200_000_000, 16_000_000),
+)
+"""AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
@@ -201,7 +210,7 @@ def board_checks() -> list[Check]:
     every = []
     on_boards = [path.stem for path in project.listed()["boards"].files if path.stem.startswith("board_")]
     for top in ["ppmc104_carrier", *on_boards]:
-        hosts = HOSTS if "HOST" in parameters(top) else ("",)
+        hosts = HOSTS_OF.get(top, ("uart", "bus")) if "HOST" in parameters(top) else ("",)
         for host in hosts:
             params: dict[str, int | str] = {"HOST": host.upper()} if host else {}
             label, files = f"{top} {host}".rstrip(), board_sources(top)
@@ -210,22 +219,34 @@ def board_checks() -> list[Check]:
     return every
 
 
+def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
+    """With which parameters a part's top is looked at, each with words for the summary."""
+    known = header.parameters(project.top_file(part))
+    if "AXES" in known:
+        for index, (axes, clk_hz, xtal_hz) in enumerate(BANKS):
+            label = f"{part.name} {axes} axes {clk_hz / 1e6:g} MHz"
+            idle = index % 2
+            yield label, {"AXES": axes, "CLK_HZ": clk_hz, "XTAL_HZ": xtal_hz, "PHASE_IDLE": idle}
+        return
+    for index, clk_hz in enumerate(CLOCKS):
+        for timing in ("FAST", "DATASHEET"):
+            params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
+            label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
+            if "PHASE_IDLE" in known:
+                # Both levels with both timings without doubling the runs.
+                params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
+                label += f" PHASE_IDLE={params['PHASE_IDLE']}"
+            yield label, params
+
+
 def checks() -> list[Check]:
     """All checks, the slow ones first so that two workers end together."""
     every = []
     for part in tops():
-        known = header.parameters(project.top_file(part))
         files = project.sources(part)
-        for index, clk_hz in enumerate(CLOCKS):
-            for timing in ("FAST", "DATASHEET"):
-                params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
-                label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
-                if "PHASE_IDLE" in known:
-                    # Both levels with both timings without doubling the runs.
-                    params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
-                    label += f" PHASE_IDLE={params['PHASE_IDLE']}"
-                every.append(Check("verilator -Wall", label, partial(verilator, part.top, files, params)))
-                every.append(Check("read_slang", label, partial(slang, part.top, files, params)))
+        for label, params in settings(part):
+            every.append(Check("verilator -Wall", label, partial(verilator, part.top, files, params)))
+            every.append(Check("read_slang", label, partial(slang, part.top, files, params)))
     every += board_checks()
     return [
         *every,

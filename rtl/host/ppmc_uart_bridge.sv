@@ -12,6 +12,7 @@ module ppmc_uart_bridge
     parameter int unsigned Baud      = 115_200,     // after reset
     parameter int unsigned Part      = 104,
     parameter int unsigned Axes      = 1,           // 1, 2: pulse counters
+    parameter bit          Counter   = 1'b1,        // there are any, for IDENT only
     parameter bit          Datasheet = 1'b0
 ) (
     input  wire logic               clk_i,
@@ -44,7 +45,7 @@ module ppmc_uart_bridge
 
   localparam int unsigned Width = phase_width(ClkHz, Baud);
   localparam int unsigned TopCode = top_code(ClkHz, Baud);
-  localparam logic [7:0] IdentFlags = {4'(TopCode), 2'(Axes - 1), 1'b1, Datasheet};
+  localparam logic [7:0] IdentFlags = {4'(TopCode), 2'(Axes - 1), Counter, Datasheet};
   localparam logic [127:0] Ident = {
     32'(ClkHz), 32'(XtalHz), IdentFlags, 16'(Part), ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
   };

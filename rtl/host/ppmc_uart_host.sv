@@ -11,7 +11,8 @@ module ppmc_uart_host #(
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,
     parameter bit          Datasheet = 1'b0,
-    parameter int unsigned Axes      = 1            // 1, 2; axis 1 in the low bits
+    parameter int unsigned Axes      = 1,           // 1, 2; axis 1 in the low bits
+    parameter bit          Counter   = 1'b1         // pulses are counted
 ) (
     input  wire logic              clk_i,
     input  wire logic              rst_ni,       // asynchronous
@@ -21,7 +22,7 @@ module ppmc_uart_host #(
     output logic                   cs_no,        // the part is addressed
     output logic                   rd_no,        // read strobe
     output logic                   wr_no,        // write strobe
-    output logic      [       2:0] a_o,          // a part with fewer address lines takes the low ones
+    output logic      [       3:0] a_o,          // a part with fewer address lines takes the low ones
     output logic      [       7:0] d_o,          // to be written
     input  wire logic [       7:0] d_i,          // what the part shows
     input  wire logic              int_ni,       // the part's interrupt, L = active
@@ -35,7 +36,6 @@ module ppmc_uart_host #(
     output logic                   active_o      // a script is running or an answer is on its way
 );
 
-  logic [3:0] a;
   logic [Axes*6-1:0] switches, unused_meta;
   logic [Axes*32-1:0] count;
   logic [Axes-1:0] zero;
@@ -70,6 +70,7 @@ module ppmc_uart_host #(
       .Baud     (Baud),
       .Part     (Part),
       .Axes     (Axes),
+      .Counter  (Counter),
       .Datasheet(Datasheet)
   ) u_bridge (
       .clk_i,
@@ -79,7 +80,7 @@ module ppmc_uart_host #(
       .cs_no,
       .rd_no,
       .wr_no,
-      .a_o         (a),
+      .a_o,
       .d_o,
       .d_i,
       .int_ni,
@@ -91,21 +92,23 @@ module ppmc_uart_host #(
       .active_o
   );
 
-  for (genvar n = 0; n < Axes; n++) begin : g_axis
-    ppmc_pulse_counter u_counter (
-        .clk_i,
-        .rst_ni (rst),
-        .clear_i(zero[n]),
-        .pout_ni(pout_ni[n]),
-        .dir_i  (dir_i[n]),
-        .count_o(count[32*n+:32])
-    );
+  if (Counter) begin : g_counters
+    for (genvar n = 0; n < Axes; n++) begin : g_axis
+      ppmc_pulse_counter u_counter (
+          .clk_i,
+          .rst_ni (rst),
+          .clear_i(zero[n]),
+          .pout_ni(pout_ni[n]),
+          .dir_i  (dir_i[n]),
+          .count_o(count[32*n+:32])
+      );
+    end
+  end else begin : g_no_counters
+    assign count = '0;
+
+    logic unused;
+    assign unused = ^{zero, pout_ni, dir_i};
   end
-
-  assign a_o = a[2:0];
-
-  logic unused;
-  assign unused = a[3];
 
 endmodule
 

@@ -19,7 +19,9 @@ from .verilog import laid_out
 def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
     """Each part on each board."""
     return [
-        fit(board, on, carrier.read(carrier.path_of(on.row.folder))) for board in boards for on in board.parts
+        fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
+        for board in boards
+        for on in board.parts
     ]
 
 

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.header import Parameter, parameters
 from cocotb_tests.harness.project import ProjectError
+from openppmc.parts import Row
 
 PORT = re.compile(
-    r"^ +(?P<way>input|output) +(?:wire )?logic *(?:\[ *(?P<high>\d+): *(?P<low>\d+)\])? +(?P<name>\w+),?"
+    r"^ +(?P<way>input|output) +(?:wire )?logic *(?:\[ *(?P<high>[^:]+): *(?P<low>\d+)\])? +(?P<name>\w+),?"
     r" *(?://(?P<text>.*))?$"
 )
+
+
+BY_PARAMETER = re.compile(r"(?:(?P<times>\d+)\*)?(?P<name>[A-Z]\w*)-1")
+"""The highest bit of a vector whose width a parameter chooses."""
 
 
 @dataclass(frozen=True)
@@ -45,29 +52,47 @@ class Carrier:
     ports: dict[str, Port]
 
     def two_way(self) -> dict[str, str]:
-        """Pins that are driven and read: name -> port that drives it, "" if it is only pulled low."""
+        """Pins that are not always driven: name -> port that drives it, "" if it is only pulled low."""
+        names = [name.removesuffix("_oe") for name in self.ports if name.endswith("_oe")]
         return {
-            name[:-2]: f"{name[:-2]}_o" if f"{name[:-2]}_o" in self.ports else ""
-            for name in self.ports
-            if name.endswith("_i") and f"{name[:-2]}_oe" in self.ports
+            name: f"{name}_o" if f"{name}_o" in self.ports else ""
+            for name in names
+            if f"{name}_i" in self.ports or f"{name}_o" in self.ports
         }
 
+    def side(self, name: str) -> Port:
+        """The port of such a pin that stands for it: what is read there, or what drives it if nothing is."""
+        return self.ports.get(f"{name}_i") or self.ports[f"{name}_o"]
 
-def path_of(part_folder: str) -> Path:
+
+def path_of(row: Row) -> Path:
     """Where the carrier of a part is."""
-    return project.RTL / part_folder / f"{part_folder}_carrier.sv"
+    return project.RTL / row.folder / f"{row.rtl}_carrier.sv"
 
 
-def read(path: Path) -> Carrier:
-    """The header of the carrier in this file."""
+def _highest(text: str, values: Mapping[str, Any]) -> int:
+    """Number of a vector's highest bit; ProjectError if it is neither a number nor [n *] PARAMETER - 1."""
+    if text.isdecimal():
+        return int(text)
+    found = BY_PARAMETER.fullmatch(text.replace(" ", ""))
+    if not found or not isinstance(values.get(found["name"]), int):
+        raise ProjectError(f"[{text}:0]: expected a number, or a parameter less one")
+    return int(found["times"] or 1) * int(values[found["name"]]) - 1
+
+
+def read(path: Path, given: Mapping[str, Any] | None = None) -> Carrier:
+    """The header of the carrier in this file, with the defaults of its parameters but for those `given`."""
     if not path.is_file():
         raise ProjectError(f"{project.relative(path)} is not there: a board cannot carry the part")
     ports, group = dict[str, Port](), ""
+    chosen = parameters(path)
+    values = {**{name: one.default for name, one in chosen.items()}, **(given or {})}
     for line in path.read_text(encoding="utf-8").split(");\n", 1)[0].splitlines():
         if found := PORT.match(line):
-            bits = range(int(found["low"]), int(found["high"]) + 1) if found["high"] else None
+            high = found["high"]
+            bits = range(int(found["low"]), _highest(high, values) + 1) if high else None
             text = (found["text"] or "").strip()
             ports[found["name"]] = Port(found["name"], found["way"] == "output", bits, group, text)
         elif line.startswith("    // "):
             group = line.strip()[3:]
-    return Carrier(path.stem, parameters(path), ports)
+    return Carrier(path.stem, chosen, ports)

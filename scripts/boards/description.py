@@ -18,7 +18,7 @@ from cocotb_tests.harness.project import ProjectError
 from openppmc import parts as table
 
 FOLDER = project.ROOT / "constraints"
-HOSTS = ("uart", "bus")
+HOSTS = ("uart", "bus", "spi")
 SHOWS = ("link", "moving", "switch", "running")
 """What a lamp can show, in the order of the bits of ppmc_board_panel's lamps_o."""
 
@@ -167,7 +167,7 @@ def carried(where: str, name: str, found: Any) -> Carried:
         raise ProjectError(f"{where}: {error}") from None
     for host in keys["hosts"]:
         if host not in HOSTS:
-            raise ProjectError(f"{where}: hosts: {host}: expected {' or '.join(HOSTS)}")
+            raise ProjectError(f"{where}: hosts: {host}: expected {', '.join(HOSTS)}")
     keys["pins"] = {
         title: {
             signal: tuple(

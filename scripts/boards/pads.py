@@ -101,7 +101,8 @@ def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], s
     if name == HOST_RESET:
         return [signal], "in"
     if name in carrier.two_way():
-        port, way = carrier.ports[f"{name}_i"], "inout"
+        port = carrier.side(name)
+        way = "out" if port.output else "inout"
         names = Port(name, False, port.bits, "", "").bit_names()
     elif name in carrier.ports:
         port = carrier.ports[name]

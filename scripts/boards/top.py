@@ -68,15 +68,14 @@ class Top:
             lines.append(declaration("in", [HOST_RESET], "0: reset, from the host"))
         group = ""
         for port in self.carrier.ports.values():
-            short = port.name.removesuffix("_i")
-            name = short if short in self.two_way else port.name
+            name = next((pin for pin in self.two_way if self.carrier.side(pin) is port), port.name)
             bits = [] if self.around(port)[0] else self.fitted.bits(name)
             if not bits:
                 continue
             if port.group != group:
                 group = port.group
                 lines.append(f"    // {group}")
-            way = "inout" if name in self.two_way else "out" if port.output else "in"
+            way = "out" if port.output else "inout" if name in self.two_way else "in"
             lines.append(declaration(way, bits, port.text))
         return lines + self.board_outputs()
 

@@ -18,9 +18,9 @@ def head(fitted: Fitted, mark: str) -> list[str]:
 
 def title(fitted: Fitted) -> str:
     """The part, with its host unless it has a line of its own, and the board."""
-    names = {"uart": "UART", "bus": "bus"}
+    names = {"uart": "UART", "bus": "bus", "spi": "SPI"}
     host = f" with {' or '.join(names[host] for host in fitted.on.hosts)} host"
-    own_line = fitted.on.set or "HOST" not in fitted.carrier.parameters
+    own_line = "HOST" in (fitted.on.set or {}) or "HOST" not in fitted.carrier.parameters
     return f"{fitted.on.row.title}{'' if own_line else host} on {fitted.board.title}"
 
 

@@ -13,7 +13,7 @@ from scripts.boards.description import HOSTS, Carried, Description, Device, load
 
 @dataclass(frozen=True)
 class Board:
-    """One board: its FPGA, its clock, and per host ("uart", "bus") the top module and its constraint file.
+    """One board: its FPGA, its clock, and per host (HOSTS) the top module and its constraint file.
 
     `clk_hz` is the frequency of `clk` that the top gives to the part, `goal_mhz` the least that the project
     wants of this board, `oscillator` the clock input with its frequency in MHz, `loader` its name in
@@ -93,6 +93,10 @@ BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]
 PART_OF = {of.top(on): on.part for of in DESCRIPTIONS for on in of.parts}
 """Top -> what it carries."""
+CARRIED = {f"{row.rtl}_carrier": row.name for row in table.having("carrier")}
+"""Carrier -> the same."""
+HOSTS_OF = {of.top(on): on.hosts for of in DESCRIPTIONS for on in of.parts}
+"""Top -> its hosts."""
 
 
 def board(name: str, part: str = "ppmc104") -> Board:
@@ -112,7 +116,7 @@ def board(name: str, part: str = "ppmc104") -> Board:
 def check_host(on: Board, host: str) -> str:
     """The host itself; ProjectError if this board does not have it."""
     if host not in HOSTS:
-        raise ProjectError(f"HOST={host}: expected uart or bus")
+        raise ProjectError(f"HOST={host}: expected {', '.join(HOSTS)}")
     if host not in on.top:
         raise ProjectError(f"HOST={host}: {on.name} with {on.part} has only {', '.join(on.top)}")
     return host
@@ -120,4 +124,4 @@ def check_host(on: Board, host: str) -> str:
 
 def part_of(module: str) -> str:
     """The part of a top, or of a carrier."""
-    return PART_OF.get(module) or module.removesuffix("_carrier")
+    return PART_OF.get(module) or CARRIED[module]

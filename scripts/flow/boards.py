@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import ProjectError
 from openppmc import parts as table
 
 from . import board_route
-from .board_table import BOARDS, BY_PART, HOSTS, Board, board, check_host, part_of
+from .board_table import BOARDS, BY_PART, HOSTS, HOSTS_OF, Board, board, check_host, part_of
 from .synthesis import run_yosys
 from .yosys_job import BEST
 
@@ -21,7 +21,7 @@ SEEDS = 5  # tried one after the other until the clock rate is met
 VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
 CONSTRAINTS = project.ROOT / "constraints"
 
-__all__ = ["BOARDS", "BY_PART", "HOSTS", "Board", "board", "build_board", "check_host", "part_of"]
+__all__ = ["BOARDS", "BY_PART", "HOSTS", "HOSTS_OF", "Board", "board", "build_board", "check_host", "part_of"]
 
 
 def sources(top: str) -> list[Path]:

@@ -62,7 +62,7 @@ class Target:
 def base_job(part: str, board_top: bool) -> dict:
     """Top, sources and parameters of the part with its defaults, or of its board top with the UART host."""
     sources = project.sources(project.part(part))
-    top = part
+    top = project.part(part).top
     if board_top:
         top = CARRIERS[part]
         sources = [*sources, *project.board_files(part)]

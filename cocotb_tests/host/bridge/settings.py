@@ -8,6 +8,10 @@ from cocotb_tests.harness.config import Config
 FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))
 # Two pulse counters, as for a part with two axes.
 TWO = Config("two8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Axes", 2), ("Part", 2104)))
+# No pulse counter, as for a bank.
+NONE = Config("none8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Counter", 0), ("Part", 32)))
+# A bank with its bridge: as few clk a round as BANK-GEN-02 lets it have.
+BANK = Config("bank8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("AXES", 4)))
 # Every rate code; the highest rate has exactly 5 clk a bit.
 ALL_RATES = Config("rates15m", clk_hz=15_000_000, extra=(("Baud", 115_200),))
 # Few clk a millisecond, for what takes long.

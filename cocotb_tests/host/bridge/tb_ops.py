@@ -9,17 +9,18 @@ import cocotb
 from cocotb_tests.harness.config import configs
 
 from .bench import Bench, now, same
-from .settings import ALL_RATES, FAST, SLOW, TWO, axes_of, params_of
+from .settings import ALL_RATES, FAST, NONE, SLOW, TWO, axes_of, params_of
 
 
 @cocotb.test()
-@configs(FAST, ALL_RATES, SLOW, TWO)
+@configs(FAST, ALL_RATES, SLOW, TWO, NONE)
 async def ops_ident(dut):
     """UB-OPS-02: IDENT gives the 16 bytes of the table."""
     bench = await Bench.start(dut)
     params = params_of(bench.config)
     top = {8_000_000: 4, 15_000_000: 6, 2_000_000: 1}[bench.config.clk_hz]
-    flags = top << 4 | axes_of(bench.config) - 1 << 2 | 2 | params.get("Datasheet", 0)
+    counter = params.get("Counter", 1) << 1
+    flags = top << 4 | axes_of(bench.config) - 1 << 2 | counter | params.get("Datasheet", 0)
     part = params.get("Part", 104)
     want = b"PPMC\x01" + struct.pack("<HBII", part, flags, 16_000_000, bench.config.clk_hz)
     same("IDENT", await bench.done("01"), want)

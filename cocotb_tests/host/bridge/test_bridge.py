@@ -11,7 +11,7 @@ from cocotb_tests.harness.build import Design, part_design
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import board_files
+from cocotb_tests.harness.project import board_files, files
 from cocotb_tests.harness.runner import run_item
 
 from .settings import params_of
@@ -23,6 +23,7 @@ ONE_FILE = ("--output-split", "0")
 # starts at 0 by chance, a part in a two-state simulation would see no edge of its reset before the first clk.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
+BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)
 BOARDS = ROOT / "rtl" / "boards"
 ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
@@ -57,13 +58,27 @@ def test_bridge_board(item, sim_options):
     run_item(item, sim_options, design=board_design(item))
 
 
+def bank_design(item) -> Design:
+    """A bank behind its bridge."""
+    extra = dict(item.config.extra)
+    params = {"CLK_HZ": item.config.clk_hz, "BAUD": extra["Baud"], "AXES": extra["AXES"]}
+    includes = [ROOT / "rtl" / "common"]
+    return Design("ppmc_bank_carrier", files("ppmc_bank_carrier"), includes, params, FROM_ZERO)
+
+
+@pytest.mark.parametrize("item", BANK_ITEMS)
+def test_bridge_bank(item, sim_options):
+    """Run one simulation of a bank and its bridge."""
+    run_item(item, sim_options, design=bank_design(item))
+
+
 def station_design(item) -> Design:
     """The top of a board with a PPMC-2104 on the pins of the old bus; the bench stands in for its PLL."""
     part = part_design("ppmc2104", item.config)
     panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
     boards = [*panel, *board_files("ppmc2104"), BOARDS / "ulx3s" / "board_ulx3s_ppmc2104.sv"]
-    files = [*part.sources, *boards, ROOT / "cocotb_tests/host/bridge/station_bench.sv"]
-    return Design("station_bench", files, part.includes, {}, FROM_ZERO, "*")
+    bench = ROOT / "cocotb_tests/host/bridge/station_bench.sv"
+    return Design("station_bench", [*part.sources, *boards, bench], part.includes, {}, FROM_ZERO, "*")
 
 
 @pytest.mark.parametrize("item", STATION_ITEMS)

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// busses_top: both bus bridges with three address lines and bare strobe pins (model_*), and both with a PPMC-104
+// busses_top: both bus bridges with ModelBits address lines and bare strobe pins (model_*), and both with a PPMC-104
 //         behind them, as the templates of packages/templates instantiate them (part_*).
 // Timing: one clk for all.
 `default_nettype none
 
-module busses_top (
+module busses_top #(
+    parameter int unsigned ModelBits = 3  // address lines of the bridges with bare pins
+) (
     input wire logic clk,
     input wire logic rst_n,
     input wire logic model_axil_awvalid,
     output logic model_axil_awready,
-    input wire logic [5:0] model_axil_awaddr,
+    input wire logic [ModelBits+2:0] model_axil_awaddr,
     input wire logic model_axil_wvalid,
     output logic model_axil_wready,
     input wire logic [31:0] model_axil_wdata,
@@ -19,7 +21,7 @@ module busses_top (
     output logic [1:0] model_axil_bresp,
     input wire logic model_axil_arvalid,
     output logic model_axil_arready,
-    input wire logic [5:0] model_axil_araddr,
+    input wire logic [ModelBits+2:0] model_axil_araddr,
     output logic model_axil_rvalid,
     input wire logic model_axil_rready,
     output logic [31:0] model_axil_rdata,
@@ -44,7 +46,7 @@ module busses_top (
     input wire logic model_wb_cyc,
     input wire logic model_wb_stb,
     input wire logic model_wb_we,
-    input wire logic [5:2] model_wb_adr,
+    input wire logic [ModelBits+2:2] model_wb_adr,
     input wire logic [3:0] model_wb_sel,
     input wire logic [31:0] model_wb_datwr,
     output logic [31:0] model_wb_datrd,
@@ -62,7 +64,7 @@ module busses_top (
     output logic model_axil_bus_cs_n,
     output logic model_axil_bus_rd_n,
     output logic model_axil_bus_wr_n,
-    output logic [2:0] model_axil_bus_a,
+    output logic [ModelBits-1:0] model_axil_bus_a,
     output logic [7:0] model_axil_bus_d,
     input wire logic [7:0] model_axil_bus_q,
     input wire logic model_axil_bus_int_n,
@@ -70,7 +72,7 @@ module busses_top (
     output logic model_wb_bus_cs_n,
     output logic model_wb_bus_rd_n,
     output logic model_wb_bus_wr_n,
-    output logic [2:0] model_wb_bus_a,
+    output logic [ModelBits-1:0] model_wb_bus_a,
     output logic [7:0] model_wb_bus_d,
     input wire logic [7:0] model_wb_bus_q,
     input wire logic model_wb_bus_int_n,
@@ -88,7 +90,7 @@ module busses_top (
 );
 
   ppmc_axil #(
-      .AddrBits(3)
+      .AddrBits(ModelBits)
   ) u_model_axil (
       .clk_i(clk),
       .rst_ni(rst_n),
@@ -120,7 +122,7 @@ module busses_top (
   );
 
   ppmc_wishbone #(
-      .AddrBits(3)
+      .AddrBits(ModelBits)
   ) u_model_wb (
       .clk_i(clk),
       .rst_ni(rst_n),

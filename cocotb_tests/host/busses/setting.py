@@ -11,10 +11,19 @@ from cocotb.clock import Clock
 from cocotb.handle import Immediate
 from cocotb.triggers import RisingEdge, Timer
 
+from cocotb_tests.harness.config import Config
+
 INPUT_ENDS = ("awvalid", "awaddr", "wvalid", "wdata", "wstrb", "bready", "arvalid", "araddr", "rready")
 INPUT_ENDS += ("cyc", "stb", "we", "adr", "sel", "datwr", "bus_q")
 PREFIXES = ("model_axil", "part_axil", "model_wb", "part_wb")
 PERIOD_PS = 62_500
+TEN_LINES = Config("lines10", extra=(("ModelBits", 10),))
+"""As many address lines as a bank has."""
+
+
+def count_of(dut: Any) -> int:
+    """Number of registers behind the bridges with bare pins."""
+    return 1 << len(dut.model_wb_bus_a)
 
 
 async def start(dut: Any) -> random.Random:

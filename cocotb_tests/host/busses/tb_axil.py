@@ -11,8 +11,10 @@ import cocotb
 from cocotb.triggers import Combine, RisingEdge, with_timeout
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
 
+from cocotb_tests.harness.config import F16, configs
+
 from .session import PartMonitor, check_session, run_session
-from .setting import start
+from .setting import TEN_LINES, count_of, start
 from .strobe_slave import Registers, StrobeSlave
 
 COUNT = 8
@@ -56,16 +58,18 @@ async def write_bytes(master: AxiLiteMaster, address: int, data: bytes) -> int:
 
 
 @cocotb.test()
+@configs(F16, TEN_LINES)
 async def axil_random_accesses(dut):
     """Given random accesses and stalls on all channels, then data, responses and strobes follow the map."""
-    rng = await start(dut)
-    slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
-    mirror, want = Registers(COUNT), []
+    rng, count = await start(dut), count_of(dut)
+    bridge = 4 * count
+    slave, master = StrobeSlave(dut, "model_axil_bus", count, rng), make_master(dut, "model_axil")
+    mirror, want = Registers(count), []
     for share in (0.0, 0.3, 0.7):
         for channel in channels(master).values():
             channel.set_pause_generator(pauses(rng, share))
         for _ in range(120):
-            register, level = rng.randrange(COUNT), rng.randrange(2)
+            register, level = rng.randrange(count), rng.randrange(2)
             dut.model_axil_bus_int_n.value = level
             what = rng.choice(("write", "write", "lanes", "read", "read", "bridge", "outside"))
             if what == "write":
@@ -89,11 +93,11 @@ async def axil_random_accesses(dut):
                 for _ in range(3):
                     await RisingEdge(dut.clk)
                 assert int(dut.model_axil_bus_irq.value) == 1 - level
-                assert await read_word(master, BRIDGE) == (AxiResp.OKAY, 1 - level)
+                assert await read_word(master, bridge) == (AxiResp.OKAY, 1 - level)
             else:
-                address = rng.randrange(BRIDGE + 4, 2 * BRIDGE, 4)
+                address = rng.randrange(bridge + 4, 2 * bridge, 4)
                 assert await read_word(master, address) == (AxiResp.SLVERR, 0)
-                for target in (address, BRIDGE):
+                for target in (address, bridge):
                     assert await write_bytes(master, target, b"\xff" * 4) == AxiResp.SLVERR
             assert slave.accesses() == want, f"after {what}: {slave.cycles[-2:]}, wanted {want[-2:]}"
     assert len(want) > 100, f"only {len(want)} strobes"

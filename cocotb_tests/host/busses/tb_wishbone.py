@@ -5,8 +5,10 @@ from __future__ import annotations
 import cocotb
 from cocotb.triggers import RisingEdge
 
+from cocotb_tests.harness.config import F16, configs
+
 from .session import PartMonitor, check_session, run_session
-from .setting import start
+from .setting import TEN_LINES, count_of, start
 from .strobe_slave import Registers, StrobeSlave
 from .wishbone import WishboneMaster
 
@@ -16,13 +18,15 @@ WRITE_LATENCY, READ_LATENCY, QUICK_LATENCY = 6, 8, 1
 
 
 @cocotb.test()
+@configs(F16, TEN_LINES)
 async def wishbone_random_accesses(dut):
     """Given random accesses with and without pauses, then data, answers and strobes follow the map."""
-    rng = await start(dut)
-    slave, master = StrobeSlave(dut, "model_wb_bus", COUNT, rng), WishboneMaster(dut, "model_wb")
-    mirror, want = Registers(COUNT), []
+    rng, count = await start(dut), count_of(dut)
+    bridge = 4 * count
+    slave, master = StrobeSlave(dut, "model_wb_bus", count, rng), WishboneMaster(dut, "model_wb")
+    mirror, want = Registers(count), []
     for _ in range(600):
-        register, level, keep = rng.randrange(COUNT), rng.randrange(2), rng.random() < 0.6
+        register, level, keep = rng.randrange(count), rng.randrange(2), rng.random() < 0.6
         dut.model_wb_bus_int_n.value = level
         sel = rng.choice((0xF, 0x1, rng.getrandbits(4)))
         value = rng.getrandbits(32)
@@ -43,11 +47,11 @@ async def wishbone_random_accesses(dut):
             master.idle()
             await master.clocks(3)
             assert int(dut.model_wb_bus_irq.value) == 1 - level
-            assert await master.access(BRIDGE, None, sel, keep) == (True, 1 - level)
+            assert await master.access(bridge, None, sel, keep) == (True, 1 - level)
         else:
-            address = rng.randrange(BRIDGE + 4, 2 * BRIDGE, 4)
+            address = rng.randrange(bridge + 4, 2 * bridge, 4)
             assert await master.access(address, None, sel, keep) == (False, 0), "reserved word"
-            for target in (address, BRIDGE):
+            for target in (address, bridge):
                 assert not (await master.access(target, value, sel, keep))[0], f"write to {target:#x}"
         if not keep:
             await master.clocks(rng.randrange(6))

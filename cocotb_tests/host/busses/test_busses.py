@@ -25,7 +25,8 @@ def busses_design(item) -> Design:
         ROOT / "packages" / "templates" / f"ppmc104_example_{bus}.sv" for bus in ("axil", "wishbone")
     ]
     top = Path(__file__).with_name("busses_top.sv")
-    return Design("busses_top", [*part.sources, *templates, top], part.includes, args=ONE_FILE)
+    sources = [*part.sources, *templates, top]
+    return Design("busses_top", sources, part.includes, dict(item.config.extra), ONE_FILE)
 
 
 @pytest.mark.parametrize("item", ITEMS)

@@ -58,7 +58,13 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
     flags = [
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
-        *("--top-module", f"{part}_carrier", "--prefix", "Vboard", f"-I{root / 'rtl/common'}"),
+        *(
+            "--top-module",
+            f"{parts.part(part).rtl}_carrier",
+            "--prefix",
+            "Vboard",
+            f"-I{root / 'rtl/common'}",
+        ),
         *(
             f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}"
             for name, value in params.items()

@@ -12,7 +12,8 @@ module ppmc_board_host #(
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits
-    parameter int unsigned AddrBits  = 1            // address lines of the part, 1 .. 3
+    parameter int unsigned AddrBits  = 1,           // address lines of the part, 1 .. 4
+    parameter bit          Counter   = 1'b1         // pulses are counted
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -47,12 +48,12 @@ module ppmc_board_host #(
     $fatal(1, "ppmc_board_host: HOST must be UART or BUS");
   end
 
-  if (AddrBits < 1 || AddrBits > 3) begin : g_check_addr
-    $fatal(1, "ppmc_board_host: AddrBits must be 1 .. 3");
+  if (AddrBits < 1 || AddrBits > 4) begin : g_check_addr
+    $fatal(1, "ppmc_board_host: AddrBits must be 1 .. 4");
   end
 
   if (Host == "UART") begin : g_uart
-    logic [2:0] a;
+    logic [3:0] a;
 
     assign part_a_o = a[AddrBits-1:0];
 
@@ -62,7 +63,8 @@ module ppmc_board_host #(
         .Baud     (Baud),
         .Part     (Part),
         .Datasheet(Datasheet),
-        .Axes     (Axes)
+        .Axes     (Axes),
+        .Counter  (Counter)
     ) u_host (
         .clk_i,
         .rst_ni,

@@ -62,7 +62,7 @@ def fitted(folder: Path, text: str = BOARD) -> Fitted:
     """Its first part on that board."""
     board = described(folder, text)
     on = board.parts[0]
-    return fit(board, on, carrier.read(carrier.path_of(on.row.folder)))
+    return fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
 
 
 def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
@@ -114,7 +114,7 @@ def test_what_has_no_pin(tmp_path: Path) -> None:
         ("pull: down", "pul: down", "reset: unknown key pul"),
         ("    mhz: 50\n", "", "parts: ppmc104: mhz is missing"),
         ("    mhz: 50", "mhz: 50", "line 24: mapping values"),
-        ("hosts: [uart]", "hosts: [usb]", "hosts: usb: expected uart or bus"),
+        ("hosts: [uart]", "hosts: [usb]", "hosts: usb: expected uart, bus, spi"),
         ("shows: moving", "shows: red", "shows red: expected link, moving"),
         ("family: ecp5", "family: ecp6", "family ecp6: expected ice40"),
         ("  ppmc104:", "  ppmc999:", "there is no such part"),
@@ -151,3 +151,38 @@ def test_written_files_are_fresh() -> None:
     }
     assert all(same.values()), [path.name for path, fresh in same.items() if not fresh]
     assert not left_over(wanted)
+
+
+VECTORS = """
+module tiny_carrier #(
+    parameter int unsigned AXES = 4,
+    parameter string       HOST = "UART"
+) (
+    input  wire logic              clk,
+    input  wire logic [  AXES-1:0] l1_n,
+    output logic      [5*AXES-1:0] s,
+    output logic                   miso_o,
+    output logic                   miso_oe
+);
+endmodule
+"""
+
+
+def test_vectors_as_wide_as_a_parameter(tmp_path: Path) -> None:
+    """Given ports as wide as a parameter says, then its default counts, or what the board sets."""
+    path = tmp_path / "tiny_carrier.sv"
+    path.write_text(VECTORS)
+    for given, axes in ((None, 4), ({"AXES": 8}, 8)):
+        found = carrier.read(path, given)
+        assert (found.ports["l1_n"].width, found.ports["s"].width) == (axes, 5 * axes)
+        assert found.ports["s"].bit_names()[-1] == f"s[{5 * axes - 1}]"
+        assert found.two_way() == {"miso": "miso_o"} and found.side("miso").output
+
+
+@pytest.mark.parametrize("wrong", ["HOST-1", "AXIS-1", "AXES"])
+def test_a_width_that_cannot_be_known(tmp_path: Path, wrong: str) -> None:
+    """Given a width by something else, then it is refused in one line."""
+    path = tmp_path / "tiny_carrier.sv"
+    path.write_text(VECTORS.replace("5*AXES-1", wrong))
+    with pytest.raises(ProjectError, match=rf"^\[{wrong}:0\]: expected a number, or a parameter less one$"):
+        carrier.read(path)

@@ -75,7 +75,7 @@ class Port:
 def ports_of(text: str) -> dict[str, Port]:
     """The ports that a top's source declares, one a line."""
     found = {}
-    pattern = r"^ +(input|output|inout) +(?:wire )?logic *(?:\[(\d+):(\d+)\])? +(\w+)"
+    pattern = r"^ +(input|output|inout) +(?:wire )?logic *(?:\[ *(\d+): *(\d+)\])? +(\w+)"
     for direction, high, low, name in re.findall(pattern, text, re.M):
         assert name not in found, f"{name} is declared twice"
         bits = [f"{name}[{bit}]" for bit in range(int(low), int(high) + 1)] if high else [name]

@@ -1,0 +1,1 @@
+"""Simulations of the bank and of what is around it."""

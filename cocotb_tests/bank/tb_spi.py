@@ -1,0 +1,132 @@
+"""ppmc_bank_carrier with HOST = "SPI": all of the window over four wires (docs/bank/spi.md)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.handle import Immediate
+from cocotb.triggers import Timer
+
+from ..harness.config import Config, configs
+from ..harness.unit import same
+
+CONFIG = Config("spi8m", clk_hz=8_000_000, extra=(("AXES", 4), ("HOST", "SPI")))
+AXES = 4
+WRITE, NEXT_AXIS, NEXT = 0x8000, 0x4000, 0x2000
+DATA, COMMAND, POSITION, MASK, MAP, INFO = 0, 1, 4, 8, 9, 12
+SIGN, INT = 0x80, 1
+INITIALISE = (0x0A, 9, 4, 4, 0)  # RL 9, RH 4, PA 4, four-phase
+OBF, IBF, BUSY = 1, 2, 4
+
+
+class Host:
+    """An SPI master in mode 0 with clk = 8 sck, in no step with clk."""
+
+    def __init__(self, dut: Any) -> None:
+        self.dut = dut
+        self.period = Config.from_json(os.environ["OPENPPMC_CONFIG"]).period_ps
+        self.status = 0
+
+    async def start(self) -> None:
+        """Clock, reset, idle pins, the bank ready."""
+        dut = self.dut
+        dut.clk.set(Immediate(0))
+        dut.rst_n.set(Immediate(1))
+        for pin in ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"):
+            getattr(dut, pin).value = (1 << AXES) - 1
+        for pin, level in (("uart_rxd", 1), ("spi_cs_n", 1), ("sck", 0), ("mosi", 0)):
+            getattr(dut, pin).value = level
+        await self.clk(1)
+        dut.rst_n.value = 0
+        Clock(dut.clk, self.period, "ps").start()
+        await self.clk(4)
+        dut.rst_n.value = 1
+        await self.clk(60)
+
+    async def clk(self, n: float) -> None:
+        """Wait n clk."""
+        await Timer(round(n * self.period), "ps")
+
+    async def frame(self, word: int, *data: int) -> bytes:
+        """Header and bytes; returns what came behind the header, and keeps the status."""
+        dut, seen = self.dut, bytearray()
+        await self.clk(4.3)
+        dut.spi_cs_n.value = 0
+        await self.clk(1)
+        for byte in (word >> 8, word & 0xFF, *data):
+            got = 0
+            for n in range(7, -1, -1):
+                dut.sck.value = 0
+                dut.mosi.value = byte >> n & 1
+                await self.clk(4)
+                got = got << 1 | int(dut.miso_o.value)
+                dut.sck.value = 1
+                await self.clk(4)
+            seen.append(got)
+        dut.sck.value = 0
+        await self.clk(4)
+        same("miso is driven", int(dut.miso_oe.value), 1)
+        dut.spi_cs_n.value = 1
+        self.status = seen[0]
+        return bytes(seen[2:])
+
+    async def write(self, axis: int, register: int, *data: int, step: int = 0) -> None:
+        """A burst of writes."""
+        await self.frame(WRITE | step | axis << 4 | register, *data)
+
+    async def read(self, axis: int, register: int, count: int = 1, step: int = 0) -> bytes:
+        """A burst of reads."""
+        return (await self.frame(step | axis << 4 | register, *[0xFF] * count, 0))[1:]
+
+    async def until(self, axis: int, good: Callable[[int], bool]) -> int:
+        """The first status of an axis that is good."""
+        for _ in range(400):
+            status = (await self.read(axis, COMMAND))[0]
+            if good(status):
+                return status
+        raise AssertionError(f"axis {axis}: status {status:#04x}")
+
+    async def call(self, axis: int, code: int, *data: int) -> int:
+        """A command with its parameters; returns the status."""
+        await self.write(axis, COMMAND, code)
+        for byte in data:
+            await self.until(axis, lambda status: not status & IBF)
+            await self.write(axis, DATA, byte)
+        return await self.until(axis, lambda status: not status & IBF)
+
+
+@cocotb.test()
+@configs(CONFIG)
+async def spi_window(dut):
+    """Given bursts by axis and by register, then INFO, CONFIG, MASK are where the rules say."""
+    host = Host(dut)
+    await host.start()
+    same("INFO", await host.read(0, INFO, 4, NEXT_AXIS), bytes([0x42, 1, AXES, 0]))
+    same("status", host.status, SIGN)
+    await host.write(0, 2, 0, 1, 2, 3, step=NEXT_AXIS)
+    same("CONFIG", await host.read(0, 2, AXES + 1, NEXT_AXIS), bytes([0, 1, 2, 3, 0xFF]))
+    await host.write(0, MASK, 0x0A)
+    same("MASK", await host.read(0, MASK), b"\x0a")
+    same("an axis that is not there", await host.read(AXES, 0, 8, NEXT), b"\xff" * 8)
+
+
+@cocotb.test()
+@configs(CONFIG)
+async def spi_moves(dut):
+    """Given an axis that moves, then status, interrupt, map, finish status and position are read."""
+    host = Host(dut)
+    await host.start()
+    same("initialised", await host.call(3, *INITIALISE), 0)
+    same("started", await host.call(3, 0x4B, 13, 0, 0), BUSY)
+    await host.until(3, lambda status: not status & BUSY)
+    same("map", await host.read(0, MAP), b"\x08")
+    same("status of the bridge", host.status, SIGN | INT)
+    same("finish status is there", await host.call(3, 0x80) & OBF, OBF)
+    same("finish status", await host.read(3, DATA), b"\x83")
+    same("position", int.from_bytes(await host.read(3, POSITION, 4, NEXT), "little", signed=True), -14)
+    same("position of another one", await host.read(2, POSITION, 4, NEXT), bytes(4))
+    same("status of the bridge", host.status, SIGN)

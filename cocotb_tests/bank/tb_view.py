@@ -1,0 +1,110 @@
+"""Contract of ppmc_bank_view: docs/bank/carrier.md, and what BANK-WIN-04 wants of strobes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from ..harness.unit import Unit, rng, same
+from ..harness.wrapper import Block
+
+AREA = "bank_view"
+GROUPS = ("ppmc_bank_carrier",)
+BLOCKS = {
+    "view": Block("ppmc_bank_view", "cs_ni wr_ni a_i:4 d_i:8 d_o:8 cs_no a_o:10 bank_d_i:8 axis_o:8"),
+}
+CHOICE = 3
+AXES = 64
+WRITE_CLK, READ_CLK, GAP_CLK = 4, 6, 4
+STEADY = 2
+"""Clk edges that sample the address with or before the first one that samples the strobe (BANK-WIN-04)."""
+
+
+class Bridge:
+    """Strobes of UB-BUS-01 at the view; `seen` lists (cs_n, address) of every clk at the bank."""
+
+    def __init__(self, dut: Any) -> None:
+        self.unit = Unit(dut, "view", BLOCKS, "cs_no a_o d_o")
+        self.seen: list[tuple[int, int]] = []
+
+    async def _clk(self, **inputs: int) -> int:
+        cs_n, address, data = await self.unit.clk(**inputs)
+        self.seen.append((cs_n, address))
+        return data
+
+    async def access(self, a: int, value: int | None = None, shown: int = 0) -> int:
+        """One cycle; `shown`: what the bank shows. Returns what is on the bus in the last clk."""
+        data = 0
+        await self._clk(a_i=a, d_i=value or 0, bank_d_i=shown)
+        for _ in range(READ_CLK if value is None else WRITE_CLK):
+            data = await self._clk(cs_ni=0, wr_ni=value is None)
+        for _ in range(GAP_CLK - 1):
+            await self._clk(cs_ni=1, wr_ni=1)
+        return data
+
+    def strobes(self) -> list[tuple[int, int]]:
+        """(address, clk) of the strobes at the bank; AssertionError if an address does not stand."""
+        found = []
+        for n, (cs_n, address) in enumerate(self.seen):
+            if cs_n:
+                continue
+            if self.seen[n - 1][0]:
+                found.append((address, 0))
+                around = [there for _, there in self.seen[n - STEADY + 1 : n + 1]]
+                same(f"clk {n}: address before the strobe", around, [address] * STEADY)
+            same(f"clk {n}: address in the strobe", address, found[-1][0])
+            found[-1] = (address, found[-1][1] + 1)
+        return found
+
+
+async def start(dut: Any) -> Bridge:
+    """A bridge before a view that was reset."""
+    bridge = Bridge(dut)
+    await bridge.unit.reset(cs_ni=1, wr_ni=1)
+    return bridge
+
+
+@cocotb.test()
+async def view_random_accesses(dut):
+    """Given accesses at random, then each goes to the chosen axis, and 0x3 chooses it and shows it."""
+    rand, bridge = rng(), await start(dut)
+    axis, want = 0, []
+    for _ in range(600):
+        a, shown = rand.choice((CHOICE, rand.randrange(16))), rand.getrandbits(8)
+        value = rand.choice((None, rand.randrange(AXES), rand.getrandbits(8)))
+        got = await bridge.access(a, value, shown)
+        if a == CHOICE:
+            axis = axis if value is None else value
+            same("0x3", bridge.unit.get("axis_o"), axis)
+        elif axis < AXES:
+            want.append((16 * axis + a, READ_CLK if value is None else WRITE_CLK))
+        if value is None:
+            same(f"axis {axis}, register {a}", got, axis if a == CHOICE else shown if axis < AXES else 0xFF)
+    same("strobes at the bank", bridge.strobes(), want)
+    assert len({address for address, _ in want}) > 100
+
+
+@cocotb.test()
+async def view_axes_that_the_window_lacks(dut):
+    """Given one of 64 to 255, then reads give FF, the bank sees nothing, and 0x3 is there to choose anew."""
+    bridge = await start(dut)
+    for axis in (64, 128, 192, 255):
+        await bridge.access(CHOICE, axis)
+        same("register 0", await bridge.access(0, None, 0x5A), 0xFF)
+        await bridge.access(1, 0x43)
+        same("0x3", await bridge.access(CHOICE), axis)
+    same("strobes", bridge.strobes(), [])
+    await bridge.access(CHOICE, 63)
+    same("register 0", await bridge.access(0, None, 0x5A), 0x5A)
+    same("strobes", bridge.strobes(), [(0x3F0, READ_CLK)])
+
+
+@cocotb.test()
+async def view_reset(dut):
+    """Given a chosen axis, when the bank is reset, then it is axis 0."""
+    bridge = await start(dut)
+    await bridge.access(CHOICE, 17)
+    same("chosen", await bridge.access(CHOICE), 17)
+    await bridge.unit.reset(cs_ni=1, wr_ni=1)
+    same("after reset", await bridge.access(CHOICE), 0)

@@ -1,0 +1,32 @@
+"""Tests of what is around a bank: the view of one axis, the carrier with its SPI host."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.blocks import BLOCKS, run_block
+from cocotb_tests.harness.build import Design
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import files
+from cocotb_tests.harness.runner import SimOptions, run_item
+
+VIEW = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS)
+SPI = cocotb_items("cocotb_tests.bank", "tb_spi", part=BLOCKS)
+# Start values 0, as in an FPGA, and one file, as the tests of the UART bridge have them.
+FROM_ZERO = ("--output-split", "0", "--x-initial", "0")
+
+
+@pytest.mark.parametrize("item", VIEW)
+def test_view(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation of ppmc_bank_view."""
+    run_block(item, sim_options)
+
+
+@pytest.mark.parametrize("item", SPI)
+def test_carrier(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation of ppmc_bank_carrier."""
+    params = {"CLK_HZ": item.config.clk_hz, **dict(item.config.extra)}
+    includes = [ROOT / "rtl" / "common"]
+    design = Design("ppmc_bank_carrier", files("ppmc_bank_carrier"), includes, params, FROM_ZERO)
+    run_item(item, sim_options, design=design)

@@ -1,0 +1,160 @@
+"""An SPI host before ppmc_spi, and what docs/bank/spi.md says that the block does with its frames."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+from ..harness.unit import Unit, rng
+from .busses.strobe_slave import Registers, StrobeSlave
+
+WRITE, NEXT_AXIS, NEXT = 0x8000, 0x4000, 0x2000
+FAST, CUT, REFUSED, INT = 8, 4, 2, 1
+SIGN = 0x80
+COUNT = 1024
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Times in clk: low and high time of sck, first rise behind cs_n, cs_n high; sck idles at `idle`."""
+
+    low: float = 4.0
+    high: float = 4.0
+    lead: float = 6.0
+    gap: float = 6.0
+    idle: int = 0
+
+
+def bits_of(*values: int) -> list[int]:
+    """Bytes as bits, the highest first."""
+    return [byte >> n & 1 for byte in values for n in range(7, -1, -1)]
+
+
+def byte_of(bits: list[int]) -> int:
+    """Eight bits as a byte, the highest first."""
+    return int("".join(map(str, bits)), 2)
+
+
+def header(word: int) -> list[int]:
+    """A header as two bytes."""
+    return [word >> 8, word & 0xFF]
+
+
+class SpiHost:
+    """Drives the pins at any times, in fractions of a clk; clk edge n is at time n."""
+
+    def __init__(self, unit: Unit, dut: Any, name: str) -> None:
+        self.unit, self.now, self.edge = unit, 0.0, 0
+        pins = {
+            "cs_n": "cs_no",
+            "rd_n": "rd_no",
+            "wr_n": "wr_no",
+            "a": "a_o",
+            "d": "d_o",
+            "q": "d_i",
+            "clk": "clk_i",
+        }
+        self._pins = SimpleNamespace(
+            **{
+                port if port == "clk" else f"bus_{port}": getattr(dut, f"{name}_{pin}")
+                for port, pin in pins.items()
+            }
+        )
+        self.slave: StrobeSlave
+
+    async def reset(self) -> None:
+        """Idle pins, reset, a slave at the bus."""
+        await self.unit.reset(cs_ni=1, int_ni=1)
+        self.slave = StrobeSlave(self._pins, "bus", COUNT, rng())
+        await self.wait(8)
+
+    async def until(self, time: float) -> None:
+        """Let all clk edges before this time pass."""
+        self.now = time
+        while self.edge < time:
+            await self.unit.clk()
+            self.edge += 1
+
+    async def wait(self, clk: float) -> None:
+        """Leave the pins as they are for a while."""
+        await self.until(self.now + clk)
+
+    async def frame(self, bits: list[int], pace: Pace = Pace(), short: int = -1) -> list[int]:
+        """One frame; returns the level of miso at each rise of sck. The bit `short` has a low time of 2."""
+        put, seen = self.unit.put, []
+        put(sck_i=pace.idle)
+        await self.wait(pace.gap)
+        put(cs_ni=0)
+        await self.wait(pace.lead - pace.low)
+        for n, bit in enumerate(bits):
+            put(sck_i=0, mosi_i=bit)
+            await self.wait(2 if n == short else pace.low)
+            assert self.unit.get("miso_oe_o"), "miso is not driven"
+            seen.append(self.unit.get("miso_o"))
+            put(sck_i=1)
+            await self.wait(pace.high)
+        put(sck_i=pace.idle)
+        if not pace.idle:
+            await self.wait(pace.low)
+        put(cs_ni=1)
+        return seen
+
+    async def talk(self, *values: int, pace: Pace = Pace()) -> list[int]:
+        """A frame of whole bytes; returns the bytes of miso."""
+        seen = await self.frame(bits_of(*values), pace)
+        return [byte_of(seen[n : n + 8]) for n in range(0, len(seen), 8)]
+
+
+class Book:
+    """What a block of the page does: accesses, miso, flags. `registers` are those behind it."""
+
+    def __init__(self) -> None:
+        self.registers = Registers(COUNT)
+        self.accesses: list[tuple[str, int, int]] = []
+        self.flags = 0
+        self.level = 0  # of INT
+
+    def frame(self, bits: list[int]) -> list[int]:
+        """One frame at a legal pace; returns the bits of miso."""
+        shown = self.flags
+        if len(bits) >= 8:
+            self.flags = 0
+        answer = iter(self._bytes(bits))
+        out = bits_of(SIGN | shown | self.level, *answer)
+        if len(bits) % 8 or len(bits) == 8:
+            self.flags |= CUT
+        return out[: len(bits)]
+
+    def _bytes(self, bits: list[int]) -> Iterator[int]:
+        """The bytes of miso behind the status."""
+        yield 0
+        if len(bits) < 16:
+            return
+        word = byte_of(bits[:8]) << 8 | byte_of(bits[8:16])
+        if word & 0x1C00:
+            self.flags |= REFUSED
+            yield from [0] * math.ceil((len(bits) - 16) / 8)
+            return
+        address, step = word & 0x3FF, 16 * bool(word & NEXT_AXIS) + bool(word & NEXT)
+        yield 0
+        for n in range(16, len(bits), 8):
+            data, answer = bits[n : n + 8], 0
+            if word & WRITE and len(data) == 8:
+                self._access("w", address, byte_of(data))
+            elif not word & WRITE and data[0]:
+                answer = self._access("r", address, 0)
+            else:
+                address -= step
+            address = (address + step) % COUNT
+            yield answer
+
+    def _access(self, kind: str, address: int, value: int) -> int:
+        if kind == "w":
+            self.registers.write(address, value)
+        else:
+            value = self.registers.read(address)
+        self.accesses.append((kind, address, value))
+        return value

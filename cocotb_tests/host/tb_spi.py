@@ -1,0 +1,191 @@
+"""Contract of ppmc_spi: docs/bank/spi.md."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import cocotb
+
+from ..harness.unit import Unit, rng, same
+from ..harness.wrapper import Block
+from .spi_host import (
+    COUNT,
+    CUT,
+    FAST,
+    INT,
+    NEXT,
+    NEXT_AXIS,
+    REFUSED,
+    SIGN,
+    WRITE,
+    Book,
+    Pace,
+    SpiHost,
+    bits_of,
+    header,
+)
+
+BLOCKS = {
+    "spi": Block(
+        "ppmc_spi",
+        "sck_i mosi_i cs_ni miso_o miso_oe_o active_o cs_no rd_no wr_no a_o:10 d_o:8 d_i:8 int_ni",
+        {"AddrBits": 10},
+    ),
+}
+LEGAL = Pace()
+"""clk = 8 sck."""
+
+
+async def start(dut: Any) -> tuple[SpiHost, Book]:
+    """Host and book of a block that was reset."""
+    host = SpiHost(Unit(dut, "spi", BLOCKS), dut, "spi")
+    await host.reset()
+    return host, Book()
+
+
+async def check(host: SpiHost, book: Book, bits: list[int], pace: Pace = LEGAL, what: str = "") -> None:
+    """One frame, against the book."""
+    want = book.frame(bits)
+    same(f"{what} {bits} at {pace}: miso", await host.frame(bits, pace), want)
+    await host.wait(16)
+    same(f"{what} {bits} at {pace}: accesses", host.slave.accesses()[-40:], book.accesses[-40:])
+
+
+def any_pace(rand: random.Random) -> Pace:
+    """A legal one, the fastest among them."""
+    low = rand.choice((3.01, 4.0, rand.uniform(3.01, 9)))
+    high = rand.choice((1.01, 4.0, rand.uniform(1.01, 9)))
+    return Pace(low, high, max(low, 3.01) + rand.uniform(0, 5), rand.uniform(2.01, 9), rand.randrange(2))
+
+
+def any_word(rand: random.Random) -> int:
+    """A header; one in eight is refused."""
+    step = rand.choice((0, NEXT, NEXT_AXIS, NEXT | NEXT_AXIS))
+    word = rand.choice((0, WRITE)) | step | rand.randrange(COUNT)
+    return word | (rand.randrange(1, 8) << 10 if rand.random() < 0.12 else 0)
+
+
+@cocotb.test()
+async def spi_random_frames(dut):
+    """Given frames, cuts and legal paces at random, then accesses, miso and flags are those of the page."""
+    rand = rng()
+    host, book = await start(dut)
+    for _ in range(150):
+        book.level = rand.randrange(2)
+        host.unit.put(int_ni=1 - book.level)
+        await host.wait(rand.uniform(4, 12))
+        data = [rand.choice((0xFF, 0xFF, 0x00, rand.getrandbits(8))) for _ in range(rand.randrange(6))]
+        bits = bits_of(*header(any_word(rand)), *data)
+        if rand.random() < 0.25:
+            bits = bits[: rand.randrange(len(bits))]
+        await check(host, book, bits, any_pace(rand))
+    kinds = [kind for kind, _, _ in book.accesses]
+    assert min(kinds.count("r"), kinds.count("w")) > 50, f"only {len(kinds)} accesses"
+
+
+@cocotb.test()
+async def spi_frames_close_together(dut):
+    """Given frames, cut and refused ones among them, with cs_n high for 2 clk, then no flag is lost."""
+    rand = rng()
+    host, book = await start(dut)
+    for _ in range(120):
+        bits = bits_of(*header(any_word(rand)), 0xFF, 0x00)
+        bits = bits[: rand.choice((0, 3, 7, 8, 9, 16, 17, 24, 32))]
+        want = book.frame(bits)
+        same(f"{bits}", await host.frame(bits, Pace(gap=2.01)), want)
+    await host.wait(16)
+    same("accesses", host.slave.accesses(), book.accesses)
+
+
+@cocotb.test()
+async def spi_cut_everywhere(dut):
+    """Given a frame cut behind every bit, then nothing incomplete is written and the next one works."""
+    host, book = await start(dut)
+    for word, data in ((WRITE | NEXT | 0x2A4, (0x5A, 0xC3, 0x81)), (NEXT | 0x2A4, (0x80, 0x80, 0x00))):
+        bits = bits_of(*header(word), *data)
+        for length in range(len(bits) + 1):
+            before = len(book.accesses)
+            await check(host, book, bits[:length], what=f"cut behind {length}")
+            whole = max(0, length - 16) // 8 if word & WRITE else (length > 16) + (length > 24)
+            same(f"accesses of {length} bits", len(book.accesses) - before, whole)
+            want = SIGN | CUT * bool(length % 8 or length == 8)
+            same(f"status behind {length} bits", (await host.talk(*header(0)))[0], want)
+            book.frame(bits_of(*header(0)))
+            await check(host, book, bits_of(*header(0x2A4), 0xFF, 0x00), what="next")
+
+
+@cocotb.test()
+async def spi_bursts(dut):
+    """Given bursts at one address, by register, by axis, past the end, then each access has its address."""
+    host, book = await start(dut)
+    for step in (0, NEXT, NEXT_AXIS, NEXT | NEXT_AXIS):
+        for address in (0x3FE, 0x3F8, 0x014, 0x000):
+            await check(host, book, bits_of(*header(WRITE | step | address), 1, 2, 3, 4))
+            await check(host, book, bits_of(*header(step | address), *[0xFF] * 4, 0x00))
+            await check(host, book, bits_of(*header(step | address), 0x80, 0x7F, 0x80, 0x00))
+    same("first of a burst by axis at 3F8", [a for _, a, _ in book.accesses if a in (0x3F8, 0x008)][0], 0x3F8)
+
+
+@cocotb.test()
+async def spi_fastest(dut):
+    """Given the fastest sck and one a little faster, at all phases to clk, then it works, and it is told."""
+    for step in range(0, 16):
+        host, book = await start(dut)
+        await host.wait(step / 16)
+        for pace in (LEGAL, Pace(3.5, 3.5), Pace(3.0625, 3.0), Pace(3.0625, 1.0625, lead=4)):
+            for word, data in ((WRITE | NEXT | 7, (0xA5, 0x3C)), (NEXT | 7, (0xFF, 0xFF, 0x00))):
+                await check(host, book, bits_of(*header(word), *data), pace)
+        # sck with low times of 2 clk: mosi is taken well, miso comes late, which the first bits show.
+        bits = bits_of(*header(WRITE | 0x155), 0x77)
+        book.frame(bits)
+        seen = await host.frame(bits, Pace(2, 2, lead=6))
+        if step:  # with none, miso would change just before the host looks
+            same(f"phase {step}/16: first bits", seen[:4], [1, 1, 0, 0])
+        await host.wait(16)
+        same("accesses", host.slave.accesses(), book.accesses)
+        same("flag", (await host.talk(*header(0)))[0], SIGN | FAST)
+        same("gone", (await host.talk(*header(0)))[0], SIGN)
+
+
+@cocotb.test()
+async def spi_one_short_low_time(dut):
+    """Given one low time of sck that is too short, in whichever bit, then the next frame tells it, once."""
+    host, book = await start(dut)
+    for short in range(1, 32):
+        await host.frame(bits_of(*header(0), 0, 0), short=short)
+        for flags in (FAST, 0):
+            same(f"status behind bit {short}", (await host.talk(*header(0)))[0], SIGN | flags)
+    same("accesses", host.slave.accesses(), book.accesses)
+
+
+@cocotb.test()
+async def spi_lines_that_stand_still(dut):
+    """Given a mosi that is always 0 or always 1, or only some clk of sck, then there is no access."""
+    host, _ = await start(dut)
+    same("all 0", await host.talk(0, 0, 0, 0), [SIGN, 0, 0, 0])
+    same("all 1", await host.talk(0xFF, 0xFF, 0xFF, 0xFF), [SIGN, 0, 0, 0])
+    same("refused", await host.talk(0, 0), [SIGN | REFUSED, 0])
+    host.unit.put(int_ni=0)
+    same("interrupt", await host.talk(0, 0), [SIGN | INT, 0])
+    host.unit.put(cs_ni=1, mosi_i=1)
+    for _ in range(40):
+        for level in (1, 0):
+            host.unit.put(sck_i=level)
+            await host.wait(4)
+            same("not addressed: miso driven", host.unit.get("miso_oe_o"), 0)
+    same("another one was addressed", await host.talk(0, 0), [SIGN | INT, 0])
+    same("accesses", host.slave.accesses(), [])
+
+
+@cocotb.test()
+async def spi_driver(dut):
+    """Given cs_n, then miso is driven from 3 clk at most behind its fall to 3 clk at most behind its rise."""
+    host, _ = await start(dut)
+    for level, driven in ((0, 1), (1, 0)):
+        host.unit.put(cs_ni=level)
+        await host.wait(2)
+        same("not yet", host.unit.get("miso_oe_o"), 1 - driven)
+        await host.wait(1)
+        same("now", host.unit.get("miso_oe_o"), driven)
+        same("lamp", host.unit.get("active_o"), driven)

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_carrier: everything of a board with a bank but its clock generator and pads: the bank, and as its host
+//         either the UART bridge with a view of one axis, or an SPI slave with all of the window.
+// Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a (from 0)
+//         has bit a of each port, and of s the bits 5 a to 5 a + 4 (S1 to S5).
+// Timing: of ppmc_bank; the inputs need no synchroniser outside.
+`default_nettype none
+
+module ppmc_bank_carrier #(
+    parameter int unsigned CLK_HZ     = 100_000_000,  // BANK-GEN-02
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
+    parameter bit          PHASE_IDLE = 1'b1,         // level of s before the first initialisation
+    parameter string       HOST       = "UART",       // or "SPI"
+    parameter int unsigned BAUD       = 115_200       // of the bridge after reset
+) (
+    input  wire logic              clk,
+    input  wire logic              rst_n,
+    // UART host
+    input  wire logic              uart_rxd,    // from the PC
+    output logic                   uart_txd,    // to the PC
+    // SPI host
+    input  wire logic              spi_cs_n,
+    input  wire logic              sck,
+    input  wire logic              mosi,
+    output logic                   miso_o,
+    output logic                   miso_oe,
+    output logic                   int_n,       // some axis has an interrupt pending
+    // switches, 0 = active
+    input  wire logic [  AXES-1:0] l1_n,
+    input  wire logic [  AXES-1:0] l2_n,
+    input  wire logic [  AXES-1:0] l3_n,
+    input  wire logic [  AXES-1:0] l4_n,
+    input  wire logic [  AXES-1:0] cnp_n,
+    input  wire logic [  AXES-1:0] alm_n,
+    // motors
+    output logic      [5*AXES-1:0] s,
+    output logic      [  AXES-1:0] hold,
+    output logic      [  AXES-1:0] pout_n,
+    output logic      [  AXES-1:0] dir,
+    // lamps, 1 = on
+    output logic                   led_link,    // a script or a frame is running, or an answer on its way
+    output logic                   led_moving,  // some motor is
+    output logic                   led_switch   // a limit or an alarm is active
+);
+
+  if (HOST != "UART" && HOST != "SPI") begin : g_check
+    $fatal(1, "ppmc_bank_carrier: HOST must be UART or SPI");
+  end
+
+  logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, unused_oe;
+  logic [9:0] part_a;
+  logic [7:0] to_part, from_part;
+
+  ppmc_bank #(
+      .AXES      (AXES),
+      .CLK_HZ    (CLK_HZ),
+      .XTAL_HZ   (XTAL_HZ),
+      .PHASE_IDLE(PHASE_IDLE)
+  ) u_part (
+      .clk,
+      .rst_n(part_rst_n),
+      .a    (part_a),
+      .cs_n (part_cs_n),
+      .rd_n (part_rd_n),
+      .wr_n (part_wr_n),
+      .d_i  (to_part),
+      .d_o  (from_part),
+      .d_oe (unused_oe),
+      .int_n,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .alm_n,
+      .s,
+      .hold,
+      .pout_n,
+      .dir
+  );
+
+  if (HOST == "SPI") begin : g_spi
+    ppmc_reset u_reset (
+        .clk_i (clk),
+        .rst_ni(rst_n),
+        .rst_no(part_rst_n)
+    );
+
+    ppmc_spi #(
+        .AddrBits(10)
+    ) u_spi (
+        .clk_i    (clk),
+        .rst_ni   (part_rst_n),
+        .sck_i    (sck),
+        .mosi_i   (mosi),
+        .cs_ni    (spi_cs_n),
+        .miso_o,
+        .miso_oe_o(miso_oe),
+        .active_o (led_link),
+        .cs_no    (part_cs_n),
+        .rd_no    (part_rd_n),
+        .wr_no    (part_wr_n),
+        .a_o      (part_a),
+        .d_o      (to_part),
+        .d_i      (from_part),
+        .int_ni   (int_n)
+    );
+
+    logic unused;
+    assign uart_txd = 1'b1;
+    assign unused   = uart_rxd;
+  end else begin : g_uart
+    localparam int unsigned AxisBits = $clog2(AXES);
+
+    logic host_cs_n;
+    logic [3:0] host_a;
+    logic [7:0] to_host, axis, straps;
+    logic [AxisBits-1:0] n;  // the axis that op PINS shows
+
+    assign n = axis[AxisBits-1:0];
+
+    ppmc_board_host #(
+        .ClkHz   (CLK_HZ),
+        .XtalHz  (XTAL_HZ),
+        .Baud    (BAUD),
+        .Part    (32),
+        .AddrBits(4),
+        .Counter (1'b0)
+    ) u_host (
+        .clk_i      (clk),
+        .rst_ni     (rst_n),
+        .rxd_i      (uart_rxd),
+        .txd_o      (uart_txd),
+        .cs_ni      (1'b1),
+        .rd_ni      (1'b1),
+        .wr_ni      (1'b1),
+        .a_i        ('0),
+        .d_i        ('0),
+        .part_rst_no(part_rst_n),
+        .part_cs_no (host_cs_n),
+        .part_rd_no (part_rd_n),
+        .part_wr_no (part_wr_n),
+        .part_a_o   (host_a),
+        .part_d_o   (to_part),
+        .part_d_i   (to_host),
+        .int_ni     (int_n),
+        .straps_o   (straps),
+        .switches_ni({alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]}),
+        .hold_i     (hold[n]),
+        .pout_ni    (1'b1),
+        .dir_i      (1'b0),
+        .link_o     (led_link)
+    );
+
+    ppmc_bank_view u_view (
+        .clk_i   (clk),
+        .rst_ni  (part_rst_n),
+        .cs_ni   (host_cs_n),
+        .wr_ni   (part_wr_n),
+        .a_i     (host_a),
+        .d_i     (to_part),
+        .d_o     (to_host),
+        .cs_no   (part_cs_n),
+        .a_o     (part_a),
+        .bank_d_i(from_part),
+        .axis_o  (axis)
+    );
+
+    logic unused;
+    assign miso_o  = 1'b0;
+    assign miso_oe = 1'b0;
+    assign unused  = ^{spi_cs_n, sck, mosi, straps, axis};
+  end
+
+  assign led_moving = !(&hold);
+  assign led_switch = !(&{l1_n, l2_n, l3_n, l4_n, alm_n});
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/icebreaker/board.yml and ppmc_bank_carrier.sv; change those, not this.
+// board_icebreaker_bank: PPMC bank with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
+//         oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/bank/pins.pcf. 24 pins are three for each of 8
+//         axes: pulse, direction, and the limit CCW, which is where an axis without an origin switch begins to count.
+//         The break-off section must be off.
+// Timing: of ppmc_bank_carrier.
+`default_nettype none
+
+module board_icebreaker_bank #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+) (
+    input  wire logic       clk_12m,   // 12 MHz
+    input  wire logic       btn_n,     // 0: reset
+    // UART host
+    input  wire logic       uart_rxd,  // from the PC
+    output logic            uart_txd,  // to the PC
+    // switches, 0 = active
+    input  wire logic [7:0] l2_n,
+    // motors
+    output logic      [7:0] pout_n,
+    output logic      [7:0] dir,
+    // lamps, 0 = on
+    output logic            ledg_n,
+    output logic            ledr_n
+);
+
+  localparam int unsigned ClkHz = 24_000_000;
+
+  logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
+  logic [3:0] lamps;
+
+  ppmc_clock_icebreaker u_clock (
+      .clk_12m_i(clk_12m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (btn_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc_bank_carrier #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .AXES      (8),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      ("UART"),
+      .BAUD      (BAUD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .spi_cs_n(1'b1),
+      .sck     (1'b1),
+      .mosi    (1'b1),
+      .miso_o  (),
+      .miso_oe (),
+      .int_n   (),
+      .l1_n    ('1),
+      .l2_n,
+      .l3_n    ('1),
+      .l4_n    ('1),
+      .cnp_n   ('1),
+      .alm_n   ('1),
+      .s       (),
+      .hold    (),
+      .pout_n,
+      .dir,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign ledg_n = ~lamps[0];
+  assign ledr_n = ~lamps[1];
+
+  assign unused = ^{lamps[3:2]};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_spi: SPI slave, mode 0 or 3, most significant bit first, in front of a part's strobe bus.
+// Rules:  docs/bank/spi.md; strobes by UB-BUS-01.
+// Timing: sck, mosi and cs_n are sampled by clk. miso follows a fall of sck by 2 to 3 clk, so the low time of sck
+//         must be longer than 3 clk and what the pads take (clk >= 8 sck leaves 1 clk for them), the high time
+//         longer than 1. A write begins 2 to 3 clk after the last bit of its byte, a read after the first of the
+//         byte that asks. An access has ended long before the next can come, however fast sck is.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_spi #(
+    parameter int unsigned AddrBits = 10  // address lines of the part, 1 .. 10
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    // SPI
+    input  wire logic                sck_i,      // raw pin
+    input  wire logic                mosi_i,     // raw pin
+    input  wire logic                cs_ni,      // raw pin, L = a frame
+    output logic                     miso_o,     // status, zeros, what was read
+    output logic                     miso_oe_o,  // it is to be driven
+    output logic                     active_o,   // lamp: a frame is coming in
+    // the part's pins
+    output logic                     cs_no,      // the part is addressed
+    output logic                     rd_no,      // read strobe
+    output logic                     wr_no,      // write strobe
+    output logic      [AddrBits-1:0] a_o,        // register
+    output logic      [         7:0] d_o,        // to be written
+    input  wire logic [         7:0] d_i,        // what the part shows
+    input  wire logic                int_ni      // the part's interrupt, L = active
+);
+
+  if (AddrBits < 1 || AddrBits > 10) begin : g_check
+    $fatal(1, "ppmc_spi: AddrBits must be 1 .. 10");
+  end
+
+  typedef enum logic [1:0] {
+    StHigh,  // first byte of the header
+    StLow,   // second one
+    StData,
+    StWaste  // the header was refused
+  } state_e;
+
+  typedef struct packed {
+    logic fast;     // sck was low for less than 3 samples
+    logic cut;      // cs_n rose inside a byte or a header
+    logic refused;  // a header had ones in its bits 12..10
+  } flags_t;
+
+  typedef struct packed {
+    logic write;
+    logic axis;   // the address grows by 16 with each access
+    logic next;   // by 1
+  } mode_t;
+
+  // ---- pins ------------------------------------------------------------------------------------------
+
+  logic sck, mosi, cs_n;
+  logic [2:0] meta, sck_q;  // sck before, the newest in bit 0
+
+  ppmc_sync #(
+      .Width   (3),
+      .ResetVal(3'b001)
+  ) u_sync (
+      .clk_i,
+      .rst_ni,
+      .d_i ({sck_i, mosi_i, cs_ni}),
+      .q1_o(meta),
+      .q2_o({sck, mosi, cs_n})
+  );
+
+  logic rise, fall, whole, ended;
+  logic [2:0] count_q;  // bits of this byte that are in
+  logic [6:0] bits_q;  // they
+  logic [7:0] byte_in;
+
+  assign rise    = !cs_n && sck && !sck_q[0];
+  assign fall    = !cs_n && !sck && sck_q[0];
+  assign byte_in = {bits_q, mosi};
+  assign whole   = rise && count_q == 3'd7;
+  assign ended   = cs_n && active_o;  // for one clk
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      sck_q    <= '0;
+      count_q  <= '0;
+      bits_q   <= '0;
+      active_o <= 1'b0;
+    end else begin
+      sck_q    <= {sck_q[1:0], sck};
+      active_o <= !cs_n;
+      if (cs_n) count_q <= '0;
+      else if (rise) count_q <= count_q + 1'b1;
+      if (rise) bits_q <= byte_in[6:0];
+    end
+  end
+
+  // ---- frame -----------------------------------------------------------------------------------------
+
+  state_e state_q;
+  mode_t mode_q;
+  logic [9:0] addr_q;
+  logic bad_q;  // header refused
+  logic req, ready, done, unused;
+
+  assign unused = ^{addr_q, meta};
+
+  // A read begins at the first bit of the byte that asks for it, so that its seven others are time enough.
+  assign req    = state_q == StData && (mode_q.write ? whole : rise && count_q == '0 && mosi);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= StHigh;
+      mode_q  <= '0;
+      addr_q  <= '0;
+      bad_q   <= 1'b0;
+    end else begin
+      if (cs_n) state_q <= StHigh;
+      else if (whole)
+        unique case (state_q)
+          StHigh:  state_q <= StLow;
+          StLow:   state_q <= bad_q ? StWaste : StData;
+          default: state_q <= state_q;
+        endcase
+      if (whole && state_q == StHigh) begin
+        mode_q      <= byte_in[7:5];
+        bad_q       <= byte_in[4:2] != '0;
+        addr_q[9:8] <= byte_in[1:0];
+      end else if (whole && state_q == StLow) begin
+        addr_q[7:0] <= byte_in;
+      end else if (req) begin
+        addr_q <= addr_q + {5'b0, mode_q.axis, 3'b0, mode_q.next};
+      end
+    end
+  end
+
+  // ---- what the host sees ----------------------------------------------------------------------------
+
+  flags_t shown_q, flags_q, now;
+  logic asked_q;  // this byte asks for one
+  logic [7:0] out_q, status, rdata;
+
+  always_comb begin
+    now         = '0;
+    now.fast    = rise && sck_q[2:1] != '0;
+    now.cut     = ended && (count_q != '0 || state_q == StLow);
+    now.refused = whole && state_q == StLow && bad_q;
+  end
+
+  // A flag stands until a status byte with it has gone out whole.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      shown_q <= '0;
+      flags_q <= '0;
+    end else begin
+      if (cs_n) shown_q <= flags_q;
+      if (whole && state_q == StHigh) flags_q <= (flags_q & ~shown_q) | now;
+      else flags_q <= flags_q | now;
+    end
+  end
+
+  assign status = {4'b1000, flags_q, !int_ni};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      asked_q   <= 1'b0;
+      out_q     <= '0;
+      miso_oe_o <= 1'b0;
+    end else begin
+      miso_oe_o <= !cs_n;
+      if (rise && count_q == '0) asked_q <= req && !mode_q.write;
+      if (cs_n) out_q <= status;
+      else if (fall && count_q != '0) out_q <= out_q << 1;
+      else if (fall && state_q != StHigh) out_q <= asked_q ? rdata : '0;
+    end
+  end
+
+  assign miso_o = out_q[7];
+
+  // ---- the part's bus --------------------------------------------------------------------------------
+
+  ppmc_strobe_master #(
+      .AddrBits(AddrBits)
+  ) u_master (
+      .clk_i,
+      .rst_ni,
+      .req_i  (req),
+      .we_i   (mode_q.write),
+      .addr_i (addr_q[AddrBits-1:0]),
+      .wdata_i(byte_in),
+      .ready_o(ready),
+      .done_o (done),
+      .rdata_o(rdata),
+      .cs_no,
+      .rd_no,
+      .wr_no,
+      .a_o,
+      .d_o,
+      .d_i
+  );
+
+`ifndef SYNTHESIS
+  logic open_q;  // a read is under way
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) open_q <= 1'b0;
+    else open_q <= req ? !mode_q.write : open_q && !done;
+  end
+
+  `PPMC_ASSERT(spi_never_late, !req || ready)
+  `PPMC_ASSERT(spi_read_in_time, !(fall && count_q == '0 && asked_q && state_q == StData) || !open_q)
+`endif
+
+endmodule
+
+`default_nettype wire
