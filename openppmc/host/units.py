@@ -14,7 +14,7 @@ from .basis.units import (
     pin_period,
     plan_setup,
 )
-from .ppmc104.times import chop_byte
+from .axis.chopping import chop_byte
 from .ppmc2104.times import half_us_byte, hold_byte
 
 __all__ = [
