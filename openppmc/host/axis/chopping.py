@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Protocol
 
 from ..basis.arguments import Checked
 from ..basis.errors import OutOfRange
@@ -31,13 +32,19 @@ def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tupl
     return byte, offset + byte * unit
 
 
-class Chopping(Checked):
-    """For an axis with such a chopper. `setup`: its initialisation, if known."""
+class Chopped(Protocol):
+    """What `Chopping` needs of its axis. setup: its initialisation, if known."""
 
-    link: Talk
     setup: Setup | None
 
-    def switching(self, on_us: Number, off_us: Number) -> tuple[Fraction, Fraction]:
+    @property
+    def link(self) -> Talk: ...
+
+
+class Chopping(Checked):
+    """For an axis that is `Chopped`."""
+
+    def switching(self: Chopped, on_us: Number, off_us: Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: on 27 to 792, off 33 to 798); returns those reached."""
         vsel = self.setup.clock.vsel if self.setup else 1
         on = chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
