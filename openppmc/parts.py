@@ -143,18 +143,6 @@ ROWS = (
     ),
     Row(name="isa_4axis", title="four axes on an ISA bus", of="ppmc2104", rtl="isa_4axis", top="isa_4axis"),
     Row(
-        name="bank",
-        title="PPMC bank",
-        number=32,
-        rules=("BANK",),
-        families=BOTH,
-        driver="driver:PpmcBank",
-        kind="kind:KIND",
-        view="view:VIEW",
-        machine="machine:MACHINE",
-        carrier=True,
-    ),
-    Row(
         name="stmc",
         title="J105 STMC",
         number=105,
@@ -231,6 +219,18 @@ ROWS = (
         demo="demo:DEMO",
         soak="test_random:SOAK",
         gates="gates:PART",
+    ),
+    Row(
+        name="bank",
+        title="PPMC bank",
+        number=32,
+        rules=("BANK",),
+        families=BOTH,
+        driver="driver:PpmcBank",
+        kind="kind:KIND",
+        view="view:VIEW",
+        machine="machine:MACHINE",
+        carrier=True,
     ),
 )
 OWN = ("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "demo", "bench", "soak", "gates")

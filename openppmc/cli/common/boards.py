@@ -6,15 +6,12 @@ from typing import Annotated, Any
 
 import typer
 
-from ... import parts
 from ...host import serial_ports
-from ...host.basis.kind import kind_of
 from . import output, show
-from .options import Json, with_setup
+from .options import MOST_AXES, Json, with_setup
 from .session import BOARD, initialise, opened, setup_values
 from .state import lasting, remember
 
-MOST_AXES = max(kind_of(row.name).axes for row in parts.having("number", "kind"))
 AxisNumber = Annotated[
     int, typer.Option("--axis", min=1, max=MOST_AXES, metavar="N", help="axis, 1 is the first")
 ]

@@ -8,8 +8,8 @@ import typer
 
 from ...host import Progress
 from . import output, show
-from .boards import MOST_AXES, AxisNumber
-from .options import Side, check_seconds, with_setup
+from .boards import AxisNumber
+from .options import MOST_AXES, Side, check_seconds, with_setup
 from .override import Override, parse_override
 from .session import opened, ready, stop_all
 

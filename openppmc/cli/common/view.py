@@ -117,7 +117,7 @@ class View(ABC, Generic[PartT, SetupT]):
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 
     def halt_all(self, part: PartT) -> list[End] | None:
-        """Stop all axes at the same moment, at once; their ends. None: the part cannot, each is stopped alone."""
+        """Stop all axes at the same moment, at once; their ends. None: the part cannot."""
         return None
 
     def home(

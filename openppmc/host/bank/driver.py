@@ -107,8 +107,8 @@ class PpmcBank(Part):
         }
 
     def pending(self) -> tuple[int, ...]:
-        """Numbers of the axes whose interrupt is pending (BANK-WIN-08): their motion has ended, and nobody has
-        read its end. Allowed at any time."""
+        """Numbers of the axes whose interrupt is pending (BANK-WIN-08): their motion has ended,
+        and nobody has read its end. Allowed at any time."""
         count = (self._info.axes + 7) // 8
         seen = visit(self.link, [(k + 1, Script().read(PENDING)) for k in range(count)])
         return members(b"".join(one for (one,) in seen))
@@ -231,7 +231,7 @@ class PpmcBank(Part):
         return dict(sorted(ends.items()))
 
     def reset(self) -> None:
-        """Reset of the part, in any state: pulses end at once, coils off, nothing initialised, positions 0."""
+        """Reset of the part, in any state: pulses end at once, nothing initialised, positions 0."""
         self.link.execute(Script().reset())
         self._group = None
         for axis in self.axes:

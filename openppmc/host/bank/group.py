@@ -37,7 +37,7 @@ class Grouped(Protocol):
 
 
 def numbers_of(kind: RateKind, axes: Iterable[int]) -> tuple[int, ...]:
-    """The numbers of a group in order. OutOfRange: no numbers, none at all, one twice, one that is not there."""
+    """The numbers of a group in order. OutOfRange for none, one twice, one that is not there."""
     if isinstance(axes, str | bytes) or not isinstance(axes, Iterable):
         raise OutOfRange(f"axes {axes!r}: a group wants the numbers of its axes, as in (1, 2, 5)")
     numbers = [kind.check_axis(whole(axis, "axis")) for axis in axes]

@@ -24,7 +24,7 @@ class Info(NamedTuple):
 
 
 class Config(NamedTuple):
-    """CONFIG of an axis: csel picks XTAL / 32 (1) or XTAL / 128, vsel = 0 makes each interval 7.5 us longer."""
+    """CONFIG of an axis. csel: base clock XTAL / 32 (1) or XTAL / 128; vsel 0: 7.5 us more an interval."""
 
     csel: int
     vsel: int

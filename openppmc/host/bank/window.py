@@ -117,7 +117,7 @@ def _run(link: Link, frame: Sequence[Piece]) -> list[tuple[bytes, ...]]:
 
 
 def read_info(link: Link) -> Info:
-    """INFO, checked (BANK-WIN-03). WrongDevice for what is no bank, or one that this package does not know."""
+    """INFO, checked (BANK-WIN-03). WrongDevice for what is no bank, or one unknown here."""
     # Register bytes of the bank are told apart by the axis, of which there are four at least.
     mark, version, axes = (
         value[0][0] for value in visit(link, [(k, Script().read(INFO)) for k in (1, 2, 3)])

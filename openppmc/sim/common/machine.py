@@ -39,10 +39,11 @@ class Setup:
 class MachineKind:
     """What is around a part behind the UART bridge.
 
-    called: the part in messages. carrier: makes its modelled carrier. axes: how many, if no word `axes` of its
-    own says. plant: where switches are by default. encoder: there is one. own: words of its own and their
-    values, the default first. xtal_max: of its crystal, Hz. alarm: what it calls that switch. check: raises
-    ValueError for a set-up that cannot be. timed: it has TIMING. counters: the carrier counts pulses.
+    called: the part in messages. carrier: makes its modelled carrier. axes: how many, if no word
+    `axes` of its own says. plant: where switches are by default. encoder: there is one. own: words of its
+    own and their values, the default first. xtal_max: of its crystal, Hz. alarm: what it calls that switch.
+    check: raises ValueError for a set-up that cannot be. timed: it has TIMING. counters: the carrier counts
+    pulses.
     """
 
     called: str

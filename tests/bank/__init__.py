@@ -1,0 +1,1 @@
+"""Tests of the bank: host, command line, virtual board."""
