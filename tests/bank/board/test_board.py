@@ -9,12 +9,12 @@ import pytest
 from openppmc.host import CW, Cause, LimitReached, PpmcBank
 from openppmc.sim import SimBoard
 
-from ...common.board.fixtures import SETUP, CommandLine, StartBoard, Wait
+from ...common.board.fixtures import SETUP, CommandLine, StartBoard
 
 
 @pytest.fixture
 def board(start_board: StartBoard, tmp_path: Path) -> SimBoard:
-    """Four axes as fast as it goes; the last one begins near its limit. Its log: pulses.log."""
+    """Four axes as fast as it goes; the last begins near its limit. Its log: pulses.log."""
     return start_board(f"part=bank,axes=4,speed=max,start4=37900,log={tmp_path / 'pulses.log'}")
 
 
@@ -30,12 +30,12 @@ def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
         assert [axis.position for axis in board.status().axes] == [4300, 4500, 3800, 37950]
         bank.link.pause(2.5)  # the log is written when the board rests
     pulses = [line.split() for line in (tmp_path / "pulses.log").read_text().splitlines()[1:]]
-    first = {number: next(int(clk) for clk, *_, axis in pulses if axis == number) for number in "134"}
-    assert len(set(first.values())) == 1
+    first = [next(int(clk) for clk, *_, axis in pulses if axis == number) for number in "134"]
+    assert len(set(first)) == 1
 
 
 def test_limits_and_stops(board: SimBoard) -> None:
-    """Given a slow-down limit and STOP, then they end motions, and the switches read as the board has them."""
+    """Given a slow-down limit and STOP, then they end motions, and the switches read as on the board."""
     with PpmcBank.open(board.port) as bank:
         for axis in bank.axes:
             axis.initialise(**SETUP)  # type: ignore[arg-type]
@@ -48,13 +48,12 @@ def test_limits_and_stops(board: SimBoard) -> None:
         assert bank.pending() == ()
 
 
-def test_command_line(board: SimBoard, tmp_path: Path, until: Wait) -> None:
+def test_command_line(board: SimBoard, openppmc: CommandLine) -> None:
     """Given a move on the command line, then a second call shows where all axes are."""
-    line = CommandLine(tmp_path)
-    moved = line.begin(board.port, "move", "100", "-50", "--axes", "3,1")
-    assert moved.communicate(timeout=60)[0].splitlines() == [
+    code, out, _ = openppmc.run(board.port, "move", "100", "-50", "--axes", "3,1")
+    assert code == 0 and out.splitlines() == [
         "axis 1: position -50, 50 pulses CCW: complete",
         "axis 3: position 100, 100 pulses CW: complete",
     ]
-    rows = line.begin(board.port, "status").communicate(timeout=60)[0].splitlines()[1:]
+    rows = openppmc.run(board.port, "status")[1].splitlines()[1:]
     assert [row.split()[2] for row in rows] == ["-50", "0", "100", "0"]
