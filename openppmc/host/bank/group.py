@@ -105,7 +105,6 @@ class Group(Checked):
             return
         go = Script().write(GO, 0).read_many(STATUS, _GO_READS)
         try:
-            bank.link.forget_events()
             visit(bank.link, [*write_mask(bank.kind, began), (1, go), *write_mask(bank.kind, ())])
             seen = self._each(began, Script().read(STATUS))
         except BaseException:

@@ -6,8 +6,6 @@ from ...model.bank.carrier import Carrier
 from ...model.common.timebase import Timebase
 from ..common.machine import MachineKind, Setup
 
-LEAST_ROUND = 8
-
 
 def _check(setup: Setup) -> None:
     if setup.timing != "FAST":
@@ -15,8 +13,8 @@ def _check(setup: Setup) -> None:
     if 4 * setup.clk_hz % setup.xtal_hz:
         raise ValueError(f"clk={setup.clk_hz}: 4 clk must be a multiple of xtal={setup.xtal_hz} in a bank")
     axes = len(setup.plants)
-    if Timebase(setup.clk_hz, setup.xtal_hz).cyc(16) < max(axes, LEAST_ROUND):
-        least = -(-max(axes, LEAST_ROUND) * setup.xtal_hz // 16)
+    if Timebase(setup.clk_hz, setup.xtal_hz).cyc(16) < axes:
+        least = -(-axes * setup.xtal_hz // 16)
         raise ValueError(f"clk={setup.clk_hz}: {axes} axes at xtal={setup.xtal_hz} need clk={least} at least")
 
 
