@@ -1,1 +1,1 @@
-"""Tests of the bank: host, command line, virtual board, C driver."""
+"""Tests of the bank."""
