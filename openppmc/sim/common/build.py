@@ -60,7 +60,7 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         *(["--trace-vcd"] if trace else []),
         *(
             "--top-module",
-            f"{parts.part(part).top}_carrier",
+            f"{parts.part(part).rtl}_carrier",
             "--prefix",
             "Vboard",
             f"-I{root / 'rtl/common'}",
