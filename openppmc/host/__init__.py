@@ -17,6 +17,9 @@ from . import units as units
 from .axis.axis import CCW, CW, Axis
 from .axis.motion import Motion, Progress
 from .axis.part import Part as AnyPart
+from .bank.axis import BankAxis
+from .bank.driver import PpmcBank
+from .bank.errors import GroupRefused
 from .basis.ending import AlarmStop, Cause, End, LimitReached, MotionError, OriginNotFound, StoppedEarly
 from .basis.errors import (
     Disconnected,
@@ -72,6 +75,7 @@ __all__ = [
     "AnyPart",
     "Axis",
     "Axis2104",
+    "BankAxis",
     "BadRamp",
     "BadSwitching",
     "Cause",
@@ -80,6 +84,7 @@ __all__ = [
     "Disconnected",
     "End",
     "FORWARD",
+    "GroupRefused",
     "LimitReached",
     "Link",
     "LinkError",
@@ -100,6 +105,7 @@ __all__ = [
     "Ppmc2104",
     "Ppmc312",
     "Ppmc312Bus",
+    "PpmcBank",
     "PpmcError",
     "Progress",
     "ProtocolError",

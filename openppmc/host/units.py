@@ -3,6 +3,7 @@
 They are in `basis.units`; times that only one part has are in that part's folder.
 """
 
+from .axis.chopping import chop_byte
 from .basis.units import (
     BaseClock,
     Setup,
@@ -14,7 +15,6 @@ from .basis.units import (
     pin_period,
     plan_setup,
 )
-from .ppmc104.times import chop_byte
 from .ppmc2104.times import half_us_byte, hold_byte
 
 __all__ = [

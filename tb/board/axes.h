@@ -4,14 +4,18 @@
 // set_switches, phases, encoder_low, encoder_pulse and interrupt.
 #pragma once
 
+#include <cstdint>
+
 #include "Vboard.h"
 #include "plant.h"
+
+using AxisBits = uint64_t;  // a bit an axis, bit 0 = axis 1
 
 // Motors that step with the falling edges of POUT*, one an axis.
 class PulseMotors {
    public:
     // Between two motion_pins(): the axes whose motors step; ccw() tells which way.
-    unsigned steps(unsigned before, unsigned now) { return before & ~now; }
+    AxisBits steps(AxisBits before, AxisBits now) { return before & ~now; }
     template <class Top>
     bool ccw(const Top& top, unsigned axis) const {
         return top.dir >> axis & 1;

@@ -82,9 +82,9 @@ void Board::change() {
     uart_.step(now_, txd_);
     top.uart_rxd = uart_.level();
     wake_ = uart_.next();
-    const unsigned pins = motion_pins(top);
+    const AxisBits pins = motion_pins(top);
     if (pins == motion_) return;
-    const unsigned stepped = motors_.steps(motion_, pins);
+    const AxisBits stepped = motors_.steps(motion_, pins);
     motion_ = pins;
     encoder_low(top);
     if (!stepped) return;
@@ -156,12 +156,14 @@ std::string Board::status() const {
     for (unsigned n = 0; n < kAxes; ++n) {
         const Plant& plant = plants_[n];
         const unsigned s = phases(top, n);
-        const char* of = n ? "2" : "";  // words of axis 2 end in 2, as those of the options
+        // Words of axis 2 end in 2, as those of the options.
+        const std::string suffix = n ? std::to_string(n + 1) : "";
+        const char* of = suffix.c_str();
         std::snprintf(line, sizeof line,
                       " position%s=%" PRId64 " pulses%s=%" PRIu64
                       " l1%s=%d l2%s=%d l3%s=%d l4%s=%d cnp%s=%d alm%s=%d hold%s=%d phases%s=%d%d%d%d%d",
                       of, plant.position(), of, plant.pulses(), of, plant.l1, of, plant.l2, of, plant.l3, of, plant.l4,
-                      of, plant.cnp, of, plant.alm, of, top.hold >> n & 1, of, s >> 4 & 1, s >> 3 & 1, s >> 2 & 1,
+                      of, plant.cnp, of, plant.alm, of, static_cast<int>(top.hold >> n & 1), of, s >> 4 & 1, s >> 3 & 1, s >> 2 & 1,
                       s >> 1 & 1, s & 1);
         all += line;
     }

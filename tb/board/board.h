@@ -47,7 +47,7 @@ class Board {
     uint64_t wake_ = 0;      // next() of the UART
     uint64_t busy_until_ = 0;  // no doze before this clk
     bool txd_ = true;
-    unsigned motion_ = 0;  // motion_pins() as of the last change
+    AxisBits motion_ = 0;  // motion_pins() as of the last change
     Motors motors_;
     bool dozing_ = false;
     uint64_t trace_from_ = 0, trace_end_ = 0;

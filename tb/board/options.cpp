@@ -42,7 +42,7 @@ Options parse_options(int argc, char** argv) {
     };
     for (unsigned n = 0; n < kAxes; ++n) {
         PlantText& plant = o.plants[n];
-        const std::string of = n ? "2" : "";
+        const std::string of = n ? std::to_string(n + 1) : "";
         setters["start" + of] = position(plant.start);
         setters["cw" + of] = position(plant.cw);
         setters["ccw" + of] = position(plant.ccw);

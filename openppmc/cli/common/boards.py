@@ -8,11 +8,13 @@ import typer
 
 from ...host import serial_ports
 from . import output, show
-from .options import Json, with_setup
+from .options import MOST_AXES, Json, with_setup
 from .session import BOARD, initialise, opened, setup_values
 from .state import lasting, remember
 
-AxisNumber = Annotated[int, typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2")]
+AxisNumber = Annotated[
+    int, typer.Option("--axis", min=1, max=MOST_AXES, metavar="N", help="axis, 1 is the first")
+]
 
 
 def ports(as_json: Json = False) -> None:
@@ -29,7 +31,7 @@ def ports(as_json: Json = False) -> None:
 def info(as_json: Json = False) -> None:
     """What board answers at the port."""
     with opened() as session:
-        values = show.identity_values(session.part.link)
+        values = {**show.identity_values(session.part.link), "axes": session.kind.axes}
     if as_json:
         output.print_json(values)
     else:

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 from rich.live import Live
+from rich.table import Table
 
 from ...host import PpmcError
 from . import output
@@ -18,12 +19,8 @@ from .session import Session, opened, ready
 
 def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
     """Values of the axes, by what to write in front of them."""
-    chosen = session.chosen(axis)
-    several = len(chosen) > 1
-    return {
-        f"axis {motor.number} " if several else "": session.view.status_values(session.part, motor)
-        for motor in chosen
-    }
+    seen = session.view.status_of(session.part, session.chosen(axis))
+    return {f"axis {number} " if len(seen) > 1 else "": values for number, values in seen.items()}
 
 
 def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
@@ -35,12 +32,19 @@ def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
     }
 
 
+def _table(session: Session, looks: dict[str, dict[str, Any]]) -> Table:
+    """For people on a terminal."""
+    if not session.view.wide or len(looks) == 1:
+        return output.table(_rows(session, looks))
+    return output.grid({prefix.strip(): session.view.status_rows(one) for prefix, one in looks.items()})
+
+
 def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
     """Position, switches, state. Disturbs nothing."""
     with opened() as session:
         looks = _looks(session, axis)
     if not as_json:
-        output.console.print(output.table(_rows(session, looks)))
+        output.console.print(_table(session, looks))
     elif "" in looks:
         output.print_json(looks[""])
     else:
@@ -57,17 +61,17 @@ def monitor(
     """Watch position and switches until Ctrl-C."""
     with opened() as session:
         guard = session.guard
-        look: Callable[[], dict[str, str]] = lambda: _rows(session, _looks(session, axis))  # noqa: E731
+        look: Callable[[], dict[str, dict[str, Any]]] = lambda: _looks(session, axis)  # noqa: E731
         if not output.console.is_terminal:
             for turn in range(count or 10**9):
                 if turn:
                     guard.pause(session.part, every)
-                output.say("  ".join(f"{name} {value}" for name, value in look().items()))
+                output.say("  ".join(f"{name} {value}" for name, value in _rows(session, look()).items()))
             return
-        with Live(output.table(look()), console=output.console, auto_refresh=False) as live:
+        with Live(_table(session, look()), console=output.console, auto_refresh=False) as live:
             for _ in range((count or 10**9) - 1):
                 guard.pause(session.part, every)
-                live.update(output.table(look()), refresh=True)
+                live.update(_table(session, look()), refresh=True)
 
 
 @with_setup

@@ -9,17 +9,23 @@ import typer
 from ...host import Progress
 from . import output, show
 from .boards import AxisNumber
-from .options import Side, check_seconds, with_setup
+from .options import MOST_AXES, Side, check_seconds, with_setup
 from .override import Override, parse_override
 from .session import opened, ready, stop_all
 
 AxisOrAll = Annotated[
     int | None,
-    typer.Option("--axis", min=1, max=2, metavar="N", help="axis 1 or 2 (all)", show_default=False),
+    typer.Option(
+        "--axis", min=1, max=MOST_AXES, metavar="N", help="axis, 1 is the first (all)", show_default=False
+    ),
 ]
 Overrides = Annotated[
     list[str] | None,
     typer.Option("--at", metavar="POS:WHAT", help="ppmc312: there stop, halt or another speed (repeatable)"),
+]
+AxisList = Annotated[
+    str | None,
+    typer.Option("--axes", metavar="N,N,…", help="axes of several numbers, in their order (1,2,…)"),
 ]
 EncoderRange = Annotated[
     int | None,
@@ -35,33 +41,51 @@ def override_values(texts: list[str] | None) -> list[Override]:
         raise typer.BadParameter(f"--at {error}") from None
 
 
+def numbers_of(text: str | None, count: int) -> tuple[int, ...]:
+    """The axes that as many numbers are for."""
+    if text is None:
+        return tuple(range(1, count + 1))
+    words = text.split(",")
+    if not all(word.strip().isascii() and word.strip().isdigit() for word in words):
+        raise typer.BadParameter(f"--axes {text}: wants numbers with commas between them, as in 1,2,5")
+    numbers = tuple(map(int, words))
+    if len(numbers) != count:
+        raise typer.BadParameter(f"--axes {text}: {len(numbers)} axes, but {count} numbers to move them")
+    if len(set(numbers)) < len(numbers):
+        raise typer.BadParameter(f"--axes {text}: an axis stands there twice")
+    return numbers
+
+
 @with_setup
 def move(
     typed: dict[str, Any],
     pulses: Annotated[
-        list[int], typer.Argument(help="pulses, CW positive; with --to a position; two numbers: both axes")
+        list[int],
+        typer.Argument(help="pulses, CW positive; with --to a position; several: of axes 1, 2 and so on"),
     ],
     axis: AxisOrAll = None,
+    axes: AxisList = None,
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
     pulse_only: Annotated[bool, typer.Option("--pulse-only", help="the phases stand still")] = False,
     overrides: Overrides = None,
     encoder: EncoderRange = None,
 ) -> None:
-    """Move so many pulses. Two numbers move both axes of a part, begun at the same moment."""
+    """Move so many pulses. Several numbers move as many axes of a part, begun at the same moment."""
     if speed is not None and pulse_only:
         raise typer.BadParameter("only moves with a ramp can be --pulse-only: leave --speed out")
-    if len(pulses) > 2 or (len(pulses) == 2 and axis is not None):
+    if axis is not None and (len(pulses) > 1 or axes is not None):
         raise typer.BadParameter("move wants one number, with --axis if need be, or one number for each axis")
     wanted = override_values(overrides)
-    both = len(pulses) == 2
-    with ready(typed, (1, 2) if both else (axis or 1,)) as session:
+    numbers = numbers_of(axes, len(pulses)) if axis is None else (axis,)
+    with ready(typed, numbers) as session:
         guard, part, view = session.guard, session.part, session.view
-        chosen = part.axes[:2] if both else (session.axis(axis or 1),)
+        chosen = [session.axis(number) for number in numbers]
         away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
         view.prepare(part, wanted, encoder)
-        if both:
-            ends = list(view.together(part, (away[0], away[1]), speed, guard.progress, pulse_only))
+        if len(numbers) > 1:
+            table = dict(zip(numbers, away, strict=True))
+            ends = list(view.together(part, table, speed, guard.progress, pulse_only))
         elif speed is None or away[0] == 0:
             ends = [chosen[0].move(away[0], guard.progress, pulse_only)]
         else:
@@ -136,5 +160,6 @@ def stop(
 ) -> None:
     """Stop a motion that was left running."""
     with opened() as session:
-        for end in stop_all(session.chosen(axis), now):
+        ends = session.view.halt_all(session.part) if now and axis is None else None
+        for end in stop_all(session.chosen(axis), now) if ends is None else ends:
             output.say(show.end_line(end))

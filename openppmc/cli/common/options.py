@@ -12,11 +12,14 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
+from ... import parts
 from ...errors import PpmcError
 from ...host.basis.kind import AnySetup, Kind, Wanted, kind_of
 
 USUAL = kind_of("ppmc104")
 """The part where nobody has named one: of plans, and of virtual boards."""
+MOST_AXES = max(kind_of(row.name).axes for row in parts.having("number", "kind"))
+"""What --axis takes; the part that is there says how many it has."""
 NUMBERS = {"ignore_unknown_options": True}
 """Settings of a command with signed numbers, so that `move -200` is a number and not an option."""
 Json = Annotated[bool, typer.Option("--json", help="for programs")]

@@ -32,6 +32,17 @@ def table(rows: dict[str, str]) -> Table:
     return grid
 
 
+def grid(rows: dict[str, dict[str, str]]) -> Table:
+    """A row each with its name in front, the names of the values above; no frame."""
+    columns = list(next(iter(rows.values())))
+    grid = Table(box=None, pad_edge=False, header_style="bold")
+    for name in ("", *columns):
+        grid.add_column(name, style="" if name else "bold", justify="right" if name == "position" else "left")
+    for name, values in rows.items():
+        grid.add_row(name, *(values[column] for column in columns))
+    return grid
+
+
 def print_json(values: Any) -> None:
     """One JSON document."""
     print(json.dumps(values, indent=1))

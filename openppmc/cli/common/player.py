@@ -91,7 +91,7 @@ class Player:
         first, second = values["position" if absolute else "pulses"], values["second"]
         if second is not None:
             x, y = (motor.position if absolute else 0 for motor in self._part.axes[:2])
-            self._session.view.together(self._part, (first - x, second - y), speed, progress)
+            self._session.view.together(self._part, {1: first - x, 2: second - y}, speed, progress)
             return
         pulses = first - (axis.position if absolute else 0)
         if speed is None or pulses == 0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from .options import Logic, SetupValues, Side
+from .options import MOST_AXES, Logic, SetupValues, Side
 
 MOST_TURNS = 1_000_000
 Values = dict[str, Any]
@@ -73,9 +73,9 @@ def _speed(words: list[str]) -> float | None:
 
 
 def read_axis(words: list[str]) -> int | None:
-    """`axis=1` or `axis=2` at the end of the line."""
+    """`axis=2` at the end of the line."""
     if words and words[-1].startswith("axis="):
-        return whole(words.pop()[5:], "axis", 1, 2)
+        return whole(words.pop()[5:], "axis", 1, MOST_AXES)
     return None
 
 

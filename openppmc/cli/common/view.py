@@ -6,7 +6,7 @@ The table names the view of a part (column `view`); a part without one has `Ramp
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from ...host import End, OutOfRange
@@ -45,13 +45,20 @@ SetupT = TypeVar("SetupT")
 
 class View(ABC, Generic[PartT, SetupT]):
     """PartT: its driver. SetupT: what its kind plans. All speeds in pps, times in s. A method that is not
-    abstract raises OutOfRange or does nothing: the part does not have that."""
+    abstract raises OutOfRange or does nothing: the part does not have that. wide: several axes are the rows
+    of a table."""
+
+    wide = False
 
     # ------------------------------------------------------------------ looking
 
     @abstractmethod
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
         """Everything that may be read of an axis at any time: position, moving, error, status, inputs."""
+
+    def status_of(self, part: PartT, axes: Sequence[AnyAxis]) -> dict[int, dict[str, Any]]:
+        """`status_values` of each of these axes, by its number."""
+        return {axis.number: self.status_values(part, axis) for axis in axes}
 
     def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
         """The same for people."""
@@ -101,13 +108,17 @@ class View(ABC, Generic[PartT, SetupT]):
     def together(
         self,
         part: PartT,
-        pulses: tuple[int, int],
+        pulses: Mapping[int, int],
         pps: float | None,
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[End]:
-        """Move axes 1 and 2, begun at the same moment, and wait."""
+        """Move several axes, begun at the same moment, and wait. pulses: by number of the axis."""
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
+
+    def halt_all(self, part: PartT) -> list[End] | None:
+        """Stop all axes at the same moment, at once; their ends. None: the part cannot."""
+        return None
 
     def home(
         self,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ...host import End, Ppmc2104
 from ...host.axis.moves import OnProgress
@@ -19,12 +19,12 @@ class PartView(RampView[Ppmc2104]):
     def together(
         self,
         part: Ppmc2104,
-        pulses: tuple[int, int],
+        pulses: Mapping[int, int],
         pps: float | None,
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[End]:
-        return part.together(*pulses, pps, pps, progress, pulse_only)
+        return part.together(pulses[1], pulses[2], pps, pps, progress, pulse_only)
 
 
 VIEW = PartView()

@@ -143,7 +143,7 @@ class Axis(Moves, AxisCore):
             self.kind.need(PULSE_ONLY)
         code = order.code | self.bit
         script = Script().call(READ_FINISH | self.bit).get(1)
-        script.extend(self.straps(self.clock_of(order))).count(self.number).call(code, *order.data)
+        self.where(script.extend(self.straps(self.clock_of(order)))).call(code, *order.data)
         self.link.forget_events()
         answer = self.link.execute(script)
         return self.started(order, answer.number(2, signed=True))

@@ -10,7 +10,7 @@ from ..basis.ending import End
 from ..basis.errors import OutOfRange, ProtocolError
 from ..basis.kind import COILS_OFF, Wanted
 from ..basis.refusals import NotWhileBusy
-from ..bridge.link import Link
+from ..bridge.link import Talk
 from ..bridge.script import Script
 from .kind import RateKind
 from .motion import Motion
@@ -29,7 +29,7 @@ class AxisCore(Checked):
     bit = 0
     busy = 0x04
 
-    def __init__(self, link: Link) -> None:
+    def __init__(self, link: Talk) -> None:
         self.link = link
         self.setup: units.Setup | None = None
         self._motion: Motion | None = None
@@ -140,12 +140,16 @@ class AxisCore(Checked):
             raise ProtocolError(f"{self.link.name}: this board has no pulse counter, so no position")
         return position
 
+    def where(self, script: Script) -> Script:
+        """Adds what reads the counter of this axis; gives one value of 4 bytes."""
+        return script.count(self.number)
+
     def counted(self, count: int) -> int | None:
-        """A reading of the counter, None if the bridge has no counter."""
+        """The position that a reading of the counter means, None if there is no counter."""
         return count if self.link.identity.counter else None
 
     def _count(self) -> int:
-        return self.link.execute(Script().count(self.number)).number(0, signed=True)
+        return self.link.execute(self.where(Script())).number(0, signed=True)
 
     def zero(self) -> None:
         """Here is position 0."""

@@ -34,7 +34,6 @@ class Searching(Protocol):
     @property
     def search_speed(self) -> Number: ...
     def inputs(self) -> Switched: ...
-    def counted(self, count: int) -> int | None: ...
     def search(self, direction: int, pps: Number | None = None) -> AnyMotion: ...
     def jog(self, direction: int, speed: Number | None = None, high: bool = False) -> AnyMotion: ...
     def move_constant(
@@ -71,7 +70,7 @@ class Homing:
             self._leave()
         end = self._search(self._towards)
         self._axis.zero()
-        return replace(end, position=self._axis.counted(0))
+        return replace(end, position=None if end.position is None else 0)
 
     def _search(self, direction: int) -> End:
         """Search at constant speed."""

@@ -12,7 +12,7 @@ from ..basis.arguments import Checked, side
 from ..basis.ending import End, decode_end
 from ..basis.errors import Timeout
 from ..basis.refusals import NotWhileBusy
-from ..bridge.link import Link
+from ..bridge.link import Talk
 from ..bridge.script import Script
 from .registers import ReadCodes
 
@@ -73,14 +73,14 @@ class AnyMotion(Protocol):
 class Moving(Protocol):
     """What a motion needs of its axis, which is an `axis.Axis`."""
 
-    link: Link
-    number: int
+    link: Talk
     bit: int
     busy: int
 
     @property
     def codes(self) -> ReadCodes: ...
     def look(self, status: int) -> None: ...
+    def where(self, script: Script) -> Script: ...
     def counted(self, count: int) -> int | None: ...
     def told(self, end: End) -> End: ...
 
@@ -105,14 +105,14 @@ class Motion(Checked):
 
     def poll(self) -> Progress | None:
         """Where the motor is now; None when it has come to rest (then `end` is set)."""
-        answer = self._link.execute(Script().read(1).count(self._axis.number))
+        answer = self._link.execute(self._axis.where(Script().read(1)))
         self.look(answer.byte(0))
         self._axis.look(answer.byte(0))
         if self.end is not None:
             return None
-        position = answer.number(1, signed=True)
-        made = abs(position - self.begin)
-        return Progress(position, made, self.asked, self._link.clock() - self._started)
+        count = answer.number(1, signed=True)
+        made = abs(count - self.begin)
+        return Progress(self._axis.counted(count) or 0, made, self.asked, self._link.clock() - self._started)
 
     def look(self, status: int) -> None:
         """The status register was read: fetch the end if there is one."""
@@ -149,7 +149,7 @@ class Motion(Checked):
         bit, remaining = self._axis.bit, self._axis.codes.remaining
         script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
         try:
-            answer = self._link.execute(script.count(self._axis.number))
+            answer = self._link.execute(self._axis.where(script))
         except NotWhileBusy:
             return  # a part with DATASHEET timing was about to begin
         total = self.asked or ENDLESS

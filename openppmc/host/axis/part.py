@@ -7,7 +7,7 @@ from typing import Any, Protocol, TypeVar
 from ..basis import units
 from ..basis.ending import End
 from ..basis.kind import AnySetup, Kind
-from ..bridge.link import DEFAULT_BAUD, Link
+from ..bridge.link import DEFAULT_BAUD, Link, Talk
 from ..ports.transport import Port
 from .device import Device, Turning
 from .motion import AnyMotion
@@ -37,7 +37,7 @@ class AnyAxis(Turning, Protocol):
     @property
     def kind(self) -> Kind: ...
     @property
-    def link(self) -> Link: ...
+    def link(self) -> Talk: ...
     def apply(self, setup: Any) -> AnySetup:
         """Initialise with a plan of the part's own kind."""
 

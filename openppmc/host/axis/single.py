@@ -15,6 +15,7 @@ class OneAxis(Part, Axis):
     """Part and axis in one object; see `part.Part` and `axis.Axis`."""
 
     kind: RateKind
+    link: Link
 
     def __init__(self, link: Link) -> None:
         Axis.__init__(self, link)

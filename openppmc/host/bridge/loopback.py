@@ -42,13 +42,14 @@ class ModelPort:
                 known = ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), "unplug"))
                 raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
             setup = Setup(machine.plants, clk_hz, xtal_hz, timing, machine.own, self._interrupt)
-            self.board = board = machine_kind(machine.part).carrier(setup)
+            kind = machine_kind(machine.part)
+            kind.check(setup)
+            self.board = board = kind.carrier(setup)
         except ValueError as error:
             raise PortError(f"{self.name}: {error}") from error
-        axes = len(machine.plants)
-        self.bridge = Bridge(
-            board, part(machine.part).number, clk_hz, xtal_hz, timing == "DATASHEET", axes=axes
-        )
+        axes = len(machine.plants) if kind.counters else 1
+        number, datasheet = part(machine.part).number, timing == "DATASHEET"
+        self.bridge = Bridge(board, number, clk_hz, xtal_hz, datasheet, kind.counters, axes)
 
     # ------------------------------------------------------------------ port
 

@@ -69,6 +69,10 @@ class Script:
         """All ops of another script as well."""
         for op in other.ops:
             self._add(op.name, op.code, op.gives, mailbox=op.name in ("POST", "CALL", "GET"))
+        self._mailbox_ms = max(self._mailbox_ms, other._mailbox_ms)
+        self._waits_ms += other._waits_ms
+        if any(op.name == "TIMEOUT" for op in other.ops):
+            self._wait_ms = other._wait_ms
         return self
 
     # ------------------------------------------------------------------ the bridge itself
@@ -128,6 +132,11 @@ class Script:
     def read_many(self, a: int, n: int) -> Script:
         """n = 1 to 255 read cycles, n bytes."""
         return self._add("READN", bytes([0x30 | _register(a), _within("count", n, 1, 255)]), n)
+
+    def read_number(self, a: int, n: int) -> Script:
+        """A read cycle of each of n = 1 to 4 registers from a on, n bytes."""
+        _within("count", n, 1, 4)
+        return self._add("READ", bytes(0x20 | _register(place) for place in range(a, a + n)), n)
 
     def post(self, a: int, data: bytes) -> Script:
         """1 to 255 bytes, each written when the part can take it (IBF = 0)."""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
+from ..axis.chopping import Chopping
 from ..axis.registers import Inputs
 from ..axis.single import OneAxis
 from ..basis import units
@@ -11,16 +10,15 @@ from ..basis.errors import OutOfRange
 from ..basis.refusals import NotWhileBusy
 from ..bridge.answer import Result
 from ..bridge.script import Script
-from . import times
 from .kind import KIND
 
-SWITCHING, READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x84, 0x85, 0x86, 0xC1, 0xC2
+READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
 _START_XT = 1792
 """Crystal cycles until BUSY rises after the last byte of an operation, at most (P104-DS-03: 112 us)."""
 
 
-class Ppmc104(OneAxis):
+class Ppmc104(Chopping, OneAxis):
     """One PPMC-104; see `axis.single.OneAxis`.
 
     `initialise`, figures for a 16 MHz crystal: speeds 488.3 to 500 000 pps; ramp_pulses 4 to 11 220;
@@ -62,11 +60,3 @@ class Ppmc104(OneAxis):
     def auxi(self) -> int:
         """The four auxiliary inputs, pin levels; only at rest."""
         return self.link.execute(Script().call(READ_AUXI).get(1)).byte(1)
-
-    def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
-        """Times of the chopper at rest in us (16 MHz: on 27 to 792, off 33 to 798); returns those reached."""
-        vsel = self.setup.clock.vsel if self.setup else 1
-        on = times.chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
-        off = times.chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
-        self.link.execute(Script().call(SWITCHING, on[0], off[0]))
-        return on[1], off[1]

@@ -7,12 +7,13 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
+from itertools import takewhile
 from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
 from .build import build
-from .spec import Spec, parse_spec
+from .spec import Spec, parse_spec, suffixes
 from .verilator import SimError
 
 Self = TypeVar("Self", bound="Child")
@@ -43,7 +44,8 @@ class AxisStatus:
 
 @dataclass(frozen=True)
 class Status(AxisStatus):
-    """What the board shows; the fields of an axis are those of axis 1, `second` has those of axis 2.
+    """What the board shows; the fields of an axis are those of axis 1, `second` has those of axis 2, `axes`
+    of each, axis 1 first.
 
     seconds, clk: board time. factor: board time / wall time over the last half second. asleep: nothing can
     change before the host speaks, so nothing is computed. open: a host has the port open, at `rate` bit/s.
@@ -60,17 +62,20 @@ class Status(AxisStatus):
     interrupt: bool
     link: bool
     second: AxisStatus | None
+    axes: tuple[AxisStatus, ...]
 
     @classmethod
     def parse(cls, line: str) -> Status:
-        """From the program's own words; those of axis 2 end in 2."""
+        """From the program's own words; those of axis 2 end in 2, and so on."""
         values = dict(word.partition("=")[::2] for word in line.split())
         values["interrupt"] = values.pop("int")
-        second = None
-        if "position2" in values:
-            second = AxisStatus(**_typed(AxisStatus, {n: values[n + "2"] for n in _names(AxisStatus)}))
-        names = [name for name in _names(cls) if name != "second"]
-        return cls(**_typed(cls, {name: values[name] for name in names}), second=second)
+        axes = []
+        for end in takewhile(lambda end: "position" + end in values, suffixes()):
+            axes.append(AxisStatus(**_typed(AxisStatus, {n: values[n + end] for n in _names(AxisStatus)})))
+        second = axes[1] if len(axes) > 1 else None
+        names = [name for name in _names(cls) if name not in ("second", "axes")]
+        known = _typed(cls, {name: values[name] for name in names})
+        return cls(**known, second=second, axes=tuple(axes))
 
 
 def _names(kind: type[AxisStatus]) -> list[str]:

@@ -72,7 +72,7 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         *(
             "-CFLAGS",
             # pins.h of the part; as seen from the folder of the build, which is free of spaces.
-            f"-std=c++17 -DBOARD_CLK_HZ={params['CLK_HZ']} -I../../../tb/{own} -I../../../tb/board",
+            f"-std=c++17 {_defines(params)} -I../../../tb/{own} -I../../../tb/board",
             "-o",
             "board",
         ),
@@ -105,6 +105,11 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         (work / "board").rename(program)
         shutil.rmtree(work)
         return program
+
+
+def _defines(params: dict[str, int | str]) -> str:
+    """Numbers among the parameters as words for the compiler: BOARD_CLK_HZ, BOARD_AXES."""
+    return " ".join(f"-DBOARD_{name}={value}" for name, value in params.items() if isinstance(value, int))
 
 
 def copy_runtime(source: Path, target: Path) -> None:

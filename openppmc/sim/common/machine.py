@@ -1,11 +1,13 @@
 """A machine around a motor controller in words: `start=4000,cw=40000,alarm=100..200`.
 
-The same text describes it for the virtual board and for the model; words of axis 2 end in 2: `cw2=30000`.
+The same text describes it for the virtual board and for the model; words of axis 2 end in 2: `cw2=30000`, and
+so on.
 What is special to a part stands in its own `machine.py`, which the table of parts names.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 
@@ -17,6 +19,7 @@ from ...model.common.chip import Chip
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
 """What only a machine with an encoder has."""
+_OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 
 
 @dataclass(frozen=True)
@@ -36,9 +39,11 @@ class Setup:
 class MachineKind:
     """What is around a part behind the UART bridge.
 
-    called: the part in messages. carrier: makes its modelled carrier. axes: 1 or 2. plant: where switches
-    are by default. encoder: there is one. own: words of its own and their values, the default first.
-    xtal_max: of its crystal, Hz. alarm: what it calls that switch.
+    called: the part in messages. carrier: makes its modelled carrier. axes: how many, if no word
+    `axes` of its own says. plant: where switches are by default. encoder: there is one. own: words of its
+    own and their values, the default first. xtal_max: of its crystal, Hz. alarm: what it calls that switch.
+    check: raises ValueError for a set-up that cannot be. timed: it has TIMING. counters: the carrier counts
+    pulses.
     """
 
     called: str
@@ -49,6 +54,9 @@ class MachineKind:
     own: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     xtal_max: int = 16_000_000
     alarm: str = "ALM"
+    check: Callable[[Setup], None] = lambda setup: None
+    timed: bool = True
+    counters: bool = True
 
 
 def machine_parts() -> tuple[str, ...]:
@@ -79,34 +87,41 @@ class Machine:
 
 def parse_machine(text: str) -> Machine:
     """From `word=value,word=value`; empty text: the defaults. Raises ValueError with the offending word."""
-    words: list[dict[str, int | tuple[int, int]]] = [{}, {}]
+    words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}
-    part, second, encoder = "ppmc104", "", ""
+    part, last, last_item, encoder = "ppmc104", 1, "", ""
     for item in filter(None, (piece.strip() for piece in text.split(","))):
         word, equals, value = (piece.strip() for piece in item.partition("="))
         if not equals or not value:
             raise ValueError(f"{item!r} is not of the form word=value")
-        axis = int(word.endswith("2") and word[:-1] in PLANT_WORDS)
-        name = word[:-1] if axis else word
+        numbered = _OF_AXIS.fullmatch(word)
+        name, axis = word, 1
+        if numbered and numbered[1] in PLANT_WORDS:
+            name, axis = numbered[1], int(numbered[2])
         if word == "part":
             part = value.lower()
             if part not in machine_parts():
                 raise ValueError(f"part={value}: there are {', '.join(machine_parts())}")
         elif name in PLANT_WORDS:
-            words[axis] |= _where(name, word, value)
-            second = item if axis else second
+            words.setdefault(axis, {}).update(_where(name, word, value))
+            if axis > last:
+                last, last_item = axis, item
             encoder = item if name in ENCODER_WORDS else encoder
         else:
             others[word] = value
     kind = machine_kind(part)
-    if second and kind.axes == 1:
+    own = _own(kind, others)
+    axes = int(own.get("axes", kind.axes))
+    if last > axes == 1:
         other, _ = _first(lambda one: one.axes > 1)
-        raise ValueError(f"{second}: {kind.called} has one axis: add part={other}")
+        raise ValueError(f"{last_item}: {kind.called} has one axis: add part={other}")
+    if last > axes:
+        raise ValueError(f"{last_item}: {kind.called} has {axes} axes")
     if encoder and not kind.encoder:
         other, its = _first(lambda one: one.encoder)
         raise ValueError(f"{encoder}: only {its.called} has an encoder: add part={other}")
-    own = _own(kind, others)
-    return Machine(part, tuple(_placed(kind.plant, axis) for axis in words[: kind.axes]), own, others)
+    plants = tuple(_placed(kind.plant, words.get(axis, {})) for axis in range(1, axes + 1))
+    return Machine(part, plants, own, others)
 
 
 def _first(wanted: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 
 from ...model.carrier.plant import Plant
-from .machine import PLANT_WORDS, machine_kind, own_words, parse_machine
+from .machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
 
 OPTIONS = ("part", "speed", "clk", "xtal", "timing")
 FILES = ("vcd", "vcd_from", "vcd_for", "log")
 PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
+
+
+def suffixes() -> Iterator[str]:
+    """What the words of each axis end in."""
+    return ("" if number == 1 else str(number) for number in count(1))
 
 
 def known_words() -> str:
@@ -49,13 +55,14 @@ class Spec:
     @property
     def parameters(self) -> dict[str, int | str]:
         """Parameters of the board's top module."""
-        own = {word.upper(): value for word, value in self.own.items()}
-        return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, "TIMING": self.timing, **own}
+        own = {word.upper(): int(value) if value.isdigit() else value for word, value in self.own.items()}
+        timing = {"TIMING": self.timing} if machine_kind(self.part).timed else {}
+        return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, **timing, **own}
 
     def arguments(self) -> list[str]:
         """Arguments of the program in tb/board."""
         words = []
-        for plant, suffix in zip(self.plants, ("", "2"), strict=False):
+        for plant, suffix in zip(self.plants, suffixes(), strict=False):
             words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLACES]
             if machine_kind(self.part).encoder:
                 words.append(f"index={plant.index}")
@@ -82,7 +89,7 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     for word in rest:
         if word not in (*OPTIONS, *FILES):
             raise SpecError(f"unknown word {word!r} (there are {known_words()})")
-    for plant, suffix in zip(machine.plants, ("", "2"), strict=False):
+    for plant, suffix in zip(machine.plants, suffixes(), strict=False):
         if plant.ccw >= plant.cw:
             limits = f"cw{suffix}={plant.cw},ccw{suffix}={plant.ccw}"
             raise SpecError(f"{limits}: the CW limit must lie above the CCW limit")
@@ -92,12 +99,19 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
         raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
     speed = rest.get("speed", "1")
+    kind = machine_kind(machine.part)
+    clk_hz = _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000)
+    xtal_hz = _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, kind.xtal_max)
+    try:
+        kind.check(Setup(machine.plants, clk_hz, xtal_hz, timing, machine.own, lambda: None))
+    except ValueError as error:
+        raise SpecError(str(error)) from None
     return Spec(
         machine.part,
         machine.plants,
         None if speed == "max" else _number("speed", speed, 0.001, 1000, "or max"),
-        _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000),
-        _whole("xtal", rest.get("xtal", "16000000"), 1_000_000, machine_kind(machine.part).xtal_max),
+        clk_hz,
+        xtal_hz,
         timing,
         machine.own,
         _file("vcd", rest),

@@ -171,3 +171,19 @@ def test_patience_counts_waits_and_one_mailbox_limit() -> None:
     assert Script().read(1).patience == 0
     assert Script().call(0x80).get(1).call(0x81).patience == 0.25
     assert Script().timeout(1000).wait(1, 4, 0).wait(1, 4, 0).timeout(100).get(1).patience == 2.1
+
+
+def test_patience_of_a_script_inside_another() -> None:
+    inside = Script().timeout(1000).wait(1, 4, 0).get(1)
+    assert Script().write(3, 5).extend(inside).patience == inside.patience == 2
+    assert Script().timeout(2000).extend(Script().read(1)).wait(1, 4, 0).patience == 2
+    assert Script().extend(Script().timeout(2000)).wait(1, 4, 0).patience == 2
+
+
+def test_a_number_is_one_value() -> None:
+    script = Script().read(1).read_number(4, 4).read(2)
+    assert bytes(script) == bytes([0x21, 0x24, 0x25, 0x26, 0x27, 0x22]) and script.gives == 6
+    assert parse_answer(script, b"\0abcdef").values == (b"a", b"bcde", b"f")
+    for count in (0, 5):
+        with pytest.raises(ValueError, match="count"):
+            Script().read_number(4, count)

@@ -79,9 +79,14 @@ def test_plan(run: Run) -> None:
 @pytest.mark.parametrize(
     ("words", "line", "code"),
     [
-        (("move", "1", "2", "3"), "one number for each axis", 2),
+        (("move", "1", "2", "3"), "axis 3: a PPMC-2104 has axes 1 to 2", 1),
         (("move", "1", "2", "--axis", "1"), "one number for each axis", 2),
-        (("move", "1", "--axis", "3"), "Invalid value for '--axis'", 2),
+        (("move", "1", "--axis", "3"), "axis 3: a PPMC-2104 has axes 1 to 2", 1),
+        (("move", "1", "--axis", "65"), "Invalid value for '--axis'", 2),
+        (("move", "1", "--axis", "1", "--axes", "1"), "one number for each axis", 2),
+        (("move", "1", "2", "--axes", "1"), "--axes 1: 1 axes, but 2 numbers", 2),
+        (("move", "1", "2", "--axes", "1,1"), "--axes 1,1: an axis stands there twice", 2),
+        (("move", "1", "2", "--axes", "1,b"), "--axes 1,b: wants numbers with commas", 2),
         (("--part", "ppmc999", "info"), "'ppmc999' is not one of 'ppmc104', 'ppmc2104', 'stmc'", 2),
         (("--port", "model:speed=max", "move", "1", "2"), "axis 2: a PPMC-104 has one axis", 1),
         (("--port", "model:speed=max", "jog", "cw", "--axis", "2"), "axis 2: a PPMC-104 has one axis", 1),
@@ -161,7 +166,8 @@ def test_a_script_for_one_axis_leaves_the_other_off(run: Run, tmp_path: Path) ->
     [
         (TWO, "move 1\naux on", 2, "a PPMC-2104 has no output AUX"),
         (TWO, "move 1\nauxo 4", 2, "outputs 4 is outside 0 to 3"),
-        (TWO, "move 1 axis=3", 1, "axis 3 is outside 1 to 2"),
+        (TWO, "move 1 axis=3", 1, "axis 3: a PPMC-2104 has axes 1 to 2"),
+        (TWO, "move 1 axis=65", 1, "axis 65 is outside 1 to 64"),
         (TWO, "move 1 2 axis=2", 1, "two numbers are for both axes"),
         (TWO, "wait 1 axis=2", 1, "'axis=2' does not belong here"),
         (TWO, "init logic=positive axis=2", 1, "positive logic: a PPMC-2104"),

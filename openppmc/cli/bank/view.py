@@ -1,0 +1,55 @@
+"""What a bank shows on the command line, and its axes together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ...host import End, NothingToStop, PpmcBank
+from ...host.axis.moves import OnProgress
+from ...host.axis.part import AnyAxis
+from ..common.view import RampView
+
+
+class BankView(RampView[PpmcBank]):
+    """All axes in one look, a row each; moves of several begin on the same clk."""
+
+    wide = True
+
+    def status_values(self, part: PpmcBank, axis: AnyAxis) -> dict[str, Any]:
+        return self.status_of(part, (axis,))[axis.number]
+
+    def status_of(self, part: PpmcBank, axes: Sequence[AnyAxis]) -> dict[int, dict[str, Any]]:
+        return {
+            number: {
+                "position": seen.position,
+                "moving": seen.status.busy,
+                "error": None if seen.status.error is None else int(seen.status.error),
+                "status": seen.status.raw,
+                "inputs": {name: bool(on) for name, on in vars(seen.inputs).items()},
+            }
+            for number, seen in part.look(axis.number for axis in axes).items()
+        }
+
+    def busy(self, part: PpmcBank, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
+        moving = part.status().busy
+        return tuple(axis for axis in axes if axis.number in moving)
+
+    def together(
+        self,
+        part: PpmcBank,
+        pulses: Mapping[int, int],
+        pps: float | None,
+        progress: OnProgress,
+        pulse_only: bool = False,
+    ) -> Sequence[End]:
+        return list(part.together(pulses, pps, progress, pulse_only).values())
+
+    def halt_all(self, part: PpmcBank) -> list[End]:
+        ends = part.stop_all()
+        if not ends:
+            raise NothingToStop(0, "nothing to stop: all axes are at rest")
+        return list(ends.values())
+
+
+VIEW = BankView()

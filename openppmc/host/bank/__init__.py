@@ -1,0 +1,1 @@
+"""Driver of a bank of PPMC-104 axes."""

@@ -1,0 +1,144 @@
+"""Motions of several axes that begin on the same clk (BANK-GRP-01..03)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import TracebackType
+from typing import Protocol
+
+from ..axis.axis import STOP_NOW
+from ..axis.kind import RateKind
+from ..axis.motion import READ_FINISH
+from ..basis.arguments import Checked, whole
+from ..basis.errors import OutOfRange, PpmcError
+from ..basis.refusals import CommandRefused, NotWhileBusy
+from ..bridge.link import Link
+from ..bridge.script import Script
+from .axis import BankAxis
+from .errors import GroupRefused, go_refused
+from .registers import GO, MASK, STATUS, bit_bytes
+from .window import visit
+
+BUSY, ERR = 0x04, 0x80
+_GO_READS = 8
+"""Read cycles of 10 clk each, so that GO has gone round (64 clk at most) before MASK changes."""
+
+
+class Grouped(Protocol):
+    """What a group needs of its bank, which is a `driver.PpmcBank`."""
+
+    @property
+    def link(self) -> Link: ...
+    @property
+    def kind(self) -> RateKind: ...
+    @property
+    def axes(self) -> tuple[BankAxis, ...]: ...
+    def open_group(self, group: Group | None) -> None: ...
+
+
+def numbers_of(kind: RateKind, axes: Iterable[int]) -> tuple[int, ...]:
+    """The numbers of a group in order. OutOfRange for none, one twice, one that is not there."""
+    if isinstance(axes, str | bytes) or not isinstance(axes, Iterable):
+        raise OutOfRange(f"axes {axes!r}: a group wants the numbers of its axes, as in (1, 2, 5)")
+    numbers = [kind.check_axis(whole(axis, "axis")) for axis in axes]
+    if not numbers:
+        raise OutOfRange("a group without axes: name one at least")
+    for number in numbers:
+        if numbers.count(number) > 1:
+            raise OutOfRange(f"axis {number} is in the group twice")
+    return tuple(sorted(numbers))
+
+
+def write_mask(kind: RateKind, numbers: tuple[int, ...]) -> list[tuple[int, Script]]:
+    """Pieces that write MASK: byte k at axis k + 1, which every bank with so many bytes has."""
+    raw = bit_bytes(numbers, kind.axes)
+    return [(k + 1, Script().write(MASK, byte)) for k, byte in enumerate(raw)]
+
+
+class Group(Checked):
+    """A context manager: motions of these axes that are started inside wait at their first pulse. Leaving it
+    starts them all on the same clk; leaving it by an exception stops those that wait, and nothing moves.
+
+    numbers: of its axes. Entering it raises NotWhileBusy if one of them moves. Leaving it raises GroupRefused
+    if axes did not begin; one whose motion a switch has ended meanwhile is none of these: its End tells.
+    """
+
+    def __init__(self, bank: Grouped, axes: Iterable[int]) -> None:
+        self._bank = bank
+        self.numbers = numbers_of(bank.kind, axes)
+        self.started: set[int] = set()
+
+    def _each(self, numbers: Iterable[int], script: Script) -> list[tuple[bytes, ...]]:
+        return visit(self._bank.link, [(number, script) for number in numbers])
+
+    def __enter__(self) -> Group:
+        bank = self._bank
+        for number, (status,) in zip(
+            self.numbers, self._each(self.numbers, Script().read(STATUS)), strict=True
+        ):
+            if status[0] & BUSY:
+                raise NotWhileBusy(status[0], f"axis {number}: {NotWhileBusy.text}")
+        bank.open_group(self)
+        try:
+            visit(bank.link, write_mask(bank.kind, self.numbers))
+        except BaseException:
+            bank.open_group(None)
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        try:
+            if error is not None:
+                self._call_off()
+            else:
+                self._go()
+        finally:
+            self._bank.open_group(None)
+
+    def _go(self) -> None:
+        """Start what is held, and look who did."""
+        bank, began = self._bank, tuple(sorted(self.started))
+        if not began:
+            visit(bank.link, write_mask(bank.kind, ()))
+            return
+        go = Script().write(GO, 0).read_many(STATUS, _GO_READS)
+        try:
+            visit(bank.link, [*write_mask(bank.kind, began), (1, go), *write_mask(bank.kind, ())])
+            seen = self._each(began, Script().read(STATUS))
+        except BaseException:
+            self._call_off()
+            raise
+        refusals = {}
+        for number, (status,) in zip(began, seen, strict=True):
+            if status[0] & ERR and not self._ended(number, status[0]):
+                refusals[number] = go_refused(status[0], number)
+        if refusals:
+            raise GroupRefused(refusals)
+
+    def _ended(self, number: int, status: int) -> bool:
+        """A switch or a stop ended the motion of this axis while it was held."""
+        motion = self._bank.axes[number - 1].motion
+        if motion is None:
+            return False
+        motion.look(status)
+        return motion.end is not None and not motion.end.complete
+
+    def _call_off(self) -> None:
+        """Nothing of this group may start any more. All of its axes were at rest before."""
+        link, kind = self._bank.link, self._bank.kind
+        try:
+            for number in self.numbers:
+                try:
+                    self._each((number,), Script().call(STOP_NOW).wait(STATUS, BUSY, 0))
+                except CommandRefused:
+                    continue  # it is at rest
+                motion = self._bank.axes[number - 1].motion
+                if number in self.started and motion is not None:
+                    motion.look(0)
+                else:
+                    self._each((number,), Script().call(READ_FINISH).get(1))
+            visit(link, write_mask(kind, ()))
+        except PpmcError:
+            pass  # the first error is the one to tell

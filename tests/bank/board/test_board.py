@@ -1,0 +1,59 @@
+"""The virtual board with a bank: the RTL behind its bridge, moved by the driver and the command line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from openppmc.host import CW, Cause, LimitReached, PpmcBank
+from openppmc.sim import SimBoard
+
+from ...common.board.fixtures import SETUP, CommandLine, StartBoard
+
+
+@pytest.fixture
+def board(start_board: StartBoard, tmp_path: Path) -> SimBoard:
+    """Four axes as fast as it goes; the last begins near its limit. Its log: pulses.log."""
+    return start_board(f"part=bank,axes=4,speed=max,start4=37900,log={tmp_path / 'pulses.log'}")
+
+
+def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
+    """Given moves of one and of three axes, then motors and positions agree, and the three begin together."""
+    with PpmcBank.open(board.port) as bank:
+        assert bank.info() == (1, 4)
+        for axis in bank.axes:
+            axis.initialise(**SETUP)  # type: ignore[arg-type]
+        assert bank.axis[2].move(500).position == 500
+        bank.together({1: 300, 3: -200, 4: 50})
+        assert bank.positions() == {1: 300, 2: 500, 3: -200, 4: 50}
+        assert [axis.position for axis in board.status().axes] == [4300, 4500, 3800, 37950]
+        bank.link.pause(2.5)  # the log is written when the board rests
+    pulses = [line.split() for line in (tmp_path / "pulses.log").read_text().splitlines()[1:]]
+    first = [next(int(clk) for clk, *_, axis in pulses if axis == number) for number in "134"]
+    assert len(set(first)) == 1
+
+
+def test_limits_and_stops(board: SimBoard) -> None:
+    """Given a slow-down limit and STOP, then they end motions, and the switches read as on the board."""
+    with PpmcBank.open(board.port) as bank:
+        for axis in bank.axes:
+            axis.initialise(**SETUP)  # type: ignore[arg-type]
+        with pytest.raises(LimitReached, match="axis 4: slow-down limit"):
+            bank.axis[4].move(3000)
+        assert bank.look((4,))[4].inputs.slow_cw and not bank.look((1,))[1].inputs.slow_cw
+        bank.axis[1].jog(CW, 1000)
+        bank.axis[2].jog(CW, 2000)
+        assert [end.cause for end in bank.stop_all().values()] == [Cause.STOP, Cause.STOP]
+        assert bank.pending() == ()
+
+
+def test_command_line(board: SimBoard, openppmc: CommandLine) -> None:
+    """Given a move on the command line, then a second call shows where all axes are."""
+    code, out, _ = openppmc.run(board.port, "move", "100", "-50", "--axes", "3,1")
+    assert code == 0 and out.splitlines() == [
+        "axis 1: position -50, 50 pulses CCW: complete",
+        "axis 3: position 100, 100 pulses CW: complete",
+    ]
+    rows = openppmc.run(board.port, "status")[1].splitlines()[1:]
+    assert [row.split()[2] for row in rows] == ["-50", "0", "100", "0"]

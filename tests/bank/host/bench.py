@@ -1,0 +1,63 @@
+"""What the tests of the bank's driver share: a bank on the modelled board, in virtual time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from openppmc.host import Link, PpmcBank
+from openppmc.host.bridge.loopback import ModelPort
+from openppmc.host.bridge.script import Script
+from openppmc.model.bank.carrier import Carrier
+
+SETUP = {"start_pps": 2000, "high_pps": 20_000, "ramp_pulses": 100}
+SPEC = "model:speed=max,part=bank,axes=4"
+
+
+@contextmanager
+def opened(words: str = "", axes: int = 4) -> Iterator[PpmcBank]:
+    """A bank with all axes initialised."""
+    with PpmcBank.open(f"{SPEC.replace('=4', f'={axes}')},{words}") as bank:
+        for axis in bank.axes:
+            axis.initialise(**SETUP)  # type: ignore[arg-type]
+        yield bank
+
+
+def model(bank: PpmcBank) -> Carrier:
+    """The modelled board."""
+    assert isinstance(bank.link.port, ModelPort)
+    assert isinstance(bank.link.port.board, Carrier)
+    return bank.link.port.board
+
+
+def frames(bank: PpmcBank) -> int:
+    """Requests that the bridge has carried out."""
+    assert isinstance(bank.link.port, ModelPort)
+    return bank.link.port.bridge.scripts
+
+
+def pulses(bank: PpmcBank) -> dict[int, list[int]]:
+    """A list per axis that gets the clk of each pulse, by looking over the board's shoulder."""
+    board = model(bank)
+    seen: dict[int, list[int]] = {number: [] for number in bank.axis}
+    real = board._step
+
+    def follow(edge: object) -> None:
+        board_t[0] = edge.t  # type: ignore[attr-defined]
+        real_follow(edge)  # type: ignore[arg-type]
+
+    def step(n: int, way: int) -> None:
+        seen[n + 1].append(board_t[0])
+        real(n, way)
+
+    board_t, real_follow = [0], board._follow
+    board._follow = follow  # type: ignore[method-assign,assignment]
+    board._step = step  # type: ignore[method-assign]
+    return seen
+
+
+def at(link: Link, number: int, script: Script) -> Script:
+    """Another program's access to an axis: it selects for itself, and tells nobody."""
+    whole = Script().write(3, number - 1).extend(script)
+    link.execute(whole)
+    return whole

@@ -1,0 +1,248 @@
+"""The C driver of the bank, as a library whose access functions are bus cycles of the golden model."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.paths import BUILD
+from openppmc.model.bank.part import PpmcBank
+from openppmc.model.single.codes import Error
+from tests.common.packages.c_programs import C99, DRIVER, WARNINGS, run
+
+OK, BAD_ARGUMENT, NO_PART = 0, 18, 17
+AXES, CLK_HZ = 16, 16_000_000
+INIT = {"motor": 4, "active_high": True, "rate_start": 100, "rate_high": 20, "ramp": 10}
+CCW = 0x08
+
+
+class Config(ctypes.Structure):
+    """ppmc104_config_t."""
+
+    _fields_ = [
+        ("motor", ctypes.c_uint8),
+        *((name, ctypes.c_bool) for name in ("half_step", "active_high", "chop", "external_clock")),
+        ("rate_start", ctypes.c_uint8),
+        ("rate_high", ctypes.c_uint8),
+        ("ramp", ctypes.c_uint16),
+    ]
+
+
+class Finish(ctypes.Structure):
+    """ppmc104_finish_t."""
+
+    _fields_ = [
+        *((name, ctypes.c_bool) for name in ("ended", "stopped", "alarm", "limit", "slow_limit")),
+        ("operation", ctypes.c_uint8),
+        ("raw", ctypes.c_uint8),
+    ]
+
+
+READ = ctypes.CFUNCTYPE(ctypes.c_uint8, ctypes.c_void_p, ctypes.c_uint)
+WRITE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_uint, ctypes.c_uint8)
+
+
+@pytest.fixture(scope="module")
+def library() -> ctypes.CDLL:
+    """Both C files, compiled with all warnings."""
+    path = Path(BUILD) / "cdriver_bank" / "libbank.so"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    sources = [DRIVER / "ppmc104.c", DRIVER / "ppmc_bank.c"]
+    run(*C99, *WARNINGS, "-O1", "-shared", "-fPIC", *sources, "-o", path)
+    lib = ctypes.CDLL(str(path))
+    lib.ppmc_bank_hold.argtypes = [ctypes.c_void_p, ctypes.c_uint64]
+    lib.ppmc_bank_pending.restype = lib.ppmc_bank_busy.restype = ctypes.c_uint64
+    return lib
+
+
+class Bench:
+    """A model, the driver on it, and its axes. Calls are by the names of the C functions."""
+
+    def __init__(self, lib: ctypes.CDLL, axes: int = AXES) -> None:
+        self.lib, self.model, self.t = lib, PpmcBank(axes, CLK_HZ), 200
+        self._functions = (
+            READ(lambda _, address: self.read(address)),
+            WRITE(lambda _, address, byte: self.write(address, byte)),
+        )
+        # The structures, with room to spare.
+        self.bank = ctypes.create_string_buffer(256)
+        self.parts = [ctypes.create_string_buffer(256) for _ in range(axes)]
+        self.refused = ctypes.c_uint64()
+
+    def _at(self, address: int) -> None:
+        assert 0 <= address < 1024
+        self.model.pins(self.t, a=address)
+        self.t += 2
+
+    def read(self, address: int) -> int:
+        """A read cycle of 6 clk and a gap of 3."""
+        self._at(address)
+        byte = self.model.read(self.t, address, 6)
+        self.t += 9
+        return byte
+
+    def write(self, address: int, byte: int) -> None:
+        """A write cycle of 2 clk and a gap of 3."""
+        self._at(address)
+        self.model.write(self.t, address, byte, 2)
+        self.t += 5
+
+    def open(self) -> int:
+        """ppmc_bank_open and, if that is fine, every ppmc_bank_axis."""
+        result = self.lib.ppmc_bank_open(self.bank, *self._functions, None)
+        for number, part in enumerate(self.parts if result == OK else ()):
+            assert self.lib.ppmc_bank_axis(self.bank, number, part) == OK
+        return result
+
+    def init(self, *numbers: int) -> None:
+        """ppmc104_init of these axes."""
+        for number in numbers:
+            assert self.lib.ppmc104_init(self.parts[number], ctypes.byref(Config(**INIT))) == OK
+
+    def wait(self, number: int) -> Finish:
+        """ppmc104_wait."""
+        finish = Finish()
+        assert self.lib.ppmc104_wait(self.parts[number], ctypes.byref(finish)) == OK
+        return finish
+
+    def position(self, number: int) -> int:
+        """ppmc_bank_position."""
+        value = ctypes.c_int32()
+        assert self.lib.ppmc_bank_position(self.bank, number, ctypes.byref(value)) == OK
+        return value.value
+
+    def go(self) -> int:
+        """ppmc_bank_go."""
+        return self.lib.ppmc_bank_go(self.bank, ctypes.byref(self.refused))
+
+
+@pytest.fixture
+def bench(library: ctypes.CDLL) -> Bench:
+    """Open, with axes 0, 3, 9 and 15 initialised."""
+    made = Bench(library)
+    assert made.open() == OK
+    made.init(0, 3, 9, 15)
+    return made
+
+
+@pytest.mark.parametrize("axes", [4, 8, 16])
+def test_opening(library: ctypes.CDLL, axes: int) -> None:
+    """Given a bank with a MASK that others left, then the driver knows its axes and empties MASK."""
+    bench = Bench(library, axes)
+    bench.write(0x008, 0x0F)
+    assert bench.open() == OK
+    assert bench.read(0x008) == 0
+    assert library.ppmc_bank_axis(bench.bank, axes, ctypes.create_string_buffer(256)) == BAD_ARGUMENT
+
+
+@pytest.mark.parametrize("info", [(0xFF,) * 3, (0x42, 2, 8), (0x42, 1, 5), (0x42, 1, 0), (0, 1, 8)])
+def test_what_is_no_bank(library: ctypes.CDLL, info: tuple[int, ...]) -> None:
+    """Given an INFO that is none of ours, then there is no part, and no axis."""
+    bench = Bench(library)
+    real: Callable[[int], int] = bench.read
+    bench.read = lambda address: info[address >> 4] if address & 15 == 12 else real(address)  # type: ignore[method-assign]
+    assert bench.open() == NO_PART
+    assert library.ppmc_bank_axis(bench.bank, 0, bench.parts[0]) == BAD_ARGUMENT
+
+
+def test_axes_are_parts(bench: Bench) -> None:
+    """Given moves by the functions of ppmc104.h, then pulses, positions, ends and pending bits are theirs."""
+    lib = bench.lib
+    assert lib.ppmc104_move(bench.parts[9], 0, 25) == OK
+    assert lib.ppmc_bank_busy(bench.bank) == 1 << 9
+    finish = bench.wait(9)
+    assert (finish.raw, finish.stopped) == (0x83, False)
+    assert lib.ppmc104_move_constant(bench.parts[3], CCW, 30, 7) == OK
+    while lib.ppmc_bank_busy(bench.bank):
+        pass
+    assert lib.ppmc_bank_pending(bench.bank) == 1 << 3
+    assert bench.wait(3).raw == 0x84 and lib.ppmc_bank_pending(bench.bank) == 0
+    assert (bench.position(9), bench.position(3), bench.position(0)) == (25, -7, 0)
+    all_of_them = (ctypes.c_int32 * AXES)()
+    lib.ppmc_bank_positions(bench.bank, all_of_them)
+    assert list(all_of_them) == [0, 0, 0, -7, 0, 0, 0, 0, 0, 25, 0, 0, 0, 0, 0, 0]
+    assert [len(bench.model.pulses(number)) for number in (0, 3, 9)] == [0, 7, 25]
+    assert lib.ppmc104_move(bench.parts[1], 0, 5) == Error.NOT_INITIALISED + 1
+    assert lib.ppmc_bank_position(bench.bank, AXES, ctypes.byref(ctypes.c_int32())) == BAD_ARGUMENT
+
+
+def test_what_a_bank_does_not_have(bench: Bench) -> None:
+    """Given an external clock or AUX, then the part refuses it as unknown."""
+    config = Config(**INIT, external_clock=True)
+    assert bench.lib.ppmc104_init(bench.parts[1], ctypes.byref(config)) == Error.UNDEFINED + 1
+    assert bench.lib.ppmc104_aux(bench.parts[0], True) == Error.UNDEFINED + 1
+
+
+def test_config(bench: Bench) -> None:
+    """Given the slow base clock for an axis, then its pulses are four times as far apart."""
+    lib = bench.lib
+    for number in (0, 3):
+        assert lib.ppmc_bank_config(bench.bank, 3, number == 3, True) == OK
+        assert lib.ppmc104_move_constant(bench.parts[3], 0, 9, 3) == OK
+        bench.wait(3)
+    clk = bench.model.pulses(3)
+    assert [clk[n + 1] - clk[n] for n in (0, 1, 3, 4)] == [1280, 1280, 320, 320]
+    assert lib.ppmc_bank_config(bench.bank, AXES, True, True) == BAD_ARGUMENT
+
+
+def test_a_group_begins_on_one_clk(bench: Bench) -> None:
+    """Given three loaded motions, then nothing moves before GO, and all begin on one clk after it."""
+    lib = bench.lib
+    assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 9 | 1 << 15) == OK
+    assert lib.ppmc104_move(bench.parts[0], 0, 20) == OK
+    assert lib.ppmc104_move_constant(bench.parts[9], CCW, 30, 5) == OK
+    assert lib.ppmc104_move(bench.parts[15], 0, 3) == OK
+    assert lib.ppmc_bank_busy(bench.bank) == 1 << 0 | 1 << 9 | 1 << 15
+    bench.model.run_until(bench.t + 100_000)
+    bench.t += 100_001
+    assert not any(bench.model.pulses(number) for number in range(AXES))
+    assert bench.go() == OK and bench.refused.value == 0
+    for number in (0, 9, 15):
+        bench.wait(number)
+    first = {bench.model.pulses(number)[0] for number in (0, 9, 15)}
+    assert len(first) == 1
+    assert (bench.position(0), bench.position(9), bench.position(15)) == (20, -5, 3)
+    assert bench.read(0x008) == bench.read(0x018) == 0
+    assert lib.ppmc104_move(bench.parts[0], 0, 4) == OK
+    assert not bench.wait(0).stopped
+
+
+def test_who_was_not_ready(bench: Bench) -> None:
+    """Given axes without a motion, one of them not initialised, then GO tells them, and the other runs."""
+    lib = bench.lib
+    assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 1 | 1 << 3) == OK
+    assert lib.ppmc104_move(bench.parts[3], 0, 5) == OK
+    assert bench.go() == Error.UNDEFINED + 1
+    assert bench.refused.value == 1 << 0 | 1 << 1
+    bench.wait(3)
+    assert bench.position(3) == 5
+    assert lib.ppmc_bank_hold(bench.bank, 1 << 1) == OK
+    assert bench.go() == Error.NOT_INITIALISED + 1
+
+
+def test_groups_that_are_none(bench: Bench) -> None:
+    """Given no axis, one that is not there or one that moves, then there is no group, and no GO."""
+    lib = bench.lib
+    hold = lib.ppmc_bank_hold
+    assert hold(bench.bank, 0) == hold(bench.bank, 1 << AXES) == BAD_ARGUMENT
+    assert lib.ppmc104_jog(bench.parts[3], 0, 30) == OK
+    assert hold(bench.bank, 1 << 3 | 1) == Error.NOT_WHILE_BUSY + 1
+    assert bench.go() == BAD_ARGUMENT
+    assert bench.read(0x008) == 0
+
+
+def test_a_group_called_off(bench: Bench) -> None:
+    """Given a loaded group, then calling it off ends its motions without a pulse, and others go on."""
+    lib = bench.lib
+    assert lib.ppmc104_jog(bench.parts[15], 0, 30) == OK
+    assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 3) == OK
+    assert lib.ppmc104_move(bench.parts[0], 0, 20) == OK
+    lib.ppmc_bank_drop(bench.bank)
+    finish = bench.wait(0)
+    assert finish.stopped and bench.position(0) == 0
+    assert lib.ppmc_bank_busy(bench.bank) == 1 << 15 and bench.read(0x008) == 0
+    lib.ppmc_bank_stop_all(bench.bank)
+    assert bench.wait(15).stopped and lib.ppmc_bank_busy(bench.bank) == 0
