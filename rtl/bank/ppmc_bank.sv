@@ -67,7 +67,6 @@ module ppmc_bank
   );
 
   logic [6*AXES-1:0] unused_meta, levels;
-  switches_t switches[AXES];
 
   ppmc_sync #(
       .Width(6 * AXES)
@@ -81,8 +80,15 @@ module ppmc_bank
 
   // ---- host, engine --------------------------------------------------------------------------------
 
-  logic ready, go, stop, answer_we, call, calm;
-  logic [RoundBits-1:0] clock, see, done_axis, at;
+  localparam int unsigned Quantum = 4 * CLK_HZ / XTAL_HZ;  // clk
+  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);  // slowest interval
+
+  logic go, go_now, stop, stopping, answer_we, call, calm;
+  logic [5:0][RoundBits-1:0] axis;
+  logic [Round-1:0] turn;
+  logic [6:0] clear;
+  logic [RoundBits-1:0] at;
+  logic [TimeBits-1:0] due;
   mail_t mail;
   progress_t progress;
   logic [1:0] config_n;
@@ -92,6 +98,23 @@ module ppmc_bank
   order_t order;
   seen_t seen;
   logic [AXES-1:0] mask, pending_q;
+
+  ppmc_bank_round #(
+      .RoundBits(RoundBits),
+      .Width    (20 * Quantum),
+      .TimeBits (TimeBits)
+  ) u_round (
+      .clk_i  (clk),
+      .rst_ni (rst),
+      .go_i   (go),
+      .stop_i (stop),
+      .axis_o (axis),
+      .turn_o (turn),
+      .clear_o(clear),
+      .go_o   (go_now),
+      .due_o  (due),
+      .stop_o (stopping)
+  );
 
   ppmc_bank_window #(
       .Axes     (AXES),
@@ -106,12 +129,12 @@ module ppmc_bank
       .d_i,
       .d_o,
       .d_oe_o     (d_oe),
-      .ready_i    (ready),
-      .axis_i     (clock),
+      .ready_i    (!clear[6]),
+      .axis_i     (axis[0]),
       .mail_o     (mail),
       .progress_o (progress),
       .config_no  (config_n),
-      .done_axis_i(done_axis),
+      .done_axis_i(axis[5]),
       .status_i   (status),
       .position_i (position),
       .answer_we_i(answer_we),
@@ -123,22 +146,21 @@ module ppmc_bank
   );
 
   ppmc_bank_engine #(
-      .ClkHz    (CLK_HZ),
-      .XtalHz   (XTAL_HZ),
+      .Quantum  (Quantum),
+      .TimeBits (TimeBits),
       .PhaseIdle(PHASE_IDLE),
       .RoundBits(RoundBits)
   ) u_engine (
       .clk_i      (clk),
       .rst_ni     (rst),
-      .ready_o    (ready),
-      .clock_o    (clock),
+      .axis_i     (axis),
+      .clear_i    (clear[4:3]),
       .mail_i     (mail),
       .progress_i (progress),
       .config_ni  (config_n),
-      .go_i       (go),
-      .see_o      (see),
+      .go_i       (go_now),
+      .due_i      (due),
       .seen_i     (seen),
-      .axis_o     (done_axis),
       .status_o   (status),
       .position_o (position),
       .answer_we_o(answer_we),
@@ -151,73 +173,51 @@ module ppmc_bank
 
   // ---- axes ----------------------------------------------------------------------------------------
 
-  seen_t views[Round];
-  logic [Round-1:0] turn_q;  // whose order it is
-  logic stopping_q;
-  logic [RoundBits-1:0] stop_left_q;
+  seen_t views[AXES];
 
-  assign seen = views[see];
-
-  // The ring is at axis 0 five clk after clock is.
-  always_ff @(posedge clk or negedge rst) begin
-    if (!rst) begin
-      turn_q      <= Round'(1) << (Round - 5);
-      stopping_q  <= 1'b0;
-      stop_left_q <= '0;
-    end else begin
-      turn_q <= {turn_q[Round-2:0], turn_q[Round-1]};
-      if (stop) begin
-        stopping_q  <= 1'b1;
-        stop_left_q <= '1;
-      end else begin
-        stopping_q <= stopping_q && stop_left_q != '0;
-        stop_left_q <= stop_left_q - 1'b1;
-      end
-    end
+  // AND and OR take half the cells of a multiplexer. Three axes behind the one in the last stage is that in stage 2.
+  always_comb begin
+    seen = '0;
+    for (int unsigned i = 0; i < AXES; i++) seen |= views[i] & {$bits(seen_t) {turn[(i+Round-3)%Round]}};
   end
 
-  for (genvar i = 0; i < Round; i++) begin : g_axis
-    if (i < AXES) begin : g_cell
-      assign switches[i] = '{
-              limit_cw: !levels[i],
-              limit_ccw: !levels[AXES+i],
-              slow_cw: !levels[2*AXES+i],
-              slow_ccw: !levels[3*AXES+i],
-              origin: !levels[4*AXES+i],
-              alarm: !levels[5*AXES+i]
-          };
-      assign views[i].mask = mask[i];
-      assign views[i].switches = switches[i];
+  for (genvar i = 0; i < AXES; i++) begin : g_axis
+    assign views[i].mask = mask[i];
+    assign views[i].switches = '{
+            limit_cw: !levels[i],
+            limit_ccw: !levels[AXES+i],
+            slow_cw: !levels[2*AXES+i],
+            slow_ccw: !levels[3*AXES+i],
+            origin: !levels[4*AXES+i],
+            alarm: !levels[5*AXES+i]
+        };
 
-      ppmc_bank_cell #(
-          .RoundBits(RoundBits),
-          .PhaseIdle(PHASE_IDLE)
-      ) u_cell (
-          .clk_i     (clk),
-          .rst_ni    (rst),
-          .clock_i   (clock),
-          .load_i    (turn_q[i]),
-          .order_i   (order),
-          .at_i      (at),
-          .stop_i    (stopping_q),
-          .switches_i(switches[i]),
-          .armed_o   (views[i].armed),
-          .emitted_o (views[i].emitted),
-          .stopped_o (views[i].stop),
-          .alarm_o   (views[i].alarm),
-          .limit_o   (views[i].limit),
-          .s_o       (s[5*i+:5]),
-          .hold_o    (hold[i]),
-          .pout_no   (pout_n[i]),
-          .dir_o     (dir[i])
-      );
+    ppmc_bank_cell #(
+        .RoundBits(RoundBits),
+        .PhaseIdle(PHASE_IDLE)
+    ) u_cell (
+        .clk_i     (clk),
+        .rst_ni    (rst),
+        .clock_i   (axis[0]),
+        .load_i    (turn[i]),
+        .order_i   (order),
+        .at_i      (at),
+        .stop_i    (stopping),
+        .switches_i(views[i].switches),
+        .armed_o   (views[i].armed),
+        .emitted_o (views[i].emitted),
+        .stopped_o (views[i].stop),
+        .alarm_o   (views[i].alarm),
+        .limit_o   (views[i].limit),
+        .s_o       (s[5*i+:5]),
+        .hold_o    (hold[i]),
+        .pout_no   (pout_n[i]),
+        .dir_o     (dir[i])
+    );
 
-      always_ff @(posedge clk or negedge rst) begin
-        if (!rst) pending_q[i] <= 1'b0;
-        else if (turn_q[i] && (call || calm)) pending_q[i] <= call;
-      end
-    end else begin : g_none
-      assign views[i] = '0;
+    always_ff @(posedge clk or negedge rst) begin
+      if (!rst) pending_q[i] <= 1'b0;
+      else if (turn[i] && (call || calm)) pending_q[i] <= call;
     end
   end
 

@@ -75,7 +75,7 @@ module ppmc_bank_cell
       pout_no <= 1'b1;
       dir_o   <= 1'b0;
     end else begin
-      if (pulse || rise) pout_no <= rise;
+      if (pulse || rise) pout_no <= order_q.rise;
       if (pulse || set) s_o <= order_q.s;
       if (set) {hold_o, dir_o} <= {order_q.hold, order_q.ccw};
     end

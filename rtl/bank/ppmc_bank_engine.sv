@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_engine: visits one axis a clk: reads its state, decides, and writes it back.
-// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02, BANK-GRP-02/03; the others in ppmc_bank_plan and ppmc_bank_step.
+// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_step.
 // Timing: seven clk from the address of an axis to the edge of its visit, one axis behind the other:
-//         0 address    1 RAM    2 compare (seen_i, of axis see_o)    3 plan    4 step    5 write; order_o is loaded
+//         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
 //         6 the order stands in the cell: the first clk whose end an edge may be ordered for
 //         The rate is read two clk earlier: it is part of the address of its threshold.
 `default_nettype none
@@ -12,87 +12,40 @@ module ppmc_bank_engine
   import ppmc_code_pkg::error_e;
   import ppmc_code_pkg::decoded_t;
 #(
-    parameter int unsigned ClkHz     = 100_000_000,
-    parameter int unsigned XtalHz    = 16_000_000,
+    parameter int unsigned Quantum   = 25,    // clk
+    parameter int unsigned TimeBits  = 18,    // of an interval in clk
     parameter bit          PhaseIdle = 1'b1,
     parameter int unsigned RoundBits = 5
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    output logic                      ready_o,     // all axes have been reset
-    output logic      [RoundBits-1:0] clock_o,     // clk of the round, axis of stage 0
+    input  wire logic                                clk_i,
+    input  wire logic                                rst_ni,
+    input  wire logic      [5:0][RoundBits-1:0]      axis_i,       // whose visit is in which stage
+    input  wire logic      [4:3]                     clear_i,      // those in stages 3 and 4 reset their axes
     // from the window
-    input  wire mail_t                mail_i,      // stage 1
-    input  wire progress_t            progress_i,
-    input  wire logic [          1:0] config_ni,
-    input  wire logic                 go_i,        // GO is written, at the coming edge
+    input  wire mail_t                               mail_i,       // stage 1: input buffer
+    input  wire progress_t                           progress_i,   // stage 1: how far its answer has been read
+    input  wire logic      [          1:0]           config_ni,    // stage 1: vsel and csel, inverted
+    input  wire logic                                go_i,         // stage 2: GO acts
+    input  wire logic      [ TimeBits-1:0]           due_i,        // W less the clk since then
     // from cells and switches
-    output logic      [RoundBits-1:0] see_o,       // axis of stage 2
-    input  wire seen_t                seen_i,      // stage 2
-    // results of stage 4, stage 5
-    output logic      [RoundBits-1:0] axis_o,
-    output status_t                   status_o,
-    output logic      [         31:0] position_o,
-    output logic                      answer_we_o,
-    output answer_t                   answer_o,
-    output order_t                    order_o,
-    output logic      [RoundBits-1:0] at_o,        // clk of its edge
-    output logic                      call_o,      // an interrupt is pending from now on
-    output logic                      calm_o       // and no more
+    input  wire seen_t                               seen_i,       // stage 2
+    // what a visit leaves, stage 5
+    output status_t                                  status_o,     // for the status register
+    output logic           [         31:0]           position_o,   // position
+    output logic                                     answer_we_o,  // there is an answer
+    output answer_t                                  answer_o,     // this one
+    output order_t                                   order_o,      // to the pin cell
+    output logic           [RoundBits-1:0]           at_o,         // clk of its edge
+    output logic                                     call_o,       // an interrupt is pending from now on
+    output logic                                     calm_o        // and no more
 );
 
   localparam int unsigned Round = 1 << RoundBits;
-  localparam int unsigned Quantum = 4 * ClkHz / XtalHz;
-  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);
   localparam int unsigned HoldRounds = (136_000 * Quantum + Round - 1) / Round;
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
   typedef logic [RoundBits-1:0] axis_t;
-
-  // ---- which axis is where -------------------------------------------------------------------------
-
-  axis_t clock_q, axis1_q, axis2_q, axis3_q, axis4_q, axis5_q;
-  logic [6:0] clear_q;  // stages that reset their axis; [0]: stage 0
-
-  assign clock_o = clock_q;
-  assign see_o   = axis2_q;
-  assign axis_o  = axis5_q;
-  assign ready_o = !clear_q[6];
-
-  always_ff @(posedge clk_i) {axis1_q, axis2_q, axis3_q, axis4_q, axis5_q} <= {clock_q, axis1_q, axis2_q, axis3_q, axis4_q};
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      clock_q <= '0;
-      clear_q <= '1;
-    end else begin
-      clock_q <= clock_q + 1'b1;
-      clear_q <= {clear_q[5:0], clear_q[0] && clock_q != '1};
-    end
-  end
-
-  // GO acts for a round; one more waits.
-  logic go_q, again_q;
-  logic [RoundBits:0] since_q;
-  logic [TimeBits-1:0] due_q;  // W - since_q
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {go_q, again_q} <= '0;
-      since_q         <= '0;
-      due_q           <= '0;
-    end else if (go_q && !since_q[RoundBits]) begin
-      since_q <= since_q + 1'b1;
-      due_q   <= due_q - 1'b1;
-      again_q <= again_q || go_i;
-    end else begin
-      go_q    <= go_i || again_q;
-      again_q <= go_i && again_q;
-      since_q <= (RoundBits + 1)'(1);
-      due_q   <= TimeBits'(20 * Quantum - 1);
-    end
-  end
 
   // ---- memories ------------------------------------------------------------------------------------
 
@@ -137,12 +90,12 @@ module ppmc_bank_engine
   logic [TimeBits-1:0] after, after3_q;
 
   always_ff @(posedge clk_i) begin
-    pace_r_q <= paces[clock_q+axis_t'(2)];
-    early1_q <= earlies[clock_q];
-    late2_q  <= lates[axis1_q];
-    earlies[axis_o] <= early5_q;
-    lates[axis_o]   <= late5_q;
-    paces[axis_o]   <= pace5_q;
+    pace_r_q <= paces[axis_i[0]+axis_t'(2)];
+    early1_q <= earlies[axis_i[0]];
+    late2_q  <= lates[axis_i[1]];
+    earlies[axis_i[5]] <= early5_q;
+    lates[axis_i[5]]   <= late5_q;
+    paces[axis_i[5]]   <= pace5_q;
     // On the way down the threshold of the next slower rate counts.
     pace0_q  <= pace_r_q;
     probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
@@ -153,8 +106,7 @@ module ppmc_bank_engine
   end
 
   ppmc_bank_times #(
-      .ClkHz   (ClkHz),
-      .XtalHz  (XtalHz),
+      .Quantum (Quantum),
       .Round   (Round),
       .TimeBits(TimeBits)
   ) u_times (
@@ -186,7 +138,7 @@ module ppmc_bank_engine
     {mail3_q, progress3_q, config3_q} <= {mail2_q, progress2_q, config2_q};
     {early3_q, pace3_q, after3_q} <= {early2_q, pace2_q, after};
     seen3_q <= seen_i;
-    due3_q <= due_q;
+    due3_q <= due_i;
     new3_q <= mail2_q.seq != early2_q.bytes.taken;
     decoded3_q <= decode(mail2_q.data);
     value3_q <= ppmc104_pkg::judge({mail2_q.data, early2_q.bytes.params});
@@ -198,9 +150,9 @@ module ppmc_bank_engine
     facts3_q.minus <= walk2.slack[24];
     facts3_q.foot  <= walk2.climb[14:1] == '0;
     facts3_q.full  <= walk2.climb[StepBits-1:0] == early2_q.ramp.steps + 1'b1;
-    facts3_q.go    <= go_q;
+    facts3_q.go    <= go_i;
     facts3_q.free  <= 1'b0;
-    facts3_q.built <= !(booked && booked_for == axis2_q);
+    facts3_q.built <= !(booked && booked_for == axis_i[2]);
   end
 
   // ---- stage 3: plan -------------------------------------------------------------------------------
@@ -257,13 +209,13 @@ module ppmc_bank_engine
       .clk_i,
       .rst_ni,
       .book_i     (plan.init),
-      .book_axis_i(axis3_q),
+      .book_axis_i(axis_i[3]),
       .slow_i     (params[7:0]),
       .fast_i     (params[15:8]),
       .steps_i    (params[16+:StepBits]),
       .booked_o   (booked),
       .for_o      (booked_for),
-      .axis_i     (clock_q),
+      .axis_i     (axis_i[0]),
       .rate_i     (probe0_q),
       .threshold_o(threshold)
   );
@@ -271,7 +223,7 @@ module ppmc_bank_engine
   always_ff @(posedge clk_i) begin
     {early4_q, pace4_q, late4_q, seen4_q} <= {early3_q, pace3_q, late3_q, seen3_q};
     {progress4_q, config4_q} <= {progress3_q, config3_q};
-    {plan4_q, code4_q, params4_q, anew4_q, add4_q} <= {clear_q[3] ? '0 : plan, code, params, anew, add};
+    {plan4_q, code4_q, params4_q, anew4_q, add4_q} <= {clear_i[3] ? '0 : plan, code, params, anew, add};
     bytes4_q <= '{
         taken: take ? mail3_q.seq : bytes3.taken,
         error: asking.error,
@@ -328,16 +280,16 @@ module ppmc_bank_engine
   };
 
   always_ff @(posedge clk_i) begin
-    early5_q    <= clear_q[4] ? EarlyReset : early;
-    late5_q     <= clear_q[4] ? LateReset : late;
-    pace5_q     <= clear_q[4] ? '0 : pace;
-    answer_o    <= clear_q[4] ? '0 : answer;
-    answer_we_o <= clear_q[4] || plan4_q.read;
-    order_o     <= clear_q[4] ? '0 : order;
+    early5_q    <= clear_i[4] ? EarlyReset : early;
+    late5_q     <= clear_i[4] ? LateReset : late;
+    pace5_q     <= clear_i[4] ? '0 : pace;
+    answer_o    <= clear_i[4] ? '0 : answer;
+    answer_we_o <= clear_i[4] || plan4_q.read;
+    order_o     <= clear_i[4] ? '0 : order;
     // At once, or so many clk after the first one that can be ordered for.
-    at_o        <= clock_q + axis_t'(2) + ((order.set && !plan4_q.toggle) ? '0 : early4_q.rem[RoundBits-1:0]);
-    call_o      <= call && !clear_q[4];
-    calm_o      <= calm && !clear_q[4];
+    at_o        <= axis_i[0] + axis_t'(2) + ((order.set && !plan4_q.toggle) ? '0 : early4_q.rem[RoundBits-1:0]);
+    call_o      <= call && !clear_i[4];
+    calm_o      <= calm && !clear_i[4];
   end
 
   assign status_o = '{

@@ -51,9 +51,11 @@ module ppmc_bank_step
 
   logic [24:0] slack_add;
   logic [24:0] slack;  // with finish: pulses left, less 1
-  logic ccw;  // of a pulse that comes or goes
+  logic down;  // climb - 1
+  logic ccw, counts;  // of a pulse that comes or goes
 
-  assign ccw = walk_i.ccw ^ plan_i.undo;
+  assign ccw    = walk_i.ccw ^ plan_i.undo;
+  assign counts = plan_i.pulse || plan_i.undo;
 
   always_comb begin
     slack_add = '0;
@@ -61,8 +63,10 @@ module ppmc_bank_step
     else if (plan_i.pulse && !plan_i.back) slack_add = plan_i.up ? -25'd2 : -25'd1;
     slack = walk_i.slack + slack_add + 25'(plan_i.undo);
 
+    down = plan_i.unit || (plan_i.pulse && plan_i.back);
     walk_o = walk_i;
     walk_o.slack = slack;
+    walk_o.climb = walk_i.climb + {{14{down}}, down || (plan_i.pulse && plan_i.up)};
     walk_o.forced = walk_i.forced || plan_i.flag_stop || plan_i.flag_slow;
     walk_o.flag_stop = walk_i.flag_stop || plan_i.flag_stop;
     walk_o.flag_slow = walk_i.flag_slow || plan_i.flag_slow;
@@ -74,7 +78,6 @@ module ppmc_bank_step
       walk_o.run     = !plan_i.last;
       walk_o.last    = plan_i.last;
       walk_o.natural = walk_i.natural || plan_i.natural;
-      walk_o.climb   = walk_i.climb + {{14{plan_i.back}}, plan_i.back || plan_i.up};
     end
     if (plan_i.finish) begin
       walk_o.busy = 1'b0;
@@ -82,7 +85,6 @@ module ppmc_bank_step
       if (slack[24]) walk_o.slack = '0;
     end
     if (plan_i.finish || plan_i.ready) walk_o.climb = {7'd0, rest_i.programmed ? rest_i.on_units : 8'd0};
-    if (plan_i.unit) walk_o.climb = walk_i.climb - 1'b1;
     if (plan_i.toggle) walk_o.climb = {7'd0, !rest_i.programmed ? 8'd0 : rest_i.on ? rest_i.off_units : rest_i.on_units};
     if (plan_i.start) begin
       walk_o = '{
@@ -108,8 +110,7 @@ module ppmc_bank_step
       if (!ramped) pace_o.rate = (code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24];
     end
 
-    position_o = position_i;
-    if (plan_i.pulse || plan_i.undo) position_o = position_i + {{31{ccw}}, 1'b1};
+    position_o = position_i + {{31{ccw && counts}}, counts};
   end
 
   // ---- set-up, phases, rest ------------------------------------------------------------------------
@@ -135,7 +136,7 @@ module ppmc_bank_step
     if (plan_i.exc_off) ramp_o.initialised = 1'b0;
 
     rest_o = rest_i;
-    if ((plan_i.pulse || plan_i.undo) && !walk_i.pout_only) begin
+    if (counts && !walk_i.pout_only) begin
       rest_o.pattern = stepped(rest_i.pattern, rest_i.pair, rest_i.half, motor, ccw);
       rest_o.pair    = rest_i.pair ^ rest_i.half;
     end

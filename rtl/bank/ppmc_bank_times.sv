@@ -7,17 +7,14 @@
 module ppmc_bank_times
   import ppmc_bank_pkg::*;
 #(
-    parameter int unsigned ClkHz    = 100_000_000,
-    parameter int unsigned XtalHz   = 16_000_000,
-    parameter int unsigned Round    = 32,           // clk
+    parameter int unsigned Quantum  = 25,  // clk
+    parameter int unsigned Round    = 32,  // clk
     parameter int unsigned TimeBits = 20
 ) (
     input  wire logic                clk_i,
     input  wire pace_t               pace_i,  // down does not count
     output logic      [TimeBits-1:0] rest_o   // clk from the end of the low time to the next pulse, less a round
 );
-
-  localparam int unsigned Quantum = 4 * ClkHz / XtalHz;  // clk, whole
 
   // i: slow, extra, rate.
   function automatic int unsigned rest(int unsigned i);

@@ -133,9 +133,9 @@ module ppmc_bank_window
 
   // ---- what it reads -------------------------------------------------------------------------------
 
-  (* no_rw_check *)status_t statuses[Slots];
-  (* no_rw_check *)logic [31:0] positions[Slots];
-  (* no_rw_check *)answer_t answers[Slots];
+  (* ram_style = "block", no_rw_check *)status_t statuses[Slots];
+  (* ram_style = "block", no_rw_check *)logic [31:0] positions[Slots];
+  (* ram_style = "block", no_rw_check *)answer_t answers[Slots];
 
   typedef struct packed {
     logic [1:0]  mail_seq;

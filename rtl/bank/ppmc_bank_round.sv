@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_round: which axis is visited, and what acts on all of them for one round: reset, GO, STOP.
+// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
+// Timing: axis 0 is in stage 0 in the first clk after reset. go_o and stop_o are high for a round from the clk after
+//         that of go_i and stop_i.
+`default_nettype none
+
+module ppmc_bank_round #(
+    parameter int unsigned RoundBits = 5,
+    parameter int unsigned Width     = 500,  // W in clk
+    parameter int unsigned TimeBits  = 20,
+    parameter int unsigned Stages    = 6,    // of a visit, numbered from 0
+    localparam int unsigned Round = 1 << RoundBits
+) (
+    input  wire logic                            clk_i,
+    input  wire logic                            rst_ni,
+    input  wire logic                            go_i,     // GO is written, at the coming edge
+    input  wire logic                            stop_i,   // STOP is
+    output logic [Stages-1:0][RoundBits-1:0]     axis_o,   // whose visit is in which stage
+    output logic [  Round-1:0]                   turn_o,   // bit i: axis i is in the last one
+    output logic [   Stages:0]                   clear_o,  // bit i: the visit in stage i resets its axis
+    output logic                                 go_o,     // visits find GO
+    output logic [ TimeBits-1:0]                 due_o,    // W less the clk since then
+    output logic                                 stop_o    // every motion ends
+);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      axis_o  <= '0;
+      turn_o  <= Round'(1) << (Round - Stages + 1);
+      clear_o <= '1;
+    end else begin
+      axis_o  <= {axis_o[Stages-2:0], axis_o[0] + 1'b1};
+      turn_o  <= {turn_o[Round-2:0], turn_o[Round-1]};
+      clear_o <= {clear_o[Stages-1:0], clear_o[0] && axis_o[0] != '1};
+    end
+  end
+
+  // clk of the round that are left after this one.
+  logic [RoundBits-1:0] go_left_q, stop_left_q;
+  logic again_q;  // another GO waits
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {go_o, again_q, stop_o} <= '0;
+      {go_left_q, stop_left_q} <= '0;
+      due_o <= '0;
+    end else begin
+      if (go_o && go_left_q != '0) begin
+        again_q   <= again_q || go_i;
+        go_left_q <= go_left_q - 1'b1;
+        due_o     <= due_o - 1'b1;
+      end else begin
+        go_o      <= go_i || again_q;
+        again_q   <= go_i && again_q;
+        go_left_q <= '1;
+        due_o     <= TimeBits'(Width - 1);
+      end
+      stop_o      <= stop_i || (stop_o && stop_left_q != '0);
+      stop_left_q <= stop_i ? '1 : stop_left_q - 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire
