@@ -54,6 +54,7 @@ add_file -type verilog $root/rtl/host/ppmc_spi.sv
 add_file -type verilog $root/rtl/host/ppmc_isa.sv
 add_file -type verilog $root/rtl/single/ppmc_code_pkg.sv
 add_file -type verilog $root/rtl/single/ppmc_single_pkg.sv
+add_file -type verilog $root/rtl/single/ppmc_judge.sv
 add_file -type verilog $root/rtl/single/ppmc_command.sv
 add_file -type verilog $root/rtl/single/ppmc_setup.sv
 add_file -type verilog $root/rtl/single/ppmc_pace.sv
@@ -151,6 +152,15 @@ add_file -type verilog $root/rtl/ppmc2104/ppmc2104.sv
 add_file -type verilog $root/rtl/stmc/stmc_pkg.sv
 add_file -type verilog $root/rtl/stmc/stmc.sv
 add_file -type verilog $root/rtl/stmc/j105_stmc.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_pkg.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_round.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_times.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_tables.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_cell.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_window.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_plan.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_step.sv
+add_file -type verilog $root/rtl/bank/ppmc_bank_engine.sv
 add_file -type verilog $root/rtl/bank/ppmc_bank.sv
 add_file -type verilog $root/rtl/ppmc2104/isa/isa_4axis.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_host.sv

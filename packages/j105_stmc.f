@@ -51,6 +51,7 @@
 ../rtl/host/ppmc_isa.sv
 ../rtl/single/ppmc_code_pkg.sv
 ../rtl/single/ppmc_single_pkg.sv
+../rtl/single/ppmc_judge.sv
 ../rtl/single/ppmc_command.sv
 ../rtl/single/ppmc_setup.sv
 ../rtl/single/ppmc_pace.sv

@@ -53,6 +53,7 @@ set files [list \
   $root/rtl/host/ppmc_isa.sv \
   $root/rtl/single/ppmc_code_pkg.sv \
   $root/rtl/single/ppmc_single_pkg.sv \
+  $root/rtl/single/ppmc_judge.sv \
   $root/rtl/single/ppmc_command.sv \
   $root/rtl/single/ppmc_setup.sv \
   $root/rtl/single/ppmc_pace.sv \
@@ -150,6 +151,15 @@ set files [list \
   $root/rtl/stmc/stmc_pkg.sv \
   $root/rtl/stmc/stmc.sv \
   $root/rtl/stmc/j105_stmc.sv \
+  $root/rtl/bank/ppmc_bank_pkg.sv \
+  $root/rtl/bank/ppmc_bank_round.sv \
+  $root/rtl/bank/ppmc_bank_times.sv \
+  $root/rtl/bank/ppmc_bank_tables.sv \
+  $root/rtl/bank/ppmc_bank_cell.sv \
+  $root/rtl/bank/ppmc_bank_window.sv \
+  $root/rtl/bank/ppmc_bank_plan.sv \
+  $root/rtl/bank/ppmc_bank_step.sv \
+  $root/rtl/bank/ppmc_bank_engine.sv \
   $root/rtl/bank/ppmc_bank.sv \
   $root/rtl/ppmc2104/isa/isa_4axis.sv \
   $root/rtl/boards/common/ppmc_board_host.sv \

@@ -51,11 +51,11 @@ module ppmc_bank
   if (XTAL_HZ < 1_000_000 || XTAL_HZ > 16_000_000) begin : g_check_xtal
     $fatal(1, "ppmc_bank: XTAL_HZ must be 1e6 .. 16e6");
   end
-  if (64'd4 * CLK_HZ % XTAL_HZ != 0) begin : g_check_quantum
+  if (4 * CLK_HZ % XTAL_HZ != 0) begin : g_check_quantum
     $fatal(1, "ppmc_bank: 4 * CLK_HZ must be a multiple of XTAL_HZ");
   end
-  if (64'd16 * CLK_HZ < 64'(Round) * XTAL_HZ) begin : g_check_round
-    $fatal(1, "ppmc_bank: CLK_HZ is too low for so many axes: 16 * CLK_HZ / XTAL_HZ must be at least AXES and 8");
+  if (16 * CLK_HZ < Round * XTAL_HZ) begin : g_check_round
+    $fatal(1, "ppmc_bank: CLK_HZ too low for so many axes: 16 * CLK_HZ / XTAL_HZ >= AXES and >= 8");
   end
 
   logic rst;
@@ -87,6 +87,7 @@ module ppmc_bank
   logic [5:0][RoundBits-1:0] axis;
   logic [Round-1:0] turn;
   logic [6:0] clear;
+  logic unused_clear;
   logic [RoundBits-1:0] at;
   logic [TimeBits-1:0] due;
   mail_t mail;
@@ -98,6 +99,8 @@ module ppmc_bank
   order_t order;
   seen_t seen;
   logic [AXES-1:0] mask, pending_q;
+
+  assign unused_clear = ^{clear[5], clear[2:0]};
 
   ppmc_bank_round #(
       .RoundBits(RoundBits),

@@ -14,26 +14,26 @@ module ppmc_bank_cell
     parameter int unsigned RoundBits = 5,
     parameter bit          PhaseIdle = 1'b1  // level of s_o until the first order
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic [RoundBits-1:0] clock_i,     // clk of the round
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic [RoundBits-1:0] clock_i,  // clk of the round
     // orders
-    input  wire logic                 load_i,      // the order is for this axis
-    input  wire order_t               order_i,
-    input  wire logic [RoundBits-1:0] at_i,        // when
-    input  wire logic                 stop_i,      // end every motion
-    input  wire switches_t            switches_i,  // synchronous levels
+    input wire logic load_i,  // the order is for this axis
+    input wire order_t order_i,  // what to do
+    input wire logic [RoundBits-1:0] at_i,  // when
+    input wire logic stop_i,  // end every motion
+    input wire switches_t switches_i,  // synchronous levels
     // what the visits see
-    output logic                      armed_o,     // pulses may come
-    output logic                      emitted_o,   // the last one that was ordered has come
-    output logic                      stopped_o,   // why it is not armed any more: STOP or a stop command
-    output logic                      alarm_o,     // the alarm
-    output logic                      limit_o,     // the limit of its direction
+    output logic armed_o,  // pulses may come
+    output logic emitted_o,  // the last one that was ordered has come
+    output logic stopped_o,  // why it is not armed any more: STOP or a stop command
+    output logic alarm_o,  // the alarm
+    output logic limit_o,  // the limit of its direction
     // pins
-    output logic      [          5:1] s_o,         // phases
-    output logic                      hold_o,      // at rest for the hold time
-    output logic                      pout_no,     // pulse, L = active
-    output logic                      dir_o        // 0 = CW
+    output logic [5:1] s_o,  // phases
+    output logic hold_o,  // at rest for the hold time
+    output logic pout_no,  // pulse, L = active
+    output logic dir_o  // 0 = CW
 );
 
   order_t order_q;
@@ -41,21 +41,21 @@ module ppmc_bank_cell
   logic now, limit, halt, ends, pulse, rise, set, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
-  assign now   = at_q == clock_i;
+  assign now = at_q == clock_i;
   assign limit = order_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
-  assign halt  = order_q.halt || stop_i;
-  assign ends  = halt || limit || switches_i.alarm || (switches_i.origin && order_q.search);
+  assign halt = order_q.halt || stop_i;
+  assign ends = halt || limit || switches_i.alarm || (switches_i.origin && order_q.search);
   assign pulse = now && order_q.pulse && armed_o && !ends;
-  assign rise  = now && order_q.rise;
-  assign set   = now && order_q.set;
+  assign rise = now && order_q.rise;
+  assign set = now && order_q.set;
 
   // One of an order's three may still wait when the next order comes: it is then carried out in that very clk.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      order_q   <= '0;
-      at_q      <= '0;
-      armed_o   <= 1'b0;
-      emitted_o <= 1'b1;
+      order_q                       <= '0;
+      at_q                          <= '0;
+      armed_o                       <= 1'b0;
+      emitted_o                     <= 1'b1;
       {stopped_o, alarm_o, limit_o} <= '0;
     end else begin
       order_q.halt <= 1'b0;
@@ -82,8 +82,9 @@ module ppmc_bank_cell
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(bank_one_order, !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.set)
-               && !(order_q.rise && order_q.set))
+  `PPMC_ASSERT(
+      bank_one_order,
+      !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.set) && !(order_q.rise && order_q.set))
   `PPMC_ASSERT(bank_mot_02, !(pulse && ends))
   `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
 `endif

@@ -17,27 +17,27 @@ module ppmc_bank_engine
     parameter bit          PhaseIdle = 1'b1,
     parameter int unsigned RoundBits = 5
 ) (
-    input  wire logic                                clk_i,
-    input  wire logic                                rst_ni,
-    input  wire logic      [5:0][RoundBits-1:0]      axis_i,       // whose visit is in which stage
-    input  wire logic      [4:3]                     clear_i,      // those in stages 3 and 4 reset their axes
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic [5:0][RoundBits-1:0] axis_i,  // whose visit is in stage 0, 1 …
+    input wire logic [4:3] clear_i,  // those in stages 3 and 4 reset their axes
     // from the window
-    input  wire mail_t                               mail_i,       // stage 1: input buffer
-    input  wire progress_t                           progress_i,   // stage 1: how far its answer has been read
-    input  wire logic      [          1:0]           config_ni,    // stage 1: vsel and csel, inverted
-    input  wire logic                                go_i,         // stage 2: GO acts
-    input  wire logic      [ TimeBits-1:0]           due_i,        // W less the clk since then
+    input wire mail_t mail_i,  // stage 1: input buffer
+    input wire progress_t progress_i,  // stage 1: how far its answer has been read
+    input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
+    input wire logic go_i,  // stage 2: GO acts
+    input wire logic [TimeBits-1:0] due_i,  // W less the clk since then
     // from cells and switches
-    input  wire seen_t                               seen_i,       // stage 2
+    input wire seen_t seen_i,  // stage 2
     // what a visit leaves, stage 5
-    output status_t                                  status_o,     // for the status register
-    output logic           [         31:0]           position_o,   // position
-    output logic                                     answer_we_o,  // there is an answer
-    output answer_t                                  answer_o,     // this one
-    output order_t                                   order_o,      // to the pin cell
-    output logic           [RoundBits-1:0]           at_o,         // clk of its edge
-    output logic                                     call_o,       // an interrupt is pending from now on
-    output logic                                     calm_o        // and no more
+    output status_t status_o,  // for the status register
+    output logic [31:0] position_o,  // position
+    output logic answer_we_o,  // there is an answer
+    output answer_t answer_o,  // this one
+    output order_t order_o,  // to the pin cell
+    output logic [RoundBits-1:0] at_o,  // clk of its edge
+    output logic call_o,  // an interrupt is pending from now on
+    output logic calm_o  // and no more
 );
 
   localparam int unsigned Round = 1 << RoundBits;
@@ -59,7 +59,7 @@ module ppmc_bank_engine
 
   // Needed for comparisons, and only later.
   typedef struct packed {
-    logic [TimeBits-1:0] rem;  // clk to the awaited edge
+    logic [TimeBits-1:0] rem;    // clk to the awaited edge
     walk_t               walk;
     ramp_t               ramp;
     bytes_t              bytes;
@@ -72,8 +72,8 @@ module ppmc_bank_engine
   } late_t;
 
   (* ram_style = "block", no_rw_check *)early_t earlies[Round];
-  (* ram_style = "block", no_rw_check *)late_t lates[Round];
-  (* ram_style = "block", no_rw_check *)pace_t paces[Round];
+  (* ram_style = "block", no_rw_check *)late_t  lates  [Round];
+  (* ram_style = "block", no_rw_check *)pace_t  paces  [Round];
 
   initial
     for (int unsigned i = 0; i < Round; i++) begin
@@ -92,17 +92,17 @@ module ppmc_bank_engine
   always_ff @(posedge clk_i) begin
     pace_r_q <= paces[axis_i[0]+axis_t'(2)];
     early1_q <= earlies[axis_i[0]];
-    late2_q  <= lates[axis_i[1]];
+    late2_q <= lates[axis_i[1]];
     earlies[axis_i[5]] <= early5_q;
-    lates[axis_i[5]]   <= late5_q;
-    paces[axis_i[5]]   <= pace5_q;
+    lates[axis_i[5]] <= late5_q;
+    paces[axis_i[5]] <= pace5_q;
     // On the way down the threshold of the next slower rate counts.
-    pace0_q  <= pace_r_q;
+    pace0_q <= pace_r_q;
     probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
-    pace1_q  <= pace0_q;
-    pace2_q  <= pace1_q;
+    pace1_q <= pace0_q;
+    pace2_q <= pace1_q;
     early2_q <= early1_q;
-    late3_q  <= late2_q;
+    late3_q <= late2_q;
   end
 
   ppmc_bank_times #(
@@ -119,9 +119,10 @@ module ppmc_bank_engine
 
   mail_t mail2_q, mail3_q;
   progress_t progress2_q, progress3_q, progress4_q;
+  logic unused_bits;
   logic [1:0] config2_q, config3_q, config4_q;
   seen_t seen3_q, seen4_q;
-  facts_t facts3_q, facts3;
+  facts_t facts3_q;
   logic new3_q, reached, moves, booked;
   axis_t booked_for;
   decoded_t decoded3_q;
@@ -129,9 +130,10 @@ module ppmc_bank_engine
   logic [TimeBits-1:0] due3_q;
   walk_t walk2;
 
-  assign walk2   = early2_q.walk;
+  assign unused_bits = &{1'b0, axis_i[4], early4_q, progress4_q, walk2};
+  assign walk2 = early2_q.walk;
   assign reached = {walk2.climb[StepBits-1:0], !pace2_q.down} >= {threshold, pace2_q.down};
-  assign moves   = walk2.busy && walk2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
+  assign moves = walk2.busy && walk2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
 
   always_ff @(posedge clk_i) begin
     {mail2_q, progress2_q, config2_q} <= {mail_i, progress_i, config_ni};
@@ -143,15 +145,17 @@ module ppmc_bank_engine
     decoded3_q <= decode(mail2_q.data);
     value3_q <= ppmc104_pkg::judge({mail2_q.data, early2_q.bytes.params});
     facts3_q.fire <= early2_q.rem[TimeBits-1:RoundBits] == '0;
-    if (pace2_q.down) facts3_q.more <= moves && (walk2.run || (walk2.low && !walk2.last)) && !reached
+    if (pace2_q.down)
+      facts3_q.more <= moves && (walk2.run || (walk2.low && !walk2.last)) && !reached
                                        && pace2_q.rate != early2_q.ramp.slow;
-    else facts3_q.more <= moves && walk2.run && !walk2.low && !walk2.held && reached && pace2_q.rate != early2_q.ramp.fast;
+    else
+      facts3_q.more <= moves && walk2.run && !walk2.low && !walk2.held && reached
+                                         && pace2_q.rate != early2_q.ramp.fast;
     facts3_q.zero  <= walk2.slack == '0;
     facts3_q.minus <= walk2.slack[24];
     facts3_q.foot  <= walk2.climb[14:1] == '0;
     facts3_q.full  <= walk2.climb[StepBits-1:0] == early2_q.ramp.steps + 1'b1;
     facts3_q.go    <= go_i;
-    facts3_q.free  <= 1'b0;
     facts3_q.built <= !(booked && booked_for == axis_i[2]);
   end
 
@@ -165,13 +169,13 @@ module ppmc_bank_engine
   ppmc_code_pkg::asking_t asking, asking3;
   bytes_t bytes3, bytes4_q;
 
-  assign bytes3  = early3_q.bytes;
-  assign asking3 = '{error: bytes3.error, number: bytes3.number, code: bytes3.code, params: {bytes3.params, 8'd0}};
-
-  always_comb begin
-    facts3      = facts3_q;
-    facts3.free = !booked;
-  end
+  assign bytes3 = early3_q.bytes;
+  assign asking3 = '{
+          error: bytes3.error,
+          number: bytes3.number,
+          code: bytes3.code,
+          params: {bytes3.params, 8'd0}
+      };
 
   ppmc_bank_plan #(
       .Quantum (Quantum),
@@ -184,7 +188,8 @@ module ppmc_bank_engine
       .rest_i   (late3_q.rest),
       .over_i   (late3_q.left == '0),
       .seen_i   (seen3_q),
-      .facts_i  (facts3),
+      .facts_i  (facts3_q),
+      .free_i   (!booked),
       .extra_i  (config3_q[1]),
       .mail_i   (mail3_q),
       .new_i    (new3_q),
@@ -235,7 +240,7 @@ module ppmc_bank_engine
 
   // ---- stage 4: step -------------------------------------------------------------------------------
 
-  order_t order;
+  order_t  order;
   answer_t answer;
   logic call, calm;
 
@@ -287,7 +292,7 @@ module ppmc_bank_engine
     answer_we_o <= clear_i[4] || plan4_q.read;
     order_o     <= clear_i[4] ? '0 : order;
     // At once, or so many clk after the first one that can be ordered for.
-    at_o        <= axis_i[0] + axis_t'(2) + ((order.set && !plan4_q.toggle) ? '0 : early4_q.rem[RoundBits-1:0]);
+    at_o        <= axis_i[0] + axis_t'(2) + (order.set && !plan4_q.toggle ? '0 : axis_t'(early4_q.rem));
     call_o      <= call && !clear_i[4];
     calm_o      <= calm && !clear_i[4];
   end

@@ -83,12 +83,12 @@ package ppmc_bank_pkg;
 
   // What an initialisation sets, but for the phases.
   typedef struct packed {
-    logic                               initialised;
-    logic                               building;     // its table is being built
-    logic                               chop_next;    // chop when that has ended
-    logic [7:0]                         slow;         // start-up rate
-    logic [7:0]                         fast;         // high-speed rate
-    logic [ppmc104_pkg::STEP_BITS-1:0]  steps;        // acceleration pulses PA
+    logic                              initialised;
+    logic                              building;     // its table is being built
+    logic                              chop_next;    // chop when that has ended
+    logic [7:0]                        slow;         // start-up rate
+    logic [7:0]                        fast;         // high-speed rate
+    logic [ppmc104_pkg::STEP_BITS-1:0] steps;        // acceleration pulses PA
   } ramp_t;
 
   // Phases, chopper, end of the last motion.
@@ -142,8 +142,7 @@ package ppmc_bank_pkg;
     logic foot;   // climb is 0 or 1
     logic full;   // the running interval has index PA
     logic go;     // GO acts in this clk
-    logic free;   // of the ramp tables: a table may be built
-    logic built;  // that of this axis is complete
+    logic built;  // no table is being built for this axis
   } facts_t;
 
   // What a visit decides.

@@ -13,35 +13,36 @@ module ppmc_bank_plan
   import ppmc_motion_pkg::*;
   import ppmc_op_pkg::*;
 #(
-    parameter int unsigned Quantum   = 25,  // clk
-    parameter int unsigned Round     = 32,  // clk
-    parameter int unsigned TimeBits  = 20
+    parameter int unsigned Quantum  = 25,  // clk
+    parameter int unsigned Round    = 32,  // clk
+    parameter int unsigned TimeBits = 20
 ) (
     // the axis
-    input  wire walk_t                walk_i,
-    input  wire pace_t                pace_i,
-    input  wire ramp_t                ramp_i,
-    input  wire rest_t                rest_i,
-    input  wire logic                 over_i,    // but ends with this visit
-    input  wire seen_t                seen_i,
-    input  wire facts_t               facts_i,
+    input  wire walk_t                   walk_i,     // its motion
+    input  wire pace_t                   pace_i,     // pace of that
+    input  wire ramp_t                   ramp_i,     // its initialisation
+    input  wire rest_t                   rest_i,     // what counts at rest
+    input  wire logic                    over_i,     // its hold time ends with this visit
+    input  wire seen_t                   seen_i,     // cell and switches
+    input  wire facts_t                  facts_i,    // comparisons
+    input  wire logic                    free_i,     // a ramp table may be built
     // its command unit
-    input  wire logic                 extra_i,   // vsel = L in CONFIG
-    input  wire mail_t                mail_i,
-    input  wire logic                 new_i,     // it has not been taken
-    input  wire decoded_t             decoded_i, // meaning of its byte
-    input  wire error_e               value_i,   // what is wrong with an initialisation that it completes
-    input  wire asking_t              asking_i,
-    output asking_t                   asking_o,
-    output logic                      take_o,    // it is taken
-    output logic       [         7:0] code_o,    // code of what it makes happen
-    output logic       [        31:0] params_o,  // and its parameters
+    input  wire logic                    extra_i,    // vsel = L in CONFIG
+    input  wire mail_t                   mail_i,     // byte of its host
+    input  wire logic                    new_i,      // it has not been taken
+    input  wire decoded_t                decoded_i,  // meaning of its byte
+    input  wire error_e                  value_i,    // what is wrong with an initialisation that it completes
+    input  wire asking_t                 asking_i,   // what is remembered of the bytes before
+    output asking_t                      asking_o,   // and after this one
+    output logic                         take_o,     // it is taken
+    output logic          [         7:0] code_o,     // code of what it makes happen
+    output logic          [        31:0] params_o,   // and its parameters
     // decisions
-    input  wire logic [TimeBits-1:0]  due_i,     // W less the clk since GO
-    input  wire logic [TimeBits-1:0]  after_i,   // see ppmc_bank_times
-    output plan_t                     plan_o,
-    output logic                      anew_o,    // time_i does not count
-    output logic       [TimeBits-1:0] add_o      // to time_i
+    input  wire logic     [TimeBits-1:0] due_i,      // W less the clk since GO
+    input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_times
+    output plan_t                        plan_o,     // what is decided
+    output logic                         anew_o,     // time_i does not count
+    output logic          [TimeBits-1:0] add_o       // to time_i
 );
 
   localparam int unsigned Width = 20 * Quantum;  // W
@@ -50,7 +51,10 @@ module ppmc_bank_plan
   typedef logic [TimeBits-1:0] clk_t;
 
   action_t act;
-  logic ramp, finished, open, dec, halt, slow, fast_plain, grows, counts, forced, pulse, unused_stop;
+  logic ramp, finished, inits, completes, open, unused_stop, unused_bits;
+  logic dec, halt, slow, counts, forced, fast_plain, grows, pulse;
+
+  assign unused_bits = &{1'b0, walk_i, ramp_i, rest_i, seen_i, mail_i, act};
 
   // ---- what has happened since the last visit ------------------------------------------------------
 
@@ -69,8 +73,10 @@ module ppmc_bank_plan
   // ---- the byte ------------------------------------------------------------------------------------
 
   assign finished = !walk_i.run || plan_o.kill;
+  assign inits = asking_i.code[7:6] == 2'b00;
+  assign completes = inits && !mail_i.command && !asking_i.error && asking_i.number == 3'd1;
   assign open = !plan_o.finish && !ramp_i.building && !(facts_i.go && seen_i.mask) && !plan_o.toggle
-      && (facts_i.free || mail_i.command || asking_i.code[7:6] != 2'b00 || asking_i.number != 3'd1 || asking_i.error);
+      && (free_i || !completes);
   assign take_o = new_i && open;
   assign code_o = mail_i.command ? mail_i.data : asking_i.code;
   assign params_o = {mail_i.data, asking_i.params[31:8]};
@@ -80,7 +86,8 @@ module ppmc_bank_plan
     asking_o = asking;
     if (plan_o.refuse) begin
       asking_o.error  = 1'b1;
-      asking_o.number = (walk_i.busy && !plan_o.finish) ? ErrBusy : ramp_i.initialised ? ErrUndefined : ErrNotReady;
+      asking_o.number = ramp_i.initialised ? ErrUndefined : ErrNotReady;
+      if (walk_i.busy && !plan_o.finish) asking_o.number = ErrBusy;
     end
   end
 
@@ -93,7 +100,7 @@ module ppmc_bank_plan
       .data_i        (mail_i.data),
       .decoded_i,
       .value_i,
-      .judged_i      (asking_i.code[7:6] == 2'b00),
+      .judged_i      (inits),
       .busy_i        (walk_i.busy),
       .ramp_i        (ramp),
       .decelerating_i(walk_i.forced || walk_i.natural || finished),
@@ -117,7 +124,7 @@ module ppmc_bank_plan
     plan_o.flag_slow = slow && counts;
     forced = walk_i.forced || plan_o.flag_stop || plan_o.flag_slow;
 
-    pulse = walk_i.run && !walk_i.held && !walk_i.low && facts_i.fire && !facts_i.more && !plan_o.kill;
+    pulse = walk_i.run && !walk_i.held && !walk_i.low && !plan_o.kill && facts_i.fire && !facts_i.more;
     plan_o.pulse = pulse && !halt;
     // A low time that may still grow does not end before it is known how far.
     grows = facts_i.more && fast_plain && !walk_i.last && pace_i.rate < 8'd3;
@@ -144,7 +151,9 @@ module ppmc_bank_plan
 
   // Low time at a rate; rates beyond the third get W.
   function automatic clk_t low_time(logic [7:0] rate, logic halves);
-    unique case ({halves && rate[7:2] == '0, rate[1:0]})
+    unique case ({
+      halves && rate[7:2] == '0, rate[1:0]
+    })
       3'b100:  return clk_t'(Half - Round);
       3'b101:  return clk_t'(2 * Half - Round);
       3'b110:  return clk_t'(3 * Half - Round);
@@ -160,7 +169,9 @@ module ppmc_bank_plan
 
   // Fixed time of a phase of the chopper.
   function automatic clk_t phase(logic on, logic host, logic extra);
-    unique case ({on, host, extra})
+    unique case ({
+      on, host, extra
+    })
       3'b100, 3'b101: return clk_t'(ppmc104_pkg::CHOP_ON_DEFAULT * Quantum - Round);
       3'b000, 3'b001: return clk_t'(ppmc104_pkg::CHOP_OFF_DEFAULT * Quantum - Round);
       3'b110:         return clk_t'(ppmc104_pkg::CHOP_ON_VSEL_H * Quantum - Round);

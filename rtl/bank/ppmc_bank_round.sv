@@ -6,22 +6,22 @@
 `default_nettype none
 
 module ppmc_bank_round #(
-    parameter int unsigned RoundBits = 5,
-    parameter int unsigned Width     = 500,  // W in clk
-    parameter int unsigned TimeBits  = 20,
-    parameter int unsigned Stages    = 6,    // of a visit, numbered from 0
-    localparam int unsigned Round = 1 << RoundBits
+    parameter  int unsigned RoundBits = 5,
+    parameter  int unsigned Width     = 500,            // W in clk
+    parameter  int unsigned TimeBits  = 20,
+    parameter  int unsigned Stages    = 6,              // of a visit, numbered from 0
+    localparam int unsigned Round     = 1 << RoundBits
 ) (
-    input  wire logic                            clk_i,
-    input  wire logic                            rst_ni,
-    input  wire logic                            go_i,     // GO is written, at the coming edge
-    input  wire logic                            stop_i,   // STOP is
-    output logic [Stages-1:0][RoundBits-1:0]     axis_o,   // whose visit is in which stage
-    output logic [  Round-1:0]                   turn_o,   // bit i: axis i is in the last one
-    output logic [   Stages:0]                   clear_o,  // bit i: the visit in stage i resets its axis
-    output logic                                 go_o,     // visits find GO
-    output logic [ TimeBits-1:0]                 due_o,    // W less the clk since then
-    output logic                                 stop_o    // every motion ends
+    input  wire logic                               clk_i,
+    input  wire logic                               rst_ni,
+    input  wire logic                               go_i,     // GO is written, at the coming edge
+    input  wire logic                               stop_i,   // STOP is
+    output logic      [  Stages-1:0][RoundBits-1:0] axis_o,   // whose visit is in which stage
+    output logic      [   Round-1:0]                turn_o,   // bit i: axis i is in the last one
+    output logic      [    Stages:0]                clear_o,  // bit i: the visit in stage i resets its axis
+    output logic                                    go_o,     // visits find GO
+    output logic      [TimeBits-1:0]                due_o,    // W less the clk since then
+    output logic                                    stop_o    // every motion ends
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -14,37 +14,38 @@ module ppmc_bank_step
     parameter int unsigned HoldRounds = 106_250,  // rounds from the end of a motion to HOLD
     parameter int unsigned HoldBits   = 17
 ) (
-    input  wire plan_t                plan_i,
-    input  wire seen_t                seen_i,
-    input  wire logic  [         7:0] code_i,     // of what a byte makes happen
-    input  wire logic  [        31:0] params_i,   // its parameters
-    input  wire logic  [         1:0] config_ni,  // vsel and csel, inverted
-    input  wire logic  [         1:0] read_seq_i, // answer that the host has read last
+    input  wire plan_t                plan_i,      // what the visit has decided
+    input  wire seen_t                seen_i,      // what it has seen of cell and switches
+    input  wire logic  [         7:0] code_i,      // of what a byte makes happen
+    input  wire logic  [        31:0] params_i,    // its parameters
+    input  wire logic  [         1:0] config_ni,   // vsel and csel, inverted
+    input  wire logic  [         1:0] read_seq_i,  // answer that the host has read last
     // before
-    input  wire walk_t                walk_i,
-    input  wire pace_t                pace_i,
-    input  wire ramp_t                ramp_i,
-    input  wire rest_t                rest_i,
-    input  wire logic  [HoldBits-1:0] left_i,     // rounds of the hold time, less 1
-    input  wire logic  [        31:0] position_i,
+    input  wire walk_t                walk_i,      // motion
+    input  wire pace_t                pace_i,      // pace of that
+    input  wire ramp_t                ramp_i,      // initialisation
+    input  wire rest_t                rest_i,      // what counts at rest
+    input  wire logic  [HoldBits-1:0] left_i,      // rounds of the hold time, less 1
+    input  wire logic  [        31:0] position_i,  // pulses CW less pulses CCW
     // after
-    output walk_t                     walk_o,
-    output pace_t                     pace_o,
-    output ramp_t                     ramp_o,
-    output rest_t                     rest_o,
-    output logic       [HoldBits-1:0] left_o,
-    output logic       [        31:0] position_o,
+    output walk_t                     walk_o,      // the same
+    output pace_t                     pace_o,      // the same
+    output ramp_t                     ramp_o,      // the same
+    output rest_t                     rest_o,      // the same
+    output logic       [HoldBits-1:0] left_o,      // the same
+    output logic       [        31:0] position_o,  // the same
     // to the outside
-    output order_t                    order_o,
-    output answer_t                   answer_o,   // with plan_i.read
-    output logic                      call_o,     // an interrupt is pending from now on
-    output logic                      calm_o      // and no more
+    output order_t                    order_o,     // to the pin cell
+    output answer_t                   answer_o,    // with plan_i.read
+    output logic                      call_o,      // an interrupt is pending from now on
+    output logic                      calm_o       // and no more
 );
 
   op_code_t code;
-  logic ramped;
+  logic ramped, unused_bits;
 
-  assign code   = op_code_t'(code_i);
+  assign unused_bits = &{1'b0, plan_i, seen_i, code, init};
+  assign code = op_code_t'(code_i);
   assign ramped = code.op inside {OP_ACC_DEC, OP_CONT_HIGH};
 
   // ---- motion --------------------------------------------------------------------------------------
@@ -85,7 +86,10 @@ module ppmc_bank_step
       if (slack[24]) walk_o.slack = '0;
     end
     if (plan_i.finish || plan_i.ready) walk_o.climb = {7'd0, rest_i.programmed ? rest_i.on_units : 8'd0};
-    if (plan_i.toggle) walk_o.climb = {7'd0, !rest_i.programmed ? 8'd0 : rest_i.on ? rest_i.off_units : rest_i.on_units};
+    if (plan_i.toggle) begin
+      walk_o.climb = '0;
+      if (rest_i.programmed) walk_o.climb[7:0] = rest_i.on ? rest_i.off_units : rest_i.on_units;
+    end
     if (plan_i.start) begin
       walk_o = '{
           busy: 1'b1,
@@ -124,10 +128,10 @@ module ppmc_bank_step
   always_comb begin
     ramp_o = ramp_i;
     if (plan_i.init) begin
-      ramp_o.building  = 1'b1;
-      ramp_o.chop_next = init.chop;
+      ramp_o.building            = 1'b1;
+      ramp_o.chop_next           = init.chop;
       {ramp_o.fast, ramp_o.slow} = params_i[15:0];
-      ramp_o.steps     = params_i[16+:ppmc104_pkg::STEP_BITS];
+      ramp_o.steps               = params_i[16+:ppmc104_pkg::STEP_BITS];
     end
     if (plan_i.ready) begin
       ramp_o.building    = 1'b0;
@@ -215,7 +219,10 @@ module ppmc_bank_step
         seen_i.switches.slow_cw,
         seen_i.switches.slow_ccw
       };
-      SEL_OUTPUTS: answer_o.data[7:0] = {levels[1], levels[2], levels[3], levels[4], levels[5], rest_i.hold, walk_i.ccw, 1'b0};
+      SEL_OUTPUTS:
+      answer_o.data[7:0] = {
+        levels[1], levels[2], levels[3], levels[4], levels[5], rest_i.hold, walk_i.ccw, 1'b0
+      };
       default: ;
     endcase
   end

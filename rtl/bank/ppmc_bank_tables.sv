@@ -20,7 +20,7 @@ module ppmc_bank_tables #(
     output logic                     booked_o,     // the builder is at work
     output logic      [AxisBits-1:0] for_o,        // for this axis
     // look up
-    input  wire logic [AxisBits-1:0] axis_i,
+    input  wire logic [AxisBits-1:0] axis_i,       // axis
     input  wire logic [         7:0] rate_i,       // r
     output logic      [StepBits-1:0] threshold_o   // first index with a rate below r
 );
@@ -37,7 +37,9 @@ module ppmc_bank_tables #(
     end
   end
 
-  always_ff @(posedge clk_i) if (book_i) {for_o, slow_q, fast_q, steps_q} <= {book_axis_i, slow_i, fast_i, steps_i};
+  always_ff @(posedge clk_i) begin
+    if (book_i) {for_o, slow_q, fast_q, steps_q} <= {book_axis_i, slow_i, fast_i, steps_i};
+  end
 
   ppmc_ramp_builder #(
       .StepBits(StepBits)

@@ -11,9 +11,9 @@ module ppmc_bank_times
     parameter int unsigned Round    = 32,  // clk
     parameter int unsigned TimeBits = 20
 ) (
-    input  wire logic                clk_i,
-    input  wire pace_t               pace_i,  // down does not count
-    output logic      [TimeBits-1:0] rest_o   // clk from the end of the low time to the next pulse, less a round
+    input  wire logic                 clk_i,
+    input  wire pace_t                pace_i,  // down does not count
+    output logic       [TimeBits-1:0] rest_o   // clk from the end of the low time to the next pulse, - Round
 );
 
   // i: slow, extra, rate.

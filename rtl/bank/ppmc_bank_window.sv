@@ -13,32 +13,32 @@ module ppmc_bank_window
     parameter int unsigned Axes      = 32,
     parameter int unsigned RoundBits = 5    // a round is 2^RoundBits clk; at least Axes and 8
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
+    input  wire logic                    clk_i,
+    input  wire logic                    rst_ni,
     // bus
-    input  wire logic [          9:0] a_i,          // axis and register
-    input  wire logic                 cs_ni,        // the bank is addressed
-    input  wire logic                 rd_ni,        // read strobe
-    input  wire logic                 wr_ni,        // write strobe
-    input  wire logic [          7:0] d_i,          // what the host writes
-    output logic      [          7:0] d_o,          // what it reads
-    output logic                      d_oe_o,       // it is reading
+    input  wire logic    [          9:0] a_i,          // axis and register
+    input  wire logic                    cs_ni,        // the bank is addressed
+    input  wire logic                    rd_ni,        // read strobe
+    input  wire logic                    wr_ni,        // write strobe
+    input  wire logic    [          7:0] d_i,          // what the host writes
+    output logic         [          7:0] d_o,          // what it reads
+    output logic                         d_oe_o,       // it is reading
     // visits
-    input  wire logic                 ready_i,      // 0: the axes are being reset
-    input  wire logic [RoundBits-1:0] axis_i,       // axis of the coming visit
-    output mail_t                     mail_o,       // its input buffer
-    output progress_t                 progress_o,   // how far its answer has been read
-    output logic      [          1:0] config_no,    // vsel and csel, inverted
-    input  wire logic [RoundBits-1:0] done_axis_i,  // axis of the visit that ends
-    input  wire status_t              status_i,     // what that leaves
-    input  wire logic [         31:0] position_i,   // the same
-    input  wire logic                 answer_we_i,  // and this, if so
-    input  wire answer_t              answer_i,
+    input  wire logic                    ready_i,      // 0: the axes are being reset
+    input  wire logic    [RoundBits-1:0] axis_i,       // axis of the coming visit
+    output mail_t                        mail_o,       // its input buffer
+    output progress_t                    progress_o,   // how far its answer has been read
+    output logic         [          1:0] config_no,    // vsel and csel, inverted
+    input  wire logic    [RoundBits-1:0] done_axis_i,  // axis of the visit that ends
+    input  wire status_t                 status_i,     // what that leaves
+    input  wire logic    [         31:0] position_i,   // the same
+    input  wire logic                    answer_we_i,  // and this, if so
+    input  wire answer_t                 answer_i,     // the answer to a read command
     // bank
-    input  wire logic [     Axes-1:0] map_i,        // interrupts pending
-    output logic      [     Axes-1:0] mask_o,       // members of the group
-    output logic                      go_o,         // GO is written, at the coming edge
-    output logic                      stop_o        // STOP is
+    input  wire logic    [     Axes-1:0] map_i,        // interrupts pending
+    output logic         [     Axes-1:0] mask_o,       // members of the group
+    output logic                         go_o,         // GO is written, at the coming edge
+    output logic                         stop_o        // STOP is
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
@@ -133,9 +133,9 @@ module ppmc_bank_window
 
   // ---- what it reads -------------------------------------------------------------------------------
 
-  (* ram_style = "block", no_rw_check *)status_t statuses[Slots];
-  (* ram_style = "block", no_rw_check *)logic [31:0] positions[Slots];
-  (* ram_style = "block", no_rw_check *)answer_t answers[Slots];
+  (* ram_style = "block", no_rw_check *) status_t statuses[Slots];
+  (* ram_style = "block", no_rw_check *) logic [31:0] positions[Slots];
+  (* ram_style = "block", no_rw_check *) answer_t answers[Slots];
 
   typedef struct packed {
     logic [1:0]  mail_seq;
@@ -175,7 +175,7 @@ module ppmc_bank_window
     view1_q.answer   <= answers[axis2];
     unique case (a2[3:0])
       REG_MASK: view1_q.other <= masks[{a2[6:4], 3'd0}+:8];
-      REG_MAP: view1_q.other <= maps[{a2[6:4], 3'd0}+:8];
+      REG_MAP:  view1_q.other <= maps[{a2[6:4], 3'd0}+:8];
       default: begin
         unique case (a2[6:4])
           3'd0:    view1_q.other <= INFO_MARK;

@@ -104,7 +104,8 @@ package ppmc_motion_pkg;
     return t;
   endfunction
 
-  function automatic logic [5:1] stepped(logic [5:1] pattern, logic pair, logic half, motor_e motor, logic ccw);
+  function automatic logic [5:1] stepped(logic [5:1] pattern, logic pair, logic half, motor_e motor,
+                                         logic ccw);
     logic [5:1] t;
     t = turned(pattern, motor, ccw);
     if (half) t = (pair == (motor == Motor5)) ? pattern | t : pattern & t;

@@ -98,8 +98,8 @@ module ppmc_ramp_serial
   logic [15:0] steps;
   assign steps = 16'(steps_i);
 
-  function automatic logic maj(logic a, logic b, logic c);
-    return (a & b) | (a & c) | (b & c);
+  function automatic logic maj(logic x, logic y, logic z);
+    return (x & y) | (x & z) | (y & z);
   endfunction
 
   always_comb begin

@@ -40,7 +40,7 @@ module ppmc_command
 );
 
   decoded_t dec_q;  // of byte_i, a clk behind it
-  error_e value_q;  // as dec_q: the byte stands still for a clk before it is taken
+  error_e   value_q;  // as dec_q: the byte stands still for a clk before it is taken
   asking_t asking_q, asking;
   logic stop;
 
@@ -52,21 +52,21 @@ module ppmc_command
   assign take_o = ready_i && open_i && (!stops_only_i || (command_i && stop));
 
   ppmc_judge u_judge (
-      .take_i    (take_o),
+      .take_i   (take_o),
       .command_i,
       .byte_i,
       .data_i,
-      .decoded_i (dec_q),
-      .value_i   (value_q),
+      .decoded_i(dec_q),
+      .value_i  (value_q),
       .judged_i,
       .busy_i,
       .ramp_i,
       .decelerating_i,
       .initialised_i,
-      .asking_i  (asking_q),
-      .asking_o  (asking),
+      .asking_i (asking_q),
+      .asking_o (asking),
       .act_o,
-      .stop_o    (stop)
+      .stop_o   (stop)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -10,36 +10,37 @@ module ppmc_judge
 #(
     parameter bit Aux = 1'b1  // Excitation OFF is AUX ON while a motion is under way; 0: it is refused then
 ) (
-    input  wire logic            take_i,          // a byte is taken
-    input  wire logic            command_i,       // it was written as a command
-    input  wire logic     [ 7:0] byte_i,          // the byte
-    input  wire logic     [ 7:0] data_i,          // the byte as a parameter is kept
-    input  wire decoded_t        decoded_i,       // the byte as a code
-    input  wire error_e          value_i,         // what is wrong with complete parameters; ErrUndefined: nothing
-    input  wire logic            judged_i,        // value_i counts for the code at hand
-    input  wire logic            busy_i,          // a motion is under way
-    input  wire logic            ramp_i,          // running operation has a ramp
-    input  wire logic            decelerating_i,  // DEC, or pulses over
-    input  wire logic            initialised_i,   // operations may start
-    input  wire asking_t         asking_i,        // what is remembered of the bytes before
-    output asking_t              asking_o,        // and of this one
-    output action_t              act_o,           // what it makes happen
-    output logic                 stop_o           // byte_i is a stop command; whatever take_i says
+    input  wire logic           take_i,          // a byte is taken
+    input  wire logic           command_i,       // it was written as a command
+    input  wire logic     [7:0] byte_i,          // the byte
+    input  wire logic     [7:0] data_i,          // the byte as a parameter is kept
+    input  wire decoded_t       decoded_i,       // the byte as a code
+    input  wire error_e         value_i,         // wrong with complete parameters; ErrUndefined: nothing
+    input  wire logic           judged_i,        // value_i counts for the code at hand
+    input  wire logic           busy_i,          // a motion is under way
+    input  wire logic           ramp_i,          // running operation has a ramp
+    input  wire logic           decelerating_i,  // DEC, or pulses over
+    input  wire logic           initialised_i,   // operations may start
+    input  wire asking_t        asking_i,        // what is remembered of the bytes before
+    output asking_t             asking_o,        // and of this one
+    output action_t             act_o,           // what it makes happen
+    output logic                stop_o           // byte_i is a stop command; whatever take_i says
 );
 
   logic harmless, last, error;
   error_e number;
-  logic unused_param;
+  logic   unused_param;
 
   assign unused_param = ^asking_i.params[7:0];
 
   // Order of the checks: P104-ERR-01, P104-ERR-02.
   always_comb begin
     stop_o   = decoded_i.kind inside {KindHalt, KindDecel};
-    harmless = decoded_i.kind inside {KindAuxOut, KindAuxOn, KindAuxOff} || (Aux && decoded_i.kind == KindExcOff);
-    last     = !asking_i.error && asking_i.number == 3'd1;
-    error    = 1'b1;
-    number   = ErrUndefined;
+    harmless = decoded_i.kind inside {KindAuxOut, KindAuxOn, KindAuxOff};
+    if (Aux && decoded_i.kind == KindExcOff) harmless = 1'b1;
+    last   = !asking_i.error && asking_i.number == 3'd1;
+    error  = 1'b1;
+    number = ErrUndefined;
     if (command_i) begin
       if (decoded_i.kind == KindUndefined || (stop_o && !busy_i)) number = ErrUndefined;
       else if (busy_i && !stop_o && !harmless) number = ErrBusy;
