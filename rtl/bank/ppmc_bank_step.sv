@@ -41,11 +41,13 @@ module ppmc_bank_step
     output logic                      calm_o       // and no more
 );
 
-  op_code_t code;
+  op_code_t   code;
+  init_code_t init;  // the same byte, read as one or as the other
   logic ramped, unused_bits;
 
   assign unused_bits = &{1'b0, plan_i, seen_i, code, init};
   assign code = op_code_t'(code_i);
+  assign init = init_code_t'(code_i);
   assign ramped = code.op inside {OP_ACC_DEC, OP_CONT_HIGH};
 
   // ---- motion --------------------------------------------------------------------------------------
@@ -119,10 +121,8 @@ module ppmc_bank_step
 
   // ---- set-up, phases, rest ------------------------------------------------------------------------
 
-  init_code_t init;
   motor_e motor;
 
-  assign init  = init_code_t'(code_i);
   assign motor = motor_e'(rest_i.motor);
 
   always_comb begin
