@@ -47,6 +47,8 @@ NAMES = {
 """What reports call an access."""
 WRITE_EVENT = 2
 """Edge 0 of a write to its event (BANK-WIN-06)."""
+SNAPSHOT = 2
+"""Edge 0 of a read to the edge whose state it shows (BANK-WIN-05)."""
 SYNC = 2
 """First edge that samples a pin to the edge that acts on it (BANK-MOT-02)."""
 
@@ -237,21 +239,28 @@ class Lab:
         """Write STOP; returns its write event g."""
         return await self.host.write(STOP, 0) + WRITE_EVENT
 
+    # ---------------------------------------------------------------- to the clk
+
     def at_event(self, edge: int, address: int, byte: int) -> Any:
-        """A write whose event is on that edge, beside what the test does (its host must be quiet then)."""
-        first = edge - WRITE_EVENT - 3
+        """A write with its event on that edge, beside what the test does (its host is quiet then)."""
+        edge0 = edge - WRITE_EVENT
         return self.bench.drive(
             [
-                (first, {"a": address}),
-                (first + 1, {"cs_n": 0, "wr_n": 0, "d_i": byte}),
-                (first + 3, {"cs_n": 1, "wr_n": 1}),
+                (edge0 - 3, {"a": address}),
+                (edge0 - 2, {"cs_n": 0, "wr_n": 0, "d_i": byte}),
+                (edge0, {"cs_n": 1, "wr_n": 1}),
             ]
         )
 
     async def write_at(self, edge: int, address: int, byte: int) -> None:
-        """A write whose event is on that edge; returns 3 clk after the strobe."""
-        await self.at_event(edge, address, byte)
-        await self.bench.until(edge + 1)
+        """A write with its event on that edge; returns when the next access may begin."""
+        await self.bench.until(edge - WRITE_EVENT - 3)
+        await self.host.write(address, byte)
+
+    async def as_of(self, edge: int, address: int) -> int:
+        """Read a register as it stood after that edge (BANK-WIN-05)."""
+        await self.bench.until(edge - SNAPSHOT - 1)
+        return await self.host.read(address)
 
     async def quiet(self, axes: Iterable[Axis]) -> None:
         """Stop what runs, wait for the ends and take the interrupts away."""
