@@ -256,7 +256,7 @@ module ppmc_bank_engine
   ) u_tables (
       .clk_i,
       .rst_ni,
-      .book_i     (plan.init),
+      .book_i     (plan.init && !clear_q[3]),
       .book_axis_i(axis3_q),
       .slow_i     (params[7:0]),
       .fast_i     (params[15:8]),
