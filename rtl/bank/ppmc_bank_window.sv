@@ -202,6 +202,7 @@ module ppmc_bank_window
   logic [7:0] data, status, value;
   logic ibf, obf;
   logic [23:0] kept_q;  // bytes 1..3 of a position
+  logic ready_q;  // of the moment that a read shows
 
   always_comb begin
     done   = (view2_q.progress.seq == view2_q.answer.seq) ? view2_q.progress.done : 2'd0;
@@ -222,8 +223,13 @@ module ppmc_bank_window
       REG_GO, REG_STOP: value = '0;
       default: value = '1;
     endcase
-    if (!ready_i) value = {6'd0, a2[3:0] == REG_STATUS, 1'b0};
+    if (!ready_q) value = {6'd0, a2[3:0] == REG_STATUS, 1'b0};
     if (32'(a2[9:4]) >= Axes) value = '1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) ready_q <= 1'b0;
+    else ready_q <= ready_i;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -235,7 +241,7 @@ module ppmc_bank_window
       taken_q <= '0;
     end else if (load) begin
       d_o     <= value;
-      shown_q <= a2[3:0] == REG_DATA && obf && ready_i && 32'(a2[9:4]) < Axes;
+      shown_q <= a2[3:0] == REG_DATA && obf && ready_q && 32'(a2[9:4]) < Axes;
       seen_q  <= axis2;
       taken_q <= '{seq: view2_q.answer.seq, done: done + 2'd1};
       if (a2[3:0] == REG_POSITION) kept_q <= view2_q.position[31:8];
