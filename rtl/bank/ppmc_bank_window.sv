@@ -42,6 +42,7 @@ module ppmc_bank_window
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
+  localparam string Style = (Slots > 8) ? "block" : "logic";  // small FPGAs have few block RAMs
 
   // ---- bus -----------------------------------------------------------------------------------------
 
@@ -133,9 +134,9 @@ module ppmc_bank_window
 
   // ---- what it reads -------------------------------------------------------------------------------
 
-  (* ram_style = "block", no_rw_check *) status_t statuses[Slots];
-  (* ram_style = "block", no_rw_check *) logic [31:0] positions[Slots];
-  (* ram_style = "block", no_rw_check *) answer_t answers[Slots];
+  (* ram_style = Style, no_rw_check *) status_t statuses[Slots];
+  (* ram_style = Style, no_rw_check *) logic [31:0] positions[Slots];
+  (* ram_style = Style, no_rw_check *) answer_t answers[Slots];
 
   typedef struct packed {
     logic [1:0]  mail_seq;
