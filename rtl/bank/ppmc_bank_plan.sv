@@ -53,7 +53,7 @@ module ppmc_bank_plan
   action_t act;
   logic kill, undo, finish, ready, proceed, refuse, unit, toggle;
   logic ramp, finished, inits, completes, open, unused_stop, unused_bits;
-  logic dec, halt, slow, counts, forced, fast_plain, grows, pulse;
+  logic dec, halt, slow, counts, forced, fast_plain, grows, pulse, rests;
 
   assign unused_bits = &{1'b0, walk_i, ramp_i, rest_i, seen_i, mail_i, act};
 
@@ -152,8 +152,9 @@ module ppmc_bank_plan
     plan_o.switching = act.switching;
     plan_o.read = act.read;
     plan_o.select = mail_i.data[2:0];
-    plan_o.rest = !walk_i.busy && !rest_i.hold && !act.start;
-    plan_o.hold = plan_o.rest && over_i && !toggle;
+    rests = !walk_i.busy && !rest_i.hold && !act.start;
+    plan_o.rest = rests && !over_i;
+    plan_o.hold = rests && over_i && !toggle;
   end
 
   // ---- clk to the next edge ------------------------------------------------------------------------
