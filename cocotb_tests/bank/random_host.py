@@ -164,7 +164,7 @@ class BankHost(RandomHost):
         """Any operation."""
         rng = self.rng
         code = rng.choice((0x40, 0x60)) if rng.random() < 0.3 else 0x40
-        code |= rng.choice((0, 8)) | rng.choice((0, 0, 0x10)) | (rng.choice((0, 0x80)) if self.quick else 0)
+        code |= rng.choice((0, 8)) | rng.choice((0, 0, 0x10)) | rng.choice((0, 0x80))
         if self.quick:
             count = rng.choice((60, 300, 1_000, 3_000)) - 1
             low, rate = rng.choice((3, 3, 4, 4, 4, 5, 6, 7)), rng.choice(QUICK)

@@ -173,7 +173,7 @@ async def bank_win_07_position_counts(dut):
     lab = await Lab.start(dut)
     axis = await lab.ready(5)
     want = 0
-    for code, n in ((0x43, 14), (0x4B, 20), (0x63, 3), (0x6B, 5), (0x4A, 1), (0x44, 300)):
+    for code, n in ((0x43, 14), (0x4B, 20), (0xC3, 3), (0xCB, 5), (0x4A, 1), (0x44, 300)):
         await axis.move(code, n, 0 if code == 0x44 else None)
         want += -n if code & 8 else n
         lab.check("BANK-WIN-07", f"position after {code:02X}", await axis.position(), want)
