@@ -228,7 +228,9 @@ class BankHost(RandomHost):
     async def config(self) -> None:
         """CONFIG; a quick host seldom makes an axis slow."""
         rng, n = self.rng, self.axis()
-        await self.lab.axes[n].host.write(CONFIG, rng.choice((3, 3, 3, 3, 1)) if self.quick else rng.randrange(4))
+        await self.lab.axes[n].host.write(
+            CONFIG, rng.choice((3, 3, 3, 3, 1)) if self.quick else rng.randrange(4)
+        )
         await self.lab.axes[n].host.read(CONFIG)
 
     async def position(self) -> None:

@@ -214,7 +214,13 @@ async def bank_gen_03_data_bytes(dut):
     lab = await Lab.start(dut)
     axis = lab.axes[2]
     lab.check("BANK-GEN-03", "data", await axis.host.data(0x55), 0x80 | NOT_WANTED << 4)
-    for rl, rh, pa, error in ((9, 10, 4, 5), (9, 4, 3, 5), (9, 9, 4, -1), (9, 4, 11_221, 4), (9, 4, 11_220, -1)):
+    for rl, rh, pa, error in (
+        (9, 10, 4, 5),
+        (9, 4, 3, 5),
+        (9, 9, 4, -1),
+        (9, 4, 11_221, 4),
+        (9, 4, 11_220, -1),
+    ):
         await axis.refused("BANK-GEN-03", f"{rl} {rh} {pa}", error, 0x0A, rl, rh, pa & 255, pa >> 8)
     await axis.opened()
     await axis.go(0x46)

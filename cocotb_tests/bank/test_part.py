@@ -12,7 +12,7 @@ from cocotb_tests.harness.verifies import verifies
 
 from .bench import BANK, F100
 
-ITEMS = cocotb_items("cocotb_tests.bank", "tb_window", "tb_bytes", part=BANK)
+ITEMS = cocotb_items("cocotb_tests.bank", "tb_window", "tb_bytes", "tb_motion", "tb_group", part=BANK)
 
 # Parameter, legal values, values just outside; the others as the header has them: 32 axes, 100 MHz.
 RANGES = {
