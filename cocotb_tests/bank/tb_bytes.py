@@ -52,7 +52,8 @@ async def bank_hsk_01_seven_clk(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_03_replaced(dut):
-    """Given two bytes before a visit, then it takes the newer one if that came at V - 7, else the older one."""
+    """Given two bytes before a visit, then it takes the newer one if that came at V - 7, else the older
+    one."""
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     address = axis.n << 4 | STATUS
@@ -86,7 +87,8 @@ async def bank_hsk_03_last_one_counts(dut):
 
 @directed("BANK-HSK-05", "BANK-HSK-01", builds=(B8, B32, B64))
 async def bank_hsk_05_axes_do_not_wait(dut):
-    """Given bytes to all axes one behind the other, then each initialises and moves, whatever the others do."""
+    """Given bytes to all axes one behind the other, then each initialises and moves, whatever the others
+    do."""
     lab = await Lab.start(dut)
     for register, byte in ((STATUS, 0x0A), (DATA, 9), (DATA, 4), (DATA, 4), (DATA, 0)):
         for axis in lab.axes:
@@ -152,7 +154,8 @@ async def bank_hsk_04_answer_meets_a_read(dut):
 
 @directed("BANK-HSK-02", builds=(B8, B32))
 async def bank_hsk_02_end_takes_the_visit(dut):
-    """Given a byte for the visit that ends a motion, or that completes an initialisation, then the next takes it."""
+    """Given a byte for the visit that ends a motion, or that completes an initialisation, then the next
+    takes it."""
     lab = await Lab.start(dut)
     axis = await lab.ready(4)
     address = axis.n << 4 | STATUS
@@ -257,7 +260,8 @@ async def bank_ini_02_shared_builder(dut):
 
 @directed("BANK-HSK-05", "BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_05_command_at_the_end_of_a_build(dut):
-    """Given a last byte that waits, when a command replaces it around the end of the build, then one is taken."""
+    """Given a last byte that waits, when a command replaces it around the end of the build, then one is
+    taken."""
     lab = await Lab.start(dut)
     two, three = lab.axes[6], lab.axes[3]
     await lab.ready(1)

@@ -67,7 +67,8 @@ async def bank_grp_01_mask_of_a_start(dut):
 
 @directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
 async def bank_grp_02_refused(dut):
-    """Given members busy, at rest, without an initialisation, waiting for parameters, then GO tells each why."""
+    """Given members busy, at rest, without an initialisation, waiting for parameters, then GO tells each
+    why."""
     lab = await Lab.start(dut)
     busy, held, rest, fresh = lab.axes[:4]
     waiting, out = lab.axes[4:6] if lab.size > 4 else (None, None)
@@ -95,7 +96,8 @@ async def bank_grp_02_refused(dut):
 
 @directed("BANK-GRP-02", builds=(B8, B32, F100))
 async def bank_grp_02_which_visit(dut):
-    """Given GO at g and an operation that starts at V, then it is found if V is before the visit at g + 5 or later."""
+    """Given GO at g and an operation that starts at V, then it is found if V is before the visit at g + 5
+    or later."""
     lab = await Lab.start(dut)
     axis = await lab.ready(2)
     await lab.mask(2)

@@ -14,7 +14,8 @@ RAMP = (20, 0, 30)
 
 @directed("BANK-MOT-01", "BANK-GEN-01", "BANK-GEN-02", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_01_all_axes_at_once(dut):
-    """Given ramps and constant speeds of all axes at once, then each train and each low time is exact to the clk."""
+    """Given ramps and constant speeds of all axes at once, then each train and each low time is exact to
+    the clk."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.init(0x0A, *RAMP, opened=False)
@@ -50,7 +51,8 @@ async def bank_mot_01_all_axes_at_once(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_slow_clocks(dut):
-    """Given csel and vsel in all ways, then intervals are those of the PPMC-104, taken 7 clk before the start."""
+    """Given csel and vsel in all ways, then intervals are those of the PPMC-104, taken 7 clk before the
+    start."""
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 3)
     for csel, vsel in ((1, 1), (1, 0), (0, 1), (0, 0)):
@@ -93,7 +95,8 @@ async def bank_mot_04_busy_falls(dut):
 
 @directed("BANK-MOT-03", "BANK-MOT-04", builds=(B8, B32, F100))
 async def bank_mot_04_cut_while_high(dut):
-    """Given a limit while pout_n is H, seen on edge e, then BUSY falls at the first visit at e + 5 or later."""
+    """Given a limit while pout_n is H, seen on edge e, then BUSY falls at the first visit at e + 5 or
+    later."""
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 1)
     for early in (4, 5, 6):
@@ -132,7 +135,8 @@ async def bank_mot_03_byte_before_it_is_known(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
 async def bank_mot_05_slow_down_limit(dut):
-    """Given a slow-down limit seen on edge V - 4, then visit V sees it, and not if it was seen a clk later."""
+    """Given a slow-down limit seen on edge V - 4, then visit V sees it, and not if it was seen a clk
+    later."""
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 2)
     for early in (5, 4, 3):
@@ -176,7 +180,8 @@ async def bank_mot_05_which_pulse_counts(dut):
 
 @directed("BANK-MOT-02", "BANK-WIN-07", "BANK-MOT-03", builds=(B8, B32, F100))
 async def bank_mot_02_taken_back(dut):
-    """Given a pulse that was counted and does not come, then the position takes it back when the end is known."""
+    """Given a pulse that was counted and does not come, then the position takes it back when the end is
+    known."""
     lab = await Lab.start(dut)
     axis = await lab.ready(6)
     for number in range(3):
