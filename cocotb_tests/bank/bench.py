@@ -1,4 +1,5 @@
-"""The bank on a bench: its builds, and pins as wide as AXES says. Pins and levels are those of the golden model."""
+"""The bank on a bench: its builds, and pins as wide as AXES says. Pins and levels are those of the golden
+model."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 """Random hosts of the bank: all axes at once, bytes, stops, groups, switches that move by themselves.
 
-A seed decides all, `build` the build; `play(dut, seed)` plays. Every fourth seed types much and moves little; the
+A seed decides all, `build` the build; `play(dut, seed)` plays. Every fourth seed types much and moves
+little; the
 others keep all axes in quick motions until INTERVALS have been seen.
 """
 
@@ -164,7 +165,7 @@ class BankHost(RandomHost):
         """Any operation."""
         rng = self.rng
         code = rng.choice((0x40, 0x60)) if rng.random() < 0.3 else 0x40
-        code |= rng.choice((0, 8)) | rng.choice((0, 0, 0x10)) | (rng.choice((0, 0x80)) if self.quick else 0)
+        code |= rng.choice((0, 8)) | rng.choice((0, 0, 0x10)) | rng.choice((0, 0x80))
         if self.quick:
             count = rng.choice((60, 300, 1_000, 3_000)) - 1
             low, rate = rng.choice((3, 3, 4, 4, 4, 5, 6, 7)), rng.choice(QUICK)
@@ -228,7 +229,9 @@ class BankHost(RandomHost):
     async def config(self) -> None:
         """CONFIG; a quick host seldom makes an axis slow."""
         rng, n = self.rng, self.axis()
-        await self.lab.axes[n].host.write(CONFIG, rng.choice((3, 3, 3, 3, 1)) if self.quick else rng.randrange(4))
+        await self.lab.axes[n].host.write(
+            CONFIG, rng.choice((3, 3, 3, 3, 1)) if self.quick else rng.randrange(4)
+        )
         await self.lab.axes[n].host.read(CONFIG)
 
     async def position(self) -> None:

@@ -12,7 +12,9 @@ from cocotb_tests.harness.verifies import verifies
 
 from .bench import BANK, F100
 
-ITEMS = cocotb_items("cocotb_tests.bank", "tb_window", part=BANK)
+ITEMS = cocotb_items(
+    "cocotb_tests.bank", "tb_window", "tb_bytes", "tb_motion", "tb_group", "tb_limits", "tb_rest", part=BANK
+)
 
 # Parameter, legal values, values just outside; the others as the header has them: 32 axes, 100 MHz.
 RANGES = {

@@ -24,7 +24,8 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_seeds_are_enough() -> None:
-    """The fixed seeds use every build, each once, and compare a million intervals; each host sees to its own."""
+    """The fixed seeds use every build, each once, and compare a million intervals; each host sees to its
+    own."""
     assert random_item.complete
     assert {build(seed).name for seed in SEEDS} == build.names
     assert sum(INTERVALS for seed in SEEDS if in_motion(seed)) >= 1_000_000

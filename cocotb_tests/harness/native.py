@@ -1,7 +1,7 @@
 """`Native`: the `Clockwork` of `verilated_sim.cpp`, our main program: clock, pins and recorder in C++.
 
-What a bench does a million times costs a call of C instead of a trigger of cocotb. A port of more than 64 bits
-is several there, one a word, the lowest first; here it is put together.
+What a bench does a million times costs a call of C instead of a trigger of cocotb. A port of more than
+64 bits is several there, one a word, the lowest first; here it is put together.
 """
 
 from __future__ import annotations
