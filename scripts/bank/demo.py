@@ -81,9 +81,7 @@ def play() -> Played:
 def simulate(program: Path, played: Played, table: Part) -> Comparison:
     """The same pin changes in the RTL, and all its output edges beside those of the golden model."""
     model = played.session.model
-    recording = Recording(
-        NAME, {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus
-    )
+    recording = Recording(NAME, {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus)
     recording.edges = plain_sim.play(program, recording, table)
     initial = table.reset_levels()
     expected, actual, mismatch = compare_edges(model.edges, recording.edges, initial, recording.end)
@@ -151,9 +149,7 @@ def main() -> int:
             "build the RTL with Verilator", lambda: plain_sim.build(design, BUILD / "plain" / NAME, table)
         )
         played = steps.run("play a host of 32 axes on the golden model", play)
-        comparison = steps.run(
-            "give the RTL the same pin changes", lambda: simulate(program, played, table)
-        )
+        comparison = steps.run("give the RTL the same pin changes", lambda: simulate(program, played, table))
         pulses = trains(comparison)
         faults = {one.axis: text for one in ORDERS if (text := wrong(one, pulses[one.axis], played))}
         FOLDER.mkdir(parents=True, exist_ok=True)

@@ -50,8 +50,8 @@ class Order:
 
 
 def order(axis: int) -> Order:
-    """From 41.7 kpps down to 6.8 kpps at the top; ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
-    rh = 11 + 2 * axis
+    """From 25 kpps down to 9.8 kpps at the top; ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
+    rh = 19 + axis
     rl = 2 * rh + 40
     low, high = BASE / (rl + 1), BASE / (rh + 1)
     ramp, plateau = 3e-3 + 1.2e-3 * (5 * axis % 8), 3e-3 * (3 * axis % 7)

@@ -19,9 +19,7 @@ RESET_CLK = 8
 WORD = 32  # bits
 # As the harness compiles (assertions kept), but for the pins that it must reach from outside.
 # One C++ file: the precompiled header of split ones does not work with every Verilator.
-VERILATE = (
-    "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal --output-split 0".split()
-)
+VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal --output-split 0".split()
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
 // Written by scripts/flow/plain_sim.py. In: end, then "t pin value" a line; out: "t signal value" a line.
 #include <cstdio>

@@ -1,0 +1,79 @@
+"""Pictures of docs/bank/: the way of a visit, and what an axis costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import matplotlib.pyplot as plt
+
+from scripts.bank import cost
+from scripts.pictures.blocks import Arrow, Box, draw
+from scripts.pictures.plots import BLUE, GREY, RED, svg
+
+STAGES = (
+    "0 address\nof the next axis",
+    "1 RAM\nits state comes",
+    "2 compare\nclk left < R ?",
+    "3 plan\nppmc_bank_plan",
+    "4 step\nppmc_bank_step",
+    "5 write\norder goes out",
+)
+BOXES = {
+    "bus": Box(0.35, 0, "host bus", "pin", 0.7, 0.4),
+    "window": Box(2.2, 0, "ppmc_bank_window\nbytes in, answers, registers", "host", 2.2),
+    "round": Box(5.35, 0, "ppmc_bank_round\nwhose turn; GO, STOP, reset", "plain", 2.1),
+    **{
+        f"stage{n}": Box(1.85 + 1.4 * n, 1.25, text, "motion", 1.22)
+        for n, text in enumerate(STAGES)
+    },
+    "state": Box(4.2, 2.5, "block RAM: state of every axis\nmotion, ramp, bytes, phases, position", "part", 2.9),
+    "times": Box(7.3, 2.5, "ppmc_bank_times, _tables\nintervals; ramps, one builder", "part", 2.3),
+    "cell": Box(10.5, 1.25, "ppmc_bank_cell\none an axis: an order\nand its clk", "motion", 1.5, 0.9),
+    "switches": Box(9.55, 2.5, "limits, origin,\nalarm, synchronised", "pin", 1.2, 0.5),
+    "pins": Box(11.95, 1.25, "s, hold,\npout_n, dir", "pin", 0.9, 0.5),
+}
+ARROWS = (
+    Arrow("bus", "window", both=True),
+    Arrow("window", "stage1", "byte", via=((2.95, 0.65), (3.25, 0.65))),
+    Arrow("round", "stage0", "axis", via=((5.35, 0.55), (1.85, 0.55))),
+    *(Arrow(f"stage{n}", f"stage{n + 1}") for n in range(5)),
+    Arrow("state", "stage1", "read", via=((3.25, 2.0),)),
+    Arrow("stage5", "state", "write", via=((8.85, 1.95), (4.9, 1.95))),
+    Arrow("times", "stage2", via=((7.0, 1.78), (4.65, 1.78))),
+    Arrow("stage5", "cell", "order, clk"),
+    Arrow("stage5", "window", "status, answer, position", via=((8.85, 0.62), (8.85, -0.55), (2.2, -0.55))),
+    Arrow("cell", "stage2", "what became of the last order", via=((10.5, 0.62), (4.65, 0.62))),
+    Arrow("switches", "cell", via=((10.15, 2.3),)),
+    Arrow("cell", "pins"),
+)
+
+
+def visit() -> bytes:
+    """The way of a visit through the engine."""
+    return svg(draw(BOXES, ARROWS, (10.4, 3.6)))
+
+
+def axis_cost() -> bytes:
+    """COMB an axis over the number of axes, beside designs of one axis."""
+    found = cost.figures()
+    figure, axes = plt.subplots(figsize=(8.4, 4.2), layout="constrained")
+    for name, color in (("plain", BLUE), ("tuned", RED)):
+        values = [found[f"{n} {name}"]["comb"] / n for n in cost.AXES]
+        axes.plot(cost.AXES, values, "o-", color=color, label=f"ppmc_bank, {name}")
+        if name == "plain":
+            for n, value in zip(cost.AXES, values, strict=True):
+                axes.annotate(f"{value:.0f}", (n, value), (5, 5), textcoords="offset points", color=color)
+    for title, comb in cost.singles():
+        axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
+        axes.text(66, comb, f"{title}: {comb}", va="bottom", ha="right", size=7.5, color="#444444")
+    axes.set(xscale="log", yscale="log", xlabel="axes of the bank", ylabel="COMB an axis, ECP5")
+    axes.set_xticks(cost.AXES, [str(n) for n in cost.AXES])
+    axes.set_yticks([50, 100, 200, 500, 1000, 2000], ["50", "100", "200", "500", "1000", "2000"])
+    axes.minorticks_off()
+    axes.set(xlim=(3.6, 68), ylim=(45, 2900))
+    axes.legend(loc="lower left")
+    axes.set_title("An axis of a bank beside designs of one axis (dashed; recipe plain)")
+    return svg(figure)
+
+
+PLOTS: dict[str, Callable[[], bytes]] = {"visit": visit, "cost": axis_cost}
