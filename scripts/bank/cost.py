@@ -23,7 +23,9 @@ def figures() -> dict[str, Any]:
     try:
         found: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        raise ProjectError("docs/bank/sizes.json: not there, or no JSON: python -m scripts.bank.sizes") from None
+        raise ProjectError(
+            "docs/bank/sizes.json: not there, or no JSON: python -m scripts.bank.sizes"
+        ) from None
     return found
 
 
@@ -64,7 +66,7 @@ def text() -> str:
     """What stands with the table."""
     seeds = max(len(one["mhz"]) for key, one in figures().items() if key != "ice40")
     return (
-        "`ppmc_bank` on an ECP5-25F of speed 6, CLK_HZ 100 MHz, without a host bridge. *plain* is `synth_ecp5`, "
+        "`ppmc_bank` on an ECP5-25F of speed 6, CLK_HZ 100 MHz, without a bridge. *plain* is `synth_ecp5`, "
         f"*tuned* {recipe_words({'ecp5': BEST['ecp5']})}. COMB is what nextpnr packs, FF and block RAM "
         "(DP16KD) as synthesized. MHz is Fmax of `clk` with all pins behind shift registers, which are not "
         f"counted: median of {seeds} seeds, (1) of one seed."

@@ -134,8 +134,8 @@ def frame(figure: Figure, comparison: Any) -> None:
     figure.text(0.035, 0.977, "PPMC bank: 32 axes, 32 ramps, one GO", fontsize=16, weight="bold", color=INK)
     text = subtitle(comparison, CLK_HZ).removesuffix(" Pins with * are active low.")
     figure.text(0.035, 0.957, text, fontsize=10, color=GREY)
-    figure.text(0.035, 0.94, "Filled: speed at the pins of the RTL, kpps over ms after GO's pulse 1. Line: predicted from the initialisation bytes.",
-                fontsize=9, color=GREY)  # fmt: skip
+    key = "Filled: speed at the pins of the RTL, kpps over ms. Line: predicted from the initialisation bytes."
+    figure.text(0.035, 0.94, key, fontsize=9, color=GREY)
 
 
 def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Path) -> None:

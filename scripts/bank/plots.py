@@ -20,37 +20,38 @@ STAGES = (
 )
 BOXES = {
     "bus": Box(0.35, 0, "host bus", "pin", 0.7, 0.4),
-    "window": Box(2.2, 0, "ppmc_bank_window\nbytes in, answers, registers", "host", 2.2),
-    "round": Box(5.35, 0, "ppmc_bank_round\nwhose turn; GO, STOP, reset", "plain", 2.1),
-    **{
-        f"stage{n}": Box(1.85 + 1.4 * n, 1.25, text, "motion", 1.22)
-        for n, text in enumerate(STAGES)
-    },
-    "state": Box(4.2, 2.5, "block RAM: state of every axis\nmotion, ramp, bytes, phases, position", "part", 2.9),
-    "times": Box(7.3, 2.5, "ppmc_bank_times, _tables\nintervals; ramps, one builder", "part", 2.3),
-    "cell": Box(10.5, 1.25, "ppmc_bank_cell\none an axis: an order\nand its clk", "motion", 1.5, 0.9),
-    "switches": Box(9.55, 2.5, "limits, origin,\nalarm, synchronised", "pin", 1.2, 0.5),
-    "pins": Box(11.95, 1.25, "s, hold,\npout_n, dir", "pin", 0.9, 0.5),
+    "window": Box(6.1, 0, "ppmc_bank_window\ninput buffers, answers, registers of all axes", "host", 6.9),
+    "round": Box(0.5, 1.25, "ppmc_bank_round\nwhose turn; GO,\nSTOP, reset", "plain", 1.55, 0.75),
+    **{f"stage{n}": Box(2.1 + 1.4 * n, 1.25, text, "motion", 1.18) for n, text in enumerate(STAGES)},
+    "state": Box(
+        6.1,
+        2.35,
+        "block RAM\nstate of every axis · ramp tables, filled by one builder · lengths of intervals",
+        "part",
+        6.9,
+    ),
+    "cell": Box(11.0, 1.25, "ppmc_bank_cell\none an axis: keeps\nan order and its clk", "motion", 1.45, 0.9),
+    "switches": Box(11.0, 2.35, "limits, origin,\nalarm: to the clk", "pin", 1.25, 0.5),
+    "pins": Box(12.5, 1.25, "pout_n, s,\ndir, hold", "pin", 0.9, 0.5),
 }
 ARROWS = (
     Arrow("bus", "window", both=True),
-    Arrow("window", "stage1", "byte", via=((2.95, 0.65), (3.25, 0.65))),
-    Arrow("round", "stage0", "axis", via=((5.35, 0.55), (1.85, 0.55))),
+    Arrow("window", "stage1", "a byte", via=((3.5, 0.4), (3.5, 0.6))),
+    Arrow("round", "stage0"),
     *(Arrow(f"stage{n}", f"stage{n + 1}") for n in range(5)),
-    Arrow("state", "stage1", "read", via=((3.25, 2.0),)),
-    Arrow("stage5", "state", "write", via=((8.85, 1.95), (4.9, 1.95))),
-    Arrow("times", "stage2", via=((7.0, 1.78), (4.65, 1.78))),
-    Arrow("stage5", "cell", "order, clk"),
-    Arrow("stage5", "window", "status, answer, position", via=((8.85, 0.62), (8.85, -0.55), (2.2, -0.55))),
-    Arrow("cell", "stage2", "what became of the last order", via=((10.5, 0.62), (4.65, 0.62))),
-    Arrow("switches", "cell", via=((10.15, 2.3),)),
+    Arrow("state", "stage1", "read", via=((3.5, 2.0), (3.5, 1.7))),
+    Arrow("stage5", "state", "write", via=((9.1, 1.7), (9.1, 1.9))),
+    Arrow("stage5", "cell", "order"),
+    Arrow("stage5", "window", "status, answer", via=((9.1, 0.7), (9.1, 0.5))),
+    Arrow("cell", "stage2", "what became of the order before", via=((11.0, 0.62), (4.9, 0.62))),
+    Arrow("switches", "cell"),
     Arrow("cell", "pins"),
 )
 
 
 def visit() -> bytes:
     """The way of a visit through the engine."""
-    return svg(draw(BOXES, ARROWS, (10.4, 3.6)))
+    return svg(draw(BOXES, ARROWS, (10.6, 3.0)))
 
 
 def axis_cost() -> bytes:

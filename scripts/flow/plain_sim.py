@@ -19,7 +19,8 @@ RESET_CLK = 8
 WORD = 32  # bits
 # As the harness compiles (assertions kept), but for the pins that it must reach from outside.
 # One C++ file: the precompiled header of split ones does not work with every Verilator.
-VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal --output-split 0".split()
+VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
+VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
 // Written by scripts/flow/plain_sim.py. In: end, then "t pin value" a line; out: "t signal value" a line.
 #include <cstdio>
@@ -103,7 +104,7 @@ def parted(value: int, count: int) -> list[int]:
 
 
 def main_cpp(part: Part) -> str:
-    """The program for the pins of a part; the words of its ports are numbered in the order of their tables."""
+    """The program for the pins of a part; words of its ports are numbered in the order of their tables."""
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     cases = [
         f"    case {number}: {_assigned(part, *word, 'value')} break;" for number, word in enumerate(inputs)
