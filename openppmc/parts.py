@@ -216,7 +216,9 @@ ROWS = (
         view="view:VIEW",
         machine="machine:MACHINE",
         docs=("carrier.md", "spi.md"),
+        manual="manual:MANUAL",
         carrier=True,
+        demo="demo:main",
     ),
     Row(
         name="pmc006",

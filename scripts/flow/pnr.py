@@ -16,14 +16,16 @@ CLOCK = "clk"
 
 @dataclass(frozen=True)
 class Device:
-    """One FPGA: nextpnr's arguments, the clock it is asked for and the clock to be reached, both in MHz."""
+    """One FPGA: nextpnr's arguments, the clock it is asked for and the clock to be reached, both in MHz, and
+    how many pins there are for signals."""
 
     name: str
     family: str
     arguments: tuple[str, ...]
     ask_mhz: float
     goal_mhz: float
-    wrapped: bool = False  # fewer pins than the part: pins go through shift registers
+    pins: int
+    wrapped: bool = False  # fewer pins than any part: they go through shift registers
 
 
 DEVICES = (
@@ -33,14 +35,16 @@ DEVICES = (
         ("--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"),
         120,
         100,
+        197,
     ),
-    Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"), 60, 48),
+    Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"), 60, 48, 206),
     Device(
         "iCE40 UP5K",
         "ice40",
         ("--up5k", "--package", "sg48", "--pcf-allow-unconstrained"),
         30,
         24,
+        39,
         wrapped=True,
     ),
 )

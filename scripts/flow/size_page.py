@@ -118,8 +118,9 @@ def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: 
     parts = [
         f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (LUT on ECP5 is LUT4 + "
         "2 · CCU2C, the carry cells; on Gowin an adder bit counts as one); Fmax of `clk` after place and "
-        f"route, median of {seeds} seeds{few}. Part and board top ({top}, 24 MHz) with free pins, on UP5K "
-        "through shift registers; the bitstreams with their boards' constraints, *of the device* being the "
+        f"route, median of {seeds} seeds{few}. Part and board top ({top}, 24 MHz) with free pins, through "
+        "shift registers where the device has too few (UP5K; the bank); the bitstreams with their boards' "
+        "constraints, *of the device* being the "
         "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
         f"fails when one has grown by more than {LIMIT} %.",
         markdown_table(list(HEADS), [row.cells(seeds) for row in rows], left=2),

@@ -12,7 +12,7 @@ from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.part import PARTS
 from openppmc import parts
 
-from . import board_route, boards, gates, pnr
+from . import board_route, boards, gates, pnr, scan_wrapper
 from .netlist import Count, flat_counts
 from .synthesis import run_yosys, wrapped_netlist
 from .yosys_job import BEST
@@ -108,11 +108,17 @@ def devices(target: Target) -> list[pnr.Device]:
     return [device for device in own if not device.wrapped] if target.design in CARRIERS.values() else own
 
 
+def crowded(target: Target, device: pnr.Device, netlist: Path) -> bool:
+    """Whether a part or board top has more pins than the device."""
+    inputs, outputs = scan_wrapper.ports(netlist, target.base["top"])
+    return sum(high - low + 1 for high, low in (*inputs.values(), *outputs.values())) > device.pins
+
+
 def device_netlist(target: Target, device: pnr.Device, netlist: Path) -> Path:
     """The netlist to place: in the pin-saving wrapper where the device has too few pins."""
-    if not device.wrapped:
+    if not device.wrapped and not crowded(target, device, netlist):
         return netlist
-    return wrapped_netlist(target.folder, target.base, netlist, BEST[target.family])
+    return wrapped_netlist(target.folder, target.base, netlist, BEST[target.family], target.family)
 
 
 def route_board(target: Target, netlist: Path, seed: int) -> dict[str, float | int]:

@@ -1,0 +1,62 @@
+"""The moves of the bank's demo: 32 axes, no two with the same ramp."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from openppmc.model.common.timebase import Timebase
+from openppmc.model.single.predict import Move, predict_move
+
+AXES, CLK_HZ = 32, 32_000_000
+"""The least clk for so many axes at a crystal of 16 MHz (BANK-GEN-02)."""
+BASE = 500_000  # Hz, base clock with csel = 1
+INIT = 0x0A  # 4-phase motor, full step, H switches a coil on
+RAMPED, CCW = 0x43, 0x08
+
+
+@dataclass(frozen=True)
+class Order:
+    """An initialisation and an acceleration/deceleration move of one axis."""
+
+    axis: int
+    rl: int
+    rh: int
+    pa: int
+    pulses: int
+
+    @property
+    def ramp(self) -> bytes:
+        """The parameters of the initialisation."""
+        return bytes((self.rl, self.rh, self.pa & 0xFF, self.pa >> 8))
+
+    @property
+    def code(self) -> int:
+        """The command; odd axes go CCW."""
+        return RAMPED | (CCW if self.axis & 1 else 0)
+
+    @property
+    def distance(self) -> bytes:
+        """Its parameters."""
+        return (self.pulses - 1).to_bytes(3, "little")
+
+    @property
+    def signed(self) -> int:
+        """Where it leads from 0."""
+        return -self.pulses if self.axis & 1 else self.pulses
+
+    def predicted(self) -> Move:
+        """What the golden model of a PPMC-104 by itself foretells."""
+        return predict_move(self.ramp, self.pulses, timebase=Timebase(CLK_HZ, 16_000_000))
+
+
+def order(axis: int) -> Order:
+    """From 25 kpps down to 9.8 kpps at the top; ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
+    rh = 19 + axis
+    rl = 2 * rh + 40
+    low, high = BASE / (rl + 1), BASE / (rh + 1)
+    ramp, plateau = 3e-3 + 1.2e-3 * (5 * axis % 8), 3e-3 * (3 * axis % 7)
+    pa = round(ramp * (low + high) / 2)
+    return Order(axis, rl, rh, pa, 2 * pa + 2 + round(plateau * high))
+
+
+ORDERS = tuple(order(axis) for axis in range(AXES))
