@@ -154,11 +154,11 @@ module ppmc_bank
   seen_t views[Round];
   logic [Round-1:0] turn_q;  // whose order it is
   logic stopping_q;
-  logic [RoundBits-1:0] stop_left_q;
+  logic [RoundBits:0] stop_left_q;
 
   assign seen = views[see];
 
-  // The ring is at axis 0 five clk after clock is.
+  // The ring is at axis 0 five clk after clock is. STOP acts for R + 1 clk: what starts at its last visit is armed then.
   always_ff @(posedge clk or negedge rst) begin
     if (!rst) begin
       turn_q      <= Round'(1) << (Round - 5);
@@ -168,7 +168,7 @@ module ppmc_bank
       turn_q <= {turn_q[Round-2:0], turn_q[Round-1]};
       if (stop) begin
         stopping_q  <= 1'b1;
-        stop_left_q <= '1;
+        stop_left_q <= (RoundBits + 1)'(Round);
       end else begin
         stopping_q <= stopping_q && stop_left_q != '0;
         stop_left_q <= stop_left_q - 1'b1;
