@@ -100,7 +100,7 @@ async def bank_hsk_02_chopper_takes_the_visit(dut):
         lab.check("BANK-HSK-02", f"IBF, {delay:+} rounds", got & IBF, IBF * late)
         await lab.bench.clocks(2 * lab.round)
         await axis.host.read(DATA)
-        await lab.bench.until(edge + 2 * lab.round)
+        await lab.bench.clocks(2 * lab.round)
 
 
 @directed("BANK-INI-02", "BANK-HSK-02", "BANK-INI-01", builds=(B8, B32, F100))
