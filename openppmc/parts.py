@@ -219,6 +219,7 @@ ROWS = (
         manual="manual:MANUAL",
         carrier=True,
         demo="demo:main",
+        bench="bench:main",
     ),
     Row(
         name="pmc006",

@@ -41,6 +41,7 @@ NAME = "bank"
 FOLDER = BUILD / "demo"
 REST = 2000  # clk after the last access
 PINS = SimpleNamespace(INPUTS=pins.inputs(AXES), OUTPUTS=pins.outputs(AXES, 1), WIDTHS=pins.widths(AXES))
+TABLE = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
 
 
 @dataclass(frozen=True)
@@ -78,12 +79,19 @@ def play() -> Played:
     return Played(host, go, ends)
 
 
-def simulate(program: Path, played: Played, table: Part) -> Comparison:
+def build() -> Path:
+    """The program of the Verilated RTL."""
+    row = part(NAME)
+    design = Design(row.top, sources(row), include_dirs(), {"AXES": AXES, "CLK_HZ": CLK_HZ})
+    return plain_sim.build(design, BUILD / "plain" / NAME, TABLE)
+
+
+def simulate(program: Path, played: Played) -> Comparison:
     """The same pin changes in the RTL, and all its output edges beside those of the golden model."""
     model = played.session.model
     recording = Recording(NAME, {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus)
-    recording.edges = plain_sim.play(program, recording, table)
-    initial = table.reset_levels()
+    recording.edges = plain_sim.play(program, recording, TABLE)
+    initial = TABLE.reset_levels()
     expected, actual, mismatch = compare_edges(model.edges, recording.edges, initial, recording.end)
     return Comparison(recording, initial, expected, actual, mismatch)
 
@@ -139,17 +147,12 @@ def show(pulses: list[list[int]], played: Played, faults: dict[int, str]) -> Non
 def main() -> int:
     """Play it; 0 when every edge is the golden model's and every profile the one that was predicted."""
     steps, begin = Steps(), time.monotonic()
-    table = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
-    row = part(NAME)
-    design = Design(row.top, sources(row), include_dirs(), {"AXES": AXES, "CLK_HZ": CLK_HZ})
     picture, vcd = FOLDER / "profile.png", FOLDER / f"{NAME}.vcd"
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
-        program = steps.run(
-            "build the RTL with Verilator", lambda: plain_sim.build(design, BUILD / "plain" / NAME, table)
-        )
+        program = steps.run("build the RTL with Verilator", build)
         played = steps.run("play a host of 32 axes on the golden model", play)
-        comparison = steps.run("give the RTL the same pin changes", lambda: simulate(program, played, table))
+        comparison = steps.run("give the RTL the same pin changes", lambda: simulate(program, played))
         pulses = trains(comparison)
         faults = {one.axis: text for one in ORDERS if (text := wrong(one, pulses[one.axis], played))}
         FOLDER.mkdir(parents=True, exist_ok=True)
