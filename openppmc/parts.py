@@ -217,6 +217,7 @@ ROWS = (
         machine="machine:MACHINE",
         docs=("carrier.md", "spi.md"),
         carrier=True,
+        soak="test_random:random_item",
     ),
     Row(
         name="pmc006",

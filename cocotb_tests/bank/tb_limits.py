@@ -226,7 +226,7 @@ async def bank_mot_02_two_causes(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_what_is_ignored(dut):
-    """Given origin, other limits and slow-down limits at constant speed, then nothing ends; 0x81 tells them."""
+    """Given origin, other limits, slow-down limits at constant speed, then nothing ends; 0x81 tells them."""
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     for code, pins in ((0x44, ("cnp_n", "l2_n", "l3_n", "l4_n")), (0x4C, ("cnp_n", "l1_n", "l3_n", "l4_n"))):
