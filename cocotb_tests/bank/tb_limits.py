@@ -257,3 +257,20 @@ async def bank_mot_05_inputs_to_the_clk(dut):
         await lab.bench.clocks(2 * lab.round)
         lab.check("BANK-MOT-05", f"inputs, e = V - {early}", await axis.host.read(0), want)
         axis.set(alm_n=1)
+
+
+@directed("BANK-MOT-02", builds=(B8, B32))
+async def bank_mot_02_after_a_forced_end(dut):
+    """Given a limit in the low time of the last pulse of a forced deceleration, then it is no cause."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(2)
+    for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
+        edge0 = await axis.go(0x43, 100, poll=False)
+        last = axis.taken(edge0) + lab.cfg.w  # asked for before pulse 1, the deceleration leaves that one
+        await axis.host.poll(2, 0)
+        await axis.command(0x41)
+        axis.at(last + offset - SYNC, l1_n=0)
+        axis.at(last + offset - SYNC + 2, l1_n=1)
+        await axis.idle()
+        lab.check("BANK-MOT-02", f"pulses, {offset:+}", len(axis.pulses), pulses)
+        lab.check("BANK-MOT-02", f"finish status, {offset:+}", await axis.finish(), finish)
