@@ -158,7 +158,8 @@ module ppmc_bank
 
   assign seen = views[see];
 
-  // The ring is at axis 0 five clk after clock is. STOP acts for R + 1 clk: what starts at its last visit is armed then.
+  // The ring is at axis 0 five clk after clock is. STOP acts for R + 1 clk: what starts at its last visit is
+  // armed one clk before the end.
   always_ff @(posedge clk or negedge rst) begin
     if (!rst) begin
       turn_q      <= Round'(1) << (Round - 5);
@@ -170,7 +171,7 @@ module ppmc_bank
         stopping_q  <= 1'b1;
         stop_left_q <= (RoundBits + 1)'(Round);
       end else begin
-        stopping_q <= stopping_q && stop_left_q != '0;
+        stopping_q  <= stopping_q && stop_left_q != '0;
         stop_left_q <= stop_left_q - 1'b1;
       end
     end
