@@ -220,6 +220,7 @@ ROWS = (
         carrier=True,
         demo="demo:main",
         bench="bench:main",
+        soak="test_random:random_item",
     ),
     Row(
         name="pmc006",

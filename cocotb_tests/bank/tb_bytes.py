@@ -306,3 +306,33 @@ async def bank_gen_05_reset_in_a_build(dut):
         lab.check("BANK-GEN-05", f"pattern of {axis.n}", changes[:1], [(axis.taken(edge0), 0b00011)])
         await axis.opened()
         await lab.reset()
+
+
+@directed("BANK-HSK-03", builds=(B8, B32))
+async def bank_hsk_03_replaced_many_times(dut):
+    """Given one to nine bytes while none is taken, then IBF stays 1, and the last one counts."""
+    lab = await Lab.start(dut)
+    axis = lab.axes[4]
+    for count in range(1, 10):
+        await axis.init(0x0A, 60, 1, 4, opened=False)
+        for k in range(count):
+            await axis.host.write(STATUS, 0x87 if k < count - 1 else 0x81)
+            lab.check("BANK-HSK-03", f"IBF behind {k + 1} of {count}", await axis.status() & IBF, IBF)
+        await axis.host.poll(IBF, 0)
+        lab.check("BANK-HSK-03", f"status behind {count}", await axis.status(), OBF)
+        await axis.host.read(DATA)
+
+
+@directed("BANK-HSK-04", builds=(B8, B32))
+async def bank_hsk_04_answers_that_nobody_reads(dut):
+    """Given one to nine answers behind one that was read, then the last one is there, unread."""
+    lab = await Lab.start(dut)
+    axis = lab.axes[1]
+    for count in range(1, 10):
+        for k in range(count):
+            status = await axis.command(0x81 if k < count - 1 else 0x83)
+            lab.check("BANK-HSK-04", f"OBF behind {k + 1} of {count}", status, OBF)
+        for _ in range(3):
+            lab.check("BANK-HSK-04", "OBF", await axis.status(), OBF)
+            lab.check("BANK-HSK-04", "remaining pulses", await axis.host.read(DATA), 0)
+        lab.check("BANK-HSK-04", "OBF", await axis.status(), 0)

@@ -247,3 +247,26 @@ async def bank_grp_04_all_at_once(dut):
         else:
             lab.check("BANK-GRP-04", "status at rest", await axis.status(), 0)
     await lab.bench.clocks(SYNC)
+
+
+@directed("BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100))
+async def bank_grp_03_third_go(dut):
+    """Given a third GO around the end of the first one, then it waits for the second if that acts already."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(9)
+    for late in (-1, 0, 1):
+        await lab.mask(axis.n)
+        await axis.go(0x42)
+        await lab.mask()
+        g = axis.visit(lab.bench.now + 40) - 5  # found at the earliest moment
+        for edge in (g, g + lab.round // 2, g + lab.round + late):
+            await lab.write_at(edge, GO, 0)
+        # A member again for the visit that a third one has, and for none before.
+        await lab.write_at(g + 2 * lab.round - 4, axis.n // 8 << 4 | MASK, 1 << axis.n % 8)
+        await lab.bench.clocks(4 * lab.round + lab.cfg.w)
+        want = [due(lab, g + 2 * lab.round)] if late >= 0 else []
+        lab.check("BANK-GRP-03", f"pulses, third GO at g + R {late:+}", axis.pulses, want)
+        if not want:
+            await axis.command(0x40)
+        await axis.idle()
+        await axis.finish()

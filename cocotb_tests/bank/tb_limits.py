@@ -222,3 +222,55 @@ async def bank_mot_02_two_causes(dut):
         for axis in lab.axes:
             if axis.n % max(1, lab.size // 8):
                 waves.positions[axis.n] += len(come)
+
+
+@directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
+async def bank_mot_02_what_is_ignored(dut):
+    """Given origin, other limits, slow-down limits at constant speed, then nothing ends; 0x81 tells them."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3)
+    for code, pins in ((0x44, ("cnp_n", "l2_n", "l3_n", "l4_n")), (0x4C, ("cnp_n", "l1_n", "l3_n", "l4_n"))):
+        for pin in pins:
+            await axis.go(code, 5, 1)
+            await axis.pulse(2)
+            axis.set(**{pin: 0})
+            await axis.idle()
+            axis.set(**{pin: 1})
+            lab.check("BANK-MOT-02", f"pulses with {pin}", len(axis.pulses), 5)
+            lab.check("BANK-MOT-02", f"finish status with {pin}", await axis.finish(), 0x84)
+    for axis in (lab.axes[0], lab.axes[-1]):
+        for pin, levels in (("l1_n", 0xC7), ("l2_n", 0xCB), ("l3_n", 0xCD), ("l4_n", 0xCE), ("cnp_n", 0x4F)):
+            axis.set(**{pin: 0})
+            lab.check("BANK-MOT-05", f"inputs with {pin}", await axis.fetch(0x81), [levels])
+            axis.set(**{pin: 1})
+
+
+@directed("BANK-MOT-05", builds=(B8, B32, F100))
+async def bank_mot_05_inputs_to_the_clk(dut):
+    """Given an alarm seen on edge V - 4, then 0x81 taken at V shows it, and not one seen a clk later."""
+    lab = await Lab.start(dut)
+    axis = lab.axes[6]
+    for early, want in ((5, 0x8F), (4, 0x8F), (3, 0xCF)):
+        visit = axis.visit(lab.bench.now + 60)
+        axis.at(visit - early - SYNC, alm_n=0)
+        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x81)
+        await lab.bench.clocks(2 * lab.round)
+        lab.check("BANK-MOT-05", f"inputs, e = V - {early}", await axis.host.read(0), want)
+        axis.set(alm_n=1)
+
+
+@directed("BANK-MOT-02", builds=(B8, B32))
+async def bank_mot_02_after_a_forced_end(dut):
+    """Given a limit in the low time of the last pulse of a forced deceleration, then it is no cause."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(2)
+    for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
+        edge0 = await axis.go(0x43, 100, poll=False)
+        last = axis.taken(edge0) + lab.cfg.w  # asked for before pulse 1, the deceleration leaves that one
+        await axis.host.poll(2, 0)
+        await axis.command(0x41)
+        axis.at(last + offset - SYNC, l1_n=0)
+        axis.at(last + offset - SYNC + 2, l1_n=1)
+        await axis.idle()
+        lab.check("BANK-MOT-02", f"pulses, {offset:+}", len(axis.pulses), pulses)
+        lab.check("BANK-MOT-02", f"finish status, {offset:+}", await axis.finish(), finish)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import logging
 from typing import Any
-
-import cocotb
 
 from cocotb_tests.harness.random_test import random_test
 
@@ -30,5 +29,5 @@ from .random_host import INTERVALS, in_motion, play
 async def bank_random_host(dut: Any, seed: int) -> None:
     """Given a random host, when it has played, then all outputs changed as in the golden model."""
     made = await play(dut, seed)
-    cocotb.log.info("seed %d: %d intervals", seed, made)
+    logging.getLogger("cocotb.bank").info("seed %d: %d intervals", seed, made)
     assert not in_motion(seed) or made >= INTERVALS, f"only {made} intervals"

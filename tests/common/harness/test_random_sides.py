@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.bank import test_random as bank
 from cocotb_tests.harness.random_items import RandomItems
 from cocotb_tests.pmc006 import test_random as pmc006
 from cocotb_tests.ppmc104 import test_random as ppmc104
@@ -22,6 +23,7 @@ from cocotb_tests.stmc import test_random as stmc
         (ppmc312.noise_item, 1),
         (ppmc312.serial_item, 1),
         (pmc006.random_item, 2),
+        (bank.random_item, 4),
     ],
     ids=lambda value: value.test if isinstance(value, RandomItems) else str(value),
 )
