@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import groupby, pairwise
 from typing import NamedTuple
 
-from .part import PARTS, Part
+from .part import Part, recorded
 from .stimulus import Access, Change, Recording, bit_changes
 
 LINE = "rxd"
@@ -69,7 +69,7 @@ class Act:
 
 def acts_of(recording: Recording) -> list[Act]:
     """All that was done, in order of time."""
-    part = PARTS[recording.part]
+    part = recorded(recording.part, recording.params)
     bus = part.bus_pins - {LINE}
     changes = recording.stimulus
     others: dict[str, list[tuple[int, int]]] = {}

@@ -44,6 +44,7 @@ class Bench(Side):
         self.half = self.period // 2
         self._edges: dict[str, list[tuple[int, int]]] = {}
         self._watched: dict[int, list[tuple[int, int]]] = {}
+        part = self.part
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
         self._clockwork = clockwork()
         self._time = self._clockwork.now
@@ -70,6 +71,7 @@ class Bench(Side):
         the reset in clk (>= 2). `seed` replaces the run's.
         """
         bench = cls(dut, part, seed)
+        part = bench.part
         watchdog.arm()
         collect_seldom()
         # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0.

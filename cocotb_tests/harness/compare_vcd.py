@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .comparison import Comparison, differing_spans
-from .part import PARTS
+from .part import recorded
 
 
 def clk_ps(params: Any) -> int:
@@ -19,7 +19,7 @@ def write_vcd(comparison: Comparison, path: Path) -> None:
     from vcd import VCDWriter
 
     recording = comparison.recording
-    part = PARTS[recording.part]
+    part = recorded(recording.part, recording.params)
     scale = clk_ps(recording.params)
     rows: list[tuple[int, Any, int]] = []
     with open(path, "w", encoding="ascii") as handle, VCDWriter(handle, timescale="1 ps", date="") as writer:

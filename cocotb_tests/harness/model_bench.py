@@ -59,6 +59,7 @@ class ModelBench(Side):
 
     def __init__(self, part: Part, on: OnModel, settle: int = 4, **pins: int) -> None:
         super().__init__(part, on.config, on.seed)
+        part = self.part
         params = part.params(on.config)
         self.model: Any = new_model(part.name, params)
         self.pins = {**part.inputs, "rst_n": 1}

@@ -1,7 +1,7 @@
 """`Native`: the `Clockwork` of `verilated_sim.cpp`, our main program: clock, pins and recorder in C++.
 
-What a bench does a million times costs a call of C instead of a trigger of cocotb. Ports that are wider than
-64 bits are left to `Stock`.
+What a bench does a million times costs a call of C instead of a trigger of cocotb. A port of more than
+64 bits is several there, one a word, the lowest first; here it is put together.
 """
 
 from __future__ import annotations
@@ -9,15 +9,12 @@ from __future__ import annotations
 import ctypes
 import gc
 import struct
-from collections.abc import Iterable
-from itertools import chain
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from .stock import Stock
-
 _ROW = struct.Struct("=QQQ")
-_WIDE = 1 << 20
-"""Added to the numbers of ports that are left to `Stock`."""
+_WORD = 64
+_ONES = (1 << _WORD) - 1
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:
@@ -30,10 +27,15 @@ class Native:
     """See `Clockwork`. The clock goes on, and ports stay watched, until it is started again."""
 
     def __init__(self) -> None:
-        self._wide = Stock()
         self._numbers: dict[str, int] = {}
+        self._words: dict[int, int] = {}
+        """Number of words of the wide ports."""
+        self._levels: dict[int, int] = {}
+        """Last levels of the wide ports that are watched."""
+        self._part_of: dict[int, tuple[int, int]] = {}
+        """Number of a word -> its port, its place in bits."""
         self.now = _function("openppmc_time", ctypes.c_uint64)
-        self._port = _function("openppmc_port", ctypes.c_int, ctypes.c_char_p)
+        self._port = _function("openppmc_port", ctypes.c_int, ctypes.c_char_p, ctypes.POINTER(ctypes.c_int))
         self._read = _function("openppmc_read", ctypes.c_uint64, ctypes.c_int)
         self._put = _function("openppmc_put", None, ctypes.c_int, ctypes.c_uint64)
         self._clock = _function("openppmc_clock", None, ctypes.c_int, ctypes.c_uint64)
@@ -48,41 +50,58 @@ class Native:
     def port(self, name: str) -> int:
         """As `Clockwork.port`."""
         if name not in self._numbers:
-            number = self._port(name.encode())
-            self._numbers[name] = number if number >= 0 else _WIDE + self._wide.port(name)
+            words = ctypes.c_int()
+            number = self._port(name.encode(), ctypes.byref(words))
+            if number < 0:
+                raise AttributeError(f"the top module has no port {name}")
+            self._numbers[name] = number
+            if words.value > 1:
+                self._words[number] = words.value
+                self._part_of |= {number + word: (number, _WORD * word) for word in range(words.value)}
         return self._numbers[name]
 
     def read(self, port: int) -> int:
         """As `Clockwork.read`."""
-        level: int = self._read(port) if port < _WIDE else self._wide.read(port - _WIDE)
-        return level
+        if port not in self._words:
+            level: int = self._read(port)
+            return level
+        return sum(self._read(port + word) << _WORD * word for word in range(self._words[port]))
 
     def put(self, port: int, level: int) -> None:
         """As `Clockwork.put`."""
-        if port < _WIDE:
-            self._put(port, level)
-        else:
-            self._wide.put(port - _WIDE, level)
+        for word in range(self._words.get(port, 1)):
+            self._put(port + word, level >> _WORD * word & _ONES)
 
     def clock(self, port: int, half: int) -> None:
         """As `Clockwork.clock`."""
         self._clock(port, half)
-        self._wide.unwatch()
 
     def watch(self, port: int) -> None:
         """As `Clockwork.watch`."""
-        if port < _WIDE:
-            self._watch(port)
-        else:
-            self._wide.watch(port - _WIDE)
+        for word in range(self._words.get(port, 1)):
+            self._watch(port + word)
+        if port in self._words:
+            self._levels[port] = self.read(port)
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
         """As `Clockwork.seen`."""
         count = ctypes.c_uint64()
         rows = self._seen(ctypes.byref(count))
-        narrow = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
-        wide = [(time, _WIDE + port, level) for time, port, level in self._wide.seen()]
-        return chain(narrow, wide)
+        found = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
+        return self._whole(found) if self._levels else found
+
+    def _whole(self, rows: Iterable[tuple[int, int, int]]) -> Iterator[tuple[int, int, int]]:
+        """Rows with words put together to levels of their ports."""
+        part_of, levels = self._part_of, self._levels
+        for row in rows:
+            time, number, value = row
+            if number in part_of:
+                port, place = part_of[number]
+                level = levels[port] & ~(_ONES << place) | value << place
+                levels[port] = level
+                yield time, port, level
+            else:
+                yield row
 
 
 def collect_seldom() -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import importlib
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -69,6 +69,7 @@ class Part:
     such pin, one without a bus has none at all. `clock` is the external base clock. `unwatched` outputs run
     freely all the time: only tests that ask for them record their edges. `defaults` are the parameters of a
     build that names none. `idle`: parameters of one bit that choose the level of an output in reset.
+    `shape`: the pins under parameters that decide how wide ports are (`built`).
 
     Of a bench's top with something beside the part: `fed` are inputs of the part that the top makes, which
     are outputs here; `aside` are inputs of the top alone.
@@ -86,6 +87,7 @@ class Part:
     unwatched: frozenset[str] = frozenset()
     defaults: Mapping[str, object] = field(default_factory=dict)
     idle: Mapping[str, str] = field(default_factory=dict)
+    shape: Callable[[Mapping[str, object]], PinTable] | None = None
     fed: frozenset[str] = frozenset()
     aside: frozenset[str] = frozenset()
 
@@ -94,17 +96,20 @@ class Part:
         cls, name: str, pins: PinTable, more: Mapping[str, tuple[int, int]] | None = None, **rest: Any
     ) -> Part:
         """A part with the pins of its golden model (and `more` outputs that this leaves out)."""
-        widths = pins.WIDTHS
-        return cls(
-            name,
-            inputs={pin: level for pin, level in pins.INPUTS.items() if pin != "rst_n"},
-            outputs={
-                **{pin: (widths.get(pin, 1), level) for pin, level in pins.OUTPUTS.items()},
-                **(more or {}),
-            },
-            widths={pin: width for pin, width in widths.items() if pin in pins.INPUTS},
-            **rest,
-        )
+        inputs, outputs, widths = _pins_of(pins)
+        return cls(name, inputs, {**outputs, **(more or {})}, widths, **rest)
+
+    @classmethod
+    def of_shape(cls, name: str, shape: Callable[[Mapping[str, object]], PinTable], **rest: Any) -> Part:
+        """A part whose ports are as wide as its parameters say; this one is that of its `defaults`."""
+        return cls.of_model(name, shape(rest["defaults"]), shape=shape, **rest)
+
+    def built(self, params: Mapping[str, object]) -> Part:
+        """The part with the ports that these parameters of the top module make."""
+        if self.shape is None:
+            return self
+        inputs, outputs, widths = _pins_of(self.shape({**self.defaults, **params}))
+        return replace(self, inputs=inputs, outputs=outputs, widths=widths)
 
     @property
     def watched(self) -> tuple[str, ...]:
@@ -155,6 +160,14 @@ class Part:
         return frozenset(used | {pin for pin in data if pin in self.inputs})
 
 
+def _pins_of(pins: PinTable) -> tuple[dict[str, int], dict[str, tuple[int, int]], dict[str, int]]:
+    """Inputs, outputs and widths of inputs as a `Part` has them."""
+    widths = pins.WIDTHS
+    inputs = {pin: level for pin, level in pins.INPUTS.items() if pin != "rst_n"}
+    outputs = {pin: (widths.get(pin, 1), level) for pin, level in pins.OUTPUTS.items()}
+    return inputs, outputs, {pin: width for pin, width in widths.items() if pin in inputs}
+
+
 class _Benches(Mapping[str, Part]):
     """The parts with a `bench.py` of their own, loaded when they are asked for.
 
@@ -177,3 +190,8 @@ class _Benches(Mapping[str, Part]):
 
 
 PARTS: Mapping[str, Part] = _Benches()
+
+
+def recorded(name: str, params: Mapping[str, object]) -> Part:
+    """The part of this name in a build with these parameters, as recordings have both."""
+    return PARTS[name].built(params)

@@ -47,7 +47,7 @@ class Side(ABC):
     """Whether this is the RTL, whose edges can be compared with the golden model's."""
 
     def __init__(self, part: Part, config: Config, seed: int) -> None:
-        self.part = part
+        self.part = part.built(part.params(config))
         self.config = config
         self.seed = seed
         self.rng = random.Random(seed)

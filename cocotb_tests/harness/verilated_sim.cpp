@@ -31,7 +31,7 @@ namespace {
 constexpr std::uint64_t NEVER = ~0ULL;
 std::uint64_t main_time = 0;
 
-// A port of the top module, up to 64 bits wide.
+// A port of the top module, or a word of one with more than 64 bits.
 struct Port {
     void* data;
     std::uint32_t bytes;
@@ -40,7 +40,11 @@ struct Port {
             case 1: return *static_cast<std::uint8_t*>(data);
             case 2: return *static_cast<std::uint16_t*>(data);
             case 4: return *static_cast<std::uint32_t*>(data);
-            default: return *static_cast<std::uint64_t*>(data);
+            default: {
+                std::uint64_t value;
+                std::memcpy(&value, data, 8);  // words of a wide port lie on multiples of 4
+                return value;
+            }
         }
     }
     void store(std::uint64_t value) const { std::memcpy(data, &value, bytes); }
@@ -130,12 +134,16 @@ void close() {
 #endif
 }
 
-int port_of(const char* name) {
+int port_of(const char* name, int* words) {
     const VerilatedScope* const scope = Verilated::threadContextp()->scopeFind("TOP");
     const VerilatedVar* const var = scope ? scope->varFind(name) : nullptr;
-    if (!var || var->udims() || var->entSize() > 8) return -1;
-    ports.push_back({var->datap(), static_cast<std::uint32_t>(var->entSize())});
-    return static_cast<int>(ports.size()) - 1;
+    if (!var || var->udims()) return -1;
+    const int first = static_cast<int>(ports.size());
+    char* const data = static_cast<char*>(var->datap());
+    const std::uint32_t bytes = static_cast<std::uint32_t>(var->entSize());
+    for (std::uint32_t at = 0; at < bytes; at += 8) ports.push_back({data + at, bytes - at < 8 ? bytes - at : 8});
+    *words = static_cast<int>(ports.size()) - first;
+    return first;
 }
 
 }  // namespace
@@ -145,8 +153,8 @@ double sc_time_stamp() { return static_cast<double>(main_time); }
 // What native.py calls. Times are steps of the simulation, ports the numbers that openppmc_port() gave.
 extern "C" {
 
-// Number of a port; -1 if there is none or it is wider than 64 bits.
-int openppmc_port(const char* name) { return port_of(name); }
+// Number of a port, and how many words of 64 bits it has, with numbers one behind the other; -1 if there is none.
+int openppmc_port(const char* name, int* words) { return port_of(name, words); }
 
 std::uint64_t openppmc_read(int port) { return ports[port].load(); }
 

@@ -216,3 +216,20 @@ async def p104_aux_04_excitation_off(dut):
             lab.check("P104-AUX-04", "s stays off", late, [])
             lab.check("P104-AUX-06", "0xC0 again", await lab.host.command(0xC0), 0x00)
             lab.check("P104-AUX-06", "s", lab.bench.level("s"), off)
+
+
+@directed("P104-HSK-05", "P104-BUS-03")
+async def p104_hsk_05_reads_one_sample_apart(dut):
+    """Given three bytes to read and a pause that one edge samples between two strobes, then no byte is lost."""
+    lab = await Lab.start(dut)
+    host = lab.host
+    for strobe in (4, 5, 7):
+        await host.send(0x44, (0xFF, 0x11, 0x22, 0x33))
+        await host.command(0x40)
+        await host.wait_idle()
+        await host.command(0x83)
+        first = await host.read(DATA, strobe, gap=1)
+        again = await host.read(DATA, strobe)
+        rest = [await host.read_data() for _ in range(2 if again == first else 1)]
+        lab.check("P104-HSK-05", f"bytes, strobes of {strobe}", [first, *rest][-3:], [0x11, 0x22, 0x33])
+        lab.check("P104-HSK-05", "status behind them", await host.status() & OBF, 0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import product, repeat
 from typing import Any
 
+from cocotb_tests.harness.bus import IBF
 from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rates, steps
 
@@ -305,3 +306,19 @@ async def p2104_aux_05_running_timer(dut: Any) -> None:
         rise = lab.bench.rises(axis.pout, axis.since)[-1]
         hold = await lab.bench.edge(axis.pin("hold"), 1)
         lab.window("P2104-AUX-06", "after C0", hold - rise, 2_048 * (new + 1), 2_048 * (new + 1) + 24)
+
+
+@directed("P2104-HSK-04", "P2104-FSM-01")
+async def p2104_hsk_04_excitation_off_waits_for_the_table(dut: Any) -> None:
+    """Given a table that is being built, when Excitation OFF is sent, then it waits and the phases stay."""
+    lab = await Lab.start(dut)
+    for axis in lab.axes:
+        await axis.host.init(0x02 | axis.axis_bit, 200, 4, 4)
+        await axis.command(0xC0, poll=False)
+        await lab.bench.clocks(200)
+        status = await lab.host.status()
+        lab.check("P2104-HSK-04", "CMND and IBF", (status & axis.cmnd != 0, status & IBF), (True, IBF))
+        lab.check("P2104-HSK-04", "phases", axis.phases_now, FULL)
+        await lab.host.poll(IBF, 0)
+        await lab.bench.clocks(4)
+        lab.check("P2104-FSM-01", "phases after it", axis.phases_now, OFF)

@@ -51,10 +51,10 @@ module ppmc_bank
   if (XTAL_HZ < 1_000_000 || XTAL_HZ > 16_000_000) begin : g_check_xtal
     $fatal(1, "ppmc_bank: XTAL_HZ must be 1e6 .. 16e6");
   end
-  if (4 * CLK_HZ % XTAL_HZ != 0) begin : g_check_quantum
+  if (64'd4 * 64'(CLK_HZ) % 64'(XTAL_HZ) != 0) begin : g_check_quantum
     $fatal(1, "ppmc_bank: 4 * CLK_HZ must be a multiple of XTAL_HZ");
   end
-  if (16 * CLK_HZ < Round * XTAL_HZ) begin : g_check_round
+  if (64'd16 * 64'(CLK_HZ) < 64'(Round) * 64'(XTAL_HZ)) begin : g_check_round
     $fatal(1, "ppmc_bank: CLK_HZ too low for so many axes: 16 * CLK_HZ / XTAL_HZ >= AXES and >= 8");
   end
 

@@ -38,9 +38,11 @@ module ppmc_bank_cell
 
   order_t order_q;
   logic [RoundBits-1:0] at_q;
+  logic given;  // a pulse is ordered
   logic now, limit, halt, ends, pulse, rise, set, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
+  assign given = load_i && order_i.pulse;
   assign now = at_q == clock_i;
   assign limit = order_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
   assign halt = order_q.halt || stop_i;
@@ -60,10 +62,8 @@ module ppmc_bank_cell
     end else begin
       order_q.halt <= 1'b0;
       if (load_i) {order_q, at_q} <= {order_i, at_i};
-      if (set) armed_o <= order_q.arm;
-      else if (ends || (pulse && !order_q.arm)) armed_o <= 1'b0;
-      if (load_i && order_i.pulse) emitted_o <= 1'b0;
-      else if (pulse || set) emitted_o <= 1'b1;
+      if (set || ends || (pulse && !order_q.arm)) armed_o <= set && order_q.arm;
+      if (given || pulse || set) emitted_o <= !given;
       if (armed_o) {stopped_o, alarm_o, limit_o} <= {halt, switches_i.alarm, limit};
     end
   end

@@ -213,7 +213,7 @@ module ppmc_bank_engine
   ) u_tables (
       .clk_i,
       .rst_ni,
-      .book_i     (plan.init),
+      .book_i     (plan.init && !clear_i[3]),
       .book_axis_i(axis_i[3]),
       .slow_i     (params[7:0]),
       .fast_i     (params[15:8]),

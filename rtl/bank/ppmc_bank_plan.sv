@@ -51,8 +51,9 @@ module ppmc_bank_plan
   typedef logic [TimeBits-1:0] clk_t;
 
   action_t act;
+  logic kill, undo, finish, ready, proceed, refuse, unit, toggle;
   logic ramp, finished, inits, completes, open, unused_stop, unused_bits;
-  logic dec, halt, slow, counts, forced, fast_plain, grows, pulse;
+  logic dec, halt, slow, counts, forced, fast_plain, grows, pulse, rests;
 
   assign unused_bits = &{1'b0, walk_i, ramp_i, rest_i, seen_i, mail_i, act};
 
@@ -60,22 +61,22 @@ module ppmc_bank_plan
 
   always_comb begin
     ramp = walk_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
-    plan_o.kill = walk_i.busy && !seen_i.armed && (walk_i.run || !seen_i.emitted);
-    plan_o.undo = plan_o.kill && !seen_i.emitted;
-    plan_o.finish = walk_i.busy && (plan_o.kill ? plan_o.undo || !walk_i.low : !walk_i.run && !walk_i.low);
-    plan_o.ready = ramp_i.building && facts_i.built;
-    plan_o.proceed = facts_i.go && seen_i.mask && walk_i.held && walk_i.run && !plan_o.kill;
-    plan_o.refuse = facts_i.go && seen_i.mask && !plan_o.proceed;
-    plan_o.unit = !walk_i.busy && rest_i.chop && facts_i.fire && !plan_o.ready;
-    plan_o.toggle = plan_o.unit && walk_i.climb == '0;
+    kill = walk_i.busy && !seen_i.armed && (walk_i.run || !seen_i.emitted);
+    undo = kill && !seen_i.emitted;
+    finish = walk_i.busy && (kill ? undo || !walk_i.low : !walk_i.run && !walk_i.low);
+    ready = ramp_i.building && facts_i.built;
+    proceed = facts_i.go && seen_i.mask && walk_i.held && walk_i.run && !kill;
+    refuse = facts_i.go && seen_i.mask && !proceed;
+    unit = !walk_i.busy && rest_i.chop && facts_i.fire && !ready;
+    toggle = unit && walk_i.climb == '0;
   end
 
   // ---- the byte ------------------------------------------------------------------------------------
 
-  assign finished = !walk_i.run || plan_o.kill;
+  assign finished = !walk_i.run || kill;
   assign inits = asking_i.code[7:6] == 2'b00;
   assign completes = inits && !mail_i.command && !asking_i.error && asking_i.number == 3'd1;
-  assign open = !plan_o.finish && !ramp_i.building && !(facts_i.go && seen_i.mask) && !plan_o.toggle
+  assign open = !finish && !ramp_i.building && !(facts_i.go && seen_i.mask) && !toggle
       && (free_i || !completes);
   assign take_o = new_i && open;
   assign code_o = mail_i.command ? mail_i.data : asking_i.code;
@@ -84,10 +85,10 @@ module ppmc_bank_plan
   asking_t asking;
   always_comb begin
     asking_o = asking;
-    if (plan_o.refuse) begin
+    if (refuse) begin
       asking_o.error  = 1'b1;
       asking_o.number = ramp_i.initialised ? ErrUndefined : ErrNotReady;
-      if (walk_i.busy && !plan_o.finish) asking_o.number = ErrBusy;
+      if (walk_i.busy && !finish) asking_o.number = ErrBusy;
     end
   end
 
@@ -114,6 +115,14 @@ module ppmc_bank_plan
   // ---- the motion ----------------------------------------------------------------------------------
 
   always_comb begin
+    plan_o.kill    = kill;
+    plan_o.undo    = undo;
+    plan_o.finish  = finish;
+    plan_o.ready   = ready;
+    plan_o.proceed = proceed;
+    plan_o.refuse  = refuse;
+    plan_o.unit    = unit;
+    plan_o.toggle  = toggle;
     fast_plain = !pace_i.slow && !pace_i.extra;
     slow = walk_i.ccw ? seen_i.switches.slow_ccw : seen_i.switches.slow_cw;
     halt = act.halt || (act.decel && !ramp);
@@ -124,12 +133,12 @@ module ppmc_bank_plan
     plan_o.flag_slow = slow && counts;
     forced = walk_i.forced || plan_o.flag_stop || plan_o.flag_slow;
 
-    pulse = walk_i.run && !walk_i.held && !walk_i.low && !plan_o.kill && facts_i.fire && !facts_i.more;
+    pulse = walk_i.run && !walk_i.held && !walk_i.low && !kill && facts_i.fire && !facts_i.more;
     plan_o.pulse = pulse && !halt;
     // A low time that may still grow does not end before it is known how far.
     grows = facts_i.more && fast_plain && !walk_i.last && pace_i.rate < 8'd3;
-    plan_o.rise = walk_i.low && facts_i.fire && !grows && !plan_o.undo;
-    plan_o.probe = facts_i.more && !plan_o.rise && !plan_o.undo;
+    plan_o.rise = walk_i.low && facts_i.fire && !grows && !undo;
+    plan_o.probe = facts_i.more && !plan_o.rise && !undo;
     plan_o.back = ramp && (forced || facts_i.minus);
     plan_o.up = ramp && !forced && !pace_i.down && !facts_i.minus && !facts_i.zero && !facts_i.full;
     plan_o.turn = ramp && !pace_i.down && (forced || facts_i.minus || facts_i.zero);
@@ -143,8 +152,9 @@ module ppmc_bank_plan
     plan_o.switching = act.switching;
     plan_o.read = act.read;
     plan_o.select = mail_i.data[2:0];
-    plan_o.rest = !walk_i.busy && !rest_i.hold && !act.start;
-    plan_o.hold = plan_o.rest && over_i && !plan_o.toggle;
+    rests = !walk_i.busy && !rest_i.hold && !act.start;
+    plan_o.rest = rests && !over_i;
+    plan_o.hold = rests && over_i && !toggle;
   end
 
   // ---- clk to the next edge ------------------------------------------------------------------------
@@ -183,13 +193,13 @@ module ppmc_bank_plan
 
   // What the byte decides comes last: it is the slowest. After a halt nothing is timed any more.
   always_comb begin
-    anew_o = plan_o.start || plan_o.proceed || plan_o.finish || plan_o.ready;
+    anew_o = plan_o.start || proceed || finish || ready;
     add_o  = -clk_t'(Round);
-    if (plan_o.proceed) begin
+    if (proceed) begin
       add_o = due_i;
-    end else if (plan_o.finish || plan_o.ready || plan_o.toggle) begin
-      add_o = phase(plan_o.toggle ? !rest_i.on : 1'b1, rest_i.programmed, extra_i);
-    end else if (plan_o.unit) begin
+    end else if (finish || ready || toggle) begin
+      add_o = phase(toggle ? !rest_i.on : 1'b1, rest_i.programmed, extra_i);
+    end else if (unit) begin
       add_o = clk_t'(ppmc104_pkg::CHOP_UNIT * Quantum - Round);
     end else if (plan_o.rise) begin
       add_o = after_i;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_round: which axis is visited, and what acts on all of them for one round: reset, GO, STOP.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
-// Timing: axis 0 is in stage 0 in the first clk after reset. go_o and stop_o are high for a round from the clk after
-//         that of go_i and stop_i.
+// Timing: axis 0 is in stage 0 in the first clk after reset. go_o is high for a round, stop_o one clk longer,
+//         from the clk after that of go_i and stop_i.
 `default_nettype none
 
 module ppmc_bank_round #(
@@ -37,7 +37,8 @@ module ppmc_bank_round #(
   end
 
   // clk of the round that are left after this one.
-  logic [RoundBits-1:0] go_left_q, stop_left_q;
+  logic [RoundBits-1:0] go_left_q;
+  logic [RoundBits:0] stop_left_q;  // one clk more: what starts at the last visit is armed then
   logic again_q;  // another GO waits
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -57,7 +58,7 @@ module ppmc_bank_round #(
         due_o     <= TimeBits'(Width - 1);
       end
       stop_o      <= stop_i || (stop_o && stop_left_q != '0);
-      stop_left_q <= stop_i ? '1 : stop_left_q - 1'b1;
+      stop_left_q <= stop_i ? (RoundBits + 1)'(Round) : stop_left_q - 1'b1;
     end
   end
 

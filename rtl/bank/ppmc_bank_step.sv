@@ -177,7 +177,7 @@ module ppmc_bank_step
     if (calm_o) rest_o.fresh = 1'b0;
     if (plan_i.read) rest_o.seq = answer_o.seq;
 
-    left_o = left_i - HoldBits'(plan_i.rest && !rest_i.hold && left_i != '0);
+    left_o = left_i - HoldBits'(plan_i.rest);
     if (plan_i.finish) left_o = HoldBits'(HoldRounds - 1);
   end
 

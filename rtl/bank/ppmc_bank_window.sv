@@ -42,6 +42,7 @@ module ppmc_bank_window
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
+  localparam string Style = (Slots > 8) ? "block" : "logic";  // small FPGAs have few block RAMs
 
   // ---- bus -----------------------------------------------------------------------------------------
 
@@ -133,9 +134,9 @@ module ppmc_bank_window
 
   // ---- what it reads -------------------------------------------------------------------------------
 
-  (* ram_style = "block", no_rw_check *) status_t statuses[Slots];
-  (* ram_style = "block", no_rw_check *) logic [31:0] positions[Slots];
-  (* ram_style = "block", no_rw_check *) answer_t answers[Slots];
+  (* ram_style = Style, no_rw_check *) status_t statuses[Slots];
+  (* ram_style = Style, no_rw_check *) logic [31:0] positions[Slots];
+  (* ram_style = Style, no_rw_check *) answer_t answers[Slots];
 
   typedef struct packed {
     logic [1:0]  mail_seq;
@@ -202,6 +203,7 @@ module ppmc_bank_window
   logic [7:0] data, status, value;
   logic ibf, obf;
   logic [23:0] kept_q;  // bytes 1..3 of a position
+  logic ready_q;  // of the moment that a read shows
 
   always_comb begin
     done   = (view2_q.progress.seq == view2_q.answer.seq) ? view2_q.progress.done : 2'd0;
@@ -222,8 +224,13 @@ module ppmc_bank_window
       REG_GO, REG_STOP: value = '0;
       default: value = '1;
     endcase
-    if (!ready_i) value = {6'd0, a2[3:0] == REG_STATUS, 1'b0};
+    if (!ready_q) value = {6'd0, a2[3:0] == REG_STATUS, 1'b0};
     if (32'(a2[9:4]) >= Axes) value = '1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) ready_q <= 1'b0;
+    else ready_q <= ready_i;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -235,7 +242,7 @@ module ppmc_bank_window
       taken_q <= '0;
     end else if (load) begin
       d_o     <= value;
-      shown_q <= a2[3:0] == REG_DATA && obf && ready_i && 32'(a2[9:4]) < Axes;
+      shown_q <= a2[3:0] == REG_DATA && obf && ready_q && 32'(a2[9:4]) < Axes;
       seen_q  <= axis2;
       taken_q <= '{seq: view2_q.answer.seq, done: done + 2'd1};
       if (a2[3:0] == REG_POSITION) kept_q <= view2_q.position[31:8];

@@ -14,7 +14,7 @@ from typing import Any
 
 from vcd import VCDWriter
 
-from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness.part import PARTS, recorded
 from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 
@@ -61,7 +61,7 @@ def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
 def write_vcd(comparison: Any, view: View, path: Path) -> None:
     """Write all pins, the host's accesses, and pulse count and speed of each motor."""
     recording = comparison.recording
-    part = PARTS[recording.part]
+    part = recorded(recording.part, recording.params)
     clk_hz = int(recording.params["CLK_HZ"])
     period = round(1e12 / clk_hz)
     driven: dict[str, list[tuple[int, int]]] = {}

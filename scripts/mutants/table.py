@@ -22,7 +22,7 @@ from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import BUILD, ROOT
 
 HERE = Path(__file__).parent
-MAIN_BUILD = {"pmc006": "f8b"}
+MAIN_BUILD = {"pmc006": "f8b", "bank": "b8"}
 
 
 @dataclass(frozen=True)

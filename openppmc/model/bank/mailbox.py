@@ -70,7 +70,8 @@ class Mailbox:
                 del self._written[0]
                 self._take(t, byte, command)
             else:
-                later = again
+                # One that has replaced it need not wait as long.
+                later = min([again, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
         if self._written:
             self._plan(later)
 

@@ -56,8 +56,8 @@ def kinds(design: Design, *names: str, **env: str) -> dict[str, str]:
 
 
 def said(design: Design, *names: str, seed: int = 1, **env: str) -> str:
-    """The message of the last one, of a group of these tests. Two that fail at the same time need two seeds: what
-    a failure leaves has the seed in its name."""
+    """The message of the last one, of a group of these tests. Two that fail at the same time need two seeds:
+    what a failure leaves has the seed in its name."""
     items = tuple(ITEMS[name] for name in names)
     return attempt(items[-1], SimOptions(seed=seed, group=items), env, design)
 

@@ -1,0 +1,64 @@
+"""The bank on a bench: its builds, and pins as wide as AXES says. Pins and levels are those of the golden
+model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import SimpleNamespace
+
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.part import BusStyle, Part
+from openppmc.model.bank import pins
+
+WINDOW = BusStyle(
+    write_on={"cs_n": 0, "wr_n": 0},
+    write_off={"cs_n": 1, "wr_n": 1},
+    read_on={"cs_n": 0, "rd_n": 0},
+    read_off={"cs_n": 1, "rd_n": 1},
+    address="a",
+)
+
+
+def shape(params: Mapping[str, object]) -> SimpleNamespace:
+    """Pins of a build."""
+    axes, phase_idle = int(str(params["AXES"])), int(str(params["PHASE_IDLE"]))
+    return SimpleNamespace(
+        INPUTS=pins.inputs(axes), OUTPUTS=pins.outputs(axes, phase_idle), WIDTHS=pins.widths(axes)
+    )
+
+
+BANK = Part.of_shape(
+    "bank",
+    shape,
+    parameters=("CLK_HZ", "XTAL_HZ", "PHASE_IDLE", "AXES"),
+    styles=(WINDOW,),
+    clock="",
+    defaults={"AXES": 32, "PHASE_IDLE": 1},
+    idle={"PHASE_IDLE": "s"},
+)
+PARTS = (BANK,)
+
+
+def build(name: str, axes: int, mhz: int, phase_idle: int = 1) -> Config:
+    """A build of so many axes with a crystal of 16 MHz."""
+    return Config(name, clk_hz=mhz * 1_000_000, phase_idle=phase_idle, extra=(("AXES", axes),))
+
+
+B8 = build("b8", 8, 16)
+B32 = build("b32", 32, 32)
+"""The least clk for so many axes: half of the shortest interval is a round."""
+F100 = build("f100", 32, 100)
+B4 = build("b4", 4, 8, phase_idle=0)
+"""A round that is longer than the axes are many; a quantum of 2 clk."""
+B64 = build("b64", 64, 64)
+BUILDS = (B8, B32, F100, B4, B64)
+
+
+def axes_of(config: Config) -> int:
+    """AXES of a build."""
+    return int(dict(config.extra)["AXES"])
+
+
+def round_of(config: Config) -> int:
+    """R of a build in clk (BANK-GEN-01)."""
+    return max(axes_of(config), 8)

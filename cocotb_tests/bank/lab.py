@@ -1,0 +1,273 @@
+"""`Lab`: a bank on the bench with its host and its axes.
+
+@directed("BANK-MOT-01", builds=(B8, F100))
+async def bank_mot_01_exact(dut):
+    "Given ..., when ..., then ..."
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3)
+    await axis.move(0x43, 14)
+    axis.check_train("BANK-MOT-01", rates(INIT_A[1:], indices(14, 4)))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from cocotb_tests.harness.bus import IBF, HostBus
+from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.drive import Drive
+from cocotb_tests.harness.side import Side
+from cocotb_tests.harness.start import start_bench
+
+from .bench import BANK, axes_of, round_of
+
+Init = tuple[int, int, int, int]
+INIT_A: Init = (0x0A, 9, 4, 4)
+"""4-phase, positive logic, 2-phase excitation: quick to build."""
+
+DATA, STATUS, CONFIG, POSITION, MASK, MAP, GO, STOP, INFO = 0, 1, 2, 4, 8, 9, 10, 11, 12
+WORDS = {
+    DATA: ("read", "data"),
+    STATUS: ("status", "command"),
+    CONFIG: ("CONFIG", "CONFIG :="),
+    **{POSITION + n: (f"position {n}", f"position {n} :=") for n in range(4)},
+    MASK: ("MASK", "MASK :="),
+    MAP: ("map", "map :="),
+    GO: ("GO", "GO"),
+    STOP: ("STOP", "STOP"),
+    INFO: ("INFO", "INFO :="),
+}
+NAMES = {
+    (kind, axis << 4 | register): f"axis {axis} {words[place]}" + (" read" if kind == "read" else "")
+    for place, kind in enumerate(("read", "write"))
+    for register, words in WORDS.items()
+    for axis in range(64)
+}
+"""What reports call an access."""
+WRITE_EVENT = 2
+"""Edge 0 of a write to its event (BANK-WIN-06)."""
+SNAPSHOT = 2
+"""Edge 0 of a read to the edge whose state it shows (BANK-WIN-05)."""
+SYNC = 2
+"""First edge that samples a pin to the edge that acts on it (BANK-MOT-02)."""
+
+
+class WindowBus(HostBus):
+    """The host at the window; with `axis` its registers 0 and 1 are those of that axis. Lengths as
+    BANK-WIN-04 wants them at least."""
+
+    names = NAMES
+
+    def __init__(self, bench: Side, axis: int = 0, pause: Callable[[], int] | None = None) -> None:
+        super().__init__(bench, 2, 6, 3, pause=pause, lead=1, base=axis << 4)
+
+
+class Axis(Drive):
+    """Axis n: codes, pins and status are its own. visits: their first one, and R."""
+
+    def __init__(self, bench: Side, n: int) -> None:
+        super().__init__(bench, WindowBus(bench, n), f"pout_n[{n}]")
+        self.n = n
+        self.round = round_of(bench.config)
+        self.released = 0
+
+    # ---------------------------------------------------------------- pins
+
+    def pin(self, name: str) -> str:
+        """Name of this axis's bit of a port."""
+        return f"{name}[{self.n}]"
+
+    def set(self, **levels: int) -> int:
+        """Drive input pins of this axis; returns the stamp."""
+        return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
+
+    def at(self, edge: int, **levels: int) -> Any:
+        """Schedule input pins of this axis for an edge."""
+        return self.bench.at(edge, **{self.pin(name): level for name, level in levels.items()})
+
+    def level(self, name: str) -> int:
+        """Present level of pout_n, dir or hold."""
+        return self.bench.level(self.pin(name))
+
+    def edges(self, name: str, since: int | None = None) -> list[tuple[int, int]]:
+        """Edges of pout_n, dir or hold since the last `go`, or since an edge."""
+        return self.bench.edges(self.pin(name), self.since if since is None else since)
+
+    def patterns(self, since: int | None = None) -> list[tuple[int, int]]:
+        """Changes (edge, S5..S1) of its phases."""
+        place, start = 5 * self.n, self.since if since is None else since
+        level, found = self.bench.initial["s"] >> place & 31, []
+        for t, value in self.bench.edges("s"):
+            if value >> place & 31 != level:
+                level = value >> place & 31
+                found.append((t, level))
+        return [(t, value) for t, value in found if t >= start]
+
+    def stretches(self, since: int) -> list[tuple[int, int]]:
+        """As there."""
+        edges = self.patterns(since)
+        return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
+
+    @property
+    def phases_now(self) -> int:
+        """Present levels S5..S1."""
+        return self.bench.level("s") >> 5 * self.n & 31
+
+    # ---------------------------------------------------------------- visits
+
+    def visit(self, edge: int) -> int:
+        """First visit at or after an edge (BANK-GEN-01)."""
+        start = self.released + self.n + 8 + self.round
+        return start + max(0, -(-(edge - start) // self.round)) * self.round
+
+    def taken(self, edge0: int) -> int:
+        """Visit that takes a byte with that edge 0 of its write, if it takes bytes (BANK-HSK-01)."""
+        return self.visit(edge0 + WRITE_EVENT + 7)
+
+    # ---------------------------------------------------------------- instructions and registers
+
+    async def init(self, code: int, rl: int, rh: int, pa: int, opened: bool = True) -> None:
+        """Initialise; with `opened` wait for the end of the table build."""
+        await self.host.init(code, rl, rh, pa)
+        if opened:
+            await self.opened()
+
+    async def opened(self) -> None:
+        """Wait until bytes are taken: a read command, whose answer nobody reads, has been."""
+        await self.host.command(0x81)
+        await self.host.read(DATA)
+
+    async def position(self) -> int:
+        """Position register (BANK-WIN-07)."""
+        data = [await self.host.read(POSITION + n) for n in range(4)]
+        return int.from_bytes(bytes(data), "little", signed=True)
+
+    async def set_config(self, csel: int, vsel: int) -> int:
+        """CONFIG; returns edge 0 of the write."""
+        return await self.host.write(CONFIG, csel | vsel << 1)
+
+    async def halt(self) -> None:
+        """Immediate stop, then wait for the end and take its interrupt away."""
+        await self.command(0x40)
+        await self.idle()
+        await self.finish()
+
+    async def status(self) -> int:
+        """Status register."""
+        return await self.host.status()
+
+    async def refused(self, rule: str, what: str, error: int, code: int, *data: int) -> None:
+        """Send an instruction that must raise ERR with this number (-1: none)."""
+        status = await self.host.send(code, data)
+        got = status >> 4 & 7 if status & 0x80 else -1
+        self.check(rule, f"error of {what}", got, error)
+
+    async def outcome(
+        self,
+        rule: str,
+        pulses: int,
+        finish: int,
+        remaining: int | None = None,
+        rates: Sequence[int] | None = None,
+    ) -> None:
+        """`result`, and the train of pulses."""
+        await self.result(rule, pulses, finish, remaining)
+        if rates is not None:
+            self.check_train(rule, rates)
+
+
+class Lab:
+    """Bench, window and axes. Make one with `await Lab.start(dut)`."""
+
+    def __init__(self, bench: Side) -> None:
+        self.bench = bench
+        self.cfg: Config = bench.config
+        self.axes = [Axis(bench, n) for n in range(axes_of(bench.config))]
+        self.host = WindowBus(bench)
+        self.round = round_of(bench.config)
+        self.size = len(self.axes)
+        self.check = bench.check
+
+    @classmethod
+    async def start(cls, dut: Any, **pins: int) -> Lab:
+        """Reset, input levels `pins`, until the bank is ready (BANK-GEN-05)."""
+        bench = await start_bench(dut, BANK, settle=0, **pins)
+        await bench.until(round_of(bench.config) + 8)
+        return cls(bench)
+
+    async def ready(self, n: int, init: Init = INIT_A) -> Axis:
+        """Axis n with an initialisation in force."""
+        axis = self.axes[n]
+        await axis.init(*init)
+        return axis
+
+    async def all_ready(self, *numbers: int, init: Init = INIT_A) -> list[Axis]:
+        """Some axes, or all, initialised one after the other; the builds run beside the next one's bytes."""
+        chosen = [self.axes[n] for n in numbers or range(self.size)]
+        for axis in chosen:
+            await axis.init(*init, opened=False)
+        for axis in chosen:
+            await axis.opened()
+        return chosen
+
+    async def reset(self, clocks: int = 4) -> int:
+        """Reset, until the bank is ready; returns the stamp of the release."""
+        released = await self.bench.reset(clocks, settle=self.round + 8)
+        for axis in self.axes:
+            axis.released = released
+        return released
+
+    # ---------------------------------------------------------------- registers of the bank
+
+    async def mask(self, *numbers: int) -> None:
+        """MASK with the bits of these axes."""
+        bits = sum(1 << n for n in numbers)
+        for k in range(max(1, self.size // 8)):
+            await self.host.write(k << 4 | MASK, bits >> 8 * k & 0xFF)
+
+    async def map(self) -> int:
+        """Interrupt map of all axes."""
+        bytes_ = [await self.host.read(k << 4 | MAP) for k in range(max(1, self.size // 8))]
+        return int.from_bytes(bytes(bytes_), "little")
+
+    async def go(self) -> int:
+        """Write GO; returns its write event g."""
+        return await self.host.write(GO, 0) + WRITE_EVENT
+
+    async def stop(self) -> int:
+        """Write STOP; returns its write event g."""
+        return await self.host.write(STOP, 0) + WRITE_EVENT
+
+    # ---------------------------------------------------------------- to the clk
+
+    def at_event(self, edge: int, address: int, byte: int) -> Any:
+        """A write with its event on that edge, beside what the test does (its host is quiet then)."""
+        edge0 = edge - WRITE_EVENT
+        return self.bench.drive(
+            [
+                (edge0 - 3, {"a": address}),
+                (edge0 - 2, {"cs_n": 0, "wr_n": 0, "d_i": byte}),
+                (edge0, {"cs_n": 1, "wr_n": 1}),
+            ]
+        )
+
+    async def write_at(self, edge: int, address: int, byte: int) -> None:
+        """A write with its event on that edge; returns when the next access may begin."""
+        await self.bench.until(edge - WRITE_EVENT - 3)
+        await self.host.write(address, byte)
+
+    async def as_of(self, edge: int, address: int) -> int:
+        """Read a register as it stood after that edge (BANK-WIN-05)."""
+        await self.bench.until(edge - SNAPSHOT - 1)
+        return await self.host.read(address)
+
+    async def quiet(self, axes: Iterable[Axis]) -> None:
+        """Stop what runs, wait for the ends and take the interrupts away."""
+        for axis in axes:
+            if await axis.status() & 4:
+                await axis.command(0x40)
+        for axis in axes:
+            await axis.idle()
+            await axis.finish()
+            await axis.host.poll(IBF, 0)

@@ -1,0 +1,308 @@
+"""Bytes: input buffer, output queue, codes, the shared builder (BANK-HSK, BANK-INI, BANK-GEN-03)."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.bus import BUSY, IBF, OBF
+from cocotb_tests.harness.directed import directed
+
+from .bench import B4, B8, B32, B64, F100
+from .lab import DATA, INIT_A, STATUS, Lab
+
+UNDEFINED, WHILE_BUSY, NOT_READY, NOT_WANTED = 0, 1, 2, 3
+LONG = (0x0A, 255, 1, 4)
+"""Its table takes longest to build."""
+ERROR = 0x80
+PARAMETERS = {3: 3, 4: 4, 5: 1, 7: 1}
+
+
+def idle_answer(code: int, initialised: bool) -> int:
+    """Status after a command byte at rest, from the code map of P104-CMD-01 and BANK-GEN-03 alone."""
+    if code < 0x40:
+        return 0x40 if code & 3 and not code & 0x10 else 0x80
+    if 0x80 <= code < 0xC0:
+        if code == 0x84:
+            return 0x20
+        return OBF if code in (0x80, 0x81, 0x82, 0x83) else 0x80
+    low = code & 7
+    if code >= 0xC0 and low not in (3, 6):
+        return 0x00 if low == 0 else 0x80
+    if low < 2:
+        return 0x80
+    if not initialised:
+        return 0x80 | NOT_READY << 4
+    return PARAMETERS[low] << 4 if low in PARAMETERS else BUSY
+
+
+@directed("BANK-HSK-01", "BANK-GEN-01", builds=(B4, B8, B32, B64, F100))
+async def bank_hsk_01_seven_clk(dut):
+    """Given a byte at w, then the first visit at w + 7 or later takes it: w = V - 8, V - 7, V - 6."""
+    lab = await Lab.start(dut)
+    for axis in (lab.axes[0], lab.axes[lab.size // 2], lab.axes[-1]):
+        await axis.init(*INIT_A)
+        for early in (8, 7, 6, 1, 0):
+            ccw = 1 - axis.level("dir")
+            visit = axis.visit(lab.bench.now + 50)
+            await lab.write_at(visit - early, axis.n << 4 | STATUS, 0x42 | ccw << 3)
+            await axis.host.poll(IBF | BUSY, 0)
+            want = visit + (lab.round if early < 7 else 0)
+            got = axis.edges("dir", visit - 9)
+            lab.check("BANK-HSK-01", f"start of {axis.n}, w = V - {early}", got, [(want, ccw)])
+            lab.check("BANK-MOT-01", "pulse 1", axis.edges("pout_n", visit)[0][0], want + lab.cfg.w)
+
+
+@directed("BANK-HSK-03", builds=(B8, B32))
+async def bank_hsk_03_replaced(dut):
+    """Given two bytes before a visit, then it takes the newer one if that came at V - 7, else the older
+    one."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3)
+    address = axis.n << 4 | STATUS
+    for early in (8, 7, 6, 5):
+        visit = axis.visit(lab.bench.now + 60)
+        lab.at_event(visit - 14, address, 0x81)
+        lab.at_event(visit - early, address, 0x87)
+        # No sooner is there room for a read behind a write: as of V + 1.
+        got = await lab.as_of(visit + 4, address) & ~(ERROR if early > 6 else 0)
+        older = OBF | IBF if lab.round > 8 else got
+        lab.check("BANK-HSK-03", f"status, w = V - {early}", got, 0 if early > 6 else older)
+        await lab.bench.clocks(2 * lab.round)
+        status = await axis.status()
+        lab.check("BANK-HSK-03", "status afterwards", status, ERROR if early > 6 else ERROR | OBF)
+        await axis.host.read(DATA)
+
+
+@directed("BANK-HSK-03", builds=(B8, B32, F100))
+async def bank_hsk_03_last_one_counts(dut):
+    """Given bytes to all axes faster than they are taken, then none is lost but those that were replaced."""
+    lab = await Lab.start(dut)
+    for axis in lab.axes:
+        for code in (0x83, 0x81, 0x80):
+            await axis.host.write(STATUS, code)
+    for axis in lab.axes:
+        await axis.host.poll(IBF, 0)
+    for axis in lab.axes:
+        lab.check("BANK-HSK-03", f"status of {axis.n}", await axis.status(), OBF)
+        lab.check("BANK-HSK-03", f"finish status of {axis.n}", await axis.host.read(DATA), 0)
+
+
+@directed("BANK-HSK-05", "BANK-HSK-01", builds=(B8, B32, B64))
+async def bank_hsk_05_axes_do_not_wait(dut):
+    """Given bytes to all axes one behind the other, then each initialises and moves, whatever the others
+    do."""
+    lab = await Lab.start(dut)
+    for register, byte in ((STATUS, 0x0A), (DATA, 9), (DATA, 4), (DATA, 4), (DATA, 0)):
+        for axis in lab.axes:
+            await axis.host.poll(IBF, 0)
+            await axis.host.write(register, byte)
+    for axis in lab.axes:
+        await axis.host.poll(IBF, 0)
+    for register, byte in ((STATUS, 0x43), (DATA, 13), (DATA, 0), (DATA, 0)):
+        for axis in lab.axes:
+            await axis.host.poll(IBF, 0)
+            axis.since = lab.bench.now
+            await axis.host.write(register, byte)
+    for axis in lab.axes:
+        await axis.idle()
+        lab.check("BANK-HSK-05", f"pulses of {axis.n}", len(axis.pulses), 14)
+
+
+@directed("BANK-HSK-04", builds=(B8, B32))
+async def bank_hsk_04_queue(dut):
+    """Given three answer bytes, then each data read brings the next one, on edge 2 after the strobe."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(2)
+    await axis.go(0x44, 0x123456, 255)
+    await axis.command(0x40)
+    await axis.idle()
+    for _ in range(2):
+        await axis.command(0x83)
+        for byte in (0x55, 0x34, 0x12):
+            lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, OBF)
+            lab.check("BANK-HSK-04", "byte", await axis.host.read(DATA), byte)
+        lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
+        lab.check("BANK-HSK-04", "byte stays", await axis.host.read(DATA), 0x12)
+    await axis.command(0x83)
+    await axis.host.read(DATA)
+    await axis.command(0x80)  # what was there is dropped
+    lab.check("BANK-HSK-04", "new answer", await axis.host.read(DATA), 0xC4)
+    lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
+
+
+@directed("BANK-HSK-04", builds=(B8, B32))
+async def bank_hsk_04_answer_meets_a_read(dut):
+    """Given a read strobe that ends around the visit of a new answer, then that one is not taken away."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(5)
+    for late in range(-4, 5):
+        await axis.command(0x82)
+        visit = axis.visit(lab.bench.now + 60)
+        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x83)
+        # The write has ended on V - 6; the read ends `late` clk from V.
+        start = lab.bench.now
+        length = visit + late - start - 1
+        if length < 6:
+            length, _ = 6, await lab.bench.until(visit + late - 7) if visit + late - 7 > start else start
+        await axis.host.read(DATA, strobe=length)
+        await lab.bench.clocks(2 * lab.round)
+        left = await axis.status() & OBF
+        got = []
+        while left and len(got) < 5:
+            got.append(await axis.host.read(DATA))
+            left = await axis.status() & OBF
+        lab.check("BANK-HSK-04", f"bytes of the new answer, {late:+}", len(got) in (2, 3), True)
+
+
+@directed("BANK-HSK-02", builds=(B8, B32))
+async def bank_hsk_02_end_takes_the_visit(dut):
+    """Given a byte for the visit that ends a motion, or that completes an initialisation, then the next
+    takes it."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(4)
+    address = axis.n << 4 | STATUS
+    edge0 = await axis.go(0x42, poll=False)
+    start = axis.taken(edge0)
+    end = axis.visit(start + 2 * lab.cfg.w + 1)
+    await lab.write_at(end - 7, address, 0x80)
+    lab.check("BANK-HSK-02", "status after the end", await lab.as_of(end + 1, address), IBF)
+    await lab.bench.clocks(lab.round)
+    lab.check("BANK-HSK-02", "status later", await axis.status(), OBF)
+    lab.check("BANK-HSK-02", "finish status", await axis.host.read(DATA), 0x82)
+
+
+@directed("BANK-GEN-03", "BANK-HSK-04", builds=(B8, B32))
+async def bank_gen_03_all_codes_at_rest(dut):
+    """Given all 256 codes before and after an initialisation, then status is as the code map says."""
+    lab = await Lab.start(dut)
+    for initialised, axis in ((False, lab.axes[1]), (True, lab.axes[6])):
+        if initialised:
+            await axis.init(*INIT_A)
+        for code in range(256):
+            status = await axis.command(code)
+            lab.check("BANK-GEN-03", f"status after {code:02X}", status, idle_answer(code, initialised))
+            if status & BUSY:
+                await axis.halt()
+                status = 0
+            while status & OBF:
+                await axis.host.read(DATA)
+                status = await axis.status()
+            if initialised and code & 0xC7 == 0xC0:
+                await axis.init(*INIT_A)
+        await axis.command(0x87)
+
+
+@directed("BANK-GEN-03", builds=(B8, B32))
+async def bank_gen_03_all_codes_while_busy(dut):
+    """Given all 256 codes in a motion, then stops work, 0xC0 is error 1, and what is left out is error 0."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(7)
+    await axis.go(0x45, rate=9)
+    for code in range(256):
+        if code & 0xC6 == 0x40:
+            continue  # a stop
+        status = await axis.command(code)
+        undefined = idle_answer(code, True) == 0x80
+        want = BUSY | 0x80 | (UNDEFINED if undefined else WHILE_BUSY << 4)
+        lab.check("BANK-GEN-03", f"status after {code:02X}", status, want)
+    for code in (0x40, 0x41, 0x58, 0x61, 0x79):
+        if not await axis.status() & BUSY:
+            await axis.go(0x45, rate=9)
+        await axis.command(code)
+        await axis.idle()
+        lab.check("BANK-GEN-03", f"finish status of {code:02X}", await axis.finish(), 0xC5)
+
+
+@directed("BANK-GEN-03", builds=(B8,))
+async def bank_gen_03_data_bytes(dut):
+    """Given data that nobody wants, and wrong settings, then errors are those of the PPMC-104."""
+    lab = await Lab.start(dut)
+    axis = lab.axes[2]
+    lab.check("BANK-GEN-03", "data", await axis.host.data(0x55), 0x80 | NOT_WANTED << 4)
+    for rl, rh, pa, error in (
+        (9, 10, 4, 5),
+        (9, 4, 3, 5),
+        (9, 9, 4, -1),
+        (9, 4, 11_221, 4),
+        (9, 4, 11_220, -1),
+    ):
+        await axis.refused("BANK-GEN-03", f"{rl} {rh} {pa}", error, 0x0A, rl, rh, pa & 255, pa >> 8)
+    await axis.opened()
+    await axis.go(0x46)
+    await axis.command(0x41)
+    await axis.refused("BANK-GEN-03", "a second 0x41", 7, 0x41)
+
+
+@directed("BANK-INI-01", "BANK-INI-02", "BANK-HSK-05", "BANK-HSK-02", builds=(B8, B32, F100))
+async def bank_ini_02_shared_builder(dut):
+    """Given a long build, then last bytes of other axes wait, all other bytes do not; then each is built."""
+    lab = await Lab.start(dut)
+    one, two, three = (lab.axes[n] for n in (1, 2, 5))
+    await one.init(*LONG, opened=False)
+    begun = lab.bench.now
+    await two.host.send(0x09, (9, 4, 4))
+    await two.host.write(DATA, 0)
+    await three.host.send(0x0B, (9, 4, 4))
+    await three.host.write(DATA, 0)
+    for _ in range(5):
+        lab.check("BANK-HSK-05", "status", [await x.status() for x in (two, three)], [0x12, 0x12])
+    await three.host.write(STATUS, 0x87)  # a command instead
+    await lab.bench.clocks(2 * lab.round)
+    lab.check("BANK-HSK-05", "status of a command", await three.status(), 0x80)
+    lab.check("BANK-HSK-05", "status of the last byte", await two.status(), 0x12)
+    lab.check("BANK-HSK-05", "a read elsewhere", await lab.axes[0].host.fetch(0x80), [0])
+    lab.check("BANK-INI-01", "pattern of the one that waits", two.phases_now, 0b11111)
+    await two.host.poll(IBF, 0)
+    lab.check("BANK-INI-01", "pattern of the next one", two.phases_now, 0b00011)
+    lab.check("BANK-INI-01", "time of a build", lab.bench.now - begun < 40_000 + 300, True)
+    for axis in (one, two):
+        await axis.opened()
+        lab.check("BANK-INI-02", f"pulses of {axis.n}", len(await axis.move(0x43, 9)), 9)
+
+
+@directed("BANK-HSK-05", "BANK-HSK-03", builds=(B8, B32))
+async def bank_hsk_05_command_at_the_end_of_a_build(dut):
+    """Given a last byte that waits, when a command replaces it around the end of the build, then one is
+    taken."""
+    lab = await Lab.start(dut)
+    two, three = lab.axes[6], lab.axes[3]
+    await lab.ready(1)
+    start = lab.bench.now
+    await lab.axes[1].init(0x0A, 20, 1, 4, opened=False)
+    await two.host.send(0x09, (9, 4, 4))
+    await two.host.write(DATA, 0)
+    await two.host.poll(IBF, 0)
+    length = lab.bench.now - start
+    for early in range(60, -12, -3):
+        await two.opened()
+        start = lab.bench.now
+        await lab.axes[1].init(0x0A, 20, 1, 4, opened=False)
+        await two.host.send(0x09, (9, 4, 4))
+        await two.host.write(DATA, 0)
+        await lab.bench.until(max(lab.bench.now, start + length - early - 20))
+        await two.host.write(STATUS, 0x80)
+        # The builder is booked again, by a third one.
+        await three.init(0x0A, 20, 1, 4, opened=False)
+        await two.host.poll(IBF, 0)
+        await three.opened()
+        await lab.axes[1].opened()
+        await two.host.read(DATA)
+
+
+@directed("BANK-GEN-05", "BANK-INI-01", builds=(B8, B32))
+async def bank_gen_05_reset_in_a_build(dut):
+    """Given a build and a last byte that waits for it, when reset comes, then the builder is free."""
+    lab = await Lab.start(dut)
+    for n in range(lab.size):
+        waiting = lab.axes[n]
+        await lab.axes[(n + 1) % lab.size].init(*LONG, opened=False)
+        await waiting.host.send(0x0A, (255, 1, 4))
+        await waiting.host.write(DATA, 0)
+        await lab.bench.clocks(30)
+        await lab.reset()
+        axis = lab.axes[(n + 2) % lab.size]
+        await axis.host.send(0x09, (9, 4, 4))
+        edge0 = await axis.host.write(DATA, 0)
+        await lab.bench.clocks(2 * lab.round + 8)
+        changes = axis.patterns(edge0)
+        lab.check("BANK-GEN-05", f"pattern of {axis.n}", changes[:1], [(axis.taken(edge0), 0b00011)])
+        await axis.opened()
+        await lab.reset()

@@ -1,0 +1,249 @@
+"""Groups: MASK, GO, STOP (BANK-GRP)."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.directed import directed
+
+from .bench import B4, B8, B32, B64, F100
+from .lab import GO, INIT_A, MASK, STATUS, STOP, SYNC, Axis, Lab
+
+
+def due(lab: Lab, g: int) -> int:
+    """Edge of pulse 1 after a GO with its event on g (BANK-GRP-02)."""
+    return g + 4 + lab.round + lab.cfg.w
+
+
+@directed("BANK-GRP-01", "BANK-GRP-02", builds=(B4, B8, B32, B64, F100))
+async def bank_grp_02_all_on_one_edge(dut):
+    """Given operations of all axes that are held, when GO is written, then all pulses 1 come on one edge."""
+    lab = await Lab.start(dut)
+    axes = await lab.all_ready()
+    await lab.mask(*range(lab.size))
+    for turn in range(4):
+        for axis in axes:
+            await axis.go(0x45 | (axis.n + turn) % 2 << 3, rate=axis.n % 3)
+        for axis in axes:
+            lab.check("BANK-GRP-01", "BUSY, hold", (await axis.status(), axis.level("hold")), (BUSY, 0))
+            lab.check("BANK-GRP-01", "dir", axis.level("dir"), (axis.n + turn) % 2)
+        await lab.bench.clocks(lab.cfg.w + turn)
+        lab.check("BANK-GRP-01", "no pulse before GO", [axis.pulses for axis in axes], [[]] * lab.size)
+        g = await lab.go()
+        await axes[0].pulse(3)
+        lab.check("BANK-GRP-02", "edges of pulse 1", {axis.pulses[0] for axis in axes}, {due(lab, g)})
+        for axis in axes:
+            axis.check_train("BANK-MOT-01", [axis.n % 3] * (len(axis.pulses) - 1))
+        await lab.stop()
+        for axis in axes:
+            await axis.idle()
+            lab.check("BANK-GRP-04", "finish status", await axis.finish(), 0xC5)
+
+
+@directed("BANK-GRP-01", builds=(B8, B32, F100))
+async def bank_grp_01_mask_of_a_start(dut):
+    """Given MASK written at w, then an operation that starts at V is held if w = V - 5 or before."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3)
+    for byte in (8, 0):
+        for early in (6, 5, 4):
+            await lab.mask(*([] if byte else [3]))
+            visit = axis.visit(lab.bench.now + 100)
+            # No room for both writes in one round of 8: the operation's byte comes as soon as it can.
+            lab.at_event(visit - early - 7, axis.n << 4 | STATUS, 0x42)
+            lab.at_event(visit - early, MASK, byte)
+            start = axis.visit(visit - early)
+            axis.since = visit - 20
+            await lab.bench.until(visit + 3 * lab.round + lab.cfg.w)
+            held = (visit - early <= start - 5) == bool(byte)
+            lab.check("BANK-GRP-01", f"pulses, w = V - {early}", len(axis.pulses), 0 if held else 1)
+            if held:
+                await lab.mask(3)
+                g = await lab.go()
+                await axis.pulse(1)
+                lab.check("BANK-GRP-02", "pulse 1", axis.pulses, [due(lab, g)])
+            await axis.idle()
+            await axis.finish()
+
+
+@directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
+async def bank_grp_02_refused(dut):
+    """Given members busy, at rest, without an initialisation, waiting for parameters, then GO tells each
+    why."""
+    lab = await Lab.start(dut)
+    busy, held, rest, fresh = lab.axes[:4]
+    waiting, out = lab.axes[4:6] if lab.size > 4 else (None, None)
+    for axis in (busy, held, rest, waiting, out):
+        if axis:
+            await axis.init(*INIT_A)
+    await busy.go(0x45, rate=9)
+    await lab.mask(*(axis.n for axis in (busy, held, rest, fresh, waiting) if axis))
+    await held.go(0x42)
+    if waiting:
+        await waiting.host.send(0x43, (1, 2))
+        await out.go(0x42)
+        await out.idle()
+    g = await lab.go()
+    await lab.bench.clocks(2 * lab.round + 10)
+    for axis, want in ((busy, 0x94), (rest, 0x80), (fresh, 0xA0), (waiting, 0x80), (out, 0x00), (held, BUSY)):
+        if axis:
+            lab.check("BANK-GRP-02", f"status of {axis.n}", await axis.status(), want)
+    if waiting:
+        lab.check("BANK-GRP-02", "a parameter that nobody wants", await waiting.host.data(0), 0xB0)
+    await held.idle()
+    lab.check("BANK-GRP-02", "pulse 1", held.pulses, [due(lab, g)])
+    lab.check("BANK-GRP-02", "the busy one goes on", await busy.status() & BUSY, BUSY)
+
+
+@directed("BANK-GRP-02", builds=(B8, B32, F100))
+async def bank_grp_02_which_visit(dut):
+    """Given GO at g and an operation that starts at V, then it is found if V is before the visit at g + 5
+    or later."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(2)
+    await lab.mask(2)
+    for early in range(14, -3, -1):
+        visit = axis.visit(lab.bench.now + 100)
+        # The operation starts at `visit`; GO is written `early` clk before.
+        events = sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (visit - early, GO, 0)])
+        if abs(7 - early) < 6:
+            continue  # no room on the bus
+        axis.since = visit - 30
+        for event, address, byte in events:
+            await lab.write_at(event, address, byte)
+        await lab.bench.clocks(4 * lab.round + 2 * lab.cfg.w)
+        found = axis.visit(visit - early + 5)
+        late = found <= visit
+        if late:
+            # It met the axis at rest: error 0, unless the byte came behind it and cleared that.
+            lab.check("BANK-GRP-02", "status", await axis.status() & BUSY, BUSY)
+            await lab.go()
+        await axis.idle()
+        lab.check("BANK-GRP-02", "pulses", len(axis.pulses), 1)
+        await axis.finish()
+
+
+@directed("BANK-GRP-03", builds=(B8, B32, B64))
+async def bank_grp_03_second_go_waits(dut):
+    """Given GO again while one acts, then it acts R clk later; a third one makes no more."""
+    lab = await Lab.start(dut)
+    axes = await lab.all_ready(0, lab.size - 1)
+    await lab.mask(*(axis.n for axis in axes))
+    for gap in (5, lab.round - 1, lab.round, lab.round + 1):
+        if gap < 6:
+            continue
+        for count in (2, 3):
+            for axis in axes:
+                await axis.go(0x45, rate=20)
+            first = lab.bench.now + 20
+            await lab.write_at(first, GO, 0)
+            await lab.write_at(first + gap, GO, 0)
+            if count == 3:
+                await lab.go()
+            await lab.bench.clocks(4 * lab.round + lab.cfg.w)
+            for axis in axes:
+                lab.check("BANK-GRP-02", "pulse 1", axis.pulses[0], due(lab, first))
+                lab.check("BANK-GRP-03", "the second one is refused", await axis.status(), 0x94)
+                await axis.command(0x40)
+                await axis.idle()
+                await axis.finish()
+
+
+@directed("BANK-GRP-03", "BANK-GRP-02", builds=(B8, B32, B64))
+async def bank_grp_03_mask_meanwhile(dut):
+    """Given MASK that changes while GO acts, then each visit takes it as it was 5 clk before."""
+    lab = await Lab.start(dut)
+    axes = await lab.all_ready()
+    for late in range(6, lab.round + 8, max(1, lab.round // 8)):
+        await lab.mask(*range(lab.size))
+        for axis in axes:
+            await axis.go(0x42)
+        g = lab.bench.now + 20
+        await lab.write_at(g, GO, 0)
+        await lab.write_at(g + late, MASK, 0)
+        await lab.bench.clocks(4 * lab.round + 2 * lab.cfg.w)
+        for axis in axes:
+            found = axis.visit(g + 5)
+            goes = axis.n >= 8 or found < g + late + 5
+            lab.check("BANK-GRP-03", f"pulses of {axis.n}, {late}", axis.pulses, [due(lab, g)] * goes)
+            if not goes:
+                await axis.command(0x40)
+            await axis.idle()
+            await axis.finish()
+
+
+@directed("BANK-GRP-01", "BANK-GRP-04", "BANK-MOT-02", builds=(B8, B32))
+async def bank_grp_01_held_is_watched(dut):
+    """Given operations that are held, then limit, alarm, stops and STOP end them without a pulse."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(1)
+    await lab.mask(1)
+
+    async def ends(what: str, code: int, finish: int) -> None:
+        await axis.idle()
+        lab.check("BANK-GRP-01", f"pulses, {what}", axis.pulses, [])
+        lab.check("BANK-GRP-01", f"finish status, {what}", await axis.finish(), finish | code & 7)
+        await lab.go()
+        await lab.bench.clocks(3 * lab.round + 2 * lab.cfg.w)
+        lab.check("BANK-GRP-02", f"GO after {what}", await axis.status(), 0x80)
+        lab.check("BANK-GRP-02", f"pulses, {what}", axis.pulses, [])
+
+    for pin, finish in (("l1_n", 0x90), ("alm_n", 0xA0)):
+        await axis.go(0x46)
+        axis.at(lab.bench.now + 3, **{pin: 0})
+        axis.at(lab.bench.now + 4, **{pin: 1})
+        await ends(pin, 0x46, finish)
+    await axis.go(0x47, rate=1)
+    axis.at(lab.bench.now + 3, cnp_n=0)
+    axis.at(lab.bench.now + 4, cnp_n=1)
+    await ends("origin", 0x47, 0x80)
+    for code in (0x42, 0x46):
+        await axis.go(code)
+        await axis.command(0x40)
+        await ends("0x40", code, 0xC0)
+        await axis.go(code)
+        await lab.stop()
+        await ends("STOP", code, 0xC0)
+    await axis.go(0x42)
+    await axis.command(0x41)
+    await ends("0x41", 0x42, 0xC0)
+
+
+@directed("BANK-GRP-04", builds=(B8, B32, F100))
+async def bank_grp_04_starts_around_stop(dut):
+    """Given STOP at g, then operations that start at visits g + 1 to g + R are ended, others are not."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(4)
+    for late in (-9, -8, -7, -1, 0, 1, 2, lab.round - 1, lab.round, lab.round + 1, lab.round + 2):
+        visit = axis.visit(lab.bench.now + 100)
+        g = visit - late
+        if abs(g - (visit - 7)) < 6:
+            continue  # no room on the bus
+        axis.since = visit - 30
+        for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
+            await lab.write_at(event, address, byte)
+        await lab.bench.clocks(2 * lab.round + 2 * lab.cfg.w)
+        stopped = late <= lab.round
+        lab.check("BANK-GRP-04", f"pulses, V = g {late:+}", len(axis.pulses), 0 if stopped else 1)
+        lab.check("BANK-GRP-04", f"finish, V = g {late:+}", await axis.finish(), 0xC2 if stopped else 0x82)
+
+
+@directed("BANK-GRP-04", "BANK-MOT-04", builds=(B8, B32))
+async def bank_grp_04_all_at_once(dut):
+    """Given motions of all axes, and some at rest, then STOP ends those that run, on edge g + 1."""
+    lab = await Lab.start(dut)
+    axes = await lab.all_ready()
+    moving: list[Axis] = [axis for axis in axes if axis.n % 3]
+    for axis in moving:
+        await (axis.go(0x45, rate=0) if axis.n % 2 else axis.go(0x43, 1_000))
+    await lab.bench.clocks(500)
+    g = await lab.stop()
+    await lab.bench.clocks(100)
+    for axis in axes:
+        late = [t for t in axis.pulses if t > g]
+        lab.check("BANK-GRP-04", f"pulses of {axis.n} after g", late, [])
+        if axis in moving:
+            lab.check("BANK-GRP-04", "finish", await axis.finish() & 0xF0, 0xC0)
+            lab.check("BANK-WIN-07", "position", await axis.position(), len(axis.pulses))
+        else:
+            lab.check("BANK-GRP-04", "status at rest", await axis.status(), 0)
+    await lab.bench.clocks(SYNC)

@@ -1,0 +1,224 @@
+"""Switches, STOP and stops -2 to +2 clk around a pulse, at every place of the pulse in its round
+(BANK-MOT-02).
+
+Held operations of all axes are let go by one GO: their pulses come on one edge, which lies differently in the
+round of each. What must come of it follows from the edges alone.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+from itertools import product
+
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.figures import steps
+
+from .bench import B4, B8, B32, B64, F100
+from .lab import GO, STATUS, STOP, SYNC, Axis, Lab
+
+N = 4
+OFFSETS = range(-2, 3)
+WAYS = (0, 1)
+PULSES = (1, 2, N)
+"""First, one in the middle, last."""
+CAUSES = {"limit": 0x10, "alarm": 0x20, "origin": 0x00}
+PINS = {"limit": ("l1_n", "l2_n"), "alarm": ("alm_n", "alm_n"), "origin": ("cnp_n", "cnp_n")}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One axis of a wave: what ends it, `offset` clk from pulse `pulse`, and for how long the pin is L."""
+
+    cause: str
+    offset: int
+    pulse: int
+    ccw: int
+    clk: int
+
+    @property
+    def code(self) -> int:
+        """Operation: a search, or N pulses."""
+        return (0x47 if self.cause == "origin" else 0x44) | self.ccw << 3
+
+
+class Waves:
+    """Waves of cases on all axes of a lab; `rate` gives half of an interval, or W, of low time."""
+
+    def __init__(self, lab: Lab, rate: int) -> None:
+        self.lab, self.rate, self.done = lab, rate, 0
+        self.interval = lab.cfg.quanta(8 * (rate + 1))
+        self.positions = [0] * lab.size
+
+    async def start(self) -> None:
+        """All axes set up and in the group."""
+        await self.lab.all_ready()
+        await self.lab.mask(*range(self.lab.size))
+
+    def edges(self, g: int) -> list[int]:
+        """Edges of the pulses that a GO brings, if nothing ends the motion."""
+        first = g + 4 + self.lab.round + self.lab.cfg.w
+        return [first + k * self.interval for k in range(N)]
+
+    async def let_go(self) -> list[int]:
+        """GO at a fixed place of the round, so that the axes have their pulses at all others; `edges`."""
+        g = -(-(self.lab.bench.now + 10) // self.lab.round) * self.lab.round
+        await self.lab.write_at(g, GO, 0)
+        return self.edges(g)
+
+    async def held(self, axis: Axis, code: int) -> None:
+        """An operation of N pulses, or one without a number."""
+        await (axis.go(code, N, self.rate) if code & 7 == 4 else axis.go(code, rate=self.rate))
+
+    async def play(self, cases: list[Case]) -> None:
+        """One wave, a case an axis; AssertionError unless each ends as it must."""
+        lab = self.lab
+        for axis, case in zip(lab.axes, cases, strict=True):
+            await self.held(axis, case.code)
+        edges = await self.let_go()
+        moves: dict[int, dict[str, int]] = {}
+        for axis, case in zip(lab.axes, cases, strict=True):
+            seen = edges[case.pulse - 1] + case.offset
+            pin = axis.pin(PINS[case.cause][case.ccw])
+            moves.setdefault(seen - SYNC, {})[pin] = 0
+            moves.setdefault(seen - SYNC + case.clk, {})[pin] = 1
+        await lab.bench.drive(sorted(moves.items()))
+        await self.over(edges)
+        for axis, case in zip(lab.axes, cases, strict=True):
+            seen = edges[case.pulse - 1] + case.offset
+            come = [t for t in edges if t < seen]
+            complete = case.cause != "origin" and len(come) == N
+            finish = 0x80 | case.code & 7 | (0 if complete else CAUSES[case.cause])
+            total = N if case.cause != "origin" else 1 << 24
+            await self.judge(axis, case, come, finish, total)
+
+    async def over(self, edges: list[int]) -> None:
+        """Until all axes must be at rest."""
+        await self.lab.bench.until(
+            max(self.lab.bench.now, edges[-1] + self.lab.cfg.w + 2 * self.lab.round + 10)
+        )
+
+    async def judge(self, axis: Axis, case: object, come: list[int], finish: int, total: int = N) -> None:
+        """Pulses, finish status, remaining pulses, position, phases."""
+        lab, what = self.lab, f"axis {axis.n}, {case}, rate {self.rate}"
+        ccw = axis.level("dir")
+        self.positions[axis.n] += -len(come) if ccw else len(come)
+        position = self.positions[axis.n]
+        lab.check("BANK-MOT-02", f"pulses, {what}", axis.pulses, come)
+        lab.check("BANK-MOT-02", f"BUSY, {what}", await axis.status() & 4, 0)
+        lab.check("BANK-MOT-02", f"finish status, {what}", await axis.finish(), finish)
+        lab.check("BANK-MOT-02", f"remaining, {what}", await axis.remaining(), max(total - len(come) - 1, 0))
+        lab.check("BANK-WIN-07", f"position, {what}", await axis.position(), position)
+        lab.check("BANK-MOT-02", f"phases, {what}", axis.phases_now, steps("4 full")[position % 4])
+        self.done += 1
+
+
+def cases_of_pins() -> list[tuple[str, int, int, int]]:
+    """Every cause, offset, pulse and direction."""
+    return list(product(CAUSES, OFFSETS, PULSES, WAYS))
+
+
+async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
+    """Every case `rounds` times on the axes of a bank in turn: at every place in the round, if that is R."""
+    lab = await Lab.start(dut)
+    waves, rng = Waves(lab, rate), random.Random(rate)
+    await waves.start()
+    cases = cases_of_pins()
+    queue = [Case(*case, rng.choice((1, 1, 2, 3))) for turn in range(rounds) for case in _turned(cases, turn)]
+    queue += queue[: -len(queue) % lab.size]
+    for at in range(0, len(queue), lab.size):
+        await waves.play(queue[at : at + lab.size])
+    return waves
+
+
+def _turned(cases: list[tuple[str, int, int, int]], turn: int) -> list[tuple[str, int, int, int]]:
+    """The cases so that each meets another axis in each turn."""
+    return cases[turn:] + cases[:turn]
+
+
+@directed("BANK-MOT-01", "BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B8,))
+async def bank_mot_02_pins_around_pulses(dut):
+    """Given limits, alarm, origin at -2 to +2 clk around first, middle, last pulses, then each ends as it
+    must."""
+    waves = await pin_waves(dut, 0, 12)
+    assert waves.done >= 90 * 12
+
+
+@directed("BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B4, B8, B32, B64, F100))
+async def bank_mot_02_pins_around_slower_pulses(dut):
+    """Given the same at a rate whose low time is W, and in other builds, then it is the same."""
+    waves = await pin_waves(dut, 3, 2)
+    assert waves.done >= 180
+
+
+@directed("BANK-MOT-02", "BANK-GRP-04", "BANK-WIN-07", builds=(B4, B8, B32, F100))
+async def bank_grp_04_stop_around_pulses(dut):
+    """Given STOP with g + 1 at -2 to +2 clk around a pulse of all axes, then those from g + 1 on do not
+    come."""
+    lab = await Lab.start(dut)
+    waves = Waves(lab, 2)
+    await waves.start()
+    for offset, pulse in product(OFFSETS, PULSES):
+        for axis in lab.axes:
+            await waves.held(axis, 0x44 | axis.n % 2 << 3)
+        edges = await waves.let_go()
+        g = edges[pulse - 1] + offset - 1
+        await lab.write_at(g, STOP, 0)
+        await waves.over(edges)
+        come = [t for t in edges if t < g + 1]
+        for axis in lab.axes:
+            finish = 0x84 if len(come) == N else 0xC4
+            await waves.judge(axis, f"STOP {offset:+} at pulse {pulse}", come, finish)
+
+
+@directed("BANK-MOT-02", "BANK-MOT-03", "BANK-WIN-07", builds=(B8, F100))
+async def bank_mot_02_stop_command_around_pulses(dut):
+    """Given 0x40 or 0x41 at visits around each pulse, then pulses from that visit on do not come."""
+    lab = await Lab.start(dut)
+    waves = Waves(lab, 1)
+    await waves.start()
+    axis = lab.axes[5]
+    await lab.mask(5)
+    done = 0
+    for pulse, place, code in product(
+        PULSES, range(0, 2 * lab.round + 2, max(1, lab.round // 12)), (0x40, 0x41)
+    ):
+        ccw = done & 1
+        await waves.held(axis, 0x44 | ccw << 3)
+        edges = await waves.let_go()
+        event = edges[pulse - 1] - 7 - lab.round + place - 1
+        visit = axis.visit(event + 7)
+        await lab.write_at(event, axis.n << 4 | STATUS, code)
+        await waves.over(edges)
+        come = [t for t in edges if t < visit]
+        finish = 0x84 if len(come) == N else 0xC4
+        await waves.judge(axis, f"{code:02X} at {visit - edges[pulse - 1]:+} of pulse {pulse}", come, finish)
+        done += 1
+
+
+@directed("BANK-MOT-02", "BANK-MOT-03", "BANK-GRP-04", "BANK-WIN-07", builds=(B8, B32))
+async def bank_mot_02_two_causes(dut):
+    """Given two causes one to six clk apart around a pulse, then the earlier one says what the bits are."""
+    lab = await Lab.start(dut)
+    waves = Waves(lab, 0)
+    await waves.start()
+    bits = {"l1_n": 0x10, "alm_n": 0x20}
+    for (one, two), apart, offset in product((("l1_n", "alm_n"), ("alm_n", "l1_n")), range(7), OFFSETS):
+        for axis in lab.axes:
+            await waves.held(axis, 0x44)
+        edges = await waves.let_go()
+        seen = edges[1] + offset
+        ones, none = (1 << lab.size) - 1, 0
+        moves: dict[int, dict[str, int]] = {}
+        for pin, t in ((one, seen), (two, seen + apart)):
+            moves.setdefault(t - SYNC, {})[pin] = none
+            moves.setdefault(t - SYNC + 1, {})[pin] = ones
+        await lab.bench.drive(sorted(moves.items()))
+        await waves.over(edges)
+        come = [t for t in edges if t < seen]
+        finish = 0x84 | bits[one] | (bits[two] if not apart else 0)
+        for axis in lab.axes[:: max(1, lab.size // 8)]:
+            await waves.judge(axis, f"{one} {offset:+}, {two} {apart} later", come, finish)
+        for axis in lab.axes:
+            if axis.n % max(1, lab.size // 8):
+                waves.positions[axis.n] += len(come)

@@ -1,0 +1,201 @@
+"""Motions: exact intervals at several axes at once, ends and what visits know of them (BANK-MOT)."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.bus import BUSY
+from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.figures import indices, rates, steps
+
+from .bench import B4, B8, B32, B64, F100
+from .lab import CONFIG, DATA, INIT_A, POSITION, STATUS, SYNC, Lab
+
+RAMP = (20, 0, 30)
+
+
+@directed("BANK-MOT-01", "BANK-GEN-01", "BANK-GEN-02", builds=(B4, B8, B32, B64, F100))
+async def bank_mot_01_all_axes_at_once(dut):
+    """Given ramps and constant speeds of all axes at once, then each train and each low time is exact to
+    the clk."""
+    lab = await Lab.start(dut)
+    for axis in lab.axes:
+        await axis.init(0x0A, *RAMP, opened=False)
+    wanted = {}
+    for axis in lab.axes:
+        await axis.opened()
+        ccw = axis.n % 2 << 3
+        if axis.n % 4 == 3:
+            wanted[axis.n] = [axis.n % 5] * 99
+            edge0 = await axis.go(0x44 | ccw, 100, axis.n % 5, poll=False)
+        else:
+            wanted[axis.n] = rates(RAMP, indices(90, RAMP[2]))
+            edge0 = await axis.go(0x43 | ccw, 90, poll=False)
+        start = axis.taken(edge0)
+        await lab.bench.level_is(axis.pin("hold"), 0)
+        lab.check("BANK-MOT-01", "hold falls at the visit", axis.edges("hold"), [(start, 0)])
+        axis.since = start
+        axis.started = start
+    for axis in lab.axes:
+        await axis.idle()
+        lab.check("BANK-MOT-01", f"pulse 1 of {axis.n}", axis.pulses[0] - axis.started, lab.cfg.w)
+        axis.check_train("BANK-MOT-01", wanted[axis.n])
+        axis.check_lows("BANK-MOT-01", wanted[axis.n])
+        count = len(wanted[axis.n]) + 1
+        lab.check("BANK-WIN-07", "position", await axis.position(), -count if axis.n % 2 else count)
+        place = axis.pulses[0]
+        seen = axis.patterns(place)
+        lab.check("BANK-MOT-01", "s changes with pout_n", [t for t, _ in seen], axis.pulses)
+        ring = steps("4 full")
+        way = [ring[(-k if axis.n % 2 else k) % 4] for k in range(1, count + 1)]
+        lab.check("BANK-MOT-01", f"phases of {axis.n}", [value for _, value in seen], way)
+
+
+@directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
+async def bank_mot_01_slow_clocks(dut):
+    """Given csel and vsel in all ways, then intervals are those of the PPMC-104, taken 7 clk before the
+    start."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(lab.size - 3)
+    for csel, vsel in ((1, 1), (1, 0), (0, 1), (0, 0)):
+        await axis.set_config(csel, vsel)
+        await lab.bench.clocks(2 * lab.round)
+        for rate in (0, 2, 3, 7):
+            await axis.move(0x44, 4, rate)
+            axis.check_train("BANK-MOT-01", [rate] * 3, csel, vsel)
+            axis.check_lows("BANK-MOT-01", [rate] * 3, csel, vsel)
+    for late in range(-3, 4):
+        await axis.set_config(1, 1)
+        await axis.host.send(0x45)
+        # CONFIG is written `late` + 7 clk after the byte that starts the motion.
+        axis.since = lab.bench.now
+        event = axis.visit(lab.bench.now + 80) - 14 + late
+        lab.at_event(event, axis.n << 4 | DATA, 1)
+        await lab.write_at(event + 7, axis.n << 4 | CONFIG, 2)
+        start = axis.visit(event + 7)
+        await axis.pulse(3, 40)
+        lab.check("BANK-MOT-01", "pulse 1", axis.pulses[0], start + lab.cfg.w)
+        axis.check_train("BANK-GEN-04", [1] * 2, 0 if event + 7 + 7 <= start else 1)
+        await axis.halt()
+
+
+@directed("BANK-MOT-04", builds=(B4, B8, B32, F100))
+async def bank_mot_04_busy_falls(dut):
+    """Given a complete move, then BUSY falls at the first visit after the last low time: V - 1, V."""
+    lab = await Lab.start(dut)
+    for axis in (lab.axes[0], lab.axes[-1]):
+        await axis.init(*INIT_A)
+        for n, offset, want in ((1, -1, BUSY), (1, 0, 0), (3, -1, BUSY), (3, 0, 0)):
+            edge0 = await axis.go(0x44, n, 1, poll=False)
+            last = axis.taken(edge0) + lab.cfg.w + lab.cfg.quanta(16 * (n - 1))
+            end = axis.visit(last + lab.cfg.w + 1)
+            got = await lab.as_of(end + offset, axis.n << 4 | STATUS)
+            lab.check("BANK-MOT-04", f"status of {axis.n} at V {offset:+}", got, want)
+            lab.check("BANK-MOT-04", "last low time", axis.edges("pout_n")[-1], (last + lab.cfg.w, 1))
+            await axis.finish()
+
+
+@directed("BANK-MOT-03", "BANK-MOT-04", builds=(B8, B32, F100))
+async def bank_mot_04_cut_while_high(dut):
+    """Given a limit while pout_n is H, seen on edge e, then BUSY falls at the first visit at e + 5 or
+    later."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(lab.size - 1)
+    for early in (4, 5, 6):
+        for offset, want in ((-1, BUSY), (0, 0)):
+            await axis.go(0x45, rate=30)
+            await axis.pulse(1, lab.cfg.w + 10)
+            visit = axis.visit(lab.bench.now + 60)
+            seen = visit - early
+            axis.at(seen - SYNC, l1_n=0)
+            axis.at(seen - SYNC + 1, l1_n=1)
+            end = visit + (lab.round if early < 5 else 0)
+            got = await lab.as_of(end + offset, axis.n << 4 | STATUS)
+            lab.check("BANK-MOT-04", f"status, e = V - {early}, {offset:+}", got, want)
+            await axis.idle()
+            lab.check("BANK-MOT-02", "pulses", len(axis.pulses), 1)
+            lab.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
+
+
+@directed("BANK-MOT-03", builds=(B8, B32))
+async def bank_mot_03_byte_before_it_is_known(dut):
+    """Given a limit, then a Decelerating Stop taken before the visit that knows is taken as in a motion."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(4)
+    for early, error in ((4, False), (5, True)):
+        await axis.go(0x46)
+        await axis.pulse(1, lab.cfg.w + 20)
+        visit = axis.visit(lab.bench.now + 60)
+        axis.at(visit - early - SYNC, l1_n=0)
+        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
+        await lab.bench.clocks(3 * lab.round)
+        # At the visit that ends the motion no byte is taken: at the next one it is a stop at rest.
+        lab.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
+        axis.set(l1_n=1)
+        lab.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
+
+
+@directed("BANK-MOT-05", builds=(B8, B32, F100))
+async def bank_mot_05_slow_down_limit(dut):
+    """Given a slow-down limit seen on edge V - 4, then visit V sees it, and not if it was seen a clk
+    later."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(lab.size - 2)
+    for early in (5, 4, 3):
+        await axis.go(0x43, 1_000)
+        await axis.pulse(2, lab.cfg.w + 20)
+        visit = axis.visit(lab.bench.now + 60)
+        axis.at(visit - early - SYNC, l3_n=0)
+        axis.at(visit - early - SYNC + 1, l3_n=1)  # for this visit or for none
+        if early == 4:
+            await axis.idle()
+            lab.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
+            lab.check("BANK-MOT-05", "few pulses", len(axis.pulses) < 8, True)
+        else:
+            await axis.pulse(30)
+            await axis.halt()
+
+
+@directed("BANK-MOT-05", "BANK-MOT-02", builds=(B8, B32, F100))
+async def bank_mot_05_which_pulse_counts(dut):
+    """Given the flag at visits around a pulse, then one at V counts for a pulse on edge V and later ones."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(5)
+    for code in (0x41, 0):
+        for late in range(-2, 3):
+            edge0 = await axis.go(0x43, 1_000, poll=False)
+            first = axis.taken(edge0) + lab.cfg.w
+            second = first + lab.cfg.quanta(8 * (1 + INIT_A[1]))
+            visit = axis.visit(second + late * lab.round // 2)
+            if code:
+                await lab.write_at(visit - 7, axis.n << 4 | STATUS, code)
+            else:
+                axis.at(visit - 4 - SYNC, l3_n=0)
+                axis.at(visit - 4 - SYNC + lab.round, l3_n=1)
+            await axis.pulse(2)
+            await axis.idle()
+            # Behind pulse 1 the interval of index 0 runs, the last one; behind pulse 2 that of index 1.
+            want = 2 if visit <= second else 4
+            lab.check("BANK-MOT-05", f"pulses, V {visit - second:+} clk", len(axis.pulses), want)
+            await axis.finish()
+
+
+@directed("BANK-MOT-02", "BANK-WIN-07", "BANK-MOT-03", builds=(B8, B32, F100))
+async def bank_mot_02_taken_back(dut):
+    """Given a pulse that was counted and does not come, then the position takes it back when the end is
+    known."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(6)
+    for number in range(3):
+        edge0 = await axis.go(0x45, rate=9, poll=False)
+        second = axis.taken(edge0) + lab.cfg.w + lab.cfg.quanta(80)
+        ordered = axis.visit(second - lab.round + 1)
+        axis.at(second - SYNC, l1_n=0)
+        axis.at(second - SYNC + 3, l1_n=1)
+        known = axis.visit(second + 5)
+        want = (2, 2, 1)[number] + number
+        at = (ordered, known - 1, known)[number]
+        got = await lab.as_of(at, axis.n << 4 | POSITION)
+        lab.check("BANK-WIN-07", f"position, {number}", got, want)
+        await axis.idle()
+        lab.check("BANK-MOT-02", "pulses", len(axis.pulses), 1)
+        lab.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
+        lab.check("BANK-MOT-02", "phases", axis.phases_now, steps("4 full")[(number + 1) % 4])

@@ -1,0 +1,34 @@
+"""Random hosts of the bank, compared with the golden model edge by edge."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+
+from cocotb_tests.harness.random_test import random_test
+
+from .random_host import INTERVALS, in_motion, play
+
+
+@random_test(
+    "BANK-WIN-05",
+    "BANK-WIN-07",
+    "BANK-HSK-03",
+    "BANK-HSK-04",
+    "BANK-CHP-01",
+    "BANK-MOT-01",
+    "BANK-MOT-02",
+    "BANK-MOT-03",
+    "BANK-MOT-04",
+    "BANK-MOT-05",
+    "BANK-GRP-02",
+    "BANK-GRP-03",
+    "BANK-GRP-04",
+    least=200,
+)
+async def bank_random_host(dut: Any, seed: int) -> None:
+    """Given a random host, when it has played, then all outputs changed as in the golden model."""
+    made = await play(dut, seed)
+    cocotb.log.info("seed %d: %d intervals", seed, made)
+    assert not in_motion(seed) or made >= INTERVALS, f"only {made} intervals"

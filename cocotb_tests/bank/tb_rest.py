@@ -1,0 +1,154 @@
+"""At rest: completion of initialisations, chopper, hold (BANK-INI-02, BANK-CHP, BANK-HLD)."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.bus import IBF
+from cocotb_tests.harness.directed import directed
+
+from .bench import B4, B8, B32, F100
+from .lab import CONFIG, DATA, STATUS, Lab
+
+ON, OFF = 260, 435
+"""Default phases of the chopper in quanta (P104-SW-04)."""
+CHOPPED = (0x2A, 9, 4, 4)
+
+
+@directed("BANK-CHP-01", "BANK-INI-02", builds=(B4, B8, B32, F100))
+async def bank_chp_01_phases(dut):
+    """Given chopping at all axes, then every phase is exact to the clk, from the end of a motion on as
+    well."""
+    lab = await Lab.start(dut)
+    axes = await lab.all_ready(init=CHOPPED)
+    since = lab.bench.now
+    await lab.bench.clocks(lab.cfg.quanta(3 * (ON + OFF)))
+    quantum = lab.cfg.quanta(1)
+    for axis in axes:
+        for value, clk in axis.stretches(since):
+            want = (ON if value else OFF) * quantum
+            lab.check("BANK-CHP-01", f"phase {value:05b} of {axis.n}", clk, want)
+        lab.check("BANK-CHP-01", "phases", len(axis.stretches(since)) >= 4, True)
+    axis = axes[1]
+    edge0 = await axis.go(0x42, poll=False)
+    end = axis.visit(axis.taken(edge0) + 2 * lab.cfg.w + 1)
+    if axis.visit(edge0 + 9) == axis.taken(edge0):
+        await lab.bench.until(end + (ON + OFF + 5) * quantum)
+        off, on = axis.patterns(end)[:2]
+        lab.check(
+            "BANK-CHP-01",
+            "from the end of the motion",
+            off,
+            (axis.visit(axis.pulses[0] + lab.cfg.w + 1) + ON * quantum, 0),
+        )
+        lab.check("BANK-CHP-01", "the next", on, (off[0] + OFF * quantum, 0b00110))
+
+
+@directed("BANK-CHP-01", "BANK-GEN-04", builds=(B8, F100))
+async def bank_chp_01_settings(dut):
+    """Given parameters and vsel, then phases are those of the rule; vsel counts 7 clk before the ordering
+    visit."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3, CHOPPED)
+    quantum = lab.cfg.quanta(1)
+    for on, off in ((0, 0), (1, 2), (3, 0)):
+        await axis.host.send(0x84, (on, off))
+        for vsel in (1, 0):
+            await axis.set_config(1, vsel)
+            await lab.bench.clocks(lab.cfg.quanta(900))
+            since = lab.bench.now
+            length = 12 * (on + off) + (240 if vsel else 215)
+            await lab.bench.clocks(lab.cfg.quanta(3 * length))
+            wanted = {0: 12 * off + (132 if vsel else 115), 1: 12 * on + (108 if vsel else 100)}
+            for value, clk in axis.stretches(since):
+                lab.check(
+                    "BANK-CHP-01", f"phase, {on} {off}, vsel {vsel}", clk, wanted[bool(value)] * quantum
+                )
+    await axis.host.send(0x84, (0, 0))
+    for early in (8, 7, 6):
+        await axis.set_config(1, 1)
+        await lab.bench.clocks(lab.cfg.quanta(600))
+        since = axis.patterns(0)[-1][0]
+        level = axis.patterns(0)[-1][1]
+        edge = since + (108 if level else 132) * quantum
+        while edge < lab.bench.now + 60:
+            level = 0 if level else 1
+            edge += (108 if level else 132) * quantum
+        ordered = axis.visit(edge - lab.round + 1)
+        await lab.write_at(ordered - early, axis.n << 4 | CONFIG, 1)
+        await lab.bench.clocks(lab.cfg.quanta(200))
+        # `level` ends on `edge`; what follows is of the other kind.
+        follows = (132, 115) if level else (108, 100)
+        nexts = [t for t, _ in axis.patterns(edge)]
+        want = follows[1 if early >= 7 else 0] * quantum
+        lab.check("BANK-GEN-04", f"phase, vsel {early} clk before", nexts[1] - nexts[0], want)
+
+
+@directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
+async def bank_hsk_02_chopper_takes_the_visit(dut):
+    """Given a byte for the visit that orders an edge of the chopper, then the next visit takes it."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(lab.size - 1, CHOPPED)
+    address = axis.n << 4 | STATUS
+    await lab.bench.clocks(lab.cfg.quanta(ON + 30))
+    for delay in range(-1, 2):
+        edge = axis.patterns(0)[-1][0]
+        edge += (OFF if axis.patterns(0)[-1][1] == 0 else ON) * lab.cfg.quanta(1)
+        ordered = axis.visit(edge - lab.round + 1)
+        visit = ordered + delay * lab.round
+        await lab.write_at(visit - 7, address, 0x81)
+        late = delay == 0
+        got = await lab.as_of(visit + 1, address)
+        lab.check("BANK-HSK-02", f"IBF, {delay:+} rounds", got & IBF, IBF * late)
+        await lab.bench.clocks(2 * lab.round)
+        await axis.host.read(DATA)
+        await lab.bench.clocks(2 * lab.round)
+
+
+@directed("BANK-INI-02", "BANK-HSK-02", "BANK-INI-01", builds=(B8, B32, F100))
+async def bank_ini_02_completion(dut):
+    """Given an initialisation, then bytes are taken from the visit on that follows the one that completes
+    it."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(2, CHOPPED)
+    edges = []
+    for _ in range(3):
+        await lab.axes[5].init(0x0A, 12, 3, 4)
+        await axis.host.send(0x2A, (12, 3, 4))
+        await axis.host.write(DATA, 0)
+        await axis.host.poll(IBF, 0)
+        await axis.opened()
+        await lab.bench.clocks(lab.cfg.quanta(ON + 10))
+        edges.append(axis.patterns(0)[-1])
+    lab.check("BANK-INI-02", "OFF phase after a completion", [value for _, value in edges], [0, 0, 0])
+
+
+@directed("BANK-HLD-01", "BANK-CHP-01", builds=(B8,))
+async def bank_hld_01_hold(dut):
+    """Given ends of motions, then hold rises at the first visit 34 ms later that orders no edge of the
+    chopper."""
+    lab = await Lab.start(dut)
+    plain, chopped, again, low = lab.axes[0], lab.axes[3], lab.axes[5], lab.axes[7]
+    for axis in (plain, chopped, again, low):
+        await axis.init(*(CHOPPED if axis is chopped else (0x0A, 9, 4, 4)))
+    # 34 ms are 136 000 quanta; this period divides them: an edge of the chopper lies on the very visit.
+    await chopped.host.send(0x84, (0, 20))
+    ends = {}
+    for axis in (plain, chopped, again):
+        await axis.go(0x42)
+        await axis.idle()
+        ends[axis.n] = axis.visit(axis.pulses[0] + lab.cfg.w + 1)
+    hold_clk = lab.cfg.cyc(544_000)
+    await lab.bench.until(ends[again.n] + hold_clk // 2)
+    await again.go(0x42)
+    await again.idle()
+    ends[again.n] = again.visit(again.pulses[0] + lab.cfg.w + 1)
+    lab.check("BANK-HLD-01", "hold falls at a start", again.level("hold"), 0)
+    await lab.bench.until(max(ends.values()) + hold_clk + 10 * lab.round)
+    for axis in (plain, again):
+        want = axis.visit(ends[axis.n] + hold_clk)
+        lab.check("BANK-HLD-01", f"hold of {axis.n}", axis.edges("hold", ends[axis.n]), [(want, 1)])
+    due = chopped.visit(ends[3] + hold_clk)
+    ordering = [chopped.visit(t - lab.round + 1) for t, _ in chopped.patterns(due - 50)]
+    late = due in ordering
+    want = due + lab.round * late
+    lab.check("BANK-HLD-01", "hold beside the chopper", chopped.edges("hold", ends[3]), [(want, 1)])
+    lab.check("BANK-HLD-01", "no motion: hold stays", low.edges("hold", 0), [])

@@ -1,0 +1,282 @@
+"""Window: registers, strobes, positions, interrupt map (BANK-WIN), not ready (BANK-GEN-05)."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.bus import BUSY, IBF, OBF
+from cocotb_tests.harness.directed import directed
+
+from .bench import B4, B8, B32, B64, F100
+from .lab import CONFIG, DATA, GO, INFO, INIT_A, MAP, MASK, POSITION, STATUS, STOP, Lab
+
+NOWHERE = (0x3, 0xD, 0xE, 0xF)
+REGISTERS = range(16)
+
+
+@directed("BANK-WIN-03", builds=(B8, B32, B64, B4, F100))
+async def bank_win_03_info(dut):
+    """Given a bank, when INFO is read, then it tells the window and AXES, at any axis with the same
+    a[6:4]."""
+    lab = await Lab.start(dut)
+    for axis in range(lab.size):
+        want = (0x42, 1, lab.size, 0, 0, 0, 0, 0)[axis % 8]
+        lab.check("BANK-WIN-03", f"INFO at axis {axis}", await lab.host.read(axis << 4 | INFO), want)
+    axis = await lab.ready(lab.size - 1)
+    lab.check("BANK-MOT-01", "pulses of the last axis", len(await axis.move(0x43, 14)), 14)
+
+
+@directed("BANK-WIN-01", builds=(B4, B8, B32))
+async def bank_win_01_addresses(dut):
+    """Given axes and registers that are not there, then they read FF, and writes to them do nothing."""
+    lab = await Lab.start(dut)
+    for axis in {lab.size, lab.size + 1, 2 * lab.size - 1, 63}:
+        for register in REGISTERS:
+            got = await lab.host.read(axis << 4 | register)
+            lab.check("BANK-WIN-01", f"axis {axis}, register {register}", got, 0xFF)
+        await lab.host.write(axis << 4 | MASK, 0xFF)
+        await lab.host.write(axis << 4 | CONFIG, 0)
+        for register, byte in ((1, 0x0A), (0, 9), (0, 4), (0, 4), (0, 0), (1, 0x42)):
+            await lab.host.write(axis << 4 | register, byte)
+            await lab.bench.clocks(2 * lab.round)
+        await lab.host.write(axis << 4 | GO, 0)
+        await lab.host.write(axis << 4 | STOP, 0)
+    for axis in (0, lab.size - 1):
+        for register in NOWHERE:
+            await lab.host.write(axis << 4 | register, 0)
+            got = await lab.host.read(axis << 4 | register)
+            lab.check("BANK-WIN-01", f"register {register}", got, 0xFF)
+        for register, want in ((MASK, 0), (CONFIG, 3), (STATUS, 0)):
+            got = await lab.host.read(axis << 4 | register)
+            lab.check("BANK-WIN-01", f"axis {axis}, register {register}", got, want)
+    await lab.bench.clocks(500)
+    lab.check("BANK-WIN-01", "edges of the motors", lab.bench.edges("s") + lab.bench.edges("pout_n"), [])
+
+
+@directed("BANK-WIN-02", "BANK-GEN-04", builds=(B8, B32))
+async def bank_win_02_registers_of_an_axis(dut):
+    """Given CONFIG of every axis, then it is 3 after reset, holds bits 0 and 1, and each axis has its own."""
+    lab = await Lab.start(dut)
+    for axis in lab.axes:
+        lab.check("BANK-GEN-04", "CONFIG after reset", await axis.host.read(CONFIG), 3)
+        await axis.host.write(CONFIG, 0xFC | axis.n & 3)
+    for axis in reversed(lab.axes):
+        lab.check("BANK-WIN-02", f"CONFIG of {axis.n}", await axis.host.read(CONFIG), axis.n & 3)
+        await axis.host.write(POSITION + axis.n % 4, 0xA5)
+        lab.check("BANK-WIN-02", f"position of {axis.n}", await axis.position(), 0)
+        lab.check("BANK-WIN-02", "data", await axis.host.read(DATA), 0)
+
+
+@directed("BANK-WIN-03", builds=(B8, B4, B32, B64))
+async def bank_win_03_registers_of_the_bank(dut):
+    """Given MASK, map, GO, STOP, INFO, then bytes lie at k = a[6:4], and what cannot be written stays."""
+    lab = await Lab.start(dut)
+    count = max(1, lab.size // 8)
+    for k in range(count):
+        await lab.host.write(k << 4 | MASK, 0xA5 ^ 0x11 * k)
+    for axis in range(lab.size):
+        k = axis % 8
+        # Axes that are not there have no bit.
+        want = (0xA5 ^ 0x11 * k) & (1 << min(8, lab.size)) - 1 if k < count else 0
+        lab.check("BANK-WIN-03", f"MASK at {axis}", await lab.host.read(axis << 4 | MASK), want)
+        for register, byte in ((GO, 0), (STOP, 0), (MAP, 0)):
+            lab.check("BANK-WIN-03", f"{register} at {axis}", await lab.host.read(axis << 4 | register), byte)
+    await lab.host.write(MAP, 0xFF)
+    await lab.host.write(INFO, 0xFF)
+    lab.check("BANK-WIN-03", "map, INFO", [await lab.host.read(r) for r in (MAP, INFO)], [0, 0x42])
+    lab.check("BANK-WIN-03", "int_n", lab.bench.level("int_n"), 1)
+
+
+@directed("BANK-WIN-04", "BANK-HSK-04", builds=(B8, F100))
+async def bank_win_04_short_reads(dut):
+    """Given read strobes of 1 and 2 clk, then d_o keeps the byte of the read before and nothing is taken."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(2)
+    await axis.command(0x83)
+    before = lab.bench.level("d_o")
+    for length in (1, 2, 1, 2, 2):
+        await axis.host.read(DATA, strobe=length, gap=6)
+        lab.check("BANK-WIN-04", "d_o", lab.bench.level("d_o"), before)
+    await axis.host.read(CONFIG)
+    for _ in range(3):
+        lab.check("BANK-WIN-04", "OBF", await axis.status() & OBF, OBF)
+        await axis.host.read(DATA)
+    lab.check("BANK-WIN-04", "OBF", await axis.status() & OBF, 0)
+
+
+@directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
+async def bank_win_04_strange_strobes(dut):
+    """Given writes of 1 clk, both strobes at once, strobes without cs_n, then bytes come whole or not at
+    all."""
+    lab = await Lab.start(dut)
+    host, bench = lab.host, lab.bench
+    for byte in (1, 2, 0, 3):
+        await host.write(CONFIG, byte, strobe=1)
+        lab.check("BANK-WIN-04", "CONFIG", await host.read(CONFIG), byte)
+    for levels in ({"wr_n": 0}, {"rd_n": 0}, {"cs_n": 0}, {"cs_n": 0, "rd_n": 0, "wr_n": 0}):
+        bench.set(a=CONFIG, d_i=0)
+        await bench.clocks(1)
+        await host.raw(8, **levels)
+        await host.raw(4, cs_n=1, rd_n=1, wr_n=1)
+        lab.check("BANK-WIN-04", f"CONFIG after {levels}", await host.read(CONFIG), 3)
+
+
+@directed("BANK-WIN-05", builds=(B8, B32, F100))
+async def bank_win_05_read_to_the_clk(dut):
+    """Given a read, then d_oe follows on edge 2, d_o on edge 4, d_oe ends on edge 2, and d_o stands."""
+    lab = await Lab.start(dut)
+    bench = lab.bench
+    for length in (6, 9):
+        for register in (INFO, MAP):
+            await bench.clocks(20)
+            start = bench.now + 1
+            value = await lab.host.read(register, strobe=length)
+            await bench.clocks(20)
+            want = [(start + 2, 1), (start + length + 2, 0)]
+            lab.check("BANK-WIN-05", "d_oe", bench.edges("d_oe", start), want)
+            lab.check("BANK-WIN-05", "d_o", bench.edges("d_o", start), [(start + 4, value)])
+
+
+@directed("BANK-WIN-05", "BANK-HSK-04", builds=(B8, B32, F100))
+async def bank_win_05_snapshot(dut):
+    """Given a byte that starts a motion at V, then a read shows it as it stood after edge 2: V - 1, V, V +
+    1."""
+    lab = await Lab.start(dut)
+    for axis in {lab.axes[0], lab.axes[lab.size - 1]}:
+        await axis.init(*INIT_A)
+        for offset, want in ((-1, IBF), (0, BUSY), (1, BUSY)):
+            visit = axis.visit(lab.bench.now + 40)
+            await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x42)
+            axis.since = visit
+            got = await lab.as_of(visit + offset, axis.n << 4 | STATUS)
+            lab.check("BANK-WIN-05", f"status after V {offset:+}", got, want)
+            await axis.idle()
+
+
+@directed("BANK-WIN-06", "BANK-HSK-01", builds=(B8, F100))
+async def bank_win_06_last_sample(dut):
+    """Given d_i that moves in the strobe, then the last sample counts; the event is on edge 2."""
+    lab = await Lab.start(dut)
+    bench = lab.bench
+    bench.set(a=CONFIG)
+    await bench.clocks(1)
+    for byte in (0, 3, 1):
+        bench.set(cs_n=0, wr_n=0, d_i=byte)
+        await bench.clocks(1)
+    bench.set(cs_n=1, wr_n=1, d_i=2)
+    await bench.clocks(8)
+    lab.check("BANK-WIN-06", "CONFIG", await lab.host.read(CONFIG), 1)
+    axis = await lab.ready(3)
+    edge0 = await axis.host.write(STATUS, 0x42)
+    await bench.level_is("hold[3]", 0)
+    lab.check("BANK-HSK-01", "visit", bench.falls("hold[3]", edge0), [axis.visit(edge0 + 2 + 7)])
+
+
+@directed("BANK-WIN-07", builds=(B8, F100))
+async def bank_win_07_position_counts(dut):
+    """Given moves both ways, pulses only, too, then the position counts each pulse, below zero as well."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(5)
+    want = 0
+    for code, n in ((0x43, 14), (0x4B, 20), (0xC3, 3), (0xCB, 5), (0x4A, 1), (0x44, 300)):
+        await axis.move(code, n, 0 if code == 0x44 else None)
+        want += -n if code & 8 else n
+        lab.check("BANK-WIN-07", f"position after {code:02X}", await axis.position(), want)
+        lab.check("BANK-WIN-07", "that of another one", await lab.axes[4].position(), 0)
+    await lab.reset()
+    lab.check("BANK-WIN-07", "position after reset", await axis.position(), 0)
+
+
+@directed("BANK-WIN-07", builds=(B8, F100, B32))
+async def bank_win_07_counted_at_the_visit(dut):
+    """Given a pulse on edge e, then it is counted at the last visit at or before e: -1, 0, +1 clk."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(lab.size - 2)
+    for number, offset in enumerate((-1, 0, 1)):
+        await axis.set_config(1, 0)  # 30 quanta more: at 100 MHz no multiple of R
+        edge0 = await axis.go(0x44, 3, 20, poll=False)
+        second = axis.taken(edge0) + lab.cfg.w + lab.cfg.quanta(21 * 8 + 30)
+        ordered = axis.visit(second - lab.round + 1)
+        got = await lab.as_of(ordered + offset, axis.n << 4 | POSITION)
+        lab.check("BANK-WIN-07", f"position at V {offset:+}", got, 3 * number + 1 + (offset >= 0))
+        await axis.idle()
+        lab.check("BANK-MOT-01", "second pulse", axis.pulses[1], second)
+
+
+@directed("BANK-WIN-07", builds=(B8, B32))
+async def bank_win_07_kept_bytes(dut):
+    """Given a read of byte 0, then bytes 1 to 3 are of that moment, at any axis, until byte 0 is read
+    again."""
+    lab = await Lab.start(dut)
+    one, other = await lab.all_ready(1, 6)
+    await one.move(0x4A)
+    got = [await one.host.read(POSITION)]
+    await one.move(0x44, 3, 0)
+    got += [await other.host.read(POSITION + n) for n in (1, 2, 3)]
+    lab.check("BANK-WIN-07", "bytes", got, [0xFF] * 4)
+    lab.check("BANK-WIN-07", "position", await other.position(), 0)
+    lab.check("BANK-WIN-07", "kept of the other", await one.host.read(POSITION + 3), 0)
+    lab.check("BANK-WIN-07", "position", await one.position(), 2)
+
+
+@directed("BANK-WIN-08", builds=(B4, B8, B32, B64))
+async def bank_win_08_interrupts(dut):
+    """Given ends with and without an interrupt, then the map has a bit an axis; int_n is L while any is."""
+    lab = await Lab.start(dut)
+    numbers = {0, 1, lab.size // 2, lab.size - 1}
+    axes = await lab.all_ready(*sorted(numbers))
+    for axis in axes:
+        await axis.move(0x52 if axis.n == 1 else 0x42)  # I = 1: none
+    pending = sum(1 << n for n in numbers if n != 1)
+    for axis in axes:
+        lab.check("BANK-WIN-08", "map", await lab.map(), pending)
+        lab.check("BANK-WIN-08", "int_n", lab.bench.level("int_n"), not pending)
+        await axis.finish()
+        pending &= ~(1 << axis.n)
+    lab.check("BANK-WIN-08", "map", await lab.map(), 0)
+    lab.check("BANK-WIN-08", "int_n", lab.bench.level("int_n"), 1)
+
+
+@directed("BANK-GEN-05", builds=(B8, B4, B32, B64))
+async def bank_gen_05_not_ready(dut):
+    """Given a reset, then until edge R + 7 status is 02, all else 00, and writes do nothing."""
+    lab = await Lab.start(dut)
+    lab.check("BANK-GEN-05", "outputs", lab.axes[0].outputs(), _resting(lab))
+    for register, busy, ready in ((STATUS, 2, 0), (CONFIG, 0, 3), (INFO, 0, 0x42), (MASK, 0, 0)):
+        for offset in (-1, 0, 1):
+            released = await lab.bench.reset(settle=0)
+            got = await lab.as_of(released + lab.round + 7 + offset, register)
+            want = busy if offset < 0 else ready
+            lab.check("BANK-GEN-05", f"register {register} after R + 7 {offset:+}", got, want)
+    for offset, want in ((0, 0), (1, 0x5A)):
+        released = await lab.bench.reset(settle=0)
+        await lab.write_at(released + lab.round + 7 + offset, MASK, 0x5A)
+        lab.check("BANK-GEN-05", "MASK", await lab.host.read(MASK), want & (1 << lab.size) - 1)
+
+
+@directed("BANK-GEN-05", builds=(B8, B32, B64))
+async def bank_gen_05_reset_in_motion(dut):
+    """Given motions of all axes, when reset comes, then all pins rest at once, and the bank is as new."""
+    lab = await Lab.start(dut)
+    for init in (INIT_A, (0x29, 20, 0, 30)):
+        await lab.all_ready(init=init)
+        for axis in lab.axes:
+            await axis.go(0x45 | axis.n % 2 << 3, rate=axis.n % 4)
+        await lab.axes[0].set_config(0, 0)
+        await lab.mask(*range(lab.size))
+        await lab.bench.clocks(1_000 + 7 * lab.size)
+        await lab.bench.set_between(rst_n=0)
+        lab.check("BANK-GEN-05", "outputs in reset", lab.axes[0].outputs(), _resting(lab))
+        await lab.bench.clocks(3)
+        lab.bench.set(rst_n=1)
+        for axis in lab.axes:
+            axis.released = lab.bench.now
+        await lab.bench.clocks(lab.round + 8)
+        for axis in lab.axes:
+            lab.check("BANK-GEN-05", f"status of {axis.n}", await axis.status(), 0)
+            lab.check("BANK-WIN-07", f"position of {axis.n}", await axis.position(), 0)
+            await axis.refused("BANK-GEN-05", "an operation", 2, 0x42)
+        lab.check("BANK-GEN-05", "CONFIG, MASK", [await lab.host.read(r) for r in (CONFIG, MASK)], [3, 0])
+
+
+def _resting(lab: Lab) -> dict[str, int]:
+    levels = lab.bench.part.reset_levels(lab.bench.part.params(lab.cfg))
+    return {name: level for name, level in levels.items() if name not in ("d_o", "d_oe")}

@@ -1,0 +1,37 @@
+"""Directed tests of the bank: one pytest item a cocotb test and build configuration."""
+
+from __future__ import annotations
+
+import pytest
+
+from cocotb_tests.harness.build import part_design
+from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.elaborate import check_ranges
+from cocotb_tests.harness.runner import SimOptions, run_item
+from cocotb_tests.harness.verifies import verifies
+
+from .bench import BANK, F100
+
+ITEMS = cocotb_items(
+    "cocotb_tests.bank", "tb_window", "tb_bytes", "tb_motion", "tb_group", "tb_limits", "tb_rest", part=BANK
+)
+
+# Parameter, legal values, values just outside; the others as the header has them: 32 axes, 100 MHz.
+RANGES = {
+    "CLK_HZ": (("32_000_000", "200_000_000"), ("28_000_000", "204_000_000", "100_000_001")),
+    "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001", "15_000_000")),
+    "AXES": (("4", "8", "16", "32", "64"), ("0", "2", "12", "128")),
+    "PHASE_IDLE": (("1'b0", "1'b1"), ()),
+}
+
+
+@pytest.mark.parametrize("item", ITEMS)
+def test_bank(item: Item, sim_options: SimOptions) -> None:
+    """Run one simulation."""
+    run_item(item, sim_options)
+
+
+@verifies("BANK-GEN-01", "BANK-GEN-02")
+def test_bank_gen_02_ranges() -> None:
+    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    check_ranges("BANK-GEN-02", part_design("bank", F100), RANGES)

@@ -1,0 +1,31 @@
+"""Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
+
+One simulation plays several seeds of one build. `make soak PART=bank` plays as many others as you like.
+"""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.random_items import RandomItems, generating
+from cocotb_tests.harness.runner import SimOptions
+
+from .random_host import INTERVALS, build, in_motion
+
+SEEDS = range(1, 28)
+BATCH = 5
+
+random_item = RandomItems("bank", "tb_random", "bank_random_host", SEEDS, build, BATCH)
+pytest_generate_tests = generating(test_random=random_item)
+
+
+def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """The hosts of some seeds: every output edge equals the golden model's."""
+    random_item.run(item, seeds, sim_options)
+
+
+def test_seeds_are_enough() -> None:
+    """The fixed seeds use every build, each once, and compare a million intervals; each host sees to its
+    own."""
+    assert random_item.complete
+    assert {build(seed).name for seed in SEEDS} == build.names
+    assert sum(INTERVALS for seed in SEEDS if in_motion(seed)) >= 1_000_000
