@@ -22,7 +22,8 @@ DOCS = ROOT / "docs"
 BENCHMARKS_HEAD = """# Benchmarks
 
 Figures between the markers are written by scripts: size and clock rate by `make synth PART=ppmc104` and
-`make report`, other designs by `make yardsticks`, the bank by its number of axes by `python -m scripts.bank.sizes`, simulation speed by `make bench`.
+`make report`, other designs by `make yardsticks`, the bank by its number of axes by
+`python -m scripts.bank.sizes`, simulation speed by `make bench`.
 """
 
 # Logs get lines as long as they are; tables in them are not squeezed.

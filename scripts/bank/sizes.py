@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -93,13 +94,13 @@ def measure(figures: dict[str, Any], keep: Path) -> None:
     if "ice40" not in figures:
         figures["ice40"] = ice40()
         done(f"ice40: {figures['ice40']}")
-    for seed in range(1, SEEDS + 1):
-        for axes, name in sorted(todo, key=lambda one: list(cost.RECIPES).index(one[1])):
-            key = f"{axes} {name}"
-            rates = figures[key]["mhz"]
-            if len(rates) < seed <= (SEEDS if axes == MANY_SEEDS else 1):
-                rates.append(rate(axes, cost.RECIPES[name]["ecp5"], seed))
-                done(f"{key}, seed {seed}: {rates[-1]} MHz")
+    for name in cost.RECIPES:
+        for seed in range(1, SEEDS + 1):
+            for axes in cost.AXES if seed == 1 else (MANY_SEEDS,):
+                rates = figures[f"{axes} {name}"]["mhz"]
+                if len(rates) < seed:
+                    rates.append(rate(axes, cost.RECIPES[name]["ecp5"], seed))
+                    done(f"{axes} {name}, seed {seed}: {rates[-1]} MHz")
 
 
 def main() -> int:
@@ -108,7 +109,7 @@ def main() -> int:
     parser.add_argument("--anew", action="store_true", help="forget what an earlier run has measured")
     keep = FOLDER / "figures.json"
     if parser.parse_args().anew:
-        keep.unlink(missing_ok=True)
+        shutil.rmtree(FOLDER, ignore_errors=True)
     figures = json.loads(keep.read_text()) if keep.is_file() else {}
     measure(figures, keep)
     cost.FILE.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
