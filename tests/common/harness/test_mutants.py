@@ -25,5 +25,5 @@ def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
 def test_there_are_enough() -> None:
     """At least forty, and of each part some."""
     assert len(EVERY) >= 40
-    assert {one.part for one in EVERY} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006"}
+    assert {one.part for one in EVERY} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "bank", "pmc006"}
     assert len({one.id for one in EVERY}) == len(EVERY)
