@@ -58,7 +58,7 @@ def small() -> str:
         f"{one['ram']} block RAM on an iCE40 UP5K (recipe *tuned*), which has 5280, 5280 and 30"
     )
     if "says" in one:
-        return f"{size}: that does not go in. nextpnr says: `{one['says']}`"
+        return f"{size}: that does not go in, nextpnr says: `{one['says']}`"
     return f"{size}. nextpnr places it with one seed and tells {one['mhz']:.1f} MHz."
 
 
