@@ -64,12 +64,13 @@ def small() -> str:
 
 def text() -> str:
     """What stands with the table."""
-    seeds = max(len(one["mhz"]) for key, one in figures().items() if key != "ice40")
+    runs = [len(one["mhz"]) for key, one in figures().items() if key != "ice40"]
+    seeds, missing = max(runs), ", – not measured" if 0 in runs else ""
     return (
         "`ppmc_bank` on an ECP5-25F of speed 6, CLK_HZ 100 MHz, without a bridge. *plain* is `synth_ecp5`, "
         f"*tuned* {recipe_words({'ecp5': BEST['ecp5']})}. COMB is what nextpnr packs, FF and block RAM "
         "(DP16KD) as synthesized. MHz is Fmax of `clk` with all pins behind shift registers, which are not "
-        f"counted: median of {seeds} seeds, (1) of one seed."
+        f"counted: median of {seeds} seeds, (1) of one seed{missing}."
     )
 
 
