@@ -220,7 +220,7 @@ async def p104_aux_04_excitation_off(dut):
 
 @directed("P104-HSK-05", "P104-BUS-03")
 async def p104_hsk_05_reads_one_sample_apart(dut):
-    """Given three bytes to read and a pause that one edge samples between two strobes, then no byte is lost."""
+    """Given three bytes, when one edge alone samples the pause between two strobes, then no byte is lost."""
     lab = await Lab.start(dut)
     host = lab.host
     for strobe in (4, 5, 7):
