@@ -1,7 +1,8 @@
 """`Native`: the `Clockwork` of `verilated_sim.cpp`, our main program: clock, pins and recorder in C++.
 
 What a bench does a million times costs a call of C instead of a trigger of cocotb. A port of more than
-64 bits is several there, one a word, the lowest first; here it is put together.
+64 bits is several there, one a word, the lowest first; here it is put together. What the C++ side does not
+find by its name, as ports of arrays or of two directions, is left to `Stock`.
 """
 
 from __future__ import annotations
@@ -10,11 +11,16 @@ import ctypes
 import gc
 import struct
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from typing import Any
+
+from .stock import Stock
 
 _ROW = struct.Struct("=QQQ")
 _WORD = 64
 _ONES = (1 << _WORD) - 1
+_OTHER = 1 << 20
+"""Added to the numbers of ports that are left to `Stock`."""
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:
@@ -27,6 +33,7 @@ class Native:
     """See `Clockwork`. The clock goes on, and ports stay watched, until it is started again."""
 
     def __init__(self) -> None:
+        self._others = Stock()
         self._numbers: dict[str, int] = {}
         self._words: dict[int, int] = {}
         """Number of words of the wide ports."""
@@ -53,7 +60,7 @@ class Native:
             words = ctypes.c_int()
             number = self._port(name.encode(), ctypes.byref(words))
             if number < 0:
-                raise AttributeError(f"the top module has no port {name}")
+                number = _OTHER + self._others.port(name)
             self._numbers[name] = number
             if words.value > 1:
                 self._words[number] = words.value
@@ -62,6 +69,8 @@ class Native:
 
     def read(self, port: int) -> int:
         """As `Clockwork.read`."""
+        if port >= _OTHER:
+            return self._others.read(port - _OTHER)
         if port not in self._words:
             level: int = self._read(port)
             return level
@@ -69,15 +78,22 @@ class Native:
 
     def put(self, port: int, level: int) -> None:
         """As `Clockwork.put`."""
+        if port >= _OTHER:
+            self._others.put(port - _OTHER, level)
+            return
         for word in range(self._words.get(port, 1)):
             self._put(port + word, level >> _WORD * word & _ONES)
 
     def clock(self, port: int, half: int) -> None:
         """As `Clockwork.clock`."""
         self._clock(port, half)
+        self._others.unwatch()
 
     def watch(self, port: int) -> None:
         """As `Clockwork.watch`."""
+        if port >= _OTHER:
+            self._others.watch(port - _OTHER)
+            return
         for word in range(self._words.get(port, 1)):
             self._watch(port + word)
         if port in self._words:
@@ -88,7 +104,8 @@ class Native:
         count = ctypes.c_uint64()
         rows = self._seen(ctypes.byref(count))
         found = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
-        return self._whole(found) if self._levels else found
+        others = [(time, _OTHER + port, level) for time, port, level in self._others.seen()]
+        return chain(self._whole(found) if self._levels else found, others)
 
     def _whole(self, rows: Iterable[tuple[int, int, int]]) -> Iterator[tuple[int, int, int]]:
         """Rows with words put together to levels of their ports."""
