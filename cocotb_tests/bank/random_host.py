@@ -1,8 +1,7 @@
 """Random hosts of the bank: all axes at once, bytes, stops, groups, switches that move by themselves.
 
 A seed decides all, `build` the build; `play(dut, seed)` plays. Every fourth seed types much and moves
-little; the
-others keep all axes in quick motions until INTERVALS have been seen.
+little; the others keep all axes in quick motions until INTERVALS have been seen.
 """
 
 from __future__ import annotations
