@@ -11,6 +11,7 @@ The file has one form only, and what is not in it is refused:
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -90,6 +91,31 @@ def files(listed: Mapping[str, Group], *names: str) -> list[Path]:
     if missing := [path.name for path in found if not path.is_file()]:
         raise SourcesError(f"{LIST} lists files that do not exist: {', '.join(missing)}")
     return found
+
+
+DIGEST_BYTES = 4
+
+
+def digest(root: Path, *names: str) -> bytes:
+    """What tells the sources of these groups and their needs from others: 4 bytes. SourcesError."""
+    sha = hashlib.sha256()
+    for path in [*files(groups(root), *names), *sorted((root / "rtl/common").glob("*.svh"))]:
+        sha.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r", b"") + b"\0")
+    return sha.digest()[:DIGEST_BYTES]
+
+
+def build_id(
+    version: str, source: bytes, commit: bytes = b"", changed: bool = False, board: str = ""
+) -> bytes:
+    """What a bitstream tells of itself, 16 bytes (UB-VER-01). commit: its first bytes; board: 4 letters."""
+    numbers = bytes(int(word) for word in version.split(".")[:3])
+    words = (numbers + bytes([changed]), source, commit[:DIGEST_BYTES], board.encode("ascii"))
+    return b"".join(word.ljust(4, b"\0")[:4] for word in words)
+
+
+def build_define(build: bytes) -> str:
+    """The macro that gives those bytes to the RTL (ppmc_build_pkg)."""
+    return f"PPMC_BUILD=128'h{int.from_bytes(build, 'little'):032x}"
 
 
 def walls(listed: Mapping[str, Group]) -> list[str]:

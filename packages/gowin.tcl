@@ -5,12 +5,16 @@ set root [file normalize [file join [file dirname [info script]] ..]]
 set_option -verilog_std sysv2017
 set_option -include_path $root/rtl/common
 add_file -type verilog $root/rtl/common/ppmc_pkg.sv
+add_file -type verilog $root/rtl/common/ppmc_lfsr_pkg.sv
 add_file -type verilog $root/rtl/common/ppmc_reset.sv
 add_file -type verilog $root/rtl/common/ppmc_sync.sv
 add_file -type verilog $root/rtl/common/ppmc_ram.sv
 add_file -type verilog $root/rtl/common/ppmc_tick_gen.sv
 add_file -type verilog $root/rtl/common/ppmc_square.sv
+add_file -type verilog $root/rtl/common/ppmc_xtal_cycles.sv
 add_file -type verilog $root/rtl/common/ppmc_xtal_timer.sv
+add_file -type verilog $root/rtl/common/ppmc_timer.sv
+add_file -type verilog $root/rtl/common/ppmc_delay.sv
 add_file -type verilog $root/rtl/common/ppmc_uart_rx.sv
 add_file -type verilog $root/rtl/common/ppmc_uart_tx.sv
 add_file -type verilog $root/rtl/common/ppmc_i2c_pkg.sv
@@ -24,6 +28,7 @@ add_file -type verilog $root/rtl/motion/ppmc_ext_lag.sv
 add_file -type verilog $root/rtl/motion/ppmc_rate_counter.sv
 add_file -type verilog $root/rtl/motion/ppmc_pulse_shaper.sv
 add_file -type verilog $root/rtl/motion/ppmc_stop_guard.sv
+add_file -type verilog $root/rtl/motion/ppmc_ramp_divide.sv
 add_file -type verilog $root/rtl/motion/ppmc_ramp_serial.sv
 add_file -type verilog $root/rtl/motion/ppmc_ramp_builder.sv
 add_file -type verilog $root/rtl/motion/ppmc_ramp_table.sv
@@ -45,7 +50,13 @@ add_file -type verilog $root/rtl/host/ppmc_bridge_tx.sv
 add_file -type verilog $root/rtl/host/ppmc_bridge_msg.sv
 add_file -type verilog $root/rtl/host/ppmc_bridge_rate.sv
 add_file -type verilog $root/rtl/host/ppmc_bridge_answer.sv
+add_file -type verilog $root/rtl/host/ppmc_bridge_decode.sv
+add_file -type verilog $root/rtl/host/ppmc_bridge_wait.sv
 add_file -type verilog $root/rtl/host/ppmc_bridge_exec.sv
+add_file -type verilog $root/rtl/host/ppmc_recorder_pkg.sv
+add_file -type verilog $root/rtl/host/ppmc_recorder_ram.sv
+add_file -type verilog $root/rtl/host/ppmc_recorder.sv
+add_file -type verilog $root/rtl/host/ppmc_build_pkg.sv
 add_file -type verilog $root/rtl/host/ppmc_uart_bridge.sv
 add_file -type verilog $root/rtl/host/ppmc_uart_host.sv
 add_file -type verilog $root/rtl/host/ppmc_wishbone.sv
@@ -57,6 +68,7 @@ add_file -type verilog $root/rtl/single/ppmc_single_pkg.sv
 add_file -type verilog $root/rtl/single/ppmc_judge.sv
 add_file -type verilog $root/rtl/single/ppmc_command.sv
 add_file -type verilog $root/rtl/single/ppmc_setup.sv
+add_file -type verilog $root/rtl/single/ppmc_pace_motion.sv
 add_file -type verilog $root/rtl/single/ppmc_pace.sv
 add_file -type verilog $root/rtl/single/ppmc_finish.sv
 add_file -type verilog $root/rtl/single/ppmc_single.sv
@@ -79,6 +91,7 @@ add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_instr_pkg.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_store.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_fetch.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv
+add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_codebook.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_judge.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_compose.sv
 add_file -type verilog $root/rtl/ppmc312/instructions/ppmc312_reply.sv
@@ -163,6 +176,7 @@ add_file -type verilog $root/rtl/bank/ppmc_bank_step.sv
 add_file -type verilog $root/rtl/bank/ppmc_bank_engine.sv
 add_file -type verilog $root/rtl/bank/ppmc_bank.sv
 add_file -type verilog $root/rtl/ppmc2104/isa/isa_4axis.sv
+add_file -type verilog $root/rtl/boards/common/ppmc_board_inputs.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_host.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_reset.sv
 add_file -type verilog $root/rtl/boards/common/ppmc_board_lamp.sv

@@ -2,12 +2,16 @@
 // verilator -F packages/pmc006.f --top-module pmc006
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
+../rtl/common/ppmc_lfsr_pkg.sv
 ../rtl/common/ppmc_reset.sv
 ../rtl/common/ppmc_sync.sv
 ../rtl/common/ppmc_ram.sv
 ../rtl/common/ppmc_tick_gen.sv
 ../rtl/common/ppmc_square.sv
+../rtl/common/ppmc_xtal_cycles.sv
 ../rtl/common/ppmc_xtal_timer.sv
+../rtl/common/ppmc_timer.sv
+../rtl/common/ppmc_delay.sv
 ../rtl/common/ppmc_uart_rx.sv
 ../rtl/common/ppmc_uart_tx.sv
 ../rtl/common/ppmc_i2c_pkg.sv
@@ -21,6 +25,7 @@
 ../rtl/motion/ppmc_rate_counter.sv
 ../rtl/motion/ppmc_pulse_shaper.sv
 ../rtl/motion/ppmc_stop_guard.sv
+../rtl/motion/ppmc_ramp_divide.sv
 ../rtl/motion/ppmc_ramp_serial.sv
 ../rtl/motion/ppmc_ramp_builder.sv
 ../rtl/motion/ppmc_ramp_table.sv

@@ -2,12 +2,16 @@
 // verilator -F packages/ppmc_bank.f --top-module ppmc_bank
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
+../rtl/common/ppmc_lfsr_pkg.sv
 ../rtl/common/ppmc_reset.sv
 ../rtl/common/ppmc_sync.sv
 ../rtl/common/ppmc_ram.sv
 ../rtl/common/ppmc_tick_gen.sv
 ../rtl/common/ppmc_square.sv
+../rtl/common/ppmc_xtal_cycles.sv
 ../rtl/common/ppmc_xtal_timer.sv
+../rtl/common/ppmc_timer.sv
+../rtl/common/ppmc_delay.sv
 ../rtl/common/ppmc_uart_rx.sv
 ../rtl/common/ppmc_uart_tx.sv
 ../rtl/common/ppmc_i2c_pkg.sv
@@ -21,6 +25,7 @@
 ../rtl/motion/ppmc_rate_counter.sv
 ../rtl/motion/ppmc_pulse_shaper.sv
 ../rtl/motion/ppmc_stop_guard.sv
+../rtl/motion/ppmc_ramp_divide.sv
 ../rtl/motion/ppmc_ramp_serial.sv
 ../rtl/motion/ppmc_ramp_builder.sv
 ../rtl/motion/ppmc_ramp_table.sv
@@ -42,7 +47,13 @@
 ../rtl/host/ppmc_bridge_msg.sv
 ../rtl/host/ppmc_bridge_rate.sv
 ../rtl/host/ppmc_bridge_answer.sv
+../rtl/host/ppmc_bridge_decode.sv
+../rtl/host/ppmc_bridge_wait.sv
 ../rtl/host/ppmc_bridge_exec.sv
+../rtl/host/ppmc_recorder_pkg.sv
+../rtl/host/ppmc_recorder_ram.sv
+../rtl/host/ppmc_recorder.sv
+../rtl/host/ppmc_build_pkg.sv
 ../rtl/host/ppmc_uart_bridge.sv
 ../rtl/host/ppmc_uart_host.sv
 ../rtl/host/ppmc_wishbone.sv
@@ -54,6 +65,7 @@
 ../rtl/single/ppmc_judge.sv
 ../rtl/single/ppmc_command.sv
 ../rtl/single/ppmc_setup.sv
+../rtl/single/ppmc_pace_motion.sv
 ../rtl/single/ppmc_pace.sv
 ../rtl/single/ppmc_finish.sv
 ../rtl/single/ppmc_single.sv
@@ -71,6 +83,7 @@
 ../rtl/bank/ppmc_bank_step.sv
 ../rtl/bank/ppmc_bank_engine.sv
 ../rtl/bank/ppmc_bank.sv
+../rtl/boards/common/ppmc_board_inputs.sv
 ../rtl/boards/common/ppmc_board_host.sv
 ../rtl/bank/ppmc_bank_view.sv
 ../rtl/bank/ppmc_bank_carrier.sv

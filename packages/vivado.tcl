@@ -4,12 +4,16 @@
 set root [file normalize [file join [file dirname [info script]] ..]]
 set files [list \
   $root/rtl/common/ppmc_pkg.sv \
+  $root/rtl/common/ppmc_lfsr_pkg.sv \
   $root/rtl/common/ppmc_reset.sv \
   $root/rtl/common/ppmc_sync.sv \
   $root/rtl/common/ppmc_ram.sv \
   $root/rtl/common/ppmc_tick_gen.sv \
   $root/rtl/common/ppmc_square.sv \
+  $root/rtl/common/ppmc_xtal_cycles.sv \
   $root/rtl/common/ppmc_xtal_timer.sv \
+  $root/rtl/common/ppmc_timer.sv \
+  $root/rtl/common/ppmc_delay.sv \
   $root/rtl/common/ppmc_uart_rx.sv \
   $root/rtl/common/ppmc_uart_tx.sv \
   $root/rtl/common/ppmc_i2c_pkg.sv \
@@ -23,6 +27,7 @@ set files [list \
   $root/rtl/motion/ppmc_rate_counter.sv \
   $root/rtl/motion/ppmc_pulse_shaper.sv \
   $root/rtl/motion/ppmc_stop_guard.sv \
+  $root/rtl/motion/ppmc_ramp_divide.sv \
   $root/rtl/motion/ppmc_ramp_serial.sv \
   $root/rtl/motion/ppmc_ramp_builder.sv \
   $root/rtl/motion/ppmc_ramp_table.sv \
@@ -44,7 +49,13 @@ set files [list \
   $root/rtl/host/ppmc_bridge_msg.sv \
   $root/rtl/host/ppmc_bridge_rate.sv \
   $root/rtl/host/ppmc_bridge_answer.sv \
+  $root/rtl/host/ppmc_bridge_decode.sv \
+  $root/rtl/host/ppmc_bridge_wait.sv \
   $root/rtl/host/ppmc_bridge_exec.sv \
+  $root/rtl/host/ppmc_recorder_pkg.sv \
+  $root/rtl/host/ppmc_recorder_ram.sv \
+  $root/rtl/host/ppmc_recorder.sv \
+  $root/rtl/host/ppmc_build_pkg.sv \
   $root/rtl/host/ppmc_uart_bridge.sv \
   $root/rtl/host/ppmc_uart_host.sv \
   $root/rtl/host/ppmc_wishbone.sv \
@@ -56,6 +67,7 @@ set files [list \
   $root/rtl/single/ppmc_judge.sv \
   $root/rtl/single/ppmc_command.sv \
   $root/rtl/single/ppmc_setup.sv \
+  $root/rtl/single/ppmc_pace_motion.sv \
   $root/rtl/single/ppmc_pace.sv \
   $root/rtl/single/ppmc_finish.sv \
   $root/rtl/single/ppmc_single.sv \
@@ -78,6 +90,7 @@ set files [list \
   $root/rtl/ppmc312/instructions/ppmc312_store.sv \
   $root/rtl/ppmc312/instructions/ppmc312_fetch.sv \
   $root/rtl/ppmc312/instructions/ppmc312_arbiter.sv \
+  $root/rtl/ppmc312/instructions/ppmc312_codebook.sv \
   $root/rtl/ppmc312/instructions/ppmc312_judge.sv \
   $root/rtl/ppmc312/instructions/ppmc312_compose.sv \
   $root/rtl/ppmc312/instructions/ppmc312_reply.sv \
@@ -162,6 +175,7 @@ set files [list \
   $root/rtl/bank/ppmc_bank_engine.sv \
   $root/rtl/bank/ppmc_bank.sv \
   $root/rtl/ppmc2104/isa/isa_4axis.sv \
+  $root/rtl/boards/common/ppmc_board_inputs.sv \
   $root/rtl/boards/common/ppmc_board_host.sv \
   $root/rtl/boards/common/ppmc_board_reset.sv \
   $root/rtl/boards/common/ppmc_board_lamp.sv \

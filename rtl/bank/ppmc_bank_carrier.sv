@@ -12,7 +12,8 @@ module ppmc_bank_carrier #(
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
     parameter bit          PHASE_IDLE = 1'b1,         // level of s before the first initialisation
     parameter string       HOST       = "UART",       // or "SPI"
-    parameter int unsigned BAUD       = 115_200       // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,      // of the bridge after reset
+    parameter int unsigned RECORD     = 0             // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic              clk,
     input  wire logic              rst_n,
@@ -48,9 +49,20 @@ module ppmc_bank_carrier #(
     $fatal(1, "ppmc_bank_carrier: HOST must be UART or SPI");
   end
 
-  logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, unused_oe;
+  logic part_rst_n, part_cs_n, part_rd_n, part_wr_n, part_oe;
   logic [9:0] part_a;
   logic [7:0] to_part, from_part;
+  logic [AXES-1:0] in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_alm_n;
+
+  ppmc_board_inputs #(
+      .Width(6 * AXES),
+      .Sync (RECORD != 0)
+  ) u_inputs (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .d_i   ({alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+      .q_o   ({in_alm_n, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n})
+  );
 
   ppmc_bank #(
       .AXES      (AXES),
@@ -66,14 +78,14 @@ module ppmc_bank_carrier #(
       .wr_n (part_wr_n),
       .d_i  (to_part),
       .d_o  (from_part),
-      .d_oe (unused_oe),
+      .d_oe (part_oe),
       .int_n,
-      .l1_n,
-      .l2_n,
-      .l3_n,
-      .l4_n,
-      .cnp_n,
-      .alm_n,
+      .l1_n (in_l1_n),
+      .l2_n (in_l2_n),
+      .l3_n (in_l3_n),
+      .l4_n (in_l4_n),
+      .cnp_n(in_cnp_n),
+      .alm_n(in_alm_n),
       .s,
       .hold,
       .pout_n,
@@ -109,16 +121,24 @@ module ppmc_bank_carrier #(
 
     logic unused;
     assign uart_txd = 1'b1;
-    assign unused   = uart_rxd;
+    assign unused   = uart_rxd ^ part_oe;
   end else begin : g_uart
     localparam int unsigned AxisBits = $clog2(AXES);
+    localparam int unsigned Watch = 32 + 14 * AXES;  // everything that is recorded, first pin in the low bits
 
     logic host_cs_n;
     logic [3:0] host_a;
     logic [7:0] to_host, axis, straps;
     logic [AxisBits-1:0] n;  // the axis that op PINS shows
 
+    logic [Watch-1:0] watch;
+
     assign n = axis[AxisBits-1:0];
+    assign watch = {
+      {s, hold, dir, pout_n, int_n, part_oe, from_part},
+      {in_alm_n, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n},
+      {to_part, part_wr_n, part_rd_n, part_cs_n, part_a, part_rst_n}
+    };
 
     ppmc_board_host #(
         .ClkHz   (CLK_HZ),
@@ -126,7 +146,9 @@ module ppmc_bank_carrier #(
         .Baud    (BAUD),
         .Part    (32),
         .AddrBits(4),
-        .Counter (1'b0)
+        .Counter (1'b0),
+        .Watch   (Watch),
+        .Record  (RECORD)
     ) u_host (
         .clk_i      (clk),
         .rst_ni     (rst_n),
@@ -150,6 +172,7 @@ module ppmc_bank_carrier #(
         .hold_i     (hold[n]),
         .pout_ni    (1'b1),
         .dir_i      (1'b0),
+        .watch_i    (watch),
         .link_o     (led_link)
     );
 

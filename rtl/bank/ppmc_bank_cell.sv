@@ -49,7 +49,7 @@ module ppmc_bank_cell
   assign ends = halt || limit || switches_i.alarm || (switches_i.origin && order_q.search);
   assign pulse = now && order_q.pulse && armed_o && !ends;
   assign rise = now && order_q.rise;
-  assign set = now && order_q.set;
+  assign set = now && order_q.sets;
 
   // One of an order's three may still wait when the next order comes: it is then carried out in that very clk.
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -84,7 +84,7 @@ module ppmc_bank_cell
 `ifndef SYNTHESIS
   `PPMC_ASSERT(
       bank_one_order,
-      !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.set) && !(order_q.rise && order_q.set))
+      !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.sets) && !(order_q.rise && order_q.sets))
   `PPMC_ASSERT(bank_mot_02, !(pulse && ends))
   `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
 `endif

@@ -11,6 +11,7 @@ module ppmc_bank_engine
   import ppmc_bank_pkg::*;
   import ppmc_code_pkg::error_e;
   import ppmc_code_pkg::decoded_t;
+  import ppmc_code_pkg::init_code_t;
 #(
     parameter int unsigned Quantum   = 25,    // clk
     parameter int unsigned TimeBits  = 18,    // of an interval in clk
@@ -45,24 +46,19 @@ module ppmc_bank_engine
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
+  // Small FPGAs have few block RAMs, and these are the fewest bits that fill one.
+  localparam string PaceStyle = (Round > 8) ? "block" : "logic";
+
   typedef logic [RoundBits-1:0] axis_t;
 
   // ---- memories ------------------------------------------------------------------------------------
 
-  typedef struct packed {
-    logic [1:0]  taken;
-    logic        error;
-    logic [2:0]  number;
-    logic [7:0]  code;
-    logic [23:0] params;
-  } bytes_t;
-
   // Needed for comparisons, and only later.
   typedef struct packed {
-    logic [TimeBits-1:0] rem;    // clk to the awaited edge
+    logic [TimeBits-1:0] rem;      // clk to the awaited edge
     walk_t               walk;
-    ramp_t               ramp;
-    bytes_t              bytes;
+    setting_t            setting;
+    command_t            command;
   } early_t;
 
   typedef struct packed {
@@ -73,15 +69,25 @@ module ppmc_bank_engine
 
   (* ram_style = "block", no_rw_check *)early_t earlies[Round];
   (* ram_style = "block", no_rw_check *)late_t  lates  [Round];
-  (* ram_style = "block", no_rw_check *)pace_t  paces  [Round];
+  (* ram_style = PaceStyle, no_rw_check *)pace_t  paces  [Round];
+  // Written when a byte sets them, and not by each visit: not carried through its stages.
+  (* ram_style = "block", no_rw_check *)words_t words  [Round];
+  (* ram_style = "block", no_rw_check *)ramp_t  ramps  [Round];
+  (* ram_style = "block", no_rw_check *)units_t chops  [Round];
 
   initial
     for (int unsigned i = 0; i < Round; i++) begin
       earlies[i] = '0;
       lates[i]   = '0;
       paces[i]   = '0;
+      words[i]   = '0;
+      ramps[i]   = '0;
+      chops[i]   = '0;
     end
 
+  words_t words1_q, words2_q, words3_q;
+  ramp_t ramp1_q, ramp2_q, ramp3_q, ramp4_q;
+  units_t units3_q, units4_q;
   early_t early1_q, early2_q, early3_q, early4_q, early, early5_q;
   late_t late2_q, late3_q, late4_q, late, late5_q;
   pace_t pace_r_q, pace0_q, pace1_q, pace2_q, pace3_q, pace4_q, pace, pace5_q;
@@ -96,12 +102,15 @@ module ppmc_bank_engine
     earlies[axis_i[5]] <= early5_q;
     lates[axis_i[5]] <= late5_q;
     paces[axis_i[5]] <= pace5_q;
+    words1_q <= words[axis_i[0]];
+    ramp1_q <= ramps[axis_i[0]];
+    units3_q <= chops[axis_i[2]];
     // On the way down the threshold of the next slower rate counts.
     pace0_q <= pace_r_q;
     probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
     pace1_q <= pace0_q;
     pace2_q <= pace1_q;
-    early2_q <= early1_q;
+    {early2_q, words2_q, ramp2_q} <= {early1_q, words1_q, ramp1_q};
     late3_q <= late2_q;
   end
 
@@ -130,7 +139,7 @@ module ppmc_bank_engine
   logic [TimeBits-1:0] due3_q;
   walk_t walk2;
 
-  assign unused_bits = &{1'b0, axis_i[4], early4_q, progress4_q, walk2};
+  assign unused_bits = &{1'b0, early4_q, ramp4_q, progress4_q, walk2};
   assign walk2 = early2_q.walk;
   assign reached = {walk2.climb[StepBits-1:0], !pace2_q.down} >= {threshold, pace2_q.down};
   assign moves = walk2.busy && walk2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
@@ -139,22 +148,23 @@ module ppmc_bank_engine
     {mail2_q, progress2_q, config2_q} <= {mail_i, progress_i, config_ni};
     {mail3_q, progress3_q, config3_q} <= {mail2_q, progress2_q, config2_q};
     {early3_q, pace3_q, after3_q} <= {early2_q, pace2_q, after};
+    {words3_q, ramp3_q} <= {words2_q, ramp2_q};
     seen3_q <= seen_i;
     due3_q <= due_i;
-    new3_q <= mail2_q.seq != early2_q.bytes.taken;
+    new3_q <= mail2_q.seq != early2_q.command.taken;
     decoded3_q <= decode(mail2_q.data);
-    value3_q <= ppmc104_pkg::judge({mail2_q.data, early2_q.bytes.params});
+    value3_q <= ppmc104_pkg::judge({mail2_q.data, words2_q.params});
     facts3_q.fire <= early2_q.rem[TimeBits-1:RoundBits] == '0;
     if (pace2_q.down)
       facts3_q.more <= moves && (walk2.run || (walk2.low && !walk2.last)) && !reached
-                                       && pace2_q.rate != early2_q.ramp.slow;
+                                       && pace2_q.rate != ramp2_q.slow;
     else
       facts3_q.more <= moves && walk2.run && !walk2.low && !walk2.held && reached
-                                         && pace2_q.rate != early2_q.ramp.fast;
+                                         && pace2_q.rate != ramp2_q.fast;
     facts3_q.zero  <= walk2.slack == '0;
     facts3_q.minus <= walk2.slack[24];
     facts3_q.foot  <= walk2.climb[14:1] == '0;
-    facts3_q.full  <= walk2.climb[StepBits-1:0] == early2_q.ramp.steps + 1'b1;
+    facts3_q.full  <= walk2.climb[StepBits-1:0] == ramp2_q.steps + 1'b1;
     facts3_q.go    <= go_i;
     facts3_q.built <= !(booked && booked_for == axis_i[2]);
   end
@@ -162,19 +172,19 @@ module ppmc_bank_engine
   // ---- stage 3: plan -------------------------------------------------------------------------------
 
   plan_t plan, plan4_q;
-  logic take, anew, anew4_q;
+  logic take, take4_q, anew, anew4_q;
   logic [7:0] code, code4_q;
   logic [31:0] params, params4_q;
   logic [TimeBits-1:0] add, add4_q;
   ppmc_code_pkg::asking_t asking, asking3;
-  bytes_t bytes3, bytes4_q;
+  command_t command3, command4_q;
 
-  assign bytes3 = early3_q.bytes;
+  assign command3 = early3_q.command;
   assign asking3 = '{
-          error: bytes3.error,
-          number: bytes3.number,
-          code: bytes3.code,
-          params: {bytes3.params, 8'd0}
+          error: command3.error,
+          number: command3.number,
+          code: words3_q.code,
+          params: {words3_q.params, 8'd0}
       };
 
   ppmc_bank_plan #(
@@ -184,7 +194,7 @@ module ppmc_bank_engine
   ) u_plan (
       .walk_i   (early3_q.walk),
       .pace_i   (pace3_q),
-      .ramp_i   (early3_q.ramp),
+      .setting_i(early3_q.setting),
       .rest_i   (late3_q.rest),
       .over_i   (late3_q.left == '0),
       .seen_i   (seen3_q),
@@ -229,12 +239,11 @@ module ppmc_bank_engine
     {early4_q, pace4_q, late4_q, seen4_q} <= {early3_q, pace3_q, late3_q, seen3_q};
     {progress4_q, config4_q} <= {progress3_q, config3_q};
     {plan4_q, code4_q, params4_q, anew4_q, add4_q} <= {clear_i[3] ? '0 : plan, code, params, anew, add};
-    bytes4_q <= '{
-        taken: take ? mail3_q.seq : bytes3.taken,
+    {take4_q, ramp4_q, units4_q} <= {take, ramp3_q, units3_q};
+    command4_q <= '{
+        taken: take ? mail3_q.seq : command3.taken,
         error: asking.error,
-        number: asking.number,
-        code: asking.code,
-        params: asking.params[31:8]
+        number: asking.number
     };
   end
 
@@ -243,6 +252,11 @@ module ppmc_bank_engine
   order_t  order;
   answer_t answer;
   logic call, calm;
+  init_code_t init;
+  logic unused_words;
+
+  assign init = init_code_t'(code4_q);
+  assign unused_words = ^{init, asking};
 
   ppmc_bank_step #(
       .HoldRounds(HoldRounds),
@@ -256,13 +270,16 @@ module ppmc_bank_engine
       .read_seq_i(progress4_q.seq),
       .walk_i    (early4_q.walk),
       .pace_i    (pace4_q),
-      .ramp_i    (early4_q.ramp),
+      .setting_i (early4_q.setting),
+      .units_i   (units4_q),
+      .chop_i    (ramp4_q.chop),
+      .slow_i    (ramp4_q.slow),
       .rest_i    (late4_q.rest),
       .left_i    (late4_q.left),
       .position_i(late4_q.position),
       .walk_o    (early.walk),
       .pace_o    (pace),
-      .ramp_o    (early.ramp),
+      .setting_o (early.setting),
       .rest_o    (late.rest),
       .left_o    (late.left),
       .position_o(late.position),
@@ -272,8 +289,20 @@ module ppmc_bank_engine
       .calm_o    (calm)
   );
 
-  assign early.rem   = (anew4_q ? '0 : early4_q.rem) + add4_q;
-  assign early.bytes = bytes4_q;
+  assign early.rem = (anew4_q ? '0 : early4_q.rem) + add4_q;
+  assign early.command = command4_q;
+
+  always_ff @(posedge clk_i) begin
+    if (take4_q) words[axis_i[4]] <= '{code: code4_q, params: params4_q[31:8]};
+    if (plan4_q.init)
+      ramps[axis_i[4]] <= '{
+          chop: init.chop,
+          slow: params4_q[7:0],
+          fast: params4_q[15:8],
+          steps: params4_q[16+:StepBits]
+      };
+    if (plan4_q.switching) chops[axis_i[4]] <= params4_q[31:16];
+  end
 
   // ---- stage 5: write, order -----------------------------------------------------------------------
 
@@ -292,15 +321,15 @@ module ppmc_bank_engine
     answer_we_o <= clear_i[4] || plan4_q.read;
     order_o     <= clear_i[4] ? '0 : order;
     // At once, or so many clk after the first one that can be ordered for.
-    at_o        <= axis_i[0] + axis_t'(2) + (order.set && !plan4_q.toggle ? '0 : axis_t'(early4_q.rem));
+    at_o        <= axis_i[0] + axis_t'(2) + (order.sets && !plan4_q.toggle ? '0 : axis_t'(early4_q.rem));
     call_o      <= call && !clear_i[4];
     calm_o      <= calm && !clear_i[4];
   end
 
   assign status_o = '{
-          taken: early5_q.bytes.taken,
-          error: early5_q.bytes.error,
-          number: early5_q.bytes.number,
+          taken: early5_q.command.taken,
+          error: early5_q.command.error,
+          number: early5_q.command.number,
           busy: early5_q.walk.busy
       };
   assign position_o = late5_q.position;

@@ -48,11 +48,32 @@ package ppmc_bank_pkg;
     logic       busy;
   } status_t;
 
-  // Command unit.
+  // Command unit, beside the words that it keeps of the host.
   typedef struct packed {
     logic [1:0] taken;   // seq of the byte taken last
-    asking_t    asking;
+    logic       error;
+    logic [2:0] number;  // of that error, or of parameters that are missing
   } command_t;
+
+  // Last command and its parameters, written with each byte that is taken.
+  typedef struct packed {
+    logic [7:0]  code;
+    logic [23:0] params;  // the last one in the high bits
+  } words_t;
+
+  // An initialisation, written when it is complete.
+  typedef struct packed {
+    logic                              chop;   // chop at rest
+    logic [7:0]                        slow;   // start-up rate
+    logic [7:0]                        fast;   // high-speed rate
+    logic [ppmc104_pkg::STEP_BITS-1:0] steps;  // acceleration pulses PA
+  } ramp_t;
+
+  // Units of the chopper's phases, written when the host sets them.
+  typedef struct packed {
+    logic [7:0] off;
+    logic [7:0] on;
+  } units_t;
 
   // Pace of the running interval.
   typedef struct packed {
@@ -81,15 +102,11 @@ package ppmc_bank_pkg;
     logic [14:0] climb;      // index of the running interval + 1
   } walk_t;
 
-  // What an initialisation sets, but for the phases.
+  // How far an initialisation has come.
   typedef struct packed {
-    logic                              initialised;
-    logic                              building;     // its table is being built
-    logic                              chop_next;    // chop when that has ended
-    logic [7:0]                        slow;         // start-up rate
-    logic [7:0]                        fast;         // high-speed rate
-    logic [ppmc104_pkg::STEP_BITS-1:0] steps;        // acceleration pulses PA
-  } ramp_t;
+    logic initialised;
+    logic building;     // its table is being built
+  } setting_t;
 
   // Phases, chopper, end of the last motion.
   typedef struct packed {
@@ -97,8 +114,6 @@ package ppmc_bank_pkg;
     logic       chop;        // chop at rest
     logic       on;          // phases of the chopper
     logic       programmed;  // its times come from the host
-    logic [7:0] on_units;
-    logic [7:0] off_units;
     logic [1:0] motor;
     logic       half;
     logic       positive;
@@ -125,8 +140,8 @@ package ppmc_bank_pkg;
     logic       halt;    // no more pulses, at once
     logic       pulse;   // one of these three, at its clk
     logic       rise;    // the pulse ends
-    logic       set;     // the other pins change
-    logic       arm;     // with set: pulses may come; with pulse: another one may
+    logic       sets;    // the other pins change
+    logic       arm;     // with sets: pulses may come; with pulse: another one may
     logic       search;  // the origin counts
     logic       ccw;     // level of dir, and which limit counts
     logic       hold;

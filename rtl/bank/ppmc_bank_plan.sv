@@ -20,7 +20,7 @@ module ppmc_bank_plan
     // the axis
     input  wire walk_t                   walk_i,     // its motion
     input  wire pace_t                   pace_i,     // pace of that
-    input  wire ramp_t                   ramp_i,     // its initialisation
+    input  wire setting_t                setting_i,  // its initialisation
     input  wire rest_t                   rest_i,     // what counts at rest
     input  wire logic                    over_i,     // its hold time ends with this visit
     input  wire seen_t                   seen_i,     // cell and switches
@@ -55,7 +55,7 @@ module ppmc_bank_plan
   logic ramp, finished, inits, completes, open, unused_stop, unused_bits;
   logic dec, halt, slow, counts, forced, fast_plain, grows, pulse, rests;
 
-  assign unused_bits = &{1'b0, walk_i, ramp_i, rest_i, seen_i, mail_i, act};
+  assign unused_bits = &{1'b0, walk_i, setting_i, rest_i, seen_i, mail_i, act};
 
   // ---- what has happened since the last visit ------------------------------------------------------
 
@@ -64,7 +64,7 @@ module ppmc_bank_plan
     kill = walk_i.busy && !seen_i.armed && (walk_i.run || !seen_i.emitted);
     undo = kill && !seen_i.emitted;
     finish = walk_i.busy && (kill ? undo || !walk_i.low : !walk_i.run && !walk_i.low);
-    ready = ramp_i.building && facts_i.built;
+    ready = setting_i.building && facts_i.built;
     proceed = facts_i.go && seen_i.mask && walk_i.held && walk_i.run && !kill;
     refuse = facts_i.go && seen_i.mask && !proceed;
     unit = !walk_i.busy && rest_i.chop && facts_i.fire && !ready;
@@ -76,7 +76,7 @@ module ppmc_bank_plan
   assign finished = !walk_i.run || kill;
   assign inits = asking_i.code[7:6] == 2'b00;
   assign completes = inits && !mail_i.command && !asking_i.error && asking_i.number == 3'd1;
-  assign open = !finish && !ramp_i.building && !(facts_i.go && seen_i.mask) && !toggle
+  assign open = !finish && !setting_i.building && !(facts_i.go && seen_i.mask) && !toggle
       && (free_i || !completes);
   assign take_o = new_i && open;
   assign code_o = mail_i.command ? mail_i.data : asking_i.code;
@@ -87,7 +87,7 @@ module ppmc_bank_plan
     asking_o = asking;
     if (refuse) begin
       asking_o.error  = 1'b1;
-      asking_o.number = ramp_i.initialised ? ErrUndefined : ErrNotReady;
+      asking_o.number = setting_i.initialised ? ErrUndefined : ErrNotReady;
       if (walk_i.busy && !finish) asking_o.number = ErrBusy;
     end
   end
@@ -105,7 +105,7 @@ module ppmc_bank_plan
       .busy_i        (walk_i.busy),
       .ramp_i        (ramp),
       .decelerating_i(walk_i.forced || walk_i.natural || finished),
-      .initialised_i (ramp_i.initialised),
+      .initialised_i (setting_i.initialised),
       .asking_i,
       .asking_o      (asking),
       .act_o         (act),
@@ -147,7 +147,7 @@ module ppmc_bank_plan
 
     plan_o.start = act.start;
     plan_o.init = act.init;
-    plan_o.first = act.init && !ramp_i.initialised;
+    plan_o.first = act.init && !setting_i.initialised;
     plan_o.exc_off = act.exc_off;
     plan_o.switching = act.switching;
     plan_o.read = act.read;

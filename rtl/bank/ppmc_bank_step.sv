@@ -14,31 +14,34 @@ module ppmc_bank_step
     parameter int unsigned HoldRounds = 106_250,  // rounds from the end of a motion to HOLD
     parameter int unsigned HoldBits   = 17
 ) (
-    input  wire plan_t                plan_i,      // what the visit has decided
-    input  wire seen_t                seen_i,      // what it has seen of cell and switches
-    input  wire logic  [         7:0] code_i,      // of what a byte makes happen
-    input  wire logic  [        31:0] params_i,    // its parameters
-    input  wire logic  [         1:0] config_ni,   // vsel and csel, inverted
-    input  wire logic  [         1:0] read_seq_i,  // answer that the host has read last
+    input  wire plan_t                   plan_i,      // what the visit has decided
+    input  wire seen_t                   seen_i,      // what it has seen of cell and switches
+    input  wire logic     [         7:0] code_i,      // of what a byte makes happen
+    input  wire logic     [        31:0] params_i,    // its parameters
+    input  wire logic     [         1:0] config_ni,   // vsel and csel, inverted
+    input  wire logic     [         1:0] read_seq_i,  // answer that the host has read last
     // before
-    input  wire walk_t                walk_i,      // motion
-    input  wire pace_t                pace_i,      // pace of that
-    input  wire ramp_t                ramp_i,      // initialisation
-    input  wire rest_t                rest_i,      // what counts at rest
-    input  wire logic  [HoldBits-1:0] left_i,      // rounds of the hold time, less 1
-    input  wire logic  [        31:0] position_i,  // pulses CW less pulses CCW
+    input  wire walk_t                   walk_i,      // motion
+    input  wire pace_t                   pace_i,      // pace of that
+    input  wire setting_t                setting_i,   // initialisation
+    input  wire units_t                  units_i,     // chopper
+    input  wire logic                    chop_i,      // the initialisation asks for it
+    input  wire logic     [         7:0] slow_i,      // start-up rate
+    input  wire rest_t                   rest_i,      // what counts at rest
+    input  wire logic     [HoldBits-1:0] left_i,      // rounds of the hold time, less 1
+    input  wire logic     [        31:0] position_i,  // pulses CW less pulses CCW
     // after
-    output walk_t                     walk_o,      // the same
-    output pace_t                     pace_o,      // the same
-    output ramp_t                     ramp_o,      // the same
-    output rest_t                     rest_o,      // the same
-    output logic       [HoldBits-1:0] left_o,      // the same
-    output logic       [        31:0] position_o,  // the same
+    output walk_t                        walk_o,      // the same
+    output pace_t                        pace_o,      // the same
+    output setting_t                     setting_o,   // the same
+    output rest_t                        rest_o,      // the same
+    output logic          [HoldBits-1:0] left_o,      // the same
+    output logic          [        31:0] position_o,  // the same
     // to the outside
-    output order_t                    order_o,     // to the pin cell
-    output answer_t                   answer_o,    // with plan_i.read
-    output logic                      call_o,      // an interrupt is pending from now on
-    output logic                      calm_o       // and no more
+    output order_t                       order_o,     // to the pin cell
+    output answer_t                      answer_o,    // with plan_i.read
+    output logic                         call_o,      // an interrupt is pending from now on
+    output logic                         calm_o       // and no more
 );
 
   op_code_t   code;
@@ -87,10 +90,10 @@ module ppmc_bank_step
       walk_o.run  = 1'b0;
       if (slack[24]) walk_o.slack = '0;
     end
-    if (plan_i.finish || plan_i.ready) walk_o.climb = {7'd0, rest_i.programmed ? rest_i.on_units : 8'd0};
+    if (plan_i.finish || plan_i.ready) walk_o.climb = {7'd0, rest_i.programmed ? units_i.on : 8'd0};
     if (plan_i.toggle) begin
       walk_o.climb = '0;
-      if (rest_i.programmed) walk_o.climb[7:0] = rest_i.on ? rest_i.off_units : rest_i.on_units;
+      if (rest_i.programmed) walk_o.climb[7:0] = rest_i.on ? units_i.off : units_i.on;
     end
     if (plan_i.start) begin
       walk_o = '{
@@ -112,7 +115,7 @@ module ppmc_bank_step
     if (plan_i.probe) pace_o.rate = pace_i.down ? pace_i.rate + 1'b1 : pace_i.rate - 1'b1;
     if (plan_i.pulse && plan_i.turn) pace_o.down = 1'b1;
     if (plan_i.start) begin
-      pace_o = '{slow: config_ni[0], extra: config_ni[1], down: 1'b0, rate: ramp_i.slow};
+      pace_o = '{slow: config_ni[0], extra: config_ni[1], down: 1'b0, rate: slow_i};
       if (!ramped) pace_o.rate = (code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24];
     end
 
@@ -126,18 +129,10 @@ module ppmc_bank_step
   assign motor = motor_e'(rest_i.motor);
 
   always_comb begin
-    ramp_o = ramp_i;
-    if (plan_i.init) begin
-      ramp_o.building            = 1'b1;
-      ramp_o.chop_next           = init.chop;
-      {ramp_o.fast, ramp_o.slow} = params_i[15:0];
-      ramp_o.steps               = params_i[16+:ppmc104_pkg::STEP_BITS];
-    end
-    if (plan_i.ready) begin
-      ramp_o.building    = 1'b0;
-      ramp_o.initialised = 1'b1;
-    end
-    if (plan_i.exc_off) ramp_o.initialised = 1'b0;
+    setting_o = setting_i;
+    if (plan_i.init) setting_o.building = 1'b1;
+    if (plan_i.ready) setting_o = '{initialised: 1'b1, building: 1'b0};
+    if (plan_i.exc_off) setting_o.initialised = 1'b0;
 
     rest_o = rest_i;
     if (counts && !walk_i.pout_only) begin
@@ -153,15 +148,11 @@ module ppmc_bank_step
       rest_o.pattern = {3'b000, {2{plan_i.first}}};
       rest_o.pair    = 1'b1;
     end
-    if (plan_i.ready) rest_o.chop = ramp_i.chop_next;
+    if (plan_i.ready) rest_o.chop = chop_i;
     if (plan_i.exc_off) rest_o.chop = 1'b0;
     if (plan_i.toggle) rest_o.on = !rest_i.on;
     if (plan_i.ready || plan_i.start || plan_i.exc_off || plan_i.finish) rest_o.on = 1'b1;
-    if (plan_i.switching) begin
-      rest_o.programmed = 1'b1;
-      rest_o.on_units   = params_i[23:16];
-      rest_o.off_units  = params_i[31:24];
-    end
+    if (plan_i.switching) rest_o.programmed = 1'b1;
     if (plan_i.hold) rest_o.hold = 1'b1;
     if (plan_i.start) rest_o.hold = 1'b0;
     if (plan_i.finish) begin
@@ -194,7 +185,7 @@ module ppmc_bank_step
         halt: plan_i.halt,
         pulse: plan_i.pulse,
         rise: plan_i.rise,
-        set: plan_i.start || plan_i.first || plan_i.exc_off || plan_i.ready || plan_i.toggle || plan_i.hold,
+        sets: plan_i.start || plan_i.first || plan_i.exc_off || plan_i.ready || plan_i.toggle || plan_i.hold,
         arm: plan_i.start || (plan_i.pulse && !plan_i.last),
         search: walk_o.op == OP_ORIGIN,
         ccw: walk_o.ccw,

@@ -42,7 +42,9 @@ module ppmc_bank_window
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
-  localparam string Style = (Slots > 8) ? "block" : "logic";  // small FPGAs have few block RAMs
+  // With few axes only positions, for small FPGAs have few block RAMs; a status has few bits, the tool sees that.
+  localparam string AnswerStyle = (Slots > 8) ? "block" : "logic";
+  localparam string StatusStyle = (Slots > 8) ? "block" : "auto";
 
   // ---- bus -----------------------------------------------------------------------------------------
 
@@ -134,9 +136,9 @@ module ppmc_bank_window
 
   // ---- what it reads -------------------------------------------------------------------------------
 
-  (* ram_style = Style, no_rw_check *) status_t statuses[Slots];
-  (* ram_style = Style, no_rw_check *) logic [31:0] positions[Slots];
-  (* ram_style = Style, no_rw_check *) answer_t answers[Slots];
+  (* ram_style = StatusStyle, no_rw_check *) status_t statuses[Slots];
+  (* ram_style = "block", no_rw_check *) logic [31:0] positions[Slots];
+  (* ram_style = AnswerStyle, no_rw_check *) answer_t answers[Slots];
 
   typedef struct packed {
     logic [1:0]  mail_seq;
@@ -201,9 +203,11 @@ module ppmc_bank_window
 
   logic [1:0] done, number;
   logic [7:0] data, status, value;
-  logic ibf, obf;
+  logic ibf, obf, exists;
   logic [23:0] kept_q;  // bytes 1..3 of a position
   logic ready_q;  // of the moment that a read shows
+
+  assign exists = 32'(a2[9:4]) < Axes;
 
   always_comb begin
     done   = (view2_q.progress.seq == view2_q.answer.seq) ? view2_q.progress.done : 2'd0;
@@ -225,7 +229,7 @@ module ppmc_bank_window
       default: value = '1;
     endcase
     if (!ready_q) value = {6'd0, a2[3:0] == REG_STATUS, 1'b0};
-    if (32'(a2[9:4]) >= Axes) value = '1;
+    if (!exists) value = '1;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -242,10 +246,10 @@ module ppmc_bank_window
       taken_q <= '0;
     end else if (load) begin
       d_o     <= value;
-      shown_q <= a2[3:0] == REG_DATA && obf && ready_q && 32'(a2[9:4]) < Axes;
+      shown_q <= a2[3:0] == REG_DATA && obf && ready_q && exists;
       seen_q  <= axis2;
       taken_q <= '{seq: view2_q.answer.seq, done: done + 2'd1};
-      if (a2[3:0] == REG_POSITION) kept_q <= view2_q.position[31:8];
+      if (a2[3:0] == REG_POSITION && exists) kept_q <= view2_q.position[31:8];
     end else if (read_done) begin
       shown_q <= 1'b0;
     end

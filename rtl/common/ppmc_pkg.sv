@@ -25,6 +25,26 @@ package ppmc_pkg;
     return (top < 2) ? 1 : 32'($clog2(64'(top) + 64'd1));
   endfunction
 
+  // x + 1, x - 1 and x < y of short numbers in gates: on an ECP5 the ends of a carry chain cost as much as
+  // five of its bits.
+  function automatic logic [31:0] inc(logic [31:0] x);
+    logic carry;
+    carry = 1'b1;
+    for (int unsigned i = 0; i < 32; i++) begin
+      inc[i] = x[i] ^ carry;
+      carry  = carry && x[i];
+    end
+  endfunction
+
+  function automatic logic [31:0] dec(logic [31:0] x);
+    return ~inc(~x);
+  endfunction
+
+  function automatic logic less(logic [31:0] x, logic [31:0] y);
+    less = 1'b0;
+    for (int unsigned i = 0; i < 32; i++) less = (x[i] == y[i]) ? less : y[i];
+  endfunction
+
   // Greatest common divisor, to keep phase accumulators narrow.
   function automatic longint unsigned gcd(longint unsigned a, longint unsigned b);
     longint unsigned x, y, t;

@@ -18,49 +18,26 @@ module ppmc_xtal_timer #(
     output logic                  past_o      // so many have passed
 );
 
-  localparam longint unsigned Common = ppmc_pkg::gcd(64'(ClkHz), 64'(XtalHz));
-  localparam int unsigned Modulus = 32'(64'(ClkHz) / Common);
-  localparam int unsigned Step = 32'(64'(XtalHz) / Common);
-  localparam int unsigned PhaseBits = ppmc_pkg::cnt_width(Modulus + Step);
-
-  if (3 * Modulus < Step) begin : g_check
-    $fatal(1, "ppmc_xtal_timer: at most three crystal cycles a clk");
-  end
-
-  logic [PhaseBits-1:0] sum, phase_d, phase_q;
   logic [1:0] cycles;
   logic full;
   logic [Width-1:0] count_q;
 
-  assign full = (Step > 2 * Modulus) ? &count_q[Width-1:2] : &count_q[Width-1:1];
+  assign full = (64'(XtalHz) > 64'd2 * 64'(ClkHz)) ? &count_q[Width-1:2] : &count_q[Width-1:1];
 
-  always_comb begin
-    sum     = phase_q + PhaseBits'(Step);
-    cycles  = 2'd0;
-    phase_d = sum;
-    if (Step > 2 * Modulus && 64'(sum) >= 64'd3 * 64'(Modulus)) begin
-      cycles  = 2'd3;
-      phase_d = PhaseBits'(64'(sum) - 64'd3 * 64'(Modulus));
-    end else if (64'(sum) >= 64'd2 * 64'(Modulus)) begin
-      cycles  = 2'd2;
-      phase_d = PhaseBits'(64'(sum) - 64'd2 * 64'(Modulus));
-    end else if (sum >= PhaseBits'(Modulus)) begin
-      cycles  = 2'd1;
-      phase_d = sum - PhaseBits'(Modulus);
-    end
-  end
+  ppmc_xtal_cycles #(
+      .ClkHz (ClkHz),
+      .XtalHz(XtalHz)
+  ) u_cycles (
+      .clk_i,
+      .rst_ni,
+      .restart_i,
+      .cycles_o(cycles)
+  );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      phase_q <= '0;
-      count_q <= '0;
-    end else if (restart_i) begin
-      phase_q <= '0;
-      count_q <= '0;
-    end else if (!full) begin
-      phase_q <= phase_d;
-      count_q <= count_q + Width'(cycles);
-    end
+    if (!rst_ni) count_q <= '0;
+    else if (restart_i) count_q <= '0;
+    else if (!full) count_q <= count_q + Width'(cycles);
   end
 
   assign past_o = count_q >= limit_i;

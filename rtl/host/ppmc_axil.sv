@@ -145,7 +145,7 @@ module ppmc_axil #(
     end
   end
 
-  assign rdata_o = 32'(own_q ? {7'b0, flag_q} : rdata);
+  assign rdata_o = {24'd0, own_q ? {7'b0, flag_q} : rdata};
 
 `ifndef SYNTHESIS
   // verilog_format: off

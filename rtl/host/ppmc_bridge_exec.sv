@@ -11,7 +11,9 @@ module ppmc_bridge_exec
 #(
     parameter int unsigned TopCode = 6,  // highest line rate code
     parameter int unsigned Axes = 1,  // pulse counters
-    parameter logic [127:0] Ident = '0
+    parameter bit Recorder = 1'b0,  // there is one
+    parameter logic [127:0] Ident = '0,
+    parameter logic [127:0] Build = '0  // answer of op VERSION
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
@@ -32,10 +34,11 @@ module ppmc_bridge_exec
     output logic      [        7:0] waddr_o,       // where
     output logic      [        7:0] wdata_o,       // what
     // settings
-    output logic                    rate_o,        // op RATE with arg_o
-    output logic                    events_o,      // op EVENTS with arg_o
-    output logic      [        2:0] arg_o,         // first operand
-    output logic      [        7:0] straps_o,      // strap outputs
+    output settings_t               settings_o,    // what scripts set
+    // recorder
+    output logic                    rec_next_o,    // its next byte
+    input  wire logic [        7:0] rec_data_i,    // a byte of its records
+    input  wire logic [       63:0] rec_info_i,    // answer of op RECORDED
     // board
     input  wire logic [        7:0] pins_i,        // for op PINS
     input  wire logic [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
@@ -74,19 +77,16 @@ module ppmc_bridge_exec
   logic [8:0] length;  // of the answer
   logic [7:0] pos_q;
   logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then bytes left; left_q: of the script
-  logic [15:0] limit_q, wait_q;
   logic [1:0] age_q;  // clk since the last byte was taken or put: all that hangs on them is right at 2
-  logic none_q, cut_q, zero_q, bad_q, look_once_q, hit_q, judge_q, at_limit_q, overdue_q;
+  logic none_q, cut_q, zero_q, bad_q, hit_q, judge_q, over;
   logic first_q, written_q, seen_q;
   logic [3:0] kind, low;
   logic system, fetched, take;
-  logic system_q, reading_q, sends_q, pair_q;  // what kind of op it is; right behind StDecode
+  logic system_q, reading_q, sends_q, pair_q, fetch_q;  // what kind of op it is; right behind StDecode
 
-  assign kind    = op_q[7:4];
-  assign low     = op_q[3:0];
-  assign system  = kind == OpSystem;
+  assign {kind, low} = op_q;
+  assign system = kind == OpSystem;
   assign fetched = age_q[1];
-  assign arg_o   = n_q[2:0];
 
   // ---------------------------------------------------------------- bus
 
@@ -126,25 +126,45 @@ module ppmc_bridge_exec
 
   // ---------------------------------------------------------------- answer
 
-  logic ident, count, full, full4, full16, block;
+  logic ident, count, full, full4, full16, block, decode;
   logic second;  // an op of axis 2
+  block_e kept;
+  need_e need;
+  result_e refused;
 
-  assign ident = state_q == StDecode && system && low == SysIdent && !full16;
-  assign count = state_q == StDecode && system && (low == SysCount || (second && !low[0])) && !full4;
-  assign second = Axes > 1 && (low == SysCount2 || low == SysZero2);
+  assign decode = state_q == StDecode && refused == ResDone;
   assign outcome_o = '{result: result_q, pos: pos_q, last: bus_data & {8{seen_q}}, length: length};
+
+  ppmc_bridge_decode #(
+      .Axes    (Axes),
+      .Recorder(Recorder)
+  ) u_decode (
+      .op_i    (op_q),
+      .full_i  (full),
+      .full4_i (full4),
+      .full16_i(full16),
+      .need_o  (need),
+      .fail_o  (refused),
+      .second_o(second),
+      .ident_o (ident),
+      .count_o (count),
+      .block_o (kept)
+  );
 
   ppmc_bridge_answer #(
       .Axes (Axes),
-      .Ident(Ident)
+      .Ident(Ident),
+      .Build(Build)
   ) u_answer (
       .clk_i,
       .rst_ni,
       .clear_i  (start_i),
       .put_i    (state_q == StPut),
-      .data_i   (system_q ? pins_i : bus_data),
-      .ident_i  (ident),
-      .count_i  (count),
+      .data_i   (system_q ? pins_i : fetch_q ? rec_data_i : bus_data),
+      .ident_i  (decode && ident),
+      .block_i  (kept),
+      .info_i   (rec_info_i),
+      .count_i  (decode && count),
       .second_i (second),
       .counter_i(count_i),
       .busy_o   (block),
@@ -176,33 +196,11 @@ module ppmc_bridge_exec
         take = !none_q;
         next = none_q ? StAnswer : StDecode;
       end
-      StDecode:
-      unique case (kind)
-        OpSystem:
-        unique case (low)
-          SysNop, SysZero: next = StOp;
-          SysRate, SysEvents, SysTimeout, SysStraps: next = StArg;
-          SysReset: next = StPause;
-          SysIdent:
-          if (full16) fail = ResOverflow;
-          else next = StPause;
-          SysCount:
-          if (full4) fail = ResOverflow;
-          else next = StPause;
-          SysPins:
-          if (full) fail = ResOverflow;
-          else next = StPut;
-          SysCount2, SysZero2:
-          if (!second) fail = ResIllegal;
-          else if (low[0]) next = StOp;
-          else if (full4) fail = ResOverflow;
-          else next = StPause;
-          default: fail = ResIllegal;
-        endcase
-        OpReadN, OpPost, OpWait, OpWriteN: next = StArg;
-        OpWrite, OpRead, OpCall, OpGet: next = StCheck;
-        default: fail = ResIllegal;
-      endcase
+      StDecode: begin
+        fail = refused;
+        next = need == NeedOperand ? StArg : need == NeedCheck ? StCheck : need == NeedByte ? StPut :
+               need == NeedBlock ? StPause : StOp;
+      end
       StArg, StArg2:
       if (fetched) begin
         take = !none_q;
@@ -223,7 +221,7 @@ module ppmc_bridge_exec
         if (zero_q) next = kind == OpCall ? StPut : StOp;
         else if (reading_q && full) fail = ResOverflow;
         else if (kind == OpPost || kind == OpCall || kind == OpGet) next = StPoll;
-        else next = reading_q ? StRead : StWrite;
+        else next = fetch_q ? StPut : reading_q ? StRead : StWrite;
       end
       StPoll: if (ready) next = StJudge;
       StJudge:
@@ -235,7 +233,7 @@ module ppmc_bridge_exec
           else if (bus_data[7]) fail = ResRefused;
           else next = StLoop;
         end else if (interrupt_i) fail = ResInterrupted;
-        else if (overdue_q || look_once_q) fail = ResTimeout;
+        else if (over) fail = ResTimeout;
         else next = StPoll;
       end
       StWrite:
@@ -253,42 +251,46 @@ module ppmc_bridge_exec
     if (fail != ResDone) next = StAnswer;
   end
 
-  assign script_o = state_q != StIdle && state_q != StAnswer;
-  assign answer_o = state_q == StAnswer;
+  assign script_o   = state_q != StIdle && state_q != StAnswer;
+  assign answer_o   = state_q == StAnswer;
+  assign rec_next_o = Recorder && state_q == StPut && fetch_q;
+
+  logic set, sets_q;  // an op that sets something is legal
+  logic [7:0] straps_q;
+  assign set = state_q == StCheck && fetched && system_q && !bad_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q      <= StIdle;
       result_q     <= ResDone;
-      straps_o     <= '1;
-      rate_o       <= 1'b0;
-      events_o     <= 1'b0;
+      straps_q     <= '1;
+      sets_q       <= 1'b0;
       count_zero_o <= '0;
       part_rst_no  <= 1'b0;
     end else begin
       state_q <= next;
-      if (start_i) result_q <= ResDone;
-      else if (fail != ResDone) result_q <= fail;
-      rate_o          <= state_q == StCheck && fetched && system_q && low == SysRate && !bad_q;
-      events_o        <= state_q == StCheck && fetched && system_q && low == SysEvents && !bad_q;
+      if (start_i || fail != ResDone) result_q <= fail;
+      sets_q <= set;
       count_zero_o[0] <= state_q == StDecode && system && low == SysZero;
       if (Axes > 1) count_zero_o[Axes-1] <= state_q == StDecode && system && low == SysZero2;
       part_rst_no <= !(state_q == StPause && low == SysReset && n_q[4] && !n_q[7]);
-      if (state_q == StCheck && system_q && low == SysStraps) straps_o <= n_q;
+      if (set && low == SysStraps) straps_q <= n_q;
     end
   end
 
-  // Request bytes and operands.
+  assign settings_o = '{sets: sets_q, op: sys_e'(low), arg: n_q[2:0], straps: straps_q};
   always_ff @(posedge clk_i) begin
-    age_q  <= take || start_i || state_q == StPut ? 2'b00 : {age_q[0], 1'b1};
+    age_q <= take || start_i || state_q == StPut ? 2'b00 : {age_q[0], 1'b1};
     none_q <= left_q == '0;
-    system_q  <= system;
-    reading_q <= kind == OpRead || kind == OpReadN || kind == OpGet;
-    sends_q   <= kind == OpWrite || kind == OpWriteN || kind == OpPost || kind == OpCall;
-    pair_q    <= kind == OpWait || (system && low == SysTimeout);
-    cut_q  <= n_q > left_q;
+    system_q <= system;
+    fetch_q <= kind == OpFetch;
+    reading_q <= kind == OpRead || kind == OpReadN || kind == OpGet || kind == OpFetch;
+    sends_q <= kind == OpWrite || kind == OpWriteN || kind == OpPost || kind == OpCall;
+    pair_q <= kind == OpWait || (system && low == SysTimeout);
+    cut_q <= n_q > left_q;
     zero_q <= n_q == '0;
-    bad_q  <= (low == SysRate && n_q > 8'(TopCode)) || (low == SysEvents && n_q[7:1] != '0);
+    bad_q  <= (low == SysRate && n_q > 8'(TopCode)) || (low == SysEvents && n_q[7:1] != '0) ||
+              (low == SysRecord && n_q > 8'(RecordRewind));
     if (start_i) begin
       raddr_o <= '0;
       left_q  <= length_i;
@@ -306,6 +308,7 @@ module ppmc_bridge_exec
       StPause: n_q <= n_q - 1'b1;
       StWrite: if (take) n_q <= n_q - 1'b1;
       StReadEnd: if (done) n_q <= n_q - 1'b1;
+      StPut: n_q <= n_q - 8'(fetch_q);
       default: ;
     endcase
     if (state_q == StArg2) value_q <= rdata_i;
@@ -315,9 +318,16 @@ module ppmc_bridge_exec
     else if (state_q == StWriteEnd) written_q <= 1'b1;
   end
 
-  // Waits. The time starts anew in all other states.
-  logic waiting;
-  assign waiting = state_q == StPoll || state_q == StJudge;
+  // Waits.
+  ppmc_bridge_wait u_wait (
+      .clk_i,
+      .ms_i,
+      .start_i,
+      .set_i    (state_q == StCheck && system_q && low == SysTimeout),
+      .limit_i  ({value_q, n_q}),
+      .waiting_i(state_q == StPoll || state_q == StJudge),
+      .over_o   (over)
+  );
 
   always_ff @(posedge clk_i) begin
     judge_q <= done;
@@ -328,17 +338,6 @@ module ppmc_bridge_exec
     endcase
     if (start_i) seen_q <= 1'b0;
     else if (done && state_q != StWriteEnd) seen_q <= 1'b1;
-    if (start_i) limit_q <= DefaultLimitMs;
-    else if (state_q == StCheck && system_q && low == SysTimeout) limit_q <= {value_q, n_q};
-    look_once_q <= limit_q == '0;
-    at_limit_q  <= wait_q == limit_q;
-    if (!waiting) begin
-      overdue_q <= 1'b0;
-      wait_q    <= '0;
-    end else if (ms_i) begin
-      overdue_q <= overdue_q || at_limit_q;
-      wait_q    <= wait_q + 1'b1;
-    end
   end
 
 `ifndef SYNTHESIS

@@ -26,7 +26,10 @@ package ppmc_bridge_pkg;
     SysCount,
     SysZero,
     SysCount2,   // of axis 2
-    SysZero2
+    SysZero2,
+    SysVersion,
+    SysRecord,
+    SysRecorded
   } sys_e;
 
   // High four bits of an op.
@@ -39,7 +42,8 @@ package ppmc_bridge_pkg;
     OpCall,
     OpGet,
     OpWait,
-    OpWriteN
+    OpWriteN,
+    OpFetch
   } op_e;
 
   typedef enum logic [2:0] {
@@ -58,6 +62,35 @@ package ppmc_bridge_pkg;
     logic [7:0] last;    // what that op read last
     logic [8:0] length;  // of the answer's data in bytes
   } outcome_t;
+
+  // What scripts set, from the script engine to the rest of the bridge.
+  typedef struct packed {
+    logic       sets;    // one clk: op with arg
+    sys_e       op;      // RATE, EVENTS, RECORD or another
+    logic [2:0] arg;     // first operand
+    logic [7:0] straps;  // strap outputs
+  } settings_t;
+
+  // Operand of op RECORD.
+  localparam logic [1:0] RecordEnd = 2'd0;
+  localparam logic [1:0] RecordBegin = 2'd1;
+  localparam logic [1:0] RecordRewind = 2'd2;
+
+  // What an op needs first.
+  typedef enum logic [2:0] {
+    NeedNothing,  // it is done
+    NeedOperand,
+    NeedCheck,    // of the number in its code
+    NeedByte,     // one to be given
+    NeedBlock     // bytes to be given, or a pause
+  } need_e;
+
+  // Which block of 16 bytes.
+  typedef enum logic [1:0] {
+    BlockIdent,
+    BlockVersion,
+    BlockRecorded
+  } block_e;
 
   typedef enum logic [3:0] {
     NakNone,

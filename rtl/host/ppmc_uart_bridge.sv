@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_uart_bridge: UART host of a part: a frame carries a script of bus cycles, one frame answers it.
 // Rules:  docs/uart_bridge.md.
-// Timing: rxd_i is synchronised here, int_ni, pins_i and count_i are of the clock domain.
+// Timing: rxd_i is synchronised here, int_ni, pins_i, watch_i and count_i are of the clock domain.
 `default_nettype none
 
 module ppmc_uart_bridge
@@ -13,7 +13,9 @@ module ppmc_uart_bridge
     parameter int unsigned Part      = 104,
     parameter int unsigned Axes      = 1,           // 1, 2: pulse counters
     parameter bit          Counter   = 1'b1,        // there are any, for IDENT only
-    parameter bit          Datasheet = 1'b0
+    parameter bit          Datasheet = 1'b0,
+    parameter int unsigned Watch     = 1,           // levels that are recorded
+    parameter int unsigned Record    = 0            // 2**Record records of them, 4 .. 16; 0: no recorder
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
@@ -31,6 +33,7 @@ module ppmc_uart_bridge
     // board
     output logic      [        7:0] straps_o,      // strap outputs
     input  wire logic [        7:0] pins_i,        // for op PINS
+    input  wire logic [  Watch-1:0] watch_i,       // for the recorder
     input  wire logic [Axes*32-1:0] count_i,       // axis 1 in the low bits
     output logic      [   Axes-1:0] count_zero_o,  // a counter begins anew
     output logic                    active_o       // a script is running or an answer is on its way
@@ -43,11 +46,16 @@ module ppmc_uart_bridge
     $fatal(1, "ppmc_uart_bridge: Axes 1 or 2");
   end
 
+  if (Record != 0 && (Record < 4 || Record > 16)) begin : g_check_record
+    $fatal(1, "ppmc_uart_bridge: Record 0 or 4 .. 16");
+  end
+
   localparam int unsigned Width = phase_width(ClkHz, Baud);
   localparam int unsigned TopCode = top_code(ClkHz, Baud);
   localparam logic [7:0] IdentFlags = {4'(TopCode), 2'(Axes - 1), Counter, Datasheet};
+  // The zeros: Verilator up to 5.032 takes a parameter that was given a plain number for one without a width.
   localparam logic [127:0] Ident = {
-    32'(ClkHz), 32'(XtalHz), IdentFlags, 16'(Part), ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
+    32'd0 | ClkHz, 32'd0 | XtalHz, IdentFlags, Part[15:0], ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
   };
 
   // ---------------------------------------------------------------- a millisecond
@@ -72,8 +80,8 @@ module ppmc_uart_bridge
   logic [Width-1:0] step;
   logic [7:0] rx_byte, tx_byte;
   logic rx_valid, rx_error, rx_break, tx_valid, tx_ready;
-  logic good, answered, rate_set;
-  logic [2:0] arg;
+  logic good, answered;
+  settings_t settings;
 
   ppmc_bridge_rate #(
       .ClkHz(ClkHz),
@@ -83,8 +91,8 @@ module ppmc_uart_bridge
       .clk_i,
       .rst_ni,
       .ms_i      (ms_q),
-      .set_i     (rate_set),
-      .code_i    (arg),
+      .set_i     (settings.sets && settings.op == SysRate),
+      .code_i    (settings.arg),
       .answered_i(answered),
       .good_i    (good),
       .break_i   (rx_error && rx_break),
@@ -171,12 +179,16 @@ module ppmc_uart_bridge
   // ---------------------------------------------------------------- scripts
 
   outcome_t outcome;
-  logic events_set;
+  logic rec_next;
+  logic [7:0] rec_data;
+  logic [63:0] rec_info;
 
   ppmc_bridge_exec #(
       .TopCode(TopCode),
       .Axes(Axes),
-      .Ident(Ident)
+      .Recorder(Record != 0),
+      .Ident(Ident),
+      .Build(ppmc_build_pkg::Build)
   ) u_exec (
       .clk_i,
       .rst_ni,
@@ -194,10 +206,10 @@ module ppmc_uart_bridge
       .we_o       (ans_we),
       .waddr_o    (ans_waddr),
       .wdata_o    (ans_wdata),
-      .rate_o     (rate_set),
-      .events_o   (events_set),
-      .arg_o      (arg),
-      .straps_o,
+      .settings_o (settings),
+      .rec_next_o (rec_next),
+      .rec_data_i (rec_data),
+      .rec_info_i (rec_info),
       .pins_i,
       .count_i,
       .count_zero_o,
@@ -210,9 +222,48 @@ module ppmc_uart_bridge
       .d_i
   );
 
+  logic record;
+  assign record   = settings.sets && settings.op == SysRecord;
+  assign straps_o = settings.straps;
+
+  if (Record != 0) begin : g_recorder
+    logic begin_q, end_q, rewind_q;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) {begin_q, end_q, rewind_q} <= '0;
+      else begin
+        begin_q  <= record && settings.arg[1:0] == RecordBegin;
+        end_q    <= record && settings.arg[1:0] == RecordEnd;
+        rewind_q <= record && settings.arg[1:0] == RecordRewind;
+      end
+    end
+
+    ppmc_recorder #(
+        .Width   (Watch),
+        .AddrBits(Record)
+    ) u_recorder (
+        .clk_i,
+        .rst_ni,
+        .watch_i,
+        .begin_i (begin_q),
+        .end_i   (end_q),
+        .rewind_i(rewind_q),
+        .next_i  (rec_next),
+        .data_o  (rec_data),
+        .info_o  (rec_info)
+    );
+  end else begin : g_no_recorder
+    assign rec_data = '0;
+    assign rec_info = '0;
+
+    logic unused;
+    assign unused = ^{watch_i, rec_next, record};
+  end
+
   // ---------------------------------------------------------------- events
 
-  logic enabled_q, event_q, int_nq, event_taken;
+  logic enabled_q, event_q, int_nq, event_taken, events_set;
+  assign events_set = settings.sets && settings.op == SysEvents;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -221,8 +272,8 @@ module ppmc_uart_bridge
       int_nq    <= 1'b1;
     end else begin
       int_nq <= int_ni;
-      if (events_set) enabled_q <= arg[0];
-      if (events_set) event_q <= arg[0] && (event_q || (!enabled_q && !int_ni));
+      if (events_set) enabled_q <= settings.arg[0];
+      if (events_set) event_q <= settings.arg[0] && (event_q || (!enabled_q && !int_ni));
       else if (enabled_q && int_nq && !int_ni) event_q <= 1'b1;
       else if (event_taken) event_q <= 1'b0;
     end

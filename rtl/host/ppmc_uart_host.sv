@@ -12,7 +12,9 @@ module ppmc_uart_host #(
     parameter int unsigned Part      = 104,
     parameter bit          Datasheet = 1'b0,
     parameter int unsigned Axes      = 1,           // 1, 2; axis 1 in the low bits
-    parameter bit          Counter   = 1'b1         // pulses are counted
+    parameter bit          Counter   = 1'b1,        // pulses are counted
+    parameter int unsigned Watch     = 1,           // levels that are recorded
+    parameter int unsigned Record    = 0            // 2**Record records of them; 0: no recorder
 ) (
     input  wire logic              clk_i,
     input  wire logic              rst_ni,       // asynchronous
@@ -33,6 +35,7 @@ module ppmc_uart_host #(
     input  wire logic [  Axes-1:0] hold_i,       // for op PINS: motor at rest
     input  wire logic [  Axes-1:0] pout_ni,      // pulses to be counted
     input  wire logic [  Axes-1:0] dir_i,        // their direction
+    input  wire logic [ Watch-1:0] watch_i,      // the levels; of the clock domain
     output logic                   active_o      // a script is running or an answer is on its way
 );
 
@@ -71,7 +74,9 @@ module ppmc_uart_host #(
       .Part     (Part),
       .Axes     (Axes),
       .Counter  (Counter),
-      .Datasheet(Datasheet)
+      .Datasheet(Datasheet),
+      .Watch    (Watch),
+      .Record   (Record)
   ) u_bridge (
       .clk_i,
       .rst_ni      (rst),
@@ -87,6 +92,7 @@ module ppmc_uart_host #(
       .part_rst_no,
       .straps_o,
       .pins_i      ({pins, int_ni}),
+      .watch_i,
       .count_i     (count),
       .count_zero_o(zero),
       .active_o

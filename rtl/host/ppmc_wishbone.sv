@@ -91,7 +91,7 @@ module ppmc_wishbone #(
   assign answer = cyc_i && stb_i && (quick_q || (done && live_q));
   assign ack_o  = answer && !(quick_q && error_q);
   assign err_o  = answer && quick_q && error_q;
-  assign dat_o  = 32'(quick_q ? {7'b0, flag_q} : rdata);
+  assign dat_o  = {24'd0, quick_q ? {7'b0, flag_q} : rdata};
 
 `ifndef SYNTHESIS
   // verilog_format: off

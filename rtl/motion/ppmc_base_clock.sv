@@ -22,24 +22,35 @@ module ppmc_base_clock #(
   localparam int unsigned Longest = (Slower > ExtraQuanta) ? Slower : ExtraQuanta;
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
-  logic [Width-1:0] left_q;  // whole quanta left before the one that ends the period
-  logic             extra_q;  // the extra stretch is running
-  logic             ends;
+  logic [Width-1:0] left_q, whole;  // quanta left before the one that ends the period; of the next one
+  logic extra_q;  // the extra stretch is running
+  logic last_q;  // there are none left
+  logic ends;
 
-  assign ends   = quantum_i && left_q == '0;
+  assign ends   = quantum_i && last_q;
   assign tick_o = ends && !extra_q;
+
+  always_comb begin
+    whole = slow_i ? Width'(SlowQuanta - 1) : Width'(FastQuanta - 1);
+    if (restart_i && extra_i) whole = Width'(ExtraQuanta - 1);
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      left_q  <= '0;
       extra_q <= 1'b0;
+      last_q  <= 1'b0;
     end else if (restart_i || ends) begin
       extra_q <= restart_i && extra_i;
-      if (restart_i && extra_i) left_q <= Width'(ExtraQuanta - 1);
-      else left_q <= slow_i ? Width'(SlowQuanta - 1) : Width'(FastQuanta - 1);
+      last_q  <= whole == '0;
     end else if (quantum_i) begin
-      left_q <= left_q - 1'b1;
+      last_q <= left_q == Width'(1);
     end
+  end
+
+  // No reset: the first pulse of a motion restarts it.
+  always_ff @(posedge clk_i) begin
+    if (restart_i || ends) left_q <= whole;
+    else if (quantum_i) left_q <= Width'(ppmc_pkg::dec(32'(left_q)));
   end
 
 endmodule

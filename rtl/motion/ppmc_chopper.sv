@@ -7,7 +7,7 @@
 `default_nettype none
 
 module ppmc_chopper #(
-    parameter int unsigned UnitQuanta = 12,  // quanta a unit of the host's parameter
+    parameter int unsigned UnitQuanta = 12,  // quanta a unit of the host's parameter; 0: there are no units
     parameter int unsigned BaseBits   = 9,
     parameter int unsigned UnitBits   = 8
 ) (
@@ -23,46 +23,35 @@ module ppmc_chopper #(
     output logic                     on_o          // 1 = phases on
 );
 
-  localparam int unsigned CountBits = (BaseBits > UnitBits) ? BaseBits : UnitBits;
-  localparam int unsigned ScaleBits = ppmc_pkg::cnt_width(UnitQuanta - 1);
+  localparam int unsigned UnitWidth = ppmc_pkg::cnt_width(UnitQuanta);
+  localparam int unsigned CountBits = (BaseBits > UnitWidth) ? BaseBits : UnitWidth;
 
-  logic [CountBits-1:0] left_q;  // quanta, then units, left in this part
-  logic [ScaleBits-1:0] scale_q;  // quanta left in the running unit
+  logic [CountBits-1:0] left_q;  // quanta left of the base time, then of the running unit
   logic [ UnitBits-1:0] units_q;  // of this phase, still to come
-  logic                 in_base_q;  // the fixed part runs
-  logic on_q, next_on, tick, part_ends, phase_ends;
+  logic on_q, next_on, part_ends, phase_ends;
 
   assign on_o = on_q || !run_i;
 
   always_comb begin
-    tick       = quantum_i && scale_q == '0;
-    part_ends  = tick && left_q == CountBits'(1);
-    phase_ends = part_ends && (!in_base_q || units_q == '0);
+    part_ends  = quantum_i && left_q == CountBits'(1);
+    phase_ends = part_ends && (UnitQuanta == 0 || units_q == '0);
     next_on    = restart_i || !run_i || !on_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      left_q    <= '0;
-      scale_q   <= '0;
-      units_q   <= '0;
-      in_base_q <= 1'b1;
-      on_q      <= 1'b1;
+      left_q  <= '0;
+      units_q <= '0;
+      on_q    <= 1'b1;
     end else if (restart_i || !run_i || phase_ends) begin
-      on_q      <= next_on;
-      left_q    <= CountBits'(next_on ? on_base_i : off_base_i);
-      units_q   <= next_on ? on_units_i : off_units_i;
-      scale_q   <= '0;
-      in_base_q <= 1'b1;
+      on_q    <= next_on;
+      left_q  <= CountBits'(next_on ? on_base_i : off_base_i);
+      units_q <= next_on ? on_units_i : off_units_i;
     end else if (part_ends) begin
-      left_q    <= CountBits'(units_q);
-      scale_q   <= ScaleBits'(UnitQuanta - 1);
-      in_base_q <= 1'b0;
-    end else if (tick) begin
-      left_q  <= left_q - 1'b1;
-      scale_q <= in_base_q ? '0 : ScaleBits'(UnitQuanta - 1);
+      left_q  <= CountBits'(UnitQuanta);
+      units_q <= UnitBits'(ppmc_pkg::dec(32'(units_q)));
     end else if (quantum_i) begin
-      scale_q <= scale_q - 1'b1;
+      left_q <= CountBits'(ppmc_pkg::dec(32'(left_q)));
     end
   end
 

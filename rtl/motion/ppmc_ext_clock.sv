@@ -18,7 +18,9 @@ module ppmc_ext_clock #(
     output logic      brisk_o  // less than BriskClk clk since the edge before
 );
 
-  localparam int unsigned Width = ppmc_pkg::cnt_width(LongClk);
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(LongClk);
+  localparam logic [Width-1:0] Brisk = Width'(ppmc_lfsr_pkg::after(BriskClk - 2, Width));
+  localparam logic [Width-1:0] Long = Width'(ppmc_lfsr_pkg::after(LongClk - 1, Width));
 
   logic level, last_q, slow_q;
   logic unused_meta;
@@ -50,16 +52,16 @@ module ppmc_ext_clock #(
         slow_q <= 1'b0;
         long_o <= 1'b0;
       end else if (!long_o) begin
-        if (age_q == Width'(BriskClk - 2)) slow_q <= 1'b1;
-        if (age_q == Width'(LongClk - 1)) long_o <= 1'b1;
+        if (age_q == Brisk) slow_q <= 1'b1;
+        if (age_q == Long) long_o <= 1'b1;
       end
     end
   end
 
   // No reset: long_o is set until the first edge clears it.
   always_ff @(posedge clk_i) begin
-    if (rise_o) age_q <= '0;
-    else age_q <= age_q + 1'b1;
+    if (rise_o) age_q <= Width'(1);
+    else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));
   end
 
 endmodule

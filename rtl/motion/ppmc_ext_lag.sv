@@ -7,7 +7,7 @@
 `default_nettype none
 
 module ppmc_ext_lag #(
-    parameter int unsigned LagClk = 120  // extra time of an interval, clk
+    parameter int unsigned LagClk = 120  // extra time of an interval, clk; at least 2
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
@@ -20,31 +20,41 @@ module ppmc_ext_lag #(
     output logic      fire_o      // the interval is over
 );
 
-  localparam int unsigned Width = ppmc_pkg::cnt_width(LagClk);
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(LagClk - 1);
+  localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(LagClk - 2, Width));
 
-  logic [Width-1:0] left_q;  // extra time not yet spent
-  logic             before_q;  // no base edge since the pulse
-  logic             after_q;  // the count is over, the lag runs
-  logic             spend;
+  logic [Width-1:0] spent_q;  // of the extra time
+  logic last_q, over_q;  // all but a clk of it, all of it
+  logic before_q;  // no base edge since the pulse
+  logic after_q;  // the count is over, the lag runs
+  logic spend;
 
   assign count_o = !(en_i && before_q);
-  assign fire_o  = (after_q && left_q == Width'(1)) || (hit_i && (!en_i || long_i || left_q == '0));
-  assign spend   = (before_q || after_q) && left_q != '0;
+  assign spend   = (before_q || after_q) && !over_q;
+  assign fire_o  = (after_q && last_q) || (hit_i && (!en_i || long_i || over_q));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      left_q   <= '0;
+      last_q   <= 1'b0;
+      over_q   <= 1'b1;
       before_q <= 1'b0;
       after_q  <= 1'b0;
     end else if (restart_i) begin
-      left_q   <= Width'(LagClk);
+      last_q   <= 1'b0;
+      over_q   <= 1'b0;
       before_q <= !edge_i;
       after_q  <= 1'b0;
     end else begin
-      if (spend) left_q <= left_q - 1'b1;
+      if (spend) {last_q, over_q} <= {spent_q == Before, last_q};
       if (edge_i) before_q <= 1'b0;
       if (hit_i && !fire_o) after_q <= 1'b1;
     end
+  end
+
+  // No reset: the first pulse restarts it.
+  always_ff @(posedge clk_i) begin
+    if (restart_i) spent_q <= Width'(1);
+    else if (spend) spent_q <= Width'(ppmc_lfsr_pkg::step(31'(spent_q), Width));
   end
 
 endmodule

@@ -23,19 +23,21 @@ module ppmc_hold_timer #(
   logic done;
 
   if (UnitBits == 0) begin : g_fixed
-    localparam int unsigned Width = ppmc_pkg::cnt_width(Quanta);
-
-    logic [Width-1:0] count_q;
     logic counted, unused_units;
 
     assign unused_units = &{1'b0, units_i};
-    // Counted from 0 upwards, Quanta is the first value with all of its ones set.
-    assign counted = (count_q & Width'(Quanta)) == Width'(Quanta);
 
-    // No reset: every motion clears it, and before the first one it does not count.
-    always_ff @(posedge clk_i) begin
-      if (busy_i) count_q <= '0;
-      else if (quantum_i && !hold_o) count_q <= count_q + 1'b1;
+    if (Quanta == 0) begin : g_none
+      assign counted = 1'b1;
+    end else begin : g_some
+      ppmc_delay #(
+          .Ticks(Quanta)
+      ) u_quanta (
+          .clk_i,
+          .restart_i(busy_i),
+          .tick_i   (quantum_i),
+          .past_o   (counted)
+      );
     end
 
     if (RestClk == 0) begin : g_whole

@@ -27,18 +27,21 @@ module ppmc_pulse_shaper #(
 );
 
   localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
-  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(WidthClk - 1);
+
+  localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthClk - 2, Width));
 
   logic [Width-1:0] age_q;  // clk since the pulse; of no use after up_o
   logic full_q;
-  logic half;
+  logic [HalfRates:0] halves;  // of each rate: half its interval is over; the highest is none
 
-  always_comb begin
-    half = 1'b0;
-    for (int unsigned r = 0; r < HalfRates; r++) begin
-      if (rate_i == RateBits'(r) && age_q == Width'(ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz) - 1))
-        half = halve_i;
-    end
+  assign halves[HalfRates] = 1'b0;
+
+  for (genvar r = 0; r < HalfRates; r++) begin : g_half
+    localparam int unsigned HalfClk = ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz);
+    localparam logic [Width-1:0] Half = Width'(ppmc_lfsr_pkg::after(HalfClk - 1, Width));
+
+    assign halves[r] = halve_i && rate_i == RateBits'(r) && age_q == Half;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -47,11 +50,11 @@ module ppmc_pulse_shaper #(
       low_o  <= 1'b0;
       up_o   <= 1'b0;
     end else begin
-      up_o <= !(arm_i || pulse_i) && (up_o || age_q == Width'(WidthClk - 2));
+      up_o <= !(arm_i || pulse_i) && (up_o || age_q == Last);
       if (pulse_i) begin
         low_o  <= 1'b1;
         full_q <= full_i;
-      end else if (up_o || (!full_q && (half || cut_i))) begin
+      end else if (up_o || (!full_q && (halves != '0 || cut_i))) begin
         low_o <= 1'b0;
       end
     end
@@ -59,8 +62,8 @@ module ppmc_pulse_shaper #(
 
   // No reset: it is cleared before each use.
   always_ff @(posedge clk_i) begin
-    if (arm_i || pulse_i) age_q <= '0;
-    else age_q <= age_q + 1'b1;
+    if (arm_i || pulse_i) age_q <= Width'(1);
+    else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));
   end
 
 endmodule

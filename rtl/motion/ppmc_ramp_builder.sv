@@ -5,9 +5,12 @@
 // Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete.
 //         slow_i, fast_i, steps_i must stand still meanwhile. fast_i = slow_i: no table is needed, busy_o is
 //         short.
-// How:    numerator and denominator come bit by bit from ppmc_ramp_serial; the quotient by repeated
-//         subtraction of a divisor that moves right, so that the remainder needs an enable but no
-//         multiplexer.
+// How:    with s = 2r + 1, a = RL + 1, b = RH + 1, E = PA*b*b:
+//             thr(r) - 1 = floor((E*(2a)*(2a)/(s*s) - E) / ((a - b)*(a + b))).
+//         A quotient may be rounded down before the next division or an integer is subtracted: so there are
+//         four divisions by short numbers, s, s, a - b and a + b, two at a time, a subtraction between them
+//         and an increment behind them, all bit by bit (ppmc_ramp_serial). The products are made once, one
+//         multiplier bit a pass.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,7 +18,7 @@ module ppmc_ramp_builder
   import ppmc_ramp_pkg::*;
 #(
     parameter int unsigned RateBits = 8,
-    parameter int unsigned StepBits = 14
+    parameter int unsigned StepBits = 14  // 3 .. 16
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -29,141 +32,104 @@ module ppmc_ramp_builder
     output logic      [StepBits-1:0] data_o    // thr(r)
 );
 
-  localparam int unsigned Bits = StepBits + 2 * (RateBits + 1) + 16;
   localparam int unsigned MulBits = ppmc_pkg::cnt_width(RateBits - 1);
-  localparam int unsigned DivBits = ppmc_pkg::cnt_width(StepBits - 1);
 
-  typedef enum logic [2:0] {
-    StIdle,
-    StStart,   // a pass begins
-    StPass,    // and runs
-    StNum,     // the numerator goes into the remainder
-    StDivide,
-    StWrite
-  } state_e;
+  (* fsm_encoding = "none" *)
+  pass_e pass_q;  // that runs
+  pass_e pass;  // that comes next
+  logic first_q, begin_q;  // first and second clk of a build
+  logic slower_q;  // the factor is 2a, else b
+  logic again_q;  // for the second time
+  logic [MulBits-1:0] mul_q;  // multiplier bit, the highest between two factors
+  logic [RateBits-1:0] rate_q;  // r
+  logic found_q;  // bits_q is a threshold
+  logic [StepBits-1:0] bits_q;
+  logic next, last, done, mul_bit, sum, product;
+  logic [RateBits:0] first, second;
 
-  state_e                state_q;
-  pass_e                 pass_q;
-  logic                  second_q;  // second multiplication by the same factor
-  logic                  low_q;  // multiplying by slow_i + 1
-  logic                  above_q;  // rate_q is above fast_i
-  logic   [ MulBits-1:0] mul_q;  // multiplier bit
-  logic   [ DivBits-1:0] div_q;  // quotient bits to come
-  logic   [RateBits-1:0] rate_q;
-  logic valid, num, den, last, mul_bit, below;
+  assign done    = rate_q == slow_i;
+  assign next    = begin_q ? !done : last && !(pass_q == PassTell && done);
+  assign mul_bit = slower_q ? slow_i[mul_q] : fast_i[mul_q];
+  assign product = pass_q == PassMulEnd && slower_q && again_q;  // the last one
+  assign we_o    = found_q;
+  assign addr_o  = rate_q;
+  assign data_o  = bits_q;
 
-  assign busy_o  = state_q != StIdle;
-  assign mul_bit = low_q ? slow_i[mul_q] : fast_i[mul_q];
+  // Divisors, minus 1: twice s, or a - b and a + b.
+  always_comb begin
+    first  = {rate_q, 1'b0};
+    second = {rate_q, 1'b0};
+    if (pass_q == PassShare) begin
+      first  = {1'b0, slow_i + ~fast_i};
+      second = {1'b0, slow_i} + {1'b0, fast_i} + 1'b1;
+    end
+  end
 
   ppmc_ramp_serial #(
-      .Bits    (Bits),
-      .StepBits(StepBits)
+      .StepBits(StepBits),
+      .RateBits(RateBits)
   ) u_serial (
       .clk_i,
       .rst_ni,
-      .start_i(state_q == StStart),
-      .pass_i (pass_q),
-      .mul_i  (mul_bit),
+      .start_i (next),
+      .next_i  (pass),
+      .pass_i  (pass_q),
+      .mul_i   (mul_bit),
+      .keep_i  (!slower_q),
       .steps_i,
-      .valid_o(valid),
-      .num_o  (num),
-      .den_o  (den),
-      .last_o (last)
+      .first_i (first),
+      .second_i(second),
+      .bit_o   (sum),
+      .last_o  (last)
   );
 
-  // Which pass comes next.
+  // Which pass comes next: n is multiplied by b, b, 2a, 2a; then four passes for each r.
+  always_comb begin
+    unique case (pass_q)
+      PassInit:   pass = PassMulBit;
+      PassMulBit: begin
+        pass = PassMulBit;
+        if (mul_q == '0) pass = slower_q ? PassMulOne : PassMulEnd;
+      end
+      PassMulOne: pass = PassMulEnd;
+      PassSquare: pass = PassLess;
+      PassLess:   pass = PassShare;
+      PassShare:  pass = PassTell;
+      PassTell:   pass = PassSquare;
+      default:    pass = product ? PassSquare : PassMulBit;  // PassMulEnd
+    endcase
+    if (begin_q) pass = PassInit;
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q  <= StIdle;
+      busy_o   <= 1'b0;
+      first_q  <= 1'b0;
+      begin_q  <= 1'b0;
+      found_q  <= 1'b0;
       pass_q   <= PassInit;
-      second_q <= 1'b0;
-      low_q    <= 1'b0;
-      above_q  <= 1'b0;
-      mul_q    <= '0;
-      div_q    <= '0;
-      rate_q   <= '0;
+      slower_q <= 1'b0;
+      again_q  <= 1'b0;
+      mul_q    <= MulBits'(RateBits - 1);
     end else begin
-      unique case (state_q)
-        StIdle: begin
-          pass_q   <= PassInit;
-          second_q <= 1'b0;
-          low_q    <= 1'b0;
-          above_q  <= 1'b0;
-          rate_q   <= '0;
-          mul_q    <= MulBits'(RateBits - 1);
-          if (start_i) state_q <= StStart;
-        end
-        StStart: state_q <= (slow_i == fast_i) ? StIdle : StPass;
-        StPass:
-        if (last) begin
-          state_q <= StStart;
-          unique case (pass_q)
-            PassInit, PassSave: pass_q <= PassMulBit;
-            PassMulBit: begin
-              mul_q <= mul_q - 1'b1;  // wraps to the top for the next factor
-              if (mul_q == '0) begin
-                mul_q  <= MulBits'(RateBits - 1);
-                pass_q <= PassMulEnd;
-              end
-            end
-            PassMulEnd: begin
-              second_q <= !second_q;
-              if (!second_q) pass_q <= PassMulBit;
-              else pass_q <= low_q ? PassFinal : PassSave;
-              if (second_q) low_q <= 1'b1;
-            end
-            PassRead: begin
-              div_q   <= DivBits'(StepBits - 1);
-              state_q <= StDivide;
-            end
-            default: begin  // PassFinal, PassStep: the numbers of rate_q are ready
-              if (above_q) begin
-                pass_q  <= PassRead;
-                state_q <= StNum;
-              end else begin
-                pass_q  <= PassStep;
-                above_q <= rate_q == fast_i;
-                rate_q  <= rate_q + 1'b1;
-              end
-            end
-          endcase
-        end
-        StNum:   state_q <= StStart;
-        StDivide: begin
-          div_q <= div_q - 1'b1;
-          if (div_q == '0) state_q <= StWrite;
-        end
-        StWrite: begin
-          pass_q  <= PassStep;
-          rate_q  <= rate_q + 1'b1;
-          state_q <= (rate_q == slow_i) ? StIdle : StStart;
-        end
-        default: state_q <= StIdle;
-      endcase
+      first_q <= start_i && !busy_o;
+      begin_q <= first_q;
+      found_q <= last && pass_q == PassTell;
+      if (!busy_o) busy_o <= start_i;
+      else if (done && (begin_q || we_o)) busy_o <= 1'b0;
+
+      if (next) pass_q <= pass;
+      if (last && pass_q == PassMulEnd) {slower_q, again_q} <= {slower_q ^ again_q, !again_q};
+      if (last && pass_q == PassMulBit) mul_q <= (mul_q == '0) ? MulBits'(RateBits - 1) : mul_q - 1'b1;
     end
   end
 
-  // Divider. No reset: every use begins with a full load.
-  logic [Bits-1:0] rem_q, inv_q;  // remainder, divisor with all bits inverted
-  logic [Bits:0] diff;
-  logic [StepBits-1:0] quot_q;
-
-  assign diff  = {1'b0, rem_q} + {1'b0, inv_q} + (Bits + 1)'(1);
-  assign below = !diff[Bits];
-
+  // No reset: every build begins with a load.
   always_ff @(posedge clk_i) begin
-    if (state_q == StPass && pass_q != PassRead) rem_q <= '0;
-    else if (state_q == StNum || (state_q == StDivide && !below)) rem_q <= diff[Bits-1:0];
-
-    if (valid || state_q == StDivide) begin
-      inv_q <= {!(valid && ((pass_q == PassRead) ? den : num)), inv_q[Bits-1:1]};
-    end
-    if (state_q == StDivide) quot_q <= {quot_q[StepBits-2:0], !below};
+    if (first_q) rate_q <= fast_i;
+    else if (we_o || (last && product)) rate_q <= RateBits'(ppmc_pkg::inc(32'(rate_q)));
+    bits_q <= {sum, bits_q[StepBits-1:1]};
   end
-
-  assign we_o   = state_q == StWrite;
-  assign addr_o = rate_q;
-  assign data_o = quot_q;
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_rmp_02_range, !we_o || (data_o != '0 && data_o <= steps_i))

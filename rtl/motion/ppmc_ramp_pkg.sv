@@ -5,13 +5,14 @@
 package ppmc_ramp_pkg;
 
   typedef enum logic [2:0] {
-    PassInit,    // n = PA, d = 1, v = e = 0
-    PassMulBit,  // v = 2v + bit*n, e = 2e + bit*d: one multiplier bit, the highest first
-    PassMulEnd,  // n = n + v, d = d + e: multiplied by (rate + 1)
-    PassSave,    // u = n, g = d, d = 1: B*PA and B are ready
-    PassFinal,   // n = A*B*PA and d = A become the numbers of r = 0
-    PassStep,    // from r to r + 1
-    PassRead     // nothing is written: den is read out
+    PassInit,    // n = PA, v = 0
+    PassMulBit,  // v = 2v + bit * n: one multiplier bit, the highest first
+    PassMulOne,  // the same with the bit 1
+    PassMulEnd,  // n = n + v, v = 0: multiplied by the multiplier + 1
+    PassSquare,  // v = n / s / s, s = 2r + 1
+    PassLess,    // v = v - u
+    PassShare,   // v = v / (a - b) / (a + b)
+    PassTell     // v + 1 goes out; v is lost
   } pass_e;
 
 endpackage

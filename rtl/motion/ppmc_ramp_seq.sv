@@ -34,8 +34,8 @@ module ppmc_ramp_seq #(
     input  wire logic                 load_i,      // start: takes count and rate
     input  wire logic [CountBits-1:0] count_i,     // pulses to make, minus 1
     input  wire logic                 single_i,    // one pulse, whatever count_i says
-    input  wire logic [ RateBits-1:0] rate_i,      // rate of a constant-speed operation
-    input  wire logic                 ramp_i,      // use the ramp; steady while the motion lasts
+    input  wire logic [ RateBits-1:0] rate_i,      // rate of the first interval: slow_i, or of constant speed
+    input  wire logic                 ramp_i,      // use the ramp; steady between load_i and the next one
     input  wire logic                 pulse_i,     // pulse event
     input  wire logic                 forced_i,    // forced deceleration; never withdrawn
     // state
@@ -87,7 +87,7 @@ module ppmc_ramp_seq #(
       top_o  <= 1'b0;
       dec_o  <= 1'b0;
     end else begin
-      near_q <= !high && left_o[StepBits-1:0] <= climb_q;
+      near_q <= !high && !ppmc_pkg::less(32'(climb_q), 32'(left_o[StepBits-1:0]));
       full_q <= climb_q == steps_i;
       zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= climb_q[StepBits-1:1] == '0;
@@ -145,9 +145,9 @@ module ppmc_ramp_seq #(
       load_q <= load_i || (pulse_i && turn);
       if (load_q || (pulse_i && up) || (step && slower_q)) rate_o <= probe_q;
 
-      if (load_i) probe_q <= ramp_i ? slow_i : rate_i;
+      if (load_i) probe_q <= rate_i;
       else if (pulse_i && turn) probe_q <= back_q;
-      else if (step) probe_q <= slower_q ? probe_q + 1'b1 : probe_q - 1'b1;
+      else if (step) probe_q <= probe_q + {{(RateBits - 1) {!slower_q}}, 1'b1};
 
       if (load_i) slower_q <= 1'b0;
       else if (pulse_i && down) slower_q <= 1'b1;

@@ -24,8 +24,10 @@ module ppmc_rate_counter #(
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse
+  logic [RateBits-1:0] number;  // of the coming base clock
   logic equal, match_q, half_q, past_q;
 
+  assign number = count_q + 1'b1;
   assign equal  = count_q == rate_i;
   assign hit_o  = tick_i && match_q;
   assign half_o = (tick_i && half_q) || past_q;
@@ -37,16 +39,15 @@ module ppmc_rate_counter #(
       past_q  <= 1'b0;
     end else begin
       match_q <= !restart_i && !wait_i && equal;
-      // the coming base clock has number count_q + 1
-      half_q  <= !restart_i && !rising_i && count_q + RateBits'(!rate_i[0]) == {1'b0, rate_i[RateBits-1:1]};
-      past_q  <= !restart_i && !rising_i && {count_q, 1'b0} >= {1'b0, rate_i};
+      half_q  <= !restart_i && !rising_i && (rate_i[0] ? count_q : number) == {1'b0, rate_i[RateBits-1:1]};
+      past_q  <= !restart_i && !rising_i && !ppmc_pkg::less(32'({count_q, 1'b0}), 32'(rate_i));
     end
   end
 
   // No reset: the first pulse of a motion restarts it. It waits where it cannot be used (P104-BCK-05).
   always_ff @(posedge clk_i) begin
     if (restart_i) count_q <= '0;
-    else if (tick_i && !equal) count_q <= count_q + 1'b1;
+    else if (tick_i && !equal) count_q <= number;
   end
 
 `ifndef SYNTHESIS

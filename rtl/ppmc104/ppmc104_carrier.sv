@@ -11,7 +11,8 @@ module ppmc104_carrier #(
     parameter string       TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b1,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -57,6 +58,28 @@ module ppmc104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
+  // What the part sees of the pins, and everything that is recorded of it, first pin in the low bits.
+  localparam int unsigned Watch = 49;
+  logic in_csel, in_vsel, in_clock, in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_alm_n;
+  logic [3:0] in_auxi;
+  logic [Watch-1:0] watch;
+
+  ppmc_board_inputs #(
+      .Width(13),
+      .Sync (RECORD != 0)
+  ) u_inputs (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .d_i   ({auxi, alm_n, cnp_n, l4_n, l3_n, l2_n, l1_n, clock, vsel, csel}),
+      .q_o   ({in_auxi, in_alm_n, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n, in_clock, in_vsel, in_csel})
+  );
+
+  assign watch = {
+    {dir, pout_n, hold, s, aux_n, auxo, int_n, part_oe, d_o},
+    {in_auxi, in_alm_n, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n, in_clock, part_vsel, part_csel},
+    {part_d, part_wr_n, part_rd_n, part_cs_n, part_a0, part_rst_n}
+  };
+
   ppmc104 #(
       .CLK_HZ    (CLK_HZ),
       .XTAL_HZ   (XTAL_HZ),
@@ -75,14 +98,14 @@ module ppmc104_carrier #(
       .int_n,
       .csel (part_csel),
       .vsel (part_vsel),
-      .clock,
-      .l1_n,
-      .l2_n,
-      .l3_n,
-      .l4_n,
-      .cnp_n,
-      .alm_n,
-      .auxi,
+      .clock(in_clock),
+      .l1_n (in_l1_n),
+      .l2_n (in_l2_n),
+      .l3_n (in_l3_n),
+      .l4_n (in_l4_n),
+      .cnp_n(in_cnp_n),
+      .alm_n(in_alm_n),
+      .auxi (in_auxi),
       .auxo,
       .aux_n,
       .s,
@@ -97,7 +120,9 @@ module ppmc104_carrier #(
       .Datasheet(TIMING == "DATASHEET"),
       .Host     (HOST),
       .Baud     (BAUD),
-      .Part     (104)
+      .Part     (104),
+      .Watch    (Watch),
+      .Record   (RECORD)
   ) u_host (
       .clk_i      (clk),
       .rst_ni     (rst_n),
@@ -121,11 +146,12 @@ module ppmc104_carrier #(
       .hold_i     (hold),
       .pout_ni    (pout_n),
       .dir_i      (dir),
+      .watch_i    (watch),
       .link_o     (led_link)
   );
 
-  assign part_csel     = csel && straps[0];
-  assign part_vsel     = vsel && straps[1];
+  assign part_csel     = in_csel && straps[0];
+  assign part_vsel     = in_vsel && straps[1];
   assign d_oe          = HOST == "BUS" && part_oe;
   assign led_moving    = !hold;
   assign led_switch    = !(l1_n && l2_n && l3_n && l4_n && alm_n);

@@ -6,7 +6,10 @@
 `default_nettype none
 
 module ppmc104_pace
-  import ppmc_motion_pkg::motion_t;
+  import ppmc_motion_pkg::*;
+  import ppmc104_pkg::FAST_QUANTA;
+  import ppmc104_pkg::SLOW_QUANTA;
+  import ppmc104_pkg::EXTRA_QUANTA;
 #(
     parameter bit          Datasheet = 1'b0,
     parameter int unsigned ClkHz     = 16_000_000,
@@ -24,10 +27,17 @@ module ppmc104_pace
   // Crystal cycles; microseconds times 16.
   localparam int unsigned FLAG_LIMIT = 12 * 16;
   localparam int unsigned FLAG_LIMIT_TOP = 17 * 16;
-  localparam int unsigned SlowBits = 9;
   // Quanta; an interval shorter than this closes the mailbox.
   localparam int unsigned BRISK_POUT = 100;
   localparam int unsigned BRISK_PHASE = 148;
+
+  // Rates r with (r + 1) * period + extra time below the limit.
+  function automatic int unsigned brisk_rates(bit pout_only, bit slow, bit extra);
+    int unsigned room, period;
+    room   = (pout_only ? BRISK_POUT : BRISK_PHASE) - (extra ? EXTRA_QUANTA : 0);
+    period = slow ? SLOW_QUANTA : FAST_QUANTA;
+    return (room - 1) / period;
+  endfunction
 
   if (!Datasheet) begin : g_fast
     logic unused_bits;
@@ -53,31 +63,40 @@ module ppmc104_pace
       end
     end
 
-    ppmc_xtal_timer #(
-        .ClkHz (ClkHz),
-        .XtalHz(XtalHz),
-        .Width (SlowBits)
+    localparam int unsigned Plain = ppmc_pkg::cyc(FLAG_LIMIT, ClkHz, XtalHz);
+    localparam int unsigned Top = ppmc_pkg::cyc(FLAG_LIMIT_TOP, ClkHz, XtalHz);
+    localparam int unsigned Width = ppmc_lfsr_pkg::width(Top - 1);
+    localparam logic [Width-1:0] LastPlain = Width'(ppmc_lfsr_pkg::after(Plain - 1, Width));
+    localparam logic [Width-1:0] LastTop = Width'(ppmc_lfsr_pkg::after(Top - 1, Width));
+
+    ppmc_timer #(
+        .Width(Width)
     ) u_slow (
         .clk_i,
-        .rst_ni,
         .restart_i(!slow_busy_q),
-        .limit_i  (slow_top_q ? SlowBits'(FLAG_LIMIT_TOP) : SlowBits'(FLAG_LIMIT)),
+        .tick_i   (1'b1),
+        .last_i   (slow_top_q ? LastTop : LastPlain),
         .past_o   (slow_past)
     );
 
     assign slow_o = slow_busy_q && slow_past;
 
-    logic [13:0] interval;  // quanta of the running interval
+    // The slowest brisk rate + 1, by pout_only, slow and extra.
+    function automatic logic [7:0] brisk(logic pout_only, logic slow, logic extra);
+      logic [7:0] found;
+      found = '0;
+      for (int unsigned n = 0; n < 8; n++) begin
+        if (n[2:0] == {pout_only, slow, extra}) found = 8'(brisk_rates(n[2], n[1], n[0]));
+      end
+      return found;
+    endfunction
+
     logic unused_bits;
 
     assign unused_bits = &{1'b0, motion_i};
-
-    always_comb begin
-      interval = (14'(rate_i) + 14'd1) << (motion_i.base.slow ? 5 : 3);
-      if (motion_i.base.extra) interval = interval + 14'd30;
-      stops_only_o = motion_i.running && !motion_i.base.external &&
-        interval < (motion_i.op.pout_only ? 14'(BRISK_POUT) : 14'(BRISK_PHASE));
-    end
+    assign stops_only_o = motion_i.running && !motion_i.base.external && ppmc_pkg::less(
+        32'(rate_i), 32'(brisk(motion_i.op.pout_only, motion_i.base.slow, motion_i.base.extra))
+    );
   end
 
 endmodule

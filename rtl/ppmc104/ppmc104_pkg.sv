@@ -9,19 +9,19 @@ package ppmc104_pkg;
   import ppmc_op_pkg::*;
   import ppmc_single_pkg::*;
 
-  localparam int unsigned STEP_BITS = 14;
+  localparam int unsigned STEP_BITS = 32'd14;
 
-  localparam int unsigned STEPS_MIN = 4;  // acceleration pulses PA
-  localparam int unsigned STEPS_MAX = 11_220;
+  localparam int unsigned STEPS_MIN = 32'd4;  // acceleration pulses PA
+  localparam int unsigned STEPS_MAX = 32'd11_220;
 
-  localparam int unsigned QUANTUM_XTAL = 4;  // crystal cycles a quantum
-  localparam int unsigned FAST_QUANTA = 8;  // internal base clocks, quanta a period: 500 kHz
-  localparam int unsigned SLOW_QUANTA = 32;  // 125 kHz
-  localparam int unsigned EXTRA_QUANTA = 30;  // extra time of an interval: 7.5 us
-  localparam int unsigned HOLD_QUANTA = 136_000;  // 34 ms
+  localparam int unsigned QUANTUM_XTAL = 32'd4;  // crystal cycles a quantum
+  localparam int unsigned FAST_QUANTA = 32'd8;  // internal base clocks, quanta a period: 500 kHz
+  localparam int unsigned SLOW_QUANTA = 32'd32;  // 125 kHz
+  localparam int unsigned EXTRA_QUANTA = 32'd30;  // extra time of an interval: 7.5 us
+  localparam int unsigned HOLD_QUANTA = 32'd136_000;  // 34 ms
 
   // Chopper times in quanta (P104-SW-04).
-  localparam int unsigned CHOP_UNIT = 12;
+  localparam int unsigned CHOP_UNIT = 32'd12;
   localparam int unsigned CHOP_ON_DEFAULT = 260;
   localparam int unsigned CHOP_OFF_DEFAULT = 435;
   localparam int unsigned CHOP_ON_VSEL_H = 108;
@@ -82,7 +82,8 @@ package ppmc104_pkg;
   // What is wrong with complete parameters of an initialisation.
   function automatic error_e judge(logic [31:0] params);
     if (params[31:16] > 16'(STEPS_MAX)) return ErrStepsHigh;
-    if (params[15:8] > params[7:0] || params[31:16] < 16'(STEPS_MIN)) return ErrRates;
+    if (ppmc_pkg::less(32'(params[7:0]), 32'(params[15:8])) || params[31:16] < 16'(STEPS_MIN))
+      return ErrRates;
     return ErrUndefined;
   endfunction
 

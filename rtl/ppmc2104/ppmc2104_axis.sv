@@ -154,7 +154,7 @@ module ppmc2104_axis
   ppmc_motor_port #(
       .HoldQuanta(HOLD_QUANTA),
       .HoldBits  (8),
-      .UnitQuanta(2)
+      .UnitQuanta(0)
   ) u_motor (
       .clk_i,
       .rst_ni,

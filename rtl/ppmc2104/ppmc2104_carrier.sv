@@ -12,7 +12,8 @@ module ppmc2104_carrier #(
     parameter string       TIMING   = "FAST",
     parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0 as on the old chip
     parameter string       HOST     = "UART",      // or "BUS"
-    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -63,6 +64,32 @@ module ppmc2104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
+  // What the part sees of the pins, and everything that is recorded of it, first pin in the low bits.
+  localparam int unsigned Watch = 63;
+  logic in_errint_n;
+  logic [2:1] in_csel, in_run, in_extck, in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_alm_n;
+  logic [1:0] in_auxi;
+  logic [Watch-1:0] watch;
+
+  ppmc_board_inputs #(
+      .Width(21),
+      .Sync (RECORD != 0)
+  ) u_inputs (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .d_i({auxi, alm_n, org_n, bhl_n, fhl_n, bl_n, fl_n, csel, extck, run, errint_n}),
+      .q_o({
+        {in_auxi, in_alm_n, in_org_n, in_bhl_n, in_fhl_n, in_bl_n, in_fl_n, in_csel, in_extck, in_run},
+        in_errint_n
+      })
+  );
+
+  assign watch = {
+    {auxo, s2_n, s1_n, hold, dir, pout_n, int_n, part_oe, d_o},
+    {in_auxi, in_alm_n, in_org_n, in_bhl_n, in_fhl_n, in_bl_n, in_fl_n, part_csel, in_extck, part_run},
+    {part_errint_n, part_d, part_rw_rds_n, part_ds_wrs_n, part_busc, part_a0, part_cs_n, part_rst_n}
+  };
+
   ppmc2104 #(
       .CLK_HZ (CLK_HZ),
       .XTAL_HZ(XTAL_HZ),
@@ -86,15 +113,15 @@ module ppmc2104_carrier #(
       .s1_n,
       .s2_n,
       .run     (part_run),
-      .extck,
+      .extck   (in_extck),
       .csel    (part_csel),
-      .fl_n,
-      .bl_n,
-      .fhl_n,
-      .bhl_n,
-      .org_n,
-      .alm_n,
-      .auxi,
+      .fl_n    (in_fl_n),
+      .bl_n    (in_bl_n),
+      .fhl_n   (in_fhl_n),
+      .bhl_n   (in_bhl_n),
+      .org_n   (in_org_n),
+      .alm_n   (in_alm_n),
+      .auxi    (in_auxi),
       .auxo,
       .clk_o
   );
@@ -106,7 +133,9 @@ module ppmc2104_carrier #(
       .Host     (HOST),
       .Baud     (BAUD),
       .Part     (2104),
-      .Axes     (2)
+      .Axes     (2),
+      .Watch    (Watch),
+      .Record   (RECORD)
   ) u_host (
       .clk_i(clk),
       .rst_ni(rst_n),
@@ -133,13 +162,14 @@ module ppmc2104_carrier #(
       .hold_i(hold),
       .pout_ni(pout_n),
       .dir_i(dir),
+      .watch_i(watch),
       .link_o(led_link)
   );
 
   assign part_busc     = HOST == "BUS" && busc;  // the bridge drives read and write strobes
-  assign part_csel     = csel & straps[1:0];
-  assign part_run      = run & straps[3:2];
-  assign part_errint_n = errint_n && straps[4];
+  assign part_csel     = in_csel & straps[1:0];
+  assign part_run      = in_run & straps[3:2];
+  assign part_errint_n = in_errint_n && straps[4];
   assign d_oe          = HOST == "BUS" && part_oe;
   assign s1            = PHASE_ON ? ~s1_n : s1_n;
   assign s2            = PHASE_ON ? ~s2_n : s2_n;

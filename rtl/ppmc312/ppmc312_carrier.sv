@@ -13,7 +13,8 @@ module ppmc312_carrier #(
     parameter string       TIMING   = "FAST",
     parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
     parameter string       HOST     = "UART",      // or "BUS", "SERIAL"
-    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -75,6 +76,27 @@ module ppmc312_carrier #(
   logic [7:0] part_d, straps;
   logic rxd, part_oe, out_oe;
 
+  // What the part sees of the pins.
+  logic in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_index_n, in_alm_n, in_end_n, in_epin, in_epdir;
+  logic in_run, in_evt0_n, in_evt1_n, in_extck, part_run, part_evt0_n, part_evt1_n;
+  logic [7:0] in_auxi;
+
+  ppmc_board_inputs #(
+      .Width(22),
+      .Sync (RECORD != 0)
+  ) u_inputs (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .d_i({
+        {auxi, extck, evt1_n, evt0_n, run, epdir, epin},
+        {end_n, alm_n, index_n, org_n, bhl_n, fhl_n, bl_n, fl_n}
+      }),
+      .q_o({
+        {in_auxi, in_extck, in_evt1_n, in_evt0_n, in_run, in_epdir, in_epin},
+        {in_end_n, in_alm_n, in_index_n, in_org_n, in_bhl_n, in_fhl_n, in_bl_n, in_fl_n}
+      })
+  );
+
   ppmc312 #(
       .CLK_HZ  (CLK_HZ),
       .XTAL_HZ (XTAL_HZ),
@@ -82,46 +104,46 @@ module ppmc312_carrier #(
       .SUM_MODE(SUM_MODE)
   ) u_part (
       .clk,
-      .rst_n (part_rst_n),
-      .mode  (HOST != "SERIAL"),
-      .d_i   (part_d),
+      .rst_n  (part_rst_n),
+      .mode   (HOST != "SERIAL"),
+      .d_i    (part_d),
       .d_o,
-      .d_oe  (part_oe),
-      .rs    (part_rs),
-      .cs_n  (part_cs_n),
-      .we_n  (part_we_n),
-      .oe_n  (part_oe_n),
+      .d_oe   (part_oe),
+      .rs     (part_rs),
+      .cs_n   (part_cs_n),
+      .we_n   (part_we_n),
+      .oe_n   (part_oe_n),
       .wrq_n,
       .irq_n,
       .rxd,
-      .txd   (rs485_txd),
-      .snd   (rs485_de),
+      .txd    (rs485_txd),
+      .snd    (rs485_de),
       .hsp,
       .mod,
       .adr,
-      .evt0_n(evt0_n && straps[1]),
-      .evt1_n(evt1_n && straps[2]),
-      .auxi,
+      .evt0_n (part_evt0_n),
+      .evt1_n (part_evt1_n),
+      .auxi   (in_auxi),
       .auxo_n,
       .exon_n,
       .cclr_n,
       .aclr_n,
       .zclmp_n,
       .cd_n,
-      .alm_n,
-      .end_n,
-      .epin,
-      .epdir,
-      .index_n,
-      .org_n,
-      .fl_n,
-      .bl_n,
-      .fhl_n,
-      .bhl_n,
+      .alm_n  (in_alm_n),
+      .end_n  (in_end_n),
+      .epin   (in_epin),
+      .epdir  (in_epdir),
+      .index_n(in_index_n),
+      .org_n  (in_org_n),
+      .fl_n   (in_fl_n),
+      .bl_n   (in_bl_n),
+      .fhl_n  (in_fhl_n),
+      .bhl_n  (in_bhl_n),
       .pout,
       .dir,
-      .extck,
-      .run   (run && straps[0]),
+      .extck  (in_extck),
+      .run    (part_run),
       .intlk_n,
       .out_oe
   );
@@ -132,10 +154,14 @@ module ppmc312_carrier #(
     else if (pout) moved_q <= 1'b1;
   end
 
-  assign hold       = !moved_q || !cd_n;
-  assign d_oe       = HOST == "BUS" && part_oe;
-  assign led_moving = !hold;
-  assign led_switch = !(fl_n && bl_n && fhl_n && bhl_n && alm_n);
+  assign part_run    = in_run && straps[0];
+  assign part_evt0_n = in_evt0_n && straps[1];
+  assign part_evt1_n = in_evt1_n && straps[2];
+
+  assign hold        = !moved_q || !cd_n;
+  assign d_oe        = HOST == "BUS" && part_oe;
+  assign led_moving  = !hold;
+  assign led_switch  = !(fl_n && bl_n && fhl_n && bhl_n && alm_n);
 
   if (HOST == "SERIAL") begin : g_serial
     // Both lines rest at 1.
@@ -150,6 +176,16 @@ module ppmc312_carrier #(
     logic unused_bus;
     assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
   end else begin : g_host
+    // Everything that is recorded, first pin in the low bits.
+    localparam int unsigned Watch = 63;
+    logic [Watch-1:0] watch;
+    assign watch = {
+      {out_oe, intlk_n, dir, pout, cd_n, zclmp_n, aclr_n, cclr_n, exon_n, auxo_n, irq_n, wrq_n, part_oe, d_o},
+      {in_auxi, in_extck, part_evt1_n, part_evt0_n, part_run, in_epdir, in_epin, in_end_n, in_alm_n},
+      {in_index_n, in_org_n, in_bhl_n, in_fhl_n, in_bl_n, in_fl_n},
+      {part_d, part_we_n, part_oe_n, part_cs_n, part_rs, part_rst_n}
+    };
+
     assign rxd = 1'b1;
 
     logic unused_line;
@@ -162,7 +198,9 @@ module ppmc312_carrier #(
         .Host     (HOST),
         .Baud     (BAUD),
         .Part     (312),
-        .AddrBits (3)
+        .AddrBits (3),
+        .Watch    (Watch),
+        .Record   (RECORD)
     ) u_host (
         .clk_i      (clk),
         .rst_ni     (rst_n),
@@ -186,6 +224,7 @@ module ppmc312_carrier #(
         .hold_i     (hold),
         .pout_ni    (!pout),
         .dir_i      (dir),
+        .watch_i    (watch),
         .link_o     (led_link)
     );
   end

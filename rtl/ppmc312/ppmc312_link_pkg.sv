@@ -80,6 +80,7 @@ package ppmc312_link_pkg;
     op_t   op;        // stands with start
     logic  change;    // strobe: another rate, plan.to
     plan_t plan;      // steady from start to t0; its rate until 2 clk after change
+    logic  home;      // steady the same: the start-up rate instead of plan.to
     logic  pos_halt;  // strobe: an immediate stop is due at this position
     logic  settled;   // everything that has been triggered is processed
   } motion_order_t;

@@ -28,7 +28,6 @@ module ppmc312_reset #(
 );
 
   localparam int unsigned StartXtal = 25_600;
-  localparam int unsigned StartBits = 16;
 
   logic rst_pin, rst_q, rst_host_q, started;
   logic [1:0] boot_q;
@@ -41,19 +40,16 @@ module ppmc312_reset #(
   );
 
   if (Datasheet) begin : g_start
-    ppmc_xtal_timer #(
-        .ClkHz (ClkHz),
-        .XtalHz(XtalHz),
-        .Width (StartBits)
+    ppmc_delay #(
+        .Ticks(ppmc_pkg::cyc(StartXtal, ClkHz, XtalHz))
     ) u_start (
         .clk_i,
-        .rst_ni   (rst_pin),
-        .restart_i(1'b0),
-        .limit_i  (StartBits'(StartXtal)),
+        .restart_i(!rst_pin),
+        .tick_i   (1'b1),
         .past_o   (started)
     );
   end else begin : g_fast
-    localparam int unsigned Unused = StartXtal + StartBits + ClkHz + XtalHz;
+    localparam int unsigned Unused = StartXtal + ClkHz + XtalHz;
     logic unused_start;
 
     assign unused_start = Unused[0];

@@ -53,22 +53,18 @@ module ppmc_pace
 
   // Crystal cycles; microseconds times 16.
   localparam int unsigned INIT_PHASES = 44 * 16;
-  localparam int unsigned INIT_BASE = 264_000;
-  localparam int unsigned INIT_STEP = 209;
   localparam int unsigned BUSY_CONSTANT = 27 * 16;
   localparam int unsigned BUSY_RAMP = 112 * 16;
-  localparam int unsigned FIRST_CONSTANT = 194 * 16;
-  localparam int unsigned FIRST_RAMP = 200 * 16;
-  localparam int unsigned FIRST_SINGLE = 86 * 16;
-  localparam int unsigned END_BUSY = 26 * 16;
-  localparam int unsigned END_OPEN = 156 * 16;
-  localparam int unsigned END_RAMP = 200 * 16;
   localparam int unsigned FLAG_COMMAND = 17 * 16;
   localparam int unsigned AUX = 14 * 16;
   localparam int unsigned EXC_OFF = 18 * 16;
 
-  localparam int unsigned CmdBits = ppmc_pkg::cnt_width(INIT_BASE + INIT_STEP * StepsMax);
-  localparam int unsigned MotBits = RampTimes ? 18 : 12;  // 3200, and 123/16 of at most 2 PA pulses
+  localparam int unsigned CmdBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BUSY_RAMP, ClkHz, XtalHz) - 1);
+
+  // State of the count before the tick that ends such a time.
+  function automatic logic [CmdBits-1:0] last(int unsigned xtal_cycles);
+    return CmdBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CmdBits));
+  endfunction
 
   if (!Datasheet) begin : g_fast
     logic built_q;  // the table is complete one clk after building_i
@@ -93,13 +89,16 @@ module ppmc_pace
   end else begin : g_datasheet
 
     // The byte is gone when its time is up: its data come from behind the C-event.
-    op_code_t op_code;
+    op_code_t op_code, op_held;
     logic ramp;  // of the operation that the byte asks for
+    logic unused_bits;
 
-    assign op_code  = op_code_t'(code_i);
-    assign ramp     = op_code.op inside {OP_ACC_DEC, OP_CONT_HIGH};
-    assign code_o   = code_held_i;
-    assign params_o = params_held_i;
+    assign op_code     = op_code_t'(code_i);
+    assign op_held     = op_code_t'(code_held_i);
+    assign ramp        = op_held.op inside {OP_ACC_DEC, OP_CONT_HIGH};
+    assign code_o      = code_held_i;
+    assign params_o    = params_held_i;
+    assign unused_bits = &{1'b0, op_code, op_held, params_i};
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) base_o <= '0;
@@ -109,11 +108,12 @@ module ppmc_pace
     // ---- command at hand -----------------------------------------------------------------------------
 
     action_t now, late, held_q;
-    logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start;
-    logic [CmdBits-1:0] cmd_limit, cmd_limit_q;
+    logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start, past;
+    logic init_past, closed;
+    logic [CmdBits-1:0] cmd_last;
 
+    // A decelerating stop that acts as an immediate one has no time of its own (P104-DS-14).
     always_comb begin
-      // A decelerating stop that acts as an immediate one has no time of its own (P104-DS-14).
       now = '{
           init: act_i.init,
           halt: act_i.halt,
@@ -125,53 +125,53 @@ module ppmc_pace
       late = act_i & ~now;
       late.init = act_i.init;
       cmd_start = late != '0;
-      cmd_limit = CmdBits'(AUX);
-      if (act_i.exc_off) cmd_limit = CmdBits'(EXC_OFF);
-      if (act_i.decel) cmd_limit = CmdBits'(FLAG_COMMAND);
-      if (act_i.start) begin
-        cmd_limit = (op_code.pout_only || ramp) ? CmdBits'(BUSY_RAMP) : CmdBits'(BUSY_CONSTANT);
-      end
-      if (act_i.init) begin
-        cmd_limit = CmdBits'(INIT_BASE) +
-            CmdBits'(INIT_STEP) * (CmdBits'(params_i[16+:StepBits]) - CmdBits'(StepsMin));
-      end
+    end
+
+    localparam logic [CmdBits-1:0] LastAux = last(AUX);
+    localparam logic [CmdBits-1:0] LastExcOff = last(EXC_OFF);
+    localparam logic [CmdBits-1:0] LastDecel = last(FLAG_COMMAND);
+    localparam logic [CmdBits-1:0] LastRamp = last(BUSY_RAMP);
+    localparam logic [CmdBits-1:0] LastConstant = last(BUSY_CONSTANT);
+    localparam logic [CmdBits-1:0] LastPhases = last(INIT_PHASES);
+
+    // The mailbox is closed meanwhile: the code stands still.
+    always_comb begin
+      cmd_last = LastAux;
+      if (held_q.exc_off) cmd_last = LastExcOff;
+      if (held_q.decel) cmd_last = LastDecel;
+      if (held_q.start) cmd_last = (op_held.pout_only || ramp) ? LastRamp : LastConstant;
+      if (held_q.init) cmd_last = LastPhases;
     end
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        held_q      <= '0;
-        cmd_busy_q  <= 1'b0;
-        cmd_limit_q <= '0;
-        homed_q     <= 1'b1;
+        held_q     <= '0;
+        cmd_busy_q <= 1'b0;
+        homed_q    <= 1'b1;
       end else if (cmd_start) begin
-        held_q      <= late;
-        cmd_busy_q  <= 1'b1;
-        cmd_limit_q <= cmd_limit;
-        homed_q     <= !act_i.init;
+        held_q     <= late;
+        cmd_busy_q <= 1'b1;
+        homed_q    <= !act_i.init;
       end else begin
         if (cmd_past) cmd_busy_q <= 1'b0;
         if (home_past) homed_q <= 1'b1;
       end
     end
 
-    logic past;
-
-    ppmc_xtal_timer #(
-        .ClkHz (ClkHz),
-        .XtalHz(XtalHz),
-        .Width (CmdBits)
+    ppmc_timer #(
+        .Width(CmdBits)
     ) u_command (
         .clk_i,
-        .rst_ni,
         .restart_i(cmd_start),
-        .limit_i  (homed_q ? cmd_limit_q : CmdBits'(INIT_PHASES)),
+        .tick_i   (1'b1),
+        .last_i   (cmd_last),
         .past_o   (past)
     );
 
     assign home_past = past && !homed_q;
-    assign cmd_past  = past && homed_q && cmd_busy_q;
+    assign cmd_past  = cmd_busy_q && (held_q.init ? init_past : past);
     assign home_o    = home_past && !initialised_i;
-    assign ready_o   = cmd_past && held_q.init;
+    assign ready_o   = init_past;
 
     always_comb begin
       act_o = now;
@@ -179,97 +179,43 @@ module ppmc_pace
       act_o.init = now.init;
     end
 
-    // ---- motion --------------------------------------------------------------------------------------
+    // ---- initialisation, motion ----------------------------------------------------------------------
 
-    logic first_q, ending_q, last_q, mot_past, open_past;
-    logic [MotBits-1:0] first_limit_q, busy_limit_q, open_limit_q, growth;
-    logic unused_bits;
+    logic triangle;
 
-    if (RampTimes) begin : g_triangle
-      logic [21:0] pulses;
+    // D < 2 * PA
+    assign triangle = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
+        32'(params_i[22:8]), 32'({steps_i, 1'b0})
+    );
 
-      assign pulses = 22'(params_i[31:8]) + 22'd1;  // of a triangle: fits
-      assign growth = (params_i[31:8] < 24'({steps_i, 1'b0})) ? MotBits'((pulses * 22'd123) >> 4) : '0;
-    end else begin : g_level
-      logic unused_steps;
-
-      assign unused_steps = &{1'b0, steps_i};
-      assign growth       = '0;
-    end
-
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        first_q       <= 1'b0;
-        ending_q      <= 1'b0;
-        first_limit_q <= '0;
-        busy_limit_q  <= '0;
-        open_limit_q  <= '0;
-      end else begin
-        if (act_i.start) begin
-          first_q <= 1'b1;
-          unique case (op_code.op)
-            OP_SINGLE:    first_limit_q <= MotBits'(FIRST_SINGLE);
-            OP_ACC_DEC:   first_limit_q <= MotBits'(FIRST_RAMP) + growth;
-            OP_CONT_HIGH: first_limit_q <= MotBits'(FIRST_RAMP);
-            default:      first_limit_q <= MotBits'(FIRST_CONSTANT);
-          endcase
-        end else if (pulse_i || stop_i) begin
-          first_q <= 1'b0;
-        end
-        if (stop_i) begin
-          ending_q     <= 1'b1;
-          busy_limit_q <= ramp_i ? MotBits'(END_RAMP) : MotBits'(END_BUSY);
-          open_limit_q <= ramp_i ? MotBits'(END_RAMP) : MotBits'(END_OPEN);
-        end else if (pulse_i && last_i) begin
-          ending_q     <= 1'b1;
-          busy_limit_q <= final_i ? MotBits'(END_BUSY) : MotBits'(END_RAMP);
-          open_limit_q <= final_i ? MotBits'(END_OPEN) : MotBits'(END_RAMP);
-          if (single_i) open_limit_q <= MotBits'(END_BUSY);
-        end else if (ending_q && open_past && !last_q) begin
-          ending_q <= 1'b0;
-        end
-      end
-    end
-
-    // One count, two ends: the fall of BUSY and the opening of the mailbox. After a pulse it starts with the
-    // change of the pins.
-    logic mot_restart;
-
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) last_q <= 1'b0;
-      else last_q <= pulse_i && last_i;
-    end
-
-    assign mot_restart = act_i.start || stop_i || last_q;
-
-    ppmc_xtal_timer #(
-        .ClkHz (ClkHz),
-        .XtalHz(XtalHz),
-        .Width (MotBits)
+    ppmc_pace_motion #(
+        .ClkHz    (ClkHz),
+        .XtalHz   (XtalHz),
+        .StepBits (StepBits),
+        .StepsMin (StepsMin),
+        .StepsMax (StepsMax),
+        .RampTimes(RampTimes)
     ) u_motion (
         .clk_i,
         .rst_ni,
-        .restart_i(mot_restart),
-        .limit_i  (first_q ? first_limit_q : busy_limit_q),
-        .past_o   (mot_past)
+        .init_i    (act_i.init),
+        .steps_i   (params_i[16+:StepBits]),
+        .start_i   (act_i.start),
+        .triangle_i(triangle),
+        .pulses_i  (params_i[22:8]),
+        .ramp_i,
+        .single_i,
+        .stop_i,
+        .pulse_i,
+        .last_i,
+        .final_i,
+        .ready_o   (init_past),
+        .go_o,
+        .linger_o,
+        .closed_o  (closed)
     );
 
-    ppmc_xtal_timer #(
-        .ClkHz (ClkHz),
-        .XtalHz(XtalHz),
-        .Width (MotBits)
-    ) u_open (
-        .clk_i,
-        .rst_ni,
-        .restart_i(mot_restart),
-        .limit_i  (open_limit_q),
-        .past_o   (open_past)
-    );
-
-    assign unused_bits = &{1'b0, op_code, params_i};
-    assign open_o      = !cmd_busy_q && !ending_q && !building_i;
-    assign go_o        = mot_past;
-    assign linger_o    = !mot_past || last_q;
+    assign open_o = !cmd_busy_q && !closed && !building_i;
   end
 
 endmodule

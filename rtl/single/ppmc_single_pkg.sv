@@ -22,7 +22,7 @@ package ppmc_single_pkg;
     int unsigned extra_quanta;  // extra time of an interval; 0: there is none
     int unsigned hold_quanta;   // time at rest until HOLD
     int unsigned hold_rest;     // clk more
-    int unsigned chop_unit;     // quanta a unit of the chopper's times
+    int unsigned chop_unit;     // quanta a unit of the chopper's times; 0: no units
     int unsigned chop_bits;     // bits of the chopper's base times that count
     // 1: the J105 STMC's rules of stops and ends. No pulse output, so that the last pulse ends the motion; a stop at
     // the start-up rate, and a slow-down limit in a search for the origin, end it at once; bit 7 of the finish status

@@ -62,7 +62,7 @@ module stmc
 
   localparam bit Sheet = READ_MAP == "SHEET";
   // A quantum lasts at least two clk. Times of the chopper that are no multiple of it are rounded up.
-  localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 4 : 5;
+  localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
   localparam int unsigned HoldRest = ppmc_pkg::cyc(
       HOLD_XT, CLK_HZ, XTAL_HZ
@@ -111,7 +111,7 @@ module stmc
 
   localparam traits_t Traits = '{
       step_bits: STEP_BITS,
-      steps_min: 0,
+      steps_min: 32'd0,
       steps_max: STEPS_MAX,
       quantum_xtal: QuantumXtal,
       fast_quanta: STEP_XTAL / QuantumXtal,
@@ -119,7 +119,7 @@ module stmc
       extra_quanta: 0,
       hold_quanta: HoldQuanta,
       hold_rest: HoldRest,
-      chop_unit: 1,
+      chop_unit: 0,
       chop_bits: ChopBits,
       stmc_ends: 1'b1
   };

@@ -14,7 +14,8 @@ module stmc_carrier #(
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -46,9 +47,31 @@ module stmc_carrier #(
     output logic            led_switch   // a limit is active, or MON is low
 );
 
-  logic part_rst_n, part_cs_n, part_a0, part_rd_n, part_wr_n, ext_rst_n, ext_clk, pout_n, dir, unused_straps;
+  logic part_rst_n, part_cs_n, part_a0, part_rd_n, part_wr_n, ext_rst_n, pout_n, dir, unused_straps;
+  logic ext_wave, ext_clk;
   logic part_oe;
   logic [7:0] part_d, straps;
+
+  // What the part sees of the pins, and everything that is recorded of it, first pin in the low bits.
+  localparam int unsigned Watch = 36;
+  logic in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_mon;
+  logic [Watch-1:0] watch;
+
+  ppmc_board_inputs #(
+      .Width(6),
+      .Sync (RECORD != 0)
+  ) u_inputs (
+      .clk_i (clk),
+      .rst_ni(rst_n),
+      .d_i   ({mon, cnp_n, l4_n, l3_n, l2_n, l1_n}),
+      .q_o   ({in_mon, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n})
+  );
+
+  assign watch = {
+    {hold, s, int_n, part_oe, d_o},
+    {in_mon, in_cnp_n, in_l4_n, in_l3_n, in_l2_n, in_l1_n},
+    {part_d, part_wr_n, part_rd_n, part_a0, part_cs_n, ext_clk, part_rst_n}
+  };
 
   // The step clock goes on when only the part is reset.
   ppmc_reset u_reset (
@@ -65,8 +88,11 @@ module stmc_carrier #(
   ) u_ext (
       .clk_i (clk),
       .rst_ni(ext_rst_n),
-      .wave_o(ext_clk)
+      .wave_o(ext_wave)
   );
+
+  // With a recorder strap 0 can stop it: its edges would fill the memory.
+  assign ext_clk = ext_wave && (straps[0] || RECORD == 0);
 
   stmc #(
       .CLK_HZ    (CLK_HZ),
@@ -86,12 +112,12 @@ module stmc_carrier #(
       .d_o,
       .d_oe  (part_oe),
       .int_n,
-      .l1_n,
-      .l2_n,
-      .l3_n,
-      .l4_n,
-      .cnp_n,
-      .mon,
+      .l1_n (in_l1_n),
+      .l2_n (in_l2_n),
+      .l3_n (in_l3_n),
+      .l4_n (in_l4_n),
+      .cnp_n(in_cnp_n),
+      .mon  (in_mon),
       .s,
       .hold
   );
@@ -110,7 +136,9 @@ module stmc_carrier #(
       .Datasheet(TIMING == "DATASHEET"),
       .Host     (HOST),
       .Baud     (BAUD),
-      .Part     (105)
+      .Part     (105),
+      .Watch    (Watch),
+      .Record   (RECORD)
   ) u_host (
       .clk_i      (clk),
       .rst_ni     (rst_n),
@@ -134,6 +162,7 @@ module stmc_carrier #(
       .hold_i     (hold),
       .pout_ni    (pout_n),
       .dir_i      (dir),
+      .watch_i    (watch),
       .link_o     (led_link)
   );
 

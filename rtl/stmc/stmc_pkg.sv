@@ -11,9 +11,9 @@ package stmc_pkg;
   import ppmc_op_pkg::*;
 
   localparam int unsigned RATE_BITS = 8;
-  localparam int unsigned STEP_BITS = 16;
+  localparam int unsigned STEP_BITS = 32'd16;
 
-  localparam int unsigned STEPS_MAX = 65_535;  // acceleration steps PA
+  localparam int unsigned STEPS_MAX = 32'd65_535;  // acceleration steps PA
   localparam logic [RATE_BITS-1:0] RATE_NONE = '1;  // divisor 0
 
   localparam int unsigned STEP_XTAL = 1_280;  // crystal cycles a period of the internal step clock

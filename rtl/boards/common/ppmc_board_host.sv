@@ -13,7 +13,9 @@ module ppmc_board_host #(
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits
     parameter int unsigned AddrBits  = 1,           // address lines of the part, 1 .. 4
-    parameter bit          Counter   = 1'b1         // pulses are counted
+    parameter bit          Counter   = 1'b1,        // pulses are counted
+    parameter int unsigned Watch     = 1,           // levels that are recorded
+    parameter int unsigned Record    = 0            // 2**Record records of them; 0: no recorder
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -41,6 +43,7 @@ module ppmc_board_host #(
     input  wire logic [    Axes-1:0] hold_i,
     input  wire logic [    Axes-1:0] pout_ni,
     input  wire logic [    Axes-1:0] dir_i,
+    input  wire logic [   Watch-1:0] watch_i,      // all pins of the part, of the clock domain
     output logic                     link_o        // 1: a script is running or an answer is on its way
 );
 
@@ -64,7 +67,9 @@ module ppmc_board_host #(
         .Part     (Part),
         .Datasheet(Datasheet),
         .Axes     (Axes),
-        .Counter  (Counter)
+        .Counter  (Counter),
+        .Watch    (Watch),
+        .Record   (Record)
     ) u_host (
         .clk_i,
         .rst_ni,
@@ -83,6 +88,7 @@ module ppmc_board_host #(
         .hold_i,
         .pout_ni,
         .dir_i,
+        .watch_i,
         .active_o(link_o)
     );
 
@@ -100,7 +106,7 @@ module ppmc_board_host #(
     assign link_o      = !cs_ni;
 
     logic unused;
-    assign unused = ^{clk_i, rxd_i, part_d_i, int_ni, switches_ni, hold_i, pout_ni, dir_i};
+    assign unused = ^{clk_i, rxd_i, part_d_i, int_ni, switches_ni, hold_i, pout_ni, dir_i, watch_i};
   end
 
 endmodule

@@ -11,7 +11,8 @@
 module board_icebreaker_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
@@ -58,7 +59,8 @@ module board_icebreaker_bank #(
       .AXES      (8),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      ("UART"),
-      .BAUD      (BAUD)
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

@@ -11,7 +11,8 @@ module board_icebreaker_stmc #(
     parameter string       TIMING     = "FAST",
     parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
@@ -64,7 +65,8 @@ module board_icebreaker_stmc #(
       .READ_MAP  (READ_MAP),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      ("UART"),
-      .BAUD      (BAUD)
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

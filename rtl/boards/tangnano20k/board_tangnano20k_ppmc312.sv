@@ -10,7 +10,8 @@
 module board_tangnano20k_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter string       TIMING  = "FAST",
-    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_27m,   // 27 MHz
     input  wire logic       btn,       // 1: reset
@@ -80,7 +81,8 @@ module board_tangnano20k_ppmc312 #(
       .XTAL_HZ(XTAL_HZ),
       .TIMING (TIMING),
       .HOST   ("UART"),
-      .BAUD   (BAUD)
+      .BAUD   (BAUD),
+      .RECORD (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

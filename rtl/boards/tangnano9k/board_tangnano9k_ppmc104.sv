@@ -12,7 +12,8 @@ module board_tangnano9k_ppmc104 #(
     parameter string       TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_27m,     // 27 MHz
     input  wire logic       btn_n,       // 0: reset
@@ -83,7 +84,8 @@ module board_tangnano9k_ppmc104 #(
       .TIMING    (TIMING),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
-      .BAUD      (BAUD)
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

@@ -12,7 +12,8 @@ module board_ulx3s_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "SPI"
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic        clk_25m,    // 25 MHz
     input  wire logic        btn_f1,     // 1: reset
@@ -66,7 +67,8 @@ module board_ulx3s_bank #(
       .AXES      (32),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
-      .BAUD      (BAUD)
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

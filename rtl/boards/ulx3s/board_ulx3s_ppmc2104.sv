@@ -11,7 +11,8 @@ module board_ulx3s_ppmc2104 #(
     parameter string       TIMING   = "FAST",
     parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
     parameter string       HOST     = "UART",      // or "BUS"
-    parameter int unsigned BAUD     = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -87,7 +88,8 @@ module board_ulx3s_ppmc2104 #(
       .TIMING  (TIMING),
       .PHASE_ON(PHASE_ON),
       .HOST    (HOST),
-      .BAUD    (BAUD)
+      .BAUD    (BAUD),
+      .RECORD  (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

@@ -10,7 +10,8 @@ module board_ulx3s_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter string       TIMING  = "FAST",
     parameter string       HOST    = "UART",      // or "BUS", "SERIAL"
-    parameter int unsigned BAUD    = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -91,7 +92,8 @@ module board_ulx3s_ppmc312 #(
       .XTAL_HZ(XTAL_HZ),
       .TIMING (TIMING),
       .HOST   (HOST),
-      .BAUD   (BAUD)
+      .BAUD   (BAUD),
+      .RECORD (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

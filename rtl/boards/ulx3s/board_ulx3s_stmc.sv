@@ -12,7 +12,8 @@ module board_ulx3s_stmc #(
     parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter string       HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200      // of the bridge after reset
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -76,7 +77,8 @@ module board_ulx3s_stmc #(
       .READ_MAP  (READ_MAP),
       .PHASE_IDLE(PHASE_IDLE),
       .HOST      (HOST),
-      .BAUD      (BAUD)
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
   ) u_carrier (
       .clk,
       .rst_n,

@@ -22,10 +22,11 @@ module pmc006_frame
 
   logic [2:0] at_q, at;
   logic mine_q;
-  logic [7:0] sum_q;
+  logic [7:0] sum_q, code_q;
+  logic [31:0] data_q;
 
   assign at = late_i ? 3'd0 : at_q;
-  assign frame_o.go = valid_i && at == 3'd7 && mine_q && byte_i == sum_q;
+  assign frame_o = '{go: valid_i && at == 3'd7 && mine_q && byte_i == sum_q, code: code_q, data: data_q};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) at_q <= '0;
@@ -37,8 +38,8 @@ module pmc006_frame
     if (valid_i) begin
       sum_q <= byte_i + ((at == '0) ? 8'd0 : sum_q);
       if (at == 3'd1) mine_q <= byte_i == addr_i;
-      if (at == 3'd2) frame_o.code <= byte_i;
-      if (at inside {[3'd3 : 3'd6]}) frame_o.data <= {byte_i, frame_o.data[31:8]};
+      if (at == 3'd2) code_q <= byte_i;
+      if (at inside {[3'd3 : 3'd6]}) data_q <= {byte_i, data_q[31:8]};
     end
   end
 

@@ -49,7 +49,7 @@ module pmc006_exec
   state_e  state_q;
   source_e source_q;
   logic ask_q, again_q, ok, legal_q, program_q, place;
-  logic [7:0] op_q;
+  logic [7:0] op_d, op_q;
   logic [3:0] option_q;
 
   assign program_q = source_q == FromProgram || source_q == FromTry;
@@ -72,9 +72,17 @@ module pmc006_exec
     if (source_q == FromBoot) order_o.data = {16'd0, load_data_i};
   end
 
+  assign op_d = (state_q == StDecode) ? op_of(
+      word_i[7:0]
+  ) : load_i ? load_op_i : frame_i.code[7] ? I_NONE : frame_i.code;
+
   pmc006_range u_range (
-      .order_i(order_o),
-      .ok_o   (ok)
+      .clk_i,
+      .take_i   (state_q inside {StIdle, StDecode}),
+      .program_i(state_q == StDecode),
+      .op_i     (op_d),
+      .order_i  (order_o),
+      .ok_o     (ok)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -115,11 +123,9 @@ module pmc006_exec
   end
 
   always_ff @(posedge clk_i) begin
-    if (state_q == StIdle) begin
-      op_q     <= load_i ? load_op_i : frame_i.code[7] ? I_NONE : frame_i.code;
-      option_q <= '0;
-    end else if (state_q == StDecode) begin
-      op_q     <= op_of(word_i[7:0]);
+    if (state_q inside {StIdle, StDecode}) op_q <= op_d;
+    if (state_q == StIdle) option_q <= '0;
+    else if (state_q == StDecode) begin
       option_q <= (word_i[15:12] == '0) ? word_i[11:8] : 4'hf;
     end
     legal_q <= ok;

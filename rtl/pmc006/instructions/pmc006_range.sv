@@ -1,73 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_range: which data each instruction accepts, whatever the state of the motor.
 // Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57, P006-BAD-08/09.
-// Timing: none; combinational.
+// Timing: ok_o is combinational from order_i; the limits come out of a table in a block RAM, one clk after take_i.
 `default_nettype none
 
 module pmc006_range
   import pmc006_pkg::*;
 (
-    input  wire order_t order_i,  // the instruction
-    output logic        ok_o      // its data are accepted
+    input  wire logic         clk_i,
+    input  wire logic         take_i,     // an instruction is taken: limits of op_i
+    input  wire logic         program_i,  // with take_i: out of the user program
+    input  wire logic   [7:0] op_i,       // with take_i
+    input  wire order_t       order_i,    // the same instruction, from the next clk on
+    output logic              ok_o        // its data are accepted
 );
 
-  logic frame, listed, inner;
-  logic [13:0] low, high;
+  typedef struct packed {
+    logic        listed;  // there are limits
+    logic [13:0] low;
+    logic [13:0] high;
+  } limits_t;
 
-  assign frame = order_i.source == FromFrame;
-
-  always_comb begin
-    listed = 1'b1;
-    low    = 14'd0;
-    high   = 14'd1;
-    unique case (order_i.op)
-      I_OFFLINE, I_RUN, I_AUTODEC, I_DIR, I_FREE: high = 14'd1;
-      I_POINTER: high = 14'd199;
-      I_TRIGGER: high = 14'd3;
-      I_EXTEN: high = frame ? 14'd3 : 14'd1;
+  function automatic limits_t limits_of(logic program_op, logic [7:0] op);
+    limits_t l;
+    l = '{listed: 1'b1, low: 14'd0, high: 14'd1};
+    unique case (op)
+      I_OFFLINE, I_RUN, I_AUTODEC, I_DIR, I_FREE: l.high = 14'd1;
+      I_POINTER: l.high = 14'd199;
+      I_TRIGGER: l.high = 14'd3;
+      I_EXTEN: l.high = program_op ? 14'd1 : 14'd3;
       I_VSTART, I_VSTOP: begin
-        low  = 14'd65;
-        high = 14'd3000;
+        l.low  = 14'd65;
+        l.high = 14'd3000;
       end
       I_CCOMP: begin
-        low  = 14'd100;
-        high = 14'd1200;
+        l.low  = 14'd100;
+        l.high = 14'd1200;
       end
       I_SCOMP: begin
-        low  = 14'd300;
-        high = 14'd2000;
+        l.low  = 14'd300;
+        l.high = 14'd2000;
       end
       I_ATT: begin
-        low  = 14'd1;
-        high = 14'd4;
+        l.low  = 14'd1;
+        l.high = 14'd4;
       end
-      I_STLEN: high = 14'd63;
-      I_STCFG: high = 14'd7;
-      I_STLVL: high = 14'd511;
+      I_STLEN: l.high = 14'd63;
+      I_STCFG: l.high = 14'd7;
+      I_STLVL: l.high = 14'd511;
       I_CURRENT: begin
-        low  = 14'd400;
-        high = 14'd4000;
+        l.low  = 14'd400;
+        l.high = 14'd4000;
       end
-      I_MSTEP: high = 14'd128;
-      I_DEC: high = 14'd5;
-      I_ACC: high = (order_i.source inside {FromProgram, FromTry}) ? 14'd6 : 14'd5;
+      I_MSTEP: l.high = 14'd128;
+      I_DEC: l.high = 14'd5;
+      I_ACC: l.high = program_op ? 14'd6 : 14'd5;
       I_VMAX: begin
-        low  = frame ? 14'd1 : 14'd0;
-        high = 14'd16_000;
+        l.low  = program_op ? 14'd0 : 14'd1;
+        l.high = 14'd16_000;
       end
       I_ADDR: begin
-        low  = 14'd1;
-        high = 14'd120;
+        l.low  = 14'd1;
+        l.high = 14'd120;
       end
-      P_JMP, P_JNE, P_JEQ, P_RESET_EN: high = 14'd99;
-      default: listed = 1'b0;
+      P_JMP, P_JNE, P_JEQ, P_RESET_EN: l.high = 14'd99;
+      default: l.listed = 1'b0;
     endcase
-  end
+    return l;
+  endfunction
 
-  assign inner = order_i.data[31:14] == '0 && order_i.data[13:0] >= low && order_i.data[13:0] <= high;
+  // A constant of all words: synthesis runs the branches of limits_of wrongly in an initial block.
+  function automatic limits_t [511:0] every_limits();
+    limits_t [511:0] words;
+    for (int unsigned i = 0; i < 512; i++) words[9'(i)] = limits_of(i >= 256, 8'(i));
+    return words;
+  endfunction
+
+  localparam limits_t [511:0] Words = every_limits();
+
+  (* rom_style = "block" *)
+  limits_t rom[512];
+  limits_t limits_q;
+  logic inner;
+
+  initial for (int unsigned i = 0; i < 512; i++) rom[i] = Words[9'(i)];
+
+  always_ff @(posedge clk_i) if (take_i) limits_q <= rom[{program_i, op_i}];
+
+  assign inner = order_i.data[31:14] == '0 && order_i.data[13:0] >= limits_q.low &&
+      order_i.data[13:0] <= limits_q.high;
 
   always_comb begin
-    ok_o = !listed || inner;
+    ok_o = !limits_q.listed || inner;
     unique case (order_i.op)
       I_STEP: ok_o = !order_i.data[31] && order_i.data[30:0] != '0;
       // One bit of the byte, or none.

@@ -28,42 +28,60 @@ module pmc006_page
     output logic wide_o  // a pair
 );
 
-  settings_t set;
-  control_t ctl;
+  typedef struct packed {
+    logic [15:0] pair;    // of which the byte is one
+    logic [7:0]  single;  // the byte, if it is none of a pair
+  } field_t;
+
+  // What stands in the page at this address.
+  function automatic field_t field_at(settings_t set, control_t ctl, logic [4:0] at);
+    field_t f;
+    logic   unused_bits;
+    unused_bits = &{1'b0, set, ctl};
+    unique case (at[4:1])
+      4'h6:    f.pair = 16'(set.vstart);
+      4'h7:    f.pair = 16'(set.vstop);
+      4'h8:    f.pair = 16'(set.ccomp);
+      4'h9:    f.pair = 16'(set.scomp);
+      4'ha:    f.pair = 16'(set.cur);
+      default: f.pair = 16'd0;
+    endcase
+    unique case (at)
+      5'h03:   f.single = ctl.addr;
+      5'h04:   f.single = set.mstep;
+      5'h06:   f.single = 8'(set.acc);
+      5'h07:   f.single = 8'(set.dec);
+      5'h08:   f.single = 8'(set.autodec);
+      5'h09:   f.single = 8'(set.att);
+      5'h0a:   f.single = 8'(ctl.trigm);
+      5'h0b:   f.single = 8'(ctl.offline);
+      default: f.single = 8'd0;
+    endcase
+    return f;
+  endfunction
+
+  field_t field;
   logic [4:0] at;
   logic [7:0] page, high_q;
-  logic [15:0] pair, sum_q;
-  logic tail, check, unused_bits;
+  logic [15:0] sum_q;
+  logic tail, check;
 
   assign at = at_i[4:0];
   assign tail = at_i[9:8] == 2'b11 && at_i[6];  // behind the program
-  assign set = factory_i ? SETTINGS_RESET : settings_i;
-  assign ctl = factory_i ? CONTROL_RESET : control_i;
-  assign unused_bits = &{1'b0, set, ctl};
+  assign field = factory_i ? field_at(
+      SETTINGS_RESET, CONTROL_RESET, at
+  ) : field_at(
+      settings_i, control_i, at
+  );
 
   always_comb begin
-    unique case (at[4:1])
-      4'h6: pair = 16'(set.vstart);
-      4'h7: pair = 16'(set.vstop);
-      4'h8: pair = 16'(set.ccomp);
-      4'h9: pair = 16'(set.scomp);
-      4'ha: pair = 16'(set.cur);
-      default: pair = 16'd0;
-    endcase
     unique case (at)
-      5'h00:   page = 8'h50;
-      5'h01:   page = 8'h36;
-      5'h02:   page = 8'h01;
-      5'h03:   page = ctl.addr;
-      5'h04:   page = set.mstep;
-      5'h06:   page = 8'(set.acc);
-      5'h07:   page = 8'(set.dec);
-      5'h08:   page = 8'(set.autodec);
-      5'h09:   page = 8'(set.att);
-      5'h0a:   page = 8'(ctl.trigm);
-      5'h0b:   page = 8'(ctl.offline);
-      5'h1f:   page = sum_q[7:0];
-      default: page = at[0] ? high_q : pair[7:0];
+      5'h00: page = 8'h50;
+      5'h01: page = 8'h36;
+      5'h02: page = 8'h01;
+      5'h03, 5'h04, 5'h06, 5'h07, 5'h08, 5'h09, 5'h0a, 5'h0b: page = field.single;
+      5'h1f: page = sum_q[7:0];
+      default: page = at[0] ? high_q : field.pair[7:0];
     endcase
   end
 
@@ -83,10 +101,10 @@ module pmc006_page
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) sum_q <= '0;
     else if (clear_i) sum_q <= '0;
-    else if ((sent_i || got_i) && !tail) sum_q <= sum_q + 16'(got_i ? received_i : byte_o);
+    else if ((sent_i || got_i) && !tail) sum_q <= sum_q + {8'd0, got_i ? received_i : byte_o};
   end
 
-  always_ff @(posedge clk_i) if (sent_i && !at[0]) high_q <= pair[15:8];
+  always_ff @(posedge clk_i) if (sent_i && !at[0]) high_q <= field.pair[15:8];
 
   always_comb begin
     unique case (at)

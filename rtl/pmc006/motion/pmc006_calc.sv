@@ -49,7 +49,8 @@ module pmc006_calc
   logic plan_q, up_q, smooth_q, carry_q, zero;
   logic [2:0] acc_q, dec_q;
 
-  logic [31:0] hi_q, lo_q, word_q, source_q, source_d, operand, a, b;
+  logic [31:0] hi_q, lo_q, operand, a, b;
+  logic [31:0] word_q, constant, constant_q, outer, outer_q, inner, inner_q;  // one of them is not 0
   logic [32:0] sum;
   logic mul, div, root, shift_only;
   logic [2:0] n_way, n_rate;
@@ -128,37 +129,43 @@ module pmc006_calc
   assign n_way = instr.aux[0] ? dec_q : acc_q;
   assign n_rate = up_q ? acc_q : dec_q;
 
+  // Constants, registers of the motion and those of the calculator by themselves: what comes late out of the program's
+  // RAM goes through few cells then.
   always_comb begin
     unique case (src)
-      K1:      source_d = 32'd1;
-      K3:      source_d = 32'd3;
-      K4:      source_d = 32'd4;
-      K100:    source_d = 32'd100;
-      K150:    source_d = 32'd150;
-      K153:    source_d = 32'd153;
-      K325:    source_d = 32'd325;
-      K416:    source_d = 32'd416;
-      K20000:  source_d = 32'd20000;
-      K54400:  source_d = 32'd54400;
-      K3x2p16: source_d = 32'd196608;
-      K2p31:   source_d = 32'h8000_0000;
-      RV:      source_d = 32'(v_i);
-      RVe:     source_d = 32'(ve_i);
-      RLeft:   source_d = 32'(left_i);
-      RVmax:   source_d = 32'(vmax_i);
-      RAdc:    source_d = 32'({adc_i, 6'd0});
-      RAdc9:   source_d = 32'({adc_i[9], 6'd0});
-      RCur:    source_d = 32'(cur_i);
-      RCcomp:  source_d = 32'(ccomp_i);
-      RScomp:  source_d = 32'(scomp_i);
-      RMstep:  source_d = 32'(mstep_i);
-      RLo:     source_d = lo_q;
-      RMid:    source_d = {hi_q[15:0], lo_q[31:16]};
-      RMargin: source_d = 32'({1'b1, hi_q[13:12]});
-      RRoot:   source_d = 32'({next_o, 2'b01});
-      RRate:   source_d = 32'd17 << n_rate;
-      RWay:    source_d = 32'd3400 << n_way;
-      default: source_d = '0;
+      K1:      constant = 32'd1;
+      K3:      constant = 32'd3;
+      K4:      constant = 32'd4;
+      K100:    constant = 32'd100;
+      K150:    constant = 32'd150;
+      K153:    constant = 32'd153;
+      K325:    constant = 32'd325;
+      K416:    constant = 32'd416;
+      K20000:  constant = 32'd20000;
+      K54400:  constant = 32'd54400;
+      K3x2p16: constant = 32'd196608;
+      K2p31:   constant = 32'h8000_0000;
+      default: constant = '0;
+    endcase
+    unique case (src[2:0])
+      RV[2:0]:    outer = 32'(v_i);
+      RVe[2:0]:   outer = 32'(ve_i);
+      RLeft[2:0]: outer = 32'(left_i);
+      RVmax[2:0]: outer = 32'(vmax_i);
+      RAdc[2:0]:  outer = 32'({adc_i, 6'd0});
+      RAdc9[2:0]: outer = 32'({adc_i[9], 6'd0});
+      RCur[2:0]:  outer = 32'(cur_i);
+      default:    outer = 32'(ccomp_i);
+    endcase
+    unique case (src[2:0])
+      RScomp[2:0]:  inner = 32'(scomp_i);
+      RMstep[2:0]:  inner = 32'(mstep_i);
+      RLo[2:0]:     inner = lo_q;
+      RMid[2:0]:    inner = {hi_q[15:0], lo_q[31:16]};
+      RMargin[2:0]: inner = 32'({1'b1, hi_q[13:12]});
+      RRoot[2:0]:   inner = 32'({next_o, 2'b01});
+      RRate[2:0]:   inner = 32'd17 << n_rate;
+      default:      inner = 32'd3400 << n_way;
     endcase
   end
 
@@ -167,11 +174,13 @@ module pmc006_calc
 
   always_ff @(posedge clk_i) begin
     if (done && ir_q.op == OpStore) words[ir_q.low[3:0]] <= hi_q;
-    word_q   <= words[src[3:0]];
-    source_q <= source_d;
+    word_q     <= (src[5:4] == 2'b00) ? words[src[3:0]] : '0;
+    constant_q <= (src[5:4] == 2'b01) ? constant : '0;
+    outer_q    <= (src[5:3] == 3'b100) ? outer : '0;
+    inner_q    <= (src[5:3] == 3'b101) ? inner : '0;
   end
 
-  assign operand = (ir_q.low[5:4] == 2'b00) ? word_q : source_q;
+  assign operand = word_q | constant_q | outer_q | inner_q;
 
   // ---- the adder -------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 // ppmc312_codes: what an instruction code of the serial mode means on the parallel bus.
 // Rules:  section 3.6; P312-SER-40..44.
 // Timing: one clk.
+// How:    a table in a block RAM, written from the function below.
 `default_nettype none
 
 module ppmc312_codes
@@ -13,21 +14,19 @@ module ppmc312_codes
     output serial_code_t       info_o   // what it means
 );
 
-  serial_code_t info;
-  logic position;
-  logic [3:0] bytes;  // received behind the code
-  logic [7:0] way, trigger;
-
-  assign position = code_i[5:4] == 2'b01;
-  assign way = {1'b0, code_i[5], 6'd0};  // DIR
-  assign trigger = {5'd0, code_i[5:4] != 2'b00, code_i[5] && code_i[4], code_i[5]};  // OV, TRG
-
-  always_comb begin
+  function automatic serial_code_t meaning(logic [7:0] code);
+    serial_code_t info;
+    logic position;
+    logic [3:0] bytes;  // received behind the code
+    logic [7:0] way, trigger;
+    position   = code[5:4] == 2'b01;
+    way        = {1'b0, code[5], 6'd0};  // DIR
+    trigger    = {5'd0, code[5:4] != 2'b00, code[5] && code[4], code[5]};  // OV, TRG
     info       = '0;
     info.known = 1'b1;
-    info.code  = code_i;
+    info.code  = code;
     bytes      = 4'd0;
-    unique case (code_i)
+    unique case (code)
       I_INIT:                                                                bytes = 4'd8;
       I_INPOS, I_ENCODE:                                                     bytes = 4'd3;
       I_LOCK_POS:                                                            bytes = 4'd4;
@@ -39,7 +38,8 @@ module ppmc312_codes
       I_STATUS:                                                              info.reads = 3'd3;
       I_MASK: begin
         bytes = 4'd1;
-        {info.flagged, info.flags} = {1'b1, 8'h01};  // always again
+        info.flagged = 1'b1;
+        info.flags = 8'h01;  // always again
       end
       S_END, S_ERROR, S_COUNTS:                                              info.local_read = 1'b1;
       8'h41: begin
@@ -49,54 +49,78 @@ module ppmc312_codes
       8'h42, 8'h62: begin
         info.code = I_POS;
         info.reads = 3'd4;
-        {info.flagged, info.flags} = {1'b1, 7'd0, code_i[5]};
+        info.flagged = 1'b1;
+        info.flags = {7'd0, code[5]};
       end
       8'h43, 8'h63: begin
         info.code = I_POS_SET;
         bytes = 4'd4;
-        {info.flagged, info.flags} = {1'b1, 7'd0, code_i[5]};
+        info.flagged = 1'b1;
+        info.flags = {7'd0, code[5]};
       end
       8'h49, 8'h59, 8'h69, 8'h79: begin
         info.code = I_EVT_SET;
-        info.embeds = !code_i[5];
-        bytes = code_i[5] ? 4'd0 : 4'd10;
-        {info.flagged, info.flags} = {1'b1, 6'd0, code_i[5], code_i[4]};
+        info.embeds = !code[5];
+        bytes = code[5] ? 4'd0 : 4'd10;
+        info.flagged = 1'b1;
+        info.flags = {6'd0, code[5], code[4]};
       end
       8'h80, 8'h90, 8'ha0, 8'hb0, 8'h81, 8'h91, 8'ha1, 8'hb1: begin
         bytes = position ? 4'd4 : 4'd0;
-        info.code = {7'h40, code_i[0]};
-        {info.flagged, info.flags} = {1'b1, trigger};
+        info.code = {7'h40, code[0]};
+        info.flagged = 1'b1;
+        info.flags = trigger;
       end
       8'h89, 8'h99, 8'ha9, 8'hb9, 8'h8a, 8'h9a, 8'haa, 8'hba: begin
         bytes = position ? 4'd6 : 4'd2;
-        info.code = code_i[0] ? I_RAMP : I_SPEED;
-        {info.flagged, info.flags} = {1'b1, trigger};
+        info.code = code[0] ? I_RAMP : I_SPEED;
+        info.flagged = 1'b1;
+        info.flags = trigger;
       end
       8'h82, 8'ha2: begin
         info.code = I_STEP;
-        {info.flagged, info.flags} = {1'b1, way};
+        info.flagged = 1'b1;
+        info.flags = way;
       end
       8'h83, 8'ha3, 8'h84, 8'ha4: begin
         bytes = 4'd6;
-        info.code = code_i[2] ? I_CONST : I_MOVE;
-        {info.flagged, info.flags} = {1'b1, way};
+        info.code = code[2] ? I_CONST : I_MOVE;
+        info.flagged = 1'b1;
+        info.flags = way;
       end
       8'h85, 8'ha5, 8'h86, 8'ha6: begin
         bytes = 4'd2;
-        info.code = code_i[1] ? I_HIGH : I_CONT;
-        {info.flagged, info.flags} = {1'b1, way};
+        info.code = code[1] ? I_HIGH : I_CONT;
+        info.flagged = 1'b1;
+        info.flags = way;
       end
       8'h87, 8'h97, 8'ha7, 8'hb7, 8'h88, 8'h98, 8'ha8, 8'hb8: begin
         bytes = 4'd2;
-        info.code = code_i[3] ? I_ZERO : I_ORIGIN;
-        {info.flagged, info.flags} = {1'b1, way | {3'd0, code_i[4], 4'd0}};  // IDX
+        info.code = code[3] ? I_ZERO : I_ORIGIN;
+        info.flagged = 1'b1;
+        info.flags = way | {3'd0, code[4], 4'd0};  // IDX
       end
       default:                                                               info.known = 1'b0;
     endcase
     info.size = 4'd3 + 4'(info.flagged) + bytes;
-  end
+    return info;
+  endfunction
 
-  always_ff @(posedge clk_i) info_o <= info;
+  // A constant of all words: synthesis runs the branches of meaning wrongly in an initial block.
+  function automatic serial_code_t [255:0] every_code();
+    serial_code_t [255:0] words;
+    for (int unsigned i = 0; i < 256; i++) words[8'(i)] = meaning(8'(i));
+    return words;
+  endfunction
+
+  localparam serial_code_t [255:0] Words = every_code();
+
+  (* rom_style = "block" *)
+  serial_code_t rom[256];
+
+  initial for (int unsigned i = 0; i < 256; i++) rom[i] = Words[8'(i)];
+
+  always_ff @(posedge clk_i) info_o <= rom[code_i];
 
 endmodule
 

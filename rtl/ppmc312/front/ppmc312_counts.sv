@@ -15,14 +15,8 @@ module ppmc312_counts (
 
   logic [7:0] old, more;
 
-  always_comb begin
-    unique case (1'b1)
-      error_i[0]: old = count_o[0];
-      error_i[1]: old = count_o[1];
-      default:    old = count_o[2];
-    endcase
-    more = old + 8'(old != '1);
-  end
+  assign old  = error_i[0] ? count_o[0] : error_i[1] ? count_o[1] : count_o[2];
+  assign more = old + 8'(old != '1);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) count_o <= '0;

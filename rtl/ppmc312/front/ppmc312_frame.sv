@@ -38,7 +38,6 @@ module ppmc312_frame
 );
 
   localparam int unsigned SilenceXtal = 320_000;  // 20 ms
-  localparam int unsigned SilenceBits = 19;
 
   typedef enum logic [2:0] {
     StSkip,  // until the next control code
@@ -67,15 +66,12 @@ module ppmc312_frame
   assign hex = digit || letter;
   assign nibble = byte_i[3:0] + (byte_i[6] ? 4'd9 : 4'd0);
 
-  ppmc_xtal_timer #(
-      .ClkHz (ClkHz),
-      .XtalHz(XtalHz),
-      .Width (SilenceBits)
+  ppmc_delay #(
+      .Ticks(ppmc_pkg::cyc(SilenceXtal, ClkHz, XtalHz))
   ) u_silence (
       .clk_i,
-      .rst_ni,
       .restart_i(valid_i),
-      .limit_i  (SilenceBits'(SilenceXtal)),
+      .tick_i   (1'b1),
       .past_o   (past)
   );
 

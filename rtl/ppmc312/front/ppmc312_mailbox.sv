@@ -133,7 +133,7 @@ module ppmc312_mailbox
   assign last = rd_done && shown_q && rd_rs == RegDrr && left_q == (BLOCK_BITS + 1)'(1);
   assign rd_load_o = rd_any_i && mref && !loaded_q && pause_q == '0;
   assign rd_done_o = last;
-  assign rd_addr_o = mref ? BLOCK_BITS'(rd_size_i - 1'b1) : BLOCK_BITS'(left_q - 1'b1);
+  assign rd_addr_o = BLOCK_BITS'((mref ? rd_size_i : left_q) - 1'b1);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -154,7 +154,7 @@ module ppmc312_mailbox
       end else if (loaded_q && mref && pause_q == '0) begin
         left_q <= rd_size_i;
       end else if (rd_done && shown_q) begin
-        if (rd_rs == RegDrr) left_q <= left_q - 1'b1;
+        if (rd_rs == RegDrr) left_q <= {1'b0, rd_addr_o};  // one less: shown_q tells that there is one
         if (rd_rs == RegCr) left_q <= rd_size_i;
       end
     end

@@ -45,6 +45,7 @@ module ppmc312_replies
   reply_t polled, reply;
   logic poll_q, run_q, fault_q, strange_q, read_counts, fails, refused, own, done_q, reply_we;
   logic [3:0] error, error_q;
+  logic [2:0] errors_q;
   logic [2:0][7:0] counts;
 
   ppmc312_polled u_polled (
@@ -56,10 +57,16 @@ module ppmc312_replies
   ppmc312_counts u_counts (
       .clk_i,
       .rst_ni,
-      .error_i({fault_i, overrun_i, framing_i}),
+      .error_i(errors_q),
       .read_i (read_counts),
       .count_o(counts)
   );
+
+  // Errors and read-outs belong to different characters: there is time.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) errors_q <= '0;
+    else errors_q <= {fault_i, overrun_i, framing_i};
+  end
 
   // ---- what is replied -------------------------------------------------------------------------------------------
 
@@ -116,16 +123,18 @@ module ppmc312_replies
   // ---- one frame after the other ---------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle || run_q || poll_q || fault_q || strange_q;
-  assign blk_valid_o = state_q == StRun && !done_q;
   assign send_o = state_q == StSend;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q                                     <= StIdle;
       {poll_q, run_q, fault_q, strange_q, done_q} <= '0;
+      blk_valid_o                                 <= 1'b0;
     end else begin
       {poll_q, run_q, fault_q, strange_q} <= {poll_i, run_i, fault_i, strange_i};
       done_q <= state_q == StRun && answered_i.valid;
+      // State StRun, and not done: a register, because much hangs on it.
+      blk_valid_o <= !reply_we && (run_q || (state_q == StRun && !answered_i.valid));
       if (reply_we) state_q <= StSend;
       else if (run_q) state_q <= StRun;
       else if (sent_i) state_q <= StIdle;
@@ -136,6 +145,7 @@ module ppmc312_replies
   assign unused_info = &{1'b0, info_i};
 
 `ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ser_14_valid, blk_valid_o == (state_q == StRun && !done_q))
   `PPMC_ASSERT(p312_ser_14_offer, !blk_valid_o || $past(blk_valid_o || run_q))
   `PPMC_ASSERT(p312_ser_19_one, !reply_we || state_q != StSend)
 `endif

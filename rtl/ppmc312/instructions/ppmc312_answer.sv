@@ -10,44 +10,79 @@ module ppmc312_answer
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;
 (
-    input  wire logic                     clk_i,        // clock
-    input  wire logic                     rst_ni,       // reset, asynchronous
-    input  wire logic                     start_i,      // strobe
-    input  wire answer_t                  answer_i,     // steady from start_i to done_o
-    input  wire logic    [  BLOCK_BITS:0] blk_size_i,   // bytes of the instruction as written, 0 .. 32
-    output logic                          busy_o,       // from the clk after start_i to that of done_o
-    output logic                          done_o,       // strobe: it is written
+    input  wire logic                          clk_i,        // clock
+    input  wire logic                          rst_ni,       // reset, asynchronous
+    input  wire logic                          start_i,      // strobe
+    input  wire answer_t                       answer_i,     // steady from start_i to done_o
+    input  wire logic    [  BLOCK_BITS:0]      blk_size_i,   // bytes of the instruction as written, 0 .. 32
+    output logic                               busy_o,       // from the clk after start_i to that of done_o
+    output logic                               done_o,       // strobe: it is written
+    // last bytes
+    input  wire logic    [          31:0]      value_i,      // TailPos
+    input  wire logic    [           5:0][7:0] sums_i,       // TailSums
+    input  wire logic    [           2:0]      codes_i,      // TailCodes: so many
+    output logic                               peek_o,       // and such a code is needed:
+    output logic         [           1:0]      peek_at_o,    // of this entry
+    input  wire logic    [           7:0]      code_i,       // it, two clk later
     // where the instruction stands
-    output logic         [BLOCK_BITS-1:0] echo_addr_o,  // 0 = header
-    input  wire logic    [           7:0] echo_data_i,  // that byte, two clk later
+    output logic         [BLOCK_BITS-1:0]      echo_addr_o,  // 0 = header
+    input  wire logic    [           7:0]      echo_data_i,  // that byte, two clk later
     // store of class 2
-    output answer_byte_t                  byte_o,       // a byte of the answer
-    output logic         [  BLOCK_BITS:0] size_o        // bytes of the answer, 3 .. 32; with done_o
+    output answer_byte_t                       byte_o,       // a byte of the answer
+    output logic         [  BLOCK_BITS:0]      size_o        // bytes of the answer, 3 .. 32; with done_o
 );
 
-  logic [BLOCK_BITS:0] at_q, fixed, fixed_q;
+  logic [BLOCK_BITS:0] at_q;
+  logic [BLOCK_BITS:0] beyond_q;  // bytes behind those that are not echo; negative before
   logic run_q;
-  logic [BLOCK_BITS:0] own;  // code and parameters of the instruction
-  logic [4:0] echo;  // of these, at most 28
-  logic [8:0][7:0] shift_q;
+  logic [BLOCK_BITS:0] len_q;  // length that the answer tells: its bytes but two
+  logic [3:0] rest;  // bytes behind this one, without the echo
+  logic [7:0] tail;
+  logic in_tail;
 
-  assign fixed = 6'd3 + 6'(answer_i.extra);
+  assign size_o = len_q + 6'd2;
   assign busy_o = run_q;
   assign done_o = run_q && at_q == size_o;
   assign byte_o.we = run_q && at_q != size_o;
   assign byte_o.addr = at_q[BLOCK_BITS-1:0];
-  assign own = (blk_size_i < 6'd3) ? 6'd0 : blk_size_i - 6'd2;
-  assign echo = (own > 6'd28) ? 5'd28 : own[4:0];
   // Two ahead of the byte that is written; code and parameters begin at byte 2 of the instruction.
-  assign echo_addr_o = BLOCK_BITS'(at_q - fixed_q + 6'd4);
+  assign echo_addr_o = BLOCK_BITS'(beyond_q + 6'd4);
+  assign rest = ~beyond_q[3:0];
+  assign peek_o = run_q && answer_i.tail == TailCodes;
+  assign peek_at_o = 2'd1 - rest[1:0];
+
+  always_comb begin
+    unique case (answer_i.tail)
+      TailPos: begin
+        in_tail = rest < 4'd4;
+        tail    = value_i[8*rest[1:0]+:8];
+      end
+      TailCodes: begin
+        in_tail = rest < 4'd4;
+        tail    = (3'd3 - {1'b0, rest[1:0]} < codes_i) ? code_i : 8'h00;
+      end
+      TailSums: begin
+        in_tail = rest < 4'd6;
+        tail    = sums_i[rest[2:0]];
+      end
+      default: begin
+        in_tail = 1'b0;
+        tail    = 8'h00;
+      end
+    endcase
+  end
 
   always_comb begin
     unique case (at_q)
       6'd0:    byte_o.data = answer_i.head;
-      6'd1:    byte_o.data = 8'(size_o) - 8'd2;
+      6'd1:    byte_o.data = 8'(len_q);
       6'd2:    byte_o.data = answer_i.code;
-      default: byte_o.data = (at_q < fixed_q) ? shift_q[0] : echo_data_i;
+      6'd3:    byte_o.data = answer_i.data[0];
+      6'd4:    byte_o.data = answer_i.data[1];
+      default: byte_o.data = answer_i.data[2];
     endcase
+    if (in_tail) byte_o.data = tail;
+    if (!beyond_q[BLOCK_BITS]) byte_o.data = echo_data_i;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -65,10 +100,11 @@ module ppmc312_answer
 
   // The sizes stand with the first byte.
   always_ff @(posedge clk_i) begin
-    fixed_q <= fixed;
-    size_o  <= fixed + (answer_i.echo ? 6'(echo) : 6'd0);
-    if (start_i) shift_q <= answer_i.data;
-    else if (byte_o.we && at_q >= 6'd3) shift_q <= {8'h00, shift_q[8:1]};
+    // An echo stands behind a code and one byte, and is the instruction without header and length, at most 28 bytes.
+    if (!answer_i.echo) len_q <= 6'(answer_i.extra) + 6'd1;
+    else if (blk_size_i < 6'd2) len_q <= 6'd2;
+    else len_q <= (blk_size_i > 6'd30) ? 6'd30 : blk_size_i;
+    beyond_q <= start_i ? ~6'(answer_i.extra) - 6'd2 : beyond_q + 1'b1;
   end
 
 endmodule

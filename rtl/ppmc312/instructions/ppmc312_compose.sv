@@ -54,6 +54,7 @@ module ppmc312_compose
         code: code,
         extra: told_i.extra,
         data: told_i.data,
+        tail: told_i.tail,
         echo: 1'b0
     };
     unique case (1'b1)
@@ -64,28 +65,23 @@ module ppmc312_compose
       end
       at_setup_i: begin
         answer_o.code = I_FREE;
+        answer_o.tail = TailNone;
         if (block_i.head[1] || !host) begin  // initial setting
           answer_o.code  = code;
           answer_o.extra = 4'd0;
         end else if (progress.complete) begin
-          answer_o.extra = 4'd7;
-          answer_o.data[6:0] = {
-            progress.dec_sum[7:0],
-            progress.dec_sum[15:8],
-            progress.dec_sum[23:16],
-            progress.acc_sum[7:0],
-            progress.acc_sum[15:8],
-            progress.acc_sum[23:16],
-            8'h0f
-          };
+          answer_o.extra   = 4'd7;
+          answer_o.data[0] = 8'h0f;
+          answer_o.tail    = TailSums;
         end else begin
           answer_o.extra     = 4'd2;
-          answer_o.data[1:0] = {1'b0, progress.left, 6'd0, progress.list};
+          answer_o.data[1:0] = {1'b0, progress.left, 6'd0, progress.which};
         end
         if (setup_i.bad) begin
           answer_o.code    = A_PARAM;
           answer_o.extra   = 4'd1;
           answer_o.data[0] = setup_i.error;
+          answer_o.tail    = TailNone;
           answer_o.echo    = 1'b1;
         end
       end
@@ -125,6 +121,7 @@ module ppmc312_compose
           answer_o.data[0] = 8'(used_i);
         end
         if (code == I_TABLE && verdict_i == VerdictGo) answer_o.head[0] = 1'b0;  // data blocks follow
+        if (verdict_i != VerdictGo) answer_o.tail = TailNone;
         unique case (verdict_i)
           VerdictPar: begin
             answer_o.code    = A_PARAM;
@@ -155,12 +152,13 @@ module ppmc312_compose
       answer_o.code    = (block_i.source == SrcEvent) ? A_EVENT : A_OVERRIDE;
       answer_o.extra   = 4'd1;
       answer_o.data[0] = (at_act_i && verdict_i == VerdictCommand) ? 8'h05 : 8'(fail_code);
+      answer_o.tail    = TailNone;
       answer_o.echo    = 1'b0;
     end
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block_i, flags, setup_i, move_i};
+  assign unused_bits = &{1'b0, block_i, flags, progress, setup_i, move_i};
 
 endmodule
 

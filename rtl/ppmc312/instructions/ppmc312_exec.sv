@@ -80,7 +80,6 @@ module ppmc312_exec
 
   assign code  = block_o.code;
   assign flags = block_o.par[0];
-  assign info  = info_of(code);
   assign host  = block_o.source == SrcHost;
 
   // ---- which one -------------------------------------------------------------------------------------------------
@@ -118,10 +117,17 @@ module ppmc312_exec
       .put_data_o(put_o.data)
   );
 
+  ppmc312_codebook u_codebook (
+      .clk_i,
+      .code_i(code),
+      .info_o(info)
+  );
+
   ppmc312_judge u_judge (
       .clk_i,
       .rst_ni,
       .block_i   (block_o),
+      .info_i    (info),
       .keep_i    (state_q inside {StAct, StWait}),
       .status_i  (state_i.status),
       .end_wait_i(state_i.end_wait),
@@ -181,8 +187,6 @@ module ppmc312_exec
     put_o.code     = inner ? block_o.par[3] : code;
     put_o.trig     = flags[1:0];
     put_o.pos      = {block_o.par[3], block_o.par[4], block_o.par[5], block_o.par[6]};
-    if (code inside {I_HALT, I_DECEL})
-      put_o.pos = {block_o.par[1], block_o.par[2], block_o.par[3], block_o.par[4]};
   end
 
   always_comb begin
@@ -234,7 +238,12 @@ module ppmc312_exec
     plain_q <= !(info.starts || code inside {I_INIT, I_FREE, I_TABLE, I_EVT_SET, I_RAMP, I_SPEED});
   end
 
-  assign write_o = '{answer: write_q, table_open: go && code == I_TABLE, table_next: idle_read};
+  assign write_o = '{
+          answer: write_q,
+          keep: state_q inside {StAct, StWrite},
+          table_open: go && code == I_TABLE,
+          table_next: idle_read
+      };
   assign commit_o = (state_q == StWrite && write_i.answered) || (state_q == StReadback && write_i.table_done);
   assign blk_done_o = (host_wait_q && !class2_i.waits && !write_i.table_more && state_q == StIdle) || unread;
   assign idle_read = state_q == StIdle && write_i.table_more && !class2_i.full && !class2_i.waits && !start &&

@@ -33,7 +33,7 @@ module ppmc312_fetch
   logic run_q, copy_q;
   logic [4:0] sent_q, at_q;
   logic [1:0] valid_q;
-  logic [7:0] limit;  // bytes that there are
+  logic [BLOCK_BITS:0] left_q;  // bytes that are there still
   logic [3:0] index;
   logic shifted;
 
@@ -44,10 +44,9 @@ module ppmc312_fetch
   assign put_addr_o = at_q[3:0];
   assign put_data_o = data_i;
 
-  // Parameters go to the places of the long form.
-  assign limit = (block_o.source == SrcHost) ? 8'(block_o.size) : block_o.len + 8'd2;
+  // Parameters go to the places of the long form, positions of 80 and 81 to those of 87 and 88.
   assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
-      (block_o.code == I_MOVE && block_o.len == 8'd6 && at_q >= 5'd4);
+      (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -74,14 +73,23 @@ module ppmc312_fetch
     end
   end
 
+  // What has been stored is as long as its length, which has been judged, tells.
+  always_ff @(posedge clk_i) begin
+    if (start_i) left_q <= (source_i == SrcHost) ? size_i : 6'd2;
+    else if (valid_q[1]) begin
+      if (at_q == 5'd1 && block_o.source != SrcHost) left_q <= data_i[BLOCK_BITS:0];
+      else if (left_q != '0) left_q <= left_q - 1'b1;
+    end
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) block_o <= '0;
     else if (start_i) block_o <= '{source: source_i, size: size_i, default: '0};
     else if (valid_q[1] && !copy_q) begin
-      if (8'(at_q) < limit || at_q < 5'd2) begin
+      if (left_q != '0 || at_q < 5'd2) begin
         unique case (at_q)
           5'd0:    block_o.head <= data_i;
-          5'd1:    block_o.len <= (limit == 8'd1 && block_o.source == SrcHost) ? 8'd0 : data_i;
+          5'd1:    block_o.len <= (left_q == '0) ? 8'd0 : data_i;
           5'd2:    block_o.code <= data_i;
           default: if (index < 4'(PARAMS)) block_o.par[index] <= data_i;
         endcase

@@ -32,8 +32,8 @@ module ppmc312_free
     output logic                       complete_o,  // nothing, the curve is complete
     output logic      [           1:0] list_o,      // 0 rates, 1 acceleration, 2 deceleration
     output logic      [           6:0] left_o,      // stages of this list to come
-    output logic      [          23:0] acc_sum_o,   // pulses of the acceleration side so far
-    output logic      [          23:0] dec_sum_o,   // of the deceleration side
+    output logic      [          23:0] acc_sum_o,   // pulses of the acceleration side; with complete_o
+    output logic      [          23:0] dec_sum_o,   // of the deceleration side, if that is one of its own
     output entry_t                     entry_o      // into the table
 );
 
@@ -52,7 +52,7 @@ module ppmc312_free
   assign word = {high_q, byte_i};
   assign whole = valid_q[1] && part_q == (rates ? 2'd1 : 2'd2);
   assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
-  assign sum = {1'b0, (list_o == 2'd1) ? acc_sum_o : dec_sum_o} + {1'b0, word};
+  assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // of any list
   assign list_done = whole && left_o == 7'd1;
   assign addr_o = BLOCK_BITS'(sent_q + 5'd2);
   assign busy_o = run_q;
@@ -95,6 +95,8 @@ module ppmc312_free
 
   // No reset: a transfer begins with open_i, a block with data_i.
   always_ff @(posedge clk_i) begin
+    if (open_i || (list_done && list_o == 2'd1)) dec_sum_o <= '0;
+    else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin
       split_q    <= split_i;
       acc_q      <= acc_i;
@@ -102,8 +104,6 @@ module ppmc312_free
       list_o     <= 2'd0;
       left_o     <= (split_i && dec_i > acc_i) ? dec_i : acc_i;
       stage_q    <= Fastest;
-      acc_sum_o  <= '0;
-      dec_sum_o  <= '0;
       complete_o <= 1'b0;
     end
     if (data_i) begin
@@ -128,8 +128,6 @@ module ppmc312_free
         if (!rates && tiny) pulses_q <= 1'b1;
         if (!rates && sum[24]) over_q <= 1'b1;
         if (list_o == 2'd1) acc_sum_o <= sum[23:0];
-        if (list_o == 2'd1 && !split_q) dec_sum_o <= sum[23:0];
-        if (list_o == 2'd2) dec_sum_o <= sum[23:0];
         if (list_done) begin
           stage_q    <= Fastest;
           list_o     <= list_o + 1'b1;

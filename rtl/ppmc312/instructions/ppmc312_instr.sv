@@ -64,8 +64,11 @@ module ppmc312_instr
   look_t read;
   stage_t read_stage;
   logic drop, close, unit_busy, thin, move, plan_busy, paced, idle, commit, read_busy, unused_busy;
-  logic [6:0] open_acc, open_dec;
+  logic [6:0] open_acc, open_dec, first;
   logic [7:0] entry_data, plan_kind;
+  logic peek;
+  logic [1:0] peek_at;
+  logic [31:0] value;
   answer_byte_t answer_byte, read_byte;
   logic [BLOCK_BITS:0] answer_size, read_size;
 
@@ -131,6 +134,9 @@ module ppmc312_instr
       .remove_i     (remove),
       .fetch_event_i(block_o.source == SrcEvent),
       .fetch_addr_i (blk_addr_o[3:0]),
+      .peek_i       (peek),
+      .peek_n_i     (block_o.par[0][0]),
+      .peek_at_i    (peek_at),
       .fetch_data_o (entry_data)
   );
 
@@ -163,7 +169,6 @@ module ppmc312_instr
       .block_i     (block_o),
       .status_i    (state_i.status),
       .table_i     (table_o),
-      .home_i      (home_o),
       .levels_i    (inputs_i.levels),
       .limit_rate_i(state_i.settings.limit_rate),
       .gate_i      (inputs_i.run || state_i.settings.ungated),
@@ -173,6 +178,7 @@ module ppmc312_instr
       .change_o    (order_o.change),
       .op_o        (order_o.op),
       .plan_o      (order_o.plan),
+      .home_o      (order_o.home),
       .planner_o   (plan_order),
       .plan_busy_i (plan_busy),
       .plan_kind_i (plan_kind),
@@ -204,6 +210,8 @@ module ppmc312_instr
       .stage_o
   );
 
+  assign first = (table_o.first_acc < table_o.first_dec) ? table_o.first_acc : table_o.first_dec;
+
   // ---- answers ---------------------------------------------------------------------------------------------------
 
   ppmc312_reply #(
@@ -214,8 +222,11 @@ module ppmc312_instr
       .inputs_i,
       .state_i,
       .table_i (table_o),
+      .first_i (first),
       .stored_i(stored),
-      .told_o  (told)
+      .keep_i  (write.keep),
+      .told_o  (told),
+      .value_o (value)
   );
 
   ppmc312_answer u_answer (
@@ -224,6 +235,12 @@ module ppmc312_instr
       .start_i    (write.answer),
       .answer_i   (answer),
       .blk_size_i (block_o.size),
+      .value_i    (value),
+      .sums_i     ({table_o.acc, table_o.dec}),
+      .codes_i    (stored.event_count[block_o.par[0][0]]),
+      .peek_o     (peek),
+      .peek_at_o  (peek_at),
+      .code_i     (entry_data),
       .busy_o     (unused_busy),
       .done_o     (write_state.answered),
       .echo_addr_o(write_state.echo_addr),
@@ -241,6 +258,7 @@ module ppmc312_instr
       .busy_o (read_busy),
       .done_o (write_state.table_done),
       .table_i(table_o),
+      .first_i(first),
       .look_o (read),
       .stage_i(read_stage),
       .byte_o (read_byte),

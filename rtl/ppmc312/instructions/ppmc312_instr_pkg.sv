@@ -20,10 +20,19 @@ package ppmc312_instr_pkg;
     VerdictSize      // F6
   } verdict_e;
 
+  // What the last bytes of an answer are, if they do not stand in it.
+  typedef enum logic [1:0] {
+    TailNone,
+    TailPos,    // 4: a position
+    TailCodes,  // 4: codes of an event buffer
+    TailSums    // 6: pulses of both sides of the table
+  } tail_e;
+
   // What an executed instruction tells: bytes behind the code of its answer.
   typedef struct packed {
     logic [3:0]      extra;  // so many, 0 .. 9
-    logic [8:0][7:0] data;   // data[0] first
+    logic [2:0][7:0] data;   // the first ones, data[0] first
+    tail_e           tail;   // the last ones
   } told_t;
 
   // An answer: length and class come from where it goes.
@@ -31,13 +40,15 @@ package ppmc312_instr_pkg;
     logic [7:0]      head;
     logic [7:0]      code;
     logic [3:0]      extra;  // bytes behind the code, 0 .. 9
-    logic [8:0][7:0] data;   // these, data[0] first
+    logic [2:0][7:0] data;   // the first of these, data[0] first
+    tail_e           tail;   // the last of these
     logic            echo;   // then the instruction as received
   } answer_t;
 
-  // To who writes answers and the blocks of a table read; strobes.
+  // To who writes answers and the blocks of a table read; strobes but for keep.
   typedef struct packed {
     logic answer;      // write the answer
+    logic keep;        // no strobe: what it tells stands
     logic table_open;  // a table read begins: its data blocks are to follow
     logic table_next;  // write the next one
   } write_order_t;
@@ -77,14 +88,13 @@ package ppmc312_instr_pkg;
 
   // What the store has.
   typedef struct packed {
-    logic                 due;          // the command FIFO has something to be executed
-    logic [1:0]           due_trig;     // that this has triggered
-    logic [1:0]           events;       // the event buffers
-    logic [3:0]           fifo_count;   // entries, 0 .. 8
-    logic [1:0]           fifo_events;  // the FIFO has one that waits for this event pin
-    logic [1:0][2:0]      event_count;  // entries, 0 .. 4
-    logic [1:0][1:0]      event_next;   // which one is next, 0 .. 3
-    logic [1:0][3:0][7:0] event_codes;  // their codes, 0 for none
+    logic            due;          // the command FIFO has something to be executed
+    logic [1:0]      due_trig;     // that this has triggered
+    logic [1:0]      events;       // the event buffers
+    logic [3:0]      fifo_count;   // entries, 0 .. 8
+    logic [1:0]      fifo_events;  // the FIFO has one that waits for this event pin
+    logic [1:0][2:0] event_count;  // entries, 0 .. 4
+    logic [1:0][1:0] event_next;   // which one is next, 0 .. 3
   } stored_t;
 
   // ---- set-up: initial setting and free curve --------------------------------------------------------------------
@@ -100,10 +110,10 @@ package ppmc312_instr_pkg;
   // How far a free curve is.
   typedef struct packed {
     logic        complete;  // the curve is
-    logic [1:0]  list;      // what comes next: 0 rates, 1 acceleration, 2 deceleration
+    logic [1:0]  which;     // what comes next: 0 rates, 1 acceleration, 2 deceleration
     logic [6:0]  left;      // stages of this list to come
-    logic [23:0] acc_sum;   // pulses of the sides so far
-    logic [23:0] dec_sum;
+    logic [23:0] acc_sum;   // pulses of the sides, when it is
+    logic [23:0] dec_sum;   // only if it has a deceleration side of its own
   } progress_t;
 
   typedef struct packed {

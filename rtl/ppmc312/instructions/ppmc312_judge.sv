@@ -13,6 +13,7 @@ module ppmc312_judge
     input  wire logic          clk_i,       // clock
     input  wire logic          rst_ni,      // reset, asynchronous
     input  wire block_t        block_i,     // the instruction
+    input  wire info_t         info_i,      // of its code
     input  wire logic          keep_i,      // the verdict stands
     input  wire status_e       status_i,    // of the part
     input  wire logic          end_wait_i,  // a motion waits for END
@@ -23,21 +24,21 @@ module ppmc312_judge
     output logic               ov_o         // is to be registered
 );
 
-  info_t info;
   logic host, ov, le, trig_pos, size_bad, len_bad, len_long, accepted, at_table, table_q;
   logic [7:0] flags, value_error, size_error;
-  logic [15:0] rate, range, start, stop, fast, slower_q, faster_q, slowest_q;
-  logic [16:0] spread_q, close_q;
+  logic [15:0] rate, range, start, stop, fast, slowest_q;
+  logic [16:0] above_q;  // a rate less the high-speed rate
+  logic side_q, above_stop_q;  // 1: of the stop rate
+  logic [1:0] order_q, near_q;
   logic [31:0] count;
   logic rate_bad_q, count_bad_q, init_rate_q, value_bad;
   logic event_q, embedded_bad;
   verdict_e verdict;
   logic [7:0] error;
 
-  assign info = info_of(block_i.code);
   assign host = block_i.source == SrcHost;
   assign flags = block_i.par[0];
-  assign ov = info.has_ov && flags[2] && host;  // what has been triggered is executed
+  assign ov = info_i.has_ov && flags[2] && host;  // what has been triggered is executed
   assign le = flags[4];
   assign trig_pos = !flags[0];
   assign rate = {block_i.par[1], block_i.par[2]};
@@ -45,22 +46,23 @@ module ppmc312_judge
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
   assign at_table = block_i.code == I_TABLE;
 
-  // Initialisation: rates, and how far they are apart: at least 128 is far.
+  // Initialisation: rates, and how far they are apart: at least 128 is far. Start-up and stop rate take turns; they
+  // stand long before the block does.
   assign start = rate;
   assign stop = le ? {block_i.par[3], block_i.par[4]} : start;
   assign fast = {block_i.par[5], block_i.par[6]};
 
   always_ff @(posedge clk_i) begin
     slowest_q <= (table_i.first_acc < table_i.first_dec) ? table_i.rate_acc : table_i.rate_dec;
-    rate_bad_q <= (rate != '0 || !info.rate_zero) && (rate < table_i.fast || rate > slowest_q);
+    rate_bad_q <= (rate != '0 || !info_i.rate_zero) && (rate < table_i.fast || rate > slowest_q);
     count_bad_q <= count == '0;
     init_rate_q <= fast < 16'h0002 || fast > 16'hffef || start < 16'h0011 || stop < 16'h0011;
-    slower_q <= (start > stop) ? start : stop;
-    faster_q <= (start > stop) ? stop : start;
-    spread_q <= {1'b0, slower_q} - {1'b0, fast};
-    close_q <= {1'b0, faster_q} - {1'b0, fast};
+    above_q <= {1'b0, side_q ? stop : start} - {1'b0, fast};
+    above_stop_q <= side_q;
+    order_q[above_stop_q] <= above_q[16] || above_q == '0;
+    near_q[above_stop_q] <= above_q[15:7] == '0;
     event_q <= block_i.source == SrcEvent &&
-        ((info.has_ov && flags[2]) || block_i.code inside {I_FREE, I_TABLE, I_EVT_SET});
+        ((info_i.has_ov && flags[2]) || block_i.code inside {I_FREE, I_TABLE, I_EVT_SET});
     table_q <= table_i.valid;
   end
 
@@ -69,20 +71,21 @@ module ppmc312_judge
   assign size_bad = host && (block_i.size < 6'd3 || block_i.len == '0 || block_i.len >= 8'd31 ||
       block_i.len != 8'(block_i.size) - 8'd2);
   assign size_error = (block_i.size > 6'd1 && block_i.len >= 8'd31) ? E_FREE_LONG : E_FREE_SIZE;
-  assign len_long = block_i.len == 8'((info.len_a > info.len_b) ? info.len_a : info.len_b);
+  assign len_long = block_i.len == {3'd0, (info_i.len_a > info_i.len_b) ? info_i.len_a : info_i.len_b};
   assign embedded_bad = block_i.len < 8'd5 || block_i.par[1] != 8'h03 ||
       block_i.par[2] == '0 || block_i.par[2] > 8'd14 ||
       block_i.len != block_i.par[2] + 8'd4;
 
   always_comb begin
-    len_bad = block_i.len != 8'(info.len_a) && block_i.len != 8'(info.len_b);
+    len_bad = block_i.len != 8'(info_i.len_a) && block_i.len != 8'(info_i.len_b);
     if (block_i.code == I_INIT && le) len_bad = block_i.len != 8'd14;
     if (block_i.code == I_EVT_SET) len_bad = flags[1] ? block_i.len != 8'd2 : embedded_bad;
   end
 
   // ---- status ----------------------------------------------------------------------------------------------------
 
-  assign accepted = ((ov ? info.later : info.now) & status_i) != '0 || (block_i.code == I_END && end_wait_i);
+  assign accepted = ((ov ? info_i.later : info_i.now) & status_i) != '0
+                    || (block_i.code == I_END && end_wait_i);
 
   // ---- values ----------------------------------------------------------------------------------------------------
 
@@ -92,9 +95,9 @@ module ppmc312_judge
     unique case (block_i.code)
       I_INIT: begin
         if (init_rate_q) value_error = E_RATE;
-        else if (close_q[16] || close_q == '0) value_error = E_ORDER;
-        else if (spread_q[16:7] == '0) value_error = E_SPREAD;
-        else if (close_q[15:7] == '0) value_error = E_CLOSE;
+        else if (order_q != '0) value_error = E_ORDER;
+        else if (near_q == '1) value_error = E_SPREAD;
+        else if (near_q != '0) value_error = E_CLOSE;
         else value_bad = 1'b0;
       end
       I_FREE: begin
@@ -125,9 +128,9 @@ module ppmc312_judge
           // only what stops or changes a motion, and with a position
           value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_long;
           value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
-        end else if (!ov && info.counted && count_bad_q) begin
+        end else if (!ov && info_i.counted && count_bad_q) begin
           value_bad = 1'b1;
-        end else if (!ov && info.rated && rate_bad_q) begin
+        end else if (!ov && info_i.rated && rate_bad_q) begin
           value_bad   = 1'b1;
           value_error = E_RATE_RANGE;
         end
@@ -159,7 +162,7 @@ module ppmc312_judge
       if (block_i.head > 8'h01) {verdict, error} = {VerdictStatus, 8'h02};
       else verdict = VerdictData;
     end else if (host && !(block_i.head inside {8'h02, 8'h03})) {verdict, error} = {VerdictStatus, 8'h01};
-    else if (!info.known) verdict = VerdictCommand;
+    else if (!info_i.known) verdict = VerdictCommand;
     else if (event_q) verdict = VerdictPar;
     else if (host && block_i.head == 8'h02 && block_i.code != I_FREE)
       {verdict, error} = {VerdictStatus, 8'h01};
@@ -170,18 +173,22 @@ module ppmc312_judge
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      side_q    <= 1'b0;
       verdict_o <= VerdictGo;
       error_o   <= '0;
       ov_o      <= 1'b0;
-    end else if (!keep_i) begin
-      verdict_o <= verdict;
-      error_o   <= error;
-      ov_o      <= ov;
+    end else begin
+      side_q <= !side_q;
+      if (!keep_i) begin
+        verdict_o <= verdict;
+        error_o   <= error;
+        ov_o      <= ov;
+      end
     end
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, block_i, table_i, info, spread_q};
+  assign unused_bits = &{1'b0, block_i, table_i, info_i};
 
 endmodule
 

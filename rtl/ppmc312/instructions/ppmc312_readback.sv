@@ -19,6 +19,7 @@ module ppmc312_readback
     output logic done_o,  // strobe: it is written
     // table
     input wire table_t table_i,  // in force
+    input wire logic [6:0] first_i,  // its first stage in use
     output look_t look_o,  // its read port
     input wire stage_t stage_i,  // two clk later
     // store of class 2
@@ -28,10 +29,11 @@ module ppmc312_readback
 
   localparam logic [6:0] Fastest = 7'd126;
 
-  logic run_q, rates, last_item, ends;
+  logic run_q, rates, last_item, ends, stage_ends;
   logic [1:0] item_q, part_q, wait_q;
   logic [2:0] left_q;  // stages of this block
-  logic [6:0] stage_q, first, before_q, rest_q, room;
+  logic [6:0] stage_q, first, room;
+  logic [ 6:0] rest_q;  // stages of this item to come
   logic [ 5:0] at_q;
   logic [23:0] word;
 
@@ -41,12 +43,13 @@ module ppmc312_readback
   assign look_o = '{side: item_q[0], stage: stage_q};
   assign busy_o = run_q;
   assign done_o = run_q && at_q > 6'd2 && left_q == '0;
+  assign stage_ends = run_q && !done_o && wait_q == '0 && at_q > 6'd2 && part_q == (rates ? 2'd1 : 2'd2);
   assign size_o = at_q;
   assign byte_o.addr = at_q[BLOCK_BITS-1:0];
 
   always_comb begin
     unique case (item_q)
-      2'd1:    first = (table_i.first_acc < table_i.first_dec) ? table_i.first_acc : table_i.first_dec;
+      2'd1:    first = first_i;
       2'd2:    first = table_i.first_acc;
       default: first = table_i.first_dec;
     endcase
@@ -91,7 +94,7 @@ module ppmc312_readback
       left_q <= ends ? rest_q[2:0] : room[2:0];
     end else if (done_o) begin
       run_q <= 1'b0;
-      if (stage_q == before_q) begin
+      if (rest_q == '0) begin
         item_q  <= item_q + 1'b1;
         stage_q <= Fastest;
         more_o  <= !last_item;
@@ -101,7 +104,7 @@ module ppmc312_readback
       if (wait_q != '0) wait_q <= wait_q - 1'b1;
       else if (at_q > 6'd2) begin
         part_q <= part_q + 1'b1;
-        if (part_q == (rates ? 2'd1 : 2'd2)) begin
+        if (stage_ends) begin
           part_q  <= '0;
           stage_q <= stage_q - 1'b1;
           left_q  <= left_q - 1'b1;
@@ -113,9 +116,9 @@ module ppmc312_readback
 
   // Looked at long after they have changed.
   always_ff @(posedge clk_i) begin
-    before_q <= first - 1'b1;
-    rest_q   <= stage_q - before_q;  // stages of this item to come
-    ends     <= rest_q <= room;
+    if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 less that
+    else if (stage_ends) rest_q <= rest_q - 1'b1;
+    ends <= rest_q <= room;
   end
 
   logic unused_table;

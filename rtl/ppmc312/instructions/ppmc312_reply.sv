@@ -12,32 +12,34 @@ module ppmc312_reply
 #(
     parameter logic [7:0] Version = 8'h12
 ) (
-    input  wire logic        clk_i,     // clock
-    input  wire block_t      block_i,   // the instruction
-    input  wire inputs_t     inputs_i,  // pins, synchronous
-    input  wire axis_state_t state_i,   // of the motor side
-    input  wire table_t      table_i,   // in force
-    input  wire stored_t     stored_i,  // instructions that wait
-    output told_t            told_o     // one clk later
+    input  wire logic               clk_i,     // clock
+    input  wire block_t             block_i,   // the instruction
+    input  wire inputs_t            inputs_i,  // pins, synchronous
+    input  wire axis_state_t        state_i,   // of the motor side
+    input  wire table_t             table_i,   // in force
+    input  wire logic        [ 6:0] first_i,   // its first stage in use
+    input  wire stored_t            stored_i,  // instructions that wait
+    input  wire logic               keep_i,    // value_o stands
+    output told_t                   told_o,    // one clk later
+    output logic             [31:0] value_o    // TailPos, one clk later
 );
 
   logic n;
-  logic [6:0] first;
-  logic [31:0] pos;
   logic [7:0] counts[3];
   logic [3:0] extra;
-  logic [8:0][7:0] data;
+  logic [2:0][7:0] data;
+  tail_e tail;
 
   assign n = block_i.par[0][0];
-  assign pos = n ? state_i.enc : state_i.pos;
-  assign first = (table_i.first_acc < table_i.first_dec) ? table_i.first_acc : table_i.first_dec;
-  assign counts[0] = 8'd127 - 8'(first);
-  assign counts[1] = 8'd127 - 8'(table_i.first_acc);
-  assign counts[2] = table_i.split ? 8'd127 - 8'(table_i.first_dec) : 8'd0;
+  // 127 less these is all their bits inverted.
+  assign counts[0] = {1'b0, ~first_i};
+  assign counts[1] = {1'b0, ~table_i.first_acc};
+  assign counts[2] = table_i.split ? {1'b0, ~table_i.first_dec} : 8'd0;
 
   always_comb begin
     extra = 4'd1;
     data  = '0;
+    tail  = TailNone;
     unique case (block_i.code)
       I_END:     data[0] = block_i.par[0];
       I_AUX_IN:  data[0] = inputs_i.auxi;
@@ -49,14 +51,15 @@ module ppmc312_reply
         data[1:0] = {inputs_i.evt_n, inputs_i.run, 5'd0, inputs_i.plain};
       end
       I_POS: begin
-        extra     = 4'd5;
-        data[4:0] = {pos[7:0], pos[15:8], pos[23:16], pos[31:24], 7'd0, n};
+        extra   = 4'd5;
+        data[0] = 8'(n);
+        tail    = TailPos;
       end
       I_EVT_READ: begin
-        extra     = 4'd6;
-        data[0]   = 8'(stored_i.event_count[n]);
-        data[1]   = 8'(stored_i.event_next[n]);
-        data[5:2] = stored_i.event_codes[n];
+        extra   = 4'd6;
+        data[0] = 8'(stored_i.event_count[n]);
+        data[1] = 8'(stored_i.event_next[n]);
+        tail    = TailCodes;
       end
       I_STATUS: begin
         extra = 4'd3;
@@ -77,17 +80,17 @@ module ppmc312_reply
         };
       end
       I_TABLE: begin
-        extra     = 4'd9;
-        data[2:0] = {counts[2], counts[1], counts[0]};
-        data[5:3] = {table_i.acc[7:0], table_i.acc[15:8], table_i.acc[23:16]};
-        data[8:6] = {table_i.dec[7:0], table_i.dec[15:8], table_i.dec[23:16]};
+        extra = 4'd9;
+        data  = {counts[2], counts[1], counts[0]};
+        tail  = TailSums;
       end
       default:   extra = 4'd0;
     endcase
   end
 
   always_ff @(posedge clk_i) begin
-    told_o <= '{extra: extra, data: data};
+    told_o <= '{extra: extra, data: data, tail: tail};
+    if (!keep_i) value_o <= n ? state_i.enc : state_i.pos;
   end
 
   logic unused_bits;

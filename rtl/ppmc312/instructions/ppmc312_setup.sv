@@ -45,8 +45,8 @@ module ppmc312_setup
   assign le = block_i.par[0][4];
   assign n_acc = block_i.par[1][6:0];
   assign n_dec = le ? block_i.par[2][6:0] : n_acc;
-  assign open_acc_o = 7'd127 - n_acc;
-  assign open_dec_o = 7'd127 - n_dec;
+  assign open_acc_o = ~n_acc;  // 127 less that
+  assign open_dec_o = ~n_dec;
   assign taken = order_i.build || order_i.open;
 
   assign curve_o = '{
@@ -109,7 +109,7 @@ module ppmc312_setup
       .bad_o     (free_bad),
       .error_o   (free_error),
       .complete_o(progress.complete),
-      .list_o    (progress.list),
+      .list_o    (progress.which),
       .left_o    (progress.left),
       .acc_sum_o (progress.acc_sum),
       .dec_sum_o (progress.dec_sum),

@@ -26,6 +26,9 @@ module ppmc312_store
     // bytes of the entry that has been taken last
     input  wire logic           fetch_event_i,  // it came from an event buffer
     input  wire logic    [ 3:0] fetch_addr_i,   // byte, 0 = header
+    input  wire logic           peek_i,         // instead: the code of an entry
+    input  wire logic           peek_n_i,       // of this event buffer
+    input  wire logic    [ 1:0] peek_at_i,      // entry
     output logic         [ 7:0] fetch_data_o    // that byte, two clk later
 );
 
@@ -42,18 +45,19 @@ module ppmc312_store
   logic [1:0] done_trig, event_q;
   logic [1:0][2:0] count_q;
   logic [1:0][1:0] next_q;
-  logic [1:0][3:0][7:0] codes_q;
-  logic [3:0] written_q, armed_q, done_q, taken_q;
+  logic [3:0] written_q, armed_q, done_q, done_next, taken_q;
   logic head_valid_q, fire, taken_n_q;
   logic [1:0] use_edge, fifo_edge;
   logic [1:0][1:0] taken_entry_q;
   logic [1:0][3:0] waits_q;  // FIFO entries that wait for an event pin
-  logic push, drop;
+  logic [1:0] waits_more, waits_less;
+  logic push, drop, take_fifo, due_q;
 
   // ---- command FIFO ----------------------------------------------------------------------------------------------
 
   assign push = put_i.put && !put_i.to_event;
   assign drop = remove_i.all || remove_i.fifo;
+  assign take_fifo = remove_i.take && !remove_i.from_event;
   assign use_edge = edge_i & {count_q[1] != '0, count_q[0] != '0};
   assign fifo_edge = edge_i & ~use_edge;
 
@@ -68,16 +72,23 @@ module ppmc312_store
     end
   end
 
+  always_comb begin
+    for (int unsigned n = 0; n < 2; n++) begin
+      waits_more[n] = push && put_i.trig == {1'(n), 1'b1};
+      waits_less[n] = fire && head_q.trig == {1'(n), 1'b1};
+    end
+  end
+
   assign done_trig = trigs[done_q];
+  assign done_next = done_q + 1'b1;
   assign stored_o = '{
-          due: done_q != armed_q,
+          due: due_q,
           due_trig: done_trig,
           events: event_q,
           fifo_count: written_q - armed_q,
           fifo_events: {waits_q[1] != '0, waits_q[0] != '0},
           event_count: count_q,
-          event_next: next_q,
-          event_codes: codes_q
+          event_next: next_q
       };
 
   always_ff @(posedge clk_i) begin
@@ -94,11 +105,14 @@ module ppmc312_store
     if (!rst_ni) begin
       {written_q, armed_q, done_q, taken_q} <= '0;
       head_valid_q                          <= 1'b0;
+      due_q                                 <= 1'b0;
       halt_o                                <= 1'b0;
       waits_q                               <= '0;
     end else begin
       head_valid_q <= armed_q != written_q && !fire && !drop;
       halt_o       <= fire && head_q.halt && !head_q.trig[0];
+      // armed_q is ahead of done_q; only what is due is taken.
+      due_q        <= !drop && (fire || (take_fifo ? done_next != armed_q : done_q != armed_q));
       if (drop) begin
         armed_q <= written_q;
         done_q  <= written_q;
@@ -106,13 +120,12 @@ module ppmc312_store
       end else begin
         if (push) written_q <= written_q + 1'b1;
         if (fire) armed_q <= armed_q + 1'b1;
-        if (remove_i.take && !remove_i.from_event) begin
-          done_q  <= done_q + 1'b1;
+        if (take_fifo) begin
+          done_q  <= done_next;
           taken_q <= done_q;
         end
         for (int unsigned n = 0; n < 2; n++) begin
-          waits_q[n] <= waits_q[n] + 4'(push && put_i.trig == {1'(n), 1'b1}) -
-              4'(fire && head_q.trig == {1'(n), 1'b1});
+          if (waits_more[n] != waits_less[n]) waits_q[n] <= waits_q[n] + {{3{waits_less[n]}}, 1'b1};
         end
       end
     end
@@ -133,13 +146,11 @@ module ppmc312_store
         event_q[n]       <= 1'b0;
         count_q[n]       <= '0;
         next_q[n]        <= '0;
-        codes_q[n]       <= '0;
         taken_entry_q[n] <= '0;
       end else if (empty) begin
         event_q[n] <= 1'b0;
         count_q[n] <= '0;
         next_q[n]  <= '0;
-        codes_q[n] <= '0;
       end else begin
         event_q[n] <= use_edge[n] || (event_q[n] && !take);
         if (take) begin
@@ -147,13 +158,11 @@ module ppmc312_store
           next_q[n] <= one ? '0 : next_q[n] + 1'b1;
         end
         if (put) begin
-          codes_q[n][count_q[n][1:0]] <= put_i.code;
           count_q[n] <= count_q[n] + 1'b1;
-          next_q[n] <= '0;
+          next_q[n]  <= '0;
         end else if (remove_i.highest[n]) begin
-          codes_q[n][count_q[n][1:0]-2'd1] <= '0;
           count_q[n] <= count_q[n] - 1'b1;
-          next_q[n] <= '0;
+          next_q[n]  <= '0;
           if (count_q[n] == 3'd1) event_q[n] <= 1'b0;  // nothing is left to be executed
         end
       end
@@ -167,12 +176,16 @@ module ppmc312_store
 
   // ---- bytes: 0 .. 255 the FIFO, 256 .. 383 the events -----------------------------------------------------------
 
+  localparam logic [3:0] Code = 4'd2;  // where a block has it
   logic [8:0] put_at, fetch_at;
 
   assign put_at = put_i.to_event ? {2'b10, put_i.n, count_q[put_i.n][1:0], put_i.addr} :
       {1'b0, written_q, put_i.addr};
-  assign fetch_at = fetch_event_i ? {2'b10, taken_n_q, taken_entry_q[taken_n_q], fetch_addr_i} :
-      {1'b0, taken_q, fetch_addr_i};
+  always_comb begin
+    fetch_at = fetch_event_i ? {2'b10, taken_n_q, taken_entry_q[taken_n_q], fetch_addr_i} :
+        {1'b0, taken_q, fetch_addr_i};
+    if (peek_i) fetch_at = {2'b10, peek_n_i, peek_at_i, Code};
+  end
 
   ppmc_ram #(
       .Width   (8),
@@ -187,6 +200,7 @@ module ppmc312_store
   );
 
 `ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_ovr_10_due, due_q == (done_q != armed_q))
   `PPMC_ASSERT(p312_ovr_01, stored_o.fifo_count <= 4'd8)
   `PPMC_ASSERT(p312_evt_01, count_q[0] <= 3'd4 && count_q[1] <= 3'd4)
   `PPMC_ASSERT(p312_evt_01_take, !(remove_i.take && remove_i.from_event) || event_q[remove_i.n])

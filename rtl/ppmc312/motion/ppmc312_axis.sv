@@ -35,8 +35,7 @@ module ppmc312_axis
     input  wire window_take_t  take_i      // they are loaded, read
 );
 
-  logic [ 7:0] code;
-  logic [31:0] value;
+  logic [7:0] code;
   logic halt_q, decel_q, output_on, launch, rested, count, leave, near, coupled;
 
   assign code = block_i.code;
@@ -46,9 +45,6 @@ module ppmc312_axis
     halt_q  <= code == I_HALT;
     decel_q <= code == I_DECEL;
   end
-
-  assign value = (code == I_LOCK_POS) ? {block_i.par[0], block_i.par[1], block_i.par[2], block_i.par[3]} :
-      {block_i.par[1], block_i.par[2], block_i.par[3], block_i.par[4]};
 
   ppmc312_settings u_settings (
       .clk_i,
@@ -105,7 +101,8 @@ module ppmc312_axis
       .output_i      (output_on),
       .epin_i        (inputs_i.epin),
       .epdir_i       (inputs_i.epdir),
-      .value_i       (value),
+      .value_i       ({block_i.par[1], block_i.par[2], block_i.par[3], block_i.par[4]}),
+      .lock_value_i  ({block_i.par[0], block_i.par[1], block_i.par[2], block_i.par[3]}),
       .set_pos_i     (act_i && code == I_POS_SET && !block_i.par[0][0]),
       .set_enc_i     (act_i && code == I_POS_SET && block_i.par[0][0]),
       .set_lock_i    (act_i && code == I_LOCK_POS),

@@ -244,8 +244,8 @@ module ppmc312_motion
     if (phase2) begin
       plan.endless = 1'b1;
       plan.climb   = 1'b0;
-      plan.to      = home_i;
     end
+    if (phase2 || order_i.home) plan.to = home_i;
   end
 
   ppmc312_stage_seq u_seq (
@@ -298,7 +298,8 @@ module ppmc312_motion
   `PPMC_ASSERT(p312_mot_35, !stop_o || $onehot(cause_o))
   `PPMC_ASSERT(p312_mot_06, !(ends && next_end && !hard && !first) || !pout_o)
   `PPMC_ASSERT(p312_blk_01_8, !order_i.start || (state_q == StRest && !abn_q))
-  `PPMC_ASSERT(p312_mot_07_count, !(ends && !hard && next_count) || complete)
+  // Without a pulse nothing is counted, and what follows the load has not reached next_count yet.
+  `PPMC_ASSERT(p312_mot_07_count, !(ends && !hard && !first && next_count) || complete)
 `endif
 
 endmodule

@@ -17,7 +17,6 @@ module ppmc312_move
     input  wire block_t         block_i,       // the instruction; stands until done
     input  wire status_e        status_i,      // of the part
     input  wire table_t         table_i,       // in force
-    input  wire target_t        home_i,        // what the look-up of its rate_acc has found
     input  wire levels_t        levels_i,      // pins
     input  wire logic    [15:0] limit_rate_i,  // HSL, base clocks
     input  wire logic           gate_i,        // a start is not held
@@ -28,6 +27,7 @@ module ppmc312_move
     output logic                change_o,      // strobe: another rate, plan_o.to
     output op_t                 op_o,          // with start_o
     output plan_t               plan_o,        // steady until t0
+    output logic                home_o,        // with start_o: not plan_o.to, but the start-up rate
     // planner
     output plan_order_t         planner_o,     // what it shall do
     input  wire logic           plan_busy_i,   // it is at it
@@ -44,16 +44,17 @@ module ppmc312_move
   } state_e;
 
   state_e state_q;
-  logic starts_q, single_q, limited_q, hit, done;
-  logic [15:0] rate;
+  logic starts_q, single_q, ramp_q, endless_q, limited_q, hit, done;
+  logic [15:0] rate, rate_q;
+  logic [31:0] count_q;
   logic [7:0] code;
   info_t info;
 
   assign code = block_i.code;
   assign info = info_of(code);
   assign rate = {block_i.par[1], block_i.par[2]};
-  assign hit = op_o.ccw ? !levels_i.bl_n || (!levels_i.bhl_n && planner_o.rate <= limit_rate_i) :
-      !levels_i.fl_n || (!levels_i.fhl_n && planner_o.rate <= limit_rate_i);
+  assign hit = op_o.ccw ? !levels_i.bl_n || (!levels_i.bhl_n && rate_q <= limit_rate_i) :
+      !levels_i.fl_n || (!levels_i.fhl_n && rate_q <= limit_rate_i);
 
   assign done = state_q == StGo;
   assign state_o.done = done;
@@ -62,14 +63,20 @@ module ppmc312_move
   assign start_o = done && starts_q && !limited_q && status_i == StatusNor;
   assign change_o = done && !starts_q;
   assign state_o.kind = ((code == I_MOVE) ? plan_kind_i : 8'h00) | 8'(!gate_i);
-  assign planner_o.start = state_q == StPlan;
+  assign planner_o = '{
+          start: state_q == StPlan,
+          ramp: ramp_q,
+          endless: endless_q,
+          rate: rate_q,
+          count: count_q
+      };
+  assign home_o = single_q;
 
   always_comb begin
     plan_o = plan_i;
     if (single_q) begin
       plan_o.climb = 1'b0;
       plan_o.dec   = '0;
-      plan_o.to    = home_i;
     end
   end
 
@@ -93,15 +100,15 @@ module ppmc312_move
   // No reset: begin_i sets all of it.
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
-      starts_q          <= info.starts;
-      single_q          <= code == I_STEP;
-      planner_o.ramp    <= code inside {I_MOVE, I_HIGH, I_ZERO};
-      planner_o.endless <= !(code inside {I_MOVE, I_CONST, I_STEP});
-      planner_o.count   <= {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
-      planner_o.rate    <= (rate == '0) ? table_i.fast : rate;
+      starts_q  <= info.starts;
+      single_q  <= code == I_STEP;
+      ramp_q    <= code inside {I_MOVE, I_HIGH, I_ZERO};
+      endless_q <= !(code inside {I_MOVE, I_CONST, I_STEP});
+      count_q   <= {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
+      rate_q    <= (rate == '0) ? table_i.fast : rate;
       if (code == I_STEP) begin
-        planner_o.count <= 32'd1;
-        planner_o.rate  <= table_i.rate_acc;
+        count_q[0] <= 1'b1;  // it has no number: all bits are 0
+        rate_q     <= table_i.rate_acc;
       end
       if (info.starts) begin
         op_o <= '{

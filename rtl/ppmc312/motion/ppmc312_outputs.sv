@@ -40,9 +40,7 @@ module ppmc312_outputs #(
 );
 
   localparam int unsigned PulseXtal = 393_216;
-  localparam int unsigned PulseBits = 19;
   localparam int unsigned RestXtal = 1_600_000;
-  localparam int unsigned RestBits = 21;
 
   logic [1:0] pulse_n, start, past;
   logic leaving_q, resting_q, rested;
@@ -51,15 +49,12 @@ module ppmc312_outputs #(
   assign {aclr_no, cclr_no} = pulse_n;
 
   for (genvar n = 0; n < 2; n++) begin : g_pulse
-    ppmc_xtal_timer #(
-        .ClkHz (ClkHz),
-        .XtalHz(XtalHz),
-        .Width (PulseBits)
+    ppmc_delay #(
+        .Ticks(ppmc_pkg::cyc(PulseXtal - 1, ClkHz, XtalHz))
     ) u_timer (
         .clk_i,
-        .rst_ni,
         .restart_i(start[n]),
-        .limit_i  (PulseBits'(PulseXtal - 1)),
+        .tick_i   (1'b1),
         .past_o   (past[n])
     );
 
@@ -70,15 +65,12 @@ module ppmc312_outputs #(
     end
   end
 
-  ppmc_xtal_timer #(
-      .ClkHz (ClkHz),
-      .XtalHz(XtalHz),
-      .Width (RestBits)
+  ppmc_delay #(
+      .Ticks(ppmc_pkg::cyc(RestXtal - 1, ClkHz, XtalHz))
   ) u_rest (
       .clk_i,
-      .rst_ni,
       .restart_i(rested_i),
-      .limit_i  (RestBits'(RestXtal - 1)),
+      .tick_i   (1'b1),
       .past_o   (rested)
   );
 

@@ -53,18 +53,15 @@ module ppmc312_pins
   if (Datasheet) begin : g_filter
     for (genvar n = 0; n < Filtered; n++) begin : g_pin
       localparam int unsigned Limit = (n < $bits(levels_t)) ? LevelXtal : EventXtal;
-      localparam int unsigned Width = ppmc_pkg::cnt_width(Limit + 3);
       logic past;
 
-      ppmc_xtal_timer #(
-          .ClkHz (ClkHz),
-          .XtalHz(XtalHz),
-          .Width (Width)
+      // The part's reset is long enough for a synchronous one.
+      ppmc_delay #(
+          .Ticks(ppmc_pkg::cyc(Limit, ClkHz, XtalHz))
       ) u_timer (
           .clk_i,
-          .rst_ni,
-          .restart_i(asis[n]),
-          .limit_i  (Width'(Limit)),
+          .restart_i(asis[n] || !rst_ni),
+          .tick_i   (1'b1),
           .past_o   (past)
       );
 

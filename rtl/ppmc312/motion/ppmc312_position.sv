@@ -18,7 +18,8 @@ module ppmc312_position
     input  wire logic        epin_i,          // counts with its rising edge
     input  wire logic        epdir_i,         // 0 up, 1 down
     // instructions
-    input  wire logic [31:0] value_i,         // what is set; pulses, two's complement
+    input  wire logic [31:0] value_i,         // a position that is set; pulses, two's complement
+    input  wire logic [31:0] lock_value_i,    // an interlock position that is set
     input  wire logic        set_pos_i,       // strobe: the position
     input  wire logic        set_enc_i,       // strobe: the encoder's
     input  wire logic        set_lock_i,      // interlock position
@@ -79,7 +80,7 @@ module ppmc312_position
       if (set_enc_i) enc_o <= value_i;
       else if (epin_i && !epin_q) enc_o <= enc_o + {{31{epdir_i}}, 1'b1};
 
-      if (set_lock_i) lock_pos_q <= value_i;
+      if (set_lock_i) lock_pos_q <= lock_value_i;
       unlock_o <= hit;
       if (hit) lock_o <= 1'b0;
       else if (toggle_lock_i) lock_o <= !lock_o;

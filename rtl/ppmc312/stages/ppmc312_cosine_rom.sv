@@ -78,17 +78,18 @@ module ppmc312_cosine_rom (
     16'd0
   };
 
-  logic upper, upper_q;
-  logic [ 5:0] at;
-  logic [15:0] word_q;
+  (* rom_style = "block" *)
+  logic [16:0] rom[128];
+  logic [16:0] word_q;
 
-  assign upper = index_i > 7'(Half);
-  assign at = upper ? 6'(7'(2 * Half) - index_i) : index_i[5:0];
+  initial begin
+    for (int unsigned i = 0; i < 128; i++)
+    rom[i] = (i <= Half) ? 17'(Weights[6'(i)]) : 17'h10000 - 17'(Weights[6'(2*Half-i)]);
+  end
 
   always_ff @(posedge clk_i) begin
-    upper_q  <= upper;
-    word_q   <= Weights[at];
-    weight_o <= upper_q ? 17'h10000 - 17'(word_q) : 17'(word_q);
+    word_q   <= rom[index_i];
+    weight_o <= word_q;
   end
 
 endmodule

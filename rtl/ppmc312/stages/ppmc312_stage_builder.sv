@@ -74,7 +74,8 @@ module ppmc312_stage_builder
   logic pass_q, side_q, wait_q, works, done, last_side, we;
   logic [1:0] phase_q, hit_q, open_q;
   word_e h_word, x_word, to_word;
-  logic [1:0][ 6:0] first_q;
+  logic [6:0] stage_q;
+  logic [1:0][6:0] first_q;
   logic [1:0][15:0] entry_q;
   logic [16:0] cosine, weight;
   logic [15:0] slow_q, spread_q, rate, limit, given;
@@ -83,16 +84,16 @@ module ppmc312_stage_builder
 
   ppmc312_cosine_rom u_rom (
       .clk_i,
-      .index_i (entry_o.stage),
+      .index_i (stage_q),
       .weight_o(cosine)
   );
 
-  assign weight = curve_i.cosine ? cosine : 17'(entry_o.stage);
+  assign weight = curve_i.cosine ? cosine : 17'(stage_q);
   assign rate = lo_i[15:0];
   assign limit = side_q ? curve_i.stop : curve_i.start;
   // The slower side has all stages, whatever rounding makes of R[1].
-  assign hit = (limit == slow_q) ? entry_o.stage == '0 : rate >= limit;
-  assign begins = entry_o.stage == first_q[side_q];
+  assign hit = (limit == slow_q) ? stage_q == '0 : rate >= limit;
+  assign begins = stage_q == first_q[side_q];
   assign last_side = side_q || !curve_i.split;
 
   assign busy_o = state_q != StIdle;
@@ -188,11 +189,11 @@ module ppmc312_stage_builder
     if (!rst_ni) begin
       state_q <= StIdle;
       phase_q <= '0;
-      wait_q <= 1'b0;
-      pass_q <= 1'b0;
-      side_q <= 1'b0;
-      entry_o.stage <= Last;
-      thin_o <= 1'b0;
+      wait_q  <= 1'b0;
+      pass_q  <= 1'b0;
+      side_q  <= 1'b0;
+      stage_q <= Last;
+      thin_o  <= 1'b0;
     end else begin
       if (op_start_o) wait_q <= 1'b1;
       else if (done) wait_q <= 1'b0;
@@ -200,9 +201,9 @@ module ppmc312_stage_builder
       else if (!wait_q) phase_q <= phase_q + 1'b1;
       unique case (state_q)
         StIdle: begin
-          pass_q <= 1'b0;
-          side_q <= 1'b0;
-          entry_o.stage <= Last;
+          pass_q  <= 1'b0;
+          side_q  <= 1'b0;
+          stage_q <= Last;
           if (start_i) begin
             thin_o  <= 1'b0;
             state_q <= StCopy;
@@ -216,7 +217,7 @@ module ppmc312_stage_builder
         StBase: if (done) state_q <= StScale;
         StScale:
         if (done) begin
-          entry_o.stage <= '0;
+          stage_q <= '0;
           state_q <= StSpeed;
         end
         StSpeed:
@@ -236,17 +237,17 @@ module ppmc312_stage_builder
         StShare: if (done) state_q <= StPulses;
         StPulses: if (done) state_q <= StWrite;
         StWrite: begin
-          if (open_q[side_q] && lo_i <= 24'd2) thin_o <= 1'b1;
+          if (open_q[side_q] && lo_i[23:2] == '0 && lo_i[1:0] != 2'd3) thin_o <= 1'b1;
           side_q  <= !last_side;
           state_q <= last_side ? StNext : open_q[1] ? StShare : StNext;
           if (!last_side && !open_q[1]) side_q <= 1'b0;
         end
         StNext: begin
-          entry_o.stage <= entry_o.stage + 1'b1;
+          stage_q <= stage_q + 1'b1;
           state_q <= StSpeed;
-          if (entry_o.stage == Last) begin
-            entry_o.stage <= '0;
-            pass_q <= 1'b1;
+          if (stage_q == Last) begin
+            stage_q <= '0;
+            pass_q  <= 1'b1;
             state_q <= pass_q ? StIdle : StSpeed;
           end
         end
@@ -262,28 +263,31 @@ module ppmc312_stage_builder
     if (state_q == StBegin) begin
       hit_q[side_q] <= hit;
       if (hit) begin
-        first_q[side_q] <= entry_o.stage;
+        first_q[side_q] <= stage_q;
         entry_q[side_q] <= rate;
       end
     end
     // Second pass: the sides that have begun.
     for (int unsigned n = 0; n < 2; n++) begin
       if (!pass_q) open_q[n] <= 1'b0;
-      else if (entry_o.stage == first_q[n]) open_q[n] <= 1'b1;
+      else if (stage_q == first_q[n]) open_q[n] <= 1'b1;
     end
   end
 
-  assign entry_o.rate = state_q == StBegin && !side_q;
-  assign entry_o.acc  = state_q == StWrite && !side_q && open_q[0];
-  assign entry_o.dec  = state_q == StWrite && side_q;
-  assign entry_o.data = lo_i;
+  assign entry_o = '{
+          rate: state_q == StBegin && !side_q,
+          acc: state_q == StWrite && !side_q && open_q[0],
+          dec: state_q == StWrite && side_q,
+          stage: stage_q,
+          data: lo_i
+      };
 
   logic unused_base;
   assign unused_base = &{1'b0, curve_i};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p312_tbl_02_ends, !entry_o.rate || entry_o.stage != '0 || rate == slow_q)
-  `PPMC_ASSERT(p312_tbl_02_top, !entry_o.rate || entry_o.stage != Last || rate == curve_i.fast)
+  `PPMC_ASSERT(p312_tbl_02_ends, !entry_o.rate || stage_q != '0 || rate == slow_q)
+  `PPMC_ASSERT(p312_tbl_02_top, !entry_o.rate || stage_q != Last || rate == curve_i.fast)
 `endif
 
 endmodule

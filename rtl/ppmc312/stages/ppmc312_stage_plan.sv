@@ -66,11 +66,11 @@ module ppmc312_stage_plan
   } state_e;
 
   state_e state_q;
-  logic ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first;
+  logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first;
   logic [1:0] valid_q, in_acc_q, in_dec_q;  // in the sides: this stage, the one before
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
-  logic [6:0] at;
+  logic [6:0] at, ge_q, ge1_q, gt1_q;
   logic [23:0] own_q, acc_q, dec_q, own_kept_q, acc_kept_q, dec_kept_q, x;
   logic [24:0] sum_q, over_q;
   logic [25:0] ahead;
@@ -98,7 +98,7 @@ module ppmc312_stage_plan
     end
   end
 
-  assign past = at >= found_o.ge1;
+  assign past = at >= ge1_q;
   assign ends = run_q && step && ((state_q == StFind) ? at == Last : past);
 
   // ---- look-up ---------------------------------------------------------------------------------------------------
@@ -107,16 +107,16 @@ module ppmc312_stage_plan
   assign hit = virt || ((in_acc_q[0] || in_dec_q[0]) && table_rate_i >= rate_i);
   assign higher = hit && (virt || table_rate_i != rate_i);
 
-  assign found_o.rate = rate_i;
+  assign found_o = '{rate: rate_i, slows: slows_q, ge: ge_q, ge1: ge1_q, gt1: gt1_q};
 
   always_ff @(posedge clk_i) begin
     if (state_q == StFind && step) begin
       if (hit) begin
-        found_o.ge  <= at;
-        found_o.ge1 <= at_q[0];
+        ge_q  <= at;
+        ge1_q <= at_q[0];
       end
-      if (higher) found_o.gt1 <= at_q[0];
-      if (in_dec_q == 2'b01) found_o.slows <= higher;
+      if (higher) gt1_q <= at_q[0];
+      if (in_dec_q == 2'b01) slows_q <= higher;
       if (hit && in_acc_q[1]) climb_o <= 1'b1;
     end
     if (state_q == StIdle) climb_o <= start_i ? 1'b0 : climb_o;
@@ -175,7 +175,7 @@ module ppmc312_stage_plan
     end
     if (state_q == StShort) begin
       dec_o            <= sum_q[23:0];
-      dec_from_o.stage <= found_o.ge;
+      dec_from_o.stage <= ge_q;
       dec_from_o.part  <= 1'b0;
     end
     if (state_q == StKind) dec_o <= '0;

@@ -86,7 +86,7 @@ module ppmc312_stage_seq
   logic zero_q, point_q, walk_ok_q, spent_q, edge_q;
   logic [6:0] addr, beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, back, forget;
-  logic seek_q, look, in_use_q, in_use;  // search
+  logic seek_q, look, in_use_q, in_use, stage_ge;  // search
   logic [1:0] look_q;
   logic [6:0] seek_at_q;
   logic [3:0] ramp_ready_q;
@@ -237,6 +237,7 @@ module ppmc312_stage_seq
 
   // What a look-up finds for a rate that was a stage's: all stages pass, upward, while no decision needs the
   // table. What is held waits for the end.
+  assign stage_ge = stage_i.rate >= rate_q;
   assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -289,8 +290,8 @@ module ppmc312_stage_seq
     end else if (step_i && do_q.own) begin
       target_q.rate <= rate_q;
     end else if (seek_q && look_q[1] && in_use) begin
-      if (stage_i.rate >= rate_q) target_q.ge <= addr_q[1];
-      if (stage_i.rate > rate_q) target_q.gt1 <= addr_q[0];
+      if (stage_ge) target_q.ge <= addr_q[1];
+      if (stage_ge && stage_i.rate != rate_q) target_q.gt1 <= addr_q[0];
       else if (!in_use_q) target_q.gt1 <= addr_q[1];
     end
     if (load_i) begin

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_board_inputs: pins on their way to the part. Beside a recorder they are synchronised here, so that recorder and
+//         part see the same levels on the same clk; otherwise they go on as they are.
+// Rules:  UB-REC-05.
+// Timing: 2 clk with Sync, else combinational.
+`default_nettype none
+
+module ppmc_board_inputs #(
+    parameter int unsigned Width = 1,
+    parameter bit          Sync  = 1'b0
+) (
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,  // asynchronous
+    input  wire logic [Width-1:0] d_i,     // raw pins
+    output logic      [Width-1:0] q_o      // to the part
+);
+
+  if (Sync) begin : g_sync
+    logic [Width-1:0] unused_meta;
+
+    ppmc_sync #(
+        .Width(Width)
+    ) u_sync (
+        .clk_i,
+        .rst_ni,
+        .d_i,
+        .q1_o(unused_meta),
+        .q2_o(q_o)
+    );
+  end else begin : g_wires
+    assign q_o = d_i;
+
+    logic unused;
+    assign unused = clk_i && rst_ni;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_delay: whether a number of ticks that is known at elaboration has come since the last restart.
+// Rules:  P104-GEN-02/03; P312-GEN-02, times of P312-OUT-01/02, P312-INP-33, P312-SER-10..17.
+// Timing: as ppmc_timer. A time of n crystal cycles is ppmc_pkg::cyc(n, ClkHz, XtalHz) ticks of tick_i = 1: after a
+//         restart at edge e past_o stands from edge e + ceil(n * ClkHz / XtalHz) on.
+`default_nettype none
+
+module ppmc_delay #(
+    parameter int unsigned Ticks = 16  // 1 .. 2**24 - 1
+) (
+    input  wire logic clk_i,
+    input  wire logic restart_i,  // count from 0
+    input  wire logic tick_i,     // counts
+    output logic      past_o      // so many have come
+);
+
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(Ticks - 1);
+
+  ppmc_timer #(
+      .Width(Width)
+  ) u_timer (
+      .clk_i,
+      .restart_i,
+      .tick_i,
+      .last_i(Width'(ppmc_lfsr_pkg::after(Ticks - 1, Width))),
+      .past_o
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bridge_decode: what an op of a script needs first, and whether it may begin at all.
+// Rules:  the op table of docs/uart_bridge.md, UB-ANS-02, -05.
+// Timing: combinational.
+`default_nettype none
+
+module ppmc_bridge_decode
+  import ppmc_bridge_pkg::*;
+#(
+    parameter int unsigned Axes = 1,  // pulse counters
+    parameter bit Recorder = 1'b0  // there is one
+) (
+    input  wire logic [7:0] op_i,      // its code
+    input  wire logic       full_i,    // no room for one more byte in the answer
+    input  wire logic       full4_i,   // no room for 4
+    input  wire logic       full16_i,  // no room for 16
+    output need_e           need_o,    // what it needs first
+    output result_e         fail_o,    // ResDone, or why it may not begin
+    output logic            second_o,  // it is about axis 2
+    output logic            ident_o,   // it begins a block of 16 bytes
+    output logic            count_o,   // it begins a block of 4 bytes
+    output block_e          block_o    // which block of 16
+);
+
+  logic [3:0] kind, low;
+  logic known, full;
+
+  assign kind = op_i[7:4];
+  assign low = op_i[3:0];
+  assign second_o = Axes > 1 && (low == SysCount2 || low == SysZero2);
+  assign block_o = low == SysVersion ? BlockVersion : low == SysRecorded ? BlockRecorded : BlockIdent;
+  assign ident_o = kind == OpSystem && need_o == NeedBlock && low != SysReset && !count_o;
+  assign count_o = kind == OpSystem && (low == SysCount || low == SysCount2);
+
+  always_comb begin
+    known  = 1'b1;
+    full   = 1'b0;
+    need_o = NeedNothing;
+    unique case (kind)
+      OpSystem:
+      unique case (low)
+        SysNop, SysZero: need_o = NeedNothing;
+        SysRate, SysEvents, SysTimeout, SysStraps: need_o = NeedOperand;
+        SysReset, SysIdent, SysVersion: begin
+          need_o = NeedBlock;
+          full   = low != SysReset && full16_i;
+        end
+        SysCount, SysCount2: begin
+          need_o = NeedBlock;
+          full   = full4_i;
+          known  = low == SysCount || second_o;
+        end
+        SysZero2: known = second_o;
+        SysPins: begin
+          need_o = NeedByte;
+          full   = full_i;
+        end
+        SysRecord: begin
+          need_o = NeedOperand;
+          known  = Recorder;
+        end
+        SysRecorded: begin
+          need_o = NeedBlock;
+          full   = full16_i;
+          known  = Recorder;
+        end
+        default: known = 1'b0;
+      endcase
+      OpReadN, OpPost, OpWait, OpWriteN: need_o = NeedOperand;
+      OpFetch: begin
+        need_o = NeedOperand;
+        known  = Recorder && low == '0;
+      end
+      OpWrite, OpRead, OpCall, OpGet: need_o = NeedCheck;
+      default: known = 1'b0;
+    endcase
+    fail_o = !known ? ResIllegal : full ? ResOverflow : ResDone;
+  end
+
+endmodule
+
+`default_nettype wire

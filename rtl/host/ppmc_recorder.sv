@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_recorder: a logic analyser: every change of some levels, with the clk since the record before it.
+// Rules:  docs/uart_bridge.md, UB-REC.
+// Timing: a record has the levels as flip-flops of this clk sampled them, and the clk since the sample of the one
+//         before it, lowest bit first: {levels, time}, TimeBits of them time. Levels that rest longer than the time
+//         can count get a record of their own. Changes on successive clk are no difference; none is lost.
+//         Bytes of the records, in order, stand on data_o 4 clk after begin_i, rewind_i or next_i.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_recorder
+  import ppmc_recorder_pkg::*;
+#(
+    parameter int unsigned Width = 48,  // levels
+    parameter int unsigned AddrBits = 10  // 2**AddrBits records, 4 .. 16; see ppmc_recorder_ram
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic [Width-1:0] watch_i,  // the levels; of the clock domain
+    // one clk each
+    input wire logic begin_i,  // forget all, record from now on; the first record is the present state
+    input wire logic end_i,  // the last record, whether something changes or not
+    input wire logic rewind_i,  // read from the first record on
+    input wire logic next_i,  // the next byte
+    output logic [7:0] data_o,  // a byte of the records; 0 while recording
+    output logic [63:0] info_o  // answer of op RECORDED, first byte in the low bits
+);
+
+  localparam int unsigned Bytes = record_bytes(Width);
+  localparam int unsigned TimeBits = 8 * Bytes - Width;
+  localparam int unsigned Lane = 16;  // levels that are compared in one clk
+  localparam int unsigned Lanes = (Width + Lane - 1) / Lane;
+
+  logic running_q, first_q, full_q, rest_q, we, wanted;
+  logic [Width-1:0] levels_q;
+  logic [Lanes-1:0] moved_q;
+  logic [TimeBits-1:0] time_q;
+  logic [AddrBits:0] count_q;
+
+  // ---------------------------------------------------------------- levels
+
+  logic [Lanes*Lane-1:0] differ;
+  assign differ = (Lanes * Lane)'(watch_i ^ levels_q);
+
+  always_ff @(posedge clk_i) begin
+    levels_q <= watch_i;
+    for (int unsigned n = 0; n < Lanes; n++) moved_q[n] <= |differ[Lane*n+:Lane];
+  end
+
+  // ---------------------------------------------------------------- records
+
+  assign wanted = running_q && (first_q || end_i || moved_q != '0 || rest_q);
+  assign we     = wanted && !count_q[AddrBits];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      running_q <= 1'b0;
+      full_q    <= 1'b0;
+      count_q   <= '0;
+    end else begin
+      if (begin_i) count_q <= '0;
+      else if (we) count_q <= count_q + 1'b1;
+      if (begin_i) {running_q, full_q} <= 2'b10;
+      else if (wanted) {running_q, full_q} <= {we && !end_i, !we};
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    first_q <= begin_i;
+    time_q  <= begin_i ? '0 : we ? TimeBits'(1) : time_q + 1'b1;
+    rest_q  <= !begin_i && !we && time_q == ~TimeBits'(1);  // time_q counts its last
+  end
+
+  // ---------------------------------------------------------------- bytes
+
+  localparam int unsigned ByteBits = $clog2(Bytes);
+  localparam int unsigned Pairs = (Bytes + 1) / 2;
+  logic [AddrBits-1:0] place_q;
+  logic [ByteBits-1:0] byte_q, pair;
+  logic [8*Bytes-1:0] record;
+
+  ppmc_recorder_ram #(
+      .Width   (8 * Bytes),
+      .AddrBits(AddrBits)
+  ) u_ram (
+      .clk_i,
+      .we_i   (we),
+      .addr_i (running_q ? count_q[AddrBits-1:0] : place_q),
+      .wdata_i({levels_q, time_q}),
+      .rdata_o(record)
+  );
+
+  // In two steps: a block RAM of an ECP5 needs half a clk of 100 MHz.
+  logic [16*Pairs-1:0] padded;
+  logic [ 8*Pairs-1:0] chosen_q;
+  assign padded = (16 * Pairs)'(record);
+  assign pair   = byte_q >> 1;
+
+  always_ff @(posedge clk_i) begin
+    for (int unsigned n = 0; n < Pairs; n++) chosen_q[8*n+:8] <= padded[16*n+8*byte_q[0]+:8];
+    data_o <= chosen_q[8*pair+:8] & {8{!running_q}};
+    if (begin_i || rewind_i) {place_q, byte_q} <= '0;
+    else if (next_i) begin
+      byte_q  <= byte_q == ByteBits'(Bytes - 1) ? '0 : byte_q + 1'b1;
+      place_q <= place_q + AddrBits'(byte_q == ByteBits'(Bytes - 1));
+    end
+  end
+
+  assign info_o = {32'(count_q), 6'd0, full_q, running_q, 8'(AddrBits), 8'(TimeBits), 8'(Bytes)};
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(ub_rec_full_is_the_end, !(full_q && running_q))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_recorder_pkg: how long the records of a recorder are.
+// Rules:  UB-REC-02.
+`default_nettype none
+
+package ppmc_recorder_pkg;
+
+  localparam int unsigned LeastTime = 14;  // bits of a record that count time, at least
+
+  // Bytes of a record of so many levels.
+  function automatic int unsigned record_bytes(int unsigned width);
+    return (width + LeastTime + 7) / 8;
+  endfunction
+
+endpackage
+
+`default_nettype wire

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_codebook: what is known of an instruction code, as a table in a block RAM.
+// Rules:  P312-STA-01, section 3.1 (info_of in ppmc312_pkg).
+// Timing: one clk.
+`default_nettype none
+
+module ppmc312_codebook
+  import ppmc312_pkg::*;
+(
+    input  wire logic       clk_i,   // clock
+    input  wire logic [7:0] code_i,  // instruction code
+    output info_t           info_o   // what is known of it
+);
+
+  // A constant of all words: synthesis runs the branches of info_of wrongly in an initial block.
+  function automatic info_t [255:0] every_code();
+    info_t [255:0] words;
+    for (int unsigned i = 0; i < 256; i++) words[8'(i)] = info_of(8'(i));
+    return words;
+  endfunction
+
+  localparam info_t [255:0] Words = every_code();
+
+  (* rom_style = "block" *)
+  info_t rom[256];
+
+  initial for (int unsigned i = 0; i < 256; i++) rom[i] = Words[8'(i)];
+
+  always_ff @(posedge clk_i) info_o <= rom[code_i];
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_pace_motion: the long processing times of the old chip (DATASHEET): of an initialisation, before pulse 1,
+// at the end of a motion. There is one at a time, so one count serves all.
+// Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
+// Timing: times run from the edge of init_i, start_i or stop_i, or one clk after that of pulse_i with last_i; what
+//         they release happens one clk after the nominal time.
+// How:    the parts that grow with a number, 209 crystal cycles a step of PA or 123/16 a pulse of a triangle, are
+//         taken off the count as soon as it can spare them, one portion a clk: that never lags behind the count.
+`default_nettype none
+
+module ppmc_pace_motion #(
+    parameter int unsigned ClkHz = 16_000_000,
+    parameter int unsigned XtalHz = 16_000_000,
+    parameter int unsigned StepBits = 14,  // of PA
+    parameter int unsigned StepsMin = 4,  // smallest PA
+    parameter int unsigned StepsMax = 11_220,
+    parameter bit RampTimes = 1'b1  // a stop in a ramp and the start of one without a plateau take longer
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire logic                init_i,      // an initialisation is taken
+    input  wire logic [StepBits-1:0] steps_i,     // with init_i: its PA
+    input  wire logic                start_i,     // an operation is taken
+    input  wire logic                triangle_i,  // with start_i: its ramp has no plateau
+    input  wire logic [        14:0] pulses_i,    // with start_i: its pulses, minus 1
+    input  wire logic                ramp_i,      // the running operation has a ramp
+    input  wire logic                single_i,    // is a single step
+    input  wire logic                stop_i,      // immediate end decided at the coming edge
+    input  wire logic                pulse_i,     // pulse event at the coming edge
+    input  wire logic                last_i,      // with pulse_i: the last one
+    input  wire logic                final_i,     // with pulse_i: and the count is complete
+    output logic                     ready_o,     // initialisation complete
+    output logic                     go_o,        // pulse 1 may come; not before the operation runs
+    output logic                     linger_o,    // the motion must not end yet
+    output logic                     closed_o     // because of its end no byte may be taken
+);
+
+  // Crystal cycles.
+  localparam int unsigned INIT_BASE = 264_000;
+  localparam int unsigned INIT_STEP = 209;
+  localparam int unsigned PULSE = 7;  // whole crystal cycles a pulse of a triangle
+  localparam int unsigned PULSE_PART = 11;  // sixteenths of one
+  // 16 crystal cycles, microseconds at 16 MHz.
+  localparam logic [7:0] FIRST_CONSTANT = 8'd194;
+  localparam logic [7:0] FIRST_RAMP = 8'd200;
+  localparam logic [7:0] FIRST_SINGLE = 8'd86;
+  localparam logic [7:0] END_BUSY = 8'd26;
+  localparam logic [7:0] END_OPEN = 8'd156;
+  localparam logic [7:0] END_RAMP = 8'd200;
+
+  localparam int unsigned CountBits = 19;
+  localparam int unsigned StoreBits = ppmc_pkg::cnt_width(
+      (RampTimes && StepsMax < 32_767) ? 32_767 : StepsMax
+  );
+
+  typedef enum logic [2:0] {
+    StRest,
+    StInit,
+    StFirst,   // until pulse 1
+    StEnding,  // until BUSY falls
+    StClosed   // until the mailbox opens
+  } state_e;
+
+  state_e state_q;
+  logic slow_q, brief_q;  // of an end: END_RAMP; no StClosed
+  logic last_q;  // the count starts in this clk: with the change of the pins
+  logic restart, past, full, portion, more;
+  logic [1:0] cycles;
+  logic [CountBits-1:0] count_q, amount;
+  logic [7:0] limit;
+  logic [StoreBits:0] store_q;  // portions to take off, minus 1; negative: none
+  logic [3:0] part_q;  // sixteenths
+
+  assign ready_o  = state_q == StInit && past;
+  assign go_o     = past;
+  assign linger_o = (state_q == StEnding && !past) || last_q;
+  assign closed_o = state_q inside {StEnding, StClosed};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= StRest;
+      slow_q  <= 1'b0;
+      brief_q <= 1'b0;
+      last_q  <= 1'b0;
+    end else begin
+      last_q <= pulse_i && last_i;
+      if (init_i) state_q <= StInit;
+      else if (start_i) state_q <= StFirst;
+      else if (stop_i || (pulse_i && last_i)) begin
+        state_q <= StEnding;
+        slow_q  <= stop_i ? ramp_i : !final_i;
+        brief_q <= stop_i ? ramp_i : !final_i || single_i;
+      end else if (pulse_i) state_q <= StRest;
+      else if (past && !last_q) begin
+        unique case (state_q)
+          StEnding: state_q <= brief_q ? StRest : StClosed;
+          StFirst:  ;
+          default:  state_q <= StRest;
+        endcase
+      end
+    end
+  end
+
+  // ---- count ---------------------------------------------------------------------------------------
+
+  assign restart = init_i || start_i || stop_i || last_q;
+
+  ppmc_xtal_cycles #(
+      .ClkHz (ClkHz),
+      .XtalHz(XtalHz)
+  ) u_cycles (
+      .clk_i,
+      .rst_ni,
+      .restart_i(restart),
+      .cycles_o (cycles)
+  );
+
+  always_comb begin
+    unique case (state_q)
+      StEnding: limit = slow_q ? END_RAMP : END_BUSY;
+      StClosed: limit = END_OPEN;
+      default: begin
+        limit = FIRST_CONSTANT;
+        if (ramp_i) limit = FIRST_RAMP;
+        if (single_i) limit = FIRST_SINGLE;
+      end
+    endcase
+    past = count_q[12] || !ppmc_pkg::less(32'(count_q[11:4]), 32'(limit));
+    if (state_q == StInit) past = count_q >= CountBits'(INIT_BASE - (StepsMin + 1) * INIT_STEP);
+    if (more) past = 1'b0;
+  end
+
+  // Beyond all times but that of an initialisation: pulse 1 may have to wait for a clock without end.
+  assign full = count_q[12] && state_q != StInit;
+
+  assign more    = !store_q[StoreBits];
+  assign portion = more && count_q[CountBits-1:8] != '0;
+
+  logic [4:0] part;
+
+  assign part = {1'b0, part_q} + 5'(PULSE_PART);
+
+  always_comb begin
+    amount = CountBits'(cycles);
+    if (portion) begin
+      amount = CountBits'(cycles) - CountBits'(INIT_STEP);
+      if (state_q != StInit) amount = CountBits'(cycles) - CountBits'(PULSE) - CountBits'(part[4]);
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      count_q <= '0;
+      store_q <= '1;
+      part_q  <= '0;
+    end else begin
+      if (restart) count_q <= '0;
+      else if (!full) count_q <= count_q + amount;
+
+      if (init_i) store_q <= {1'b0, StoreBits'(steps_i)};
+      else if (restart) store_q <= {!(start_i && triangle_i), StoreBits'(pulses_i)};
+      else if (portion) store_q <= store_q - 1'b1;
+
+      if (restart) part_q <= '0;
+      else if (portion) part_q <= part[3:0];
+    end
+  end
+
+endmodule
+
+`default_nettype wire
