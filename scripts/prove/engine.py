@@ -1,0 +1,82 @@
+"""ABC on a model: property directed reachability without bound, or bounded search; both begin in reset.
+
+ABC is the one that the wheel of pyosys brings along.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from importlib.util import find_spec
+from pathlib import Path
+
+from cocotb_tests.harness.project import ProjectError
+
+_HIT = re.compile(r"Output\s+(\d+)(?: of miter \S+)? was asserted in frame\s+(\d+)")
+PROVED, FAILED, OPEN = "proved", "failed", "open"
+
+
+def abc() -> Path:
+    """The program; ProjectError if the wheel lacks it."""
+    spec = find_spec("pyosys")
+    path = Path(next(iter(spec.submodule_search_locations or ()), ""), "yosys-abc") if spec else Path()
+    if not os.access(path, os.X_OK) or not path.is_file():
+        raise ProjectError("yosys-abc: not there, it comes with the package pyosys (run `make setup`)")
+    return path
+
+
+def ask(folder: Path, what: str, script: str) -> str:
+    """What ABC says to these commands about <what>.aig."""
+    words = f"read_aiger {what}.aig; fold; strash; {script}"
+    done = subprocess.run(
+        [abc(), "-c", words],
+        cwd=folder,
+        text=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    (folder / f"{what}.log").write_text(done.stdout, encoding="utf-8")
+    return done.stdout
+
+
+def hits(said: str) -> dict[int, int]:
+    """Number of an output that can be true -> clk after reset, as ABC says it."""
+    return {int(output): int(frame) for output, frame in _HIT.findall(said)}
+
+
+def prove(folder: Path, bound: int, limit: int) -> tuple[str, dict[int, int]]:
+    """Whether no output of prove.aig can be true, at all or within `bound` clk; else which, and when.
+
+    At most `limit` seconds. A counterexample goes to prove.aiw.
+    """
+    # Some need the registers that are equal merged first, others get no better by it.
+    half = max(limit // 2, 1)
+    searches = [f"orpos; pdr -T {half}", f"scorr; orpos; pdr -T {half}", f"pdr -T {half}"]
+    said = ""
+    for search in [f"bmc3 -F {bound} -T {limit}"] if bound else searches:
+        said = ask(folder, "prove", f"{search}; write_cex -a prove.aiw")
+        if "Property UNDECIDED" not in said:
+            break
+    if found := hits(said):
+        if not bound:  # which of them, and a trace that knows all inputs
+            again = f"bmc3 -F {min(found.values()) + 1} -T {limit}; write_cex -a prove.aiw"
+            found = hits(ask(folder, "prove", again)) or found
+        return FAILED, found
+    whole = f"No output asserted in {bound} frames" if bound else "Property proved."
+    return (PROVED if whole in said else OPEN), {}
+
+
+def fill(folder: Path) -> None:
+    """Give prove.aiw the registers that ABC has thrown away as well; all begin at 0 (write_aiger -zinit)."""
+    witness = folder / "prove.aiw"
+    _, inputs = witness.read_text().split("\n", 1)
+    registers = int((folder / "prove.aig").read_bytes().split(maxsplit=4)[3])
+    witness.write_text("0" * registers + "\n" + inputs)
+
+
+def covered(folder: Path, bound: int, limit: int) -> dict[int, int]:
+    """Which covers of cover.aig are reached within `bound` clk, and when."""
+    return hits(ask(folder, "cover", f"bmc3 -a -F {bound} -T {limit}"))

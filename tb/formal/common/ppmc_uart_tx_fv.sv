@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_uart_tx_fv: every byte that is taken arrives in ppmc_uart_rx, as it was, once and in time; at 8 clk a
+// bit.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_uart_tx_fv (
+    input wire logic       clk_i,
+    input wire logic [7:0] byte_i,
+    input wire logic       valid_i
+);
+
+  localparam int unsigned Width = 4;
+  localparam logic [Width-1:0] Step = 4'd3;
+
+  logic ready_o, txd_o, rx_valid, rx_error, unused_break;
+  logic [7:0] rx_byte;
+
+  `FV_RESET
+
+  ppmc_uart_tx #(
+      .Width(Width)
+  ) dut (
+      .step_i(Step),
+      .*
+  );
+
+  ppmc_uart_rx #(
+      .Width(Width)
+  ) u_rx (
+      .clk_i,
+      .rst_ni,
+      .step_i (Step),
+      .wrap_i (Width'(0)),
+      .rxd_i  (txd_o),
+      .byte_o (rx_byte),
+      .valid_o(rx_valid),
+      .error_o(rx_error),
+      .break_o(unused_break)
+  );
+
+  logic way_q;  // a byte is on its way
+  logic [7:0] byte_q;
+  logic [6:0] age_q;  // clk since it was taken
+  logic again_q;  // it is not the first one
+  logic up_q;  // the receiver has seen the line at rest
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {way_q, age_q, byte_q, up_q, again_q} <= '0;
+    else begin
+      up_q  <= 1'b1;
+      age_q <= age_q == '1 ? '1 : age_q + 1'b1;
+      if (valid_i && ready_o) {way_q, byte_q, age_q} <= {1'b1, byte_i, 7'd0};
+      else if (rx_valid) {way_q, again_q} <= 2'b01;
+    end
+
+  `FV_ASSUME(line_was_at_rest, up_q || !valid_i)
+  `FV_ASSERT(rests_high, !ready_o || txd_o)
+  `FV_ASSERT(arrives_as_sent, !rx_valid || (way_q && rx_byte == byte_q))
+  `FV_ASSERT(never_faulty, !rx_error)
+  `FV_ASSERT(arrives_in_time, !(way_q && ready_o) || age_q <= 7'd60)
+  `FV_ASSERT(taken_when_the_last_has_arrived, !(valid_i && ready_o && way_q) || rx_valid)
+  `FV_COVER(seen_second_byte, rx_valid && byte_q == 8'h5A && again_q)
+
+endmodule
+
+`default_nettype wire

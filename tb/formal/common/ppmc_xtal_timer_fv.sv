@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_xtal_timer_fv: past_o says at every clk, for every limit, whether so many crystal cycles have passed.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_xtal_timer_fv (
+    input wire logic       clk_i,
+    input wire logic       restart_i,
+    input wire logic [3:0] limit_i
+);
+
+  logic past_o;
+
+  `FV_RESET
+
+  ppmc_xtal_timer #(
+      .ClkHz (7),
+      .XtalHz(10),
+      .Width (4)
+  ) dut (
+      .*
+  );
+
+  logic [3:0] clk_q;  // since the restart, at most 15: 21 crystal cycles
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni || restart_i) clk_q <= '0;
+    else if (clk_q != '1) clk_q <= clk_q + 1'b1;
+
+  `FV_ASSUME(legal_limit, limit_i <= 4'd14)
+  `FV_ASSERT(past_exactly, past_o == ((8'd10 * 8'(clk_q)) / 8'd7 >= 8'(limit_i)))
+  `FV_COVER(seen_longest, past_o && limit_i == 4'd14 && clk_q == 4'd10)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bridge_tx_fv: a frame is flag, escaped bytes, CRC, flag; it ends; no flag inside; each byte goes out
+// once.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_bridge_tx_fv
+  import ppmc_bridge_pkg::*;
+(
+    input wire logic       clk_i,
+    input wire logic       start_i,
+    input wire logic [7:0] next_i,
+    input wire logic       more_i
+);
+
+  logic idle_o, take_o, valid_o, ready_i;
+  logic [7:0] byte_i, byte_o;
+  logic valid_i;  // a character goes out
+
+  assign byte_i  = next_i;
+  assign valid_i = valid_o && ready_i;
+
+  `FV_RESET
+
+  ppmc_bridge_tx dut (.*);
+
+  // A transmitter of ten clk a character: the CRC takes eight.
+  logic [3:0] left_q;
+  assign ready_i = left_q == '0;
+  always_ff @(posedge clk_i)
+    if (!rst_ni) left_q <= '0;
+    else if (valid_i) left_q <= 4'd10;
+    else if (left_q != '0) left_q <= left_q - 1'b1;
+
+
+  `FV_ASSUME(start_when_idle, !start_i || idle_o)
+  `FV_ASSUME(more_stands, ready_i || more_i == $past(more_i))
+
+  logic open_q, escape_q, taken_q;  // in a frame; the last character was an escape; a byte waits to go out
+  logic [7:0] byte_q;  // it
+  logic [1:0] crc_q;  // bytes behind the last of the message
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {open_q, escape_q, taken_q, byte_q, crc_q} <= '0;
+    else begin
+      if (take_o) {taken_q, byte_q} <= {1'b1, byte_i};
+      if (valid_i) begin
+        escape_q <= byte_o == Escape;
+        if (byte_o == Flag) {open_q, crc_q} <= {!open_q, 2'd0};
+        else if (byte_o != Escape) begin
+          taken_q <= 1'b0;
+          if (!taken_q) crc_q <= crc_q + 1'b1;
+        end
+      end
+    end
+
+  `FV_ASSERT(ub_frm_01_begins_with_a_flag, !(valid_i && !open_q) || byte_o == Flag)
+  `FV_ASSERT(ub_frm_01_ends_behind_the_crc,
+             !(valid_i && open_q && byte_o == Flag) || (crc_q == 2'd2 && !taken_q))
+  `FV_ASSERT(ub_frm_02_no_double_escape, !(valid_i && escape_q) || byte_o inside {8'h5E, 8'h5D})
+  `FV_ASSERT(
+      each_byte_once,
+      !(valid_i && open_q && taken_q && byte_o != Escape) || byte_o == (escape_q ? byte_q ^ 8'h20 : byte_q))
+  `FV_ASSERT(ub_frm_02_escaped_if_needed,
+             !(valid_i && taken_q && byte_q inside {Flag, Escape}) || byte_o == Escape || escape_q)
+  `FV_ASSERT(takes_one_at_a_time, !(take_o && taken_q))
+  `FV_ASSERT(two_crc_bytes, crc_q <= 2'd2)
+  `FV_ASSERT(idle_between_frames, !(idle_o && open_q))
+
+  logic was_q;  // a flag went out escaped
+  always_ff @(posedge clk_i)
+    was_q <= rst_ni && (was_q || (valid_i && escape_q && byte_o == 8'h5E && taken_q));
+
+  `FV_COVER(seen_escaped_flag, valid_i && open_q && byte_o == Flag && was_q)
+
+endmodule
+
+`default_nettype wire

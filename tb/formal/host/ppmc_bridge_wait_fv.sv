@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bridge_wait_fv: over_o rises behind as many milliseconds as the limit says, and one more at most; at once for 0.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_bridge_wait_fv (
+    input wire logic       clk_i,
+    input wire logic       ms_i,
+    input wire logic       set_i,
+    input wire logic [1:0] limit_i,
+    input wire logic       waiting_i
+);
+
+  logic over_o;
+
+  `FV_RESET
+
+  ppmc_bridge_wait dut (
+      .start_i(1'b0),
+      .limit_i(16'(limit_i)),
+      .*
+  );
+
+  logic [1:0] limit_q;
+  logic known_q, settled_q;
+  logic [2:0] ms_q;  // milliseconds of the wait, at most 7
+
+  `FV_ASSUME(ms_apart, !(ms_i && $past(ms_i)))
+  `FV_ASSUME(set_before, !(waiting_i || $past(waiting_i)) || (!set_i && !$past(set_i)))
+  `FV_ASSUME(a_limit, known_q || !waiting_i)
+  `FV_ASSUME(short_wait, ms_q != '1 || !ms_i)
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {known_q, settled_q, ms_q, limit_q} <= '0;
+    else begin
+      if (set_i) {known_q, limit_q} <= {1'b1, limit_i};
+      settled_q <= known_q && waiting_i;
+      ms_q <= !waiting_i ? '0 : ms_q + 3'(ms_i);
+    end
+
+  `FV_ASSERT(ub_wait_01_in_time, !settled_q || over_o == (ms_q > 3'(limit_q) || limit_q == '0))
+  `FV_COVER(seen_limit, settled_q && over_o && limit_q == 2'd3)
+
+endmodule
+
+`default_nettype wire

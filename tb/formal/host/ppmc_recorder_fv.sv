@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_recorder_fv: while it records each change of a level makes one record, and so does each rest as long as the time
+// counts; nothing else does. Full ends it, and no record is written past the end.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_recorder_fv (
+    input wire logic       clk_i,
+    input wire logic [1:0] watch_i,
+    input wire logic       begin_i,
+    input wire logic       end_i,
+    input wire logic       rewind_i,
+    input wire logic       next_i
+);
+
+  logic [ 7:0] data_o;
+  logic [63:0] info_o;
+
+  `FV_RESET
+
+  ppmc_recorder #(
+      .Width   (2),
+      .AddrBits(4)
+  ) dut (
+      .*
+  );
+
+  logic running, full;
+  logic [4:0] count;
+  assign {count, full, running} = {info_o[36:32], info_o[25:24]};
+
+  `FV_ASSUME(one_order, 2'(begin_i) + 2'(end_i) + 2'(rewind_i) <= 2'd1)
+
+  logic [1:0] now_q, before_q;  // levels of the last clk and of the one before it
+  logic first_q;  // the first clk of a recording
+  logic [13:0] age_q;  // clk since the last record
+  logic wanted;
+
+  assign wanted = running && (now_q != before_q || first_q || end_i || age_q == '1);
+
+  always_ff @(posedge clk_i) begin
+    {before_q, now_q} <= {now_q, watch_i};
+    if (!rst_ni) {first_q, age_q} <= '0;
+    else begin
+      first_q <= begin_i;
+      age_q   <= begin_i ? '0 : wanted && count != 5'd16 ? 14'd1 : age_q + 1'b1;
+    end
+  end
+
+  logic seen_q;  // the levels are known
+  always_ff @(posedge clk_i) seen_q <= rst_ni && (seen_q || begin_i);
+
+  `FV_ASSERT(ub_rec_01_a_change_a_record, !($past(seen_q && wanted && !begin_i && count != 5'd16)
+             ) || count == $past(count) + 1'b1)
+  `FV_ASSERT(ub_rec_01_nothing_else, !($past(seen_q && !wanted && !begin_i)) || count == $past(count))
+  `FV_ASSERT(ub_rec_04_full_ends, !(full && running) && count <= 5'd16)
+  `FV_ASSERT(ub_rec_04_full_when_one_is_lost, !($past(seen_q && wanted && !begin_i && count == 5'd16)
+             ) || full)
+  `FV_ASSERT(ub_rec_03_zero_while_it_runs, !($past(running) && $past(rst_ni)) || data_o == '0)
+  `FV_COVER(seen_full, full && count == 5'd16)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_axis_fv: a whole motion: how many pulses, when, how long low, and none after its end. Short times:
+// width 6 clk, a quantum at least 4 clk, base clocks of 2 and 3 quanta; any table, any order of stops, gates
+// and edges of the pin.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_axis_fv
+  import ppmc_motion_pkg::*;
+(
+    input wire logic            clk_i,
+    input wire logic            start_i,
+    input wire op_t             op_i,
+    input wire logic      [3:0] count_i,
+    input wire logic      [1:0] rate_i,
+    input wire base_t           base_i,
+    input wire logic      [1:0] rate_slow_i,
+    input wire logic      [1:0] rate_fast_i,
+    input wire logic      [1:0] ramp_steps_i,
+    input wire logic      [2:0] lut_data_i,
+    input wire logic            halt_i,
+    input wire logic            decel_i,
+    input wire switches_t       switches_i,
+    input wire logic            slow_i,
+    input wire logic            run_i,
+    input wire logic            go_i,
+    input wire logic            linger_i,
+    input wire logic            quantum_i,
+    input wire logic            clock_pin_i
+);
+
+  localparam int unsigned Width = 6;
+
+  logic [2:0] steps_i;
+  logic [1:0] lut_addr_o, rate_o;
+  logic slow_seen_o, restart_o, low_o;
+  motion_t motion_o;
+  event_t event_o;
+  cause_t cause_o;
+  logic [3:0] left_o;
+
+  assign steps_i = {1'b0, ramp_steps_i};
+
+  `FV_RESET
+
+  ppmc_axis #(
+      .CountBits  (4),
+      .RateBits   (2),
+      .StepBits   (3),
+      .WidthXtal  (Width),
+      .FastQuanta (2),
+      .SlowQuanta (3),
+      .ExtraQuanta(2),
+      .HalfRates  (1)
+  ) dut (
+      .*
+  );
+
+  // ---- what is taken for granted -------------------------------------------------------------------
+
+  logic [1:0] quantum_gap_q;  // clk since the last quantum, at most 3
+  logic [2:0] rise_gap_q;  // clk since the last rise of the pin, at most 7
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {quantum_gap_q, rise_gap_q} <= '0;
+    else begin
+      quantum_gap_q <= (quantum_i || restart_o) ? '0 : (quantum_gap_q == '1) ? '1 : quantum_gap_q + 1'b1;
+      rise_gap_q    <= dut.rise ? '0 : (rise_gap_q == '1) ? '1 : rise_gap_q + 1'b1;
+    end
+
+  `FV_ASSUME(start_at_rest, !(start_i && motion_o.busy))
+  `FV_ASSUME(quantum_of_four_clk, !quantum_i || quantum_gap_q == '1)
+  `FV_ASSUME(pin_not_too_fast, !dut.rise || rise_gap_q == '1)
+  `FV_ASSUME(legal_ramp, rate_slow_i >= rate_fast_i && ramp_steps_i != '0)
+  `FV_ASSUME(steady_ramp, start_i || !motion_o.busy || {rate_slow_i, rate_fast_i, ramp_steps_i} == $past
+             ({rate_slow_i, rate_fast_i, ramp_steps_i}))
+
+  // ---- the motion as its host asked for it ---------------------------------------------------------
+
+  op_t   op_q;
+  base_t base_q;
+  logic  ended_q;  // an immediate cause was there
+  logic [4:0] total_q, pulses_q;  // to make, made
+  logic [1:0] rate_q;
+  logic immediate, limit;
+
+  assign limit = op_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign immediate = motion_o.moving && (limit || switches_i.alarm || halt_i || (decel_i && !op_q.ramp)
+                     || (op_q.origin && switches_i.origin && !motion_o.gated));
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {op_q, base_q, ended_q, total_q, pulses_q, rate_q} <= '0;
+    else if (start_i) begin
+      {op_q, base_q, ended_q, pulses_q, rate_q} <= {op_i, base_i, 1'b0, 5'd0, rate_i};
+      total_q <= op_i.single ? 5'd1 : 5'(count_i) + 5'd1;
+    end else begin
+      ended_q  <= ended_q || immediate;
+      pulses_q <= pulses_q + 5'(event_o.pulse);
+    end
+
+  `FV_ASSERT(p104_lim_03_no_pulse_in_the_clk_of_a_cause, !(immediate && event_o.pulse))
+  `FV_ASSERT(p104_end_05_no_pulse_after_it, !(ended_q && event_o.pulse))
+  `FV_ASSERT(p104_end_01_a_stop_is_a_stop, !(ended_q && motion_o.moving))
+  `FV_ASSERT(no_pulse_without_a_motion, motion_o.busy || !(event_o.pulse || low_o))
+  `FV_ASSERT(p104_opr_02_never_too_many, !event_o.pulse || pulses_q < total_q)
+  `FV_ASSERT(p104_opr_02_exactly_so_many,
+             !(event_o.done && cause_o == '0 && !op_q.origin) || pulses_q == total_q)
+  `FV_ASSERT(p104_end_05_complete_is_told, !(event_o.pulse && event_o.complete) || pulses_q + 5'd1 == total_q)
+
+  // ---- set-up, direction, low time -----------------------------------------------------------------
+
+  logic [2:0] setup_q, age_q;  // clk since the start or the end of the gate; since the pulse; at most 7
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {setup_q, age_q} <= '0;
+    else begin
+      setup_q <= (start_i || motion_o.gated) ? '0 : (setup_q == '1) ? '1 : setup_q + 1'b1;
+      age_q   <= event_o.pulse ? '0 : (age_q == '1) ? '1 : age_q + 1'b1;
+    end
+
+  `FV_ASSERT(p104_tim_02_set_up, !event_o.pulse || setup_q >= 3'(Width - 1))
+  `FV_ASSERT(p104_tim_02_direction_steady, !motion_o.busy || motion_o.op.ccw == op_q.ccw)
+  `FV_ASSERT(p104_tim_05_low_never_longer, !low_o || age_q < 3'(Width))
+  `FV_ASSERT(p2104_opr_02_gate, !(motion_o.gated && event_o.pulse))
+
+  // ---- intervals of the internal base clock --------------------------------------------------------
+
+  logic [4:0] quanta_q;  // since the last pulse, at most 31
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni || event_o.pulse) quanta_q <= '0;
+    else if (quantum_i && quanta_q != '1) quanta_q <= quanta_q + 1'b1;
+
+  function automatic logic [4:0] interval(logic [1:0] rate);
+    return (5'(rate) + 5'd1) * (base_q.slow ? 5'd3 : 5'd2) + (base_q.extra ? 5'd2 : 5'd0);
+  endfunction
+
+  `FV_ASSERT(
+      p104_int_01_each_interval,
+      !(event_o.pulse && motion_o.running && !base_q.external) || (quantum_i && quanta_q + 5'd1 == interval(
+      rate_o)))
+  `FV_ASSERT(p104_int_01_constant_rate,
+             !(event_o.pulse && motion_o.running && !op_q.ramp) || rate_o == rate_q)
+
+  `FV_COVER(seen_ramp_to_its_end,
+            event_o.pulse && event_o.complete && op_q.ramp && motion_o.dec && pulses_q == 5'd3)
+  `FV_COVER(seen_limit_between_pulses, event_o.stop && limit && pulses_q == 5'd2)
+
+endmodule
+
+`default_nettype wire

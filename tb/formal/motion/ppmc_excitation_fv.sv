@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_excitation_fv: the phases are always a row of the manual's tables, and a step goes to the next one.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_excitation_fv
+  import ppmc_motion_pkg::*;
+(
+    input wire logic       clk_i,
+    input wire logic [1:0] motor_code_i,
+    input wire logic       half_i,
+    input wire logic       home_i,
+    input wire logic       off_i,
+    input wire logic       step_i,
+    input wire logic       ccw_i
+);
+
+  motor_e motor_i;
+  logic [5:1] pattern_o, row;
+
+  assign motor_i = motor_e'(motor_code_i);
+
+  `FV_RESET
+
+  ppmc_excitation dut (.*);
+
+  // Index of the half-step table: two places a full step. Row 0 is S1 and S2.
+  logic on_q;
+  logic [3:0] index_q, length, stride;
+
+  assign length = 4'd2 * (4'(motor_code_i) + 4'd2);  // 6, 8, 10
+  assign stride = half_i ? 4'd1 : 4'd2;
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {on_q, index_q} <= '0;
+    else if (home_i || off_i) {on_q, index_q} <= {home_i, 4'd0};
+    else if (step_i && ccw_i) index_q <= (index_q < stride) ? index_q + length - stride : index_q - stride;
+    else if (step_i) index_q <= (index_q + stride >= length) ? index_q + stride - length : index_q + stride;
+
+  // Even rows: two neighbours. Odd ones: of 3 and 4 phases one, of 5 phases three.
+  logic [3:0] one, two, three;  // phases from the one of the index on, numbered from 0
+
+  assign one   = {1'b0, index_q[3:1]};
+  assign two   = (one + 4'd1 == (length >> 1)) ? 4'd0 : one + 4'd1;
+  assign three = (two + 4'd1 == (length >> 1)) ? 4'd0 : two + 4'd1;
+
+  always_comb begin
+    for (int unsigned p = 0; p < 5; p++) begin
+      row[p+1] = 4'(p) == two;
+      if (!index_q[0] || motor_i == Motor5) row[p+1] |= 4'(p) == one;
+      if (index_q[0] && motor_i == Motor5) row[p+1] |= 4'(p) == three;
+    end
+  end
+
+  `FV_ASSUME(a_motor, motor_i != MotorNone)
+  // ppmc_setup takes both from the first initialisation, which homes, and holds them until Excitation OFF.
+  `FV_ASSUME(motor_stays, !on_q || $past(home_i) || {motor_i, half_i} == $past({motor_i, half_i}))
+
+  `FV_ASSERT(p104_phs_01_row_of_the_table, pattern_o == (on_q ? row : 5'd0))
+  `FV_ASSERT(p104_phs_05_off_until_home, on_q || pattern_o == '0)
+  `FV_COVER(seen_turn_of_five, on_q && motor_i == Motor5 && half_i && index_q == 4'd9)
+  `FV_COVER(seen_back_of_three, on_q && motor_i == Motor3 && !half_i && index_q == 4'd4 && ccw_i)
+
+endmodule
+
+`default_nettype wire

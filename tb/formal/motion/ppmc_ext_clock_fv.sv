@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ext_clock_fv: each edge of the pin once, and what its period is called.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_ext_clock_fv (
+    input wire logic clk_i,
+    input wire logic pin_i
+);
+
+  logic rise_o, fall_o, long_o, brisk_o;
+
+  `FV_RESET
+
+  ppmc_ext_clock #(
+      .LongClk (9),
+      .BriskClk(7)
+  ) dut (
+      .*
+  );
+
+  logic [2:0] pin_q;  // samples of the pin, the newest in bit 0
+  logic [4:0] age_q;  // clk since the last rise, at most 31; 31 before the first
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {pin_q, age_q} <= '1;
+    else begin
+      pin_q <= {pin_q[1:0], pin_i};
+      age_q <= rise_o ? 5'd1 : (age_q == '1) ? '1 : age_q + 1'b1;
+    end
+
+  `FV_ASSERT(p104_bck_04_rise, rise_o == (pin_q[2:1] == 2'b01))
+  `FV_ASSERT(p104_bck_04_fall, fall_o == (pin_q[2:1] == 2'b10))
+  `FV_ASSERT(p104_int_03_long, !rise_o || long_o == (age_q > 5'd9))
+  `FV_ASSERT(p104_tim_05_brisk, !rise_o || brisk_o == (age_q < 5'd7))
+  `FV_COVER(seen_neither, rise_o && !long_o && !brisk_o)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_pulse_shaper_fv: a pulse is low for exactly WidthClk clk unless it is cut, never longer; the set-up
+// time as well.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_pulse_shaper_fv (
+    input wire logic       clk_i,
+    input wire logic       arm_i,
+    input wire logic       pulse_i,
+    input wire logic       full_i,
+    input wire logic       halve_i,
+    input wire logic [7:0] rate_i,
+    input wire logic       cut_i
+);
+
+  localparam int unsigned Clk = 10;  // WidthClk
+  localparam int unsigned Half = 2;  // clk of rate 0
+
+  logic low, up;
+
+  `FV_RESET
+
+  ppmc_pulse_shaper #(
+      .WidthXtal(Clk),
+      .HalfXtal (Half)
+  ) dut (
+      .clk_i,
+      .rst_ni,
+      .arm_i,
+      .pulse_i,
+      .full_i,
+      .halve_i,
+      .rate_i,
+      .cut_i,
+      .low_o(low),
+      .up_o (up)
+  );
+
+  logic [3:0] since_q;  // clk since the pulse or the arming, 15 for more
+  logic pulse_q, full_q, may_q;  // it was a pulse, a full one; something may have ended it
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) {since_q, pulse_q, full_q, may_q} <= {4'd15, 3'b000};
+    else if (pulse_i) {since_q, pulse_q, full_q, may_q} <= {4'd0, 1'b1, full_i, 1'b0};
+    else if (arm_i) {since_q, pulse_q} <= '0;
+    else begin
+      if (since_q != 4'd15) since_q <= since_q + 1'b1;
+      may_q <= may_q || cut_i || halve_i;
+    end
+  end
+
+  // The axis arms at the start of a motion, when no pulse is low.
+  `FV_ASSUME(arm_at_rest, !(arm_i && (pulse_i || low)))
+
+  `FV_ASSERT(low_whole, !(pulse_q && since_q < 4'(Clk) && (full_q || !may_q)) || low)
+  `FV_ASSERT(low_never_longer, !low || (pulse_q && since_q < 4'(Clk)))
+  `FV_ASSERT(low_half, !(pulse_q && since_q == 4'(Half) && !full_q && $past(halve_i && rate_i == '0)) || !low)
+  `FV_ASSERT(up_in_time, since_q == 4'd15 || up == (since_q >= 4'(Clk - 1)))
+
+  `FV_COVER(seen_whole, pulse_q && full_q && may_q && since_q == 4'(Clk) && $past(low))
+  `FV_COVER(seen_cut, pulse_q && !full_q && since_q == 4'(Half) && $past(low) && !low)
+
+endmodule
+
+`default_nettype wire

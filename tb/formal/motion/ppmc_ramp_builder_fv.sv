@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ramp_builder_fv: a build ends within its bound and writes each word of the table once, in order; rates
+// of 2 bits, PA of 3, and passes shortened to 2 clk (stub), which ppmc_ramp_serial_fv makes good for.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_ramp_builder_fv (
+    input wire logic       clk_i,
+    input wire logic       start_i,
+    input wire logic [1:0] slow_i,
+    input wire logic [1:0] fast_i,
+    input wire logic [2:0] steps_i
+);
+
+  // Passes: one to begin, two multiplications by either factor, four a rate.
+  localparam int unsigned Passes = 1 + 2 * (2 + 1) + 2 * (2 + 2) + 4 * 3;
+  localparam int unsigned Bound = Passes * 2 + 6;  // clk
+
+  logic busy_o, we_o;
+  logic [1:0] addr_o;
+  logic [2:0] data_o;
+
+  `FV_RESET
+
+  ppmc_ramp_builder #(
+      .RateBits(2),
+      .StepBits(3)
+  ) dut (
+      .*
+  );
+
+  logic [6:0] age_q;  // clk of the build
+  logic [1:0] next_q;  // address of the coming word
+  logic any_q;  // a word was written
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {age_q, next_q, any_q} <= '0;
+    else if (!busy_o) {age_q, next_q, any_q} <= {7'd0, fast_i + 2'd1, 1'b0};
+    else begin
+      age_q <= age_q + 1'b1;
+      if (we_o) {next_q, any_q} <= {next_q + 1'b1, 1'b1};
+    end
+
+  `FV_ASSUME(legal, fast_i <= slow_i && steps_i != '0)
+  `FV_ASSUME(start_at_rest, !(start_i && busy_o))
+  `FV_ASSUME(stands_while_busy, !busy_o || {slow_i, fast_i, steps_i} == $past({slow_i, fast_i, steps_i}))
+
+  `FV_ASSERT(p104_hsk_04_ends, age_q <= 7'(Bound))
+  `FV_ASSERT(p104_rmp_02_in_order,
+             !we_o || (busy_o && addr_o == next_q && addr_o > fast_i && addr_o <= slow_i))
+  `FV_ASSERT(p104_rmp_02_whole_table, !($past(rst_ni && busy_o) && !busy_o) || $past(slow_i == fast_i)
+             || $past(we_o && addr_o == slow_i))
+  `FV_COVER(seen_three_words, we_o && addr_o == 2'd3 && fast_i == '0 && any_q)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ramp_seq_fv: the number of pulses, the place on the ramp and its rates, for any table and any order of
+// events.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_ramp_seq_fv (
+    input wire logic       clk_i,
+    input wire logic [2:0] slow_i,
+    input wire logic [2:0] fast_i,
+    input wire logic [1:0] steps_i,
+    input wire logic [2:0] lut_data_i,
+    input wire logic       load_i,
+    input wire logic [4:0] count_i,
+    input wire logic       single_i,
+    input wire logic [2:0] rate_i,
+    input wire logic       ramp_i,
+    input wire logic       pulse_i,
+    input wire logic       forced_i
+);
+
+  logic [2:0] lut_addr_o, rate_o;
+  logic seek_o, rising_o, last_o, final_o, top_o, crawl_o, dec_o;
+  logic [4:0] left_o;
+
+  `FV_RESET
+
+  ppmc_ramp_seq #(
+      .CountBits(5),
+      .RateBits (3),
+      .StepBits (3),
+      .LutBits  (3)
+  ) dut (
+      .steps_i({1'b0, steps_i}),
+      .*
+  );
+
+  logic loaded_q, over_q, rated_q;  // a motion; its last pulse was made; its rate stands
+  logic [5:0] due_q;  // pulses still to make
+  logic [1:0] gap_q;  // clk since load or pulse, at most 3
+  logic [2:0] constant_q;
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {loaded_q, over_q, rated_q, due_q, gap_q, constant_q} <= '0;
+    else begin
+      gap_q <= (load_i || pulse_i) ? 2'd1 : (gap_q == 2'd3) ? 2'd3 : gap_q + 1'b1;
+      if (load_i)
+        {loaded_q, over_q, due_q, constant_q} <= {2'b10, single_i ? 6'd1 : {1'b0, count_i} + 6'd1, rate_i};
+      else if (pulse_i) {over_q, due_q} <= {last_o, due_q - 1'b1};
+    end
+
+  logic top_q;
+  always_ff @(posedge clk_i) top_q <= rst_ni && !load_i && (top_q || top_o);
+
+  // The axis: pulses of a motion 3 clk apart, none while a look-up runs, none after the last one.
+  `FV_ASSUME(pulses_apart, !(pulse_i && (load_i || gap_q != 2'd3 || !loaded_q || over_q || seek_o)))
+  `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
+             ({slow_i, fast_i, steps_i}))
+  `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
+  `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
+  `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
+  `FV_ASSUME(forced_stays, !$past(forced_i && loaded_q && !load_i) || forced_i)
+  `FV_ASSUME(no_force_at_the_start, !load_i || !forced_i)
+
+  `FV_ASSERT(p104_opr_02_exact_count, !(loaded_q && !over_q && gap_q == 2'd3) || final_o == (due_q == 6'd1))
+  `FV_ASSERT(p104_rd_07_left, !(loaded_q && !over_q) || left_o == 5'(due_q - 6'd1))
+  `FV_ASSERT(p104_opr_02_never_too_many, !(loaded_q && !over_q) || due_q != '0)
+  `FV_ASSERT(p104_fdc_03_last_by_count_or_force,
+             !(pulse_i && last_o) || due_q == 6'd1 || (forced_i && ramp_i) || !ramp_i)
+  `FV_ASSERT(p104_int_01_constant_rate,
+             !(loaded_q && !over_q && !load_i && !ramp_i && gap_q == 2'd3) || rate_o == constant_q)
+  `FV_COVER(seen_plateau_and_down,
+            loaded_q && pulse_i && last_o && final_o && dec_o && steps_i == 2'd2 && ramp_i && top_q)
+
+endmodule
+
+`default_nettype wire

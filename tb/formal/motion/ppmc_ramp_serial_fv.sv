@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ramp_serial_fv: a pass takes two clk more than it has words, whatever it is; the word that is written is never
+// the one being read.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_ramp_serial_fv
+  import ppmc_ramp_pkg::*;
+(
+    input wire logic       clk_i,
+    input wire logic       start_i,
+    input wire logic [2:0] code_i,
+    input wire logic       mul_i,
+    input wire logic       keep_i,
+    input wire logic [2:0] steps_i,
+    input wire logic [3:0] first_i,
+    input wire logic [3:0] second_i
+);
+
+  localparam int unsigned Share = 3 + 2 * 3;
+  localparam int unsigned Bits = Share + 2 * 4;
+
+  pass_e next_i, pass_i;
+  logic bit_o, last_o;
+
+  assign next_i = pass_e'(code_i);
+
+  `FV_RESET
+
+  ppmc_ramp_serial #(
+      .StepBits(3),
+      .RateBits(3)
+  ) dut (
+      .*
+  );
+
+  logic run_q, again_q;  // a pass; one has ended
+  logic [4:0] age_q, words;  // clk of it; words that it has
+
+  always_comb begin
+    unique case (pass_i)
+      PassSquare: words = 5'(Bits + 2);
+      PassShare:  words = 5'(Share + 2);
+      PassLess:   words = 5'(Share + 2);
+      PassTell:   words = 5'd3;
+      default:    words = 5'(Bits);
+    endcase
+  end
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {run_q, again_q, age_q, pass_i} <= '0;
+    else begin
+      age_q   <= age_q + 1'b1;
+      again_q <= again_q || (run_q && last_o);
+      if (start_i) {run_q, age_q, pass_i} <= {1'b1, 5'd0, next_i};
+      else if (last_o) run_q <= 1'b0;
+    end
+
+  `FV_ASSUME(one_at_a_time, !(start_i && run_q && !last_o))
+
+  `FV_ASSERT(p104_rmp_04_length, !(run_q && last_o) || age_q == words + 5'd1)
+  `FV_ASSERT(ends, !run_q || age_q <= words + 5'd1)
+  `FV_ASSERT(nothing_between_passes, run_q || !last_o)
+  `FV_ASSERT(no_word_read_and_written, !(dut.use_q && dut.run_q && dut.read_at_q == dut.at))
+  `FV_COVER(seen_division_behind_another_pass, run_q && last_o && again_q && pass_i == PassSquare)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_bridge_fv: both high sides are never on together, and never one right behind the other; off and
+// blanking times.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module pmc006_bridge_fv (
+    input wire logic       clk_i,
+    input wire logic       on_i,
+    input wire logic [7:0] ref_i,
+    input wire logic       sign_i,
+    input wire logic       cmp_i
+);
+
+  localparam int unsigned Off = 7, Blank = 3, Fast = 5;  // clk
+
+  logic pwm_o, en_o, high0_o, high1_o, high;
+
+  `FV_RESET
+
+  pmc006_bridge #(
+      .OffClk  (Off),
+      .BlankClk(Blank),
+      .FastClk (Fast)
+  ) dut (
+      .*
+  );
+
+  assign high = high0_o || high1_o;
+
+  logic [3:0] off_q, on_q;  // clk that both have been low; that one has been high; at most 15
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {off_q, on_q} <= '0;
+    else begin
+      off_q <= high ? '0 : (off_q == '1) ? '1 : off_q + 1'b1;
+      on_q  <= !high ? '0 : (on_q == '1) ? '1 : on_q + 1'b1;
+    end
+
+  logic drove_q;  // there was an ON
+  always_ff @(posedge clk_i) drove_q <= rst_ni && (drove_q || dut.state_q == 1);
+
+  `FV_ASSERT(p006_chp_01_never_both, !(high0_o && high1_o))
+  `FV_ASSERT(p006_chp_01_not_one_behind_the_other, !((high0_o && $past(high1_o)) || (high1_o && $past
+             (high0_o))))
+  `FV_ASSERT(p006_chp_03_off_time, !(high && $past(rst_ni && !high)) || off_q >= 4'(Off))
+  `FV_ASSERT(p006_chp_04_blanking, !($past(rst_ni && high) && !high) || on_q >= 4'(Blank) || $past
+             (!on_i || !en_o || sign_i != dut.sign_q))
+  `FV_ASSERT(off_at_once, !$past(rst_ni && !on_i) || (!high && !en_o))
+  `FV_ASSERT(p006_chp_06_sign_switches_off, !($past(rst_ni && sign_i != dut.sign_q)) || !high)
+  `FV_COVER(seen_fast_decay, high && dut.state_q == 2 && on_q == 4'(Blank))
+  `FV_COVER(seen_slow_decay, !high && off_q == 4'(Off) && drove_q)
+
+endmodule
+
+`default_nettype wire

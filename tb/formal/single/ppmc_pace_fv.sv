@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_pace_fv: with the old chip's times each action takes effect once, in its order, and the mailbox opens
+// again; times shortened to 1/64 by the ratio of the clocks.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_pace_fv
+  import ppmc_code_pkg::*;
+(
+    input wire logic       clk_i,
+    input wire logic [3:0] what_i,
+    input wire logic [7:0] code_i
+);
+
+  localparam int unsigned Longest = 200;  // clk of a command that is not an initialisation
+
+  action_t act_i, act_o;
+  logic [ 7:0] code_o;
+  logic [31:0] params_o;
+  logic [ 2:0] base_o;
+  logic open_o, home_o, ready_o, go_o, linger_o;
+
+  `FV_RESET
+
+  ppmc_pace #(
+      .Datasheet(1'b1),
+      .ClkHz    (1_000_000),
+      .XtalHz   (3_000_000)
+  ) dut (
+      .params_i     (32'd0),
+      .code_held_i  (8'd0),
+      .params_held_i(32'd0),
+      .base_i       (3'd0),
+      .initialised_i(1'b1),
+      .building_i   (1'b0),
+      .steps_i      (14'd4),
+      .ramp_i       (1'b1),
+      .single_i     (1'b0),
+      .stop_i       (1'b0),
+      .pulse_i      (1'b0),
+      .last_i       (1'b0),
+      .final_i      (1'b0),
+      .*
+  );
+
+  // One action at most, while the mailbox is open; no initialisation, which takes long.
+  always_comb begin
+    act_i = '0;
+    if (open_o && rst_ni) begin
+      unique case (what_i)
+        4'd1: act_i.decel = 1'b1;
+        4'd2: act_i.exc_off = 1'b1;
+        4'd3: act_i.aux_on = 1'b1;
+        4'd4: act_i.aux_off = 1'b1;
+        4'd5: act_i.aux_out = 1'b1;
+        4'd6: act_i.read = 1'b1;
+        4'd7: act_i.switching = 1'b1;
+        default: ;
+      endcase
+    end
+  end
+
+  logic wait_q;  // an action has been asked for and not taken effect
+  action_t asked_q;
+  logic [7:0] age_q;  // clk since then
+  action_t at_once;
+  always_comb begin
+    at_once           = '0;
+    at_once.read      = act_i.read;
+    at_once.switching = act_i.switching;
+  end
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {wait_q, asked_q, age_q} <= '0;
+    else begin
+      age_q <= age_q + 1'b1;
+      if ((act_i & ~at_once) != '0) {wait_q, asked_q, age_q} <= {1'b1, act_i, 8'd0};
+      else if (act_o != '0) wait_q <= 1'b0;
+    end
+
+  `FV_ASSERT(at_once_or_later, act_o == at_once || (wait_q && act_o == asked_q))
+  `FV_ASSERT(in_time, !wait_q || age_q <= 8'(Longest))
+  `FV_ASSERT(p104_ds_01_closed_meanwhile, !(wait_q && open_o))
+  `FV_ASSERT(p104_ds_01_opens_again, wait_q || open_o)
+  `FV_COVER(seen_delayed, act_o.exc_off && wait_q)
+
+endmodule
+
+`default_nettype wire

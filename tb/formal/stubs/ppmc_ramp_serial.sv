@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ramp_serial, a stand-in for the proof of ppmc_ramp_builder: passes of two clk, all sums zero. How long a pass
+// of the real one takes says ppmc_ramp_serial_fv.
+`default_nettype none
+
+module ppmc_ramp_serial
+  import ppmc_ramp_pkg::*;
+#(
+    parameter  int unsigned StepBits = 14,
+    parameter  int unsigned RateBits = 8,
+    localparam int unsigned Width    = RateBits + 1
+) (
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
+    input  wire logic                 start_i,
+    input  wire pass_e                next_i,
+    input  wire pass_e                pass_i,
+    input  wire logic                 mul_i,
+    input  wire logic                 keep_i,
+    input  wire logic  [StepBits-1:0] steps_i,
+    input  wire logic  [   Width-1:0] first_i,
+    input  wire logic  [   Width-1:0] second_i,
+    output logic                      bit_o,
+    output logic                      last_o
+);
+
+  logic run_q;
+
+  assign bit_o = 1'b0;
+
+  always_ff @(posedge clk_i or negedge rst_ni)
+    if (!rst_ni) {last_o, run_q} <= '0;
+    else {last_o, run_q} <= {run_q, start_i};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,134 @@
+"""The table of proofs against the tree: wrappers, rules, what breaks them; mistakes of a user in one line.
+
+The proofs themselves are run by `make prove`: they need yosys, which `make test` does without.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import RTL, ProjectError
+from scripts.prove import engine
+from scripts.prove.results import by_rule
+from scripts.prove.table import FORMAL, Proof, chosen, proofs
+
+EVERY = list(proofs())
+ROOMS = ("common", "host", "motion", "single", "bank")
+OPEN = {
+    "bank": {"ppmc_bank", "ppmc_bank_carrier", "ppmc_bank_engine"},
+}
+"""Blocks without a proof of their own: wholes made of proved blocks, and those that wait for one."""
+ELSEWHERE = {
+    "ppmc_axis": "ppmc_axis_stop",
+    "ppmc_bank_plan": "ppmc_bank_step",
+    "ppmc_timer": "ppmc_delay",
+}
+"""Blocks that are proved under another name."""
+each = pytest.mark.parametrize("proof", EVERY, ids=lambda proof: proof.name)
+
+
+@each
+def test_a_proof_fits_the_tree(proof: Proof) -> None:
+    """Wrapper and block are there, its labels stand in the wrapper, what breaks it stands in the RTL."""
+    text = proof.file.read_text(encoding="utf-8")
+    assert f"module {proof.file.stem}" in text and re.search(rf"\b{proof.block}\b", text)
+    assert list(RTL.rglob(f"{proof.block}.sv"))
+    assert all(label.startswith("dut.") or label in text for label in proof.only)
+    assert all((FORMAL / stub).is_file() for stub in proof.stubs)
+    assert proof.says and proof.cover and bool(proof.bound) == bool(proof.why)
+    assert proof.broken() != (ROOT / proof.breaks["file"]).read_text(encoding="utf-8")
+    assert ROOT / proof.breaks["file"] in proof.sources() or proof.stubs
+    assumed = set(re.findall(r"`FV_ASSUME\(\s*(\w+)", text))
+    assert set(proof.assumes) == assumed
+
+
+def test_every_wrapper_has_an_entry() -> None:
+    """Each file of tb/formal is used, each name once, and each assumption is told of."""
+    names = [one.name for one in EVERY]
+    assert len(names) == len(set(names))
+    stubs = {FORMAL / stub for one in EVERY for stub in one.stubs}
+    assert set(FORMAL.rglob("*.sv")) == {one.file for one in EVERY} | stubs
+
+
+def test_every_block_has_a_proof() -> None:
+    """Each block of the shared rooms is proved, or listed above."""
+    proved = {one.block for one in EVERY} | set(ELSEWHERE)
+    for room in ROOMS:
+        blocks = {path.stem for path in (RTL / room).glob("*.sv") if not path.stem.endswith("_pkg")}
+        assert blocks - proved == OPEN.get(room, set()), room
+
+
+def test_rules_are_known() -> None:
+    """Each rule that a proof names is a row of a page of docs/."""
+    pages = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md"))
+    assert [rule for rule in by_rule() if not re.search(rf"^\| *`?{rule}`? *\|", pages, re.M)] == []
+
+
+def test_names_choose() -> None:
+    """A whole name is that proof alone, a word all that hold it, no word the quick ones; else one line."""
+    assert [one.name for one in chosen(["ppmc_sync"], night=False)] == ["ppmc_sync"]
+    assert {one.name for one in chosen(["ppmc_axis_"], night=False)} > {"ppmc_axis_stop"}
+    assert chosen([], night=True) == EVERY
+    assert chosen([], night=False) == [one for one in EVERY if not one.night]
+    with pytest.raises(ProjectError, match=r"T=nosuch: no such proof \(known: "):
+        chosen(["ppmc_sync", "nosuch"], night=False)
+
+
+def test_unknown_proof_in_one_line() -> None:
+    """Given a name that is none, then the command ends with 1 or 2 and one line."""
+    done = subprocess.run(
+        [sys.executable, "-m", "scripts.prove", "nosuch"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    said = (done.stdout + done.stderr).strip()
+    assert done.returncode and "T=nosuch: no such proof" in said and said.count("\n") == 0
+
+
+def test_missing_tool_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Given no pyosys, then a line that says what to do."""
+    monkeypatch.setattr(engine, "find_spec", lambda name: None)
+    with pytest.raises(ProjectError, match="yosys-abc: not there.*make setup"):
+        engine.abc()
+
+
+def test_what_abc_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its words become proved, failed with output and clk, or open: never proved by mistake."""
+    answers: list[str] = []
+    monkeypatch.setattr(engine, "ask", lambda folder, what, script: answers.pop(0) if answers else "")
+    here = Path(".")
+    answers[:] = ["Property proved.  Time =     0.25 sec"]
+    assert engine.prove(here, 0, 10) == (engine.PROVED, {})
+    undecided = "Reached timeout (5 seconds) in frame 9.\nProperty UNDECIDED."
+    answers[:] = 3 * [undecided]
+    assert engine.prove(here, 0, 10) == (engine.OPEN, {})
+    answers[:] = [undecided, "Property proved."]
+    assert engine.prove(here, 0, 10) == (engine.PROVED, {})
+    answers[:] = [
+        'Output 0 of miter "x" was asserted in frame 7.',
+        'Output 3 of miter "x" was asserted in frame 7.',
+    ]
+    assert engine.prove(here, 0, 10) == (engine.FAILED, {3: 7})
+    answers[:] = ["No output asserted in 40 frames. Resource limit reached (conf limit 0)."]
+    assert engine.prove(here, 40, 10) == (engine.PROVED, {})
+    answers[:] = ["No output asserted in 13 frames. Resource limit reached (timeout 10 sec)."]
+    assert engine.prove(here, 40, 10) == (engine.OPEN, {})
+    answers[:] = ["Output 1 was asserted in frame  5 (solved 1 out of 2 outputs)."]
+    assert engine.covered(here, 40, 10) == {1: 5}
+    answers[:] = [""]
+    assert engine.prove(here, 0, 10) == (engine.OPEN, {})
+
+
+def test_a_witness_gets_the_registers_back_that_the_search_has_thrown_away(tmp_path: Path) -> None:
+    (tmp_path / "prove.aig").write_bytes(b"aig 9 2 5 0 2 1\n")
+    (tmp_path / "prove.aiw").write_text("000\n01\n11")
+    engine.fill(tmp_path)
+    assert (tmp_path / "prove.aiw").read_text() == "00000\n01\n11"
