@@ -1,7 +1,9 @@
 """`make test-gates`: the part's tests on the netlists of both FPGA families, and the board top's by its UART.
+`make test-verilog` (--plain): the same tests on plain Verilog, as `make verilog` writes it.
 
-First the netlists and simulators that the chosen tests need are built, then the tests run, J at a time. At
-the end a table says what each netlist passed. Exit code 0 only if all chosen tests ran and passed.
+First the netlists and simulators that the chosen tests need are built, then the tests run, J at a time, as a
+campaign (`scripts.campaign`): after an interruption the next run does what is left. At the end a table says
+what each netlist passed. Exit code 0 only if all chosen tests ran and passed.
 """
 
 from __future__ import annotations
@@ -12,18 +14,20 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 
 from rich import box
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from cocotb_tests.harness import project
+from cocotb_tests.harness import icarus, project
 from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.runner import SimOptions, attempt
+from cocotb_tests.harness.verilate import ICARUS, sim_main
+from scripts.campaign.cluster import Workers, add_arguments, workers_of
+from scripts.campaign.jobs import Campaign, Done, Job, Result
+from scripts.campaign.run import run
+from scripts.flow import gates, plain
 from scripts.flow.gate_suite import GateTest, chosen, everything, left_out
-from scripts.pool import as_done
 
 # A failing test runs again with waves, which needs another build: only when few tests were asked for.
 WAVES_UP_TO = 20
@@ -31,19 +35,9 @@ WAVES_UP_TO = 20
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What a job took in s, of the clock and of all processors, and the message of a failure."""
-
-    test: GateTest
-    message: str
-    wall: float
-    cpu: float
-
-
 @dataclass
 class Row:
-    """One netlist in the table."""
+    """One netlist in the table; `old` tests passed in an earlier run on the same sources."""
 
     tests: int = 0
     passed: int = 0
@@ -51,17 +45,19 @@ class Row:
     build: float = 0.0
     run: float = 0.0
     cpu: float = 0.0
+    old: int = 0
 
 
-def _measured(test: GateTest, work: Callable[[], str]) -> Outcome:
+def _measured(work: Callable[[], str]) -> Result:
+    """A result with the message of a failure, and s of the clock and of all processors."""
     begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     message = work()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return Outcome(test, message, time.monotonic() - begin, cpu)
+    return Result(not message, {"message": message, "wall": time.monotonic() - begin, "cpu": cpu})
 
 
-def build_one(test: GateTest) -> Outcome:
+def build_one(test: GateTest) -> Result:
     """Make netlist and simulator of this test's row."""
 
     def work() -> str:
@@ -71,61 +67,77 @@ def build_one(test: GateTest) -> Outcome:
             return str(error)
         return ""
 
-    return _measured(test, work)
+    return _measured(work)
 
 
-def run_one(options: SimOptions, test: GateTest) -> Outcome:
-    """Run one test."""
+def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
+    """Run one test: with this seed of simulations, and with waves if it fails."""
+    test, seed, waves = what
 
     def work() -> str:
         try:
-            return attempt(test.item, options, LIMIT, test.design())
+            return attempt(test.item, SimOptions(seed=seed, waves_on_failure=waves), LIMIT, test.design())
         except ProjectError as error:
             return str(error)
 
-    return _measured(test, work)
+    return _measured(work)
 
 
-def run_all(tests: Sequence[GateTest], options: SimOptions, workers: int) -> dict[tuple[str, str], Row]:
-    """Build, then run; a netlist that cannot be built fails all its tests. Failures are printed at once."""
+def _named(campaign: str) -> str:
+    """Results of one main program or simulator say nothing of another."""
+    return campaign if sim_main() == "own" else f"{campaign}-{sim_main()}"
+
+
+def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], workers: Workers) -> None:
+    """Build each row's netlist; one that cannot be built fails all its tests."""
+    first = {" ".join(test.group): test for test in reversed(tests)}
+    jobs = [Job(name, test) for name, test in first.items()]
+    # What is built is on disk, and an earlier result says nothing of that.
+    for done in run(
+        Campaign(_named("gates-build"), build_one, jobs, len(jobs), "building netlists"), workers, True
+    ):
+        row = rows[first[done.key].group]
+        row.build, row.cpu = done.data.get("wall", 0.0), done.data.get("cpu", 0.0)
+        if done.good:
+            if not console.is_terminal:
+                console.print(f"built: {done.key} in {row.build:.0f} s")
+            continue
+        row.failed = [test.item.id for test in tests if test.group == first[done.key].group]
+        console.print(done.data["message"], markup=False)
+
+
+def run_all(
+    tests: Sequence[GateTest], seed: int | None, workers: Workers, fresh: bool = False
+) -> dict[tuple[str, str], Row]:
+    """Build, then run. Failures are printed at once."""
     rows: dict[tuple[str, str], Row] = {}
     for test in tests:
         rows.setdefault(test.group, Row()).tests += 1
-    first = {test.group: test for test in reversed(tests)}
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        task = progress.add_task("building netlists", total=len(first))
-        broken = set()
-        for outcome in as_done(build_one, list(first.values()), workers):
-            row = rows[outcome.test.group]
-            row.build, row.cpu = outcome.wall, outcome.cpu
-            progress.advance(task)
-            if outcome.message:
-                broken.add(outcome.test.group)
-                row.failed = [test.item.id for test in tests if test.group == outcome.test.group]
-                console.print(outcome.message, markup=False)
-            elif not console.is_terminal:
-                console.print(f"built: {' '.join(outcome.test.group)} in {outcome.wall:.0f} s")
-        todo = [test for test in tests if test.group not in broken]
-        task = progress.add_task("running tests", total=len(todo))
-        for outcome in as_done(partial(run_one, options), todo, workers):
-            row = rows[outcome.test.group]
-            row.run += outcome.wall
-            row.cpu += outcome.cpu
-            progress.advance(task)
-            if outcome.message:
-                row.failed.append(outcome.test.item.id)
-                console.print(outcome.message, markup=False)
-            else:
-                row.passed += 1
-            if not console.is_terminal and row.passed + len(row.failed) == row.tests:
-                console.print(f"done: {' '.join(outcome.test.group)}: {row.passed} of {row.tests} passed")
+    build_all(tests, rows, workers)
+    todo = {f"{test.item.id} {seed}": test for test in tests if not rows[test.group].failed}
+    waves = len(tests) <= WAVES_UP_TO
+    jobs = [Job(key, (test, seed, waves)) for key, test in todo.items()]
+    for done in run(Campaign(_named("gates"), run_one, jobs, len(jobs), "running tests"), workers, fresh):
+        _add(rows[todo[done.key].group], todo[done.key], done)
     return rows
 
 
-def table(rows: dict[tuple[str, str], Row]) -> Table:
+def _add(row: Row, test: GateTest, done: Done) -> None:
+    row.run += done.data.get("wall", 0.0)
+    row.cpu += done.data.get("cpu", 0.0)
+    row.old += done.old
+    if done.good:
+        row.passed += 1
+    else:
+        row.failed.append(test.item.id)
+        console.print(done.data["message"], markup=False)
+    if not console.is_terminal and row.passed + len(row.failed) == row.tests:
+        console.print(f"done: {' '.join(test.group)}: {row.passed} of {row.tests} passed")
+
+
+def table(rows: dict[tuple[str, str], Row], title: str = "gate-level tests") -> Table:
     """Family x configuration, and the sum."""
-    shown = Table(title="gate-level tests", title_justify="left", box=box.SIMPLE_HEAD)
+    shown = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD)
     for head in ("family", "configuration"):
         shown.add_column(head)
     for head in ("tests", "passed", "failed", "build / s", "run / s", "CPU / s"):
@@ -153,10 +165,11 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m scripts.gates", description=(__doc__ or "").split("\n")[0]
     )
-    parser.add_argument("-n", type=int, default=2, help="worker processes (default %(default)s)")
+    add_arguments(parser)
     parser.add_argument(
         "-k", metavar="T", help="only tests whose name holds T; quick: the sample that CI runs"
     )
+    parser.add_argument("--plain", action="store_true", help="plain Verilog instead of netlists")
     parser.add_argument("--seed", type=int, help="seed of all simulations; of the random hosts only this one")
     return parser.parse_args()
 
@@ -164,25 +177,34 @@ def arguments() -> argparse.Namespace:
 def main() -> int:
     """Entry point."""
     args = arguments()
-    if args.n < 1:
-        raise ProjectError("-n must be 1 or more")
-    tests = chosen(everything(args.seed), args.k)
+    try:
+        four_state = sim_main() == ICARUS
+    except ValueError as error:
+        raise ProjectError(str(error)) from None
+    if four_state and not icarus.installed():
+        console.print(f"skipped: {icarus.INSTALL}")
+        return 0
+    workers = workers_of(args)
+    families = (plain.FAMILY,) if args.plain else gates.FAMILIES
+    what = "tests on plain Verilog" if args.plain else "gate-level tests"
+    tests = chosen(everything(args.seed, families), args.k, four_state)
     if not tests:
-        raise ProjectError(f"no gate-level test matches T={args.k}")
+        raise ProjectError(f"{what}: none matches T={args.k}")
     reasons = left_out()
     begin = time.monotonic()
-    options = SimOptions(seed=args.seed, waves_on_failure=len(tests) <= WAVES_UP_TO)
-    rows = run_all(tests, options, args.n)
-    console.print(table(rows))
+    rows = run_all(tests, args.seed, workers, args.fresh)
+    console.print(table(rows, what))
     if args.k is None:
         for name, reason in reasons.items():
             console.print(f"not applicable to a netlist: {name} ({reason})")
     failed = [name for row in rows.values() for name in row.failed]
     passed = sum(row.passed for row in rows.values())
     console.print(
-        f"{passed} of {len(tests)} gate-level tests passed in {time.monotonic() - begin:.0f} s "
+        f"{passed} of {len(tests)} {what} passed in {time.monotonic() - begin:.0f} s "
         "(times in the table are sums over the workers)"
     )
+    if old := sum(row.old for row in rows.values()):
+        console.print(f"{old} of them in an earlier run on the same sources (FRESH=1 runs them again)")
     for name in failed[:10]:
         console.print(f"  failed: {name}", markup=False)
     if len(failed) > 10:

@@ -1,92 +1,100 @@
-"""`make soak SEED= COUNT=`: random hosts without end, each against the golden model, edge by edge.
+"""`make soak PART= SEED= COUNT=`: random hosts, as many as you like, each against the golden model.
 
-What a seed is, each part says in its column `soak` of the table of parts.
-Seeds S, S+1, … S+N-1 run on J worker processes. A failure does not stop the rest; at the end the failing
-seeds are listed with the line that repeats each. Exit code 1 if any failed.
+What a seed is, each part says in its column `soak` of the table of parts; PART=all are all of them, one part
+after the other. The seeds are one campaign (`scripts.campaign`), in blocks: what has passed is taken over
+when the same part is asked for again on the same sources, with more seeds or after an interruption. A failure
+does not stop the rest; at the end the failing seeds are listed with the line that repeats each. Exit code 1
+if any failed.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 from typing import Protocol
 
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
-
 from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.project import run as guarded
+from cocotb_tests.harness.soaking import Played
+from cocotb_tests.harness.tally import Counter, in_words
 from openppmc import parts
-from scripts.pool import as_done
+from scripts.campaign.cluster import Workers, add_arguments, workers_of
+from scripts.campaign.jobs import Campaign, Job, Result
+from scripts.campaign.run import run
+
+ALL = "all"
+BLOCK, LARGE_BLOCK = 25, 250
+"""Seeds in a job, and from LARGE seeds on: more of one build in a simulation, and fewer rows on file."""
+LARGE = 10_000
 
 
-class Campaign(Protocol):
+class Hosts(Protocol):
     """What a part has in its column `soak`: `RandomItems`, or what does more with a seed."""
 
-    def one(self, seed: int) -> tuple[int, str, str]:
-        """Run one seed in this process; returns (seed, test id, message or "")."""
-        ...
-
-    def summary(self, first: int, count: int) -> str:
-        """What has been done when all seeds have passed."""
+    def some(self, seeds: Sequence[int]) -> Played:
+        """Play these seeds in this process."""
         ...
 
 
-def campaign(part_name: str) -> Campaign:
-    """That of a part; ProjectError if it has none."""
-    known = [row.name for row in parts.having("soak")]
-    if part_name not in known:
-        raise ProjectError(f"PART={part_name}: no random hosts of it (there are of {', '.join(known)})")
-    found: Campaign = parts.part(part_name).load("soak")
+def hosts(part: str) -> Hosts:
+    """Those of a part; ProjectError if it has none."""
+    known = names()
+    if part not in known:
+        raise ProjectError(f"PART={part}: no random hosts of it (there are of {', '.join(known)}, {ALL})")
+    found: Hosts = parts.part(part).load("soak")
     return found
 
 
-def one(part_name: str, seed: int) -> tuple[int, str, str]:
-    """Run one seed in this process, which may be a new one; returns (seed, test id, message or "")."""
-    return campaign(part_name).one(seed)
+def names() -> list[str]:
+    """The parts with random hosts."""
+    return [row.name for row in parts.having("soak")]
 
 
-def soak(part_name: str, first: int, count: int, jobs: int) -> int:
-    """Run the seeds with a progress bar; returns the exit code."""
-    failures: list[tuple[int, str]] = []
-    done = 0
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("[red]{task.fields[bad]}"),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console) as progress:
-        task = progress.add_task(f"{part_name} seeds {first}…{first + count - 1}", total=count, bad="")
-        try:
-            seeds = range(first, first + count)
-            for seed, name, message in as_done(partial(one, part_name), seeds, jobs):
-                done += 1
-                if message:
-                    failures.append((seed, name))
-                    console.print(f"[red]seed {seed} failed[/red]")
-                    console.print(message, markup=False)
-                bad = f"{len(failures)} failed" if failures else ""
-                progress.update(task, advance=1, bad=bad)
-        except KeyboardInterrupt:
-            console.print("stopped by the keyboard")
+def some(what: tuple[str, int, int]) -> Result:
+    """Play a block of seeds: part, first seed, how many."""
+    part, first, count = what
+    played = hosts(part).some(range(first, first + count))
+    return Result(not played.failures, {"failures": played.failures, "compared": dict(played.compared)})
+
+
+def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
+    """(first seed, how many) of each job; where blocks begin does not depend on `first` and `count`."""
+    size, end = (LARGE_BLOCK if count >= LARGE else BLOCK), first + count
+    while first < end:
+        last = min(end, (first // size + 1) * size)
+        yield first, last - first
+        first = last
+
+
+def soak(part: str, first: int, count: int, workers: Workers, fresh: bool = False) -> int:
+    """Play the seeds of a part; returns the exit code."""
+    every = list(blocks(first, count))
+    jobs = [Job(f"{begin}+{size}", (part, begin, size)) for begin, size in every]
+    title = f"{part}, seeds {first}…{first + count - 1} in blocks"
+    failures: list[Sequence[str]] = []
+    compared: Counter[str] = Counter()
+    ended = old = 0
+    for done in run(Campaign(f"soak-{part}", some, jobs, len(jobs), title), workers, fresh):
+        ended += 1
+        old += int(done.key.partition("+")[2]) if done.old else 0
+        compared.update(done.data.get("compared", {}))
+        for seed, _, message in done.data.get("failures", ()):
+            console.print(f"[red]seed {seed} failed[/red]")
+            console.print(message, markup=False)
+        failures += done.data.get("failures", ())
+        if lost := done.data.get("message"):
+            failures.append((done.key, "", lost))
+    if old:
+        console.print(f"{old} of them in earlier runs on the same sources (FRESH=1 plays them again)")
     if failures:
-        console.print(f"[red]{len(failures)} of {done} seeds failed[/red]; to repeat one:")
-        for seed, name in sorted(failures):
-            console.print(f"  make test T={name} SEED={seed}", markup=False)
+        console.print(f"[red]{len(failures)} of {count} seeds of {part} failed[/red]; to repeat one:")
+        for seed, name, _ in sorted(failures):
+            line = f"make test T={name} SEED={seed}" if name else f"block {seed} ended its workers"
+            console.print(f"  {line}", markup=False)
         return 1
-    console.print(f"{done} seeds passed: {campaign(part_name).summary(first, done)}")
-    return 0 if done == count else 130
+    console.print(f"{part}: {in_words(compared)}, all as in the golden model")
+    return 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -96,18 +104,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("part", nargs="?", default="ppmc104")
     parser.add_argument("--seed", type=int, default=1, help="first seed (default 1)")
-    parser.add_argument("--count", type=int, default=1000, help="number of seeds (default 1000)")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2, help="worker processes")
+    parser.add_argument(
+        "--count", type=int, default=1000, help="number of seeds, of each part (default 1000)"
+    )
+    add_arguments(parser)
     given = parser.parse_args(arguments)
-    try:
-        campaign(given.part)
-        if given.count < 1 or given.jobs < 1:
-            raise ProjectError("--count and --jobs must be 1 or more")
-    except ProjectError as error:
-        console.print(f"error: {error}", markup=False)
-        return 2
-    return soak(given.part, given.seed, given.count, given.jobs)
+    if given.count < 1 or given.seed < 0:
+        raise ProjectError("--count must be 1 or more, --seed 0 or more")
+    chosen = names() if given.part == ALL else [given.part]
+    for part in chosen:
+        hosts(part)
+    workers = workers_of(given)
+    return max([soak(part, given.seed, given.count, workers, given.fresh) for part in chosen])
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded(main))

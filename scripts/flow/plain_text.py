@@ -1,0 +1,280 @@
+"""Makes what yosys' `write_verilog` writes readable: names, comments of the sources, ports in the module's
+head, expressions in place of numbered wires, equal modules once. Text in, text out; the logic stays as it is.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+WIDTH = 110  # of a line, and of an expression that numbered wires are put into
+_MODULE = re.compile(r"^module (\\\S+|\w+) ?\((.*?)\);\n(.*?)^endmodule$", re.S | re.M)
+_DECLARED = re.compile(
+    r"^  (?P<kind>input|output|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
+)
+_ESCAPED = re.compile(r"\\(\S+) ")
+_NUMBERED = re.compile(r"\b_\d+_\b")
+_ASSIGN = re.compile(r"^  assign (_\d+_) = (.*);$")
+_BIT = re.compile(r"^  assign (_\d+_)\[(\d+)\] = (.*);$")
+_CLEAR = re.compile(r"^    (\w+)\[\d+\] = ([^;]*);$")
+_INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # never negative
+_ATOM = r"(?:\w+(?:\[[^\]]*\])?|\d+'h[0-9a-f]+)"
+_OPERAND = rf"(?:{_ATOM}|\{{[^{{}}]*\}}|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))"
+# Their value is the same wherever they stand, whatever the width around them: one bit, of operands that have
+# a width of their own; a choice, both sides of which are as wide as it.
+_ANYWHERE = re.compile(
+    rf"(?:! |~\| |[|&^] ){_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}"
+    rf"|{_OPERAND} \? {_OPERAND} : {_OPERAND}"
+)
+
+
+@dataclass
+class Module:
+    """One module: its name as yosys has it, ports in order, declarations (line without `;`), other lines."""
+
+    name: str
+    ports: list[str]
+    declared: dict[str, re.Match[str]] = field(default_factory=dict)
+    register: set[str] = field(default_factory=set)
+    lines: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Source:
+    """What the source of a module says: its first comment, and those beside its ports and signals."""
+
+    head: tuple[str, ...]
+    beside: Mapping[str, str]
+
+
+def source(text: str) -> Source:
+    """The comments of a SystemVerilog file of this project."""
+    lines = text.splitlines()
+    head = []
+    for line in lines[1:]:
+        if not line.startswith("//"):
+            break
+        head.append(line)
+    beside = {}
+    for line in lines:
+        if match := re.match(
+            r"^ +(?:input|output|inout|logic|\w+_t)\b[^=/]*?(\w+) *[,;]? *// *(\S.*)$", line
+        ):
+            beside.setdefault(match[1], match[2])
+    return Source(tuple(head), beside)
+
+
+def _plain_names(text: str) -> str:
+    """Escaped names of signals as plain ones: `\\a.b[3] ` is a_b_3, with another _ where that is taken."""
+    taken = set(re.findall(r"\b\w+\b", _ESCAPED.sub(" ", text)))
+    names: dict[str, str] = {}
+
+    def plain(match: re.Match[str]) -> str:
+        if match[1] not in names:
+            name = re.sub(r"\W+", "_", match[1]).strip("_")
+            while name in taken:
+                name += "_"
+            taken.add(name)
+            names[match[1]] = name
+        return names[match[1]]
+
+    return _ESCAPED.sub(plain, text)
+
+
+def _parse(name: str, ports: str, body: str) -> Module:
+    module = Module(name, [port.strip() for port in ports.replace("\n", "").split(",")])
+    for line in body.splitlines():
+        match = _DECLARED.match(line)
+        if not match:
+            module.lines.append(line)
+            continue
+        if match["kind"] == "reg":
+            module.register.add(match["name"])
+        if match["name"] not in module.declared or match["kind"] not in ("wire", "reg"):
+            module.declared[match["name"]] = match
+    return module
+
+
+def _gather_bits(module: Module) -> None:
+    """One assignment of all bits in place of one a bit, for numbered wires."""
+    bits: dict[str, dict[int, int]] = {}
+    for number, line in enumerate(module.lines):
+        if match := _BIT.match(line):
+            bits.setdefault(match[1], {})[int(match[2])] = number
+    for name, at in bits.items():
+        high = re.match(r" \[(\d+):0\]$", module.declared[name]["range"] or "")
+        values = [_BIT.match(module.lines[at[bit]])[3] for bit in sorted(at, reverse=True)]  # type: ignore[index]
+        if high and len(at) == int(high[1]) + 1 and all(map(_one_bit, values)):
+            for number in at.values():
+                module.lines[number] = ""
+            module.lines[min(at.values())] = f"  assign {name} = {{ {', '.join(values)} }};"
+    module.lines = [line for line in module.lines if line]
+
+
+def _one_bit(value: str) -> bool:
+    return bool(
+        re.fullmatch(
+            rf"(?:!|~?\||[&^]) {_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}",
+            value,
+        )
+        or re.fullmatch(r"1'h[01]|\w+\[\d+\]", value)
+    )
+
+
+def _inline(module: Module) -> None:
+    """Numbered wires that are used once give way to their expression, where that changes nothing."""
+    made, uses = {}, dict[str, list[int]]()
+    for number, line in enumerate(module.lines):
+        if match := _ASSIGN.match(line):
+            made[match[1]] = number
+        for name in _NUMBERED.findall(line):
+            uses.setdefault(name, []).append(number)
+    where = {name: [n for n in at if n != made.get(name)] for name, at in uses.items()}
+    changed = True
+    while changed:
+        changed = False
+        for name, number in list(made.items()):
+            if len(where[name]) != 1:
+                continue
+            user, line = where[name][0], module.lines[number]
+            value = _ASSIGN.match(line)[2]  # type: ignore[index]
+            target = module.lines[user]
+            if not _ANYWHERE.fullmatch(value) and not re.fullmatch(_ATOM, value):
+                continue
+            if len(target) + len(value) > WIDTH or re.search(rf"\b{name}\[|{name}\[[^=]* = ", target):
+                continue
+            if re.match(r"^ *(?:assign )?[^=]*\b" + name + r"\b[^=]*<?= ", target) and not re.match(
+                r"^ *(?:if|else|else if) ", target
+            ):
+                continue  # it is on the left
+            whole = re.search(rf"(?: = |<= |\(){name}[;)]", target) or re.fullmatch(_ATOM, value)
+            module.lines[user] = re.sub(rf"\b{name}\b", lambda _: value if whole else f"({value})", target)  # noqa: B023
+            module.lines[number] = ""
+            del made[name], module.declared[name]
+            for other in _NUMBERED.findall(value):
+                where[other] = [user if n == number else n for n in where[other]]
+            changed = True
+    module.lines = [line for line in module.lines if line]
+
+
+def _wide_not(module: Module) -> None:
+    """`~|` in place of `!` before more than one bit."""
+
+    def nor(match: re.Match[str]) -> str:
+        found = module.declared.get(match[1])
+        wide = found is not None and bool(found["range"]) and not match[2]
+        return f"~| {match[0][2:]}" if not match[1] or wide or ":" in (match[2] or "") else match[0]
+
+    module.lines = [re.sub(r"! (?:\{|(\w+)\b(\[[^\]]*\])?)", nor, line) for line in module.lines]
+
+
+def _pickers(module: Module) -> None:
+    """The functions that stand for `case`, and what goes into them, get names."""
+    inside = False
+    for number, line in enumerate(module.lines):
+        inside = inside or line.startswith("  function ")
+        if inside:
+            for old, new in (("a", "others"), ("b", "values"), ("s", "which")):
+                line = re.sub(rf"(?<!')\b{old}\b", new, line)
+            module.lines[number] = line.replace(" // synopsys parallel_case", "")
+        inside = inside and line != "  endfunction"
+    functions = {match[1] for line in module.lines if (match := re.match(r"  function .*?(_\d+_);$", line))}
+    for number, line in enumerate(module.lines):
+        module.lines[number] = _NUMBERED.sub(
+            lambda match: f"pick{match[0][:-1]}" if match[0] in functions else match[0], line
+        )
+
+
+def _one_clear(module: Module) -> None:
+    """A loop in place of equal lines that set every word of a memory."""
+    lines, at = [], 0
+    while at < len(module.lines):
+        match = _CLEAR.match(module.lines[at])
+        end = at
+        while match and (row := _CLEAR.match(module.lines[end])) and row.groups() == match.groups():
+            end += 1
+        if match and end - at > 4 and module.lines[at - 1] == "  initial begin":
+            lines.append(f"    for (i = 0; i < {end - at}; i = i + 1) {match[1]}[i] = {match[2]};")
+            lines.insert(0, "  integer i;")
+        else:
+            end = max(end, at + 1)
+            lines += module.lines[at:end]
+        at = end
+    first = [line for line in lines if line == "  integer i;"][:1]
+    module.lines = first + [line for line in lines if line != "  integer i;"]
+
+
+def _written(module: Module, said: Source, name: str) -> str:
+    """The text of a module under its new name."""
+
+    def declared(signal: str, kind: str, indent: str) -> str:
+        match = module.declared[signal]
+        return f"{indent}{kind}{match['range'] or ''} {signal}{match['rest']}"
+
+    def beside(line: str, signal: str) -> str:
+        comment = said.beside.get(signal.rstrip("_"))
+        return f"{line}  // {comment}" if comment else line
+
+    lines = [*said.head, f"module {name} ("]
+    for number, port in enumerate(module.ports):
+        match = module.declared[port]
+        kind = f"{match['kind']:<6} {'reg' if port in module.register else 'wire'}"
+        end = "," if number + 1 < len(module.ports) else ""
+        lines.append(beside(declared(port, kind, "    ") + end, port))
+    lines += [");", ""]
+    inner = [signal for signal in module.declared if signal not in module.ports]
+    for signal in sorted(inner, key=lambda one: (bool(_NUMBERED.fullmatch(one)), one in module.register)):
+        kind = "reg" if signal in module.register else "wire"
+        lines.append(beside(declared(signal, kind, "  ") + ";", signal))
+    lines.append("")
+    for line in module.lines:
+        indent = " " * (len(line) - len(line.lstrip()) + 4)
+        if len(line) > WIDTH and "//" not in line:
+            lines += textwrap.wrap(
+                line, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+            )
+        else:
+            lines.append(line)
+    return "\n".join([*lines, "endmodule", ""])
+
+
+def _children(text: str, names: Mapping[str, str]) -> str:
+    return re.sub(r"^  (\\\S+|\w+) +(?=\S+ +\($)", lambda m: f"  {names.get(m[1], m[1])} ", text, flags=re.M)
+
+
+def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
+    """The modules of yosys' file, the top first. `sources`: SystemVerilog text by module, for its comments.
+
+    Others than the top get its name before their own, so that the files of two parts do not meet.
+    """
+    raw = {match[1]: match for match in _MODULE.finditer(text)}
+    used = {
+        name: {word for word in re.findall(r"^  (\\\S+|\w+) +\S+ +\($", match[3], re.M) if word in raw}
+        for name, match in raw.items()
+    }
+    names: dict[str, str] = {}
+    taken: dict[str, str] = {}
+    written: dict[str, str] = {}
+    while len(names) < len(raw):
+        for yosys in sorted(name for name in raw if name not in names and used[name] <= names.keys()):
+            base = yosys.lstrip("\\").split("$")[0]
+            match = raw[yosys]
+            body = _plain_names(_children(match[3], names))
+            module = _parse(base, _plain_names(match[2]), body)
+            module.lines = [_INDEX.sub(r"[{ \1 } +: ", line) for line in module.lines]
+            _gather_bits(module)
+            _wide_not(module)
+            _inline(module)
+            _pickers(module)
+            _one_clear(module)
+            said = source(sources[base]) if base in sources else Source((), {})
+            whole = _written(module, said, "@")
+            if whole not in taken:
+                own = base if base == top or base.startswith(f"{top}_") else f"{top}_{base}"
+                same = sum(1 for name in taken.values() if re.fullmatch(rf"{own}(_v\d+)?", name))
+                taken[whole] = f"{own}_v{same + 1}" if same else own
+                written[taken[whole]] = whole.replace("module @ (", f"module {taken[whole]} (", 1)
+            names[yosys] = taken[whole]
+    return "\n".join([written.pop(top), *(written[name] for name in sorted(written))])

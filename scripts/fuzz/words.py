@@ -1,0 +1,68 @@
+"""What comes over a line, as tb/fuzz/main.cpp reads it: words of 16 bits."""
+
+from __future__ import annotations
+
+import random
+from array import array
+from collections.abc import Callable, Sequence
+
+BROKEN, SILENCE = 0x100, 0x200
+"""Of a word: a character without a stop bit; no character, but a long silence."""
+Frame = Callable[[random.Random], bytes]
+
+
+def digest(data: bytes) -> int:
+    """Of data bytes, 32 bits."""
+    value = 0
+    for byte in data:
+        value = (value * 31 + byte + 1) & 0xFFFF_FFFF
+    return value
+
+
+def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -> array[int]:
+    """At least `size` words: good frames, the same with something wrong, and noise.
+
+    special: characters that mean something on this line, which noise has more of.
+    """
+    words = array("H")
+    while len(words) < size:
+        line = list(_piece(rng, good, special))
+        if rng.random() < 0.1:
+            line.insert(rng.choice((rng.randint(0, len(line)), len(line))), SILENCE)
+        if line and rng.random() < 0.06:
+            line[rng.randrange(len(line))] |= BROKEN
+        words.extend(line)
+    return words
+
+
+def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
+    """Some characters."""
+    kind = rng.random()
+    if kind < 0.35:
+        return good(rng)
+    if kind < 0.75:
+        return _spoilt(rng, good(rng), special)
+    if kind < 0.85:
+        return rng.randbytes(rng.randint(1, 24))
+    if kind < 0.97:
+        return bytes(rng.choices(special, k=rng.randint(1, 24)))
+    first, second = good(rng), good(rng)
+    return first[: rng.randint(0, len(first))] + second[rng.randint(0, len(second)) :]
+
+
+def _spoilt(rng: random.Random, frame: bytes, special: Sequence[int]) -> bytes:
+    """A frame with one mistake: a bit, a byte changed, lost, twice or too many, its end lost."""
+    place = rng.randrange(len(frame))
+    before, byte, after = frame[:place], frame[place], frame[place + 1 :]
+    kind = rng.randrange(6)
+    if kind == 0:
+        return before + bytes([byte ^ 1 << rng.randrange(8)]) + after
+    if kind == 1:
+        return before + bytes([rng.choice(special)]) + after
+    if kind == 2:
+        return before + after
+    if kind == 3:
+        return before + bytes([byte, byte]) + after
+    if kind == 4:
+        return before + bytes([rng.choice(special), byte]) + after
+    return before

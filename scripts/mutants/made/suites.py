@@ -1,0 +1,109 @@
+"""Which tests the mutants of a file meet: groups of tests, each a simulator process, the quickest first.
+
+If a coverage campaign is on file (`make coverage`), they are the groups that reach the line of the mutant, by
+the time that they took. Else they are those of the folder: tests of blocks, then of the parts that have the
+file, directed ones before random ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+
+from cocotb_tests.harness.project import ROOT, files
+from openppmc import parts
+from scripts.campaign.jobs import Done
+from scripts.campaign.store import Store
+from scripts.coverage.points import Points, lines_of
+from scripts.coverage.work import groups
+
+BLOCKS = {
+    "common": ("cocotb_tests/common/test_blocks.py",),
+    "motion": ("cocotb_tests/motion/test_blocks.py",),
+    "host": ("cocotb_tests/host/",),
+    "single": ("cocotb_tests/single/test_blocks.py",),
+    "ppmc312": ("cocotb_tests/ppmc312/stages/test_blocks.py",),
+}
+"""Folder of rtl/ -> what tests its blocks alone."""
+AT_LAST = ("cocotb_tests/common/test_benches.py", "cocotb_tests/board/")
+
+Group = tuple[str, ...]
+GUIDED, FEW = 6, 2
+"""Groups that one pytest runs: of those that are known to reach the line, and of those that may."""
+
+
+@cache
+def every() -> list[Group]:
+    """All groups of `make test`."""
+    return [tuple(tests) for tests in groups()]
+
+
+def _rank(group: Group, file: str) -> int:
+    """Place in the order of the folder: blocks, directed, random; -1 for tests that do not have the file."""
+    folder, first = file.split("/")[1], group[0]
+    if first.startswith(BLOCKS.get(folder, ())):
+        return 0
+    part = next((row for row in parts.folders() if first.startswith(f"cocotb_tests/{row.name}/")), None)
+    if part is None or first.startswith(AT_LAST):
+        return 9 if first.startswith(AT_LAST) else -1
+    carrier = f"{part.rtl}_carrier"
+    if ROOT / file not in files(*([part.rtl, carrier] if part.carrier else [part.rtl])):
+        return -1
+    return 3 if "random" in first else 1 if "test_part" in first else 2
+
+
+class Suites:
+    """Groups of tests for lines of files; `of` asks."""
+
+    def __init__(self) -> None:
+        self._reached: list[tuple[float, Group, dict[str, set[int]]]] = []
+        known = {f"{group[0]} {len(group)}": group for group in every()}
+        latest: dict[str, Done] = {}
+        with Store() as store:
+            for _, done in store.all("coverage"):
+                if done.key in known and done.good:
+                    latest[done.key] = done
+        for key, done in latest.items():
+            self._reached.append((done.seconds, known[key], _lines(Points.unpack(done.data["points"]))))
+        # A sample tells nothing of the groups that it lacks.
+        self.guided = len(latest) == len(known)
+
+    def of(self, file: str, line: int) -> list[Group]:
+        """The groups in the order in which they are tried, several as one: each start takes seconds."""
+        if self.guided:
+            found = [
+                (seconds, group) for seconds, group, lines in self._reached if line in lines.get(file, ())
+            ]
+            return list(_together([group for _, group in sorted(found)], GUIDED))
+        own = Path(file).stem.partition("_")[2]
+        ranked: dict[int, list[Group]] = {}
+        for group in every():
+            if (rank := _rank(group, file)) >= 0:
+                ranked.setdefault(-1 if rank == 0 and own in group[0] else rank, []).append(group)
+        return [
+            tests for rank in sorted(ranked) for tests in _together(ranked[rank], 1000 if rank <= 0 else FEW)
+        ]
+
+
+def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
+    """So many groups as one, in their order."""
+    for at in range(0, len(all_groups), size):
+        yield tuple(test for group in all_groups[at : at + size] for test in group)
+
+
+def _lines(points: Points) -> dict[str, set[int]]:
+    """File -> lines that were reached; with those of assignments and instances, which have no points."""
+    found: dict[str, set[int]] = {}
+    for name, was in points.reached.items():
+        file = name.split(" ", 1)[0]
+        lines = found.setdefault(file, set())
+        if was and name in points.spans:
+            lines.update(lines_of(points.spans[name]))
+    counted: dict[str, set[int]] = {}
+    for name, span in points.spans.items():
+        counted.setdefault(name.split(" ", 1)[0], set()).update(lines_of(span))
+    for file, lines in found.items():
+        total = len((ROOT / file).read_text(encoding="utf-8").splitlines())
+        lines.update(set(range(1, total + 1)) - counted.get(file, set()))
+    return found

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_fuzz: the deframer of the PMC006B4 for tb/fuzz/main.cpp, address 3.
+// what_o: 1, instruction code, data.
+`default_nettype none
+
+module pmc006_fuzz (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic  [7:0] byte_i,     // a character
+    input  wire logic        valid_i,    // it has come, one clk
+    input  wire logic        error_i,    // one without a stop bit, one clk
+    input  wire logic        silence_i,  // as long as a silence lasts
+    output logic             event_o,    // one clk
+    output logic      [63:0] what_o      // what it was
+);
+
+  pmc006_pkg::frame_t frame;
+  logic late_q;
+
+  pmc006_frame dut (
+      .clk_i,
+      .rst_ni,
+      .addr_i (8'd3),
+      .byte_i,
+      .valid_i,
+      .error_i,
+      .late_i (late_q),
+      .frame_o(frame)
+  );
+
+  assign event_o = frame.go;
+  assign what_o  = {8'd1, frame.code, 16'd0, frame.data};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) late_q <= 1'b0;
+    else if (silence_i) late_q <= 1'b1;
+    else if (valid_i || error_i) late_q <= 1'b0;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc312_fuzz: the deframer of the PPMC-312's serial mode with its table of codes for tb/fuzz/main.cpp, address 5.
+// what_o: 1 poll; 2, code, number and digest of the data for an instruction; 3 wrong checksum; 4, code: unknown.
+`default_nettype none
+
+module ppmc312_fuzz
+  import ppmc312_serial_pkg::*;
+#(
+    parameter bit CharsSum = 1'b0
+) (
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic  [7:0] byte_i,     // a character
+    input  wire logic        valid_i,    // it has come, one clk
+    input  wire logic        error_i,    // one without a stop bit, one clk
+    input  wire logic        silence_i,  // as long as a silence lasts
+    output logic             event_o,    // one clk
+    output logic      [63:0] what_o      // what it was
+);
+
+  serial_code_t info;
+  logic [7:0] code, data;
+  logic we, head, poll, run, fault, strange, overrun;
+  logic [3:0] at;
+  logic [15:0] count_q;
+  logic [31:0] digest_q;
+
+  // 20 clk are 20 ms.
+  ppmc312_frame #(
+      .ClkHz   (1_000),
+      .CharsSum(CharsSum)
+  ) dut (
+      .clk_i,
+      .rst_ni,
+      .adr_i    (4'd5),
+      .byte_i,
+      .valid_i,
+      .error_i,
+      .busy_i   (1'b0),
+      .code_o   (code),
+      .info_i   (info),
+      .we_o     (we),
+      .head_o   (head),
+      .at_o     (at),
+      .data_o   (data),
+      .poll_o   (poll),
+      .run_o    (run),
+      .fault_o  (fault),
+      .strange_o(strange),
+      .overrun_o(overrun)
+  );
+
+  ppmc312_codes u_codes (
+      .clk_i,
+      .code_i(code),
+      .info_o(info)
+  );
+
+  assign event_o = poll || run || fault || strange;
+  always_comb begin
+    what_o = {8'd1, 56'd0};
+    if (run) what_o = {8'd2, code, count_q, digest_q};
+    else if (fault) what_o = {8'd3, 56'd0};
+    else if (strange) what_o = {8'd4, code, 48'd0};
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i && byte_i[7]) {count_q, digest_q} <= '0;
+    else if (we && !head) begin
+      count_q  <= count_q + 1'b1;
+      digest_q <= digest_q * 32'd31 + 32'(data) + 32'd1;
+    end
+  end
+
+  logic unused;
+  assign unused = &{1'b0, silence_i, at, overrun};
+
+endmodule
+
+`default_nettype wire

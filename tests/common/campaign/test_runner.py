@@ -1,0 +1,108 @@
+"""The runner of campaigns: results, a lost worker, interruption and going on, mistakes in one line."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.project import ROOT, ProjectError
+from scripts.campaign.cluster import Workers
+from scripts.campaign.jobs import Done
+from scripts.campaign.run import run
+from scripts.campaign.store import Store
+
+from . import work
+
+TWO = Workers(2)
+
+
+def ran(folder: Path, how: object, count: int, workers: Workers = TWO, stamp: str = "") -> dict[str, Done]:
+    """Run jobs 0 … count - 1; the results by key."""
+    with Store(folder / "results.sqlite") as store:
+        return {
+            done.key: done for done in run(work.campaign(how, folder, count, stamp), workers, store=store)
+        }
+
+
+def test_all_results_come_from_both_workers(tmp_path: Path) -> None:
+    """Given forty jobs and two workers, then each has run once, and one that is no good says so."""
+    done = ran(tmp_path, work.square, 40)
+    assert [done[str(n)].data["square"] for n in range(40)] == [n * n for n in range(40)]
+    assert [key for key in done if not done[key].good] == ["13"]
+    assert len({one.data["worker"] for one in done.values()}) == 2
+    assert all(work.begun(tmp_path, n) == 1 for n in range(40))
+
+
+def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
+    """Given two workers of which one is killed in the middle, then its job is done again, and all others."""
+    done = ran(tmp_path, work.dies, 40)
+    assert len(done) == 40 and done["5"].good and done["5"].data["square"] == 25
+    assert work.begun(tmp_path, 5) == 2
+    assert len({one.data["worker"] for one in done.values()}) >= 2
+
+
+def test_a_job_that_kills_each_worker_is_no_good(tmp_path: Path) -> None:
+    """Given a job that no worker outlives, then it is listed as such, and the others have their results."""
+    done = ran(tmp_path, work.dies_always, 12)
+    assert [key for key in done if not done[key].good] == ["5"]
+    assert done["5"].data["message"] == "its workers were lost" and len(done) == 12
+
+
+def test_good_results_are_taken_over(tmp_path: Path) -> None:
+    """Given a campaign that has run, when more of it is, then only what was no good or not there begins."""
+    ran(tmp_path, work.square, 15)
+    done = ran(tmp_path, work.square, 20)
+    assert len(done) == 20 and sum(one.old for one in done.values()) == 14
+    begun = [work.begun(tmp_path, n) for n in range(20)]
+    assert begun == [2 if n == 13 else 1 for n in range(20)]
+    again = ran(tmp_path, work.square, 3, stamp="another tree")
+    assert not any(one.old for one in again.values())
+
+
+def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
+    """Given Ctrl-C in the middle, then it ends within seconds, and the next run does what is left, once."""
+    command = [sys.executable, "-m", work.__name__, str(tmp_path)]
+    with subprocess.Popen(
+        command,
+        cwd=ROOT,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored behind `&` of a script
+    ) as first:
+        assert first.stdout and first.stderr
+        seen = [first.stdout.readline() for _ in range(5)]
+        first.send_signal(signal.SIGINT)
+        since = time.monotonic()
+        out, told = first.communicate(timeout=60)
+    assert first.returncode == 130 and time.monotonic() - since < 20
+    assert told.strip().splitlines() == ["error: interrupted"]
+    assert len([line for line in seen if line.strip()]) == 5
+    kept = len(seen) + len(out.split())
+    assert 5 <= kept < 20
+    rest = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=True)
+    assert len(rest.stdout.split()) == 20
+    assert sum(work.begun(tmp_path, n) == 1 for n in range(20)) >= kept
+    assert all(work.begun(tmp_path, n) <= 2 for n in range(20))
+
+
+def test_mistakes_are_one_line(tmp_path: Path) -> None:
+    """Given a job, an address, a count or a file that will not do, then a ProjectError of one line."""
+    with pytest.raises(ProjectError, match="^no such thing$"):
+        ran(tmp_path, work.refuses, 3)
+    with pytest.raises(ProjectError, match="SCHEDULER=tcp://127.0.0.1:1: no answer"):
+        ran(tmp_path, work.square, 50, Workers(2, "tcp://127.0.0.1:1"))
+    with pytest.raises(ProjectError, match="SCHEDULER=here: expected tcp://host:port"):
+        Workers(2, "here")
+    with pytest.raises(ProjectError, match="-n must be 1 or more"):
+        Workers(0)
+    (tmp_path / "results.sqlite").write_text("no data base, but some words that are long enough to be read")
+    for name in ("results.sqlite-wal", "results.sqlite-shm"):
+        (tmp_path / name).unlink(missing_ok=True)
+    with pytest.raises(ProjectError, match="remove it to begin anew"):
+        ran(tmp_path, work.square, 1)

@@ -1,0 +1,81 @@
+"""Work for the campaigns of the tests; a worker imports it. It leaves a file for each job that begins."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+from cocotb_tests.harness.project import ProjectError
+from scripts.campaign.cluster import Workers
+from scripts.campaign.jobs import Campaign, Job, Result
+from scripts.campaign.run import run
+from scripts.campaign.store import Store
+
+
+def note(folder: Path, number: int) -> None:
+    """Leave a file for each time that a job has begun."""
+    (folder / f"{number}-{os.getpid()}-{time.monotonic_ns()}").touch()
+
+
+def begun(folder: Path, number: int) -> int:
+    """How often a job has begun."""
+    return len(list(folder.glob(f"{number}-*")))
+
+
+def square(what: tuple[Path, int]) -> Result:
+    """The square; 13 is no good number."""
+    folder, number = what
+    note(folder, number)
+    time.sleep(0.05)
+    return Result(number != 13, {"square": number * number, "worker": os.getpid()})
+
+
+def dies(what: tuple[Path, int]) -> Result:
+    """As `square`, but 5 ends its worker the first time, as a machine does that loses its power."""
+    folder, number = what
+    if number == 5 and not begun(folder, 5):
+        note(folder, number)
+        os.kill(os.getpid(), signal.SIGKILL)
+    return square(what)
+
+
+def dies_always(what: tuple[Path, int]) -> Result:
+    """As `square`, but 5 ends each worker."""
+    if what[1] == 5:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return square(what)
+
+
+def refuses(what: tuple[Path, int]) -> Result:
+    """A mistake of the user that shows on the worker."""
+    raise ProjectError("no such thing")
+
+
+def slow(what: tuple[Path, int]) -> Result:
+    """As `square`, with a child that Ctrl-C must end as well, in 0.3 s."""
+    time.sleep(0.3)
+    return square(what)
+
+
+def campaign(work: object, folder: Path, count: int, stamp: str = "") -> Campaign:
+    """Jobs 0 … count - 1."""
+    jobs = (Job(str(number), (folder, number), stamp) for number in range(count))
+    return Campaign("test", work, jobs, count)  # type: ignore[arg-type]
+
+
+def main() -> int:
+    """`python -m tests.common.campaign.work FOLDER`: twenty slow jobs, for the test of Ctrl-C."""
+    folder = Path(sys.argv[1])
+    with Store(folder / "results.sqlite") as store:
+        for done in run(campaign(slow, folder, 20), Workers(2), store=store):
+            print(done.key, flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    from cocotb_tests.harness.project import run as guarded
+
+    raise SystemExit(guarded(main))
