@@ -32,12 +32,15 @@ LAYER_OF = {
     "predict": "openppmc.model",
     "driver": "openppmc.host",
     "kind": "openppmc.host",
+    "selftest": "openppmc.host",
     "commands": "openppmc.cli",
     "view": "openppmc.cli",
     "words": "openppmc.cli",
     "machine": "openppmc.sim",
+    "decode": "openppmc.capture",
     "soak": "cocotb_tests",
     "gates": "cocotb_tests",
+    "crosses": "cocotb_tests",
     "manual": "scripts",
     "demo": "scripts",
     "bench": "scripts",
@@ -55,11 +58,14 @@ class Row:
     its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
     rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
     docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and
-    computed for them. carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
+    computed for them. selftest: what `openppmc selftest` makes its board do.
+    carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
     on a serial line, with commands of its own.
+    decode: how captures of it are read.
     demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
     on the pins of a part. soak: who plays a seed for `make soak`.
-    gates: which tests `make test-gates` runs.
+    gates: which tests `make test-gates` and `make test-verilog` run. crosses: what `make coverage`
+    counts in its golden model.
     """
 
     name: str
@@ -74,10 +80,12 @@ class Row:
     predict: str = ""
     driver: str = ""
     kind: str = ""
+    selftest: str = ""
     commands: str = ""
     view: str = ""
     words: str = ""
     machine: str = ""
+    decode: str = ""
     docs: tuple[str, ...] = ()
     manual: str = ""
     carrier: bool = False
@@ -86,6 +94,7 @@ class Row:
     bench: str = ""
     soak: str = ""
     gates: str = ""
+    crosses: str = ""
 
     @property
     def folder(self) -> str:
@@ -114,13 +123,16 @@ ROWS = (
         predict="predict:predict",
         driver="driver:Ppmc104",
         kind="kind:KIND",
+        selftest="selftest:PLAN",
         machine="machine:MACHINE",
+        decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md"),
         manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
         gates="gates:PART",
+        crosses="crosses:CROSSES",
     ),
     Row(
         name="ppmc2104",
@@ -132,16 +144,26 @@ ROWS = (
         predict="predict:predict",
         driver="driver:Ppmc2104",
         kind="kind:KIND",
+        selftest="selftest:PLAN",
         view="view:VIEW",
         machine="machine:MACHINE",
+        decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md", "isa.md"),
         manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
         gates="gates:PART",
+        crosses="crosses:CROSSES",
     ),
-    Row(name="isa_4axis", title="four axes on an ISA bus", of="ppmc2104", rtl="isa_4axis", top="isa_4axis"),
+    Row(
+        name="isa_4axis",
+        title="four axes on an ISA bus",
+        of="ppmc2104",
+        rtl="isa_4axis",
+        top="isa_4axis",
+        gates="isa.gates:PART",
+    ),
     Row(
         name="stmc",
         title="J105 STMC",
@@ -152,13 +174,16 @@ ROWS = (
         predict="predict:predict",
         driver="driver:Stmc",
         kind="kind:KIND",
+        selftest="selftest:PLAN",
         machine="machine:MACHINE",
+        decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md"),
         manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
         gates="gates:PART",
+        crosses="crosses:CROSSES",
     ),
     Row(
         name="j105_stmc",
@@ -167,6 +192,7 @@ ROWS = (
         rtl="j105_stmc",
         top="j105_stmc",
         model="pc104_board:J105Stmc",
+        decode="board:DECODER",
         gates="gates:BOARD",
     ),
     Row(
@@ -179,15 +205,18 @@ ROWS = (
         predict="predict:predict",
         driver="driver:Ppmc312",
         kind="kind:KIND",
+        selftest="selftest:PLAN",
         view="view:VIEW",
         words="words:WORDS",
         machine="machine:MACHINE",
+        decode="decode:DECODER",
         docs=("replace.md", "examples.md", "instructions.md", "serial.md", "design.md", "rulings.md"),
         manual="manual:MANUAL",
         carrier=True,
         demo="demo:DEMO",
         soak="test_random:random_item",
         gates="gates:PART",
+        crosses="crosses:CROSSES",
     ),
     Row(
         name="ppmc312-serial",
@@ -197,6 +226,7 @@ ROWS = (
         kind="line.kind:KIND",
         commands="line.app:app",
         machine="line:MACHINE",
+        decode="line:DECODER",
         line=True,
         demo="line.demo:main",
         bench="line.bench:main",
@@ -213,6 +243,7 @@ ROWS = (
         model="part:PpmcBank",
         driver="driver:PpmcBank",
         kind="kind:KIND",
+        selftest="selftest:PLAN",
         view="view:VIEW",
         machine="machine:MACHINE",
         docs=("carrier.md", "spi.md"),
@@ -221,6 +252,8 @@ ROWS = (
         demo="demo:main",
         bench="bench:main",
         soak="test_random:random_item",
+        gates="gates:PART",
+        crosses="crosses:CROSSES",
     ),
     Row(
         name="pmc006",
@@ -232,6 +265,7 @@ ROWS = (
         kind="kind:KIND",
         commands="app:app",
         machine="line:MACHINE",
+        decode="decode:DECODER",
         docs=("design.md", "rulings.md"),
         manual="manual:MANUAL",
         carrier=True,
@@ -239,9 +273,13 @@ ROWS = (
         demo="demo:DEMO",
         soak="test_random:SOAK",
         gates="gates:PART",
+        crosses="crosses:CROSSES",
     ),
 )
-OWN = ("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "demo", "bench", "soak", "gates")
+OWN = (
+    *("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "selftest"),
+    *("demo", "bench", "soak", "gates", "crosses", "decode"),
+)
 """Columns that a row does not take from the one it is `of`."""
 
 

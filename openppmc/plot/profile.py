@@ -11,6 +11,8 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from .motion import GREY, INK, PALE, SPEED, bare
 
@@ -38,7 +40,12 @@ def draw_profile(move: Move, title: str, path: Path) -> None:
         axes.step(xs, ys, where="post", color=SPEED, linewidth=1.6)
     axes.set_ylim(0, None)
     axes.set_xlim(0, None)
-    axes.set_xlabel("time after the first pulse / ms", fontsize=9, color=GREY)
+    finish(figure, axes, "time after the first pulse / ms", title, path)
+
+
+def finish(figure: Figure, axes: Axes, xlabel: str, title: str, path: Path) -> None:
+    """Labels and frame of a plot of speed in pps; saves and closes it. OSError if it cannot be written."""
+    axes.set_xlabel(xlabel, fontsize=9, color=GREY)
     axes.set_ylabel("speed / pps", fontsize=9, color=GREY)
     axes.set_title(title, fontsize=11, color=INK, loc="left")
     bare(axes)

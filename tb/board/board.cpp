@@ -13,7 +13,7 @@ constexpr uint64_t kRestSeconds = 2;  // longer than any timer of part and bridg
 }  // namespace
 
 Board::Board(const Options& options, uint64_t clk_hz)
-    : clk_hz_(clk_hz), options_(options), uart_(clk_hz), pace_(clk_hz, options.speed) {
+    : clk_hz_(clk_hz), options_(options), dut_(idle_inputs), uart_(clk_hz), pace_(clk_hz, options.speed) {
     for (unsigned n = 0; n < kAxes; ++n) plants_[n] = Plant(options.plants[n]);
     if (!options_.vcd.empty()) {
         const double clk_per_ms = static_cast<double>(clk_hz) / 1000;

@@ -10,6 +10,7 @@
 #include "dut.h"
 #include "options.h"
 #include "pace.h"
+#include "pins.h"
 #include "plant.h"
 #include "pty.h"
 #include "uart.h"

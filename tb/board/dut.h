@@ -9,7 +9,6 @@
 
 #include "Vboard.h"
 #include "Vboard___024root.h"
-#include "pins.h"
 #include "verilated.h"
 #if VM_TRACE
 #include "verilated_vcd_c.h"
@@ -17,13 +16,15 @@
 
 class Dut {
    public:
-    Dut() {
+    // idle: sets the inputs before the first reset.
+    template <class Idle>
+    explicit Dut(Idle idle) {
 #if VM_TRACE
         context_.traceEverOn(true);
 #endif
         top.clk = 0;
         top.uart_rxd = 1;
-        idle_inputs(top);
+        idle(top);
         // Reset asserts with an edge: flip-flops that miss it would keep their first values.
         top.rst_n = 1;
         top.eval();

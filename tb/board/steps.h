@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 class PhaseSteps {
@@ -17,7 +18,7 @@ class PhaseSteps {
                     ring.push_back(a | b);
                     if (half) ring.push_back(phases == 5 ? a | b | c : b);
                 }
-                for (size_t n = 0; n < ring.size(); ++n) {
+                for (std::size_t n = 0; n < ring.size(); ++n) {
                     const unsigned from = ring[n], to = ring[(n + 1) % ring.size()];
                     at(from, to) = at(~from, ~to) = 1;
                     at(to, from) = at(~to, ~from) = -1;

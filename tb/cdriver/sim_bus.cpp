@@ -2,46 +2,26 @@
 // Bus cycles for the C driver's test: drives ppmc104_example_wishbone clk by clk, records the pulses.
 #include "sim_bus.h"
 
-#include <memory>
 #include <vector>
 
 #include "Vppmc104_example_wishbone.h"
+#include "clocked.h"
 #include "pulses.h"
-#include "verilated.h"
 
 namespace {
 
 constexpr unsigned kPatience = 64;        // clk without an answer
 
-class Bus {
+class Bus : public Clocked<Bus, Vppmc104_example_wishbone> {
   public:
-    Bus() : top_(std::make_unique<Vppmc104_example_wishbone>(&context_)) {
+    Bus() {
         top_->l1_n = top_->l2_n = top_->l3_n = top_->l4_n = top_->cnp_n = top_->alm_n = 1;
         reset(false);
     }
 
-    ~Bus() { top_->final(); }
-
-    void clk() {
-        top_->clk = 0;
-        top_->eval();
-        context_.timeInc(1);
-        top_->clk = 1;
-        top_->eval();
-        context_.timeInc(1);
-        ++now_;
+    void seen() {
         if (pout_n_ && !top_->pout_n) pulses.push_back({now_, top_->dir != 0});
         pout_n_ = top_->pout_n;
-    }
-
-    void reset(bool held) {
-        top_->rst_n = 1;
-        clk();
-        top_->rst_n = 0;
-        for (int n = 0; n < 4; ++n) clk();
-        if (held) return;
-        top_->rst_n = 1;
-        for (int n = 0; n < 8; ++n) clk();
     }
 
     uint32_t cycle(unsigned word, bool write, uint8_t value) {
@@ -87,9 +67,6 @@ class Bus {
     unsigned cycles = 0;
 
   private:
-    VerilatedContext context_;
-    std::unique_ptr<Vppmc104_example_wishbone> top_;
-    uint64_t now_ = 0;
     uint8_t pout_n_ = 1;
 };
 
@@ -113,9 +90,7 @@ unsigned sim_cycles() { return bus().cycles; }
 unsigned sim_pulses() { return static_cast<unsigned>(bus().pulses.size()); }
 void sim_forget() { bus().pulses.clear(); }
 
-void sim_run(unsigned clk) {
-    while (clk-- != 0) bus().clk();
-}
+void sim_run(unsigned clk) { bus().run(clk); }
 
 void sim_run_pulses(unsigned count) { run_pulses(bus(), count); }
 void sim_print_pulses(const char* name) { print_pulses(name, bus().pulses); }

@@ -8,7 +8,8 @@ import typer
 
 from ... import __version__, parts
 from ...host.bridge.link import DEFAULT_BAUD
-from . import boards, looks, moves, plan, script
+from . import boards, looks, moves, plan, script, selftest
+from .decode import decode_capture
 from .group import PartGroup
 from .line_session import LINE_WORDS
 from .options import NUMBERS
@@ -40,7 +41,7 @@ def options(
             "--port",
             "-p",
             envvar="OPENPPMC_PORT",
-            help=f"/dev/ttyUSB0, COM3, sim:… (the RTL; {_LINES}: golden models) or model:…",
+            help="/dev/ttyUSB0, COM3, sim:… (the RTL of any part) or model:… (its golden model)",
         ),
     ] = "",
     baud: Annotated[
@@ -78,3 +79,5 @@ app.command()(looks.monitor)
 app.command(context_settings=NUMBERS)(plan.plan)
 app.command()(looks.table)
 app.command()(script.script)
+app.command()(selftest.selftest)
+app.command("decode")(decode_capture)

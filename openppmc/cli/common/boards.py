@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from ...host import serial_ports
+from ...host.selftest.page import built
 from . import output, show
 from .options import MOST_AXES, Json, with_setup
 from .session import BOARD, initialise, opened, setup_values
@@ -31,7 +32,9 @@ def ports(as_json: Json = False) -> None:
 def info(as_json: Json = False) -> None:
     """What board answers at the port."""
     with opened() as session:
-        values = {**show.identity_values(session.part.link), "axes": session.kind.axes}
+        link = session.part.link
+        build = link.build()
+        values = {**show.identity_values(link), "axes": session.kind.axes, "bitstream": built(build)}
     if as_json:
         output.print_json(values)
     else:

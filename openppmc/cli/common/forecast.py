@@ -10,7 +10,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
-from ...errors import PpmcError
+from ...errors import needs
 from ...host.basis import units
 from ...host.basis.errors import OutOfRange
 from ...model.motion.codes import ENDLESS
@@ -78,10 +78,9 @@ class Course:
 def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
     """Speed over time as PNG, SVG or PDF. course: makes that of so many pulses. OutOfRange for moves too long
     to draw and for file names that the plotter does not know."""
-    try:
-        from ...plot.profile import FORMATS, draw_profile
-    except ImportError as error:
-        raise PpmcError(f"a plot needs matplotlib ({error}): pip install matplotlib") from error
+    needs("plot", "a plot", "matplotlib")
+    from ...plot.profile import FORMATS, draw_profile
+
     if abs(pulses) > LONGEST_PLOT:
         raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses: choose a shorter move")
     if path.suffix.lower() not in FORMATS:

@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 import typer
-from serial.rs485 import RS485Settings
 
 from ...host.axis.device import Turning
 from ...host.axis.motion import Progress
@@ -42,6 +41,8 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 def line_options(text: str, known: str) -> dict[str, Any]:
     """Arguments of a bus's `open` from the text of --line; `sum_mode` as a text. known: words that the line
     takes. BadParameter."""
+    from serial.rs485 import RS485Settings
+
     options: dict[str, Any] = {}
     for item in filter(None, (piece.strip().lower() for piece in text.split(","))):
         word, _, value = item.partition("=")

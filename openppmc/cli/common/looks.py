@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.live import Live
 from rich.table import Table
 
 from ...host import PpmcError
@@ -15,6 +13,7 @@ from . import output
 from .moves import AxisOrAll
 from .options import Json, with_setup
 from .session import Session, opened, ready
+from .watching import Count, Every, watch
 
 
 def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
@@ -51,27 +50,20 @@ def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
         output.print_json({prefix.strip().replace(" ", ""): values for prefix, values in looks.items()})
 
 
-def monitor(
-    axis: AxisOrAll = None,
-    count: Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")] = None,
-    every: Annotated[
-        float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")
-    ] = 0.2,
-) -> None:
+def monitor(axis: AxisOrAll = None, count: Count = None, every: Every = 0.2) -> None:
     """Watch position and switches until Ctrl-C."""
     with opened() as session:
-        guard = session.guard
-        look: Callable[[], dict[str, dict[str, Any]]] = lambda: _looks(session, axis)  # noqa: E731
-        if not output.console.is_terminal:
-            for turn in range(count or 10**9):
-                if turn:
-                    guard.pause(session.part, every)
-                output.say("  ".join(f"{name} {value}" for name, value in _rows(session, look()).items()))
-            return
-        with Live(_table(session, look()), console=output.console, auto_refresh=False) as live:
-            for _ in range((count or 10**9) - 1):
-                guard.pause(session.part, every)
-                live.update(_table(session, look()), refresh=True)
+
+        def line() -> list[str]:
+            rows = _rows(session, _looks(session, axis))
+            return ["  ".join(f"{name} {value}" for name, value in rows.items())]
+
+        watch(
+            count,
+            lambda: session.guard.pause(session.part, every),
+            line,
+            lambda: _table(session, _looks(session, axis)),
+        )
 
 
 @with_setup

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Protocol
 
 from ...host import PpmcError
 from ...host.axis.part import AnyAxis
 from ...host.basis.kind import COILS_OFF, Kind
+from .guard import Guard
 from .options import SetupValues
 from .program import OF_ALL_AXES, OF_AXES, ScriptError, Step
-from .session import Session, stop_all
+from .session import stop_all
 from .words import own_words
 
 
@@ -19,36 +21,67 @@ def positions(axes: Iterable[AnyAxis]) -> str:
     return f"position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
 
 
+class Played(Protocol):
+    """An open board or line, as far as a script needs it."""
+
+    guard: Guard
+
+    @property
+    def part(self) -> Any: ...
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def view(self) -> Any: ...
+    @property
+    def xtal_hz(self) -> int: ...
+    def axis(self, number: int = 1) -> AnyAxis: ...
+    def chosen(self, number: int | None) -> Sequence[AnyAxis]: ...
+
+
+def number_of(step: Step) -> int:
+    """The axis that a line is about."""
+    return 1 if step.axis is None else step.axis
+
+
+def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
+    """All steps by `do`, repeated ones as often as they say; a progress bar ends with its step. ScriptError
+    with file:line for what the part refuses."""
+    for step in steps:
+        guard.check()
+        if step.word == "repeat":
+            for _ in range(step.values["turns"]):
+                carry_out(step.body, name, guard, do)
+            continue
+        try:
+            do(step)
+        except ScriptError:
+            raise
+        except PpmcError as error:
+            raise ScriptError(f"{name}:{step.line}: {error}") from error
+        finally:
+            guard.bar_off()
+
+
 class Player:
     """Carries a program out. values: set-ups of the axes in use. say: gets the lines that the user sees."""
 
     def __init__(
-        self, session: Session, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
+        self, session: Played, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
     ) -> None:
         self._session, self._guard, self._part = session, session.guard, session.part
         self._values, self._name, self._say = values, name, say
 
     def run(self, steps: Iterable[Step]) -> None:
         """All steps. ScriptError with file:line for what the board refuses."""
-        for step in steps:
-            self._guard.check()
-            if step.word == "repeat":
-                for _ in range(step.values["turns"]):
-                    self.run(step.body)
-                continue
-            try:
-                self._do(step)
-                self._session.view.reports(self._part, self._say)
-            except ScriptError:
-                raise
-            except PpmcError as error:
-                raise ScriptError(f"{self._name}:{step.line}: {error}") from error
-            finally:
-                self._guard.bar_off()
+        carry_out(steps, self._name, self._guard, self._do_and_report)
+
+    def _do_and_report(self, step: Step) -> None:
+        self._do(step)
+        self._session.view.reports(self._part, self._say)
 
     def _do(self, step: Step) -> None:
         values, progress = step.values, self._guard.progress
-        number = step.axis or 1
+        number = number_of(step)
         axis = self._session.axis(number)
         if step.word == "init":
             self._values[number] = self._values[number].merged(values)
@@ -110,7 +143,7 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
     for step in steps:
         try:
             if step.word in OF_AXES and (step.axis is not None or step.word not in OF_ALL_AXES):
-                used.add(kind.check_axis(step.axis or 1))
+                used.add(kind.check_axis(number_of(step)))
             if step.values.get("second") is not None:
                 used.add(kind.check_axis(2))
         except PpmcError as error:
@@ -135,7 +168,7 @@ def check_speeds(
 ) -> None:
     """Refuse speeds and ramps that the part cannot do before anything moves. ScriptError."""
     for step in steps:
-        axis = step.axis or 1
+        axis = number_of(step)
         try:
             if step.word == "init":
                 values[axis] = values[axis].merged(step.values)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+import typer
+
 from ...host import PpmcError
-from .reading import READERS, none_left, read_axis, read_repeat
+from .reading import AXES, READERS, Numbered, Reader, none_left, read_axis, read_repeat
 from .words import own_words
 
 DEEPEST = 20
@@ -33,9 +37,29 @@ OF_ALL_AXES = ("stop", "off", "position")
 """Those that are about all axes without it."""
 
 
-def read_program(text: str, name: str) -> tuple[Step, ...]:
-    """All steps of a script file. Raises ScriptError for the first bad line."""
-    readers = READERS | {word: own.read for word, own in own_words().items()}
+def read_file(file: Path) -> tuple[str, str]:
+    """Name and text of a script file; - is standard input. PpmcError."""
+    name = "stdin" if str(file) == "-" else str(file)
+    try:
+        text = typer.get_text_stream("stdin").read() if name == "stdin" else file.read_text(encoding="utf-8")
+    except OSError as error:
+        raise PpmcError(f"{file}: cannot be read ({error.strerror})") from error
+    except UnicodeDecodeError as error:
+        raise PpmcError(f"{file}: not a text file in UTF-8") from error
+    return name, text
+
+
+def read_program(
+    text: str,
+    name: str,
+    readers: Mapping[str, Reader] | None = None,
+    of_axes: Collection[str] = OF_AXES,
+    numbered: Numbered = AXES,
+) -> tuple[Step, ...]:
+    """All steps of a script file. readers: its words, those of parts behind the bridge if there are none;
+    of_axes: those that may end with axis=N, or as that is `numbered`. ScriptError for the first bad line."""
+    if readers is None:
+        readers = READERS | {word: own.read for word, own in own_words().items()}
     stack: list[tuple[int, dict[str, Any], list[Step]]] = [(0, {}, [])]
     for number, line in enumerate(text.splitlines(), 1):
         words = line.split("#", 1)[0].split()
@@ -56,7 +80,7 @@ def read_program(text: str, name: str) -> tuple[Step, ...]:
                     raise ValueError(f"repeat deeper than {DEEPEST}")
                 stack.append((number, read_repeat(rest), []))
             elif word in readers:
-                axis = read_axis(rest) if word in OF_AXES else None
+                axis = read_axis(rest, numbered) if word in of_axes else None
                 step = Step(number, word, readers[word](rest), axis=axis)
                 if axis is not None and step.values.get("second") is not None:
                     raise ValueError("two numbers are for both axes: leave axis= out")

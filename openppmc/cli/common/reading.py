@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, NamedTuple
 
 from .options import MOST_AXES, Logic, SetupValues, Side
 
@@ -20,7 +20,8 @@ def none_left(words: list[str]) -> None:
         raise ValueError(f"{words[0]!r} does not belong here")
 
 
-def _number(text: str, what: str, low: float, high: float) -> float:
+def number(text: str, what: str, low: float, high: float) -> float:
+    """A number from low to high."""
     try:
         value = float(text)
     except ValueError:
@@ -65,17 +66,28 @@ def _pairs(words: Iterable[str]) -> dict[str, str]:
     return pairs
 
 
-def _speed(words: list[str]) -> float | None:
+def read_speed(words: list[str]) -> float | None:
     """`speed=PPS`, if it comes next."""
     if words and words[0].startswith("speed="):
-        return _number(words.pop(0)[6:], "speed", 1e-6, 1e6)
+        return number(words.pop(0)[6:], "speed", 1e-6, 1e6)
     return None
 
 
-def read_axis(words: list[str]) -> int | None:
+class Numbered(NamedTuple):
+    """How the end of a line calls what it is for, and between which numbers."""
+
+    name: str = "axis"
+    low: int = 1
+    high: int = MOST_AXES
+
+
+AXES = Numbered()
+
+
+def read_axis(words: list[str], numbered: Numbered = AXES) -> int | None:
     """`axis=2` at the end of the line."""
-    if words and words[-1].startswith("axis="):
-        return whole(words.pop()[5:], "axis", 1, MOST_AXES)
+    if words and words[-1].startswith(f"{numbered.name}="):
+        return whole(words.pop()[len(numbered.name) + 1 :], *numbered)
     return None
 
 
@@ -93,7 +105,7 @@ def _init(words: list[str]) -> Values:
     values: Values = {}
     for name, text in _pairs(words).items():
         if name in ("start", "high", "stop", "base_clock", "external_clock"):
-            values[name] = _number(text, name, 1e-6, 1e7)
+            values[name] = number(text, name, 1e-6, 1e7)
         elif name in ("ramp", "down"):
             values[name] = whole(text, name, 0, 0xFFFFFF)
         elif name == "phases":
@@ -116,7 +128,7 @@ def _move(words: list[str]) -> Values:
     most = 1 << 24
     pulses = whole(first(words, "number of pulses"), "pulses", -most, most)
     second = whole(words.pop(0), "pulses", -most, most) if words and "=" not in words[0] else None
-    values = {"pulses": pulses, "second": second, "speed": _speed(words)}
+    values = {"pulses": pulses, "second": second, "speed": read_speed(words)}
     none_left(words)
     return values
 
@@ -133,10 +145,10 @@ def _move_to(words: list[str]) -> Values:
 def _jog(words: list[str]) -> Values:
     side = _side(words)
     ramped = bool(words) and words[0] == "ramped" and bool(words.pop(0))
-    speed = None if ramped else _speed(words)
+    speed = None if ramped else read_speed(words)
     if first(words, "for SECONDS") != "for":
         raise ValueError("jog needs: jog cw|ccw [ramped | speed=PPS] for SECONDS")
-    seconds = _number(first(words, "seconds"), "seconds", 0, 86_400)
+    seconds = number(first(words, "seconds"), "seconds", 0, 86_400)
     none_left(words)
     return {"side": side, "ramped": ramped, "speed": speed, "seconds": seconds}
 
@@ -144,13 +156,13 @@ def _jog(words: list[str]) -> Values:
 def _home(words: list[str]) -> Values:
     side = _side(words) if words and words[0].lower() in ("cw", "ccw") else Side.CCW.code
     approach = words.pop(0) if words and words[0] in ("fast", "to-limit") else ""
-    values = {"side": side, "approach": approach, "speed": _speed(words)}
+    values = {"side": side, "approach": approach, "speed": read_speed(words)}
     none_left(words)
     return values
 
 
 def _wait(words: list[str]) -> Values:
-    seconds = _number(first(words, "seconds"), "seconds", 0, 86_400)
+    seconds = number(first(words, "seconds"), "seconds", 0, 86_400)
     none_left(words)
     return {"seconds": seconds}
 

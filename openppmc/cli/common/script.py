@@ -7,11 +7,10 @@ from typing import Annotated, Any
 
 import typer
 
-from ...host import PpmcError
 from . import output
 from .options import with_setup
 from .player import Player, check_speeds, check_steps, positions
-from .program import read_program
+from .program import read_file, read_program
 from .session import initialise, opened, setup_values
 
 
@@ -21,13 +20,7 @@ def script(
     file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
 ) -> None:
     """Carry out a file of commands."""
-    name = "stdin" if str(file) == "-" else str(file)
-    try:
-        text = typer.get_text_stream("stdin").read() if name == "stdin" else file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise PpmcError(f"{file}: cannot be read ({error.strerror})") from error
-    except UnicodeDecodeError as error:
-        raise PpmcError(f"{file}: not a text file in UTF-8") from error
+    name, text = read_file(file)
     steps = read_program(text, name)
     with opened() as session:
         used = check_steps(steps, name, session.kind)

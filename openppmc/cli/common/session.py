@@ -20,6 +20,7 @@ from . import output
 from .guard import Guard, Interrupted
 from .options import USUAL, SetupValues
 from .state import recall
+from .version import misfit
 from .view import AnyView, view_of
 
 INTERRUPTED = 130
@@ -114,6 +115,8 @@ def opened() -> Iterator[Session]:
     with Guard() as guard, open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part:
         try:
             guard.check()
+            if line := misfit(part.link.build(), part.link.identity.part):
+                output.note(f"note: {line}")
             yield Session(part, guard)
         except Interrupted:
             output.note(guard.bring_to_rest(part))

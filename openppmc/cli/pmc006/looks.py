@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Annotated
 
 import typer
+from rich.table import Table
 
-from ...host import OutOfRange, PpmcError
+from ...host import OutOfRange, Pmc006, PpmcError
 from ...host.pmc006.settings import setting
 from ..common import output
 from ..common.options import Json
+from ..common.watching import Count, Every, watch
 from . import show
 from .session import Address, opened
 
@@ -56,6 +59,27 @@ def status(address: Address = None, as_json: Json = False) -> None:
         return
     for one in values:
         output.console.print(output.table(show.status_rows(one)))
+
+
+def monitor(address: Address = None, count: Count = None, every: Every = 0.2) -> None:
+    """Watch position, state and stops until Ctrl-C."""
+    with opened() as session:
+        parts = session.chosen(address)
+
+        def lines() -> Iterator[str]:
+            for part in parts:
+                session.guard.check()
+                yield "  ".join(f"{name} {text}" for name, text in _row(part).items())
+
+        watch(count, lambda: session.guard.pause(session.bus, every), lines, lambda: _table(parts))
+
+
+def _row(part: Pmc006) -> dict[str, str]:
+    return show.status_rows(show.status_values(part))
+
+
+def _table(parts: Iterable[Pmc006]) -> Table:
+    return output.grid({f"controller {part.address}": _row(part) for part in parts})
 
 
 # ---------------------------------------------------------------------- settings

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-from .script import IDENT_BYTES, Op, Script
+from .script import IDENT_BYTES, VERSION_BYTES, Op, Script
 
 PROTOCOL_VERSION = 1
 IDENT_MARK = b"PPMC"
@@ -121,3 +121,26 @@ class Identity:
             clk_hz=int.from_bytes(data[12:16], "little"),
             axes=(data[7] >> 2 & 3) + 1,
         )
+
+
+@dataclass(frozen=True)
+class Build:
+    """Answer of VERSION (UB-VER-01). version: as "0.3.1". changed: there were changes since the commit.
+    source, commit: hexadecimal, "" if nobody knows; board: 4 letters, or ""."""
+
+    version: str
+    changed: bool
+    source: str
+    commit: str
+    board: str
+
+    @classmethod
+    def parse(cls, data: bytes) -> Build | None:
+        """From the 16 bytes; None if nobody knows. BadAnswer for anything but 16 bytes."""
+        if len(data) != VERSION_BYTES:
+            raise BadAnswer(f"VERSION of {len(data)} bytes")
+        if not any(data):
+            return None
+        source, commit = (data[n : n + 4].hex() if any(data[n : n + 4]) else "" for n in (4, 8))
+        board = data[12:].rstrip(b"\0").decode("ascii", "replace")
+        return cls(".".join(map(str, data[:3])), bool(data[3] & 1), source, commit, board)

@@ -18,7 +18,7 @@ from ..basis.errors import (
 from ..basis.kind import name_of
 from ..basis.refusals import refused
 from ..ports.transport import BASE_BAUD, Port
-from .answer import PROTOCOL_VERSION, Answer, BadAnswer, Identity, Result, parse_answer
+from .answer import PROTOCOL_VERSION, Answer, BadAnswer, Build, Identity, Result, parse_answer
 from .port import open_port
 from .script import RATES, Script
 from .session import WAKE_UP, GaveUp, Nak, Session
@@ -139,8 +139,21 @@ class Link:
                 "name the right one with --part, or use its own driver"
             )
 
+    def build(self) -> Build | None:
+        """What the bitstream was built from; None if it does not tell, or is older than the question."""
+        answer = self.attempt(Script().version())
+        return Build.parse(answer.values[0]) if answer.result is Result.DONE else None
+
+    def use_rate(self, baud: int) -> bool:
+        """Go on at another of RATES; False if board or adapter cannot, and the link works at 115200."""
+        if baud != self.baud:
+            self._raise_rate(baud)
+            if self.baud == baud:
+                self.execute(Script().events(True))
+        return self.baud == baud
+
     def _raise_rate(self, baud: int) -> None:
-        """A higher line rate, if board and adapter can do it; otherwise everything stays as it was."""
+        """Another line rate, if board and adapter can do it; otherwise everything stays as it was."""
         if RATES.index(baud) > self.identity.best_rate:
             return
         self.execute(Script().rate(RATES.index(baud)))
@@ -213,8 +226,9 @@ class Link:
         session, port = self._session, self.port
         line_time = (len(bytes(script)) + script.gives + 24) * 2 * _BITS / self.baud
         patience = script.patience + line_time + attempts_margin
-        port.write(session.request(bytes(script), patience, self.clock()))
+        request = session.request(bytes(script), patience, self.clock())
         try:
+            port.write(request)
             return parse_answer(script, self._await())
         finally:
             session.abandon()

@@ -6,10 +6,12 @@ breaks.
 
 from __future__ import annotations
 
+from ... import __version__
 from ...model.carrier.bridge import Bridge
 from ...model.carrier.bridge_ops import RATES
 from ...parts import part
 from ...sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
+from ...sources import build_id
 from ..basis.errors import Disconnected, PortError
 from ..ports.pacer import Pacer
 
@@ -49,7 +51,9 @@ class ModelPort:
             raise PortError(f"{self.name}: {error}") from error
         axes = len(machine.plants) if kind.counters else 1
         number, datasheet = part(machine.part).number, timing == "DATASHEET"
-        self.bridge = Bridge(board, number, clk_hz, xtal_hz, datasheet, kind.counters, axes)
+        # The model has no RTL: its sources are nobody's.
+        build = build_id(__version__, b"", board="MODL")
+        self.bridge = Bridge(board, number, clk_hz, xtal_hz, datasheet, kind.counters, axes, build)
 
     # ------------------------------------------------------------------ port
 

@@ -11,6 +11,8 @@ LONGEST_SCRIPT = REQUEST_LIMIT - CRC_BYTES - 1
 MOST_DATA = 256
 DEFAULT_WAIT_MS = 250
 IDENT_BYTES = 16
+VERSION_BYTES = 16
+RECORDED_BYTES = 16
 
 RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
 """Line rates in baud by rate code; code 0 is the rate after reset (UB-LIN-02)."""
@@ -118,6 +120,28 @@ class Script:
     def zero(self, axis: int = 1) -> Script:
         """Pulse counter of axis 1 or 2 to 0."""
         return self._add("ZERO", bytes([0x07 + 2 * _within("axis", axis, 1, 2)]))
+
+    def version(self) -> Script:
+        """16 bytes about what the bitstream was built from, see `Build`."""
+        return self._add("VERSION", b"\x0c", VERSION_BYTES)
+
+    # ------------------------------------------------------------------ the recorder
+
+    def record(self, on: bool) -> Script:
+        """Begin to record, or end it."""
+        return self._add("RECORD", bytes([0x0D, int(on)]))
+
+    def rewind(self) -> Script:
+        """Read records from the first one on."""
+        return self._add("RECORD", b"\x0d\x02")
+
+    def recorded(self) -> Script:
+        """16 bytes about the records, see `Recorded`."""
+        return self._add("RECORDED", b"\x0e", RECORDED_BYTES)
+
+    def fetch(self, n: int) -> Script:
+        """The next n = 1 to 255 bytes of the records."""
+        return self._add("FETCH", bytes([0x90, _within("count", n, 1, 255)]), n)
 
     # ------------------------------------------------------------------ registers of the part
 

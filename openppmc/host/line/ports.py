@@ -3,16 +3,18 @@ process of its own (`sim:`)."""
 
 from __future__ import annotations
 
-from typing import Any
-
-import serial
-from serial.rs485 import RS485Settings
+from typing import TYPE_CHECKING, Any
 
 from ..basis.errors import PortError
 from ..ports.transport import MODEL, SIM, Port, SerialPort, SimPort, describe_ports
 
+if TYPE_CHECKING:
+    import serial
+    from serial.rs485 import RS485Settings
+
 SIM_PATIENCE = 0.25
-"""The virtual line may be slower than real time."""
+"""The virtual line answers through two processes."""
+_SHORT, _LONGEST = 0.05, 30.0
 
 
 class UrlPort(SerialPort):
@@ -23,6 +25,8 @@ class UrlPort(SerialPort):
         super().__init__(spec, baud)
 
     def _open(self, path: str, baud: int) -> serial.SerialBase:
+        import serial
+
         own = {} if "://" in path else {"exclusive": True}
         port = serial.serial_for_url(path, baud, timeout=self.SLICE, write_timeout=2, **own)
         if self._rs485 is not None:
@@ -37,13 +41,30 @@ class UrlPort(SerialPort):
 
 
 class SimLinePort(SimPort):
-    """The virtual line: started here, stopped with the port."""
+    """The virtual line: started here, stopped with the port. A read that has to wait counts the line's time,
+    which may be slower than real time."""
 
     patience = SIM_PATIENCE
 
     def __init__(self, text: str, baud: int, part: str) -> None:
         self._rate, self._part = baud, part
         super().__init__(text, baud)
+
+    def read(self, timeout: float) -> bytes:
+        data = super().read(timeout)
+        if data or timeout < _SHORT:
+            return data
+        factor = self._pace()
+        return super().read(min(timeout / factor - timeout, _LONGEST)) if 0 < factor < 1 else data
+
+    def _pace(self) -> float:
+        """Line time / wall time; 1 while nothing moves."""
+        from ...sim import SimError
+
+        try:
+            return float(self._board.status().factor)
+        except SimError:
+            return 1.0
 
     def _start(self, text: str) -> Any:
         from ...sim import start_line

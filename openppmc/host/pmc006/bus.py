@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-
-from serial.rs485 import RS485Settings
+from typing import TYPE_CHECKING
 
 from ..line.bus import LineBus
 from ..line.errors import GarbledReply, StationSilent
@@ -22,6 +21,9 @@ from .driver import Pmc006, scan
 from .kind import KIND
 from .line import BAUD, Line
 from .wire import ADDRESSES, address_number
+
+if TYPE_CHECKING:
+    from serial.rs485 import RS485Settings
 
 
 @dataclass(frozen=True)

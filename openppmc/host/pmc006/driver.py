@@ -9,8 +9,7 @@ with Pmc006.open("/dev/ttyUSB0") as motor:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-
-from serial.rs485 import RS485Settings
+from typing import TYPE_CHECKING
 
 from ..axis.device import Device
 from ..axis.moves import OnProgress
@@ -29,6 +28,9 @@ from .memory import Memory
 from .motion import End
 from .talk import ATTEMPTS, Talk
 from .wire import ADDRESSES, LAST
+
+if TYPE_CHECKING:
+    from serial.rs485 import RS485Settings
 
 OUTPUTS = 5
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from serial.rs485 import RS485Settings
+from typing import TYPE_CHECKING
 
 from ..basis.errors import PortError
 from ..line.faults import Miss
@@ -10,6 +10,9 @@ from ..line.master import PATIENCE, Listener, Master
 from ..line.ports import open_line
 from ..ports.transport import Port
 from .wire import Receiver, Reply, address_number, command
+
+if TYPE_CHECKING:
+    from serial.rs485 import RS485Settings
 
 PART = "pmc006"
 BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200

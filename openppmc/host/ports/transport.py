@@ -1,4 +1,8 @@
-"""Ports: a serial device and the virtual board (`sim:`). The only place with real I/O."""
+"""Ports: a serial device and the virtual board (`sim:`). The only place with real I/O.
+
+pyserial is imported when a port is opened or looked for: all else works without it. Its SerialException is an
+OSError.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +10,12 @@ import errno
 import os
 import time
 from collections.abc import Callable
-from typing import Any, Protocol
-
-import serial
-from serial.tools import list_ports
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..basis.errors import Disconnected, PortError
+
+if TYPE_CHECKING:
+    import serial
 
 BASE_BAUD = 115_200
 SIM, MODEL = "sim:", "model:"
@@ -48,10 +52,12 @@ class SerialPort:
         self.name = path
         try:
             self._serial = self._open(path, baud)
-        except (OSError, ValueError, serial.SerialException) as error:
+        except (OSError, ValueError) as error:
             raise PortError(_why_not(path, error)) from error
 
     def _open(self, path: str, baud: int) -> serial.SerialBase:
+        import serial
+
         return serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
 
     def read(self, timeout: float) -> bytes:
@@ -66,24 +72,26 @@ class SerialPort:
         """What an access to the port gives. Raises Disconnected."""
         try:
             return action()
-        except (OSError, TypeError, serial.SerialException) as error:
+        except (OSError, TypeError) as error:
             raise Disconnected(f"{self.name}: {_GONE}") from error
 
     def write(self, data: bytes) -> None:
+        from serial import SerialTimeoutException
+
         try:
             self._serial.write(data)
             self._serial.flush()
-        except serial.SerialTimeoutException as error:
+        except SerialTimeoutException as error:
             raise Disconnected(
                 f"{self.name}: the port takes no bytes: unplug the adapter and try again"
             ) from error
-        except (OSError, TypeError, serial.SerialException) as error:
+        except (OSError, TypeError) as error:
             raise Disconnected(f"{self.name}: {_GONE}") from error
 
     def set_baud(self, baud: int) -> None:
         try:
             self._serial.baudrate = baud
-        except (OSError, ValueError, serial.SerialException) as error:
+        except (OSError, ValueError) as error:
             raise PortError(
                 f"{self.name}: the adapter cannot do {baud} baud: choose a lower --baud"
             ) from error
@@ -94,7 +102,7 @@ class SerialPort:
     def close(self) -> None:
         try:
             self._serial.close()
-        except (OSError, serial.SerialException):
+        except OSError:
             pass  # it is gone already
 
 
@@ -129,6 +137,8 @@ class SimPort(SerialPort):
 
 def serial_ports() -> list[tuple[str, str]]:
     """Device and description of the serial ports of this computer, sorted."""
+    from serial.tools import list_ports
+
     ports = sorted(list_ports.comports(), key=lambda port: port.device)
     return [(port.device, port.description if port.description != "n/a" else "") for port in ports]
 

@@ -8,7 +8,7 @@ by definition, while its script runs (UB-FRM-07).
 from __future__ import annotations
 
 from .bridge_line import NAK_BUSY, NAK_FRAMING, NAK_SEQ, NAK_SILENCE, Receiver, Request, frame
-from .bridge_ops import Bus, Engine
+from .bridge_ops import BUILD_BYTES, Bus, Engine
 
 FLAG = 0x7E
 MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
@@ -21,7 +21,8 @@ class Bridge:
     """One bridge with its part.
 
     bus: see `bridge_ops.Bus`. part: number for IDENT. clk_hz: 1..2^32-1, decides which line rates there
-    are. xtal_hz, datasheet, counter: only for IDENT. axes: 1 or 2 pulse counters. Readable: `rate` (code of
+    are. xtal_hz, datasheet, counter: only for IDENT. axes: 1 or 2 pulse counters. build: answer of
+    VERSION, 16 bytes. recorder: the bus has one. Readable: `rate` (code of
     the present line rate) and `scripts` (number of executed requests).
     """
 
@@ -34,8 +35,12 @@ class Bridge:
         datasheet: bool = False,
         counter: bool = True,
         axes: int = 1,
+        build: bytes = bytes(BUILD_BYTES),
+        recorder: bool = False,
     ) -> None:
-        self._engine = Engine(bus, part, clk_hz, xtal_hz, datasheet, counter, axes, self._set_events)
+        self._engine = Engine(
+            bus, part, clk_hz, xtal_hz, datasheet, counter, axes, self._set_events, build, recorder
+        )
         self._receiver = Receiver()
         self._stored: tuple[int, bytes] | None = None
         self._event = False

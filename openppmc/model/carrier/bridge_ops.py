@@ -17,7 +17,11 @@ MOST_DATA = 256
 DEFAULT_LIMIT_MS = 250
 ALL_HIGH = 0xFF
 READ_CYCLE_CLK = 11
-FIXED_OPERANDS = {0: 0, 1: 0, 2: 1, 3: 1, 4: 2, 5: 0, 6: 0, 7: 1, 8: 0, 9: 0, 0xA: 0, 0xB: 0}
+FIXED_OPERANDS = dict(enumerate((0, 0, 1, 1, 2, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0)))
+OF_AXIS_2 = (0xA, 0xB)
+OF_RECORDER = (0xD, 0xE)
+BUILD_BYTES = INFO_BYTES = 16
+RECORD_END, RECORD_BEGIN, RECORD_REWIND = 0, 1, 2
 
 
 class Bus(Protocol):
@@ -27,7 +31,8 @@ class Bus(Protocol):
     `pins() -> int` FF; `count() -> int` 0, signed; `zero()` nothing; with two axes `count(2)` and `zero(2)`
     are asked for as well; `now_ms() -> float` the time that the read cycles of this script took;
     `skip(limit_ms)`, called while a wait goes on: let time pass until a register may read otherwise, at most
-    so long.
+    so long. With a recorder: `record(what)` 0 end, 1 begin, 2 rewind; `recorded() -> bytes` of RECORDED;
+    `fetch() -> int` the next byte of its records.
     """
 
     def read(self, a: int) -> int:
@@ -47,7 +52,8 @@ class Stop(Exception):  # noqa: N818 - not an error of the program: the script e
 
 class Engine:
     """Runs scripts. `events` is the EVENTS switch, `rate` the rate code that op RATE asked for, or None.
-    set_events(on): op EVENTS; who owns the engine looks after what is pending."""
+    set_events(on): op EVENTS; who owns the engine looks after what is pending. build: answer of VERSION.
+    recorder: the bus has one."""
 
     def __init__(
         self,
@@ -59,9 +65,12 @@ class Engine:
         counter: bool,
         axes: int,
         set_events: Callable[[bool], None],
+        build: bytes = bytes(BUILD_BYTES),
+        recorder: bool = False,
     ) -> None:
         self._bus, self._set_events = bus, set_events
-        self._top_system_op = 9 + 2 * (axes - 1)
+        self._build, self._recorder = build, recorder
+        self._unknown = (*(OF_AXIS_2 if axes == 1 else ()), *(() if recorder else OF_RECORDER))
         self._clk_hz = clk_hz
         self.best_rate = max((c for c, rate in enumerate(RATES) if c and clk_hz >= 5 * rate), default=0)
         flags = int(datasheet) | counter << 1 | axes - 1 << 2 | self.best_rate << 4
@@ -126,18 +135,23 @@ class Engine:
                 self._give(self._fetch)
         elif group == 7:
             self._give(lambda: self._wait(low, *operands))
-        else:
+        elif group == 8:
             for byte in operands[1:]:
                 self._bus.write(low, byte)
+        else:
+            for _ in range(operands[0]):
+                self._give(lambda: self.hook("fetch", 0))
         return length
 
     def _length(self, rest: bytes) -> int | None:
         """Length of the op with operands; None if there is no such op or a count is 0."""
         group, low = rest[0] >> 4, rest[0] & 15
         if group == 0:
-            return 1 + FIXED_OPERANDS[low] if low <= self._top_system_op else None
-        if group in (1, 3):
-            if group == 3 and rest[1:2] == b"\0":
+            return None if low in self._unknown or low not in FIXED_OPERANDS else 1 + FIXED_OPERANDS[low]
+        if group == 9 and (low or not self._recorder):
+            return None
+        if group in (1, 3, 9):
+            if group != 1 and rest[1:2] == b"\0":
                 return None
             return 2
         if group == 2:
@@ -177,6 +191,14 @@ class Engine:
             self._give_all((self.hook("count", 0, 2) & 0xFFFF_FFFF).to_bytes(4, "little"))
         elif code == 0x0B:
             self.hook("zero", None, 2)
+        elif code == 0x0C:
+            self._give_all(self._build)
+        elif code == 0x0D:
+            if operands[0] > RECORD_REWIND:
+                raise Stop(3)
+            self.hook("record", None, operands[0])
+        elif code == 0x0E:
+            self._give_all(self.hook("recorded", bytes(INFO_BYTES)))
 
     def _call(self, command: bytes) -> None:
         if len(self._data) >= MOST_DATA:

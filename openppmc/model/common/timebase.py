@@ -27,10 +27,9 @@ class Latency:
     (P104-FDC-06, 0..4).
     queue_next: OBF fall to the next byte of a longer answer (P104-HSK-05, 0..4).
     reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
-    build_base, build_per_slow, build_per_rate: ramp-table build, base + per_slow * RL +
-    per_rate * (RL - RH) (P104-HSK-04, <= 40000), 2 for RL = RH, which needs no table;
-    `build_clk`, a function of (RL, RH, PA), replaces them. build_queue: added where two axes share the
-    builder.
+    build_base, build_per_rate: ramp-table build, base + per_rate * (RL - RH) (P104-HSK-04, <= 40000), 3
+    for RL = RH, which needs no table; `build_clk`, a function of (RL, RH, PA), replaces them. build_queue:
+    added where two axes share the builder.
     ds_host: added to the times measured from a write event, ds_waited: from the end of a wait, ds_motor:
     from a pulse, a deciding edge or an input level (section 8, -0/+16).
     ds_window: added to the windows of P2104-DS-01..14, which count from the C-event.
@@ -51,9 +50,8 @@ class Latency:
     flag_lead: int = 0
     queue_next: int = 1
     reset_tick: int = 1
-    build_base: int = 1990
-    build_per_slow: int = 51
-    build_per_rate: int = 67
+    build_base: int = 1954
+    build_per_rate: int = 136
     build_clk: BuildClk | None = None
     build_queue: int = 1
     ds_host: int = 3
@@ -70,8 +68,8 @@ class Latency:
         if self.build_clk is not None:
             return self.build_clk(rl, rh, pa)
         if rl == rh:
-            return 2
-        return self.build_base + self.build_per_slow * rl + self.build_per_rate * (rl - rh)
+            return 3
+        return self.build_base + self.build_per_rate * (rl - rh)
 
 
 @dataclass(frozen=True)

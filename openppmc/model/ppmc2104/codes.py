@@ -41,11 +41,6 @@ def is_error_read(command: Command) -> bool:
     return command.kind is Kind.READ and command.code & 7 == ERROR_CODE
 
 
-def has_axis(command: Command) -> bool:
-    """Whether bit 5 of the code names an axis (P2104-ERR-01)."""
-    return command.kind not in (Kind.AUX_OUTPUT, Kind.AUX_INPUT)
-
-
 def _register(code: int, axis: int) -> Command:
     """Group 10: reads, switching times, hold delay."""
     if code & 0x18 or code & 7 == 7:

@@ -22,7 +22,7 @@ from .motion import Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
 # The table of 16-bit thresholds takes longer to build than that of the sister parts.
-LATENCY = Latency(build_base=2068, build_per_slow=53, build_per_rate=71)
+LATENCY = Latency(build_base=2032, build_per_rate=144)
 
 
 @dataclass(frozen=True)

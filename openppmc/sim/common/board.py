@@ -12,7 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from .build import build
+from .build import board_program, build
 from .spec import Spec, parse_spec, suffixes
 from .verilator import SimError
 
@@ -164,7 +164,9 @@ class SimBoard(Child):
 
     def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
         self.spec = spec
-        program = build(spec.part, spec.parameters, spec.vcd is not None, say)
+        program = build(
+            lambda root: board_program(root, spec.part), spec.parameters, spec.vcd is not None, say
+        )
         super().__init__([program, *spec.arguments()])
 
     def status(self) -> Status:
@@ -178,8 +180,9 @@ def start(spec: str = "", say: Callable[[str], None] | None = None, **options: o
     spec: the text after `sim:`. say: gets a line when something takes long (default: to standard error).
     Raises SpecError (a ValueError) for a bad text, SimError (a RuntimeError) if it does not build or start.
     """
-    return SimBoard(parse_spec(spec, **options), say or _to_stderr)
+    return SimBoard(parse_spec(spec, **options), say or to_stderr)
 
 
-def _to_stderr(line: str) -> None:
+def to_stderr(line: str) -> None:
+    """Tell the user, beside what a program prints."""
     print(line, file=sys.stderr, flush=True)

@@ -10,9 +10,10 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
-from openppmc import parts, sources
+from openppmc import __version__, parts, sources
 
 from . import verilator
 from .verilator import SimError
@@ -42,25 +43,70 @@ def find_root() -> Path:
     )
 
 
-def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[str], None]) -> Path:
-    """The program for a part with a carrier, built if need be; `say` gets a line when that takes time.
-    Raises SimError.
+@dataclass(frozen=True)
+class Program:
+    """What a virtual board is made of. part: whose carrier. top: module. rtl: its sources in compile order.
+    folders: of the C++, below tb/, the one with `main.cpp` first; all headers count, but sources of `cpp`
+    alone are compiled."""
 
-    params: of the board's top, CLK_HZ among them. trace: with waveforms, which makes a slower program. Safe
+    part: str
+    top: str
+    rtl: tuple[Path, ...]
+    folders: tuple[str, ...]
+    cpp: tuple[str, ...]
+
+    def sources(self, root: Path) -> list[Path]:
+        """The C++ to compile."""
+        return [path for name in self.cpp for path in sorted((root / "tb").glob(name))]
+
+    def headers(self, root: Path) -> list[Path]:
+        """What may be included."""
+        found = [path for folder in self.folders for path in sorted((root / "tb" / folder).glob("*.h"))]
+        return [*found, *sorted((root / "rtl/common").glob("*.svh"))]
+
+
+def board_program(root: Path, part: str) -> Program:
+    """A part's carrier behind its UART bridge."""
+    carrier = f"{parts.part(part).rtl}_carrier"
+    return Program(part, carrier, _rtl(root, carrier), ("board", parts.part(part).folder), ("board/*.cpp",))
+
+
+def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
+    """Stations on a line: tb/<part>/line/line_node.sv around the carrier. more: sources, from tb/ on."""
+    own = parts.part(part).folder
+    rtl = _rtl(root, f"{parts.part(part).rtl}_carrier")
+    nodes = tuple(root / "tb" / name for name in (*more, f"{own}/line/line_node.sv"))
+    shared = tuple(f"board/{name}.cpp" for name in ("plant", "pty", "uart"))
+    return Program(
+        part, "line_node", (*rtl, *nodes), ("line", f"{own}/line", "board"), ("line/*.cpp", *shared)
+    )
+
+
+def build(
+    make: Callable[[Path], Program],
+    params: dict[str, int | str],
+    trace: bool,
+    say: Callable[[str], None],
+) -> Path:
+    """The program that `make` describes for a checkout, built if need be; `say` gets a line when that takes
+    time. Raises SimError.
+
+    params: of the top module, CLK_HZ among them. trace: with waveforms, which makes a slower program. Safe
     against other processes doing the same.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
     root = find_root()
-    rtl, cpp = _rtl(root, part), sorted((root / "tb/board").glob("*.cpp"))
-    own = parts.part(part).folder
+    made = make(root)
+    rtl, cpp = made.rtl, made.sources(root)
     version = verilator.version()
     flags = [
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
+        f"-D{sources.build_define(build_of(root, made.part))}",
         *(
             "--top-module",
-            f"{parts.part(part).rtl}_carrier",
+            made.top,
             "--prefix",
             "Vboard",
             f"-I{root / 'rtl/common'}",
@@ -71,15 +117,17 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         ),
         *(
             "-CFLAGS",
-            # pins.h of the part; as seen from the folder of the build, which is free of spaces.
-            f"-std=c++17 {_defines(params)} -I../../../tb/{own} -I../../../tb/board",
+            # As seen from the folder of the build, which is free of spaces.
+            " ".join(
+                ["-std=c++17", _defines(params), *(f"-I../../../tb/{folder}" for folder in made.folders)]
+            ),
             "-o",
             "board",
         ),
         # The makefile would append its own -Os for these files.
         *("-MAKEFLAGS", "OPT_FAST=-O2 OPT_GLOBAL=-O2 OPT_SLOW=-O2"),
     ]
-    folder = root / "build/board" / _digest([*rtl, *cpp, *_headers(root, own)], [version, *flags], root)
+    folder = root / "build/board" / _digest([*rtl, *cpp, *made.headers(root)], [version, *flags], root)
     program = folder / "board"
     with _locked(folder.with_suffix(".lock")):
         if program.is_file():
@@ -107,6 +155,12 @@ def build(part: str, params: dict[str, int | str], trace: bool, say: Callable[[s
         return program
 
 
+def build_of(root: Path, part: str) -> bytes:
+    """What a virtual board of this checkout tells of itself."""
+    source = sources.digest(root, f"{parts.part(part).rtl}_carrier")
+    return sources.build_id(__version__, source, board="VIRT")
+
+
 def _defines(params: dict[str, int | str]) -> str:
     """Numbers among the parameters as words for the compiler: BOARD_CLK_HZ, BOARD_AXES."""
     return " ".join(f"-DBOARD_{name}={value}" for name, value in params.items() if isinstance(value, int))
@@ -126,17 +180,12 @@ def copy_runtime(source: Path, target: Path) -> None:
                 os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 
-def _rtl(root: Path, part: str) -> list[Path]:
-    """Sources of the part's carrier in compile order, from rtl/files.yml."""
+def _rtl(root: Path, group: str) -> tuple[Path, ...]:
+    """Sources of a group in compile order, from rtl/files.yml."""
     try:
-        return sources.files(sources.groups(root), f"{parts.part(part).rtl}_carrier")
+        return tuple(sources.files(sources.groups(root), group))
     except sources.SourcesError as error:
         raise SimError(str(error)) from None
-
-
-def _headers(root: Path, folder: str) -> list[Path]:
-    pins = root / "tb" / folder / "pins.h"
-    return sorted([pins, *(root / "tb/board").glob("*.h"), *(root / "rtl/common").glob("*.svh")])
 
 
 def _digest(files: list[Path], words: list[str], root: Path) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import sys
+import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from .board import Child
+from .board import Child, to_stderr
+from .build import build, line_program
 from .lines import line_kind, line_parts, part_of
 from .spec import SpecError
 from .verilator import SimError
@@ -66,23 +67,37 @@ class LineStatus:
 
 
 class SimLine(Child):
-    """A virtual line; see `Child`. spec: what was asked for. part: of the stations, unless the text says
-    it; else the first one that hangs on a line."""
+    """A virtual line: the RTL of its stations; see `Child`. spec: what was asked for. part: of the stations,
+    unless the text says it; else the first one that hangs on a line. say: gets a line when something takes
+    long (default: to standard error)."""
 
-    def __init__(self, text: str, part: str = "") -> None:
+    def __init__(self, text: str, part: str = "", say: Callable[[str], None] | None = None) -> None:
         self.part = part_of(text) or part or line_parts()[0]
+        kind = line_kind(self.part)
         try:
-            self.spec = line_kind(self.part).parse(text)
+            self.spec = kind.parse(text)
         except ValueError as error:
             raise SpecError(str(error)) from None
-        if not sys.platform.startswith("linux"):
-            raise SimError("the virtual line needs Linux (its pseudo-terminals): use model: instead")
-        # The package may not be installed: the child finds it where this one is.
-        here = str(Path(__file__).resolve().parents[3])
-        paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
-        named = text if part_of(text) else ",".join(filter(None, [text, f"part={self.part}"]))
-        super().__init__([sys.executable, "-m", "openppmc.sim.common.line_server", named], environment)
+        with tempfile.TemporaryDirectory(prefix="openppmc-") as files:
+            try:
+                arguments = kind.arguments(self.spec, Path(files))
+            except ValueError as error:
+                raise SimError(str(error)) from None
+            program = build(
+                lambda root: line_program(root, self.part, kind.sources),
+                kind.parameters(self.spec),
+                False,
+                say or to_stderr,
+            )
+            # It has read its files when it tells its port.
+            super().__init__([program, *arguments, *self._pace()])
+
+    def _pace(self) -> list[str]:
+        """Arguments that any line has."""
+        spec = self.spec
+        unplug = [f"unplug={spec.unplug}"] if spec.unplug < float("inf") else []
+        words = [f"echo={spec.echo:d}", f"noise={spec.noise}", f"seed={spec.seed}"]
+        return [f"speed={spec.speed or 0}", *words, *unplug]
 
     def status(self) -> LineStatus:
         """What the line shows now. Raises SimError when the program has ended."""

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from ... import parts
+from .char_line import LineOptions
 
 
 class OnLine(Protocol):
@@ -49,7 +51,7 @@ class VirtualLine(Protocol):
         """What has come from the stations so far."""
 
 
-class LineSpec(Protocol):
+class LineSpec(LineOptions, Protocol):
     """What a line was asked for, as far as whoever runs it must know."""
 
     @property
@@ -71,12 +73,20 @@ S = TypeVar("S", bound=LineSpec)
 @dataclass(frozen=True)
 class LineKind(Generic[S]):
     """parse: the text as a spec, ValueError for a bad one. at_rate: the text for a host that uses this line
-    rate. known: the words. make: the line of such a spec."""
+    rate. known: the words. make: the modelled line of such a spec.
+
+    For the RTL: parameters of its `line_node`, CLK_HZ among them; arguments of the program in tb/line, for
+    which a folder for files is there, ValueError for a file that is no good; sources: what the node needs
+    beside the carrier, from tb/ on.
+    """
 
     parse: Callable[[str], S]
     at_rate: Callable[[str, int], str]
     known: str
     make: Callable[[S], VirtualLine]
+    parameters: Callable[[S], dict[str, int | str]]
+    arguments: Callable[[S, Path], list[str]]
+    sources: tuple[str, ...] = ()
 
 
 def line_parts() -> tuple[str, ...]:

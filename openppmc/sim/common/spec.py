@@ -10,7 +10,7 @@ from pathlib import Path
 from ...model.carrier.plant import Plant
 from .machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
 
-OPTIONS = ("part", "speed", "clk", "xtal", "timing")
+OPTIONS = ("part", "speed", "clk", "xtal", "timing", "record")
 FILES = ("vcd", "vcd_from", "vcd_for", "log")
 PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
 
@@ -35,7 +35,8 @@ class Spec:
 
     part: one behind the UART bridge. plants: one an axis. speed: times real time, None: as fast as the
     machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz:
-    crystal of the emulated chip, from 1e6 on. timing: FAST or DATASHEET. own: values of the part's own words,
+    crystal of the emulated chip, from 1e6 on. timing: FAST or DATASHEET. record: 2**record
+    records of the pins, 0: no recorder. own: values of the part's own words,
     each a parameter of its top module. vcd: waveform file or None, with vcd_from and vcd_for in ms of board
     time. log: file that gets a line a pulse, or None.
     """
@@ -46,6 +47,7 @@ class Spec:
     clk_hz: int = 8_000_000
     xtal_hz: int = 16_000_000
     timing: str = "FAST"
+    record: int = 0
     own: Mapping[str, str] = field(default_factory=dict)
     vcd: Path | None = None
     vcd_from: float = 0.0
@@ -57,7 +59,8 @@ class Spec:
         """Parameters of the board's top module."""
         own = {word.upper(): int(value) if value.isdigit() else value for word, value in self.own.items()}
         timing = {"TIMING": self.timing} if machine_kind(self.part).timed else {}
-        return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, **timing, **own}
+        record = {"RECORD": self.record} if self.record else {}
+        return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, **timing, **record, **own}
 
     def arguments(self) -> list[str]:
         """Arguments of the program in tb/board."""
@@ -113,6 +116,7 @@ def parse_spec(text: str = "", **options: object) -> Spec:
         clk_hz,
         xtal_hz,
         timing,
+        _record(rest.get("record", "0")),
         machine.own,
         _file("vcd", rest),
         _number("vcd_from", rest.get("vcd_from", "0"), 0, 1e9, "ms"),
@@ -129,6 +133,12 @@ def _number(word: str, text: str, low: float, high: float, unit: str) -> float:
     if not low <= value <= high:
         raise SpecError(f"{word}={text}: expected {low:g} to {high:g} {unit}")
     return value
+
+
+def _record(text: str) -> int:
+    if text not in ("0", *map(str, range(4, 17))):
+        raise SpecError(f"record={text}: 0 for no recorder, or 4 to 16 for 2 to the power of it records")
+    return int(text)
 
 
 def _whole(word: str, text: str, low: int, high: int) -> int:

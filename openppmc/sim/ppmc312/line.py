@@ -1,16 +1,19 @@
-"""Sixteen modelled PPMC-312 with their motors on one line, character by character, in virtual time.
+"""Sixteen PPMC-312 with their motors on one line: the RTL, or modelled in virtual time.
 
-Only stations that a control code names get the characters after it, as all others ignore them anyway; so idle
-stations cost nothing.
+Of modelled ones only those that a control code names get the characters after it, as all others ignore them
+anyway; so idle stations cost nothing.
 """
 
 from __future__ import annotations
+
+from pathlib import Path
 
 from ...model.carrier.plant import Plant
 from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation
 from ..common.lines import LineKind
+from ..common.spec import PLACES
 from .line_spec import KNOWN, SPEEDS, LineSpec, at_rate, parse_line
 
 
@@ -45,4 +48,24 @@ class StationLine(CharLine[Station]):
             self.hearing = [one for one in self.stations if one.number == byte & 15]
 
 
-MACHINE = LineKind(parse_line, at_rate, KNOWN, StationLine)
+def parameters(spec: LineSpec) -> dict[str, int | str]:
+    """Of tb/ppmc312/line/line_node.sv."""
+    times: dict[str, int | str] = {"CLK_HZ": spec.clk_hz, "XTAL_HZ": spec.xtal_hz}
+    return {**times, "TIMING": spec.timing, "SUM_MODE": spec.sum_mode}
+
+
+def arguments(spec: LineSpec, files: Path) -> list[str]:
+    """Of the program in tb/line with tb/ppmc312/line/node.h."""
+    del files
+    numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
+    words = [f"stations={len(numbered)}", f"mod={SPEEDS[spec.baud]}", f"xtal={spec.xtal_hz}"]
+    for place, (number, plant) in enumerate(numbered):
+        known: dict[str, int | None] = {"number": number, "index": plant.index, "block": plant.block}
+        known |= {name: getattr(plant, name) for name in PLACES}
+        if plant.alarm is not None:
+            known |= {"alarm_from": plant.alarm[0], "alarm_to": plant.alarm[1]}
+        words += [f"{name}{place}={value}" for name, value in known.items() if value is not None]
+    return words
+
+
+MACHINE = LineKind(parse_line, at_rate, KNOWN, StationLine, parameters, arguments)

@@ -52,7 +52,7 @@ class LineSpec:
     noise: int = 0
     seed: int = 1
     speed: float | None = 1.0
-    clk_hz: int = 16_000_000
+    clk_hz: int = 8_000_000
     xtal_hz: int = 16_000_000
     timing: str = "FAST"
     unplug: float = float("inf")
@@ -99,7 +99,7 @@ def parse_line(text: str) -> LineSpec:
         whole("noise", options.get("noise", "0"), 0, 10**9),
         whole("seed", options.get("seed", "1"), 0, 1 << 32),
         pace(options.get("speed", "1")),
-        whole("clk", options.get("clk", "16000000"), 8_000_000, 200_000_000),
+        whole("clk", options.get("clk", "8000000"), 8_000_000, 200_000_000),
         whole("xtal", options.get("xtal", "16000000"), 1_000_000, 16_000_000),
         one_of("timing", options.get("timing", "FAST").upper(), ("FAST", "DATASHEET")),
         positive("unplug", options.get("unplug", "inf")),

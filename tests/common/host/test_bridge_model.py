@@ -309,7 +309,7 @@ def test_two_axes() -> None:
     bridge = Bridge(bus, part=2104, axes=2)
     assert talk(bridge, 1, "0A 0B 08 09") == reply(1, "00 FD FF FF FF FE FF FF FF")
     assert bus.log == [("zero", 2), ("zero",)]
-    assert talk(bridge, 2, "0C") == reply(2, "03 00 00")
+    assert talk(bridge, 2, "0D") == reply(2, "03 00 00")
     identity = b"PPMC\x01" + (2104).to_bytes(2, "little") + b"\x66"
     assert identity in talk(bridge, 3, "01")
 

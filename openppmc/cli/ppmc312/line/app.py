@@ -9,13 +9,16 @@ import typer
 from ....host import PpmcError, Station312
 from ...common import output, show
 from ...common.boards import ports
+from ...common.decode import decode_capture
 from ...common.line_session import ending_after
 from ...common.options import NUMBERS, Json, Side, check_seconds, with_setup
 from ...common.plan import plan
 from ...common.session import BOARD, setup_values
 from ...common.state import lasting, remember
 from ..view import VIEW
+from . import looks
 from . import show as show_line
+from .script import script
 from .session import Session, opened
 
 app = typer.Typer(add_completion=False)
@@ -44,10 +47,7 @@ def scan(as_json: Json = False) -> None:
             if one.trouble:
                 output.say(f"station {one.station}: {one.trouble}")
     else:
-        raise PpmcError(
-            f"{session.bus.line.name}: no station replies: are they powered, are speed (MOD, --baud), MODE "
-            "and the two wires right?"
-        )
+        raise PpmcError(show_line.nobody(session.bus.line.name))
 
 
 @app.command()
@@ -230,6 +230,10 @@ def _list(axes: list[Station312]) -> str:
     return ", ".join(str(one.number) for one in axes)
 
 
+app.command()(looks.info)
+app.command()(looks.monitor)
+app.command()(script)
 # Shared: they open no board.
 app.command()(ports)
 app.command(context_settings=NUMBERS)(plan)
+app.command("decode")(decode_capture)

@@ -77,6 +77,24 @@ def status_table(axes: Iterable[Station312]) -> Table:
     return grid
 
 
+def status_line(axis: Station312) -> str:
+    """A station in one line."""
+    values = part_show.status_values(axis)
+    active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
+    return (
+        f"station {axis.number}  state {values['state']}  position {values['position']}  "
+        f"encoder {values['encoder']}  switches {', '.join(active) or 'none active'}"
+    )
+
+
+def nobody(port: str) -> str:
+    """When no station replies."""
+    return (
+        f"{port}: no station replies: are they powered, are speed (MOD, --baud), MODE "
+        "and the two wires right?"
+    )
+
+
 def report_line(number: int, report: Report) -> str:
     """One line for a report of a station."""
     text = part_show.report_line(report)

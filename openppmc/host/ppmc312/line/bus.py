@@ -11,8 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-
-from serial.rs485 import RS485Settings
+from typing import TYPE_CHECKING
 
 from ...basis.refusals import CommandRefused
 from ...line.bus import LineBus
@@ -27,6 +26,9 @@ from .kind import KIND
 from .line import XTAL_HZ, Line
 from .serial import VERSION
 from .station import ErrorCounts, Station312
+
+if TYPE_CHECKING:
+    from serial.rs485 import RS485Settings
 
 SCAN_ATTEMPTS = 2
 

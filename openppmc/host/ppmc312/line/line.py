@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from serial.rs485 import RS485Settings
+from typing import TYPE_CHECKING
 
 from ...basis.errors import OutOfRange, PortError
 from ...bridge.answer import Identity
@@ -23,6 +23,9 @@ from .ascii import (
     station_number,
     sum_mode_of,
 )
+
+if TYPE_CHECKING:
+    from serial.rs485 import RS485Settings
 
 XTAL_HZ = 16_000_000
 

@@ -1,0 +1,1 @@
+"""What captures of all parts have in common."""

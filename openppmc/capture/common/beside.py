@@ -1,0 +1,341 @@
+"""A capture beside the golden model: its inputs played into the model, each output edge compared.
+
+Sampling, the phase of the old chip's base clock and its processing times make edges come a little earlier or
+later: within `tolerance` they are the same edge. The crystals of chip and analyser differ by some ppm; from
+the moves it is known by how much, and that is taken out.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from itertools import accumulate
+from typing import Any
+
+from ...check.replay import new_model
+from .decoding import Decoded
+from .errors import CaptureError
+from .kind import DecodeKind, Train
+from .pulses import moves, unchopped
+from .signals import SECOND, US, Channel, joined
+
+SETTLED = 100 * US
+"""ps from the end of an initialisation to the first pattern, at most."""
+LEAD_S = 0.2
+"""The model has been on for so long before the capture begins."""
+MOST_PPM = 1000
+CLK_HZ = 16_000_000
+
+
+@dataclass(frozen=True)
+class Difference:
+    """An edge that only one side has, or that comes too late or too early. t: ps of the capture."""
+
+    pin: str
+    t: int
+    level: int
+    chip: bool
+
+    def text(self) -> str:
+        """One line."""
+        who = (
+            "the chip has this edge, the model has not"
+            if self.chip
+            else "the model has this edge, the chip has not"
+        )
+        return f"{self.t / SECOND:.6f} s: {self.pin} → {self.level}: {who}"
+
+
+@dataclass
+class Result:
+    """compared: pairs of edges; worst: ps between two of a pair, on this pin; mean: of all. begin: ps from
+    which edges count. ppm: how much faster the chip's crystal ran by the analyser's clock. skipped: outputs
+    that could not be compared, with the reason. pins: those that were."""
+
+    compared: int = 0
+    differences: list[Difference] = field(default_factory=list)
+    worst: int = 0
+    worst_pin: str = ""
+    begin: int = 0
+    ppm: float = 0.0
+    skipped: dict[str, str] = field(default_factory=dict)
+    pins: list[str] = field(default_factory=list)
+    mean: float = 0.0
+
+
+def compare(decoded: Decoded, tolerance: int) -> Result:
+    """tolerance: ps. CaptureError for a capture that begins nowhere."""
+    begin, starts, reset = _begin(decoded)
+    first = _run(decoded, begin, 1.0)
+    ratio = _ratio(decoded, first, begin)
+    result = _judge(decoded, first, begin, starts, reset, tolerance)
+    if ratio != 1.0:
+        learned = _judge(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
+        if len(learned.differences) <= len(result.differences):
+            result = learned
+            result.ppm = (ratio - 1) * 1e6
+    return result
+
+
+def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
+    """If most edges differ and the other TIMING fits: the line that says so; else nothing."""
+    if len(result.differences) <= result.compared:
+        return ""
+    other = "DATASHEET" if decoded.timing == "FAST" else "FAST"
+    found = compare(replace(decoded, timing=other), tolerance)
+    if len(found.differences) * 10 > len(result.differences):
+        return ""
+    return f"with --timing {other}: {len(found.differences)} differences"
+
+
+def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
+    """From where on the model can follow, from where on the edges of each axis count, and whether a reset is
+    there."""
+    reset = decoded.wires.ports.get("rst_n")
+    if reset is not None and any(level for _, level in reset.changes):
+        fall = next((t for t, level in reset.changes if not level), 0) if reset.initial else 0
+        rise = next(t for t, level in reset.changes if level and t > fall)
+        return max(0, fall), {0: rise}, True
+    first: dict[int, int] = {}
+    for line in decoded.lines:
+        if line.initialises:
+            first.setdefault(line.axis, line.end)
+    if not decoded.kind.initialised:
+        return 0, {0: 0}, False
+    if not first:
+        raise CaptureError(
+            f"{decoded.capture}: neither a reset nor an initialisation is in it, so nothing can be compared: "
+            "begin the capture before the host program starts"
+        )
+    axes = {axis + 1: t for axis, t in first.items()}
+    return 0, {0: min(first.values()), **axes}, False
+
+
+@dataclass
+class _Played:
+    """What the model did, in ps of the capture."""
+
+    outputs: dict[str, Channel]
+
+
+def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
+    """Inputs into a fresh model. ratio: time of the model for one of the capture."""
+    kind, wires = decoded.kind, decoded.wires
+    straps = kind.straps(wires)
+    clk_hz = _clk_hz(decoded)
+    params = {**kind.parameters(wires), **wires.params}
+    params.pop("ADR", None)
+    params |= {"CLK_HZ": clk_hz, "TIMING": decoded.timing}
+    try:
+        model = new_model(decoded.part, params | ({"STRAPS": straps} if straps else {}))
+    except (TypeError, ValueError) as error:
+        raise CaptureError(f"{decoded.capture}: the model does not take these parameters: {error}") from None
+    lead = round(LEAD_S * clk_hz)
+    scale = clk_hz * ratio / SECOND
+
+    def edge(t: int) -> int:
+        return lead + round((t - begin) * scale)
+
+    feed: dict[int, dict[str, int]] = {1: {}}
+    for port, channel in _inputs(decoded).items():
+        feed[1][port] = 1 if port == "rst_n" else _level(channel, begin)
+        if port == "rst_n" and not _level(channel, begin):
+            feed.setdefault(lead, {})[port] = 0
+        for t, level in channel.changes:
+            if t > begin:
+                feed.setdefault(edge(t), {})[port] = level
+    for t, levels in kind.stimulus(wires):
+        if t > begin:
+            feed.setdefault(edge(t), {}).update(levels)
+    model.pins(1, **feed.pop(1))
+    kind.prelude(model, wires)
+    for t in sorted(feed):
+        model.pins(t, **feed[t])
+    model.run_until(edge(wires.end))
+    outputs = {
+        name: Channel(_model_level(model, name, lead), [], kind.pins.widths[name]) for name in kind.outputs
+    }
+    for one in model.edges:
+        if one.t >= lead and one.signal in outputs:
+            outputs[one.signal].add(begin + round((one.t - lead) / scale), one.value)
+    return _Played(outputs)
+
+
+def _clk_hz(decoded: Decoded) -> int:
+    """Of the model: the map's, that of a captured clk (our own captures are exact then), or fine enough."""
+    if "CLK_HZ" in decoded.wires.params:
+        return int(str(decoded.wires.params["CLK_HZ"]))
+    clk = decoded.wires.bits.get("clk", {}).get(0)
+    if clk is not None:
+        rises = [t for t, level in clk.changes if level]
+        if len(rises) > 100:
+            hz = round((len(rises) - 1) * SECOND / (rises[-1] - rises[0]))
+            near = round(hz, -4)
+            return near if abs(near - hz) <= hz // 50_000 else hz
+    return CLK_HZ
+
+
+def _inputs(decoded: Decoded) -> dict[str, Channel]:
+    """Captured inputs but those of the host; bits of a port that were not captured rest."""
+    found: dict[str, Channel] = {}
+    kind = decoded.kind
+    for port, places in decoded.wires.bits.items():
+        if port not in kind.inputs or port in kind.host_pins:
+            continue
+        whole = decoded.wires.ports.get(port)
+        if whole is None:
+            idle, width = kind.inputs[port], kind.pins.widths[port]
+            whole = joined([places.get(bit, Channel(idle >> bit & 1)) for bit in range(width)])
+        found[port] = whole
+    return found
+
+
+def _level(channel: Channel, t: int) -> int:
+    place = bisect_right(channel.changes, t, key=lambda change: change[0])
+    return channel.changes[place - 1][1] if place else channel.initial
+
+
+def _model_level(model: Any, name: str, t: int) -> int:
+    level: int = model.log.initial[name]
+    for one in model.edges:
+        if one.t >= t:
+            break
+        if one.signal == name:
+            level = one.value
+    return level
+
+
+def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
+    """Time of the model for one of the capture, from long moves that both have made alike; 1 if there is
+    nothing to learn."""
+    wires = decoded.wires
+    both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
+    theirs = decoded.kind.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
+    # A pulse may be a sample off at both ends: less than that says nothing.
+    slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
+    alike = []
+    for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
+        for mine, other in zip(moves([a], decoded.pause), moves([b], decoded.pause), strict=False):
+            if mine.pulses == other.pulses and mine.pulses > 20:
+                alike.append((mine.end - mine.begin, other.end - other.begin))
+    return learned(alike, slack)
+
+
+def learned(alike: list[tuple[int, int]], slack: int) -> float:
+    """Time of the model for one of the capture from the lengths of moves of both, ps; 1 if they say nothing.
+    slack: ps by which a length may be off."""
+    if not alike:
+        return 1.0
+    # A switch or a stop may have ended a move, not its pulses: then it is not as long as the others say.
+    middle = _middle([(other / mine, mine) for mine, other in alike])
+    alike = [(mine, other) for mine, other in alike if abs(other - middle * mine) <= 2 * slack]
+    chip, model = (sum(times) for times in zip(*alike, strict=True)) if alike else (0, 0)
+    if not chip or abs(model / chip - 1) * 1e6 > MOST_PPM or abs(model - chip) <= slack:
+        return 1.0
+    return model / chip
+
+
+def _middle(rows: list[tuple[float, int]]) -> float:
+    """Median of values with weights."""
+    ordered = sorted(rows)
+    sums = list(accumulate(weight for _, weight in ordered))
+    return ordered[bisect_left(sums, sums[-1] / 2)][0]
+
+
+def _bits(channel: Channel) -> dict[int, Channel]:
+    return {place: channel.bit(place) for place in range(channel.width)}
+
+
+def _since(trains: Iterable[Train], begin: int) -> list[Train]:
+    found = []
+    for one in trains:
+        kept = [(t, way) for t, way in zip(one.times, one.ways, strict=True) if t >= begin]
+        found.append(Train(one.axis, [t for t, _ in kept], [way for _, way in kept]))
+    return found
+
+
+def _judge(
+    decoded: Decoded, played: _Played, begin: int, starts: dict[int, int], reset: bool, tolerance: int
+) -> Result:
+    kind, wires = decoded.kind, decoded.wires
+    result = Result(begin=starts[0])
+    total = 0
+    for port in kind.outputs:
+        places = wires.bits.get(port)
+        if places is None:
+            continue
+        if port in kind.phases and not reset and not _same_place(port, places, played, starts, kind):
+            result.skipped[port] = (
+                "the capture begins in the middle, with the phases in another place than the model"
+            )
+            continue
+        theirs = _bits(played.outputs[port])
+        if port in kind.phases:
+            window = min(US, tolerance // 2)
+            places, theirs = (unchopped(one, kind.pins.widths[port], window) for one in (places, theirs))
+        for bit, channel in sorted(places.items()):
+            name = f"{port}[{bit + kind.pins.low(port)}]" if kind.pins.widths[port] > 1 else port
+            start = starts.get(kind.axis_of(port, bit), starts[0])
+            pairs, wrong = _match(name, channel, theirs[bit], start, wires.end, tolerance, reset)
+            result.pins.append(name)
+            result.compared += len(pairs)
+            result.differences += wrong
+            for mine, other in pairs:
+                total += abs(mine - other)
+                if abs(mine - other) > result.worst:
+                    result.worst, result.worst_pin = abs(mine - other), name
+    if not result.pins:
+        raise CaptureError(
+            f"{decoded.capture}: no output of {kind.called} is in the map: there is nothing to compare"
+        )
+    if not result.compared and not result.differences:
+        raise CaptureError(
+            f"{decoded.capture}: no output changes in it, neither the chip's nor the model's: capture a move"
+        )
+    result.mean = total / max(1, result.compared)
+    result.differences.sort(key=lambda one: one.t)
+    return result
+
+
+def _same_place(
+    port: str, places: dict[int, Channel], played: _Played, starts: dict[int, int], kind: DecodeKind
+) -> bool:
+    """Whether chip and model show the same phases when the comparison begins."""
+    start = starts.get(kind.axis_of(port, 0), starts[0]) + SETTLED
+    return all(
+        _level(channel, start) == _level(played.outputs[port].bit(bit), start)
+        for bit, channel in places.items()
+    )
+
+
+def _match(
+    name: str, chip: Channel, model: Channel, start: int, end: int, tolerance: int, known: bool
+) -> tuple[list[tuple[int, int]], list[Difference]]:
+    """Pairs of edges, and edges without a partner. known: both sides began alike; else they count from where
+    they agree first."""
+    mine = [change for change in chip.changes if start <= change[0]]
+    other = [change for change in model.changes if start <= change[0]]
+    if not known and _level(chip, start) != _level(model, start):
+        # Whoever changes first comes to agree with the other.
+        mine_first = mine[0][0] if mine else end + 1
+        other_first = other[0][0] if other else end + 1
+        (mine if mine_first < other_first else other)[:1] = []
+    pairs: list[tuple[int, int]] = []
+    wrong: list[Difference] = []
+    i = j = 0
+    while i < len(mine) or j < len(other):
+        a = mine[i] if i < len(mine) else (end + 2 * tolerance + 1, -1)
+        b = other[j] if j < len(other) else (end + 2 * tolerance + 1, -1)
+        if a[1] == b[1] and abs(a[0] - b[0]) <= tolerance:
+            pairs.append((a[0], b[0]))
+            i, j = i + 1, j + 1
+        elif a[0] <= b[0]:
+            if a[0] < end - tolerance:
+                wrong.append(Difference(name, a[0], a[1], True))
+            i += 1
+        else:
+            if b[0] < end - tolerance:
+                wrong.append(Difference(name, b[0], b[1], False))
+            j += 1
+    return pairs, wrong

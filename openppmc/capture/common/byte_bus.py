@@ -1,0 +1,84 @@
+"""Parts with the registers A0 = 0 (data) and 1 (command, status): what their kinds have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from ...model.motion.codes import Command, Kind
+from .bus import Strobe, accesses
+from .kind import Access, DecodeKind, Line, Needs, Train, Wires
+from .pinmap import Pins
+from .registers import Judged, Said, cycle, spoken
+from .words import Exchange, Words
+
+SHORTEST = 250_000
+"""ps; the shortest strobe that an old host may make and an analyser must see."""
+STEADY = ("busc", "aen")
+"""Pins of strobes that may be left out of a capture: they stand still."""
+
+
+def _said(access: Access) -> Said:
+    return Said(access.begin, "write" if access.write else "read", access.reg, access.byte)
+
+
+def byte_part(
+    called: str,
+    model: tuple[Mapping[str, int], Mapping[str, int], Mapping[str, int]],
+    strobe_pins: tuple[str, ...],
+    strobes: Strobe,
+    words: Words,
+    code: Callable[[int, Wires], Command],
+    levels: Callable[[Access, Wires], dict[str, int]],
+    trains: Callable[[Wires], list[Train]],
+    lowest: Mapping[str, int],
+    phases: tuple[str, ...],
+    axis_of: Callable[[str, int], int] = lambda port, bit: 0,
+    address: str = "a0",
+    bus: str = "d",
+    aliases: Mapping[str, str] | None = None,
+) -> DecodeKind:
+    """model: inputs, outputs, widths of the golden model. strobe_pins: those of which a strobe is made.
+    code: a command byte decoded. levels: of these pins and the address during an access. address: the port
+    whose bit 0 chooses the register. bus: name of the data. aliases: other names of pins."""
+    inputs, outputs, widths = model
+
+    def seen(wires: Wires) -> list[Access]:
+        found = accesses(wires, strobe_pins, address, inputs, strobes, bus)
+        return [one._replace(reg=one.reg & 1) for one in found]
+
+    def lines(wires: Wires) -> list[Line]:
+        def judge(row: Exchange) -> Judged:
+            if not row.sent:
+                return Judged(bool(row.answer))
+            command = code(row.sent[0], wires)
+            whole = len(row.sent) - 1 == command.parameters
+            first = whole and command.kind is Kind.INITIALISE
+            return Judged(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
+
+        return spoken(seen(wires), words, _said, judge)
+
+    def stimulus(wires: Wires) -> list[tuple[int, dict[str, int]]]:
+        rows: list[tuple[int, dict[str, int]]] = []
+        for access in seen(wires):
+            own = levels(access, wires)
+            rows += cycle(access, own, f"{bus}_i")
+        return rows
+
+    def needs(wires: Wires) -> Needs:
+        data = bus if bus in wires.bits else f"{bus}_i"
+        return Needs((*(pin for pin in strobe_pins if pin not in STEADY), address, data), SHORTEST)
+
+    names = {name: widths.get(name, 1) for name in (*inputs, *outputs)} | {bus: 8, "clk": 1}
+    return DecodeKind(
+        called,
+        Pins(names, lowest, aliases or {}),
+        inputs,
+        needs,
+        lines,
+        stimulus,
+        trains,
+        frozenset((*strobe_pins, address, f"{bus}_i")),
+        tuple(name for name in outputs if name not in (f"{bus}_o", f"{bus}_oe")),
+        phases,
+        axis_of=axis_of,
+    )

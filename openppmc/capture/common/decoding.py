@@ -1,0 +1,180 @@
+"""A capture by the pins of a part: pin map, clean-up, and what can be wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ... import parts
+from .errors import CaptureError
+from .kind import DecodeKind, Line, Train, Wires
+from .pinmap import PinMap, wired
+from .pulses import Move, moves
+from .signals import US, Capture, Channel, joined, without_glitches
+
+GLITCH = 30_000
+"""ps; shorter pulses are none: no strobe, bit or pulse of these chips is that short."""
+
+
+@dataclass
+class Decoded:
+    """A capture in words. glitches: pulses that were left out, by pin. missing: pins that were not captured.
+    crystal, timing: what the model gets."""
+
+    part: str
+    kind: DecodeKind
+    wires: Wires
+    lines: list[Line]
+    trains: list[Train]
+    moves: list[Move]
+    glitches: Mapping[str, int]
+    missing: tuple[str, ...]
+    crystal: int
+    timing: str
+    capture: str
+
+    @property
+    def pause(self) -> int:
+        """ps between two moves."""
+        return self.kind.pause * 16_000_000 // self.crystal
+
+    @property
+    def strange(self) -> int:
+        """Lines that make no sense for this part."""
+        return sum(line.strange for line in self.lines)
+
+    @property
+    def complaint(self) -> str:
+        """One line if this cannot be a capture of this part; empty if it may be."""
+        spoken = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
+        if len(spoken) < 3 or 2 * self.strange <= len(spoken):
+            return ""
+        wires = (
+            "are rxd and txd mixed up"
+            if "rxd" in self.wires.ports
+            else "are lines of d mixed up, is a0 (rs) right"
+        )
+        return (
+            f"{self.strange} of {len(spoken)} {self.kind.unnamed} are none of {self.kind.called}: is the "
+            f"capture of another part, {wires}?"
+        )
+
+
+def decoder(part: str) -> DecodeKind:
+    """What a part's own `decode.py` says. UnknownPartError."""
+    kind: DecodeKind = parts.part(part).load("decode")
+    return kind
+
+
+def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
+    """ "; it has the pins of …", if the channels' names are those of other parts; else nothing."""
+    if chosen.pins is not None:
+        return ""
+    found = []
+    for row in parts.having("decode"):
+        kind = decoder(row.name)
+        try:
+            bits = wired(capture, chosen, kind.pins)
+        except CaptureError:
+            continue
+        needs = kind.needs(Wires({}, bits, capture.end, capture.sample)).pins
+        if row.name != without and all(len(bits.get(pin, ())) == kind.pins.widths[pin] for pin in needs):
+            found.append(f"--part {row.name}")
+    return f"; it has the pins of another part: {' or '.join(found)}" if found else ""
+
+
+def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: int = GLITCH) -> Decoded:
+    """Pins, words, moves. part: wins over the map's. glitch: ps. CaptureError; UnknownPartError."""
+    name = part or chosen.part or capture.part
+    if not name:
+        names = ", ".join(row.name for row in parts.having("decode"))
+        raise CaptureError(
+            f"which part is this? name it with --part, or in the map as `part:` (there are {names})"
+        )
+    kind = decoder(name)
+    try:
+        bits, glitches = _clean(wired(capture, chosen, kind.pins), glitch)
+    except CaptureError as error:
+        raise CaptureError(f"{error}{fitting(capture, chosen, name)}") from None
+    ports = {
+        port: joined([places[bit] for bit in range(kind.pins.widths[port])])
+        for port, places in bits.items()
+        if len(places) == kind.pins.widths[port]
+    }
+    told = dict(capture.parameters) if name == capture.part else {}
+    timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
+    crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))
+    params = {**told, "XTAL_HZ": crystal, **chosen.parameters}
+    # Our own files have each edge at its clk: nothing is sampled there.
+    sample = 0 if told else capture.finest
+    wires = Wires(ports, bits, capture.end, sample, params)
+    try:
+        _check(kind, wires, capture)
+    except CaptureError as error:
+        raise CaptureError(f"{error}{fitting(capture, chosen, name)}") from None
+    lines = kind.lines(wires)
+    if not lines:
+        raise CaptureError(
+            f"{capture.name}: the host never says anything to {kind.called}: is the pin map right "
+            f"({', '.join(kind.needs(wires).pins)}), was the program running?"
+        )
+    if not any(line.data[:2] not in ("st", "CS", "→ ", " →") for line in lines):
+        raise CaptureError(
+            f"{capture.name}: the host only reads and never writes to {kind.called}: is the write strobe the "
+            f"right channel ({', '.join(kind.needs(wires).pins)})?"
+        )
+    trains = kind.trains(wires)
+    known = {"clk", *ports, *kind.host_pins}
+    used = [*kind.inputs, *kind.outputs]
+    missing = tuple(pin for pin in used if pin not in known and pin not in bits)
+    return Decoded(
+        name,
+        kind,
+        wires,
+        lines,
+        trains,
+        moves(trains, kind.pause * 16_000_000 // crystal),
+        glitches,
+        missing,
+        crystal,
+        timing,
+        capture.name,
+    )
+
+
+def _clean(
+    bits: dict[str, dict[int, Channel]], glitch: int
+) -> tuple[dict[str, dict[int, Channel]], dict[str, int]]:
+    clean: dict[str, dict[int, Channel]] = {}
+    glitches: dict[str, int] = {}
+    for port, places in bits.items():
+        # A clock is as fast as it is.
+        shortest = 0 if port == "clk" else glitch
+        for bit, channel in places.items():
+            clean.setdefault(port, {})[bit], dropped = without_glitches(channel, shortest)
+            if dropped:
+                glitches[port] = glitches.get(port, 0) + dropped
+    return clean, glitches
+
+
+def _check(kind: DecodeKind, wires: Wires, capture: Capture) -> None:
+    """CaptureError if what must be there is not, or was sampled too slowly."""
+    needs = kind.needs(wires)
+    for pin in needs.pins:
+        if pin in wires.ports:
+            continue
+        low = kind.pins.low(pin)
+        have = wires.bits.get(pin, {})
+        if have:
+            lost = next(bit for bit in range(kind.pins.widths[pin]) if bit not in have)
+            raise CaptureError(
+                f"{capture.name}: {pin}[{lost + low}] is not in the map: nothing can be read without it"
+            )
+        raise CaptureError(f"{capture.name}: {pin} is not in the map: nothing can be read without it")
+    finest = capture.finest
+    if finest > needs.shortest // 2:
+        short = needs.shortest / US
+        raise CaptureError(
+            f"{capture.name}: sampled every {finest / US:g} µs, but strobes or bits may be {short:g} µs "
+            f"short: capture again with {max(1, round(2 / short))} MS/s or more"
+        )

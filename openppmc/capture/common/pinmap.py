@@ -1,0 +1,226 @@
+"""Which channel of a capture is which pin: a YAML or TOML file, or the channels' own names.
+
+part: ppmc104            # or --part
+crystal: 16000000        # of the old chip, Hz
+timing: DATASHEET        # FAST for a capture of our own core
+scope: station3          # of a VCD that has the same names in several: whose channels
+pins:
+  d: [D0, D1, D2, D3, D4, D5, D6, D7]      # a port: bit 0 first
+  a0: "ch 8"
+  cs_n: 9                # the channel's place in the file, from 0 on
+  alm_n: "!ALARM"        # behind an inverter
+  s[1]: PH1              # one bit of a port
+"""
+
+from __future__ import annotations
+
+import importlib
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from ...errors import needs
+from .errors import CaptureError
+from .signals import Capture, Channel
+
+WORDS = ("part", "crystal", "timing", "scope", "parameters", "pins")
+_PLACE = re.compile(r"(\w+)\[(\d+)\]")
+
+
+@dataclass(frozen=True)
+class Pins:
+    """Pins of a part that a map may name. widths: bits by name. lowest: number of the lowest bit where it is
+    not 0. aliases: other names."""
+
+    widths: Mapping[str, int]
+    lowest: Mapping[str, int] = field(default_factory=dict)
+    aliases: Mapping[str, str] = field(default_factory=dict)
+
+    def place(self, pin: str) -> tuple[str, int]:
+        """Port and bit of `s[1]` or `cs_n`. ValueError."""
+        pin = self.aliases.get(pin, pin)
+        match = _PLACE.fullmatch(pin)
+        port, number = (match[1], int(match[2])) if match else (pin, -1)
+        if port not in self.widths:
+            raise ValueError(f"{pin} is no pin of it (there are {', '.join(self.widths)})")
+        if match is None:
+            if self.widths[port] > 1:
+                raise ValueError(
+                    f"{pin} has {self.widths[port]} bits: give a list, bit {self.low(port)} first"
+                )
+            return port, 0
+        bit = number - self.low(port)
+        if not 0 <= bit < self.widths[port]:
+            last = self.low(port) + self.widths[port] - 1
+            raise ValueError(f"{pin}: {port} has bits {self.low(port)} to {last}")
+        return port, bit
+
+    def low(self, port: str) -> int:
+        """Number of the lowest bit, as the data sheet has it."""
+        return self.lowest.get(port, 0)
+
+
+@dataclass
+class PinMap:
+    """A map as it was read. pins: text of the channel by pin, as written; None: by the channels' names.
+    scope: of a VCD, whose channels go before others of the same name."""
+
+    name: str = "the channels' names"
+    part: str | None = None
+    crystal: int | None = None
+    timing: str | None = None
+    parameters: dict[str, object] = field(default_factory=dict)
+    pins: dict[str, Any] | None = None
+    scope: str = ""
+
+
+def _yaml(text: str, name: str) -> Any:
+    """ValueError for what is no YAML."""
+    needs("decode", f"{name}: a pin map in YAML", "yaml")
+    import yaml
+
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(str(error)) from None
+
+
+def read_map(path: Path) -> PinMap:
+    """CaptureError for a file that is no map."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        values = _toml(text) if path.suffix.lower() == ".toml" else _yaml(text, path.name)
+    except (OSError, UnicodeDecodeError) as error:
+        raise CaptureError(f"{path}: the pin map cannot be read ({error})") from None
+    except ValueError as error:
+        raise CaptureError(f"{path.name}: no pin map ({' '.join(str(error).split())})") from None
+    if not isinstance(values, dict) or not isinstance(values.get("pins"), dict) or not values["pins"]:
+        raise CaptureError(f"{path.name}: no pin map: it needs `pins:` with a channel for each pin")
+    for word in values:
+        if word not in WORDS:
+            raise CaptureError(f"{path.name}: {word}: there are {', '.join(WORDS)}")
+    crystal, timing = values.get("crystal"), values.get("timing")
+    if crystal is not None and not (isinstance(crystal, int) and 1_000_000 <= crystal <= 20_000_000):
+        raise CaptureError(f"{path.name}: crystal: {crystal}: expected 1000000 to 20000000 Hz")
+    if timing not in (None, "FAST", "DATASHEET"):
+        raise CaptureError(f"{path.name}: timing: {timing}: neither FAST nor DATASHEET")
+    parameters = {str(name).upper(): value for name, value in (values.get("parameters") or {}).items()}
+    return PinMap(
+        path.name,
+        values.get("part"),
+        crystal,
+        timing,
+        parameters,
+        values["pins"],
+        str(values.get("scope") or ""),
+    )
+
+
+def _toml(text: str) -> Any:
+    try:
+        reader = importlib.import_module("tomllib")
+    except ImportError:
+        raise ValueError("TOML needs Python 3.11: write it as YAML") from None
+    return reader.loads(text)
+
+
+def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, dict[int, Channel]]:
+    """Channels by port and bit. CaptureError for a map that does not fit capture or part."""
+    found: dict[str, dict[int, Channel]] = {}
+    used: dict[str, str] = {}
+    capture = _scoped(capture, chosen.scope)
+    if chosen.pins is None:
+        _by_name(capture, pins, found)
+        return found
+    for pin, what in chosen.pins.items():
+        try:
+            if isinstance(what, list):
+                port = str(pin)
+                if port not in pins.widths or len(what) != pins.widths[port]:
+                    raise ValueError(
+                        f"{port}: {len(what)} channels, it has {pins.widths.get(port, 'no')} bits"
+                    )
+                places = [(port, bit, one) for bit, one in enumerate(what)]
+            else:
+                places = [(*pins.place(str(pin)), what)]
+            for port, bit, one in places:
+                if one is None:
+                    continue
+                name, channel = _channel(capture, one)
+                if name in used and name != "":
+                    raise ValueError(f"{pin}: channel {name} is {used[name]} already")
+                used[name] = str(pin)
+                found.setdefault(port, {})[bit] = channel
+        except ValueError as error:
+            raise CaptureError(f"{chosen.name}: {error}") from None
+    return found
+
+
+def _scoped(capture: Capture, scope: str) -> Capture:
+    """The capture with the channels of a scope by their plain names. CaptureError if it has no such scope."""
+    if not scope:
+        return capture
+    own = {
+        name.removeprefix(f"{scope}."): channel
+        for name, channel in capture.channels.items()
+        if name.startswith(f"{scope}.")
+    }
+    if not own:
+        scopes = dict.fromkeys(name.rpartition(".")[0] for name in capture.channels if "." in name)
+        there = f"there are {', '.join(scopes)}" if scopes else "there is nothing to choose from"
+        raise CaptureError(f"{capture.name}: no scope {scope} in it ({there})")
+    return replace(capture, channels={**capture.channels, **own})
+
+
+def _channel(capture: Capture, what: object) -> tuple[str, Channel]:
+    """By name or place; `!` in front turns it round."""
+    names = list(capture.channels)
+    if isinstance(what, int) and not isinstance(what, bool):
+        if not 0 <= what < len(names):
+            raise ValueError(f"channel {what}: {capture.name} has channels 0 to {len(names) - 1}")
+        return names[what], capture.channels[names[what]]
+    text = str(what)
+    inverted = text.startswith("!")
+    name = text.lstrip("!").strip()
+    place = _PLACE.fullmatch(name)
+    if name not in capture.channels and place and place[1] in capture.channels:
+        channel = capture.channels[place[1]].bit(int(place[2]))
+    elif name in capture.channels:
+        channel = capture.channels[name]
+    else:
+        raise ValueError(f"no channel {name!r} in {capture.name} (there are {', '.join(names)})")
+    if channel.width > 1:
+        raise ValueError(f"channel {name!r} has {channel.width} bits: name one, as {name}[0]")
+    if inverted:
+        channel = Channel(1 - channel.initial, [(t, 1 - level) for t, level in channel.changes])
+    return text, channel
+
+
+def _by_name(capture: Capture, pins: Pins, found: dict[str, dict[int, Channel]]) -> None:
+    """Channels that are called as the pins are."""
+    for name, channel in capture.channels.items():
+        plain = name.strip().lower()
+        try:
+            if channel.width > 1:
+                if pins.widths.get(plain) == channel.width:
+                    found[plain] = {bit: channel.bit(bit) for bit in range(channel.width)}
+                continue
+            port, bit = pins.place(_numbered(plain, pins))
+        except ValueError:
+            continue
+        found.setdefault(port, {})[bit] = channel
+    if not found:
+        raise CaptureError(
+            f"{capture.name}: no channel is called like a pin of this part ({', '.join(capture.channels)}): "
+            "name them with --map FILE"
+        )
+
+
+def _numbered(name: str, pins: Pins) -> str:
+    """`s1` is `s[1]`, `d0` is `d[0]`, `pout1_n` is `pout_n[1]`."""
+    match = re.fullmatch(r"([a-z]+?)_?(\d+)(_n)?", name)
+    if name in pins.widths or name in pins.aliases or match is None:
+        return name
+    return f"{match[1]}{match[3] or ''}[{match[2]}]"

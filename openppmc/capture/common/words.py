@@ -1,0 +1,200 @@
+"""The bytes of a host in words: what all parts of the family have in common, and how accesses are grouped."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+# Operations by the low three bits of their code: name and number of data bytes.
+OPERATIONS = {
+    2: ("single step", 0),
+    3: ("accelerate/decelerate", 3),
+    4: ("constant speed", 4),
+    5: ("continuous constant speed", 1),
+    6: ("continuous high speed", 0),
+    7: ("origin search", 1),
+}
+CAUSES = ((0x40, "a stop command"), (0x20, "ALM"), (0x10, "the limit"), (0x08, "the slow-down limit"))
+END_STATUS, INPUTS, OUTPUTS, REMAINING = 0x80, 0x81, 0x82, 0x83
+
+
+class Words:
+    """What the bytes of one part mean. A part says what differs: status, setting, the other codes, pins."""
+
+    operations = OPERATIONS
+    causes: Sequence[tuple[int, str]] = CAUSES
+    reads: Mapping[int, tuple[str, int]] = {}
+    read_codes: Mapping[int, int] = {}  # where reads have other codes than END_STATUS, INPUTS, …: theirs
+    switches: Sequence[tuple[int, str]] = ()
+    unit, speed, rate = "pulse", "kpps", "rate"
+    setting_names: Sequence[str] = ("RL", "RH", "PA")  # data of an initialisation; PA has two bytes
+
+    def count(self, pulses: int) -> str:
+        """A number of pulses or steps."""
+        return f"{pulses} {self.unit}{'s' if pulses != 1 else ''}"
+
+    def exchanges(self, accesses: Sequence[Any]) -> Sequence[Any]:
+        """The accesses of a host as rows of the table: see `Exchange` for what a row has."""
+        return exchanges(self, accesses)
+
+    def axis(self, code: int) -> int:
+        """Bits of a code that name an axis."""
+        return 0
+
+    def status(self, byte: int) -> str:
+        """The status register."""
+        raise NotImplementedError
+
+    def setting(self, code: int, data: Sequence[int]) -> str:
+        """An initialisation with its data."""
+        raise NotImplementedError
+
+    def other(self, code: int, data: Sequence[int]) -> str:
+        """A code that is neither initialisation, read nor operation."""
+        return {0x40: "immediate stop", 0x41: "decelerating stop"}.get(code, f"command {code:02X}")
+
+    def phases(self, byte: int) -> str:
+        """The phase bits of the output register."""
+        high = [f"S{index + 1}" for index in range(5) if byte & 0x80 >> index]
+        return f"{' '.join(high) or 'no phase'} high"
+
+    def end(self, byte: int) -> str:
+        """The finish or end status: how the last operation ended."""
+        name = self.operations.get(byte & 7, ("no operation yet", 0))[0]
+        if not byte & 7:
+            return name
+        causes = [text for bit, text in self.causes if byte & bit]
+        return f"{name}: {'ended by ' + ' and '.join(causes) if causes else f'all {self.unit}s made'}"
+
+    def inputs(self, byte: int) -> str:
+        """The input signals that are active (low)."""
+        active = [name for bit, name in self.switches if not byte & bit]
+        return f"active: {', '.join(active)}" if active else "no switch active"
+
+    def outputs(self, byte: int) -> str:
+        """Phases, HOLD and DIR."""
+        hold, direction = "high" if byte & 4 else "low", "CCW" if byte & 2 else "CW"
+        return f"{self.phases(byte)}, HOLD {hold}, {direction}"
+
+    def ramp(self, data: Sequence[int]) -> str:
+        """The data of an initialisation, if they are complete."""
+        if len(data) < 4:
+            return ""
+        return f"; RL {data[0]}, RH {data[1]}, PA {data[2] | data[3] << 8}"
+
+    def command(self, code: int, data: Sequence[int]) -> str:
+        """A command with its data bytes."""
+        axis = self.axis(code)
+        code &= ~axis
+        if code < 0x40:
+            return self.setting(code | axis, data)
+        if code in self.reads:
+            return self.reads[code][0]
+        if code & 7 in self.operations and (code & 0xC0 == 0x40 or code & 0xC7 in (0xC3, 0xC6)):
+            name, count = self.operations[code & 7]
+            words = [name, "CCW" if code & 8 else "CW"]
+            values = list(data)
+            if count in (1, 4) and values:
+                words.append(f"{self.rate} {values.pop(0)}")
+            if len(values) == 3:
+                words.append(self.count((values[0] | values[1] << 8 | values[2] << 16) + 1))
+            return ", ".join(words)
+        return self.other(code | axis, data)
+
+    def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
+        """What the bytes after a read command mean; `stopped`: the last end status named a cause."""
+        code = self.read_codes.get(code, code)
+        if code == END_STATUS:
+            return self.end(data[0])
+        if code == INPUTS:
+            return self.inputs(data[0])
+        if code == OUTPUTS:
+            return self.outputs(data[0])
+        if code == REMAINING and len(data) == 3:
+            left = (data[0] | data[1] << 8 | data[2] << 16) + stopped
+            return f"{self.count(left)} not made" if left else f"no {self.unit} left"
+        return ""
+
+
+class OneAxisWords(Words):
+    """Error number, or number of bytes expected, in the status register; a part has its list of `errors`, and
+    its name for the `clock` from outside."""
+
+    errors: Sequence[str] = ()
+    clock = "CLOCK pin"
+
+    def status(self, byte: int) -> str:
+        """Flags that are set, error or bytes still expected."""
+        flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
+        number = byte >> 4 & 7
+        if byte & 0x80:
+            flags.append(f"error {number}: {self.errors[number]}")
+        elif number:
+            flags.append(f"{number} more byte{'s' if number > 1 else ''} expected")
+        return ", ".join(flags) or "ready, nothing pending"
+
+    def setting(self, code: int, data: Sequence[int]) -> str:
+        """Motor, step, level, clock, chopping, ramp."""
+        step, level = "half" if code & 4 else "full", "high" if code & 8 else "low"
+        phases = f"{(code & 3) + 2} phases, {step} step, {level} = on"
+        clock = self.clock if code & 0x10 else "internal clock"
+        chop = "chopped at rest" if code & 0x20 else "full current at rest"
+        return f"initialise: {phases}, {clock}, {chop}{self.ramp(data)}"
+
+
+@dataclass
+class Exchange:
+    """A command with its data, the answer, and the status bytes seen meanwhile; `t` in clk."""
+
+    words: Words
+    t: int
+    sent: list[int] = field(default_factory=list)
+    answer: list[int] = field(default_factory=list)
+    polls: list[int] = field(default_factory=list)
+    stopped: bool = False
+
+    @property
+    def read(self) -> int:
+        """The code without its axis; -1 without one."""
+        return self.sent[0] & ~self.words.axis(self.sent[0]) if self.sent else -1
+
+    @property
+    def meaning(self) -> str:
+        """What was sent, in words."""
+        return self.words.command(self.sent[0], self.sent[1:]) if self.sent else "look at the status register"
+
+    @property
+    def reply(self) -> str:
+        """The answer in words; without one, the last status."""
+        if self.sent and self.answer:
+            return self.words.answer(self.read, self.answer, self.stopped)
+        return self.words.status(self.polls[-1]) if self.polls else ""
+
+    @property
+    def statuses(self) -> list[int]:
+        """Status bytes with IBF = 0 in order, repeats dropped: what the chip made of each byte."""
+        taken = [byte for byte in self.polls if not byte & 2]
+        return [byte for index, byte in enumerate(taken) if index == 0 or byte != taken[index - 1]]
+
+
+def exchanges(words: Words, accesses: Sequence[Any]) -> list[Exchange]:
+    """Fold the accesses of a host (t, kind, reg, byte) into exchanges: each begins with a command byte."""
+    rows: list[Exchange] = []
+    stopped: dict[int, bool] = {}
+    for access in accesses:
+        if access.kind == "write" and access.reg == 1:
+            was = stopped.get(words.axis(access.byte), False)
+            rows.append(Exchange(words, access.t, [access.byte], stopped=was))
+            continue
+        if not rows:
+            rows.append(Exchange(words, access.t))
+        if access.kind == "write":
+            rows[-1].sent.append(access.byte)
+        elif access.reg == 1:
+            rows[-1].polls.append(access.byte)
+        else:
+            rows[-1].answer.append(access.byte)
+            if rows[-1].read == END_STATUS:
+                stopped[words.axis(rows[-1].sent[0])] = bool(access.byte & 0x78)
+    return rows

@@ -1,0 +1,1 @@
+"""Captures of a line with PMC006B4."""

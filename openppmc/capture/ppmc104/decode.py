@@ -1,0 +1,34 @@
+"""Bus and pins of a PPMC-104 in words."""
+
+from __future__ import annotations
+
+from ...model.ppmc104.pins import INPUTS, OUTPUTS, WIDTHS
+from ...model.single.codes import decode
+from ...model.single.strobes import strobes
+from ..common.byte_bus import byte_part
+from ..common.kind import Access, Train, Wires
+from ..common.pulses import train
+from .words import Words104
+
+
+def _levels(access: Access, wires: Wires) -> dict[str, int]:
+    return {"cs_n": 0, "wr_n" if access.write else "rd_n": 0, "a0": access.reg}
+
+
+def _trains(wires: Wires) -> list[Train]:
+    one = train(wires, 1, "pout_n", 0, 0, "dir")
+    return [] if one is None else [one]
+
+
+DECODER = byte_part(
+    "a PPMC-104",
+    (INPUTS, OUTPUTS, WIDTHS),
+    ("cs_n", "rd_n", "wr_n"),
+    strobes,
+    Words104(),
+    lambda code, wires: decode(code),
+    _levels,
+    _trains,
+    {"s": 1},
+    ("s",),
+)

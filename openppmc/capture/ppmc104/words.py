@@ -1,0 +1,30 @@
+"""The bytes of a PPMC-104 host in words."""
+
+from __future__ import annotations
+
+from ..common.words import OneAxisWords
+
+ERRORS = (
+    "undefined command, or a stop at rest",
+    "not allowed while BUSY",
+    "not initialised",
+    "data byte nobody asked for",
+    "PA above 11220",
+    "RH above RL, or PA below 4",
+    "data byte nobody asked for while BUSY",
+    "already decelerating",
+)
+
+
+class Words104(OneAxisWords):
+    """One axis, error numbers in the status register."""
+
+    errors = ERRORS
+    reads = {
+        0x80: ("read finish status", 1),
+        0x81: ("read input signals", 1),
+        0x82: ("read output signals", 1),
+        0x83: ("read remaining pulses", 3),
+        0x85: ("read auxiliary inputs", 1),
+    }
+    switches = ((0x80, "CNP"), (0x40, "ALM"), (8, "L1"), (4, "L2"), (2, "L3"), (1, "L4"))

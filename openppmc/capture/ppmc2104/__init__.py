@@ -1,0 +1,1 @@
+"""Captures of a PPMC-2104."""

@@ -1,0 +1,1 @@
+"""Captures of a J105 STMC."""

@@ -1,0 +1,35 @@
+"""Bus and phases of a J105 STMC in words."""
+
+from __future__ import annotations
+
+from ...model.single.strobes import strobes
+from ...model.stmc.codes import decode
+from ...model.stmc.pins import INPUTS, OUTPUTS, WIDTHS
+from ..common.byte_bus import byte_part
+from ..common.kind import Access, Train, Wires
+from ..common.pulses import phase_train
+from .words import WordsStmc
+
+
+def _levels(access: Access, wires: Wires) -> dict[str, int]:
+    return {"cs_n": 0, "wr_n" if access.write else "rd_n": 0, "a0": access.reg}
+
+
+def trains(wires: Wires) -> list[Train]:
+    """Steps of the phases."""
+    one = phase_train(wires, 1, "s")
+    return [] if one is None else [one]
+
+
+DECODER = byte_part(
+    "a J105 STMC",
+    (INPUTS, OUTPUTS, WIDTHS),
+    ("cs_n", "rd_n", "wr_n"),
+    strobes,
+    WordsStmc(),
+    lambda code, wires: decode(code, str(wires.params.get("READ_MAP", "SHEET"))),
+    _levels,
+    trains,
+    {"s": 1},
+    ("s",),
+)

@@ -1,0 +1,67 @@
+"""The bytes of a J105 STMC host in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisWords
+
+ERRORS = (
+    "undefined command, or a stop at rest",
+    "not allowed while BUSY",
+    "not initialised",
+    "data byte nobody asked for",
+    "unused",
+    "divisor 0, or slow divisor below fast one",
+    "data byte nobody asked for while BUSY",
+    "already decelerating",
+)
+
+
+class WordsStmc(OneAxisWords):
+    """One axis with divisors, the read codes of READ_MAP = "SHEET", error numbers in the status."""
+
+    errors = ERRORS
+    operations = {
+        2: ("single step", 0),
+        3: ("accelerate/decelerate", 3),
+        4: ("constant speed", 4),
+        5: ("constant speed to the limit", 1),
+        6: ("accelerate to the limit", 0),
+        7: ("constant speed to the reference point", 1),
+    }
+    causes = (
+        (0x40, "a stop command"),
+        (0x20, "MON low"),
+        (0x10, "the limit"),
+        (0x08, "the deceleration limit"),
+    )
+    reads = {
+        0x80: ("read finish status", 1),
+        0x82: ("read inputs", 1),
+        0x83: ("read outputs", 1),
+        0x84: ("read remaining steps", 3),
+    }
+    read_codes = {0x80: END_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING}
+    switches = ((0x80, "CNP"), (8, "L1"), (4, "L2"), (2, "L3"), (1, "L4"))
+    setting_names = ("D1", "D2", "PA")
+    unit, speed, rate = "step", "thousand steps/s", "divisor"
+    clock = "external clock"
+
+    def ramp(self, data: Sequence[int]) -> str:
+        """The divisors and the length of the ramp, if they are complete."""
+        if len(data) < 4:
+            return ""
+        return f"; slow {data[0]}, fast {data[1]}, {data[2] | data[3] << 8} steps of acceleration"
+
+    def command(self, code: int, data: Sequence[int]) -> str:
+        """A command with its data bytes; bit 5 of a motion command does not matter."""
+        return super().command(code & ~0x20 if code & 0xC0 == 0x40 else code, data)
+
+    def end(self, byte: int) -> str:
+        """How the last motion ended; the reference point has no bit of its own."""
+        return f"{self.operations[7][0]}: found" if byte & 0x7F == 7 else super().end(byte)
+
+    def inputs(self, byte: int) -> str:
+        """The switches that are active, and MON."""
+        return super().inputs(byte) + (", motor on" if byte & 0x40 else ", motor off")

@@ -1,0 +1,47 @@
+"""The pins of a part as reports and pictures need them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+
+class Pinned(Protocol):
+    """A part's pins. inputs: idle levels, without rst_n. bus_pins: inputs of the host's bus or line. clock:
+    input of the external clock, or "" """
+
+    @property
+    def inputs(self) -> Mapping[str, int]: ...
+    @property
+    def bus_pins(self) -> AbstractSet[str]: ...
+    @property
+    def clock(self) -> str: ...
+    def width(self, pin: str) -> int:
+        """Bits of an input or output."""
+
+
+@dataclass(frozen=True)
+class ModelPins:
+    """`Pinned` of a golden model. outputs: levels in reset."""
+
+    inputs: Mapping[str, int]
+    outputs: Mapping[str, int]
+    widths: Mapping[str, int]
+    bus_pins: AbstractSet[str]
+    clock: str = ""
+
+    def width(self, pin: str) -> int:
+        """As `Pinned.width`."""
+        return self.widths.get(pin, 1)
+
+
+_CLOCKS = ("clock", "ext_clk", "extck")
+
+
+def pins_of(model: Any) -> ModelPins:
+    """Of a golden model fresh out of reset (`model.common.chip.Chip`)."""
+    inputs = {pin: level for pin, level in model.INPUTS.items() if pin != "rst_n"}
+    clock = next((pin for pin in _CLOCKS if pin in inputs), "")
+    return ModelPins(inputs, dict(model.log.initial), model.WIDTHS, frozenset(model.HOST_PINS), clock)

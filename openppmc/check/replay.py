@@ -1,0 +1,82 @@
+"""Recorded inputs into a golden model, at their clk, and what it says the outputs must do.
+
+    edges = expected_edges("ppmc104", {"CLK_HZ": 24_000_000}, changes, end)
+    comparison = compare_recording(Recording("ppmc104", params, end=end, stimulus=changes, edges=seen))
+    comparison.mismatch     # None, or the first difference
+
+Time is the index of rising clk edges, 0 the first one behind the reset: an input at t is sampled first by
+edge t, an output at t changes with edge t (`model.common.chip`). A recording that begins
+in a reset has `rst_n` 0 and 1 among its changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+from .. import parts
+from .comparison import Comparison, compare_edges
+from .pins import Pinned, pins_of
+from .records import Change, Edge, Recording
+
+
+def new_model(part: str, params: Mapping[str, object]) -> Any:
+    """Golden model of a part with these parameters of its top module. ValueError for values out of range,
+    parts.UnknownPartError for a part without model."""
+    return parts.part(part).load("model")(**{name.lower(): value for name, value in params.items()})
+
+
+class Follower:
+    """`model`: whatever follows; it needs pins(t, **levels) and run_until(t)."""
+
+    def __init__(self, model: Any) -> None:
+        self.model = model
+        self._fed, self._end = 0, -1
+
+    def catch_up(self, stimulus: Sequence[Change], end: int) -> Any:
+        """Feed what has been added to `stimulus` since the last call, run up to edge `end`; the model."""
+        new = stimulus[self._fed :]
+        self._fed = len(stimulus)
+        for t, group in groupby(new, key=lambda change: change.t):
+            self.model.pins(t, **{change.pin: change.value for change in group})
+        if end > self._end:
+            self._end = end
+            self.model.run_until(end)
+        return self.model
+
+
+def expected_edges(
+    part: str, params: Mapping[str, object], inputs: Iterable[tuple[int, str, int]], end: int
+) -> list[Edge]:
+    """Output edges, in order of time up to edge `end`, of a golden model that gets these (edge, pin, level).
+
+    inputs: in order of time, by the names of the model's pins. ValueError for an unknown pin or level.
+    """
+    follower = Follower(new_model(part, params))
+    model = follower.catch_up([Change(*row) for row in inputs], end)
+    return [Edge(*edge) for edge in model.edges if edge.t <= end]
+
+
+def compare_recording(
+    recording: Recording,
+    initial: Mapping[str, int] | None = None,
+    seen: str = "board",
+    follower: Follower | None = None,
+    pins: Pinned | None = None,
+) -> Comparison:
+    """Feed a recording's inputs into a golden model and compare every output.
+
+    initial: outputs to compare with their levels before edge 0 (all of the model, in reset). seen: who made
+    the recording, in reports and pictures. follower: a model that has followed already; pins: the part's
+    for reports (the model's).
+    """
+    follower = follower or Follower(new_model(recording.part, recording.params))
+    if pins is None or initial is None:
+        own = pins_of(follower.model)
+        pins, initial = pins or own, own.outputs if initial is None else initial
+    model = follower.catch_up(recording.stimulus, recording.end)
+    edges = [Edge(edge.t, edge.signal, edge.value) for edge in model.edges]
+    resets = [c.t for c in recording.stimulus if c.pin == "rst_n" and c.value == 0]
+    sides = compare_edges(edges, recording.edges, initial, recording.end, resets)
+    return Comparison(recording, initial, *sides, pins, seen)

@@ -1,0 +1,190 @@
+"""The command that reads captures of old chips."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich import box
+from rich.table import Table
+
+from ... import parts
+from ...capture.common.beside import Result, compare, other_timing
+from ...capture.common.decoding import Decoded, decode
+from ...capture.common.errors import CaptureError
+from ...capture.common.files import read_capture
+from ...capture.common.pinmap import PinMap, read_map
+from ...capture.common.pulses import runs
+from ...capture.common.signals import SECOND, US
+from ...errors import PpmcError, needs
+from . import output
+from .options import Json
+from .session import BOARD
+
+WAYS = {1: "CW", -1: "CCW", 0: "?"}
+SHOWN = 10
+"""Differences that are told one by one."""
+
+
+def decode_capture(
+    capture: Annotated[Path, typer.Argument(help="VCD, CSV of Saleae or sigrok, .sr")],
+    pin_map: Annotated[
+        Path | None, typer.Option("--map", metavar="FILE", help="YAML or TOML: which channel is which pin")
+    ] = None,
+    part: Annotated[
+        str, typer.Option(metavar="PART", help=f"{', '.join(row.name for row in parts.having('decode'))}")
+    ] = "",
+    beside: Annotated[
+        bool, typer.Option("--compare", help="play it into the golden model and compare each output edge")
+    ] = False,
+    tolerance: Annotated[
+        float, typer.Option(min=0.0, max=1e6, metavar="US", help="µs by which an edge may be off")
+    ] = 10.0,
+    glitch: Annotated[
+        float, typer.Option(min=0.0, max=1e6, metavar="NS", help="shorter pulses on any pin are left out")
+    ] = 30.0,
+    timing: Annotated[
+        str, typer.Option(metavar="FAST|DATASHEET", help="of the model (the map's; the file's; DATASHEET)")
+    ] = "",
+    scope: Annotated[
+        str, typer.Option(metavar="NAME", help="of a VCD with several of a name, as station3 (the first)")
+    ] = "",
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="speed over time, as PNG, SVG or PDF")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Read what a logic analyser saw of an old chip: bytes in words, moves, the golden model beside it."""
+    chosen = PinMap() if pin_map is None else read_map(pin_map)
+    if timing:
+        if timing.upper() not in ("FAST", "DATASHEET"):
+            raise typer.BadParameter(f"--timing {timing}: neither FAST nor DATASHEET")
+        chosen.timing = timing.upper()
+    chosen.scope = scope or chosen.scope
+    found = decode(read_capture(capture), chosen, part or BOARD.part, round(glitch * 1000))
+    result = None if found.complaint or not beside else compare(found, round(tolerance * US))
+    if as_json:
+        output.print_json(_values(found, result))
+    else:
+        _show(found)
+        if result is not None:
+            _show_result(found, result, tolerance)
+    if result is not None and (hint := other_timing(found, result, round(tolerance * US))):
+        output.note(hint)
+    if plot is not None:
+        _plot(found, plot)
+    if found.complaint:
+        raise CaptureError(f"{capture.name}: {found.complaint}")
+    if result is not None and result.differences:
+        raise PpmcError(
+            f"{capture.name}: {len(result.differences)} edges differ, the first at "
+            f"{result.differences[0].text()}"
+        )
+
+
+def _show(found: Decoded) -> None:
+    output.say(f"{found.capture}: {found.kind.called}, {found.wires.end / SECOND:.6f} s")
+    for pin, count in sorted(found.glitches.items()):
+        output.note(
+            f"{pin}: {count} pulse{'s' if count > 1 else ''} too short to be one, left out (--glitch)"
+        )
+    if found.missing:
+        output.note(f"not captured, taken as at rest: {', '.join(found.missing)}")
+    for line in found.lines:
+        mark = " !" if line.strange else "  "
+        output.say(f"{line.t / SECOND:12.6f}{mark} {line.data:<24}  {line.text}")
+    if found.moves:
+        output.console.print(_table(found))
+
+
+def _table(found: Decoded) -> Table:
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for head in ("axis", "from / s", "to / s", "way", "pulses", "first / pps", "highest", "last"):
+        grid.add_column(head, justify="left" if head == "way" else "right")
+    for one in found.moves:
+        grid.add_row(
+            str(one.axis),
+            f"{one.begin / SECOND:.6f}",
+            f"{one.end / SECOND:.6f}",
+            WAYS[one.way],
+            str(one.pulses),
+            f"{one.first:.0f}",
+            f"{one.highest:.0f}",
+            f"{one.last:.0f}",
+        )
+    return grid
+
+
+def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
+    for pin, why in result.skipped.items():
+        output.note(f"{pin} not compared: {why}")
+    if result.begin and result.begin > found.lines[0].t:
+        output.say(f"edges count from {result.begin / SECOND:.6f} s on: there the part is initialised")
+    if result.ppm:
+        how = "fast" if result.ppm > 0 else "slow"
+        output.say(f"the crystal ran {abs(result.ppm):.1f} ppm {how} by the analyser's clock")
+    output.say(
+        f"{result.compared} edges of {len(result.pins)} pins compared with the golden model "
+        f"({found.timing}), {len(result.differences)} differences; at most {result.worst / US:.3f} µs apart"
+        f"{f' ({result.worst_pin})' if result.worst_pin else ''}, {result.mean / US:.3f} µs on average, "
+        f"tolerance {tolerance:g} µs"
+    )
+    blind = [pin for pin in found.missing if pin in found.kind.inputs and pin != "rst_n"]
+    if result.differences and blind:
+        output.note(
+            f"inputs that were not captured: {', '.join(blind)}; a switch that the model does not see "
+            "does not end its moves"
+        )
+    for one in result.differences[:SHOWN]:
+        output.say("  " + one.text())
+    if len(result.differences) > SHOWN:
+        output.say(f"  … and {len(result.differences) - SHOWN} more")
+
+
+def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
+    """For JSON; times in s."""
+    values: dict[str, Any] = {
+        "capture": found.capture,
+        "part": found.part,
+        "seconds": found.wires.end / SECOND,
+        "missing": list(found.missing),
+        "glitches": dict(found.glitches),
+        "lines": [
+            {"t": line.t / SECOND, "data": line.data, "text": line.text, "strange": line.strange}
+            for line in found.lines
+        ],
+        "moves": [
+            asdict(one) | {"begin": one.begin / SECOND, "end": one.end / SECOND} for one in found.moves
+        ],
+    }
+    if result is not None:
+        values["compare"] = {
+            "timing": found.timing,
+            "edges": result.compared,
+            "pins": result.pins,
+            "from": result.begin / SECOND,
+            "ppm": result.ppm,
+            "worst_us": result.worst / US,
+            "mean_us": result.mean / US,
+            "not_compared": result.skipped,
+            "differences": [asdict(one) | {"t": one.t / SECOND} for one in result.differences],
+        }
+    return values
+
+
+def _plot(found: Decoded, path: Path) -> None:
+    needs("plot", "a plot", "matplotlib")
+    from ...plot.capture import FORMATS, draw_capture
+
+    if path.suffix.lower() not in FORMATS:
+        raise typer.BadParameter(f"--plot {path}: pictures end in {', '.join(FORMATS)}")
+    if not found.moves:
+        raise CaptureError(f"{found.capture}: no pulses in it: there is no speed to be drawn")
+    drawn = [(one.axis, [run for run, _ in runs(one, found.pause)]) for one in found.trains]
+    try:
+        draw_capture(drawn, f"{found.kind.called}: {found.capture}", path)
+    except OSError as error:
+        raise PpmcError(f"{path}: cannot be written ({error.strerror})") from error
+    output.say(f"speed over time: {path}")

@@ -1,0 +1,103 @@
+"""The command `selftest`: a board against the golden model, and a page about it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ... import parts
+from ...host import PpmcError
+from ...host.bridge.link import DEFAULT_BAUD, Link
+from ...host.ports.transport import SIM
+from ...host.selftest import page
+from ...host.selftest.plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Plan
+from ...host.selftest.run import SelfTest
+from . import output
+from .options import Json
+from .session import BOARD
+from .version import misfit
+
+RECORDS = 13
+"""Of a virtual board for which nobody asked for another number."""
+KINDS = (REGISTERS, COMMANDS, MOVES, SWITCHES)
+Kinds = Annotated[
+    list[str] | None,
+    typer.Option("--only", metavar="KIND", help=f"{', '.join(KINDS)} (repeatable; all)", show_default=False),
+]
+
+
+def selftest(
+    yes: Annotated[bool, typer.Option("--yes", help="do not ask whether motors may turn")] = False,
+    jumpers: Annotated[
+        bool, typer.Option("--jumpers", help="also limits and origin; wants two wires")
+    ] = False,
+    only: Kinds = None,
+    folder: Annotated[
+        Path, typer.Option("--out", metavar="FOLDER", help="where the page goes, and pictures of differences")
+    ] = Path("selftest"),
+    as_json: Json = False,
+) -> None:
+    """Compare every edge of the board's pins with the golden model; ends with a page for an issue."""
+    for kind in only or ():
+        if kind not in KINDS:
+            raise typer.BadParameter(f"--only {kind}: there are {', '.join(KINDS)}")
+    tell = output.note if as_json else output.say
+    number = None if BOARD.part is None else parts.part(BOARD.part).number
+    with Link(_spec(), BOARD.baud or DEFAULT_BAUD, number) as link:
+        plan = _plan(link)
+        test = SelfTest(link, plan, folder, tell)
+        notes = [line for line in (misfit(test.found.build, link.identity.part),) if line]
+        tell(f"{page.board_name(test.found.build)}: {page.built(test.found.build)}")
+        for line in notes:
+            output.note(f"note: {line}")
+        sections = [one for one in test.sections(jumpers) if one.what in (only or KINDS)]
+        _ask(plan, yes, jumpers)
+        try:
+            test.rates()
+            for section in sections:
+                test.play(section)
+        finally:
+            test.safe()
+        made = page.values(link, test.found, notes)
+    try:
+        text, values = page.write(folder, made, test.found.build)
+    except OSError as error:
+        raise PpmcError(f"{folder}: cannot be written ({error.strerror})") from error
+    if as_json:
+        output.print_json(made)
+    else:
+        output.say(f"page: {text}, {values}")
+        output.say(made["verdict"])
+    if test.found.differences:
+        raise typer.Exit(1)
+
+
+def _spec() -> str:
+    """The port; a virtual board gets a recorder."""
+    spec = BOARD.spec
+    if not spec.startswith(SIM) or "record=" in spec:
+        return spec
+    return f"{spec}{'' if spec.endswith(':') else ','}record={RECORDS}"
+
+
+def _plan(link: Link) -> Plan:
+    row: Any = parts.by_number(link.identity.part)
+    if row is None or not row.selftest:
+        raise PpmcError(f"{link.name}: there is no self-test for this part: renew the package")
+    plan: Plan = row.load("selftest")
+    return plan
+
+
+def _ask(plan: Plan, yes: bool, jumpers: bool) -> None:
+    """Nothing turns before somebody has said so."""
+    for wire in plan.jumpers if jumpers else ():
+        output.note(f"wire: {wire}")
+    if yes or BOARD.spec.startswith(SIM):
+        return
+    if not sys.stdin.isatty():
+        raise PpmcError("selftest makes pulses, and a motor that is connected turns: add --yes if it may")
+    output.note("The self-test makes some thousand pulses: a motor that is connected turns.")
+    typer.confirm("Is no motor powered, or may it turn?", abort=True, err=True)

@@ -1,0 +1,204 @@
+"""Script files for PMC006B4: one command a line, with address=N behind those of one controller."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ...host.pmc006.driver import Pmc006
+from ...host.pmc006.settings import setting
+from ..common import output
+from ..common.player import carry_out
+from ..common.program import Step, read_file, read_program
+from ..common.reading import Numbered, Reader, Values, first, none_left, number, read_speed, whole
+from . import show
+from .moves import Way
+from .session import Session, opened
+
+MOST = (1 << 31) - 1
+OF_CONTROLLERS = ("move", "goto", "jog", "home", "stop", "set", "out", "zero", "position")
+
+
+def _way(words: list[str]) -> int:
+    text = first(words, "direction (forward or backward)")
+    if text not in ("forward", "backward"):
+        raise ValueError(f"{text!r} is neither forward nor backward")
+    return Way(text).sign
+
+
+def _speed(words: list[str]) -> int | None:
+    pps = read_speed(words)
+    if pps is not None and pps != int(pps):
+        raise ValueError(f"speed {pps:g} is not a whole number")
+    return None if pps is None else int(pps)
+
+
+def _move(words: list[str]) -> Values:
+    values = {"steps": whole(first(words, "number of steps"), "steps", -MOST, MOST), "speed": _speed(words)}
+    none_left(words)
+    return values
+
+
+def _jog(words: list[str]) -> Values:
+    values: Values = {"way": _way(words), "speed": _speed(words)}
+    if first(words, "for SECONDS") != "for":
+        raise ValueError("jog needs: jog forward|backward [speed=PPS] for SECONDS")
+    values["seconds"] = number(first(words, "seconds"), "seconds", 0, 86_400)
+    none_left(words)
+    return values
+
+
+def _home(words: list[str]) -> Values:
+    values: Values = {"switch": 1, "way": Way.BACKWARD.sign, "speed": 1000, "slow": 200, "off": 100}
+    if words and words[0] in ("forward", "backward"):
+        values["way"] = _way(words)
+    for word in words:
+        name, _, text = word.partition("=")
+        if name not in ("switch", "speed", "slow", "off"):
+            raise ValueError(f"{word!r} does not belong here")
+        values[name] = whole(text, name, 1, 2 if name == "switch" else 1_000_000)
+    return values
+
+
+def _set(words: list[str]) -> Values:
+    found = {}
+    for word in words:
+        name, equals, text = word.partition("=")
+        if not equals:
+            raise ValueError(f"{word!r} is not of the form name=value")
+        found[setting(name).name] = whole(text, name, -MOST, MOST)
+    if not found:
+        raise ValueError("nothing to set")
+    return {"settings": found}
+
+
+def _out(words: list[str]) -> Values:
+    levels = {}
+    for word in words:
+        name, _, level = word.lower().partition("=")
+        if name not in {f"gpo{number}" for number in range(1, 6)} or level not in ("0", "1"):
+            raise ValueError(f"{word!r}: write gpo1=0 … gpo5=1")
+        levels[int(name[3:])] = level == "1"
+    if not levels:
+        raise ValueError("which output? write gpo1=0 … gpo5=1")
+    return {"levels": levels}
+
+
+def _wait(words: list[str]) -> Values:
+    values = {"seconds": number(first(words, "seconds"), "seconds", 0, 86_400)}
+    none_left(words)
+    return values
+
+
+def _stop(words: list[str]) -> Values:
+    now = bool(words) and words[0] == "now" and bool(words.pop(0))
+    none_left(words)
+    return {"now": now}
+
+
+def _plain(words: list[str]) -> Values:
+    none_left(words)
+    return {}
+
+
+READERS: dict[str, Reader] = {
+    "move": _move,
+    "goto": _move,
+    "jog": _jog,
+    "home": _home,
+    "stop": _stop,
+    "set": _set,
+    "out": _out,
+    "wait": _wait,
+    "zero": _plain,
+    "position": _plain,
+}
+
+
+class Player:
+    """Carries a script out. Lines without address= are for the controller that answers first."""
+
+    def __init__(self, session: Session, name: str) -> None:
+        self._session, self._name = session, name
+        self._first: Pmc006 | None = None
+
+    def run(self, steps: Iterable[Step]) -> None:
+        """All steps. ScriptError with file:line for what a controller refuses."""
+        carry_out(steps, self._name, self._session.guard, self._do)
+
+    def controller(self, address: int | None) -> Pmc006:
+        """The one with this address, or the first that answers."""
+        if address is not None:
+            return self._session.bus.axis(address)
+        if self._first is None:
+            self._first = self._session.chosen(None)[0]
+        return self._first
+
+    def _do(self, step: Step) -> None:
+        values, guard, bus = step.values, self._session.guard, self._session.bus
+        if step.word == "wait":
+            guard.pause(bus, values["seconds"])
+            return
+        part = self.controller(step.axis)
+        if step.word in ("move", "goto"):
+            (part.move if step.word == "move" else part.move_to)(
+                values["steps"], values["speed"], guard.progress
+            )
+        elif step.word == "jog":
+            motion = part.jog(values["way"], values["speed"])
+            guard.pause(bus, values["seconds"])
+            if motion.end is None:
+                part.stop()
+        elif step.word == "home":
+            speeds = values["speed"], values["slow"]
+            part.home(values["switch"], values["way"], *speeds, values["off"], guard.progress)
+        elif step.word == "stop":
+            for end in bus.stop([part.address], values["now"]):
+                output.say(show.end_line(end))
+        else:
+            self._set(step, part)
+
+    def _set(self, step: Step, part: Pmc006) -> None:
+        """What moves nothing."""
+        values: dict[str, Any] = step.values
+        if step.word == "set":
+            for name, value in values["settings"].items():
+                setattr(part, name, value)
+        elif step.word == "out":
+            for place, on in values["levels"].items():
+                part.set_output(place, on)
+        elif step.word == "zero":
+            part.zero()
+        else:
+            output.say(f"{self._name}:{step.line}: {part.who}position {part.position}")
+
+
+def addresses(steps: Iterable[Step]) -> set[int | None]:
+    """Of the controllers that a script is about, None for the first that answers."""
+    found: set[int | None] = set()
+    for step in steps:
+        found |= addresses(step.body)
+        if step.word in OF_CONTROLLERS:
+            found.add(step.axis)
+    return found
+
+
+def script(
+    file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
+) -> None:
+    """Carry out a file of commands."""
+    name, text = read_file(file)
+    steps = read_program(text, name, READERS, OF_CONTROLLERS, Numbered("address", 1, 255))
+    used = addresses(steps)
+    with opened() as session:
+        named = sorted(one for one in used if one is not None)
+        session.bus.check(named)
+        player = Player(session, name)
+        for one in used:
+            player.controller(one).alone = len(used) == 1
+        player.run(steps)
+        ends = [player.controller(one) for one in (*named, *([None] if None in used else []))]
+        output.say("done" + "".join(f", {part.who}position {part.position}" for part in ends))

@@ -1,0 +1,100 @@
+"""Script files on a line of PPMC-312: the words of a board, each line with the station that it is for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ....host import Ppmc312Bus, Station312
+from ....host.ppmc312.line.kind import KIND
+from ...common import output
+from ...common.guard import Guard
+from ...common.options import with_setup
+from ...common.player import Player, check_speeds, check_steps, positions
+from ...common.program import OF_ALL_AXES, OF_AXES, ScriptError, Step, read_file, read_program
+from ...common.reading import Numbered
+from ...common.session import setup_values
+from ...common.words import own_words
+from . import show
+from .session import Session, opened
+
+
+class LineView:
+    """What a script asks of a view, for stations."""
+
+    def busy(self, part: Ppmc312Bus, axes: Sequence[Station312]) -> tuple[Station312, ...]:
+        """Those of these stations that move."""
+        return tuple(axis for axis in axes if axis.busy_now())
+
+    def reports(self, part: Ppmc312Bus, tell: Callable[[str], None]) -> None:
+        """What stations said meanwhile."""
+        show.reports(part.axes, tell)
+
+
+class LineSession:
+    """A line as a script sees it; stations are axes. used: those that the script names."""
+
+    kind = KIND
+    view = LineView()
+
+    def __init__(self, session: Session, used: Sequence[int]) -> None:
+        self.part, self.used = session.bus, used
+        self.guard: Guard = session.guard
+
+    @property
+    def xtal_hz(self) -> int:
+        """Crystal of the stations."""
+        return self.part.line.identity.xtal_hz
+
+    def axis(self, number: int = 1) -> Any:
+        """A station."""
+        return self.part.axis(number)
+
+    def chosen(self, number: int | None) -> Sequence[Any]:
+        """That station, or all of the script."""
+        return [self.axis(one) for one in ([number] if number is not None else self.used)]
+
+
+def check_line(steps: Iterable[Step], name: str) -> None:
+    """ScriptError for what cannot be said on a line: no station, two at once, pins of one part."""
+    for step in steps:
+        where = f"{name}:{step.line}: "
+        if step.word in OF_AXES and step.word not in OF_ALL_AXES and step.axis is None:
+            raise ScriptError(f"{where}{step.word}: which station? add axis=N")
+        if step.values.get("second") is not None:
+            raise ScriptError(f"{where}two numbers are for both axes of a part: a line for each station")
+        if step.word in own_words():
+            raise ScriptError(f"{where}{step.word}: not on a line")
+        check_line(step.body, name)
+
+
+@with_setup
+def script(
+    typed: dict[str, Any],
+    file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
+) -> None:
+    """Carry out a file of commands."""
+    name, text = read_file(file)
+    steps = read_program(text, name, numbered=Numbered(low=0))
+    check_line(steps, name)
+    used = [number for number in check_steps(steps, name, KIND) if _names(steps, number)]
+    with opened() as session:
+        session.bus.check(used)
+        line = LineSession(session, used)
+        values = {number: setup_values(typed, number) for number in used}
+        check_speeds(steps, dict(values), line.xtal_hz, name, KIND)
+        plans = {number: one.plan(line.xtal_hz, KIND, number) for number, one in values.items()}
+        for number, plan in plans.items():
+            session.guard.check()
+            line.axis(number).apply(plan)
+        Player(line, values, name, output.say).run(steps)
+        session.guard.bar_off()
+        output.say(f"done, {positions(line.axis(number) for number in used)}")
+
+
+def _names(steps: Iterable[Step], number: int) -> bool:
+    """Whether a line is for this station."""
+    return any(step.axis == number or _names(step.body, number) for step in steps)

@@ -1,0 +1,222 @@
+"""What parts on a byte bus are made to do: every code from 00 to FF, and moves of each kind.
+
+Speeds are low and moves short, so that all edges of a section fit into a small recorder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from ...model.motion.codes import IBF, Command, Kind
+from ..bridge.answer import Identity
+from ..bridge.script import Script
+from .plan import COMMANDS, MOVES, REGISTERS, Section, Talk
+
+DATA, COMMAND = 0, 1
+STOP, SLOW_STOP, FINISH = 0x40, 0x41, 0x80
+CCW, MASKED, PULSE_ONLY, AXIS_2 = 0x08, 0x10, 0x80, 0x20
+STEP, RAMP, CONSTANT, CONTINUOUS, HIGH, ORIGIN = 0x42, 0x43, 0x44, 0x45, 0x46, 0x47
+HALF = 0x04
+TABLE_S = 0.006
+"""Longest build of a ramp's table in FAST timing, at 8 MHz."""
+RECORDS_A_CODE, RECORDS_A_SLOW_CODE = 96, 512
+"""With DATASHEET timing the chopper has longer to run."""
+MOST_LOOKS = 100
+LONGEST_MOVE_S = 2.0
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Bytes of the usual initialisation: start and high rate, and pulses of the ramp, two bytes; slow: a rate
+    for constant speed. table: seconds until it may be used in DATASHEET timing."""
+
+    start: int = 249
+    high: int = 99
+    ramp: tuple[int, int] = (12, 0)
+    slow: int = 199
+    table: float = 0.05
+
+    @property
+    def data(self) -> tuple[int, int, int, int]:
+        """As they follow the code."""
+        return self.start, self.high, *self.ramp
+
+
+@dataclass(frozen=True)
+class ByteBus:
+    """An axis of such a part. before: what a script of it begins with. axis: bits of its codes. building:
+    status bits while a table is built, if the part tells. positive, chopped: bits of the initialisation, 0
+    if there is none."""
+
+    decode: Callable[[int], Command]
+    rates: Rates = Rates()
+    before: Script | None = None
+    axis: int = 0
+    building: int = 0
+    positive: int = 0x08
+    chopped: int = 0x20
+
+    # ------------------------------------------------------------------ talk
+
+    def command(self, talk: Talk, code: int, *data: int) -> None:
+        """A command with its data, then the status, twice."""
+        if self.before is not None:
+            talk.run(self.before)
+        talk.write(COMMAND, [code])
+        if data:
+            self._until(talk, IBF)  # what comes too soon would take its place
+            talk.write(DATA, data)
+        talk.read(COMMAND, 2)
+
+    def _until(self, talk: Talk, bits: int) -> None:
+        """Look now and then until these bits of the status are 0: a virtual board may be slow."""
+        for _ in range(MOST_LOOKS):
+            if not talk.read(COMMAND)[0] & bits:
+                return
+            talk.pause(TABLE_S)
+
+    @property
+    def setup(self) -> int:
+        """Code of the usual initialisation: 4 phases, full steps, clock inside."""
+        return 2 | self.positive
+
+    def initialise(self, talk: Talk, code: int | None = None) -> None:
+        """The usual initialisation, or another one; waits until its table stands."""
+        self.command(talk, (self.setup if code is None else code) | self.axis, *self.rates.data)
+        self._built(talk)
+
+    def _built(self, talk: Talk) -> None:
+        """Wait until the table stands."""
+        talk.pause(self.rates.table if talk.slow else TABLE_S)
+        self._until(talk, self.building)
+
+    def ends(self, talk: Talk, seconds: float = LONGEST_MOVE_S) -> None:
+        """Wait for the end of a motion and read how it ended, and the pulses left."""
+        talk.until_interrupt(seconds)
+        self.command(talk, FINISH | self.axis)
+        talk.read(DATA)
+        self.command(talk, 0x83 | self.axis)
+        talk.read(DATA, 3)
+
+    # ------------------------------------------------------------------ every code
+
+    def one(self, talk: Talk, code: int) -> None:
+        """One code with what belongs to it; whatever moves is stopped, whatever is changed is undone."""
+        command = self.decode(code)
+        kind, axis = command.kind, code & AXIS_2 if self.axis or command.axis else 0
+        data = {
+            Kind.INITIALISE: self.rates.data,
+            Kind.SWITCHING: (0x60, 0x50),
+            Kind.OPERATION: (2, 0, 0) if command.parameters == 3 else (self.rates.slow, 2, 0, 0),
+        }.get(kind, (5, 5, 5, 5))
+        self.command(talk, code, *data[: command.parameters])
+        if kind is Kind.OPERATION:
+            talk.pause(0.0015)
+            self.command(talk, STOP | axis)
+        elif kind is Kind.READ:
+            talk.read(DATA, 3)
+        elif kind in (Kind.INITIALISE, Kind.EXCITATION_OFF):
+            self._built(talk)
+            self.command(talk, self.setup | axis, *self.rates.data)
+            self._built(talk)
+
+    def codes(self, identity: Identity, records: int, others: Sequence[ByteBus] = ()) -> list[Section]:
+        """Every code, once without an initialisation and once with one (of the other axes, too)."""
+        a_code = RECORDS_A_SLOW_CODE if identity.datasheet else RECORDS_A_CODE
+        count = max(4, min(64, records // a_code))
+        found = []
+        for first in range(0, 256, count):
+            some = range(first, min(256, first + count))
+
+            def with_setup(talk: Talk, some: range = some) -> None:
+                for bus in (self, *others):
+                    bus.initialise(talk)
+                for code in some:
+                    self.one(talk, code)
+
+            def without(talk: Talk, some: range = some) -> None:
+                for code in some:
+                    self.command(talk, code)
+
+            name = f"{some[0]:02X} to {some[-1]:02X}"
+            found.append(Section(f"codes {name} before initialisation", COMMANDS, without))
+            found.append(Section(f"codes {name}", COMMANDS, with_setup))
+        return found
+
+    # ------------------------------------------------------------------ moves
+
+    def motion(self, *steps: Callable[[Talk], None], code: int | None = None) -> Callable[[Talk], None]:
+        """Initialise, then these."""
+
+        def play(talk: Talk) -> None:
+            self.initialise(talk, code)
+            for step in steps:
+                step(talk)
+
+        return play
+
+    def go(
+        self, code: int, *data: int, stop: int | None = None, after: float = 0.004
+    ) -> Callable[[Talk], None]:
+        """A motion to its end; stop: by this command, so many seconds after its start."""
+
+        def play(talk: Talk) -> None:
+            self.command(talk, code | self.axis, *data)
+            if stop is not None:
+                talk.pause(after)
+                self.command(talk, stop | self.axis)
+            self.ends(talk)
+
+        return play
+
+    def moves(self, pulse_only: bool = True) -> list[Section]:
+        """Moves of each kind, both ways. pulse_only: there are such."""
+        go, slow = self.go, self.rates.slow
+        kinds: list[tuple[str, Callable[[Talk], None]]] = [
+            ("single steps", self.motion(go(STEP), go(STEP | CCW), go(STEP))),
+            ("ramp CW", self.motion(go(RAMP, 39, 0, 0))),
+            ("ramp CCW", self.motion(go(RAMP | CCW, 30, 0, 0))),
+            ("triangles", self.motion(go(RAMP, 6, 0, 0), go(RAMP | CCW, 5, 0, 0), go(RAMP, 0, 0, 0))),
+            ("constant speed", self.motion(go(CONSTANT, slow, 9, 0, 0), go(CONSTANT | CCW, slow, 9, 0, 0))),
+            (
+                "continuous, stopped",
+                self.motion(go(CONTINUOUS, slow, stop=STOP), go(CONTINUOUS | CCW, slow, stop=STOP)),
+            ),
+            ("high speed, slowed down", self.motion(go(HIGH, stop=SLOW_STOP, after=0.015))),
+            ("high speed CCW, stopped", self.motion(go(HIGH | CCW, stop=STOP, after=0.015))),
+            ("search for an origin, stopped", self.motion(go(ORIGIN, slow, stop=STOP))),
+            ("ramp, slowed down", self.motion(go(RAMP, 200, 0, 0, stop=SLOW_STOP, after=0.012))),
+            ("ramp, stopped", self.motion(go(RAMP, 200, 0, 0, stop=STOP, after=0.012))),
+        ]
+        for phases in (1, 2, 3):
+            for half in (0, HALF):
+                title = f"{phases + 2} phases, {'half' if half else 'full'} steps"
+                steps = (go(CONSTANT, slow, 10, 0, 0), go(CONSTANT | CCW, slow, 3, 0, 0))
+                kinds.append((title, self.motion(*steps, code=self.positive | half | phases)))
+        if self.positive:
+            kinds.append(("the other logic", self.motion(go(CONSTANT, slow, 5, 0, 0), code=2)))
+        if pulse_only:
+            kinds.append(("pulses only", self.motion(go(PULSE_ONLY | RAMP, 20, 0, 0))))
+        chopped = self.setup | self.chopped
+        kinds.append(
+            ("at rest, chopped", self.motion(go(RAMP, 5, 0, 0), lambda talk: talk.pause(0.06), code=chopped))
+        )
+        kinds.append(("at rest", self.motion(go(STEP), lambda talk: talk.pause(0.06))))
+        return [Section(title, MOVES, play) for title, play in kinds]
+
+    def registers(self) -> Section:
+        """Status and every register that can be read, before and after the initialisation."""
+
+        def play(talk: Talk) -> None:
+            talk.read(COMMAND, 3)
+            talk.read(DATA, 2)
+            for begin in (False, True):
+                if begin:
+                    self.initialise(talk)
+                for code in range(0x80, 0x88):
+                    if self.decode(code | self.axis).kind is Kind.READ:
+                        self.command(talk, code | self.axis)
+                        talk.read(DATA, 3)
+
+        return Section("status and registers", REGISTERS, play)

@@ -1,0 +1,110 @@
+"""Records of a bridge's recorder as a recording of the part (UB-REC): when which pin changed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from ...check.records import Access, Change, Edge, Recording
+
+Layout = Sequence[tuple[str, int]]
+SETTLE = 2
+"""clk from the fall of rst_n to outputs in their reset levels."""
+
+
+class NoReset(ValueError):  # noqa: N818 - says what is missing
+    """The records have no reset of the part, which a golden model has to begin with."""
+
+
+def pins_of(layout: Layout, levels: int) -> dict[str, int]:
+    """Pins in the levels of a record."""
+    found = {}
+    for pin, width in layout:
+        found[pin] = levels & (1 << width) - 1
+        levels >>= width
+    return found
+
+
+def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str, int]:
+    """Pins while the part is in reset. NoReset."""
+    for t, pins in _in_reset(samples, layout):
+        if t >= SETTLE:
+            return pins
+    raise NoReset("no reset was recorded")
+
+
+def _in_reset(samples: Sequence[tuple[int, int]], layout: Layout) -> Iterator[tuple[int, dict[str, int]]]:
+    """(clk since rst_n fell, pins) of the first reset: each record, and the clk before each other one."""
+    fell, pins = None, dict[str, int]()
+    for t, levels in samples:
+        if fell is not None:
+            yield t - 1 - fell, pins
+        pins = pins_of(layout, levels)
+        if not pins["rst_n"]:
+            fell = t if fell is None else fell
+            yield t - fell, pins
+        elif fell is not None:
+            return
+
+
+def recording_of(
+    samples: Sequence[tuple[int, int]],
+    layout: Layout,
+    part: str,
+    params: Mapping[str, object],
+    inputs: Mapping[str, int],
+    outputs: Mapping[str, int],
+) -> Recording:
+    """The part from its reset on.
+
+    samples: (clk, levels) of all records. inputs: idle levels; outputs: levels in reset. NoReset if there is
+    none. An output in another level than that of its reset is an edge, so a difference.
+    """
+    fell = next((t for t, levels in samples if not pins_of(layout, levels)["rst_n"]), None)
+    if fell is None:
+        raise NoReset("no reset was recorded")
+    watched = [name for name, _ in layout]
+    now = {**inputs, "rst_n": 0}
+    out = {name: level for name, level in outputs.items() if name in watched}
+    # What was before the recorded reset is nobody's business: the model is in reset up to its end.
+    stimulus = [Change(0, "rst_n", 0)]
+    edges: list[Edge] = []
+    for t, levels in _from(samples, fell):
+        for pin, level in pins_of(layout, levels).items():
+            if pin in out and t >= fell + SETTLE and out[pin] != level:
+                out[pin] = level
+                edges.append(Edge(t - 1, pin, level))
+            elif pin in now and now[pin] != level:
+                now[pin] = level
+                stimulus.append(Change(t, pin, level))
+    end = samples[-1][0] - 1
+    return Recording(part, dict(params), 0, end, stimulus, edges, list(_accesses(stimulus, edges, now)))
+
+
+def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, int]]:
+    """The records from the reset on, and the state when outputs must be in their reset levels."""
+    looked = False
+    before = samples[0][1]
+    for t, levels in samples:
+        if t > fell + SETTLE and not looked:
+            looked = True
+            yield fell + SETTLE, before
+        looked = looked or t == fell + SETTLE
+        before = levels
+        if t >= fell:
+            yield t, levels
+
+
+def _accesses(stimulus: Iterable[Change], edges: Iterable[Edge], pins: Mapping[str, int]) -> Iterator[Access]:
+    """Writes and reads of the host, for reports: a write strobe that ends, a read strobe that ends."""
+    names = [next((n for n in group if n in pins), "") for group in (("wr_n", "we_n", "ds_wrs_n"),)]
+    reads = next((n for n in ("rd_n", "oe_n", "rw_rds_n") if n in pins), "")
+    where = next((n for n in ("a0", "rs", "a") if n in pins), "")
+    levels = {"d_i": 0, where: 0, "d_o": 0}
+    rows = [(c.t, 1, c.pin, c.value) for c in stimulus] + [(e.t, 0, e.signal, e.value) for e in edges]
+    for t, _, pin, value in sorted(rows):
+        if pin in levels:
+            levels[pin] = value
+        elif pin == names[0] and value:
+            yield Access(t, "write", levels[where], levels["d_i"])
+        elif pin == reads and value:
+            yield Access(t, "read", levels[where], levels["d_o"])

@@ -1,0 +1,241 @@
+"""Plays the sections of a self-test on a board, compares each with the golden model, collects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...check.comparison import Comparison
+from ...check.pins import pins_of
+from ...check.records import Recording
+from ...check.replay import compare_recording, new_model
+from ...check.report import report, write_report
+from ...errors import MissingExtraError
+from ..basis.errors import LinkError, PpmcError
+from ..bridge.answer import Build, Result
+from ..bridge.link import Link
+from ..bridge.records import Recorded
+from ..bridge.script import RATES, Script
+from .plan import MOVES, SWITCHES, Plan, Section, Talk
+from .recording import NoReset, recording_of, reset_levels
+
+ECHOES, ECHO_BYTES = 8, 48
+TRIES = 3
+"""Of a section: a PC that was busy for long leaves a chopper or a clock time to fill the recorder."""
+Tell = Callable[[str], None]
+
+
+class NoRecorder(PpmcError):  # noqa: N818 - says what is missing
+    """The bitstream has no recorder."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a section. edges: output edges that were compared. wrong: one line, or "". report: the
+    difference in words. skipped: why it says nothing, or "". full: the recorder had no room for all of it."""
+
+    section: Section
+    records: int
+    clk: int
+    edges: int
+    pulses: int
+    wrong: str = ""
+    report: str = ""
+    skipped: str = ""
+    full: bool = False
+
+
+@dataclass
+class Findings:
+    """All of a self-test. rates: line rate -> requests that had to be repeated, None: the adapter cannot."""
+
+    build: Build | None
+    params: dict[str, Any] = field(default_factory=dict)
+    recorder: Recorded | None = None
+    rates: dict[int, int | None] = field(default_factory=dict)
+    outcomes: list[Outcome] = field(default_factory=list)
+
+    @property
+    def edges(self) -> int:
+        """Output edges that were compared."""
+        return sum(outcome.edges for outcome in self.outcomes)
+
+    @property
+    def differences(self) -> int:
+        """Sections with a difference."""
+        return sum(bool(outcome.wrong) for outcome in self.outcomes)
+
+
+class SelfTest:
+    """One run. folder: where the pictures of differences go. tell: gets a line a step."""
+
+    def __init__(self, link: Link, plan: Plan, folder: Path, tell: Tell = lambda line: None) -> None:
+        self.link, self.plan, self.folder, self.tell = link, plan, folder, tell
+        self.found = Findings(link.build())
+        self._params: list[dict[str, Any]] = []
+
+    # ------------------------------------------------------------------ link
+
+    def rates(self) -> None:
+        """Every rate that bridge and adapter have: long answers come back whole."""
+        work = self.link.baud
+        for code, baud in enumerate(RATES[: self.link.identity.best_rate + 1]):
+            before = self.link.repeats
+            if self.link.use_rate(baud):
+                for _ in range(ECHOES):
+                    self.link.execute(Script().ident().read_many(1, ECHO_BYTES))
+                self.found.rates[baud] = self.link.repeats - before
+            else:
+                self.found.rates[RATES[code]] = None
+        self.link.use_rate(work)
+        good = [str(baud) for baud, repeats in self.found.rates.items() if repeats is not None]
+        self.tell(f"link: {', '.join(good)} baud")
+
+    # ------------------------------------------------------------------ recorder
+
+    def recorder(self) -> Recorded:
+        """What recorder there is. NoRecorder."""
+        answer = self.link.attempt(Script().record(False).recorded())
+        if answer.result is Result.ILLEGAL:
+            raise NoRecorder(
+                f"{self.link.name}: this bitstream has no recorder, so no edge can be compared: load one "
+                "that was built with it (make bitstream BOARD=… RECORD=…, docs/boards.md)"
+            )
+        info = Recorded.parse(self.link.judge(answer).values[0])
+        self.found.recorder = info
+        self._layout = self.plan.layout(info.width)
+        if sum(width for _, width in self._layout) != info.width:
+            raise NoRecorder(
+                f"{self.link.name}: the recorder sees {info.width} levels, which fits no part known here: "
+                "renew bitstream or package, whichever is older"
+            )
+        return info
+
+    def fetch(self) -> tuple[Recorded, list[tuple[int, int]]]:
+        """All records."""
+        info = Recorded.parse(self.link.execute(Script().record(False).rewind().recorded()).values[0])
+        most = 255 // info.record_bytes * info.record_bytes
+        left, data = info.count * info.record_bytes, b""
+        while left:
+            portion = min(left, most)
+            data += self.link.execute(Script().fetch(portion)).values[0]
+            left -= portion
+        return info, list(info.samples(data))
+
+    # ------------------------------------------------------------------ sections
+
+    def sections(self, switches: bool) -> list[Section]:
+        """Those of the plan. switches: with the wires for limits and origin."""
+        info = self.recorder()
+        identity, width = self.link.identity, info.width
+        found = self.plan.sections(identity, width, info.most)
+        return [*found, *(self.plan.switches(identity, width) if switches else ())]
+
+    def play(self, section: Section) -> Outcome:
+        """Record a section, compare it, leave the part in reset state: outputs off. What did not fit into the
+        recorder is played again: a PC that was busy elsewhere may be the cause."""
+        for left in reversed(range(TRIES)):
+            outcome = self._played(section)
+            if not (outcome.full and left):
+                break
+            self.tell(f"{section.what}: {section.title}: the recorder was full, once more")
+        self.found.outcomes.append(outcome)
+        what = outcome.wrong or outcome.skipped or f"{outcome.edges} edges, no difference"
+        self.tell(f"{section.what}: {section.title}: {what}")
+        return outcome
+
+    def _played(self, section: Section) -> Outcome:
+        """One try of a section."""
+        link = self.link
+        link.forget_events()
+        link.execute(Script().straps(section.straps).record(True).reset())
+        try:
+            section.play(Talk(link))
+        finally:
+            self.safe()
+        return self._judged(section, *self.fetch())
+
+    def safe(self) -> None:
+        """End the recording, then reset the part: pulses end, phases are off. Never raises."""
+        try:
+            self.link.attempt(Script().record(False).reset().straps(0xFF))
+        except LinkError:
+            pass  # the board is gone; what was raised first says so
+
+    def _judged(self, section: Section, info: Recorded, samples: list[tuple[int, int]]) -> Outcome:
+        """A section's records against the golden model."""
+        records = len(samples)
+        try:
+            comparison = self._compared(samples)
+        except (NoReset, ValueError) as error:
+            return Outcome(section, records, 0, 0, 0, f"cannot be compared ({error})")
+        end = comparison.recording.end
+        count, pulses = comparison.edges_compared, comparison.pulses
+        if comparison.mismatch is not None:
+            return Outcome(section, records, end, count, pulses, *self._difference(section, comparison))
+        # Without the wire a motion has no end, and the recorder may be full.
+        if section.what == SWITCHES and not self._switched(comparison.recording):
+            skipped = "no switch has moved: is the wire there?"
+            return Outcome(section, records, end, count, pulses, skipped=skipped)
+        if info.full:
+            full = f"the recorder was full after {records} records: build the bitstream with a larger RECORD"
+            return Outcome(section, records, end, count, pulses, full, full=True)
+        skipped = ""
+        if section.what == MOVES and not any(e.signal in MOTOR_PINS for e in comparison.recording.edges):
+            skipped = "nothing has moved: is a limit or the alarm active?"
+        return Outcome(section, records, end, count, pulses, skipped=skipped)
+
+    def _compared(self, samples: list[tuple[int, int]]) -> Comparison:
+        """With the first parameters that fit; those are kept."""
+        if not self._params:
+            reset = reset_levels(samples, self._layout)
+            width = sum(bits for _, bits in self._layout)
+            self._params = self.plan.params(self.link.identity, width, reset)
+        found = None
+        for params in self._params:
+            model = new_model(self.plan.part, params)
+            pins = pins_of(model)
+            recording = recording_of(
+                samples,
+                self._layout,
+                self.plan.part,
+                params,
+                {**pins.inputs, "rst_n": 1},
+                pins.outputs,
+            )
+            watched = {name for name, _ in self._layout}
+            initial = {name: level for name, level in pins.outputs.items() if name in watched}
+            comparison = compare_recording(recording, initial, "board", pins=pins)
+            found = found or comparison
+            if comparison.mismatch is None:
+                self._params, found = [params], comparison
+                break
+        assert found is not None
+        self.found.params = dict(found.recording.params)
+        return found
+
+    def _difference(self, section: Section, comparison: Comparison) -> tuple[str, str]:
+        """Its one line and its report; the picture and the waveforms go to the folder."""
+        assert comparison.mismatch is not None
+        folder = self.folder / section.folder
+        text = report(comparison)
+        shown = "compare.png"
+        try:
+            write_report(comparison, folder)
+        except OSError as error:
+            self.tell(f"{folder}: cannot be written ({error.strerror})")
+        except MissingExtraError as missing:
+            self.tell(str(missing))
+            shown = "compare.txt"
+        return f"{text.splitlines()[0].partition(': ')[2]} ({folder}/{shown})", text
+
+    def _switched(self, recording: Recording) -> bool:
+        """A switch has changed its level behind the reset."""
+        return any(change.pin in SWITCH_PINS and change.t for change in recording.stimulus)
+
+
+SWITCH_PINS = frozenset("l1_n l2_n l3_n l4_n cnp_n alm_n mon fl_n bl_n fhl_n bhl_n org_n".split())
+"""Limits, origin and alarm of all parts."""
+MOTOR_PINS = frozenset({"pout_n", "pout", "s", "s1_n", "s2_n"})

@@ -1,0 +1,187 @@
+"""An axis of any part as a positioner of ophyd, for plans of bluesky. Needs the extra `ophyd`.
+
+from openppmc.host import open_part
+from openppmc.ophyd import PpmcPositioner
+
+part = open_part("/dev/ttyUSB0")
+part.axes[0].initialise(start_pps=1000, high_pps=8000, ramp_pulses=400)
+theta = PpmcPositioner(part, name="theta", pulses_per_unit=400, egu="deg", limits=(-5, 90))
+RE(scan([detector], theta, 0, 30, 61))
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from numbers import Real
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from .errors import needs
+from .host.axis.device import Device
+from .host.axis.motion import AnyMotion
+from .host.basis.ending import StoppedEarly
+from .host.basis.errors import LinkError, OutOfRange, PpmcError
+from .host.basis.refusals import NothingToStop, NotWhileBusy
+
+needs("ophyd", "openppmc.ophyd", "ophyd")
+
+from ophyd import SoftPositioner  # noqa: E402
+
+POLL = 0.03
+"""Seconds of the board between two looks at a motion."""
+FREE = 0.01
+"""Seconds after each look for the other threads that want the port: locks serve nobody in turn."""
+
+_locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()
+
+
+class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
+    """One axis of a part, of a bank, or a station of a line.
+
+    device: what holds the port, opened, its axis initialised; it must outlive the positioner. axis: its
+    number, from 1 on, or the station. pulses_per_unit: of `egu`, negative if CW counts down. limits: soft
+    limits in `egu`, (0, 0) for none; switches of the machine end a motion whatever these say. OutOfRange for
+    an axis that there is not, or a number that is none. Other arguments are those of ophyd.
+
+    `set` returns a Status at once. It fails with what the driver raises: LimitReached, AlarmStop,
+    StoppedEarly, Disconnected … Positioners of one device may move at the same time and be asked from any
+    thread; nobody else may use the device meanwhile.
+    """
+
+    def __init__(
+        self,
+        device: Device,
+        axis: int = 1,
+        *,
+        name: str,
+        pulses_per_unit: float = 1,
+        egu: str = "pulses",
+        limits: tuple[float, float] = (0, 0),
+        **others: Any,
+    ) -> None:
+        _number(pulses_per_unit, "pulses_per_unit")
+        if not pulses_per_unit:
+            raise OutOfRange("pulses_per_unit 0: how many pulses are a unit?")
+        self._scale = pulses_per_unit
+        self._device, self._axis = device, _axis(device, axis)
+        self._lock = _locks.setdefault(device, threading.RLock())
+        self._stopped_well = False
+        super().__init__(
+            name=name, egu=egu, limits=limits, source=f"{device.link.name}, axis {axis}", **others
+        )
+
+    @property
+    def position(self) -> float:
+        """Where the axis is, in `egu`: the part is asked. If the port has gone, where it was last."""
+        try:
+            return self._ask()
+        except LinkError:
+            if self._position is None:
+                raise
+            return float(self._position)
+
+    def read(self) -> Any:
+        """As ophyd's; the port has to be there."""
+        self._ask()
+        return super().read()
+
+    @property
+    def moving(self) -> bool:
+        """Whether a motion of this positioner is under way."""
+        return bool(self._moving)
+
+    def check_value(self, pos: float) -> None:
+        """OutOfRange for what is no finite number, ophyd's LimitError outside the soft limits."""
+        super().check_value(_number(pos, "position"))
+
+    def move(
+        self, position: float, wait: bool = True, timeout: float | None = None, moved_cb: Any = None
+    ) -> Any:
+        """Move with ramps to the pulse nearest to a position in `egu`; ophyd's Status. NotWhileBusy while
+        another move of this positioner is under way."""
+        if self._moving:
+            raise NotWhileBusy(0, f"{self.name} is moving: wait for its Status, or stop it")
+        return super().move(position, wait=wait, timeout=timeout, moved_cb=moved_cb)
+
+    def stop(self, *, success: bool = False) -> None:
+        """Decelerate, if a move of this positioner is under way. success: its Status counts as done."""
+        self._stopped_well = success
+        with self._lock:
+            if self._moving:
+                try:
+                    self._axis.stop(wait=False)
+                except NothingToStop:
+                    pass  # it has just come to rest
+
+    # ------------------------------------------------------------------ inside
+
+    def _ask(self) -> float:
+        with self._lock:
+            self._position = self._axis.position / self._scale
+        return float(self._position)
+
+    def _setup_move(self, position: float, status: Any) -> None:
+        self._moving, self._stopped_well = True, False
+        try:
+            with self._lock:
+                pulses = round(position * self._scale) - round(self._ask() * self._scale)
+                motion = self._axis.start_move(pulses) if pulses else None
+        except PpmcError as error:
+            self._over(status, error)
+            return
+        self._run_subs(sub_type=self.SUB_START, timestamp=time.time())
+        if motion is None:
+            self._over(status)
+        else:
+            threading.Thread(target=self._watch, args=(motion, status), name=self.name, daemon=True).start()
+
+    def _watch(self, motion: AnyMotion, status: Any) -> None:
+        """Tell where it is until it has ended."""
+        try:
+            while True:
+                with self._lock:
+                    now = motion.poll()
+                    if now is None:
+                        break
+                    self._device.attend(POLL)
+                self._set_position(now.position / self._scale)
+                time.sleep(FREE)
+            self._ask()
+            assert motion.end is not None
+            motion.end.check(motion.asked)
+        except StoppedEarly as error:
+            self._over(status, None if self._stopped_well else error)
+        except Exception as error:
+            self._over(status, error)
+        else:
+            self._over(status)
+
+    def _over(self, status: Any, error: Exception | None = None) -> None:
+        """The move has ended, and its Status hears of it: last, since the next move may begin at once."""
+        self._reset_sub(self._SUB_REQ_DONE)
+        if error is not None:
+            self._moving = False
+            status.set_exception(error)
+            return
+        self._set_position(self._position)
+        self._moving = False
+        self._run_subs(sub_type=self.SUB_DONE, timestamp=time.time())
+        status.set_finished()
+
+
+def _axis(device: Device, number: int) -> Any:
+    """An axis of a part by its number, or a station of a line."""
+    station = getattr(device, "axis", None)
+    if callable(station):
+        return station(number)
+    if not 1 <= number <= len(device.axes):
+        raise OutOfRange(f"axis {number}: {device.link.name} has axes 1 to {len(device.axes)}")
+    return device.axes[number - 1]
+
+
+def _number(value: Any, what: str) -> float:
+    if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(value):
+        raise OutOfRange(f"{what} {value!r} is not a finite number")
+    return float(value)

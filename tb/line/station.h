@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// A station of the virtual line: the Verilated node, its time, and whether it has to be computed at all. What
+// hangs on its pins is the part's own node.h, a class Node with Node(arguments, clk_hz), set_up(top),
+// look(top) (what to watch), follow(top) (it has changed), named(byte), inputs(top, levels), booted(top),
+// words(top), linger(clk_hz): how long it may still do something by itself after a character.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "dut.h"
+#include "node.h"
+
+// A level that a wire takes before edge `at` of clk.
+struct Change {
+    uint64_t at;
+    bool level;
+};
+
+class Station {
+   public:
+    Station(const StationArguments& arguments, uint64_t clk_hz)
+        : node_(arguments, clk_hz),
+          dut_([this](Vboard& top) { node_.set_up(top); }),
+          linger_(node_.linger(clk_hz)),
+          after_reply_(clk_hz / 1000) {
+        seen_ = node_.look(dut_.top);
+        // A factory-fresh EEPROM takes 60 ms, a reset 2 ms; what never boots has waited long enough, too.
+        for (uint64_t clk = 0; clk < clk_hz && !node_.booted(dut_.top); clk += kSlice) {
+            std::vector<Change> nothing;
+            run(0, kSlice, {}, nothing);
+        }
+    }
+
+    // The master sends a byte; true if it may concern this station, which then hears it.
+    bool hear(uint8_t byte, uint64_t now) {
+        addressed_ = node_.named(byte, addressed_);
+        wait(now);
+        return addressed_;
+    }
+
+    // What it was sent is still on its way.
+    void wait(uint64_t now) {
+        if (addressed_) until_ = now + linger_;
+    }
+
+    // Whether it need not be computed from edge `now` on: at rest, and it has not been spoken to for a while.
+    // It does not fall asleep in the middle of a character (quiet: the master is silent).
+    bool asleep(uint64_t now, bool quiet) {
+        if (now < until_ || dut_.top.busy || !dut_.top.line)
+            asleep_ = false;
+        else
+            asleep_ = asleep_ || quiet;
+        return asleep_;
+    }
+
+    // Edges from … to - 1: hears `sent`, appends what its driver does.
+    void run(uint64_t from, uint64_t to, const std::vector<Change>& sent, std::vector<Change>& driven) {
+        Vboard& top = dut_.top;
+        auto next = sent.begin();
+        for (uint64_t now = from; now < to; ++now) {
+            for (; next != sent.end() && next->at <= now; ++next) top.uart_rxd = next->level;
+            dut_.tick();
+            if (top.line != line_) {
+                line_ = top.line;
+                driven.push_back({now + 1, line_});
+                // A reply is on its way; behind it there is nothing to be done.
+                until_ = now + after_reply_;
+            }
+            if (const auto pins = node_.look(top); pins != seen_) {
+                seen_ = pins;
+                node_.follow(top);
+            }
+        }
+        for (; next != sent.end(); ++next) top.uart_rxd = next->level;
+    }
+
+    void inputs(unsigned levels, uint64_t now) {
+        node_.inputs(dut_.top, levels);
+        // Long enough for the keys of a PMC006B4.
+        until_ = now + 100 * linger_;
+    }
+
+    std::string words() const { return node_.words(dut_.top); }
+    unsigned number() const { return node_.number(dut_.top); }
+
+   private:
+    static constexpr uint64_t kSlice = 8000;
+
+    Node node_;
+    Dut dut_;
+    const uint64_t linger_, after_reply_;
+    uint64_t until_ = 0;
+    uint64_t seen_ = 0;
+    bool line_ = true, addressed_ = false, asleep_ = false;
+};

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// line_node: a PMC006B4 as the virtual line runs it: the carrier of the boards with its EEPROM, pins of motor
+// and switches.
+// Rules:  none of its own. Names of ports that every line_node has: clk, rst_n, uart_rxd, line, busy.
+// Timing: of pmc006_carrier. While busy is 0 and the line rests, nothing but line and inputs can change
+// anything.
+`default_nettype none
+
+module line_node #(
+    parameter int unsigned CLK_HZ   = 8_000_000,
+    parameter string       STEP_ACK = "MANUAL",
+    parameter int unsigned BAUD     = 9600
+) (
+    input  wire logic       clk,
+    input  wire logic       rst_n,
+    // line
+    input  wire logic       uart_rxd,
+    output logic            line,      // what the driver lets through, 1 while it is off
+    // switches, inputs, outputs
+    input  wire logic       ext1,
+    input  wire logic       ext2,
+    input  wire logic [4:0] gpi,
+    output logic      [4:0] gpo,
+    // motor
+    output logic      [8:0] angle,     // 128 a full step
+    // what is to be seen
+    output logic            busy,
+    output logic      [7:0] address,
+    output logic            booting,
+    output logic            moving,
+    output logic            free,      // no current
+    output logic            locked     // EXT1 or EXT2 has stopped it
+);
+
+  logic txd, de, scl_oe, sda_oe, ee_scl, ee_sda, scl, sda, unused;
+  logic uart_txd, m10, m11, m20, m21, bridge_a_en, bridge_b_en, pwm_a_ref, pwm_b_ref, ext1_pu, ext2_pu;
+  logic mon_step, mon_dir;
+  logic [3:0] lamps;
+
+  assign scl = !(scl_oe || ee_scl);
+  assign sda = !(sda_oe || ee_sda);
+
+  pmc006_carrier #(
+      .CLK_HZ  (CLK_HZ),
+      .STEP_ACK(STEP_ACK),
+      .BAUD    (BAUD)
+  ) u_carrier (
+      .clk,
+      .lock     (1'b1),
+      .req_n    (rst_n),
+      .uart_rxd (1'b1),
+      .uart_txd,
+      .rs485_rxd(uart_rxd),
+      .rs485_txd(txd),
+      .rs485_de (de),
+      .m10,
+      .m11,
+      .bridge_a_en,
+      .m20,
+      .m21,
+      .bridge_b_en,
+      .pwm_a_ref,
+      .pwm_b_ref,
+      .cmp_a    (1'b0),
+      .cmp_b    (1'b0),
+      .ext1,
+      .ext2,
+      .ext1_pu,
+      .ext2_pu,
+      .fset_n   (1'b1),
+      .gpi,
+      .gpo,
+      .conv     ('0),
+      .adc_stb  (1'b0),
+      .bemf_stb (1'b0),
+      .scl_i    (scl),
+      .scl_oe,
+      .sda_i    (sda),
+      .sda_oe,
+      .mon_step,
+      .mon_dir,
+      .lamps
+  );
+
+  eeprom_24c32 #(
+      .WriteClk(CLK_HZ / 200)  // 5 ms
+  ) u_eeprom (
+      .clk_i   (clk),
+      .on_i    (1'b1),
+      .scl_i   (scl),
+      .sda_i   (sda),
+      .scl_oe_o(ee_scl),
+      .sda_oe_o(ee_sda)
+  );
+
+  assign line = txd || !de;
+  assign angle = u_carrier.u_part.u_drive.angle_q;
+  assign address = u_carrier.u_part.addr;
+  assign booting = !u_carrier.rst_n || u_carrier.u_part.boot;
+  assign moving = u_carrier.mon_busy;
+  assign free = u_carrier.u_part.settings.free;
+  assign locked = |u_carrier.u_part.u_control.flags;
+  assign busy = booting || moving || de || !u_carrier.u_part.u_control.free ||
+                |u_carrier.u_part.u_control.u_program.state_q ||
+                !(u_carrier.u_part.u_serial.late_q || u_carrier.u_part.u_serial.u_frame.at_q == '0);
+  assign unused = ^{uart_txd, m10, m11, m20, m21, bridge_a_en, bridge_b_en, pwm_a_ref, pwm_b_ref, ext1_pu,
+                    ext2_pu, mon_step, mon_dir, lamps};
+
+endmodule
+
+`default_nettype wire

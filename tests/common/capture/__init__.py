@@ -1,0 +1,1 @@
+"""Captures of old chips: files as analysers write them, decoded and compared."""

@@ -1,0 +1,1 @@
+"""openppmc.ophyd on golden models, `make test-lab`."""

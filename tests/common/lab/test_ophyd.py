@@ -1,0 +1,144 @@
+"""The positioner of ophyd, asked as a bluesky plan asks it, on the golden models."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from bluesky import RunEngine
+from bluesky.plans import scan
+from ophyd.sim import det
+from ophyd.utils import LimitError
+
+from openppmc.host import (
+    Disconnected,
+    LimitReached,
+    NotInitialised,
+    NotWhileBusy,
+    OutOfRange,
+    Pmc006Bus,
+    StoppedEarly,
+    open_part,
+)
+from openppmc.host.axis.device import Device
+from openppmc.ophyd import PpmcPositioner
+
+PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "bank")
+PATIENCE = 60.0
+
+
+@contextmanager
+def started(part: str = "ppmc104", words: str = "speed=max") -> Iterator[Device]:
+    """A part of which each axis is initialised: 2000 to 8000 pps, position 4000 of a machine."""
+    with open_part(f"model:part={part},{words}") as device:
+        for axis in device.axes:
+            axis.initialise(start_pps=2000, high_pps=8000, ramp_pulses=1000 if part == "ppmc312" else 100)
+        yield device
+
+
+def ends(motor: PpmcPositioner, position: float) -> BaseException | None:
+    """Why a move to there fails; None if it does not."""
+    return motor.set(position).exception(PATIENCE)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_scan(part):
+    """Given a bluesky scan over the last axis of a part, then each event has its position, pulses to the unit
+    counted; and a positioner that goes on into the slow-down limit fails with what the driver says."""
+    with started(part) as device:
+        motor = PpmcPositioner(device, len(device.axes), name="theta", pulses_per_unit=-10, egu="deg")
+        seen = []
+        RunEngine()(scan([det], motor, 0, -20, 5), lambda name, doc: seen.append((name, doc)))
+        assert [doc["data"]["theta"] for name, doc in seen if name == "event"] == [0, -5, -10, -15, -20]
+        assert device.axes[-1].position == 200
+        (described,) = [doc["data_keys"]["theta"] for name, doc in seen if name == "descriptor"]
+        assert described["units"] == "deg" and f"axis {len(device.axes)}" in described["source"]
+        assert isinstance(ends(motor, -100_000), LimitReached) and not motor.moving
+        assert ends(motor, -20) is None and motor.position == -20
+
+
+def test_station_of_a_line():
+    """Given a line of PMC006B4, then the axis is the station, and both may move at once."""
+    with Pmc006Bus.open("model:part=pmc006,speed=max,address=1..2") as bus:
+        motors = [PpmcPositioner(bus, station, name=f"m{station}") for station in (1, 2)]
+        moves = [motor.set(300 * station) for station, motor in enumerate(motors, 1)]
+        for move in moves:
+            move.wait(PATIENCE)
+        assert [motor.position for motor in motors] == [300, 600]
+
+
+def test_two_axes_at_once():
+    """Given two positioners of one part, then their moves overlap, and readbacks come on the way."""
+    with started("ppmc2104", "speed=1") as device:
+        motors = [PpmcPositioner(device, axis, name=f"a{axis}") for axis in (1, 2)]
+        told = []
+        motors[0].subscribe(lambda value, **_: told.append(value), event_type="readback", run=False)
+        moves = [motors[0].set(20_000), motors[1].set(-300)]
+        assert [motor.moving for motor in motors] == [True, True]
+        for move in moves:
+            move.wait(PATIENCE)
+        assert [motor.position for motor in motors] == [20_000, -300]
+        assert told == sorted(told) and len(told) > 2
+
+
+@pytest.mark.parametrize("success", (False, True))
+def test_stop_in_motion(success):
+    """Given a stop on the way, then the motor decelerates, and the Status fails unless that was a success."""
+    with started(words="speed=1") as device:
+        motor = PpmcPositioner(device, name="x")
+        motor.stop()  # nothing to stop is fine
+        move = motor.set(30_000)
+        with pytest.raises(NotWhileBusy, match="x is moving"):
+            motor.set(5)
+        motor.stop(success=success)
+        error = move.exception(PATIENCE)
+        assert error is None if success else isinstance(error, StoppedEarly)
+        assert 0 < motor.position < 30_000 and not motor.moving
+        assert ends(motor, 10) is None
+
+
+def test_bad_positions():
+    """Given a position outside the soft limits, or none at all, then nothing moves."""
+    with started() as device:
+        motor = PpmcPositioner(device, name="x", pulses_per_unit=100, limits=(-1, 2))
+        for bad in (2.01, -5):
+            with pytest.raises(LimitError):
+                motor.set(bad)
+        for bad in (float("nan"), float("inf"), "5", None, True):
+            with pytest.raises(OutOfRange, match="is not a finite number"):
+                motor.set(bad)
+        assert motor.position == 0 and ends(motor, 0.0049) is None and motor.position == 0
+        assert ends(motor, 0.0051) is None and motor.position == 0.01
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    (
+        ({"axis": 2}, "axis 2: .* has axes 1 to 1"),
+        ({"axis": 0}, "axis 0: "),
+        ({"pulses_per_unit": 0}, "pulses_per_unit 0"),
+        ({"pulses_per_unit": float("nan")}, "pulses_per_unit nan is not a finite number"),
+    ),
+)
+def test_bad_axis_and_scale(words, told):
+    """Given an axis that there is not, or a scale that is none, then there is no positioner."""
+    with started() as device, pytest.raises(OutOfRange, match=told):
+        PpmcPositioner(device, name="x", **words)
+
+
+def test_not_initialised():
+    """Given a part that nobody has initialised, then the Status says so, and the next move may go."""
+    with open_part("model:speed=max") as device:
+        motor = PpmcPositioner(device, name="x")
+        assert isinstance(ends(motor, 100), NotInitialised) and not motor.moving
+        device.axes[0].initialise(start_pps=2000, high_pps=8000, ramp_pulses=100)
+        assert ends(motor, 100) is None
+
+
+def test_unplugged_port():
+    """Given a port that goes away in motion, then the Status fails with that, and so does the next move."""
+    with started(words="speed=max,unplug=2") as device:
+        motor = PpmcPositioner(device, name="x")
+        assert isinstance(ends(motor, 30_000), Disconnected) and not motor.moving
+        assert isinstance(ends(motor, 0), Disconnected)
