@@ -1,0 +1,143 @@
+"""`make site`: all documents, the Python API and the playground as static pages in build/site/html."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError, relative
+from scripts.site import wasm
+from scripts.site.hooks import PARTS, PDF, data_sheet
+from scripts.site.pages import SITE, node, packages, playground
+
+PAGES = wasm.OUT / "pages"
+HTML = wasm.OUT / "html"
+OTHERS = (
+    "README.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+    "CHANGELOG.md",
+    "LICENSE",
+    "drivers/c/README.md",
+    "examples/cocotb/README.md",
+)
+LINK = re.compile(r"\]\(([^)#?\s:]+)(?:#[^)]*)?\)")
+API = {
+    "Host: PPMC-104": ("openppmc.host.ppmc104.driver",),
+    "Host: PPMC-2104": ("openppmc.host.ppmc2104.driver", "openppmc.host.ppmc2104.axis"),
+    "Host: J105 STMC": ("openppmc.host.stmc.driver",),
+    "Host: PPMC-312": ("openppmc.host.ppmc312.driver",),
+    "Host: PMC006B4": ("openppmc.host.pmc006.bus", "openppmc.host.pmc006.axis"),
+    "Host: bank": ("openppmc.host.bank.driver", "openppmc.host.bank.axis", "openppmc.host.bank.group"),
+    "Host: what all have": ("openppmc.host.opening", "openppmc.host.units", "openppmc.host.axis.axis"),
+    "Golden models": tuple(f"openppmc.model.{part}.part" for part in
+                           ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")),
+    "Predictions": tuple(f"openppmc.model.{part}.predict" for part in
+                         ("ppmc104", "ppmc2104", "stmc", "ppmc312")),
+    "Virtual board": ("openppmc.sim.common.board", "openppmc.sim.common.spec"),
+    "Parts and errors": ("openppmc.parts", "openppmc.errors"),
+}  # fmt: skip
+"""Pages of the API reference: titles and modules."""
+APP = """---
+hide: [navigation, toc, footer]
+title: Playground
+---
+
+# Playground
+
+<div id="openppmc-playground" markdown="0"><p>The playground needs JavaScript and WebAssembly.</p></div>
+<link rel="stylesheet" href="playground/playground.css">
+<script>document.body.classList.add("playground-page")</script>
+<script src="playground/parts.js"></script>
+<script src="playground/playground.js"></script>
+
+<a id="pg-statements"></a>
+"""
+
+
+def linked(page: Path) -> Iterator[Path]:
+    """Files of the checkout that a page names."""
+    for target in LINK.findall(page.read_text(encoding="utf-8")):
+        path = (page.parent / target).resolve()
+        if path.is_file() and path.is_relative_to(ROOT):
+            yield path
+
+
+def stage() -> None:
+    """All that MkDocs reads into PAGES, each file where it is in the checkout: links stay as they are."""
+    shutil.rmtree(PAGES, ignore_errors=True)
+    sources = [*(ROOT / name for name in OTHERS), *(p for p in (ROOT / "docs").rglob("*") if p.is_file())]
+    for source in dict.fromkeys([*sources, *(p for s in sources if s.suffix == ".md" for p in linked(s))]):
+        to = PAGES / source.relative_to(ROOT)
+        to.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, to)
+    manual = (ROOT / "docs/playground.md").read_text(encoding="utf-8")
+    (PAGES / "playground.md").write_text(
+        APP + "## Statements" + manual.split("## Statements")[1], encoding="utf-8"
+    )
+    shutil.copytree(playground(), PAGES / "playground", ignore=shutil.ignore_patterns("index.html"))
+    shutil.copy(SITE / "site.css", PAGES)
+    # Search in pages that are files; MkDocs Material would fetch this one from elsewhere.
+    shutil.copy(SITE / "node_modules/iframe-worker/shim/index.js", PAGES / "iframe-worker.js")
+    folder = PAGES / "api"
+    folder.mkdir()
+    rows = []
+    for number, (title, modules) in enumerate(API.items()):
+        entries = "\n".join(f"\n::: {module}\n" for module in modules)
+        (folder / f"{number}.md").write_text(f"# {title}\n{entries}", encoding="utf-8")
+        rows.append(f"- [{title}]({number}.md)")
+    head = "# Python API\n\nFrom the docstrings of the package; [how to use it](../docs/host.md).\n\n"
+    (folder / "index.md").write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
+
+
+def browser() -> bool:
+    """Whether there can be PDFs; says why not in a line."""
+    try:
+        packages(SITE / "browser")
+        node("node", "pdf.mjs", str(HTML), folder=SITE / "browser")
+    except ProjectError as error:
+        print(f"no PDFs of the manuals, as there is no browser: {error}")
+        return False
+    return True
+
+
+def build() -> Path:
+    """The whole site; ProjectError names what MkDocs warns of first."""
+    stage()
+    pdf = browser()
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--clean", "-f", str(SITE / "mkdocs.yml")]
+    env = {**os.environ, **({PDF: "1"} if pdf else {})}
+    done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False)
+    log = wasm.OUT / "mkdocs.log"
+    log.write_text(done.stdout + done.stderr, encoding="utf-8")
+    if done.returncode:
+        wrong = [line for line in done.stderr.splitlines() if line.startswith(("WARNING", "ERROR"))]
+        raise ProjectError(f"{wrong[0] if wrong else 'MkDocs failed'} (the whole log: {relative(log)})")
+    if pdf:
+        (HTML / "pdf").mkdir()
+        jobs = [f"docs/{part}/index.html={data_sheet(part)}" for part in PARTS]
+        node("node", "pdf.mjs", str(HTML), *jobs, folder=SITE / "browser")
+    return HTML
+
+
+def main() -> int:
+    """Build it and say where it is; exit code."""
+    try:
+        folder = build()
+    except (ProjectError, ValueError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    pages = sum(1 for _ in folder.rglob("*.html"))
+    print(f"{pages} pages, {size / 1e6:.1f} MB: {relative(folder / 'index.html')}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+"""What the page needs of each part: pins, words, sessions, module; as scripts, which also load from a file.
+
+python -m scripts.site.export [PART …]          into build/site/playground
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import shutil
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from cocotb_tests.harness.part import BusStyle
+from cocotb_tests.harness.project import ProjectError
+from openppmc.capture.common.words import Words
+from openppmc.parts import PARTS
+from openppmc.sim.common.verilator import SimError
+from scripts.site import wasm
+from scripts.site.sessions import sessions
+from scripts.site.webparts import WEB_PARTS, WebPart
+from scripts.site.words import tables
+
+LENGTHS = {
+    "byte": {"lead": 0, "strobe": 2, "readStrobe": 4, "gap": 2},
+    "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
+    "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
+}
+"""clk of the halves of an access, as the hosts of `players` have them."""
+PLAYGROUND = wasm.OUT / "playground"
+
+
+def ports(part: WebPart, names: Sequence[str], levels: dict[str, int]) -> list[dict[str, object]]:
+    """Ports in the order of the module's words."""
+    found, word = [], 0
+    for name in names:
+        width = part.part.width(name)
+        count = (width + 31) // 32
+        found.append({
+            "name": name,
+            "width": width,
+            "idle": [levels[name] >> 32 * n & 0xFFFFFFFF for n in range(count)],
+            "lowest": part.part.lowest.get(name, 0),
+            "word": word,
+        })  # fmt: skip
+        word += count
+    return found
+
+
+def style(part: WebPart) -> dict[str, Any]:
+    """How its host speaks, and what the page shows of it."""
+    found: dict[str, Any] = {"hint": part.hint, "bits": list(part.bits), "phaseOn": part.phase_on}
+    found |= {"settle": part.settle, "first": part.first}
+    if part.part.styles:
+        bus: BusStyle = part.part.style({**part.part.inputs, **part.idle})
+        found |= {
+            "address": bus.address,
+            "writeOn": dict(bus.write_on),
+            "writeOff": dict(bus.write_off),
+            "readOn": dict(bus.read_on),
+            "readOff": dict(bus.read_off),
+            "busy": part.busy,
+            **LENGTHS[part.bus],
+        }
+    else:
+        found["bit"] = part.config.clk_hz / int(str(part.params["BAUD"]))
+    return found
+
+
+def data(part: WebPart, module: str) -> dict[str, Any]:
+    """The tables of a part (PartData in site/src/types.ts)."""
+    row = PARTS[part.name]
+    pins = part.part
+    levels = {**pins.inputs, **part.idle}
+    words = getattr(row.load("demo"), "words", Words())
+    switches = {pin for motor in part.motors for pin in motor.switches}
+    return {
+        "name": part.name,
+        "title": row.title,
+        "bus": part.bus,
+        "clkHz": part.config.clk_hz,
+        "inputs": ports(part, list(pins.inputs), levels),
+        "outputs": ports(part, list(pins.watched), pins.reset_levels(part.params)),
+        "motors": [
+            {
+                "switches": list(motor.switches),
+                "step": motor.step.partition("[")[0] if motor.phases else motor.step,
+                "edge": motor.edge,
+                "dir": motor.dir,
+                "phases": list(motor.windings),
+            }
+            for motor in part.motors
+        ],
+        "straps": [pin for pin in part.straps if pin not in switches],
+        "words": tables(part.name, words),
+        "sessions": [vars(one) for one in sessions(part.name)],
+        "style": style(part),
+        "wasm": module,
+    }
+
+
+def _script(path: Path, room: str, key: str, value: object) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+    path.write_text(
+        f"((globalThis.openppmc??={{}}).{room}??={{}})[{json.dumps(key)}]={text};\n", encoding="utf-8"
+    )
+
+
+def export(name: str, out: Path = PLAYGROUND) -> None:
+    """A part's tables and module into the playground's folder."""
+    part = WEB_PARTS[name]
+    built = wasm.build(name)
+    module = f"wasm/{name}.wasm"
+    (out / "wasm").mkdir(parents=True, exist_ok=True)
+    shutil.copy(built, out / module)
+    _script(out / f"{module}.js", "wasm", name, base64.b64encode(built.read_bytes()).decode())
+    _script(out / f"parts/{name}.js", "data", name, data(part, module))
+
+
+def main(arguments: list[str]) -> int:
+    """Export these parts, or all."""
+    names = arguments or list(WEB_PARTS)
+    try:
+        for name in names:
+            export(name)
+        entries = [{"name": name, "title": PARTS[name].title} for name in names]
+        text = json.dumps(entries, ensure_ascii=False)
+        (PLAYGROUND / "parts.js").write_text(
+            f"(globalThis.openppmc??={{}}).parts={text};\n", encoding="utf-8"
+        )
+    except (ProjectError, SimError, ValueError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,63 @@
+"""What MkDocs does with a page of ours: a link to the playground where a session can be run."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import Any
+
+RUN = re.compile(r"^<!-- run: .*? -->$", re.M | re.S)
+CHAPTER = re.compile(r"^## (\d+) ", re.M)
+PDF = "OPENPPMC_PDF"
+"""Tells MkDocs that there will be PDFs."""
+SHIM = "https://unpkg.com/iframe-worker/shim"
+PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
+START = "README.md"
+PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
+
+
+def data_sheet(part: str) -> str:
+    """The manual of a part as a PDF, seen from the site's root."""
+    return f"pdf/{part}.pdf"
+
+
+def button(source: str, part: str, run: str, words: str) -> str:
+    """A link from this page to a session of a part, which begins at once."""
+    up = os.path.relpath("playground.html", os.path.dirname(source))
+    go = f"&run={run}&go=1" if run else ""
+    return f'<a class="md-button run-this" href="{up}#v=1&part={part}{go}">{words}</a>'
+
+
+def run_links(source: str, markdown: str) -> str:
+    """The text of a page: links in place of its comments, and behind the title of manuals and first page."""
+    if source == START:
+        title, _, rest = markdown.partition("\n")
+        return f"{title}\n\n{button(source, PARTS[0], '2', 'Try it in the browser')}\n{rest}"
+    found = PAGE.fullmatch(source)
+    if not found or found[1] not in PARTS:
+        return markdown
+    part = found[1]
+    if found[2] == "README":
+        title, _, rest = markdown.partition("\n")
+        links = button(source, part, "", "Run it in the playground")
+        if os.environ.get(PDF):
+            links += f'\n<a class="md-button run-this" href="../../{data_sheet(part)}">PDF</a>'
+        return f"{title}\n\n{links}\n{rest}"
+
+    def linked(match: re.Match[str]) -> str:
+        chapter = CHAPTER.findall(markdown[: match.start()])[-1]
+        return button(source, part, chapter, "▶ Run this")
+
+    return RUN.sub(linked, markdown)
+
+
+def on_post_page(output: str, page: Any, **_: Any) -> str:
+    """Called by MkDocs for each page that is ready: nothing of it comes from another server."""
+    return output.replace(SHIM, os.path.relpath("iframe-worker.js", os.path.dirname(page.file.src_uri)))
+
+
+def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
+    """Called by MkDocs for each page."""
+    if page.file.src_uri == START:
+        page.meta["hide"] = ["navigation"]  # there is one page in it
+    return run_links(page.file.src_uri, markdown)

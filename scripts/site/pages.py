@@ -1,0 +1,77 @@
+"""The playground's folder: its script by esbuild, tables and modules of all parts.
+
+python -m scripts.site.pages
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+from cocotb_tests.harness.build import locked
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError, relative
+from scripts.site import export, wasm
+
+SITE = ROOT / "site"
+
+
+def node(*command: str, folder: Path = SITE) -> None:
+    """Run a tool of node; ProjectError with the first line of what is wrong."""
+    if shutil.which(command[0]) is None:
+        raise ProjectError(
+            f"{command[0]} is not installed: the site needs Node.js 18 or newer (apt install npm)"
+        )
+    log = wasm.OUT / f"{command[0]}.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("w", encoding="utf-8") as sink:
+        done = subprocess.run(
+            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink, check=False
+        )
+    if done.returncode:
+        raise ProjectError(f"{' '.join(command)} failed: see {relative(log)}")
+
+
+def packages(folder: Path) -> None:
+    """What a package-lock.json names, once for each state of it, by one process at a time.
+
+    `npm ci` empties node_modules first: another process would find half of it."""
+    lock, mark = folder / "package-lock.json", folder / "node_modules/.openppmc"
+    with locked(wasm.OUT / f"{folder.name}.lock"):
+        if not mark.is_file() or mark.read_bytes() != lock.read_bytes():
+            node("npm", "ci", "--no-audit", "--no-fund", folder=folder)
+            shutil.copy(lock, mark)
+
+
+@cache
+def playground() -> Path:
+    """Build what has changed; the folder. Safe against other processes doing the same."""
+    with locked(wasm.OUT / "playground.lock"):
+        return _made()
+
+
+def _made() -> Path:
+    packages(SITE)
+    node("npx", "tsc", "--noEmit")
+    node("node", "build.mjs", str(export.PLAYGROUND))
+    if export.main([]):
+        raise ProjectError("the tables of the playground cannot be made")
+    shutil.copy(SITE / "index.html", export.PLAYGROUND)
+    return export.PLAYGROUND
+
+
+def main() -> int:
+    """Build it; exit code."""
+    try:
+        print(relative(playground() / "index.html"))
+    except ProjectError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,159 @@
+"""Hosts of parts with a window of registers, with blocks, and with frames on a line; see `script`."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil
+
+from cocotb_tests.bank.lab import WindowBus
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR
+from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness.serial_line import SerialLine
+from openppmc.model.pmc006.front.frames import command
+from scripts.site.script import PATIENCE, BytePlayer, Pauses, Player, ScriptError
+from scripts.site.webparts import WebPart
+
+
+class WindowPlayer(BytePlayer):
+    """The bank: `axis 3` chooses whose registers 0 and 1 are meant; `put 9 01`, `get 4 00`: others of its."""
+
+    def __init__(self, part: WebPart, **pins: int) -> None:
+        super().__init__(part, **pins)
+        self.host = WindowBus(self.side)
+        self.words |= {"axis": self.axis, "put": self.put, "get": self.get}
+
+    async def axis(self, words: list[str]) -> list[str]:
+        """Counts from 0, as in the window."""
+        self.host.base = int(words[0]) << 4
+        return words[1:]
+
+    async def put(self, words: list[str]) -> list[str]:
+        """Write a register of the axis."""
+        await self.host.write(int(words[0]), int(words[1], 16))
+        return words[2:]
+
+    async def get(self, words: list[str]) -> list[str]:
+        """Read one."""
+        return self.check("register", await self.host.read(int(words[0])), words[1:])
+
+
+class BlockPlayer(Player):
+    """The PPMC-312: `w 3 15`, `r 3 3D` a register; `> 03 01 40`, `< 03 02 40 12` blocks; `count 30`."""
+
+    def __init__(self, part: WebPart, **pins: int) -> None:
+        super().__init__(part, **pins)
+        self.host = HostBus(self.side, 3, 5, 3)
+        self.words |= {
+            "w": self.write,
+            "r": self.read,
+            ">": self.block,
+            "<": self.response,
+            "count": self.count,
+        }
+
+    async def write(self, words: list[str]) -> list[str]:
+        """Write a register."""
+        await self.host.write(int(words[0]), int(words[1], 16))
+        return words[2:]
+
+    async def read(self, words: list[str]) -> list[str]:
+        """Read one."""
+        return self.check("register", await self.host.read(int(words[0])), words[1:])
+
+    async def _ready(self, bit: int) -> None:
+        pauses = Pauses(self.side)
+        while await self.host.read(CSR) & bit:
+            await pauses.next()
+
+    async def block(self, words: list[str]) -> list[str]:
+        """Write a block when there is room; the rest of the statement."""
+        content = bytes.fromhex("".join(words))[::-1]
+        await self._ready(MWEF)
+        await self.host.write(WCR, 0x20)
+        await self.host.write(WAR, 0x20 - len(content))
+        for byte in content:
+            await self.host.write(DWR, byte)
+        return []
+
+    async def response(self, words: list[str]) -> list[str]:
+        """Wait for a block and read it."""
+        await self._ready(MREF)
+        count = 0x40 - await self.host.read(RAR)
+        got = bytes([await self.host.read(DRR) for _ in range(count)])[::-1]
+        if words and got != bytes.fromhex("".join(words)):
+            raise ScriptError(f"the block is {got.hex(' ').upper()}")
+        return []
+
+    async def count(self, words: list[str]) -> list[str]:
+        """So many pulses since the beginning or the last `count`."""
+        found = self.pulses(self.part.motors[0])
+        self.mark = self.side.now
+        if found != int(words[0]):
+            raise ScriptError(f"{found} pulses")
+        return words[1:]
+
+
+class FramePlayer(Player):
+    """The PMC006B4: `f v 2000` a frame and its reply; `f j = 0` with the data that it must have; `idle`."""
+
+    ADDRESS = 0xFF
+
+    def __init__(self, part: WebPart, **pins: int) -> None:
+        super().__init__(part, **pins)
+        self.bit = Fraction(part.config.clk_hz, int(str(part.params["BAUD"])))
+        self.line = SerialLine()
+        self.line.side = self.side
+        self.line.open_line(self.bit)
+        self.words |= {"f": self.frame, "idle": self.idle}
+
+    async def _ask(self, letter: str, data: int) -> int:
+        side = self.side
+        self.line.back_to(side.now)
+        await self.line.send(command(self.ADDRESS, letter, data))
+        await side.until(max(side.now, self.line.t))
+        got = []
+        for _ in range(8):
+            if side.level("txd"):
+                await side.edge("txd", 0, timeout=PATIENCE)
+            start, byte = side.now, 0
+            for place in range(1, 10):
+                await side.until(start + ceil((place + Fraction(1, 2)) * self.bit))
+                byte |= side.level("txd") << place - 1
+            got.append(byte & 0xFF)
+        if sum(got[:7]) & 0xFF != got[7]:
+            raise ScriptError(f"{bytes(got).hex(' ')} is no reply")
+        return int.from_bytes(bytes(got[3:7]), "little")
+
+    async def frame(self, words: list[str]) -> list[str]:
+        """A frame, and what its reply holds."""
+        letter, rest = words[0], words[1:]
+        data = 0
+        if rest and rest[0] != "=":
+            data, rest = int(rest[0], 0), rest[1:]
+        if letter in "sz":
+            self.mark = self.side.now
+        got = await self._ask(letter, data)
+        if rest[:1] == ["="]:
+            if got != int(rest[1], 0) & 0xFFFFFFFF:
+                raise ScriptError(f"the reply has {got}")
+            rest = rest[2:]
+        return rest
+
+    async def idle(self, words: list[str]) -> list[str]:
+        """Ask for status 1 until the motor is at rest, every millisecond."""
+        while await self._ask("j", 0) & 1:
+            await self.side.clocks(self.part.config.clk_hz // 1000)
+        return words
+
+
+PLAYERS: dict[str, type[Player]] = {
+    "byte": BytePlayer,
+    "window": WindowPlayer,
+    "block": BlockPlayer,
+    "frame": FramePlayer,
+}
+
+
+def player(part: WebPart, **pins: int) -> Player:
+    """A part just powered up, and the host of its kind."""
+    return PLAYERS[part.bus](part, **pins)

@@ -1,0 +1,230 @@
+"""Sessions as the playground plays them (site/src/engine), here on the golden model: what must come of each.
+
+A line holds statements; `;` ends one, `#` begins a comment. docs/playground.md has the list. A session on the
+part and the same one here put the same levels on the pins on the same clk.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Awaitable, Callable, Iterator
+from typing import Any
+
+from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF, HostBus
+from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness.stimulus import Recording, steps
+from scripts.site.webparts import Motor, WebPart
+
+DENSE, FIRST, LONGEST = 16, 4, 8_000
+"""Polls that follow each other at once; clk before the next one, which grow by a quarter up to the last."""
+PATIENCE = 400_000_000
+"""clk that a statement waits at most."""
+RESET = 16
+"""clk of a reset."""
+UNITS = {"clk": 0, "us": 1_000_000, "ms": 1_000}
+LENGTH = re.compile(r"(\d+(?:\.\d+)?)(clk|us|ms)?")
+
+
+class ScriptError(ValueError):
+    """A line that is no statement, or an answer that is not the one in the line."""
+
+
+def statements(text: str) -> Iterator[tuple[int, list[str]]]:
+    """(line, words) of each statement, one word of a kind and what belongs to it."""
+    for number, line in enumerate(text.splitlines(), 1):
+        for part in line.partition("#")[0].split(";"):
+            if words := part.split():
+                yield number, words
+
+
+class Pauses:
+    """Between polls, that grow; ScriptError when it takes too long."""
+
+    def __init__(self, side: ModelBench) -> None:
+        self.side, self.end, self.count, self.pause = side, side.now + PATIENCE, 0, FIRST
+
+    async def next(self) -> None:
+        """Let one pass."""
+        if self.side.now > self.end:
+            raise ScriptError("it does not come")
+        self.count += 1
+        if self.count >= DENSE:
+            self.pause = min(LONGEST, self.pause * 5 // 4 + 1)
+            await self.side.clocks(self.pause)
+
+
+class Player:
+    """Plays the text of a session. got: bytes that were read, in order."""
+
+    def __init__(self, part: WebPart, **pins: int) -> None:
+        self.part = part
+        self.side = ModelBench(part.part, OnModel(part.config), part.settle, **{**part.idle, **pins})
+        self.got: list[int] = []
+        self.mark = self.side.now
+        self.clocks: dict[str, Any] = {}
+        self.words: dict[str, Callable[[list[str]], Awaitable[list[str]]]] = {
+            "set": self.set_pins,
+            "wait": self.wait,
+            "pulse": self.pulse,
+            "until": self.until,
+            "reset": self.reset,
+            "clock": self.clock,
+        }
+
+    def play(self, text: str) -> Recording:
+        """The whole text; ScriptError names a line."""
+        on_model(self._play(text))
+        return self.side.recording()
+
+    async def _play(self, text: str) -> None:
+        for number, words in statements(text):
+            rest = words
+            while rest:
+                if rest[0] not in self.words:
+                    raise ScriptError(f"line {number}: no such statement: {rest[0]}")
+                try:
+                    rest = await self.words[rest[0]](rest[1:])
+                except (ScriptError, IndexError, ValueError, KeyError, TimeoutError) as error:
+                    raise ScriptError(f"line {number}: {' '.join(words)}: {error}") from None
+
+    def check(self, what: str, got: int, words: list[str]) -> list[str]:
+        """A byte, compared with the one that the text expects, if it does."""
+        self.got.append(got)
+        if words and re.fullmatch("[0-9A-Fa-f]{2}", words[0]):
+            if got != int(words[0], 16):
+                raise ScriptError(f"{what} is {got:02X}")
+            return words[1:]
+        return words
+
+    # ------------------------------------------------------------------ what all parts have
+
+    async def set_pins(self, words: list[str]) -> list[str]:
+        """Levels of input pins: `set l1_n=0 csel=1`."""
+        levels = dict(word.split("=") for word in words)
+        self.side.set(**{pin: int(level, 0) for pin, level in levels.items()})
+        return []
+
+    async def wait(self, words: list[str]) -> list[str]:
+        """`wait 400`, `wait 5us`, `wait 2ms`."""
+        await self.side.clocks(self.length(words[0]))
+        return words[1:]
+
+    def length(self, text: str) -> int:
+        """A time in clk."""
+        found = LENGTH.fullmatch(text)
+        if not found:
+            raise ScriptError(f"{text} is no time: 400, 5us, 2ms")
+        unit = UNITS[found[2] or "clk"]
+        return round(float(found[1]) * self.part.config.clk_hz / unit) if unit else int(float(found[1]))
+
+    async def pulse(self, words: list[str]) -> list[str]:
+        """`pulse 10`, `pulse 10 2`: until so many pulses of an axis since the last command."""
+        first = self.part.first
+        axis = int(words[1]) if len(words) > 1 and words[1].isdigit() else first
+        motor = self.part.motors[axis - first]
+        while self.pulses(motor) < int(words[0]):
+            await self.side.edge(self.output(motor), None if motor.phases else motor.edge, timeout=PATIENCE)
+        return words[2 if len(words) > 1 and words[1].isdigit() else 1 :]
+
+    @staticmethod
+    def output(motor: Motor) -> str:
+        """The output that tells a motor's steps."""
+        return motor.step.partition("[")[0] if motor.phases else motor.step
+
+    def pulses(self, motor: Motor) -> int:
+        """Steps of a motor since the mark."""
+        output = self.output(motor)
+        edges = self.side.edges(output, self.mark)
+        if not motor.phases:
+            return sum(level == motor.edge for _, level in edges)
+        before = [(t, level) for t, level in self.side.edges(output, 0) if t < self.mark and level]
+        return len(steps([*before[-1:], *edges]))
+
+    async def until(self, words: list[str]) -> list[str]:
+        """`until int_n 0`: an output has this level."""
+        if self.side.level(words[0]) != int(words[1]):
+            await self.side.edge(words[0], int(words[1]), timeout=PATIENCE)
+        return words[2:]
+
+    async def reset(self, words: list[str]) -> list[str]:
+        """rst_n low for a while."""
+        self.side.set(rst_n=0)
+        await self.side.clocks(RESET)
+        self.side.set(rst_n=1)
+        await self.side.clocks(RESET)
+        self.mark = self.side.now
+        return words
+
+    async def clock(self, words: list[str]) -> list[str]:
+        """`clock ext_clk 329`: a square wave from now on, so many clk a period; 0 ends it."""
+        pin, period, now = words[0], int(words[1]), self.side.now
+
+        def changes() -> Iterator[tuple[int, dict[str, int]]]:
+            t = now
+            while period:
+                t += period - period // 2
+                yield t, {pin: 1}
+                t += period // 2
+                yield t, {pin: 0}
+
+        if pin in self.clocks:
+            self.clocks.pop(pin).cancel()
+        self.side.set(**{pin: 0})
+        if period:
+            self.clocks[pin] = self.side.drive(changes())
+        return words[2:]
+
+
+class BytePlayer(Player):
+    """Parts with a data register and one for commands and status."""
+
+    def __init__(self, part: WebPart, **pins: int) -> None:
+        super().__init__(part, **pins)
+        self.host = HostBus(self.side)
+        self.words |= {
+            "c": self.command,
+            "d": self.data,
+            "w": self.blind,
+            "r": self.read,
+            "st": self.status,
+            "p": self.poll_status,
+            "idle": self.idle,
+        }
+
+    async def poll(self, mask: int, value: int) -> int:
+        """Read the status until these bits are so."""
+        pauses = Pauses(self.side)
+        while (status := await self.host.status()) & mask != value:
+            await pauses.next()
+        return status
+
+    async def command(self, words: list[str]) -> list[str]:
+        self.mark = self.side.now
+        await self.host.write(COMMAND, int(words[0], 16))
+        await self.poll(IBF, 0)
+        return words[1:]
+
+    async def data(self, words: list[str]) -> list[str]:
+        await self.host.write(DATA, int(words[0], 16))
+        await self.poll(IBF, 0)
+        return words[1:]
+
+    async def blind(self, words: list[str]) -> list[str]:
+        self.mark = self.side.now
+        await self.host.write(COMMAND, int(words[0], 16))
+        return words[1:]
+
+    async def read(self, words: list[str]) -> list[str]:
+        await self.poll(OBF, OBF)
+        return self.check("data", await self.host.read(DATA), words)
+
+    async def status(self, words: list[str]) -> list[str]:
+        return self.check("status", await self.host.status(), words)
+
+    async def poll_status(self, words: list[str]) -> list[str]:
+        await self.poll(0xFF, int(words[0], 16))
+        return words[1:]
+
+    async def idle(self, words: list[str]) -> list[str]:
+        await self.poll(self.part.busy, 0)
+        return words

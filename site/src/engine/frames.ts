@@ -1,0 +1,123 @@
+// The host of the PMC006B4: frames on its serial line, and their replies.
+
+import { CHANGE } from "./core";
+import { Host, PATIENCE } from "./host";
+import { hex, type Doing, type Side } from "./side";
+import { TextError } from "./text";
+
+const ADDRESS = 0xff;
+const HEAD = 0xa5;
+const REPLY = 0x7a;
+
+export class FrameHost extends Host {
+  private readonly bit: number;
+
+  constructor(side: Side) {
+    super(side);
+    this.bit = Number(side.part.style.bit);
+    Object.assign(this.verbs, {
+      f: (words: string[]) => this.frame(words),
+      idle: (words: string[]) => this.idle(words),
+    });
+  }
+
+  private *reach(clk: number): Doing {
+    yield* this.side.clocks(clk - this.side.core.now);
+  }
+
+  /** Characters back to back; ends where the line is free again. */
+  private *say(line: readonly number[]): Doing {
+    let free = this.side.core.now;
+    for (const one of line) {
+      const start = free;
+      for (let place = 0; place < 10; place++) {
+        const level = place === 0 ? 0 : place === 9 ? 1 : (one >> (place - 1)) & 1;
+        if (Number(this.side.levels.get("rxd")) === level) continue;
+        yield* this.reach(up(start + place * this.bit));
+        this.side.set("rxd", level);
+      }
+      free = up(start + 10 * this.bit);
+    }
+    yield* this.reach(free);
+  }
+
+  private *hear(): Doing<number> {
+    const end = this.side.core.now + PATIENCE / 100;
+    while (this.side.level("txd")) {
+      if (this.side.core.now > end) throw new TextError("no reply comes");
+      yield { clk: PATIENCE / 100, until: CHANGE };
+    }
+    const start = this.side.core.now;
+    let value = 0;
+    for (let place = 1; place < 10; place++) {
+      yield* this.reach(start + up((place + 0.5) * this.bit));
+      value |= this.side.level("txd") << (place - 1);
+    }
+    return value & 0xff;
+  }
+
+  private *ask(letter: string, data: number): Doing<number> {
+    const content = [
+      HEAD,
+      ADDRESS,
+      letter.charCodeAt(0),
+      ...[0, 8, 16, 24].map((place) => (data >> place) & 0xff),
+    ];
+    const frame = [...content, sum(content)];
+    yield* this.say(frame);
+    const meaning = (this.side.part.words.codes[letter]?.text ?? "no such instruction").replace(
+      /\{[^}]*\}/,
+      letter === "W" ? hex(data >>> 0, 8) : String(data),
+    );
+    this.side.note("f", `${letter} ${frame.map((one) => hex(one)).join(" ")}`, meaning);
+    const got: number[] = [];
+    for (let n = 0; n < 8; n++) got.push(yield* this.hear());
+    if (got[0] !== HEAD || got[1] !== REPLY || sum(got.slice(0, 7)) !== got[7])
+      throw new TextError(`${got.map((one) => hex(one)).join(" ")} is no reply`);
+    const value = got.slice(3, 7).reduceRight((whole, one) => (whole << 8) | one, 0);
+    if (letter === "j") this.side.status = value & 0xff;
+    this.side.note(
+      "r",
+      got.map((one) => hex(one)).join(" "),
+      letter === "j" ? (this.side.part.words.status[value & 0xff] ?? "") : String(value),
+    );
+    return value;
+  }
+
+  *frame(words: string[]): Doing<string[]> {
+    const [letter = "", ...more] = words;
+    if (letter.length !== 1) throw new TextError(`${letter || "nothing"} is no instruction: one letter`);
+    let rest = more;
+    let data = 0;
+    if (rest.length && rest[0] !== "=") {
+      data = number(rest[0]!);
+      rest = rest.slice(1);
+    }
+    if ("sz".includes(letter)) this.side.markPulses();
+    const got = yield* this.ask(letter, data);
+    if (rest[0] !== "=") return rest;
+    if (got !== (number(rest[1] ?? "") | 0))
+      this.side.note("r", String(got), `the text expects ${rest[1]}`, true);
+    return rest.slice(2);
+  }
+
+  *idle(words: string[]): Doing<string[]> {
+    while ((yield* this.ask("j", 0)) & 1) yield* this.side.clocks(Math.floor(this.side.part.clkHz / 1000));
+    return words;
+  }
+}
+
+/** Whole clk, upwards; a sum of bit times that is whole but for rounding stays. */
+function up(clk: number): number {
+  return Math.ceil(clk - 1e-6);
+}
+
+function sum(bytes: readonly number[]): number {
+  return bytes.reduce((whole, one) => whole + one, 0) & 0xff;
+}
+
+function number(word: string): number {
+  if (!/^(-?\d+|0x[0-9a-f]{1,8})$/i.test(word) || Math.abs(Number(word)) > 0xffffffff)
+    throw new TextError(`${word || "nothing"} is no number of 32 bits`);
+  return Number(word) | 0;
+}

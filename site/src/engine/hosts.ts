@@ -1,0 +1,22 @@
+// The host of each kind of part.
+
+import { BlockHost } from "./blocks";
+import { ByteHost } from "./bytes";
+import { FrameHost } from "./frames";
+import type { Host } from "./host";
+import type { Side } from "./side";
+import { TextError } from "./text";
+import { WindowHost } from "./window";
+
+const KINDS: Record<string, new (side: Side) => Host> = {
+  byte: ByteHost,
+  window: WindowHost,
+  block: BlockHost,
+  frame: FrameHost,
+};
+
+export function makeHost(side: Side): Host {
+  const kind = KINDS[side.part.bus];
+  if (!kind) throw new TextError(`the page knows no host for ${side.part.title}`);
+  return new kind(side);
+}

@@ -1,0 +1,67 @@
+// A line of a session in words, while it is typed.
+
+import type { PartData } from "../types";
+import { answerWords, blockWords, bytes } from "./blocks";
+import { Explainer, type Meant } from "./explain";
+import { isByte, TextError } from "./text";
+
+function blockLine(part: PartData, text: string): Meant[] {
+  const found: Meant[] = [];
+  for (const one of (text.split("#")[0] ?? "").split(";")) {
+    const [verb = "", ...words] = one.split(/\s+/).filter(Boolean);
+    try {
+      if (verb === ">")
+        found.push({ word: one.trim(), meaning: blockWords(part.words, bytes(words)), bad: false });
+      else if (verb === "<")
+        found.push({
+          word: one.trim(),
+          meaning: words.length ? answerWords(part.words, bytes(words)) : "wait for an answer",
+          bad: false,
+        });
+      else if (verb === "w" || verb === "r") {
+        const name =
+          part.words.registers?.[`${verb === "w" ? "write" : "read"} ${words[0]}`] ??
+          `register ${words[0] ?? "…"}`;
+        const status =
+          verb === "r" && words[0] === "0" && isByte(words[1])
+            ? `: ${part.words.status[parseInt(words[1], 16)]}`
+            : "";
+        found.push({
+          word: one.trim(),
+          meaning: name + status,
+          bad: words[1] !== undefined && !isByte(words[1]),
+        });
+      }
+    } catch (error) {
+      if (!(error instanceof TextError)) throw error;
+      found.push({ word: one.trim(), meaning: error.message, bad: true });
+    }
+  }
+  return found;
+}
+
+function frameLine(part: PartData, text: string): Meant[] {
+  const found: Meant[] = [];
+  for (const one of (text.split("#")[0] ?? "").split(";")) {
+    const [verb, letter, data = "0"] = one.split(/\s+/).filter(Boolean);
+    if (verb !== "f" || !letter) continue;
+    const known = part.words.codes[letter]?.text;
+    found.push({
+      word: one.trim(),
+      meaning: known?.replace(/\{[^}]*\}/, data === "=" ? "0" : data) ?? "no such instruction",
+      bad: !known,
+    });
+  }
+  return found;
+}
+
+/** What the lines before the caret make of the line that it is in. */
+export function meaning(part: PartData, whole: string, caret: number): Meant[] {
+  const lines = whole.slice(0, caret).split("\n");
+  const full = whole.split("\n")[lines.length - 1] ?? "";
+  if (part.bus === "block") return blockLine(part, full);
+  if (part.bus === "frame") return frameLine(part, full);
+  const explainer = new Explainer(part.words);
+  for (const one of lines.slice(0, -1)) explainer.line(one);
+  return explainer.line(full);
+}

@@ -1,0 +1,129 @@
+// A part with its pins by name, and what a host does there: generators that yield how long they wait.
+
+import type { LogEntry, PartData, Port } from "../types";
+import type { Core } from "./core";
+import { TextError } from "./text";
+
+/** Let so many clk pass; with `until` (core.ts) no more than up to that. */
+export interface Wait {
+  clk: number;
+  until: number;
+}
+export type Doing<T = void> = Generator<Wait, T, void>;
+
+interface Place {
+  port: Port;
+  bit: number; // -1: the whole port
+}
+
+/** Where the carriage stands, CCW limit, slow CCW, origin, slow CW, CW limit. */
+export const MACHINE: readonly number[] = [500, -300, -150, 0, 1850, 2000];
+const PIN = /^(\w+)(?:\[(\d+)\])?$/;
+
+export class Side {
+  private readonly inputs = new Map<string, Port>();
+  private readonly outputs = new Map<string, Port>();
+  /** Levels as the host puts them; the machine may pull switches besides. */
+  readonly levels = new Map<string, bigint>();
+  log: LogEntry[] = [];
+  status = -1;
+  mark: number[] = [];
+  machine = false;
+  places: number[] = [...MACHINE];
+
+  constructor(
+    readonly core: Core,
+    readonly part: PartData,
+  ) {
+    for (const port of part.inputs) this.inputs.set(port.name, port);
+    for (const port of part.outputs) this.outputs.set(port.name, port);
+  }
+
+  powerUp(): void {
+    this.core.powerUp();
+    this.levels.clear();
+    for (const port of this.part.inputs) this.levels.set(port.name, joined(port.idle));
+    this.log = [];
+    this.status = -1;
+    this.markPulses();
+  }
+
+  private find(pin: string, ports: Map<string, Port>, what: string): Place {
+    const found = PIN.exec(pin);
+    const port = found ? ports.get(found[1]!) : undefined;
+    if (!found || !port) throw new TextError(`${this.part.title} has no ${what} ${pin}`);
+    if (found[2] === undefined) return { port, bit: -1 };
+    const bit = Number(found[2]) - port.lowest;
+    if (bit < 0 || bit >= port.width) throw new TextError(`${this.part.title} has no ${what} ${pin}`);
+    return { port, bit };
+  }
+
+  set(pin: string, level: number | bigint): void {
+    if (pin === "rst_n") {
+      this.core.put(words(this.part.inputs), Number(level));
+      return;
+    }
+    const { port, bit } = this.find(pin, this.inputs, "input");
+    const width = bit < 0 ? port.width : 1;
+    if (level < 0 || BigInt(level) >> BigInt(width))
+      throw new TextError(`${pin} has ${width} bit: not ${level}`);
+    const old = this.levels.get(port.name)!;
+    const value = bit < 0 ? BigInt(level) : (old & ~(1n << BigInt(bit))) | (BigInt(level) << BigInt(bit));
+    this.levels.set(port.name, value);
+    for (let n = 0; n * 32 < port.width; n++)
+      this.core.put(port.word + n, Number((value >> BigInt(32 * n)) & 0xffffffffn));
+  }
+
+  private waves = 0;
+  private readonly waving = new Map<string, number>();
+  /** A square wave from now on; period 0 ends it. */
+  wave(pin: string, period: number): void {
+    const { port, bit } = this.find(pin, this.inputs, "input");
+    if (port.width > 1 && bit < 0) throw new TextError(`${pin} has ${port.width} bit: as in ${pin}[1]`);
+    if (period !== 0 && period < 4) throw new TextError("a period has 4 clk at least");
+    const number = this.waving.get(pin) ?? this.waves++ % 4;
+    this.waving.set(pin, number);
+    this.set(pin, 0);
+    const at = Math.max(bit, 0);
+    const high = period >> 1;
+    this.core.wave(number, port.word + (at >> 5), (1 << (at & 31)) >>> 0, period - high, high);
+  }
+
+  sets(levels: Record<string, number>): void {
+    for (const [pin, level] of Object.entries(levels)) this.set(pin, level);
+  }
+
+  level(pin: string): number {
+    const { port, bit } = this.find(pin, this.outputs, "output");
+    if (bit >= 0) return (this.core.output(port.word + (bit >> 5)) >>> (bit & 31)) & 1;
+    return this.core.output(port.word);
+  }
+
+  *clocks(clk: number): Doing {
+    if (clk > 0) yield { clk, until: 0 };
+  }
+
+  /** Pulses count from here. */
+  markPulses(): void {
+    this.mark = this.part.motors.map((_, axis) => this.core.steps(axis));
+  }
+  pulses(axis: number): number {
+    return this.core.steps(axis) - this.mark[axis]!;
+  }
+
+  note(kind: string, text: string, meaning: string, bad = false): void {
+    this.log.push({ t: this.core.now, kind, text, words: meaning, ...(bad ? { bad } : {}) });
+  }
+}
+
+export function words(ports: readonly Port[]): number {
+  return ports.reduce((sum, port) => sum + Math.ceil(port.width / 32), 0);
+}
+
+export function joined(parts: readonly number[]): bigint {
+  return parts.reduce((sum, part, n) => sum | (BigInt(part >>> 0) << BigInt(32 * n)), 0n);
+}
+
+export function hex(byte: number, digits = 2): string {
+  return byte.toString(16).toUpperCase().padStart(digits, "0");
+}

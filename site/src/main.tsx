@@ -1,0 +1,33 @@
+import { render } from "preact";
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+import { App } from "./ui/app";
+import { setBase } from "./ui/load";
+import { open } from "./ui/state";
+
+setBase((document.currentScript as HTMLScriptElement | null)?.src ?? "");
+
+/** On a page of its own: the scheme of the system, under the name that MkDocs Material gives it. */
+function followSystem(): void {
+  const { dataset } = document.body;
+  if (dataset.mdColorScheme) return;
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const follow = (): void => {
+    dataset.mdColorScheme = dark.matches ? "slate" : "default";
+  };
+  dark.addEventListener("change", follow);
+  follow();
+}
+
+function begin(): void {
+  followSystem();
+  const root = document.getElementById("openppmc-playground");
+  if (!root) return;
+  root.replaceChildren();
+  render(<App />, root);
+  void open(location.hash);
+  addEventListener("hashchange", () => location.hash.includes("part=") && void open(location.hash));
+}
+
+if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", begin);
+else begin();

@@ -1,0 +1,127 @@
+// Part, session, and the clock: run, pause, step, how fast; files and links.
+
+import { useState } from "preact/hooks";
+import { parts } from "./load";
+import {
+  ask,
+  chapter,
+  choose,
+  link,
+  mclk,
+  over,
+  part,
+  running,
+  seconds,
+  setSpeed,
+  speed,
+  SPEEDS,
+  start,
+  store,
+  take,
+  why,
+} from "./state";
+import { vcd } from "./vcd";
+
+function time(s: number): string {
+  return s < 1e-3 ? `${(s * 1e6).toFixed(1)} µs` : s < 1 ? `${(s * 1e3).toFixed(3)} ms` : `${s.toFixed(4)} s`;
+}
+
+function download(): void {
+  if (!store || !part.value) return;
+  const file = new Blob([vcd(store)], { type: "text/plain" });
+  const anchor = document.createElement("a");
+  anchor.href = URL.createObjectURL(file);
+  anchor.download = `${part.value.name}.vcd`;
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
+}
+
+export function Bar() {
+  const [copied, setCopied] = useState("");
+  const data = part.value;
+  const share = async (): Promise<void> => {
+    const address = new URL(link(), location.href).href;
+    history.replaceState(null, "", address);
+    try {
+      await navigator.clipboard.writeText(address);
+      setCopied("link copied");
+    } catch {
+      setCopied("the address bar has the link");
+    }
+    setTimeout(() => setCopied(""), 3000);
+  };
+  return (
+    <div class="pg-bar" role="toolbar" aria-label="playground">
+      <label>
+        <span>Part</span>
+        <select
+          class="pg-part"
+          value={data?.name ?? ""}
+          onChange={(event) => void choose(event.currentTarget.value)}
+        >
+          {parts().map((one) => (
+            <option value={one.name}>{one.title}</option>
+          ))}
+        </select>
+      </label>
+      <label class="pg-grow">
+        <span>Session</span>
+        <select
+          class="pg-session"
+          value={chapter.value}
+          onChange={(event) => {
+            take(event.currentTarget.value);
+            start();
+          }}
+        >
+          {chapter.value === "" && <option value="">own text</option>}
+          {data?.sessions.map((one) => (
+            <option value={one.name}>{one.title}</option>
+          ))}
+        </select>
+      </label>
+      <button type="button" class="pg-run" onClick={start} title="power the part up and play the text">
+        ▶ Run
+      </button>
+      <button
+        type="button"
+        onClick={() => ask({ kind: running.value ? "pause" : "go" })}
+        title="Space, where nothing is typed"
+        aria-pressed={!running.value}
+      >
+        {running.value ? "❚❚ Pause" : "▶ Go on"}
+      </button>
+      <button type="button" onClick={() => ask({ kind: "step" })} title="on to the next pulse">
+        ▶❚ Next pulse
+      </button>
+      <label>
+        <span>Speed</span>
+        <select
+          class="pg-pace"
+          value={String(speed.value)}
+          onChange={(event) => setSpeed(Number(event.currentTarget.value))}
+        >
+          {SPEEDS.map(([value, name]) => (
+            <option value={String(value)}>{name}</option>
+          ))}
+        </select>
+      </label>
+      <button type="button" onClick={download} title="all pins since power-up, for GTKWave or Surfer">
+        VCD
+      </button>
+      <button type="button" onClick={() => void share()} title="a link that plays this session again">
+        Link
+      </button>
+      <output
+        class="pg-clock"
+        aria-live="off"
+        data-state={running.value ? (over.value ? "over" : "running") : why.value}
+      >
+        {time(seconds.value)}
+        <small>
+          {copied || (running.value ? `${mclk.value.toFixed(1)} million clk/s` : why.value || "ready")}
+        </small>
+      </output>
+    </div>
+  );
+}

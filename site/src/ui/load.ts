@@ -1,0 +1,58 @@
+// Tables and modules when they are needed: over the web server, or as scripts where the page is a file.
+
+import type { PartData } from "../types";
+
+declare const WORKER: string; // the worker's code, put in by build.mjs
+
+interface Entry {
+  name: string;
+  title: string;
+}
+interface Loaded {
+  parts: Entry[];
+  data: Record<string, PartData>;
+  wasm: Record<string, string>;
+}
+
+const known = ((globalThis as unknown as { openppmc?: Partial<Loaded> }).openppmc ??= {});
+let base = "";
+
+/** The folder that this script came from. */
+export function setBase(url: string): void {
+  base = url.replace(/[^/]*$/, "");
+}
+
+export function parts(): Entry[] {
+  return known.parts ?? [];
+}
+
+function script(file: string): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const element = document.createElement("script");
+    element.src = base + file;
+    element.onload = () => resolve();
+    element.onerror = () => reject(new Error(`${file} is missing`));
+    document.head.append(element);
+  });
+}
+
+export async function loadPart(name: string): Promise<PartData> {
+  if (!known.data?.[name]) await script(`parts/${name}.js`);
+  return known.data![name]!;
+}
+
+export async function loadWasm(part: PartData): Promise<ArrayBuffer> {
+  if (location.protocol !== "file:") {
+    const answer = await fetch(base + part.wasm);
+    if (!answer.ok) throw new Error(`${part.wasm}: ${answer.status} ${answer.statusText}`);
+    return answer.arrayBuffer();
+  }
+  // A page from a file may load scripts, and nothing else.
+  if (!known.wasm?.[part.name]) await script(`${part.wasm}.js`);
+  const text = atob(known.wasm![part.name]!);
+  return Uint8Array.from(text, (letter) => letter.charCodeAt(0)).buffer;
+}
+
+export function makeWorker(): Worker {
+  return new Worker(URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" })));
+}

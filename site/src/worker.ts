@@ -1,0 +1,207 @@
+// The part and its host, beside the page: what passes as fast as asked for, sent to the page 60 times a second.
+
+import type { Frame, FromWorker, PartData, ToWorker } from "./types";
+import { Core, ROW } from "./engine/core";
+import { Player } from "./engine/player";
+import { words } from "./engine/side";
+import { TextError } from "./engine/text";
+
+const SLICE = 14; // ms of work between two looks at the page
+const CHUNK = 200_000; // clk between two looks at the clock on the wall
+
+let part: PartData;
+let core: Core;
+let bytes: ArrayBuffer;
+let player: Player | undefined;
+let running = false;
+let stepping = false;
+let speed = 0.1; // times real time; 0: as fast as it goes
+let credit = 0; // clk that may pass
+let last = 0;
+let timer = 0;
+let why = "";
+let done = 0; // clk and ms of work, for the figure
+let spent = 0;
+
+const post = (message: FromWorker, transfer: Transferable[] = []): void =>
+  (self as unknown as Worker).postMessage(message, transfer);
+
+function frame(blocks: Uint8Array[]): void {
+  const rows = new Uint8Array(blocks.reduce((sum, block) => sum + block.length, 0));
+  let at = 0;
+  for (const block of blocks) {
+    rows.set(block, at);
+    at += block.length;
+  }
+  if (!player) return;
+  const { side } = player;
+  const message: Frame = {
+    kind: "frame",
+    t: core.now,
+    rows: rows.buffer,
+    positions: part.motors.map((_, axis) => core.position(axis)),
+    log: side.log.splice(0),
+    status: side.status,
+    line: player.line,
+    running,
+    over: player.over,
+    machine: side.machine,
+    places: side.places,
+    why,
+    mclk: spent > 0 ? done / spent / 1e3 : 0,
+    levels: {
+      inputs: Array.from({ length: words(part.inputs) }, (_, n) => core.input(n)),
+      outputs: Array.from({ length: words(part.outputs) }, (_, n) => core.output(n)),
+    },
+  };
+  post(message, [rows.buffer]);
+}
+
+function tell(error: unknown): void {
+  running = false;
+  const said = core?.message();
+  if (error instanceof TextError) post({ kind: "error", text: error.message });
+  else if (error instanceof WebAssembly.RuntimeError) {
+    post({
+      kind: "error",
+      text: `the part has stopped: ${said || "an assertion failed"}. Run a session to power it up anew.`,
+    });
+    player = undefined;
+  } else post({ kind: "error", text: String(error instanceof Error ? error.message : error) });
+}
+
+function slice(): void {
+  timer = 0;
+  if (!running || !player) return;
+  const begin = performance.now();
+  const blocks: Uint8Array[] = [];
+  credit = speed
+    ? Math.min(credit + ((begin - last) / 1e3) * speed * part.clkHz, 0.1 * speed * part.clkHz + 1)
+    : CHUNK;
+  last = begin;
+  try {
+    let bytes = 0;
+    while (credit >= 1 && performance.now() - begin < SLICE && bytes < 65_536 * ROW) {
+      const before = core.now;
+      const ran = player.advance(Math.min(Math.floor(credit), CHUNK), stepping);
+      done += ran;
+      if (speed) credit -= ran;
+      const rows = core.rows();
+      bytes += rows.length;
+      if (rows.length) blocks.push(rows);
+      if (stepping && moved(rows)) {
+        pause("a motor has stepped");
+        break;
+      }
+      if (player.resting) {
+        pause("at rest");
+        break;
+      }
+      if (ran === 0 && core.now === before && player.over) break;
+    }
+  } catch (error) {
+    blocks.push(core.rows());
+    frame(blocks);
+    tell(error);
+    return;
+  }
+  spent += performance.now() - begin;
+  frame(blocks);
+  if (spent > 500) {
+    done *= 0.5;
+    spent *= 0.5;
+  }
+  if (running)
+    timer = setTimeout(slice, speed ? Math.max(0, 16 - (performance.now() - begin)) : 0) as unknown as number;
+}
+
+let stepsBefore = 0;
+function steps(): number {
+  return part.motors.reduce((sum, _, axis) => sum + core.steps(axis), 0);
+}
+function moved(rows: Uint8Array): boolean {
+  return rows.length > 0 && steps() !== stepsBefore;
+}
+
+function pause(reason: string): void {
+  running = false;
+  stepping = false;
+  why = reason;
+}
+
+function go(step: boolean): void {
+  if (!player) return;
+  stepsBefore = steps();
+  stepping = step;
+  why = "";
+  player.stir();
+  last = performance.now();
+  credit = 0;
+  if (!running) {
+    running = true;
+    if (!timer) slice();
+  }
+}
+
+function pressed(text: string): void {
+  if (player) post({ kind: "journal", line: `@${core.now} ${text}` });
+}
+
+self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
+  try {
+    switch (data.kind) {
+      case "load":
+        running = false;
+        part = data.part;
+        bytes = data.wasm;
+        core = new Core(bytes);
+        player = new Player(core, part);
+        post({ kind: "ready" });
+        frame([]);
+        break;
+      case "start":
+        if (!player) {
+          // The module has stopped at a mistake of its own: another one.
+          core = new Core(bytes);
+          player = new Player(core, part);
+        }
+        speed = data.speed;
+        running = false;
+        done = spent = 0;
+        player.start(data.text);
+        post({ kind: "began" });
+        go(false);
+        break;
+      case "send":
+        player?.send(data.text);
+        pressed(data.text);
+        go(false);
+        break;
+      case "press":
+        player?.press(`set ${data.pin}=${data.level}`);
+        pressed(`set ${data.pin}=${data.level}`);
+        if (!running) frame([core.rows()]);
+        break;
+      case "machine":
+        player?.press(data.words.join(" "));
+        pressed(data.words.join(" "));
+        if (!running) frame([core.rows()]);
+        break;
+      case "speed":
+        speed = data.speed;
+        break;
+      case "pause":
+        pause("paused");
+        frame([core.rows()]);
+        break;
+      case "go":
+        go(false);
+        break;
+      case "step":
+        go(true);
+        break;
+    }
+  } catch (error) {
+    tell(error);
+  }
+};

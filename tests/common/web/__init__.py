@@ -1,0 +1,1 @@
+"""The playground: modules against the golden models, its engine under node, the page in a browser."""

@@ -1,0 +1,379 @@
+// node browser.mjs SITE SHOTS PACKAGES TRIPPED [CHECK]: the page in a real Chromium. TRIPPED: a PPMC-104 that l1_n = 0 stops.
+// A line of JSON for each check: {name, error?, told?}.
+// Exit code 3 and one line if no browser can be had.
+import fs from "node:fs";
+import http from "node:http";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [, , site, shots, packages, tripped, only = ""] = process.argv;
+const { launch } = await import(pathToFileURL(path.join(packages, "launch.mjs")));
+
+const types = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".wasm": "application/wasm",
+};
+const server = http
+  .createServer((request, answer) => {
+    const file = path.join(site, decodeURIComponent(new URL(request.url, "http://here").pathname));
+    try {
+      const whole = fs.statSync(file).isDirectory() ? path.join(file, "index.html") : file;
+      answer.writeHead(200, { "content-type": types[path.extname(whole)] ?? "application/octet-stream" });
+      answer.end(fs.readFileSync(whole));
+    } catch {
+      answer.writeHead(404).end();
+    }
+  })
+  .listen(0);
+
+const view = await launch();
+const base = `http://127.0.0.1:${server.address().port}/`;
+fs.mkdirSync(shots, { recursive: true });
+const RUN = ".pg-run";
+const PATIENCE = 120_000; // ms; machines that do much else are slow
+const SLOWEST = 2; // million clk a second of processor time; a third of what it was when this was written
+const MOST = 3; // sessions of each part but the first, short ones; test_engine.py plays more
+const equal = (got, wanted, what) => {
+  if (got !== wanted) throw new Error(`${what}: ${JSON.stringify(got)} instead of ${JSON.stringify(wanted)}`);
+};
+const truth = (got, what) => {
+  if (!got) throw new Error(what);
+};
+
+/** A page; console errors fail the check at its end. */
+async function open(address = base, more = {}, prepare) {
+  const context = await view.newContext({
+    viewport: { width: 1400, height: 1000 },
+    locale: "en-US",
+    acceptDownloads: true,
+    ...more,
+  });
+  context.setDefaultTimeout(PATIENCE);
+  const page = await context.newPage();
+  page.wrong = [];
+  page.on("pageerror", (error) => page.wrong.push(error.message));
+  page.on("console", (message) => message.type() === "error" && page.wrong.push(message.text()));
+  if (prepare) await prepare(page);
+  await page.goto(address);
+  return page;
+}
+const rest = (page) =>
+  page.waitForFunction(() => /at rest/.test(document.querySelector(".pg-clock").textContent), null, {
+    timeout: PATIENCE,
+  });
+const position = (page) => page.textContent(".pg-position").then(Number);
+const message = (page) => page.textContent(".pg-trouble span", { timeout: PATIENCE });
+const fast = (page) => page.selectOption(".pg-pace", "0");
+async function type(page, text) {
+  await page.fill("#pg-text", text);
+  await fast(page);
+  await page.click(RUN);
+}
+async function saved(page, file) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("text=VCD")]);
+  await download.saveAs(path.join(shots, file));
+  return fs.readFileSync(path.join(shots, file), "utf8");
+}
+
+const checks = {
+  async "one click to a ramp"() {
+    const begin = Date.now();
+    const page = await open();
+    await page.waitForSelector(RUN);
+    const painted = await page.evaluate(
+      () => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? 0,
+    );
+    await page.waitForFunction(() => document.querySelector(".pg-names li"));
+    await page.click(RUN);
+    await page.waitForFunction(() => Number(document.querySelector(".pg-position").textContent) > 50);
+    await page.screenshot({ path: path.join(shots, "running.png") });
+    await rest(page);
+    equal(await position(page), 1000, "position");
+    await page.screenshot({ path: path.join(shots, "desktop.png"), fullPage: true });
+    await saved(page, "ppmc104-2.vcd");
+    truth(painted < 2000, `first paint after ${painted} ms`);
+    return [
+      page,
+      `first paint after ${Math.round(painted)} ms, ${Date.now() - begin} ms to the end of the first move`,
+    ];
+  },
+  async "phone and dark"() {
+    const phone = await open(base, { viewport: { width: 390, height: 844 }, hasTouch: true });
+    await phone.click(RUN);
+    await rest(phone);
+    const wide = await phone.evaluate(() => document.documentElement.scrollWidth);
+    truth(wide <= 390, `${wide} pixels wide on a phone`);
+    await phone.screenshot({ path: path.join(shots, "phone.png"), fullPage: true });
+    const dark = await open(base, { colorScheme: "dark" });
+    await dark.click(RUN);
+    await rest(dark);
+    await dark.screenshot({ path: path.join(shots, "dark.png"), fullPage: true });
+    return [dark];
+  },
+  async "sessions of every part run"() {
+    const page = await open();
+    await page.waitForSelector(RUN);
+    await fast(page);
+    const parts = await page.$$eval(".pg-part option", (found) => found.map((one) => one.value));
+    let count = 0;
+    for (const part of parts) {
+      await page.selectOption(".pg-part", part);
+      await page.waitForFunction((name) => globalThis.openppmc.data?.[name], part);
+      const sessions = await page.evaluate(
+        (name) => globalThis.openppmc.data[name].sessions.map((one) => one.name),
+        part,
+      );
+      for (const session of sessions.slice(part === "ppmc104" ? 0 : -MOST)) {
+        await page.selectOption(".pg-session", session);
+        await page.waitForFunction(
+          (name) => document.querySelector(".pg-log").dataset.run === name,
+          `${part} ${session}`,
+        );
+        await page.waitForFunction(
+          () =>
+            document.querySelector(".pg-trouble") ||
+            /over|at rest/.test(document.querySelector(".pg-clock").dataset.state),
+          null,
+          { timeout: PATIENCE },
+        );
+        const trouble = await page.$(".pg-trouble span");
+        truth(!trouble, `${part} ${session}: ${trouble && (await trouble.textContent())}`);
+        equal(
+          await page.$$eval(".pg-log tr.pg-bad", (rows) => rows.length),
+          0,
+          `${part} ${session}: wrong bytes`,
+        );
+        count++;
+      }
+    }
+    return [page, `${count} sessions of ${parts.length} parts run in the page`];
+  },
+  async "a switch stops the motor"() {
+    const page = await open();
+    await page.waitForSelector(RUN);
+    await type(page, "c 0A d C7 d 31 d 64 d 00\nc 45 d 63");
+    await page.waitForFunction(() => Number(document.querySelector(".pg-position").textContent) > 100);
+    await page.click(".pg-pins >> text=l1_n");
+    await rest(page);
+    const stopped = await position(page);
+    await page.fill("#pg-now", "c 80 r");
+    await page.press("#pg-now", "Enter");
+    await page.waitForFunction(() =>
+      /ended by the limit/.test(document.querySelector(".pg-registers").textContent),
+    );
+    equal(await position(page), stopped, "position");
+    // A link with all of it, and the same waves from it.
+    const first = await saved(page, "pressed.vcd");
+    await page.click("text=Link");
+    await page.waitForFunction(() => location.hash.includes("text="));
+    const again = await open(page.url());
+    await rest(again);
+    equal(await position(again), stopped, "position from the link");
+    const second = await saved(again, "linked.vcd");
+    const pulses = (text) => {
+      const id = / (\S+) pout_n \$end/.exec(text)[1];
+      return text
+        .split("#")
+        .filter((one) => one.split("\n").includes(`0${id}`))
+        .map((one) => one.split("\n")[0])
+        .join();
+    };
+    truth(pulses(first).length > 500, "too few pulses");
+    equal(pulses(second), pulses(first), "pulses from the link");
+    page.wrong.push(...again.wrong);
+    return [page];
+  },
+  async "the machine stops the motor"() {
+    const page = await open();
+    await page.waitForSelector(RUN);
+    await type(page, "machine on\nc 0A d C7 d 31 d 64 d 00\nc 45 d 63");
+    await rest(page);
+    equal(await position(page), 2000, "position");
+    return [page];
+  },
+  async "pause, next pulse, slow"() {
+    const page = await open();
+    await page.waitForSelector(RUN);
+    await type(page, "c 0A d C7 d 31 d 64 d 00\nc 45 d 63");
+    await page.selectOption(".pg-pace", "0.001");
+    await page.waitForFunction(() => /million/.test(document.querySelector(".pg-clock").textContent));
+    await page.click("text=Pause");
+    await page.waitForFunction(() => /paused/.test(document.querySelector(".pg-clock").textContent));
+    const before = await position(page);
+    await fast(page);
+    for (let n = 1; n <= 3; n++) {
+      await page.click("text=Next pulse");
+      await page.waitForFunction(
+        (wanted) => Number(document.querySelector(".pg-position").textContent) === wanted,
+        before + n,
+      );
+    }
+    // Zoom, cursors and their time by keys.
+    await page.focus(".pg-waves canvas");
+    for (const key of ["+", "+", "a", "ArrowRight", "ArrowRight", "b"]) await page.keyboard.press(key);
+    await page.waitForFunction(() =>
+      /B − A = .* clk/.test(document.querySelector(".pg-measured").textContent),
+    );
+    return [page];
+  },
+  async "frames while it runs"() {
+    const page = await open();
+    await page.waitForSelector(RUN);
+    await type(page, "c 0A d 09 d 04 d 04 d 00\nc 45 d 00");
+    await page.waitForTimeout(500);
+    const browser = await view.newBrowserCDPSession();
+    // Processor time of the page's process, worker included, in s: Linux counts hundredths.
+    const spent = async () => {
+      const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
+      const stats = processInfo
+        .filter((one) => one.type === "renderer" && fs.existsSync(`/proc/${one.id}/stat`))
+        .map((one) => fs.readFileSync(`/proc/${one.id}/stat`, "utf8").replace(/.*\)/s, "").split(" "));
+      return stats.reduce((sum, words) => sum + (Number(words[12]) + Number(words[13])) / 100, 0);
+    };
+    const passed = async () => {
+      const [, number, unit] = /^([\d.]+) (m?s)/.exec(await page.textContent(".pg-clock"));
+      return Number(number) * (unit === "s" ? 16 : 0.016); // million clk
+    };
+    const [clk, cpu] = [await passed(), await spent()];
+    const gaps = await page.evaluate(
+      () =>
+        new Promise((resolve) => {
+          const times = [];
+          const tick = (t) =>
+            times.push(t) > 90
+              ? resolve(times.slice(1).map((one, n) => one - times[n]))
+              : requestAnimationFrame(tick);
+          requestAnimationFrame(tick);
+        }),
+    );
+    gaps.sort((a, b) => a - b);
+    const middle = gaps[gaps.length >> 1];
+    const each = ((await passed()) - clk) / ((await spent()) - cpu);
+    truth(each > SLOWEST, `${each.toFixed(1)} million clk a second of processor time`);
+    const speed = (await page.textContent(".pg-clock")).match(/([\d.]+) million/)?.[1];
+    return [
+      page,
+      `${(1000 / middle).toFixed(0)} frames/s (90 frames, middle one) while ppmc104 runs at ${speed} million clk/s in the page, ` +
+        `${each.toFixed(1)} a second of processor time of worker and page`,
+    ];
+  },
+  async "bad input is told"() {
+    const page = await open(`${base}#v=0&part=ppmc104`);
+    truth(/version 0/.test(await message(page)), "an old link");
+    await page.waitForSelector(".pg-names li");
+    for (const [text, wrong] of [
+      ["c 4G", "4G is no byte"],
+      ["c 43 d E7\nhello", "no such statement: hello"],
+      ["set l1_n=7", "l1_n has 1 bit"],
+    ]) {
+      await type(page, text);
+      await page.waitForFunction(
+        (part) => document.querySelector(".pg-trouble span")?.textContent.includes(part),
+        wrong,
+      );
+    }
+    await type(page, "c 82 r FC");
+    await rest(page);
+    truth(!(await page.$(".pg-trouble")), "the message stays");
+    await page.fill("#pg-now", "c ZZ");
+    truth(
+      /two hexadecimal digits/.test(await page.textContent("form .pg-meaning")),
+      "a byte while it is typed",
+    );
+    const other = await open(`${base}#v=1&part=z80`);
+    truth(/no part z80/.test(await message(other)), "an unknown part");
+    page.wrong.push(...other.wrong);
+    return [page];
+  },
+  async "without WebAssembly, or with half a module"() {
+    const page = await open(base, {}, (one) => one.addInitScript(() => delete globalThis.WebAssembly));
+    truth(/no WebAssembly/.test(await message(page)), "no message without WebAssembly");
+    await page.click("#pg-text");
+    const half = await open(base, {}, (one) =>
+      one.route("**/*.wasm", (route) =>
+        route.fulfill({ body: "not a module", contentType: "application/wasm" }),
+      ),
+    );
+    truth((await message(half)).length > 10, "no message with half a module");
+    const none = await open(base, {}, (one) =>
+      one.route("**/*.wasm", (route) => route.fulfill({ status: 404 })),
+    );
+    truth(/404/.test(await message(none)), "no message without a module");
+    return [page];
+  },
+  async "a part that runs into an assertion"() {
+    const page = await open(base, {}, (one) =>
+      one.route("**/wasm/ppmc104.wasm", (route) =>
+        route.fulfill({ body: fs.readFileSync(tripped), contentType: "application/wasm" }),
+      ),
+    );
+    await page.waitForSelector(".pg-names li");
+    for (const text of ["wait 100\nset l1_n=0\nwait 100", "set l1_n=0"]) {
+      await type(page, text);
+      const told = await message(page);
+      truth(/the part has stopped: .*l1_n is low.*power it up anew/s.test(told), `it says: ${told}`);
+      // What it has done so far is there, and a session runs on another one.
+      await type(page, "c 0A d C7 d 31 d 64 d 00\nc 43 d 03 d 00 d 00");
+      await rest(page);
+      equal(await position(page), 4, "position afterwards");
+      truth(!(await page.$(".pg-trouble")), "the message stays");
+    }
+    // Pressed instead of typed; then nothing of it can be paused or stepped.
+    await page.click(".pg-pins >> text=l1_n");
+    await page.click("text=Next pulse");
+    truth(/power it up anew/.test(await message(page)), "no message for a pin");
+    return [page];
+  },
+  async "a click before the part is there"() {
+    const page = await open(base, {}, (one) =>
+      one.route("**/*.wasm", async (route) => {
+        await new Promise((resolve) => setTimeout(resolve, 1500));
+        await route.continue();
+      }),
+    );
+    await page.waitForSelector(RUN);
+    await fast(page);
+    await page.click(RUN);
+    equal(await page.$$eval(".pg-pins .pg-low", (found) => found.length), 0, "switches that are closed");
+    await rest(page);
+    equal(await position(page), 1000, "position");
+    return [page];
+  },
+  async "names for everything"() {
+    const page = await open();
+    await page.waitForSelector(".pg-names li");
+    const nameless = await page.evaluate(() =>
+      [...document.querySelectorAll(".pg button, .pg input, .pg select, .pg textarea, .pg svg")]
+        .filter((one) => !(one.textContent.trim() || one.getAttribute("aria-label") || one.labels?.length))
+        .map((one) => one.outerHTML.slice(0, 80)),
+    );
+    equal(nameless.join(), "", "without a name");
+    return [page];
+  },
+  async "from a file"() {
+    const page = await open(pathToFileURL(path.join(site, "index.html")).href);
+    await page.waitForSelector(".pg-names li");
+    await fast(page);
+    await page.click(RUN);
+    await rest(page);
+    equal(await position(page), 1000, "position");
+    return [page];
+  },
+};
+
+for (const [name, check] of Object.entries(checks).filter(([name]) => name.includes(only))) {
+  const line = { name };
+  try {
+    const [page, told] = await check();
+    if (page.wrong.length) throw new Error(`console: ${page.wrong.join("; ")}`);
+    line.told = told;
+  } catch (error) {
+    line.error = String(error.message).split("\n").slice(0, 4).join(" ");
+  }
+  for (const context of view.contexts()) await context.close();
+  console.log(JSON.stringify(line));
+}
+await view.close();
+server.close();

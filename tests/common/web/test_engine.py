@@ -1,0 +1,102 @@
+"""The engine of the page under node: its edges are those of the same session on the golden model."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from typing import Any
+
+import pytest
+
+from cocotb_tests.harness.comparison import compare_edges
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.stimulus import Edge
+from scripts.flow.plain_sim import words
+from scripts.site.pages import playground
+from scripts.site.players import player
+from scripts.site.sessions import sessions
+from scripts.site.webparts import WEB_PARTS, WebPart
+from tests.common.web.tally import left_out, told
+
+pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+LONG = 22_000_000
+"""clk; longer sessions take half a minute each and more, on a machine that does nothing else."""
+HERE = ROOT / "tests/common/web"
+
+
+def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
+    """What comes of (part, text) pairs."""
+    folder = playground()
+    done = subprocess.run(
+        ["node", str(HERE / "play.mjs"), str(folder.parent / "engine/engine.js"), str(folder)],
+        input=json.dumps([{"part": part, "text": text} for part, text in jobs]),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
+    """Words of outputs put together."""
+    outputs, levels = words(part.part, part.part.watched), part.part.reset_levels(part.params)
+    found = []
+    for t, word, value in rows:
+        pin, place = outputs[word]
+        levels[pin] = levels[pin] & ~(0xFFFFFFFF << 32 * place) | value << 32 * place
+        found.append(Edge(int(t), pin, levels[pin]))
+    return found
+
+
+@pytest.mark.parametrize("name", WEB_PARTS)
+def test_sessions(name):
+    """Given a session of the manual, when the page plays it, then every byte and edge is the right one."""
+    part, count = WEB_PARTS[name], 0
+    plays = [(session.text, player(part).play(session.text)) for session in sessions(name)]
+    left = left_out(name, [recording.end for _, recording in plays], LONG, "they take too long")
+    plays = [(text, recording) for text, recording in plays if recording.end < LONG]
+    texts = [text for text, _ in plays]
+    for (_, recording), got in zip(plays, played(*((name, text) for text in texts)), strict=True):
+        levels = part.part.reset_levels(part.params)
+        initial = {pin: levels[pin] for pin in part.part.watched}
+        assert got.get("bad") == [], got
+        _, actual, mismatch = compare_edges(recording.edges, edges(part, got["edges"]), initial, got["end"])
+        assert mismatch is None, mismatch
+        assert got["end"] == recording.end
+        count += sum(map(len, actual.values()))
+    told(f"{name}: {len(texts)} sessions by the page's engine, {count} edges as in the golden model{left}")
+
+
+WRONG = (
+    ("c 4G", "line 1: 4G is no byte"),
+    ("c 0A\nc", "line 2: nothing is no byte"),
+    ("hello", "line 1: no such statement: hello"),
+    ("set l9_n=0", "line 1: PPMC-104 has no input l9_n"),
+    ("set l1_n=2", "line 1: l1_n has 1 bit: not 2"),
+    ("set l1_n", "line 1: l1_n is no level"),
+    ("wait 5 parsec", "line 1: no such statement: parsec"),
+    ("wait 5m", "line 1: 5m is no time"),
+    ("until smoke 1", "line 1: PPMC-104 has no output smoke"),
+    ("pulse 3 2", "line 1: there is no axis 2"),
+    ("machine on 1 2", "line 1: a machine has six places"),
+    ("@x set l1_n=0", "line 1: @x is no clk"),
+    ("# " + "x" * 200_000, "200000 at most"),
+)
+
+
+def test_bad_input():
+    """Given a text that is none, then one line says where and why."""
+    for (text, wrong), got in zip(WRONG, played(*(("ppmc104", text) for text, _ in WRONG)), strict=True):
+        assert wrong in got.get("error", ""), (text[:40], got)
+
+
+def test_the_machine_stops_the_motor():
+    """Given the machine with its switches, when the motor runs into one, then it stops there."""
+    text = "machine on 0 -300 -150 0 1850 50\nc 0A d 09 d 04 d 04 d 00\nc 45 d 63\nuntil int_n 0\n"
+    text += "c 80 r 95\nwait 100"
+    (got,) = played(("ppmc104", text))
+    assert got["bad"] == [], got
+    part = WEB_PARTS["ppmc104"]
+    falls = [edge.t for edge in edges(part, got["edges"]) if edge.signal == "pout_n" and not edge.value]
+    assert len(falls) == 50

@@ -1,0 +1,124 @@
+"""Every module of the playground against the golden model: sessions of the manuals, random hosts, size."""
+
+from __future__ import annotations
+
+import time
+from functools import cache
+from itertools import islice
+
+import pytest
+
+from cocotb_tests.harness.comparison import compare_edges
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.stimulus import Recording
+from scripts.site import hosts, wasm
+from scripts.site.module import Module
+from scripts.site.players import player
+from scripts.site.script import ScriptError
+from scripts.site.sessions import sessions
+from scripts.site.webparts import WEB_PARTS, WebPart
+from tests.common.web.tally import left_out, told
+
+HOSTS = 50
+LONG = 10_000_000
+"""clk; longer sessions are left to test_engine.py, but for those that would take minutes there, too."""
+SLOWEST = 0.3
+"""Share of the native speed that a module has at least."""
+every = pytest.mark.parametrize("name", WEB_PARTS)
+
+
+@cache
+def module(name: str) -> Module:
+    """The module of a part."""
+    return Module(WEB_PARTS[name], wasm.build(name))
+
+
+def compared(part: WebPart, recording: Recording) -> int:
+    """Play a recording of the golden model; how many edges were the same. AssertionError at a difference."""
+    levels = part.part.reset_levels(recording.params)
+    initial = {pin: levels[pin] for pin in part.part.watched}
+    resets = [change.t for change in recording.stimulus if change.pin == "rst_n" and not change.value]
+    edges = module(part.name).play(recording)
+    _, actual, mismatch = compare_edges(recording.edges, edges, initial, recording.end, resets)
+    assert mismatch is None, f"seed {recording.seed}: {mismatch}"
+    return sum(map(len, actual.values()))
+
+
+@every
+def test_sessions_of_the_manual(name):
+    """Given a session of the manual, then every byte is the printed one and every edge the golden model's."""
+    part, counts, ends = WEB_PARTS[name], [], []
+    for session in sessions(name):
+        recording = player(part).play(session.text)
+        ends.append(recording.end)
+        if recording.end < LONG:
+            counts.append(compared(part, recording))
+    left = left_out(name, ends, LONG, "left to the page's engine")
+    told(f"{name}: {len(counts)} sessions of the manual, {sum(counts)} edges as in the golden model{left}")
+    assert sum(counts) > 1000
+
+
+@every
+def test_random_hosts(name):
+    """Given 50 random hosts, then every edge of every output is the golden model's."""
+    part = WEB_PARTS[name]
+    counts = [compared(part, hosts.recorded(part, seed)) for seed in islice(hosts.seeds(part), HOSTS)]
+    told(f"{name}: {HOSTS} random hosts, {sum(counts)} edges as in the golden model")
+    assert len(counts) == HOSTS and min(counts) > 10
+
+
+@every
+def test_size(name):
+    """Given a module, then a web server sends less than 200 KB of it."""
+    size = wasm.packed(wasm.build(name))
+    told(f"{name}: {size / 1024:.0f} KB packed")
+    assert size < wasm.MOST
+
+
+@every
+def test_no_path_of_this_machine(name):
+    """Given a module, then it does not tell where it was made: another checkout makes the same bytes."""
+    assert str(ROOT).encode() not in wasm.build(name).read_bytes()
+
+
+def test_a_wrong_edge_is_found():
+    """Given a recording with one edge one clk late, then the comparison names it."""
+    part = WEB_PARTS["ppmc104"]
+    recording = player(part).play("c 0A d 09 d 04 d 04 d 00 c 43 d 0D d 00 d 00 pulse 14 1")
+    place = next(n for n, edge in enumerate(recording.edges) if edge.signal == "pout_n")
+    recording.edges[place] = recording.edges[place]._replace(t=recording.edges[place].t + 1)
+    with pytest.raises(AssertionError, match="pout_n"):
+        compared(part, recording)
+
+
+def test_a_wrong_byte_is_found():
+    """Given a session that expects another byte, or is none, then the line is named."""
+    part = WEB_PARTS["ppmc104"]
+    for text, wrong in (
+        ("c 82\nr FD", "line 2: r FD: data is FC"),
+        ("c 82\nq", "line 2: no such statement: q"),
+    ):
+        with pytest.raises(ScriptError, match=wrong):
+            player(part).play(text)
+
+
+def speed(part: WebPart, native: bool) -> float:
+    """Million clk a second, with pulses running."""
+    made = Module(part, wasm.build(part.name, native))
+    made.play(player(part).play("c 0A d 09 d 04 d 04 d 00 c 43 d FF d FF d 7F wait 2000"))
+    clk, begin = 4_000_000, time.process_time()
+    for _ in range(4):
+        made.call["run"](clk / 4, 0)
+        made.call["take"]()
+    return clk / (time.process_time() - begin) / 1e6
+
+
+def test_speed():
+    """Given pulses that run, then WebAssembly is not much slower than code for this machine."""
+    part = WEB_PARTS["ppmc104"]
+    native, module_speed = speed(part, native=True), speed(part, native=False)
+    told(
+        f"ppmc104: {module_speed:.1f} million clk/s as WebAssembly, {native:.1f} native: "
+        f"{module_speed / native:.2f} of it"
+    )
+    assert module_speed / native > SLOWEST

@@ -1,0 +1,60 @@
+"""The links of the pages to the playground, and what the tables say of bytes."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from openppmc.capture.ppmc104.words import Words104
+from openppmc.model.single.codes import decode
+from scripts.site.hooks import PARTS, run_links
+from scripts.site.sessions import sessions
+from scripts.site.webparts import WEB_PARTS
+from scripts.site.words import tables
+
+PAGES = [part for part in PARTS if (ROOT / "docs" / part / "examples.md").is_file()]
+WITHOUT = {("stmc", "9")}
+"""Chapters for another build than that of the playground."""
+
+
+def test_every_part_is_there():
+    """Given the parts of the playground, then the pages link to those."""
+    assert set(PARTS) == set(WEB_PARTS)
+
+
+@pytest.mark.parametrize("part", PAGES)
+def test_every_example_can_be_run(part):
+    """Given a page of examples, then each chapter with a session has a link, and the session is there."""
+    text = (ROOT / "docs" / part / "examples.md").read_text(encoding="utf-8")
+    chapters = [chapter for chapter in re.split(r"^## (?=\d)", text, flags=re.M)[1:] if "```" in chapter]
+    numbers = {chapter.split()[0] for chapter in chapters}
+    names = {session.name for session in sessions(part)}
+    assert {(part, number) for number in numbers} - {(part, name) for name in names} <= WITHOUT
+    linked = run_links(f"docs/{part}/examples.md", text)
+    assert "<!-- run:" not in linked
+    assert set(re.findall(rf"playground\.html#v=1&part={part}&run=(\d+)&go=1", linked)) == names
+    assert 'href="../../playground.html#' in linked
+
+
+def test_other_pages_stay_as_they_are():
+    """Given a page without sessions, then nothing of it changes; a manual gets one link."""
+    assert run_links("docs/host.md", "# A\n\ntext") == "# A\n\ntext"
+    manual = run_links("docs/bank/README.md", "# A\n\ntext")
+    assert manual.startswith("# A\n") and manual.count("playground.html#v=1&part=bank") == 1
+    first = run_links("README.md", "# A\n\ntext")
+    assert first.count('href="playground.html#v=1&part=ppmc104&run=2&go=1"') == 1
+
+
+def test_words():
+    """Given the tables of a part, then codes, data and answers are in words, and no unknown codes."""
+    found = tables("ppmc104", Words104())
+    assert found["codes"]["43"]["text"] == "accelerate/decelerate, CW"
+    assert found["codes"]["43"]["fields"] == [{"name": "pulses", "bytes": 3, "plus": 1}]
+    assert [field["name"] for field in found["codes"]["0A"]["fields"]] == ["RL", "RH", "PA"]
+    assert found["codes"]["83"]["count"] == 3 and "04" not in found["codes"] and "C4" not in found["codes"]
+    assert found["status"][0xA0] == "error 2: not initialised" and len(found["status"]) == 256
+    for code, row in found["codes"].items():
+        assert sum(field["bytes"] for field in row["fields"]) == decode(int(code, 16)).parameters
+        assert row["text"] and not row["text"].startswith("command ")

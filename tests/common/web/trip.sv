@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mistake inside the PPMC-104, for the page's message: it stops as soon as l1_n is low.
+module trip (
+    input wire logic clk,
+    input wire logic l1_n
+);
+  always_ff @(posedge clk) if (!l1_n) $fatal(1, "l1_n is low");
+endmodule
+
+bind ppmc104 trip i_trip (
+    .clk,
+    .l1_n
+);
