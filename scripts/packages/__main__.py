@@ -20,6 +20,9 @@ def main() -> int:
     parser.add_argument(
         "--try", dest="trial", action="store_true", help="run FuseSoC, elaborate the templates"
     )
+    parser.add_argument(
+        "--verilator", metavar="PROGRAM", help="with --try: use them with this Verilator alone"
+    )
     options = parser.parse_args()
     wanted = {**core_files(), **list_files()}
     stale = [path for path, text in wanted.items() if not path.is_file() or path.read_text() != text]
@@ -31,9 +34,12 @@ def main() -> int:
         if stale:
             raise ProjectError(f"{relative(stale[0])} is not fresh: run `make packages`")
         # Here, so that the check needs no simulator.
-        from scripts.packages.trial import try_all
+        from scripts.packages.trial import try_all, try_other
 
-        try_all()
+        if options.verilator is None:
+            try_all()
+        else:
+            try_other(options.verilator)
         return 0
     for path in stale:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from itertools import chain
 
 import pytest
@@ -86,3 +88,14 @@ def test_cores():
         for target in core["targets"].values():
             assert set(target["filesets"]) <= set(core["filesets"]), path.name
     assert [name for name in found if name in RTL] == RTL
+
+
+@pytest.mark.parametrize(
+    ("program", "told"), (("/no/such", "there is no such program"), ("true", "no Verilator"))
+)
+def test_other_verilator_must_be_one(program, told):
+    """Given a VERILATOR that is none, then one line says so before anything passes."""
+    words = [sys.executable, "-m", "scripts.packages", "--try", "--verilator", program]
+    done = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
+    assert done.returncode == 1 and told in done.stdout + done.stderr
+    assert len((done.stdout + done.stderr).strip().splitlines()) == 1

@@ -1,0 +1,93 @@
+"""`make release [SKIP=…] [ONLY=…]`: everything of this version into dist/, or nothing."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console, relative
+
+from . import bitstreams, notes, python, site, sources, verilog
+from .state import Release, present
+
+DIST = project.ROOT / "dist"
+SCRATCH = project.BUILD / "release"
+SLOW = ("bitstreams", "site")
+"""What SKIP may leave out of a trial."""
+
+
+Job = Callable[[Release, Path, Path], None]
+"""Puts its files into the first folder; the second one is to work in."""
+
+
+def jobs(say: Callable[[str], None]) -> dict[str, Job]:
+    """Name -> what makes it; the quick ones first, the notes last."""
+    from . import sbom  # its packages are in the environment of `make release` alone
+
+    return {
+        "python": python.make,
+        "rtl": sources.make,
+        "verilog": verilog.make,
+        "sbom": sbom.make,
+        "site": site.make,
+        "bitstreams": lambda release, out, scratch: bitstreams.make(release, out, scratch, say),
+        "notes": notes.make,
+    }
+
+
+def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = SCRATCH, made_by=jobs) -> None:
+    """All jobs into a folder of `scratch`, which becomes `dist` when all are done."""
+    shutil.rmtree(scratch, ignore_errors=True)
+    out = scratch / "dist"
+    out.mkdir(parents=True)
+    # What tools write as their time (setuptools, MkDocs), and as modes of files.
+    os.environ["SOURCE_DATE_EPOCH"] = str(release.epoch)
+    os.umask(0o022)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as progress:
+        task = progress.add_task("release")
+
+        def say(text: str) -> None:
+            progress.update(task, description=text)
+            if not console.is_terminal:
+                console.print(text)
+
+        todo = {name: make for name, make in made_by(say).items() if name not in skip}
+        release.missing += [f"The {name}: left out (SKIP)." for name in SLOW if name in skip]
+        progress.update(task, total=len(todo))
+        for name, make in todo.items():
+            say(name)
+            folder = scratch / name
+            folder.mkdir()
+            make(release, out, folder)
+            progress.advance(task)
+    shutil.rmtree(dist, ignore_errors=True)
+    out.rename(dist)
+
+
+def main() -> int:
+    """Entry point."""
+    parser = argparse.ArgumentParser(prog="python -m scripts.release", description=__doc__)
+    parser.add_argument("--skip", default="", help=f"for a trial: {', '.join(SLOW)}")
+    parser.add_argument("--only", default="", help="for a trial: names of bitstreams, with commas between")
+    args = parser.parse_args()
+    skip = set(args.skip.replace(",", " ").split())
+    if strange := sorted(skip - set(SLOW)):
+        raise ProjectError(f"SKIP={strange[0]}: expected {' or '.join(SLOW)}")
+    only = tuple(args.only.replace(",", " ").split())
+    bitstreams.wanted(only)
+    build(present(only), skip)
+    for path in sorted(DIST.iterdir()):
+        console.print(f"{path.stat().st_size:>12,}  {relative(path)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

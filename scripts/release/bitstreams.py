@@ -1,0 +1,40 @@
+"""Bitstreams of all boards and parts with their reports, in one archive."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from cocotb_tests.harness.project import ProjectError
+from scripts.flow.board_table import BY_PART, Board
+from scripts.flow.boards import build_board
+
+from .archive import zipped
+from .state import Release
+
+
+def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
+    """Name -> board and host; ProjectError for a name that there is not. only: these; none: all."""
+    every = {
+        on.stem(host): (on, host) for boards in BY_PART.values() for on in boards.values() for host in on.top
+    }
+    for name in only:
+        if name not in every:
+            raise ProjectError(f"ONLY={name}: no such bitstream (there are {', '.join(every)})")
+    return {name: every[name] for name in only or every}
+
+
+def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None]) -> None:
+    """The archive into `out`; `say` is told which one is being built."""
+    files: dict[str, Path | bytes] = {}
+    chosen = wanted(release.only)
+    for number, (name, (on, host)) in enumerate(chosen.items(), 1):
+        count = f"{number} of {len(chosen)}"
+        build_board(
+            on.name, host, notify=lambda text, n=name, c=count: say(f"{n}, {c}: {text}"), part=on.part
+        )
+        files[f"{name}/{on.file(host).name}"] = on.file(host).read_bytes()
+        files[f"{name}/report.json"] = (on.folder(host) / "report.json").read_bytes()
+    zipped(out / release.name("bitstreams", ".zip"), files, release.epoch)
+    if release.only:
+        release.missing.append(f"Of the bitstreams there are only {', '.join(chosen)} (ONLY).")

@@ -1,0 +1,46 @@
+"""The release's own words: its part of CHANGELOG.md, what is missing, what each file is; and the digests."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from .state import Release
+
+NOTES = "RELEASE_NOTES.md"
+SUMS = "SHA256SUMS"
+WHAT = (
+    ("-py3-none-any.whl", "Python package: `pip install` this file"),
+    ("-verilog-", "each part and bridge as one file of plain Verilog-2005, with default parameters"),
+    ("-rtl-", "SystemVerilog with FuseSoC cores, Bender manifest, lists for vendor tools, C drivers"),
+    ("-bitstreams-", "bitstreams of the boards, each with its report"),
+    ("-site-", "all documents and the playground, to be opened as files"),
+    (".pdf", "data sheet"),
+    (".cdx.json", "what it is made of (CycloneDX)"),
+    (".tar.gz", "Python package as sources"),
+)
+
+
+def notes(release: Release, names: list[str]) -> str:
+    """The text for a release of these files."""
+    rows = [(name, next((text for word, text in WHAT if word in name), "")) for name in names]
+    lines = [f"# OpenPPMC {release.version}", "", release.notes, ""]
+    if release.missing:
+        lines += ["## Not in this release", "", *(f"- {text}" for text in release.missing), ""]
+    lines += ["## Files", "", *(f"- `{name}`: {text}" for name, text in rows), ""]
+    lines += [
+        f"Made from commit {release.commit}. The same commit gives the same bytes: `make release`, then "
+        f"compare with `{SUMS}` (`sha256sum -c {SUMS}`).",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def make(release: Release, out: Path, scratch: Path) -> None:
+    """Notes and digests of all that is in `out`."""
+    names = sorted(path.name for path in out.iterdir())
+    (out / NOTES).write_text(notes(release, names), encoding="utf-8")
+    rows = [
+        f"{hashlib.sha256((out / name).read_bytes()).hexdigest()}  {name}" for name in sorted([*names, NOTES])
+    ]
+    (out / SUMS).write_text("\n".join([*rows, ""]), encoding="ascii")

@@ -1,0 +1,40 @@
+"""Wheel and sdist of the Python package, from what git knows, checked by twine."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from cocotb_tests.harness.project import ROOT, ProjectError
+
+from .archive import again
+from .state import Release, tracked
+
+SOURCES = ("openppmc", "pyproject.toml", "LICENSE")
+
+
+def _run(*words: str, folder: Path) -> None:
+    command = [sys.executable, "-m", *words]
+    done = subprocess.run(
+        command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+        raise ProjectError("\n".join([f"{words[0]} failed:", *lines[-5:]]))
+
+
+def make(release: Release, out: Path, scratch: Path) -> None:
+    """Both into `out`."""
+    tree = scratch / "python"
+    for path in tracked(*SOURCES):
+        copy = tree / path
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_bytes((ROOT / path).read_bytes())
+        copy.chmod(0o644)
+    made = scratch / "made"
+    _run("build", "--no-isolation", "--outdir", str(made), str(tree), folder=scratch)
+    _run("twine", "check", "--strict", *sorted(str(path) for path in made.iterdir()), folder=scratch)
+    again(made / f"openppmc-{release.version}.tar.gz", release.epoch)
+    for path in made.iterdir():
+        path.rename(out / path.name)

@@ -1,0 +1,34 @@
+"""SystemVerilog with FuseSoC cores, Bender manifest and lists for vendor tools, as one archive."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cocotb_tests.harness.project import ROOT, ProjectError, relative
+from scripts.packages.cores import core_files
+from scripts.packages.lists import list_files
+
+from .archive import tar_gz
+from .state import Release, tracked
+
+BELOW = (
+    "rtl",
+    "packages",
+    "tb",
+    "constraints",
+    "drivers/c",
+    "Bender.yml",
+    "*.core",
+    "LICENSE",
+    "CHANGELOG.md",
+)
+
+
+def make(release: Release, out: Path, scratch: Path) -> None:
+    """The archive into `out`; ProjectError if a core or a list is not as `make packages` writes it."""
+    for path, text in {**core_files(), **list_files()}.items():
+        if not path.is_file() or path.read_text() != text:
+            raise ProjectError(f"{relative(path)} is not fresh: run `make packages`")
+    folder = f"openppmc-{release.version}"
+    files = {f"{folder}/{path.as_posix()}": ROOT / path for path in tracked(*BELOW)}
+    tar_gz(out / release.name("rtl", ".tar.gz"), files, release.epoch)

@@ -1,0 +1,90 @@
+"""What a release is of: version, commit, time; and whether this checkout can make one."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from cocotb_tests.harness.project import ROOT, ProjectError
+from openppmc import __version__
+
+CHANGELOG = ROOT / "CHANGELOG.md"
+_HEADING = re.compile(r"^## \[([^\]\n]+)\].*$", re.M)
+
+
+@dataclass
+class Release:
+    """version without v; commit in hex; epoch: its time in s, which is that of every file.
+
+    missing: what this release has not, one sentence each, for its notes. only: names of the bitstreams that
+    are made; empty: all.
+    """
+
+    version: str
+    commit: str
+    epoch: int
+    notes: str
+    only: tuple[str, ...] = ()
+    missing: list[str] = field(default_factory=list)
+
+    def name(self, what: str, suffix: str) -> str:
+        """File name of a piece, such as openppmc-site-1.2.3.tar.gz."""
+        return f"openppmc-{what}-{self.version}{suffix}"
+
+
+def git(*words: str) -> str:
+    """Output of git; ProjectError with its last line if it fails or is not there."""
+    try:
+        done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        raise ProjectError("git is not installed") from None
+    if done.returncode:
+        raise ProjectError(f"git {words[0]}: {(done.stderr.strip().splitlines() or ['failed'])[-1]}")
+    return done.stdout.strip()
+
+
+def section(changelog: str, version: str) -> str:
+    """The text below the newest heading of a changelog; ProjectError unless that is of this version.
+
+    [Unreleased] may stand above it, with nothing below.
+    """
+    found = list(_HEADING.finditer(changelog))
+    ends = [match.start() for match in found[1:]] + [len(changelog)] * bool(found)
+    parts = [(match[1], changelog[match.end() : end].strip()) for match, end in zip(found, ends, strict=True)]
+    if parts and parts[0][0] == "Unreleased":
+        if parts[0][1]:
+            raise ProjectError(f"CHANGELOG.md: give what is below [Unreleased] the heading [{version}]")
+        del parts[0]
+    newest = parts[0][0] if parts else "none"
+    if newest != version:
+        raise ProjectError(f"version {version}, but the newest heading of CHANGELOG.md is [{newest}]")
+    if not parts[0][1]:
+        raise ProjectError(f"CHANGELOG.md says nothing below [{version}]")
+    return parts[0][1]
+
+
+def check_tag(version: str, commit: str, tagged: str) -> None:
+    """ProjectError if the tag of this version is on another commit; tagged: that commit, "" without a tag."""
+    if tagged and tagged != commit:
+        raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")
+
+
+def present(only: tuple[str, ...] = ()) -> Release:
+    """The release that this checkout makes; ProjectError says in a line why it cannot."""
+    changed = git("status", "--porcelain").splitlines()
+    if changed:
+        raise ProjectError(f"{changed[0][2:].strip()} is not committed: a release is of a commit")
+    commit = git("rev-parse", "HEAD")
+    name = f"refs/tags/v{__version__}"
+    check_tag(
+        __version__, commit, git("rev-parse", f"{name}^{{commit}}") if git("tag", "-l", name[10:]) else ""
+    )
+    notes = section(CHANGELOG.read_text(encoding="utf-8"), __version__)
+    return Release(__version__, commit, int(git("log", "-1", "--format=%ct")), notes, only)
+
+
+def tracked(*below: str) -> list[Path]:
+    """Files that git knows below these names, sorted, from the root."""
+    return sorted(Path(name) for name in git("ls-files", "--", *below).splitlines())

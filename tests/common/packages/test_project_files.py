@@ -1,0 +1,93 @@
+"""What stands around the project on GitHub: workflows, forms, citation, told targets and files exist."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+
+import pytest
+import yaml
+
+from cocotb_tests.harness.paths import ROOT
+from openppmc import __version__
+
+GITHUB = ROOT / ".github"
+WORKFLOWS = sorted((GITHUB / "workflows").glob("*.yml"))
+FORMS = sorted(path for path in (GITHUB / "ISSUE_TEMPLATE").glob("*.yml") if path.name != "config.yml")
+TOLD = [*WORKFLOWS, *FORMS, ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md"]
+TARGETS = set(re.findall(r"^([a-z-]+):[^#\n]*##", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M))
+ROOMS = ("tests/", "docs/", "openppmc/", "constraints/", "rtl/", "packages/", ".ci/")
+by_name = pytest.mark.parametrize("path", TOLD, ids=lambda path: path.name)
+
+
+def commands(path) -> str:
+    """What a file tells to type: of a workflow the steps, of others code: between ` or indented."""
+    text = path.read_text(encoding="utf-8")
+    if path in WORKFLOWS:
+        jobs = yaml.safe_load(text)["jobs"].values()
+        return "\n".join(step.get("run", "") for job in jobs for step in job["steps"])
+    return "\n".join([*re.findall(r"`([^`\n]+)`", text), *re.findall(r"^    (\S.*)$", text, re.M)])
+
+
+@by_name
+def test_targets_exist(path):
+    """Given `make X` in it, then the Makefile has X."""
+    assert set(re.findall(r"\bmake ([a-z][\w-]*)", commands(path))) <= TARGETS
+
+
+@by_name
+def test_files_exist(path):
+    """Given the name of a file or folder of the tree, then git has it or what it stands for."""
+    names = {word for word in re.findall(r"[\w./-]+", commands(path)) if word.startswith(ROOMS)}
+    assert not [name for name in names if not (ROOT / name).exists()]
+
+
+def test_something_is_looked_at():
+    """Given all files, then the two tests above have targets and files to look at."""
+    text = "\n".join(map(commands, TOLD))
+    assert {"nightly", "site", "test", "lint"} <= set(re.findall(r"\bmake ([a-z-]+)", text))
+    assert ".ci/run" in text and "tests/common/host" in text
+
+
+def test_every_test_of_a_driver_runs_elsewhere():
+    """Given the folders with tests of drivers, then the workflow of other systems names all of them."""
+    text = commands(GITHUB / "workflows" / "host.yml")
+    folders = {f"tests/{path.parent.name}/host" for path in (ROOT / "tests").glob("*/host")}
+    assert folders == set(re.findall(r"(?<![=/])\btests/\w+/host\b(?!/)", text))
+
+
+def test_release_workflow():
+    """Given the workflow of releases, then a job may write one thing at most, and knows no secret."""
+    text = (GITHUB / "workflows" / "release.yml").read_text(encoding="utf-8")
+    flow = yaml.safe_load(text)
+    assert flow["permissions"] == {"contents": "read"} and "secrets." not in text
+    may = {name: job.get("permissions") for name, job in flow["jobs"].items()}
+    assert may == {"build": None, "assets": {"contents": "write"}, "pypi": {"id-token": "write"}}
+    assert "make release" in text and "SKIP" not in text
+
+
+@pytest.mark.parametrize("path", FORMS, ids=lambda path: path.stem)
+def test_form(path):
+    """Given a form, then it has name, description and questions of distinct ids; one must be answered."""
+    form = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert form["name"] and form["description"]
+    asked = [one for one in form["body"] if one["type"] != "markdown"]
+    assert len({one["id"] for one in asked}) == len(asked) > 0
+    assert {one["type"] for one in asked} <= {"input", "textarea", "dropdown", "checkboxes"}
+    assert any(one.get("validations", {}).get("required") for one in asked)
+
+
+def test_citation_is_of_this_version():
+    """Given CITATION.cff, then version and licence are those of the package."""
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert cited["cff-version"] == "1.2.0" and cited["authors"] and cited["title"]
+    assert (cited["version"], cited["license"]) == (__version__, "Apache-2.0")
+
+
+def test_files_are_known_to_git():
+    """Given workflows and forms, then no rule for ignored files keeps them back."""
+    names = [str(path.relative_to(ROOT)) for path in TOLD]
+    done = subprocess.run(
+        ["git", "check-ignore", *names], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.stdout == ""

@@ -1,0 +1,122 @@
+"""`make release`: what it refuses, archives that depend on their contents alone, a dist/ that is whole."""
+
+from __future__ import annotations
+
+import os
+import tarfile
+import zipfile
+
+import pytest
+
+from cocotb_tests.harness.project import ProjectError
+from scripts.release import archive, bitstreams, notes, site, state
+from scripts.release.__main__ import build
+
+TEXT = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-01-02\n\n- this\n\n## [1.1.0]\n\n- that\n"
+
+
+def release(**changes) -> state.Release:
+    """One of version 1.2.0."""
+    return state.Release(
+        **{"version": "1.2.0", "commit": "c" * 40, "epoch": 1_700_000_000, "notes": "- this", **changes}
+    )
+
+
+def test_notes_are_the_newest_section():
+    """Given a changelog, then the text below its newest heading is taken, an empty [Unreleased] skipped."""
+    assert state.section(TEXT, "1.2.0") == "- this"
+
+
+@pytest.mark.parametrize(
+    "text, version, message",
+    [
+        (TEXT, "1.3.0", r"version 1.3.0, but the newest heading of CHANGELOG.md is \[1.2.0\]"),
+        (TEXT, "1.1.0", r"newest heading of CHANGELOG.md is \[1.2.0\]"),
+        (TEXT.replace("Unreleased]\n", "Unreleased]\n- new\n"), "1.2.0", r"below \[Unreleased\] the heading"),
+        (TEXT.replace("- this", ""), "1.2.0", "says nothing"),
+        ("# Changelog\n", "1.2.0", r"is \[none\]"),
+    ],
+)
+def test_version_and_changelog_that_do_not_fit(text, version, message):
+    """Given another version than the newest heading, or nothing to say, then one line tells so."""
+    with pytest.raises(ProjectError, match=message):
+        state.section(text, version)
+
+
+def test_a_tag_elsewhere_is_another_release():
+    """Given the version's tag on another commit, then one line; on this commit, or none, it is good."""
+    state.check_tag("1.2.0", "a" * 40, "")
+    state.check_tag("1.2.0", "a" * 40, "a" * 40)
+    with pytest.raises(ProjectError, match="v1.2.0 exists already, on bbbbbbbbbb"):
+        state.check_tag("1.2.0", "a" * 40, "b" * 40)
+
+
+def test_a_changed_tree_is_refused(monkeypatch):
+    """Given a file that is not committed, then one line names it."""
+    monkeypatch.setattr(state, "git", lambda *words: " M README.md" if words[0] == "status" else "")
+    with pytest.raises(ProjectError, match="^README.md is not committed"):
+        state.present()
+
+
+@pytest.mark.parametrize("pack, suffix", [(archive.tar_gz, ".tar.gz"), (archive.zipped, ".zip")])
+def test_archives_depend_on_their_contents_alone(tmp_path, pack, suffix):
+    """Given the same files with other times, modes and order, then the archives are the same bytes."""
+    made = []
+    for number, names in enumerate((("a", "b/c"), ("b/c", "a"))):
+        folder = tmp_path / str(number)
+        for name in names:
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(name)
+            path.chmod(0o600 + 0o44 * number)
+            os.utime(path, (1000 * number, 1000 * number))
+        target = tmp_path / f"{number}{suffix}"
+        pack(target, archive.files_below(folder), 1_700_000_000)
+        made.append(target.read_bytes())
+    assert made[0] == made[1]
+    other = tmp_path / f"other{suffix}"
+    pack(other, {"a": b"a", "b/c": b"x"}, 1_700_000_000)
+    assert other.read_bytes() != made[0]
+    if suffix == ".zip":
+        assert zipfile.ZipFile(other).namelist() == ["a", "b/c"]
+    else:
+        assert tarfile.open(other).getnames() == ["a", "b/c"]
+
+
+def test_a_pdf_gets_the_time_of_the_commit():
+    """Given a PDF, then its dates are replaced and nothing moves."""
+    text = b"x /CreationDate (D:20260102030405+00'00') /ModDate (D:20260102030405+00'00') y"
+    assert site.dated(text, 0) == text.replace(b"20260102030405", b"19700101000000")
+
+
+def test_unknown_bitstreams_are_named():
+    """Given a name that is no bitstream, then one line lists those there are; without names all are made."""
+    with pytest.raises(
+        ProjectError, match="ONLY=nosuch: no such bitstream .there are icebreaker, icebreaker-bus"
+    ):
+        bitstreams.wanted(("nosuch",))
+    assert list(bitstreams.wanted(("ulx3s-25f-stmc",))) == ["ulx3s-25f-stmc"]
+    assert len(bitstreams.wanted(())) > 30
+
+
+def test_dist_is_whole_or_as_it_was(tmp_path):
+    """Given a job that fails, then dist/ is as before; given none, then it has files, sums and notes."""
+    dist, scratch = tmp_path / "dist", tmp_path / "scratch"
+
+    def good(of, out, folder):
+        (out / of.name("rtl", ".tar.gz")).write_bytes(b"rtl")
+
+    def bad(of, out, folder):
+        raise ProjectError("a tool is missing")
+
+    dist.mkdir()
+    (dist / "before").touch()
+    with pytest.raises(ProjectError, match="a tool is missing"):
+        build(release(), set(), dist, scratch, lambda say: {"rtl": good, "site": bad, "notes": notes.make})
+    assert [path.name for path in dist.iterdir()] == ["before"]
+    build(release(), {"site"}, dist, scratch, lambda say: {"rtl": good, "site": bad, "notes": notes.make})
+    names = sorted(path.name for path in dist.iterdir())
+    assert names == ["RELEASE_NOTES.md", "SHA256SUMS", "openppmc-rtl-1.2.0.tar.gz"]
+    text = (dist / "RELEASE_NOTES.md").read_text()
+    assert "- this" in text and "The site: left out (SKIP)." in text and "c" * 40 in text
+    assert [row.split()[1] for row in (dist / "SHA256SUMS").read_text().splitlines()] == [names[0], names[2]]
