@@ -49,6 +49,23 @@ async def bank_mot_01_all_axes_at_once(dut):
         lab.check("BANK-MOT-01", f"phases of {axis.n}", [value for _, value in seen], way)
 
 
+@directed("BANK-MOT-01", "BANK-INI-01", builds=(B8, B32))
+async def bank_mot_01_another_ramp(dut):
+    """Given axes with ramps of their own, when one gets another ramp, then it has that one, and the others
+    keep theirs."""
+    lab = await Lab.start(dut)
+    ramps = {1: (20, 3, 8), 2: (9, 0, 12), 6: (14, 5, 4)}
+    for ramp in ((12, 1, 10), (30, 2, 6)):
+        for n in ramps:
+            await lab.axes[n].init(0x0A, *ramps[n])
+        ramps[2] = ramp
+        await lab.axes[2].init(0x0A, *ramp)
+        for n in ramps:
+            await lab.axes[n].move(0x43, 40)
+            lab.axes[n].check_train("BANK-MOT-01", rates(ramps[n], indices(40, ramps[n][2])))
+            await lab.axes[n].finish()
+
+
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_slow_clocks(dut):
     """Given csel and vsel in all ways, then intervals are those of the PPMC-104, taken 7 clk before the

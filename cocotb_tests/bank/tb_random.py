@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from typing import Any
 
+from cocotb_tests.harness import tally
 from cocotb_tests.harness.random_test import random_test
 
 from .random_host import INTERVALS, in_motion, play
@@ -30,4 +31,5 @@ async def bank_random_host(dut: Any, seed: int) -> None:
     """Given a random host, when it has played, then all outputs changed as in the golden model."""
     made = await play(dut, seed)
     logging.getLogger("cocotb.bank").info("seed %d: %d intervals", seed, made)
+    tally.tell(intervals=made)
     assert not in_motion(seed) or made >= INTERVALS, f"only {made} intervals"

@@ -201,14 +201,15 @@ async def bank_win_07_counted_at_the_visit(dut):
         lab.check("BANK-MOT-01", "second pulse", axis.pulses[1], second)
 
 
-@directed("BANK-WIN-07", builds=(B8, B32))
+@directed("BANK-WIN-07", "BANK-WIN-01", builds=(B8, B32))
 async def bank_win_07_kept_bytes(dut):
     """Given a read of byte 0, then bytes 1 to 3 are of that moment, at any axis, until byte 0 is read
-    again."""
+    again; that of an axis which is not there keeps nothing."""
     lab = await Lab.start(dut)
     one, other = await lab.all_ready(1, 6)
     await one.move(0x4A)
     got = [await one.host.read(POSITION)]
+    lab.check("BANK-WIN-01", "no axis", await lab.host.read((lab.size + other.n) << 4 | POSITION), 0xFF)
     await one.move(0x44, 3, 0)
     got += [await other.host.read(POSITION + n) for n in (1, 2, 3)]
     lab.check("BANK-WIN-07", "bytes", got, [0xFF] * 4)

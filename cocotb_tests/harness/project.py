@@ -19,13 +19,6 @@ RTL = ROOT / "rtl"
 BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
 
-BENCHMARKS_HEAD = """# Benchmarks
-
-Figures between the markers are written by scripts: size and clock rate by `make synth PART=ppmc104` and
-`make report`, other designs by `make yardsticks`, the bank by its number of axes by
-`python -m scripts.bank.sizes`, simulation speed by `make bench`.
-"""
-
 # Logs get lines as long as they are; tables in them are not squeezed.
 console = Console(highlight=False, width=None if sys.stdout.isatty() else 160)
 
@@ -126,5 +119,5 @@ def update_benchmarks(marker: str, body: str) -> None:
     """Renew one generated block of docs/benchmarks.md, which is made when it is not there."""
     page = DOCS / "benchmarks.md"
     page.parent.mkdir(exist_ok=True)
-    text = page.read_text() if page.is_file() else BENCHMARKS_HEAD
+    text = page.read_text() if page.is_file() else "# Benchmarks\n"
     page.write_text(replace_between(text, marker, body))

@@ -20,7 +20,7 @@ from .collect import Item
 from .config import Config
 from .model_bench import OnModel, on_model
 from .runner import SimOptions, run_sim
-from .shortened import attempt_random
+from .soaking import Played, play
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,14 +57,9 @@ class RandomItems:
         __tracebackhide__ = True
         run_batch(item, seeds, options, self._design(item))
 
-    def one(self, seed: int) -> tuple[int, str, str]:
-        """One seed in this process, for `make soak`; (seed, test id, message or "")."""
-        item = self(seed)
-        return seed, item.id, attempt_random(item, design=self._design(item))
-
-    def summary(self, first: int, count: int) -> str:
-        """What `make soak` says when all have passed."""
-        return "every output edge as in the golden model"
+    def some(self, seeds: Sequence[int]) -> Played:
+        """Some seeds in this process, for `make soak`."""
+        return play([self(seed) for seed in seeds], self._design, self.batch)
 
     def pins(self, seed: int) -> tuple[str, str]:
         """What stands for all pin changes of a seed, played on the RTL and on the golden model alone."""

@@ -18,6 +18,7 @@ from typing import Any, cast
 
 import cocotb
 
+from . import tally
 from .bench import Bench
 from .compare import check_against_model
 from .directed import judged
@@ -44,7 +45,9 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
 
             def judge(side: Side) -> None:
                 nonlocal compared
-                compared += check_against_model(side).edges_compared
+                comparison = check_against_model(side)
+                compared += comparison.edges_compared
+                tally.tell(edges=comparison.edges_compared, pulses=comparison.pulses)
 
             with running_test(None if uncompared else judge, seed) as running:
                 await judged(running, test(dut, seed))
@@ -52,6 +55,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
                 if running.side and running.side.simulated:
                     assert compared >= least, f"seed {seed} did next to nothing ({compared} edges)"
                     cocotb.log.info("seed %d: %d edges compared, pins %s", seed, compared, digest)
+                    tally.tell(seeds=1)
                 return digest
 
         @functools.wraps(test)

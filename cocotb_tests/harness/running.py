@@ -54,6 +54,7 @@ class Running:
 
 
 _now: list[Running] = []
+_ended: list[Running] = []
 
 
 def present() -> Running | None:
@@ -68,4 +69,9 @@ def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Runni
     try:
         yield _now[-1]
     finally:
-        _now.pop()
+        _ended[:] = [_now.pop()]
+
+
+def ended() -> Running | None:
+    """The directed or random test that has ended last, with the side that it worked on; None before one."""
+    return _ended[-1] if _ended else None

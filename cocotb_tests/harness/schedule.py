@@ -1,5 +1,6 @@
 """Which pytest items share a simulator process, and that xdist sends such a group to one worker.
 
+Tests marked with the same `xdist_group` go to one worker, too, which shares what they make once.
 Groups are made of what is left to run (`-k`, a node's id, --lf), in its order. Each worker knows them from
 its own collection; the controller, which collects nothing, gets them in a file, whose path it gives to its
 workers.
@@ -36,7 +37,7 @@ def item_of(test: pytest.Item) -> Item | None:
     return item if isinstance(item, Item) else None
 
 
-def _key(test: pytest.Item) -> Hashable:
+def group_key(test: pytest.Item) -> Hashable:
     """The same for those that may share a process: one test function, which knows the design, one build."""
     item = item_of(test)
     if item is None or not item.together or len(params_of(test)) > 1:
@@ -57,12 +58,13 @@ class Groups:
 
     def pytest_collection_finish(self, session: pytest.Session) -> None:
         """Make the groups; with waves each test is alone."""
-        key = (lambda test: None) if self._options.waves else _key
+        key = (lambda test: None) if self._options.waves else group_key
         scopes = {}
         for tests in groups_of(session.items, key):
             items = tuple(item for test in tests if (item := item_of(test)))
             for test in tests:
-                scopes[test.nodeid] = tests[0].nodeid
+                mark = test.get_closest_marker("xdist_group")
+                scopes[test.nodeid] = mark.args[0] if mark else tests[0].nodeid
                 if len(tests) > 1:
                     self._group[test.nodeid] = items
         path = getattr(session.config, "workerinput", {}).get(_SCOPES)

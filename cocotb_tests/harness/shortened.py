@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from . import mutant
 from .build import Design, SimError, part_design
 from .collect import Item
 from .config import Config
@@ -25,8 +26,8 @@ def attempt_random(
 ) -> str:
     """As `attempt`; the message of a failing run ends with its short list, found on the part alone."""
     message = attempt(item, options, env, design)
-    if not message:
-        return ""
+    if not message or mutant.present():
+        return message
     seed = options.seed if options and options.seed is not None else item.seed
     return f"{message}\n{shortened(FAILURES / f'{safe(item.id)}-s{seed}')}"
 

@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from . import watchdog
+from . import coverage, mutant, watchdog
 from .build import Design, build, simulator
 from .collect import Item
 from .outcome import Outcome, outcomes
 from .paths import ROOT, RUNS
-from .verilate import sim_main
+from .verilate import ICARUS, sim_main
 
 REPRO = "OPENPPMC_REPRO"
 """Tells a simulation the command that repeats it, for its messages."""
@@ -55,7 +55,7 @@ def safe(name: str) -> str:
 def repro_line(items: Sequence[Item], seed: int) -> str:
     """The line that repeats these tests, in one process if there are several."""
     names = ",".join(item.id for item in items)
-    main = "" if sim_main() == "own" else f" SIM_MAIN={sim_main()}"
+    main = {"own": "", ICARUS: " SIM=icarus"}.get(sim_main(), f" SIM_MAIN={sim_main()}")
     if items[0].target != "test":
         return f"make {items[0].target} T={names} SEED={seed}{main}"
     return f"make test T={names} SEED={seed} CLK_HZ={items[0].config.clk_hz}{main}"
@@ -83,7 +83,7 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
     log, results = folder / "log.txt", folder / "results.xml"
     trouble = ""
     try:
-        simulator().test(
+        simulator(job.design.main).test(
             test_module=[watchdog.__name__, *dict.fromkeys(item.module for item in job.items)],
             hdl_toplevel=job.design.top,
             hdl_toplevel_lang="verilog",
@@ -98,6 +98,7 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
                 "+verilator+rand+reset+2",
                 f"+verilator+seed+{job.seed % 0x7FFFFFFF + 1}",
                 f"+verilator+error+limit+{ERRORS}",
+                *mutant.plusargs(),
             ],
             extra_env={
                 "OPENPPMC_CONFIG": job.items[0].config.to_json(),
@@ -116,4 +117,5 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
         trouble = f"the simulator ended: {error}"
     except SystemExit:
         pass  # some test failed, as its outcome says
+    coverage.keep(folder)
     return outcomes(job.items, log, results, trouble)

@@ -36,8 +36,19 @@ class Stock:
         return self._numbers[name]
 
     def read(self, port: int) -> int:
-        """As `Clockwork.read`."""
-        return int(self._handles[port].value)
+        """As `Clockwork.read`. AssertionError if a bit has no level (X), which some simulators can tell.
+
+        Data that are not driven, such as d_o with d_oe = 0, are not looked at: such bits read 0.
+        """
+        value = self._handles[port].value
+        try:
+            return int(value)
+        except ValueError:
+            name = self._handles[port]._name
+            enable = getattr(cocotb.top, f"{name}e", None)
+            if enable is not None and int(enable.value) == 0:
+                return int(value.resolve("zeros"))
+            raise AssertionError(f"{name} = {value} at {self.now():.0f} ps: a bit without a level") from None
 
     def put(self, port: int, level: int) -> None:
         """As `Clockwork.put`."""

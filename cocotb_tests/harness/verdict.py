@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from . import mutant
 from .build import SimError
 from .collect import Item
 from .group import narrowed
@@ -23,6 +24,8 @@ from .simulate import VCD, Job, safe, simulate, tried
 
 def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
     """Message about an item that failed in `job`; log, and with `waves` a VCD, stay in build/failures/."""
+    if mutant.present():
+        return first.text
     kept = FAILURES / f"{safe(item.id)}-s{job.seed}"
     shutil.rmtree(kept, ignore_errors=True)
     alone = replace(job, items=(item,))

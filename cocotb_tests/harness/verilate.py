@@ -2,6 +2,7 @@
 
 It has one of two main programs: `own` (`verilated_sim.cpp`, with clock and recorder in C++) or `cocotb`, the
 one that comes with cocotb, unchanged. SIM_MAIN in the environment chooses; results do not depend on it.
+SIM_MAIN=icarus asks for another simulator (`icarus`).
 """
 
 from __future__ import annotations
@@ -20,13 +21,15 @@ MAINS = {
     "own": (HERE / "verilated_sim.cpp", HERE / "top.cpp"),
     "cocotb": (Path(cocotb_tools.config.share_dir) / "lib" / "verilator" / "verilator.cpp",),
 }
+ICARUS = "icarus"
+"""In place of one: another simulator."""
 
 
 def sim_main() -> str:
     """The main program that SIM_MAIN asks for; ValueError if there is none such."""
     name = os.environ.get("SIM_MAIN") or "own"
-    if name not in MAINS:
-        raise ValueError(f"SIM_MAIN={name}: there are {' and '.join(MAINS)}")
+    if name not in (*MAINS, ICARUS):
+        raise ValueError(f"SIM_MAIN={name}: there are {', '.join(MAINS)} and {ICARUS}")
     return name
 
 

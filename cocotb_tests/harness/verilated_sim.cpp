@@ -12,6 +12,9 @@
 #include "verilated.h"
 #include "verilated_syms.h"
 #include "verilated_vpi.h"
+#if VM_COVERAGE
+#include "verilated_cov.h"
+#endif
 #if VM_TRACE
 #include "verilated_vcd_c.h"
 #endif
@@ -131,6 +134,9 @@ void close() {
     VerilatedVpi::callCbs(cbEndOfSimulation);
 #if VM_TRACE
     if (trace_file) trace_file->close();
+#endif
+#if VM_COVERAGE
+    VerilatedCov::write();
 #endif
 }
 

@@ -150,7 +150,7 @@ async def ramp_table_read(dut):
 
 def build_clk(slow: int, fast: int) -> int:
     """Clk from start_i to the fall of busy_o of ppmc_ramp_tables with a free builder."""
-    return 1991 + 51 * slow + 67 * (slow - fast)
+    return 1955 + 136 * (slow - fast)
 
 
 @cocotb.test()
@@ -218,7 +218,7 @@ class Walker:
         slow, fast, steps = self.ramp
         where = f"{self.ramp}, {n} pulses, forced at {forced_at}"
         self.u.put(slow_i=slow, fast_i=fast, steps_i=steps, ramp_i=1, forced_i=0)
-        await self.clk(load_i=1, count_i=n - 1, single_i=0, rate_i=rand.getrandbits(8))
+        await self.clk(load_i=1, count_i=n - 1, single_i=0, rate_i=slow)
         self.u.put(load_i=0)
         kp, dec, turned = -1, False, False
         for j in range(1, n + 1):

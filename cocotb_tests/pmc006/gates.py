@@ -29,4 +29,5 @@ PART = PartTests(
     },
     quick=frozenset({"tb_tour"}),
     quick_build=F8B.name,
+    four_state=frozenset({"p006_tour"}),
 )

@@ -7,11 +7,13 @@ plays as many others as you like.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.random_items import RandomItems, generating
 from cocotb_tests.harness.runner import SimOptions
+from cocotb_tests.harness.soaking import Played, all_of
 
 from .random_host import build, play, with_chip
 from .test_memory import design
@@ -33,13 +35,10 @@ pytest_generate_tests = generating(test_random=random_item, test_random_with_eep
 class Either:
     """For `make soak`: a seed decides whether its host has an EEPROM."""
 
-    def one(self, seed: int) -> tuple[int, str, str]:
-        """As `RandomItems.one`."""
-        return (chip_item if with_chip(seed) else random_item).one(seed)
-
-    def summary(self, first: int, count: int) -> str:
-        """As `RandomItems.summary`."""
-        return random_item.summary(first, count)
+    def some(self, seeds: Sequence[int]) -> Played:
+        """As `RandomItems.some`."""
+        kinds = (random_item, chip_item)
+        return all_of(kind.some([seed for seed in seeds if kind.takes(seed)]) for kind in kinds)
 
 
 SOAK = Either()

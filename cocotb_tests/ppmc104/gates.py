@@ -20,4 +20,5 @@ PART = PartTests(
         "test_a_failing_run_ends_with_a_short_list": GENERATOR,
     },
     quick=frozenset({"tb_acceptance_moves", "tb_bus"}),
+    four_state=frozenset({"p104_ac_01_reset_levels", "p104_ac_09_trapezoid", "p104_bus_01_register_map"}),
 )

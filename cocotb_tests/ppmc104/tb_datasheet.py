@@ -127,6 +127,26 @@ async def p104_ds_03_start_times(dut):
         await lab.rest()
 
 
+@directed("P104-BCK-02", "P104-DS-03", builds=(D16,))
+async def p104_ds_03_clock_of_the_c_event(dut):
+    """Given csel and vsel that change between the last byte of an operation and BUSY,
+    then those of before count.
+    """
+    lab = await Sheet.start(dut, (0x0A, 9, 4, 4))
+    for csel, vsel, interval in ((1, 1, 3200), (0, 1, 12_800), (1, 0, 3320)):
+        lab.bench.set(csel=csel, vsel=vsel)
+        await lab.bench.clocks(20)
+        event = await lab.event(0x4C, 3, 99)
+        await lab.bench.until(event + 50)
+        lab.check("P104-DS-03", "BUSY still 0", await lab.host.status(), 0x00)
+        lab.bench.set(csel=1 - csel, vsel=1 - vsel)
+        await lab.host.poll(BUSY, BUSY)
+        await lab.idle()
+        intervals = lab.bench.intervals(lab.since)
+        lab.check("P104-BCK-02", f"csel, vsel = {csel}, {vsel}", intervals[-2:], [interval] * 2)
+        await lab.rest()
+
+
 @directed("P104-DS-05", builds=(D16,))
 async def p104_ds_05_long_triangles(dut):
     """Given PA = 300, when D is 599, 600, 300, then only below 2·PA pulse 1 waits in proportion to N."""

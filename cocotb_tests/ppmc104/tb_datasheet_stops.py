@@ -69,10 +69,10 @@ async def p104_ds_10_slow_down_limit(dut):
 @directed("P104-DS-10", "P104-END-05", "P104-FDC-05", builds=(D16,))
 async def p104_ds_10_flag_too_late(dut):
     """Given 0x41 or L3 just before natural deceleration or the end, when the flag is due,
-    then it has no effect.
+    then it has no effect, not on the next operation either.
     """
     lab = await Sheet.start(dut, INIT_B)
-    for cause in ("41", "l3_n"):
+    for cause in ("41", "l3_n", "none"):
         # N = 8: natural deceleration begins at pulse 5, I(4) is 480 clk. N = 2: I(1) is 640 clk.
         for n, j, length in ((8, 4, 480), (2, 1, 640)):
             await lab.event(0x43, n)
@@ -81,7 +81,7 @@ async def p104_ds_10_flag_too_late(dut):
             if cause == "41":
                 await lab.host.command(0x41, poll=False)
                 lab.check("P104-DS-10", "no error", await lab.host.poll(IBF, 0), BUSY)
-            else:
+            elif cause == "l3_n":
                 await lab.bench.pulse_pin("l3_n", 0, 10)
             await lab.idle()
             which = [min(i - 1, n - 1 - i, 10) for i in range(1, n)]

@@ -27,4 +27,5 @@ PART = PartTests(
         ),
     },
     quick=frozenset({"tb_acceptance_errors"}),
+    four_state=frozenset({"p2104_ac_22_error_bit", "p2104_ac_28_stops_at_rest"}),
 )

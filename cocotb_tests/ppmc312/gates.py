@@ -40,4 +40,5 @@ PART = PartTests(
             "p312_serial_tour",
         }
     ),
+    four_state=frozenset({"p312_reads_drive_the_bus"}),
 )

@@ -18,10 +18,12 @@ PART = PartTests(
         "test_scenarios_are_reproducible_and_varied": GENERATOR,
     },
     quick=frozenset({"tb_init"}),
+    four_state=frozenset({"stmc_ini_07_build"}),
 )
 BOARD = PartTests(
     test_board,
     frozenset({"test_board"}),
     builds=frozenset({"f16"}),
+    four_state=frozenset({"j105_01_addresses"}),
     not_applicable={"test_j105_parameter_ranges": PARAMETERS},
 )

@@ -54,7 +54,7 @@ def test_picture_and_waves_of_an_axis_without_pulses(
     recording = Recording("bank", {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus)
     initial = demo.TABLE.reset_levels()
     levels = {name: list(model.log.of(name)) for name in initial}
-    comparison = Comparison(recording, initial, levels, levels, None)
+    comparison = Comparison(recording, initial, levels, levels, None, demo.TABLE)
     pulses[4] = []
     draw(comparison, pulses, played.first, tmp_path / "profile.png")
     waves.write(comparison, pulses, tmp_path / "bank.vcd")

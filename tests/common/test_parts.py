@@ -21,15 +21,31 @@ from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
 # Rooms that parts share: the only folders of a layer that are not a part's.
 SHARED = {
     "openppmc/model": {"common", "motion", "single", "carrier"},
-    "openppmc/host": {"basis", "ports", "bridge", "axis", "line"},
+    "openppmc/host": {"basis", "ports", "bridge", "axis", "line", "selftest"},
     "openppmc/cli": {"common"},
     "openppmc/sim": {"common"},
+    "openppmc/capture": {"common"},
     "cocotb_tests": {"harness", "common", "motion", "single", "host", "board", "gates"},
-    "scripts": {"flow", "boards", "demo", "mutants", "pictures", "packages"},
+    "scripts": {
+        "bench",
+        "flow",
+        "boards",
+        "campaign",
+        "coverage",
+        "demo",
+        "fuzz",
+        "mutants",
+        "pictures",
+        "packages",
+        "prove",
+        "release",
+        "wiring",
+        "site",
+    },
     "tests": {"common"},
-    "docs": {"img"},
+    "docs": {"img", "boards"},
     "rtl": {"common", "motion", "single", "host", "boards"},
-    "tb": {"board", "cdriver"},
+    "tb": {"board", "cdriver", "formal", "fuzz", "line"},
 }
 PLACES = [(row.name, column) for row in PARTS.values() for column in LAYER_OF if getattr(row, column)]
 own = pytest.mark.parametrize("row", folders(), ids=lambda row: row.name)

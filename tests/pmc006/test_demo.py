@@ -8,11 +8,11 @@ import pytest
 
 from cocotb_tests.harness.stimulus import Access
 from cocotb_tests.pmc006.story import FINE, MOVES, PROGRAM
+from openppmc.capture.pmc006.words import Words006
 from openppmc.model.pmc006.front.frames import command, reply
 from openppmc.model.pmc006.program import assemble
 from scripts.demo.__main__ import chosen
 from scripts.pmc006.picture import way
-from scripts.pmc006.words import Words006
 
 
 def told(*rows: tuple[str, int, int]) -> list[Access]:
@@ -34,7 +34,7 @@ def told(*rows: tuple[str, int, int]) -> list[Access]:
         ("j", 0, 9, "status 1?", "busy"),
         ("j", 0, 0x0A, "status 1?", "stopped by EXT1"),
         ("c", 0, -5, "position?", "-5"),
-        ("Y", 7, 7, "Y 7", "7"),
+        ("Y", 7, 7, "stall configuration 7", "7"),
     ],
 )
 def test_frames_in_words(letter: str, data: int, got: int, meaning: str, answer: str) -> None:

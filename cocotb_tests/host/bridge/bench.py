@@ -63,7 +63,8 @@ class Bench:
         bench = cls(dut, slave or Toy())
         dut.clk_i.set(Immediate(0))
         dut.rst_ni.set(Immediate(1))
-        for pin, level in {"rxd_i": 1, "d_i": 0, "int_ni": 1, "pins_i": 0xFF, "count_i": 0}.items():
+        idle = {"rxd_i": 1, "d_i": 0, "int_ni": 1, "pins_i": 0xFF, "watch_i": 0, "count_i": 0}
+        for pin, level in idle.items():
             getattr(dut, pin).value = level
         await Timer(bench.period // 2, "ps")
         dut.rst_ni.value = 0

@@ -104,7 +104,7 @@ async def ops_counts(dut):
 async def ops_illegal(dut):
     """UB-ANS-02, UB-ANS-03, UB-ANS-05, UB-OPS-02: unknown, cut, illegal ops: result 3, nothing done."""
     bench = await Bench.start(dut)
-    bad = [bytes([code]) for code in range(0x0A, 0x10)]
+    bad = [bytes([code]) for code in (0x0A, 0x0B, 0x0D, 0x0E, 0x0F)] + [b"\x0d\x01", b"\x90\x01"]
     bad += [bytes([group << 4 | bench.rng.randrange(16), 0, 0]) for group in range(9, 16)]
     bad += [b"\x02", b"\x02\x07", b"\x02\x05", b"\x02\x80", b"\x03", b"\x03\x02", b"\x03\x81", b"\x07"]
     bad += [
@@ -231,7 +231,7 @@ async def ops_two_counters(dut):
     same("ZERO of both", [level for _, level in changes], [1, 0, 2, 0])
     answer = await bench.ask(bytes([0x32, 253]) + b"\x0a")
     same("no room", (answer[0], len(answer) - 3), (4, 253))
-    for code in range(0x0C, 0x10):
+    for code in range(0x0D, 0x10):
         same("illegal", await bench.ask(bytes([code])), bytes([3, 0, 0]))
 
 

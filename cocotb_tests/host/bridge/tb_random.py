@@ -47,6 +47,9 @@ def random_op(rng: random.Random) -> bytes:
                 bytes([0x80 | low, count]) + some(count),
                 bytes([rng.randint(0x90, 0xFF)]),
                 b"\x0f",
+                b"\x0c",
+                b"\x0d\x03",
+                bytes([0x90, rng.choice((0, 1, 3, 200))]),
                 b"\x50",
                 b"\x60",
             )

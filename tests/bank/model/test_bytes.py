@@ -136,7 +136,7 @@ def test_one_builder(axis, rl):
     host = Host()
     host.send(1, f"c 0A d {rl:02X} d 04 d 04")
     host.send(axis, "c 0A d 09 d 04 d 04")
-    done = host.send(1, "d 00") + 1990 + 51 * rl + 67 * (rl - 4)
+    done = host.send(1, "d 00") + host.model.latency.build(rl, 4, 4)
     host.write(axis, DATA, 0)
     (taken,) = (edge for edge in range(done + 2, done + 10) if edge % 8 == axis)
     host.go(taken - 1)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from openppmc.model.bank import part
+from openppmc.model.common.timebase import Latency
 from tests.bank.model.host import CONFIG, DATA, STATUS, Host
 
 FLAT = "c 2A d 05 d 05 d 04 d 00"
@@ -15,19 +17,19 @@ def test_completion(rl, rh):
     for axis in range(8):
         host = Host()
         last = host.send(axis, f"c 2A d {rl:02X} d {rh:02X} d 04 d 00")
-        done = last + 1990 + 51 * rl + 67 * (rl - rh)
+        done = last + host.model.latency.build(rl, rh, 4)
         complete = next(edge for edge in range(done + 3, done + 11) if (edge - axis) % 8 == 0)
         host.go(complete + 260 * 25)
         assert host.changes("s", axis, 0) == [(last, 0b00011), (complete + 260 * 25, 0)]
 
 
-@pytest.mark.parametrize("rl, wait", [(12, 4), (15, 3), (20, 10)])
-def test_completion_to_the_clk(rl, wait):
+@pytest.mark.parametrize("wait", [4, 3, 10])
+def test_completion_to_the_clk(wait, monkeypatch):
     """BANK-INI-02: the first visit from D + 3 on; builds that end 2, 3 and 4 clk before a visit."""
-    build = next(1990 + 51 * rl + 67 * d for d in range(1, rl) if (1990 + 51 * rl + 67 * d + wait) % 8 == 0)
-    rh = rl - (build - 1990 - 51 * rl) // 67
+    build = 4000 - wait
+    monkeypatch.setattr(part, "Latency", lambda **rest: Latency(build_clk=lambda rl, rh, pa: build, **rest))
     host = Host()
-    last = host.send(2, f"c 0A d {rl:02X} d {rh:02X} d 04 d 00")
+    last = host.send(2, "c 0A d 14 d 0A d 04 d 00")
     host.write_at(last + 20, 2, STATUS, 0x42)
     # The visit that completes takes no byte; the next one does.
     started = last + build + wait + 8
@@ -75,7 +77,7 @@ def test_reinitialisation_keeps_chopping_until_it_completes():
     complete = host.send(3, FLAT) + 8
     host.go(complete + 5000)
     last = host.send(3, "c 2A d FF d 00 d 04 d 00")
-    second = host.model.visit(3, last + 1990 + 51 * 255 + 67 * 255 + 5)
+    second = host.model.visit(3, last + host.model.latency.build(255, 0, 4) + 5)
     host.go(second + 300 * 25)
     edges = host.changes("s", 3, complete)
     cycle = [complete + n * 695 * 25 + phase for n in range(9) for phase in (260 * 25, 695 * 25)]

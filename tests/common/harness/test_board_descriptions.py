@@ -47,6 +47,7 @@ parts:
       "X1: limits":
         l1_n: X1-5
         auxi: [X1-6]
+code: BREA
 """
 
 

@@ -163,9 +163,7 @@ def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch,
     old = boards.board("icebreaker", "ppmc2104").file("uart")
     old.parent.mkdir(parents=True)
     old.write_text("an older one")
-    said = (
-        "PHASE_IDLE: icebreaker with ppmc2104 has no such parameter .it has BAUD, PHASE_ON, TIMING, XTAL_HZ."
-    )
+    said = "PHASE_IDLE: icebreaker with ppmc2104 has no such parameter .it has BAUD, .*RECORD, TIMING, XTAL"
     with pytest.raises(project.ProjectError, match=said):
         boards.build_board("icebreaker", "uart", params={"PHASE_IDLE": 1}, part="ppmc2104")
     assert old.exists()
@@ -213,7 +211,7 @@ def test_missed_timing_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
         tried.append(seed)
         return {"fmax": 20.0 + seed / 10, "clk_hz": on.clk_hz}
 
-    monkeypatch.setattr(boards, "synthesize_board", lambda *_: tmp_path / "netlist.json")
+    monkeypatch.setattr(boards, "synthesize_board", lambda *_, **__: tmp_path / "netlist.json")
     monkeypatch.setattr(boards, "route_board", missed)
     old = BOARDS["icebreaker"].file("uart")
     old.parent.mkdir(parents=True)

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.compare import compare_recording, write_report
-from cocotb_tests.harness.compare_report import report
 from cocotb_tests.harness.comparison import compare_edges, differing_spans
 from cocotb_tests.harness.stimulus import Access, Change, Edge, Recording
 from cocotb_tests.ppmc104.bench import PPMC104
+from openppmc import errors
+from openppmc.check.report import report
 
 INITIAL = PPMC104.reset_levels()
 
@@ -132,6 +133,16 @@ def test_asynchronous_reset_edges_have_one_clk_of_tolerance_and_no_more() -> Non
     assert differs(148, [150])
     assert differs(151, [150])
     assert differs(149, [])
+
+
+def test_report_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Given a package without its extra, then text and recording are there; the error says what to type."""
+    edges = [e._replace(t=e.t + 2) if e.t == 2000 else e for e in move()]
+    result = compare_recording(recording(sorted(edges)), Scripted(move()))
+    monkeypatch.setattr(errors, "find_spec", lambda module: None)
+    with pytest.raises(errors.MissingExtraError, match=r"openppmc\[plot\]"):
+        write_report(result, tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["compare.txt", "recording.json"]
 
 
 def test_report_and_files(tmp_path: Path) -> None:

@@ -10,19 +10,19 @@ from cocotb_tests.harness import gate_tests
 from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.simulate import repro_line
 from cocotb_tests.ppmc104 import test_part
-from scripts.flow import gate_suite, gates
-from scripts.pool import as_done
+from openppmc import parts
+from scripts.flow import gate_suite, gates, plain
 
 EVERYTHING = gate_suite.everything()
 SUITES = gate_suite.suites()
 
 
-@pytest.mark.parametrize("family", gates.FAMILIES)
+@pytest.mark.parametrize("family", [*gates.FAMILIES, plain.FAMILY])
 def test_all_directed_tests_run_on_each_family(family: str) -> None:
     items = [(part, param.values[0]) for part in SUITES for param in part.directed.ITEMS]
     items = [(part, item) for part, item in items if family in gate_suite.families(part)]
     wanted = {item.id for part, item in items if not part.is_too_long(item) and part.built(item)}
-    here = {t.item.id for t in EVERYTHING if t.family == family}
+    here = {t.item.id for t in gate_suite.everything(None, (family,))}
     assert {f"{name}-{family}" for name in wanted} <= here
 
 
@@ -44,6 +44,8 @@ def test_names_are_unique_and_hold_the_family() -> None:
 def test_a_failure_is_repeated_by_the_same_target() -> None:
     test = EVERYTHING[0]
     assert repro_line([test.item], 7) == f"make test-gates T={test.item.id} SEED=7"
+    test = gate_suite.everything(None, (plain.FAMILY,))[0]
+    assert repro_line([test.item], 7) == f"make test-verilog T={test.item.id} SEED=7"
 
 
 def test_the_line_that_repeats_a_random_host_chooses_it() -> None:
@@ -58,6 +60,8 @@ def test_choosing() -> None:
     assert 60 < len(quick) < 150
     assert {t.family for t in quick} == set(gates.FAMILIES)
     assert {t.top for t in quick} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "ppmc104_carrier"}
+    quick = gate_suite.chosen(gate_suite.everything(None, (plain.FAMILY,)), "quick")
+    assert {t.top for t in quick} >= {row.top for row in parts.tops()} - {"j105_stmc"}
     some = gate_suite.chosen(EVERYTHING, "D16-ECP5")
     assert some and all(t.group[0] == "ecp5" for t in some)
 
@@ -66,11 +70,17 @@ def test_what_is_left_out_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     reasons = (gate_tests.OTHER_BUILDS, gate_tests.COSTLY_BUILDS)
     builds = {name: why for name, why in gate_suite.left_out().items() if why in reasons}
     families = {"ppmc312 on ice40": gate_suite.TOO_BIG}
+    no_netlists = dict.fromkeys(("netlists of isa_4axis", "netlists of bank"), gate_tests.NO_NETLISTS)
     listed = {}
     for part in SUITES:
         listed |= {**part.not_applicable, **part.too_long}
-    assert gate_suite.left_out() == {**listed, **builds, **families}
-    assert [name.split(" in ")[0] for name in builds] == ["stmc", "j105_stmc", "ppmc312", "pmc006"]
+    builds |= {f"bank in {', '.join(part.unbuilt)}": part.why for part in SUITES if part.name == "bank"}
+    builds |= {
+        f"isa_4axis in {', '.join(part.unbuilt)}": part.why for part in SUITES if part.name == "isa_4axis"
+    }
+    assert gate_suite.left_out() == {**listed, **builds, **families, **no_netlists}
+    named = {name.split(" in ")[0] for name in builds}
+    assert named == {"isa_4axis", "stmc", "j105_stmc", "ppmc312", "bank", "pmc006"}
     for part in SUITES:
         items = [param.values[0] for param in part.directed.ITEMS]
         assert set(part.too_long) <= {name for item in items for name in gate_tests.names(item)}
@@ -101,19 +111,6 @@ def test_another_parameter_source_or_yosys_is_another_netlist() -> None:
     ]
     assert len({gates._digest(each, "0.70") for each in (job, *others)}) == 5
     assert gates._digest(job, "0.71") != gates._digest(job, "0.70") == gates._digest(dict(job), "0.70")
-
-
-def double(number: int) -> int:
-    """Work for the pool; refuses 13."""
-    if number == 13:
-        raise ValueError("thirteen")
-    return 2 * number
-
-
-def test_the_pool_returns_all_results_and_raises_errors() -> None:
-    assert sorted(as_done(double, range(10), 2)) == list(range(0, 20, 2))
-    with pytest.raises(ValueError, match="thirteen"):
-        list(as_done(double, [1, 13, 2], 2))
 
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:

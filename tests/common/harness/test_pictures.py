@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
 
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
 from scripts.pictures import waves
-from scripts.pictures.recorded import Row, beside_gaps, record, wave, write_cycle
+from scripts.pictures.fit import MOST, fitted, lanes, text_width, wrapped
+from scripts.pictures.recorded import Row, labels, numbered, record, thinned, wave, write_cycle
 from scripts.ppmc312 import tables
 from scripts.ppmc312 import waves as waves_312
 from scripts.ppmc312.bench import marked
@@ -24,9 +30,106 @@ def test_a_line_has_one_brick_a_column():
     assert wave(hidden, levels[:5]) == {"name": "a", "wave": "x.|1..", "phase": 0.5, "node": "...A."}
 
 
-def test_text_steps_aside_for_a_gap():
-    """Given boxes of which one has a gap in its middle, then only its text moves."""
-    assert beside_gaps("3.|..4..|", ["a", "b"]) == ["a" + " " * 16, "b"]
+def test_columns_without_a_change_are_left_out():
+    """Given columns, then those with an edge and their neighbours stay, and one each where two rows meet."""
+    samples = [{"a": level} for level in (0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0)]
+    assert thinned(range(11), samples, [Row("a", "a")]) == [0, None, 3, 4, 5, 6, 7, 8]
+    gap = [*samples[:2], None, *samples[4:6]]
+    assert thinned([0, 1, None, 8, 9], gap, [Row("a", "a")]) == [0, 1, None, 8, 9]
+
+
+def test_long_numbers_have_letters():
+    """Given edges, then those of many digits are told once, below the diagram."""
+    words, foot = numbered([-1, 0, None, 1_601_599, 1_601_600, 1_601_601, None, 25_600])
+    assert words == ["-1", "0", None, "n-1", "n", "n+1", None, "m"]
+    assert foot == "n = 1601600, m = 25600"
+    assert labels("edge", ["", "a", "", None, "", "b"]) == {
+        "name": "edge", "wave": "22.|22", "data": ["", "a", "", "b"],
+    }  # fmt: skip
+
+
+LONG = {
+    "signal": [
+        {"name": "edge", "wave": "2222|" * 5, "data": [str(n) for n in range(20)]},
+        ["host", {"name": "a", "wave": "10..|" * 5 + ".", "phase": 0.5, "node": ".A" + "." * 19 + "B"}],
+    ],
+    "config": {"hscale": 2},
+}
+
+
+def test_a_long_diagram_gets_rows():
+    """Given 25 columns, then they stand in rows of at most the page's width that begin with their levels."""
+    found = fitted(LONG)
+    edges = [lane for lane in lanes(found["signal"]) if lane.get("name") == "edge"]
+    assert "".join(lane["wave"] for lane in edges) == LONG["signal"][0]["wave"]
+    assert [text for lane in edges for text in lane["data"]] == LONG["signal"][0]["data"]
+    first, second = (lane for lane in lanes(wrapped(LONG, [5])["signal"]) if lane.get("name") == "a")
+    assert (first["wave"], second["wave"]) == ("10..|.", "10..|" * 4 + ".")
+    with pytest.raises(ValueError, match=f"wider than {MOST} px"):
+        waves.draw({"signal": [{"name": "a", "wave": "10" * 20, "data": [], "phase": 0}]}, "a")
+
+
+def test_no_arrow_is_torn():
+    """Given an arrow, then no row ends between its ends."""
+    torn = {**LONG, "edge": ["A~>B"]}
+    assert wrapped(torn, [5]) is None and wrapped(torn, [10]) is None
+    with pytest.raises(ValueError, match="cannot be cut"):
+        fitted(torn)
+
+
+PICTURES = sorted((ROOT / "docs").glob("**/img/*.svg"))
+DIAGRAMS = [path for path in PICTURES if 'class="WaveDrom"' in path.read_text(encoding="utf-8")[:600]]
+
+
+def _ids(paths: list[Path]) -> list[str]:
+    return [f"{path.parent.parent.name}/{path.stem}" for path in paths]
+
+
+@pytest.mark.parametrize("path", DIAGRAMS, ids=_ids(DIAGRAMS))
+def test_no_diagram_is_wider_than_a_page(path):
+    """Given a picture of the manuals, then its smallest text is 10 px or more where the site shows it."""
+    root = ET.parse(path).getroot()
+    assert float(root.get("width")) <= MOST
+
+
+def _moved(node: ET.Element) -> tuple[float, float]:
+    found = [float(n) for n in re.findall(r"-?[\d.]+", node.get("transform", "0,0"))]
+    return found[0], found[1] if len(found) > 1 else 0.0
+
+
+def _struck(root: ET.Element) -> list[str]:
+    """Texts that a break mark lies on."""
+    marks, texts = [], []
+
+    def walk(node: ET.Element, x: float, y: float) -> None:
+        if "rotate" in node.get("transform", ""):
+            return  # the name of a group, left of all lines
+        dx, dy = _moved(node)
+        x, y = x + dx, y + dy
+        if node.tag.endswith("use") and any(value == "#gap" for value in node.attrib.values()):
+            marks.append((x - 7, x + 7, y - 2, y + 22))
+        if node.tag.endswith("text") and (text := "".join(node.itertext()).strip()):
+            small = 11 / 13 if "11px" in node.get("style", "") else 1
+            middle, half = x + float(node.get("x", "0")), text_width(text) * small / 2
+            if node.get("text-anchor") == "middle":
+                base = y + float(node.get("y", "0"))
+                texts.append((text, middle - half, middle + half, base - 9, base))
+        for child in node:
+            walk(child, x, y)
+
+    walk(root, 0, 0)
+    return [
+        text
+        for text, left, right, top, base in texts
+        for a, b, above, below in marks
+        if left < b and a < right and top < below and above < base
+    ]
+
+
+@pytest.mark.parametrize("path", DIAGRAMS, ids=_ids(DIAGRAMS))
+def test_no_break_mark_strikes_through_a_text(path):
+    """Given a picture of the manuals, then none of its texts is below a break mark."""
+    assert not _struck(ET.parse(path).getroot())
 
 
 def test_record_follows_the_model():

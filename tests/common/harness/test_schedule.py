@@ -84,3 +84,11 @@ def test_the_first_failure_ends_the_run(sample: Path, tmp_path: Path) -> None:
 def test_with_waves_each_is_alone(sample: Path, tmp_path: Path) -> None:
     counts, rows = ran(sample, tmp_path / "seen", "-n", "0", "--waves", "-k", "raises or skips")
     assert counts == {"passed": 1, "skipped": 1} and [row[1] for row in rows] == ["0", "0"]
+
+
+@pytest.mark.parametrize(("mark", "workers"), [("", 2), ('pytestmark = pytest.mark.xdist_group("one")\n', 1)])
+def test_what_is_marked_goes_to_one_worker(sample: Path, tmp_path: Path, mark: str, workers: int) -> None:
+    """Given tests that are each alone, then those of one `xdist_group` run in one process all the same."""
+    sample.write_text(f"{SAMPLE}\n\n{mark}", encoding="utf-8")
+    _, rows = ran(sample, tmp_path / "seen", "-n", "2", "--waves")
+    assert len(rows) == 7 and len({worker for worker, _, _ in rows}) == workers

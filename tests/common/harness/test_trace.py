@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import RULE_ID, part_of_rule, rules_of, verifies
-from scripts.trace import join, page
+from scripts.prove.results import by_rule
+from scripts.trace import join, page, unproved
 
 RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Reset levels"}
 
@@ -92,3 +93,16 @@ def test_part_of_rule() -> None:
     assert part_of_rule("P2104-BUS-01") == "ppmc2104"
     assert part_of_rule("J105-01") == part_of_rule("STMC-BUS-01") == "stmc"
     assert part_of_rule("AC-07") is None
+
+
+def test_proofs_stand_beside_the_tests() -> None:
+    """Given a rule with proofs, then its row names them, with the clk of a bounded one."""
+    rules = {"P104-OPR-02": "Count", "P104-BUS-01": "Register map"}
+    trace = join(rules, [record("a", *rules)], "ppmc104")
+    trace.proofs = by_rule()
+    shown = page(trace, "ppmc104")
+    assert "| pass | `ppmc_ramp_seq`<br>`ppmc_axis_count` (40 clk) |" in shown
+    assert "| P104-BUS-01 | Register map | `a` (f16) | pass |  |" in shown
+    assert "1 of them are proved as well" in shown
+    strange = {"P104-OPR-77": trace.proofs["P104-OPR-02"]}
+    assert unproved(strange, rules, "ppmc104") == ["unknown rule P104-OPR-77: named by proof ppmc_ramp_seq"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from openppmc.model.common.edges import low_times
-from openppmc.model.single.codes import BUSY, IBF, OBF
+from openppmc.model.single.codes import IBF, OBF
 
 
 class ModelHost:
@@ -151,7 +151,3 @@ class ModelHost:
         low, mid, high = self.run("c 83 rrr")
         self.mark = mark
         return status, low | mid << 8 | high << 16
-
-    def poll_idle(self) -> int:
-        """Wait for BUSY = 0 over the bus."""
-        return self.poll(BUSY, 0)

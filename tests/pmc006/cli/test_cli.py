@@ -272,3 +272,46 @@ def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, word
     assert outcome.code == 130
     at = r"controller 1: position -?\d+, controller 2: position -?\d+"
     assert re.fullmatch(rf"interrupted: stopped, {at}\n", outcome.err)
+
+
+SCRIPT = """\
+set max_speed=2000 start_speed=500 stop_speed=500 address=2
+move 40 address=2
+repeat 2
+  move -5 speed=800 address=1
+end
+jog forward speed=500 for 0.01 address=1
+out gpo1=1 address=1
+position address=2
+goto 0 address=2
+"""
+
+
+def test_script_and_monitor(run: Run, tmp_path: Path) -> None:
+    """Given a script for two controllers, then it is carried out; `monitor` looks at both."""
+    file = tmp_path / "run.txt"
+    file.write_text(SCRIPT)
+    port = ("--port", "model:speed=max,address=1..2")
+    out = run(*PART, *port, "script", str(file)).out
+    assert out.startswith(f"{file}:8: controller 2: position 40\ndone, controller 1: position ")
+    assert out.endswith(", controller 2: position 0\n")
+    out = run(*PART, *port, "monitor", "-a", "1,2", "--count", "2", "--every", "0.05").out
+    assert out.count("address 1  position 0  motor at rest") == 2 and out.count("address 2") == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("move", ":1: number of steps is missing"),
+        ("jog cw for 1", ":1: 'cw' is neither forward nor backward"),
+        ("set colour=5", ":1: no setting 'colour'"),
+        ("out gpo9=1", ":1: 'gpo9=1': write gpo1=0"),
+        ("home forward switch=3", ":1: switch 3 is outside 1 to 2"),
+        ("init start=5", ":1: unknown command 'init'"),
+        ("move 3 address=9", "controller 9: no reply"),
+    ],
+)
+def test_scripts_that_are_wrong(text: str, says: str, run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "bad.txt"
+    file.write_text(text)
+    assert says in run(*PART, "--port", "model:speed=max,address=1", "script", str(file)).only_line

@@ -113,7 +113,7 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
         (("move", "5", "--axis", "a"), "stations are 3, 0,2,5 or 0-7"),
         (("move", "5", "--axis", "3-1"), "stations have numbers"),
         (("move", "5"), "Missing option '--axis'"),
-        (("info",), "info: not with --part ppmc312-serial"),
+        (("table",), "table: not with --part ppmc312-serial"),
         (("table",), "table: not with --part ppmc312-serial"),
         (("jog", "cw", "--axis", "0", "--ramped", "--speed", "100"), "not both"),
         (("jog", "cw", "--axis", "0", "--seconds", "-1"), "not a time from 0 on"),
@@ -158,3 +158,44 @@ def test_stations_and_line_options() -> None:
     assert options["echo"] and options["sum_mode"] is SumMode.CHARS and options["patience"] == 0.5
     assert options["xtal_hz"] == 8_000_000 and options["rs485"].rts_level_for_tx is False
     assert line_options("rs485")["rs485"].rts_level_for_tx is True and line_options("") == {}
+
+
+SCRIPT = """\
+init start=4000 high=8000 ramp=600 axis=0
+repeat 2
+  move 30 axis=0
+  move -10 axis=2   # another station
+end
+position
+goto 0 axis=0
+stop
+"""
+
+
+def test_script_monitor_and_info(run: Run, tmp_path: Path) -> None:
+    """Given a line, then scripts, `monitor` and `info` work as with a single part."""
+    file = tmp_path / "run.txt"
+    file.write_text(SCRIPT)
+    out = run(*PART, "script", str(file)).out
+    assert out == f"{file}:6: positions 60 and -20\ndone, positions 0 and -20\n"
+    out = run(*PART, "monitor", "--axis", "1,2", "--count", "2", "--every", "0.05").out
+    assert out.count("station 1  state INI  position 0") == out.count("station 2  state INI") == 2
+    assert "0 (version 12), 1 (version 12), 2 (version 12)" in run(*PART, "info").out
+    values = json.loads(run(*PART, "info", "--json").out)
+    assert values["stations"] == {"0": 18, "1": 18, "2": 18} and values["baud"] == 19_200
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("move 4", ":1: move: which station? add axis=N"),
+        ("move 4 5", ":1: move: which station? add axis=N"),
+        ("move 4 axis=16", ":1: station 16: a line has stations 0 to 15"),
+        ("position\nauxo 3", ":2: auxo: not on a line"),
+        ("move 4 axis=7", "no station 7"),
+    ],
+)
+def test_scripts_that_a_line_cannot_do(text: str, says: str, run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "bad.txt"
+    file.write_text(text)
+    assert says in run(*PART, "script", str(file)).only_line

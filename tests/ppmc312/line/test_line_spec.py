@@ -86,7 +86,7 @@ def test_replies_of_two_stations_collide() -> None:
 
 def test_stations_run_while_others_are_asked() -> None:
     """One that nobody asks comes up to the line's time when it is looked at."""
-    line = StationLine(parse_line("stations=2"))
+    line = StationLine(parse_line("stations=2,clk=16000000"))
     line.run(1000)
     for data in ("0001" + "03e8" + "00c8" + "0007d0", "85" + "03e8"):
         line.write(frame(0x90, bytes.fromhex(data)))

@@ -1,0 +1,30 @@
+"""What the sheet crosses: operation, cause, phase, clock; error and state; GO and state. Counted in the
+golden model."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cocotb_tests.harness.crosses import Cross, Crosses, before
+from cocotb_tests.harness.family_crosses import ERRORS, MOTION, UNINIT, Count, hook_errors, hook_motion
+from openppmc.model.bank.axis import Axis
+
+STATES = (UNINIT, "at rest", "waiting for GO", "in motion", "decelerating")
+GROUP = Cross("axis and state that a GO finds it in", ("member of the group", "another one"), STATES)
+
+
+def _hook(count: Count) -> None:
+    hook_motion(count)
+    hook_errors(count)
+
+    def gone(axis: Any, t: int, go: int) -> None:
+        motion = axis.motion
+        rest = "at rest" if axis.commands.initialised else UNINIT
+        moves = "decelerating" if motion.decelerating else "in motion"
+        state = "waiting for GO" if motion.held else moves if motion.busy else rest
+        count(GROUP.name, GROUP.rows[not motion.in_group], state)
+
+    before(Axis, "go", gone)
+
+
+CROSSES = Crosses((*MOTION, ERRORS, GROUP), _hook)

@@ -1,0 +1,41 @@
+"""What the sheet crosses: the instruction of a frame and the state that it meets. Counted in the golden
+model."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cocotb_tests.harness.crosses import Cross, Crosses, before
+from cocotb_tests.harness.family_crosses import Count
+from openppmc.model.pmc006.codes import LETTERS
+from openppmc.model.pmc006.instructions.executor import Executor
+
+NONE = "a code that is none"
+OPS = (*LETTERS, NONE)
+MOTION = Cross(
+    "instruction of a frame and motion",
+    OPS,
+    ("at rest", "at rest, start blocked", "move, rate changing", "move, rate constant", "speed mode"),
+)
+BESIDE = Cross("instruction of a frame and what else runs", OPS, ("nothing", "program", "EEPROM"))
+
+
+def _motion(desk: Any) -> str:
+    if not desk.motion.busy:
+        return MOTION.columns[desk.settings.free or desk.guard.locked]
+    return "speed mode" if desk.running else MOTION.columns[2 + desk.motion.steady]
+
+
+def _hook(count: Count) -> None:
+    def begun(executor: Any, t: int, command: Any) -> None:
+        desk, op = executor._desk, chr(command.code)
+        op = op if op in LETTERS else NONE
+        count(MOTION.name, op, _motion(desk))
+        count(
+            BESIDE.name, op, "EEPROM" if desk.eeprom.busy else "nothing" if desk.program.halted else "program"
+        )
+
+    before(Executor, "_of_host", begun)
+
+
+CROSSES = Crosses((MOTION, BESIDE), _hook)

@@ -1,0 +1,73 @@
+"""What the sheet crosses: operation, cause, phase, clock; error and state; bus style and access. Counted in
+the golden model."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cocotb_tests.harness.crosses import Cross, Crosses, before
+from cocotb_tests.harness.family_crosses import MOTION, Count, hook_motion
+from openppmc.model.ppmc2104.codes import Error
+from openppmc.model.ppmc2104.commands import CommandUnit
+from openppmc.model.single.hostport import HostPort
+
+INITIAL, BUILT, REST, MOVES, SLOWS = (
+    *("before the first setting", "table being built", "at rest", "in motion", "slowing down"),
+)
+STATES = (INITIAL, BUILT, REST, MOVES, SLOWS)
+AT_START = "it is about the start of an operation, which waits for its table and refuses in motion otherwise"
+NEVER_ERROR = {
+    **{("NOT_INITIALISED", state): "there is a setting by then" for state in STATES[1:]},
+    **{("NOT_WHILE_BUSY", state): "it is about motion" for state in (INITIAL, BUILT, REST)},
+    **{("CANNOT_DECELERATE", state): "it is about motion" for state in (INITIAL, BUILT, REST)},
+    **{
+        ("NOTHING_TO_STOP", state): "there is something, or nothing was set"
+        for state in (INITIAL, MOVES, SLOWS)
+    },
+    **{
+        (error, state): AT_START
+        for error in ("START_REFUSED", "RATE_ONE_AXIS", "RATE_TWO_AXES")
+        for state in (INITIAL, BUILT, MOVES, SLOWS)
+    },
+    **{
+        (error, state): "a setting waits for the table before it and is refused as NOT_WHILE_BUSY in motion"
+        for error in ("BAD_RATE", "PA_TOO_LARGE")
+        for state in (BUILT, MOVES, SLOWS)
+    },
+    **{("BAD_SWITCHING", state): "refused as NOT_WHILE_BUSY" for state in (MOVES, SLOWS)},
+}
+ERRORS = Cross(
+    "error and state of its axis", tuple(error.name for error in Error if error), STATES, NEVER_ERROR
+)
+STYLES = ("busc L, at rest", "busc L, in motion", "busc H, at rest", "busc H, in motion")
+ACCESSES = Cross(
+    "access and bus style", ("instruction written", "data written", "status read", "data read"), STYLES
+)
+
+
+def _hook(count: Count) -> None:
+    hook_motion(count)
+
+    def charged(unit: Any, axis: int, error: Error) -> None:
+        of = unit._axes[axis]
+        rest = INITIAL if of.setup is None else BUILT if of.building else REST
+        moves = SLOWS if of.motion.decelerating else MOVES
+        count(ERRORS.name, error.name, moves if of.motion.busy else rest)
+
+    def style(port: Any) -> str:
+        moves = port._state() & 0x0C
+        return STYLES[2 * port._pins["busc"] + bool(moves)]
+
+    def written(port: Any, t: int, byte: int, command: bool) -> None:
+        count(ACCESSES.name, "instruction written" if command else "data written", style(port))
+
+    def read(port: Any, t: int) -> None:
+        if port._reading:
+            count(ACCESSES.name, "status read" if port._pins["a0"] else "data read", style(port))
+
+    before(CommandUnit, "_charge", charged)
+    before(HostPort, "_store", written)
+    before(HostPort, "_second_load", read)
+
+
+CROSSES = Crosses((*MOTION, ERRORS, ACCESSES), _hook)

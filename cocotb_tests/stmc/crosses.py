@@ -1,0 +1,14 @@
+"""What the sheet crosses: operation, cause, phase, clock; error and state. Counted in the golden model."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.crosses import Crosses
+from cocotb_tests.harness.family_crosses import ERRORS, MOTION, Count, hook_errors, hook_motion
+
+
+def _hook(count: Count) -> None:
+    hook_motion(count)
+    hook_errors(count)
+
+
+CROSSES = Crosses((*MOTION, ERRORS), _hook)
