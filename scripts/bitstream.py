@@ -25,7 +25,7 @@ def arguments() -> argparse.Namespace:
         metavar="NAME=VALUE",
         action="append",
         default=[],
-        help="parameter of the top: PHASE_IDLE or PHASE_ON, TIMING, READ_MAP, XTAL_HZ, BAUD",
+        help="parameter of the top: PHASE_IDLE or PHASE_ON, TIMING, READ_MAP, XTAL_HZ, BAUD, RECORD",
     )
     return parser.parse_args()
 

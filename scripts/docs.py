@@ -14,6 +14,8 @@ from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, rela
 from openppmc import parts
 from scripts.pictures import house, plots, waves
 from scripts.pictures.manual import Manual
+from scripts.prove import page as proofs
+from scripts.wiring import pages as wiring
 
 
 def image(name: str) -> Path:
@@ -44,6 +46,8 @@ def wanted() -> dict[Path, bytes]:
         for marker, table in manual.tables.items():
             text = replace_between(text, marker, table())
         files[page] = text.encode()
+    files |= wiring.pages()
+    files[proofs.PAGE] = proofs.text().encode()
     return files
 
 
@@ -51,6 +55,7 @@ def stale(files: dict[Path, bytes]) -> list[Path]:
     """Generated files that are missing or differ, and pictures of a part that have lost their source."""
     changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
     kept = sorted(DOCS.glob("**/img/*.svg"))
+    kept += sorted(wiring.FOLDER.glob("*.md"))
     return changed + [path for path in kept if path not in files]
 
 
@@ -71,7 +76,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 1 if found else 0
     for path in found:
         if path in files:
-            path.parent.mkdir(exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(files[path])
         else:
             path.unlink()

@@ -26,6 +26,7 @@ from openppmc.sources import needed, walls
 from scripts.flow.boards import HOSTS_OF, parameters
 from scripts.flow.boards import sources as board_sources
 from scripts.flow.module_rules import all_findings
+from scripts.flow.tables import differences
 
 CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
 BANKS = (
@@ -40,7 +41,7 @@ BANKS = (
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
-BUILT = {".venv", "build", ".git"}
+BUILT = {".venv", "build", ".git", "node_modules"}
 MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
 
 
@@ -75,8 +76,11 @@ def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = No
 
 
 def rtl_files(*suffixes: str) -> list[str]:
-    """All SystemVerilog files below rtl/, relative to the root."""
-    return sorted(relative(path) for suffix in suffixes for path in project.RTL.rglob(f"*{suffix}"))
+    """All SystemVerilog files below rtl/ and tb/formal/, relative to the root."""
+    folders = (project.RTL, project.ROOT / "tb" / "formal")
+    return sorted(
+        relative(path) for suffix in suffixes for room in folders for path in room.rglob(f"*{suffix}")
+    )
 
 
 def python_paths() -> list[str]:
@@ -115,7 +119,7 @@ def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
     words += ["--top-module", top, *(f"-I{relative(path)}" for path in project.include_dirs())]
     for name, value in params.items():
         words.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
-    words += ["lint/verilator.vlt", *(relative(path) for path in files)]
+    words += ["lint/verilator.vlt", "lint/verilator_newer.vlt", *(relative(path) for path in files)]
     text = tool(*start.command(words, project.ROOT), env=start.environment(project.ROOT))
     # What begins with a dash is statistics.
     return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
@@ -265,6 +269,7 @@ def checks() -> list[Check]:
         Check("rtl/files.yml", "complete", listed),
         Check("rtl/files.yml", "walls between groups", walled),
         Check("modules", "ports and lines", all_findings),
+        Check("tables", "netlists as simulations", lambda: differences(project.BUILD / "lint" / "tables")),
         Check(
             "docs",
             "pictures and tables fresh",

@@ -9,9 +9,12 @@ from collections.abc import Iterator
 
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.mains import check_mains
-from cocotb_tests.harness.project import ProjectError, console, run
+from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.project import run as guarded
+from scripts.campaign.cluster import add_arguments, workers_of
+from scripts.campaign.jobs import Campaign, Job, Result
+from scripts.campaign.run import run
 from scripts.flow.gate_suite import suites
-from scripts.pool import as_done
 
 
 def items() -> Iterator[Item]:
@@ -22,30 +25,31 @@ def items() -> Iterator[Item]:
             yield from map(make, seeds)
 
 
-def compare(item: Item) -> tuple[str, str]:
-    """Name of a test, and how it went: "" if it has differed or failed."""
+def compare(item: Item) -> Result:
+    """How a test went, in words."""
     try:
-        return f"{item.id}: the same, recordings: {check_mains(item)}", ""
+        return Result(True, {"message": f"{item.id}: the same, recordings: {check_mains(item)}"})
     except AssertionError as error:
-        return item.id, str(error)
+        return Result(False, {"message": str(error)})
 
 
 def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.mains")
     parser.add_argument("word")
-    parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="how many at a time (2)")
+    add_arguments(parser)
     args = parser.parse_args()
     chosen = [item for item in items() if args.word.lower() in item.id.lower()]
     if not chosen:
         raise ProjectError(f"{args.word}: no such test")
     failed = 0
-    for name, trouble in as_done(compare, chosen, args.n):
-        console.print(trouble or name, markup=False)
-        failed += bool(trouble)
+    campaign = Campaign("mains", compare, [Job(item.id, item) for item in chosen], len(chosen))
+    for done in run(campaign, workers_of(args), args.fresh):
+        console.print(done.data["message"], markup=False)
+        failed += not done.good
     console.print(f"{len(chosen) - failed} of {len(chosen)} the same on both")
     return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    raise SystemExit(run(main))
+    raise SystemExit(guarded(main))

@@ -46,6 +46,7 @@ for word in "$@"; do
         TIMING=*) case $value in FAST | DATASHEET) ;; *) problem "TIMING=$value: expected FAST or DATASHEET" ;; esac ;;
         READ_MAP=*) case $value in SHEET | FAMILY) ;; *) problem "READ_MAP=$value: expected SHEET or FAMILY" ;; esac ;;
         PHASE_IDLE=* | PHASE_ON=*) number "$name" "$value" 0 1 ;;
+        RECORD=*) case $value in 0 | [4-9] | 1[0-6]) ;; *) problem "RECORD=$value: expected 0, or 4 to 16" ;; esac ;;
         XTAL_HZ=*) number "$name" "$value" 1000000 "$most_xtal" ;;
         BAUD=*) number "$name" "$value" 1200 "$most_baud" ;;
         T=*)
@@ -54,9 +55,15 @@ for word in "$@"; do
                     problem "T=$value: expected (a part of) a test's name, of letters, digits and _ . : -, or some with commas" ;;
             esac ;;
         SEED=*) number "$name" "$value" 0 4294967295 ;;
-        COUNT=*) number "$name" "$value" 1 1000000 ;;
+        COUNT=*) number "$name" "$value" 1 1000000000 ;;
         CLK_HZ=*) number "$name" "$value" 8000000 200000000 ;;
-        WAVES=* | INSIDE=* | MODEL=*) number "$name" "$value" 0 1 ;;
+        SCHEDULER=*)
+            case $value in
+                tcp://*:*[!0-9]* | tcp://:* | tcp://*[!A-Za-z0-9_.:-]*) problem "SCHEDULER=$value: expected tcp://host:port" ;;
+                tcp://*:[0-9]*) ;;
+                *) problem "SCHEDULER=$value: expected tcp://host:port" ;;
+            esac ;;
+        BREAK=* | FRESH=* | QUICK=* | WAVES=* | INSIDE=* | MODEL=*) number "$name" "$value" 0 1 ;;
         J=*) number "$name" "$value" 1 64 ;;
     esac
 done

@@ -2,7 +2,8 @@
 
 The report places and routes everything with five seeds, writes the table into docs/benchmarks.md and the
 sizes as synthesized into docs/sizes.json; without --part it renews the sizes of the bridges, too. The check
-(`make size`) synthesizes only and fails on growth; the boards' bitstreams only with --part.
+(`make size`) synthesizes only and fails on growth; the boards' bitstreams only with --part. `--accept` makes
+the sizes of now the committed ones, without place and route.
 """
 
 from __future__ import annotations
@@ -39,6 +40,13 @@ def measured(wanted: list[Target], tell: Tell) -> tuple[sizes.Sizes, list[tuple[
         figures = {key: asdict(count)[key] for key in sizes.FIGURES}
         table.setdefault(target.design, {})[target.family] = figures
     return table, found
+
+
+def accept(wanted: list[Target], tell: Tell) -> int:
+    """Make the sizes of these the committed ones."""
+    sizes.write(sizes.read() | measured(wanted, tell)[0])
+    console.print("written: docs/sizes.json; docs/benchmarks.md has the figures of the last whole report")
+    return 0
 
 
 def check(wanted: list[Target], every: list[Target], tell: Tell) -> int:
@@ -123,6 +131,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--check", action="store_true", help="compare sizes with docs/sizes.json, route nothing"
     )
+    parser.add_argument(
+        "--accept", action="store_true", help="make the sizes of now the committed ones, route nothing"
+    )
     parser.add_argument("--seeds", type=int, default=SEEDS, help="place-and-route runs (default %(default)s)")
     return parser.parse_args()
 
@@ -134,13 +145,14 @@ def main() -> int:
     parts = [project.part(args.part).name] if args.part else every_part
     every = {part: targets.targets(part) for part in every_part}
     # A board's netlist is a board top's for other pins: the check of all parts does without it.
-    boards = not args.check or bool(args.part)
+    route = not (args.check or args.accept)
+    boards = route or bool(args.part)
     wanted = [target for part in parts for target in every[part] if boards or not target.board]
     routes = sum(
         min(args.seeds, target.board.seeds) if target.board else args.seeds * len(targets.devices(target))
         for target in wanted
     )
-    steps = len(wanted) + (0 if args.check else routes + len(parts))
+    steps = len(wanted) + (routes + len(parts) if route else 0)
     columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
         task = progress.add_task("synthesis", total=steps)
@@ -152,6 +164,8 @@ def main() -> int:
 
         if args.check:
             return check(wanted, [target for found in every.values() for target in found], tell)
+        if args.accept:
+            return accept(wanted, tell)
         for part in parts:
             report(part, every[part], args.seeds, tell)
     if not args.part:

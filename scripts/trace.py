@@ -21,6 +21,8 @@ from typing import Any
 from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part
 from cocotb_tests.harness.verifies import manual_rules, part_of_rule
 from openppmc.parts import PARTS
+from scripts.prove.results import by_rule, failed
+from scripts.prove.table import Proof
 
 CHECK = re.compile(r"AC-|\w+-(?:CHK|AC)-")
 RESULTS = BUILD / "trace" / "results.jsonl"
@@ -50,6 +52,12 @@ class Trace:
     rules: dict[str, str]
     groups: dict[str, list[Group]]
     problems: list[str]
+    proofs: Mapping[str, Sequence[Proof]] = field(default_factory=dict)
+
+    def proved(self, rule: str) -> str:
+        """Names of its proofs (docs/proofs.md), with the clk that a bounded one holds for."""
+        bound = {one.name: f" ({one.bound} clk)" if one.bound else "" for one in self.proofs.get(rule, ())}
+        return "<br>".join(f"`{name}`{words}" for name, words in bound.items())
 
     def result(self, rule: str) -> str:
         """Word for the table: pass, FAIL or NO TEST."""
@@ -107,17 +115,29 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
     return Trace(rules, groups, [*bare, *unknown, *failed])
 
 
+def unproved(proofs: Mapping[str, Sequence[Proof]], rules: Mapping[str, str], part_name: str) -> list[str]:
+    """Problems of the proofs of a part: rules that it does not have, proofs whose last run has failed."""
+    own = {rule: every for rule, every in proofs.items() if part_of_rule(rule) == part_name}
+    strange = [
+        f"unknown rule {rule}: named by proof {every[0].name}"
+        for rule, every in own.items()
+        if rule not in rules
+    ]
+    names = {one.name for every in own.values() for one in every}
+    return strange + [f"proof failed: {name}" for name in failed() if name in names]
+
+
 def at_home(statement: str) -> str:
     """A statement of docs/<part>/README.md with its links as seen from the page beside it."""
     return re.sub(r"\]\(#", "](README.md#", statement)
 
 
 def _table(trace: Trace, rules: Sequence[str], part_name: str) -> list[str]:
-    rows = ["| Rule | Statement | Tests | Result |", "|---|---|---|---|"]
+    rows = ["| Rule | Statement | Tests | Result | Proved |", "|---|---|---|---|---|"]
     for rule in rules:
         tests = "<br>".join(str(group) for group in trace.groups.get(rule, [])) or "none"
         statement = at_home(trace.rules[rule])
-        rows.append(f"| {rule} | {statement} | {tests} | {trace.result(rule)} |")
+        rows.append(f"| {rule} | {statement} | {tests} | {trace.result(rule)} | {trace.proved(rule)} |")
     return rows
 
 
@@ -135,7 +155,9 @@ def page(trace: Trace, part_name: str) -> str:
         "",
         f"{passing} of {len(rules)} rules and {passing_checks} of {len(checks)} acceptance checks have tests"
         " that all pass. A number after × says how often a test ran (seeds or configurations);"
-        " the names in brackets are the build configurations of `cocotb_tests/harness/config.py`.",
+        " the names in brackets are the build configurations of `cocotb_tests/harness/config.py`."
+        f" {sum(bool(trace.proved(rule)) for rule in trace.rules)} of them are proved as well, as far as"
+        " [proofs.md](../proofs.md) says of each proof.",
         "",
         "## Rules",
         "",
@@ -159,6 +181,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not rules:
             raise ProjectError(f"docs/{name}/README.md lists no rules: nothing to trace")
         trace = join(rules, load_records(RESULTS, name), name)
+        trace.proofs = by_rule()
+        trace.problems += unproved(trace.proofs, rules, name)
     except (ProjectError, ValueError) as error:
         console.print(f"error: {error}", markup=False)
         return 2

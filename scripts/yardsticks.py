@@ -16,16 +16,13 @@ from rich.table import Table
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import console
-from scripts.flow import pnr
-from scripts.flow.netlist import flat_counts
 from scripts.flow.peers import OLDER, WHERE, read
 from scripts.flow.report import markdown_table, recipe_words
-from scripts.flow.synthesis import SEEDS, run_yosys, wrapped_netlist
-from scripts.flow.yosys_job import BEST
+from scripts.flow.synthesis import SEEDS
+from scripts.flow.yardstick import RECIPES, Design, middle
 
 FOLDER = project.BUILD / "yardsticks"
-ECP5 = pnr.DEVICES[0]
-RECIPES = {"plain": "default", "tuned": BEST["ecp5"]}
+FILE = project.DOCS / "yardsticks.json"
 OWN = {"ppmc104": "bus, mailbox, ramp table and its builder, limits, 3-, 4-, 5-phase excitation, chopper"}
 HEADS = [
     "design",
@@ -38,44 +35,32 @@ HEADS = [
 
 @dataclass(frozen=True)
 class Row:
-    """One design: a yosys job without family and recipe, and how the pin-saving wrapper connects it."""
+    """One design, its name and what it does."""
 
     title: str
     what: str
-    job: dict
-    wiring: dict[str, str]
+    design: Design
 
 
 def rows(part: str, peers: Path) -> list[Row]:
     """The part itself, then the peers."""
-    own = {
-        "top": part,
-        "include": [project.relative(path) for path in project.include_dirs()],
-        "sources": [project.relative(path) for path in project.sources(project.part(part))],
-        "params": {},
-    }
-    found = [Row(f"**this {part}**", OWN[part], own, {})]
+    found = [Row(f"**this {part}**", OWN[part], Design.of_part(project.part(part)))]
     for peer in read(peers):
         job = {"top": peer.top, "include": [], "sources": peer.files(peers), "params": peer.params}
-        found.append(
-            Row(f"[{peer.title}]({peer.url})", peer.what, job, {"reset": peer.reset, "pins_like": peer.pins})
-        )
+        design = Design(job, {"reset": peer.reset, "pins_like": peer.pins})
+        found.append(Row(f"[{peer.title}]({peer.url})", peer.what, design))
     return found
 
 
 def measure(row: Row, recipe: str, seeds: int) -> dict[str, float | list[float]]:
     """COMB, FF, block RAM, and the clock rate of each seed with all pins behind shift registers."""
-    folder = FOLDER / row.job["top"] / recipe
-    netlist = run_yosys(folder, {**row.job, "family": "ecp5", "recipe": recipe, "keep": False})
-    total = flat_counts(netlist, row.job["top"], set())[0]
-    used = pnr.packed(ECP5, netlist, folder)
-    wrapped = wrapped_netlist(folder, row.job, netlist, recipe, "ecp5", **row.wiring)
+    folder = FOLDER / row.design.job["top"] / recipe
+    size = row.design.size(recipe, folder)
     rates = []
     for seed in range(1, seeds + 1):
-        rates.append(pnr.place_and_route(ECP5, wrapped, folder / "pnr", seed).fmax)
+        rates.append(row.design.rate(recipe, seed, folder))
         console.print(f"{row.title}, {recipe}, seed {seed}: {rates[-1]} MHz")
-    middle = sorted(rates)[(seeds - 1) // 2]
-    return {"comb": used["TRELLIS_COMB"], "ff": total.ff, "ram": total.ram, "mhz": middle, "rates": rates}
+    return {**size, "mhz": middle(rates), "rates": rates}
 
 
 def table(measured: list[tuple[Row, dict[str, dict]]]) -> list[list[str]]:
@@ -93,6 +78,12 @@ def table(measured: list[tuple[Row, dict[str, dict]]]) -> list[list[str]]:
         linked = f"[{title}]({WHERE[title]})" if title in WHERE else title
         cells.append([f"{linked} ¹", what, str(ff), str(ram), str(comb), str(mhz), "–", "–"])
     return cells
+
+
+def singles(measured: list[tuple[Row, dict[str, dict]]]) -> dict[str, int]:
+    """COMB with the plain recipe of each other design, for the picture of what an axis costs."""
+    others = {row.title.split("]")[0].strip("["): by["plain"]["comb"] for row, by in measured[1:]}
+    return others | {title: comb for title, _, comb, *_ in OLDER}
 
 
 def text(seeds: int) -> str:
@@ -117,9 +108,7 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, default=SEEDS)
     args = parser.parse_args()
     wanted = rows(args.part, args.peers)
-    measured = [
-        (row, {name: measure(row, recipe, args.seeds) for name, recipe in RECIPES.items()}) for row in wanted
-    ]
+    measured = [(row, {name: measure(row, name, args.seeds) for name in RECIPES}) for row in wanted]
     cells = table(measured)
     shown = Table(title=f"{args.part} and open designs, ECP5-25F", title_justify="left")
     for index, head in enumerate(HEADS):
@@ -127,12 +116,12 @@ def main() -> int:
     for cell in cells:
         shown.add_row(*cell)
     console.print(shown)
-    (FOLDER / "figures.json").write_text(json.dumps({row.title: by for row, by in measured}, indent=1) + "\n")
     if args.seeds == SEEDS:
+        FILE.write_text(json.dumps(singles(measured), indent=1) + "\n", encoding="utf-8")
         project.update_benchmarks(
             "yardsticks", text(args.seeds) + "\n\n" + markdown_table(HEADS, cells, left=2)
         )
-        console.print("written: docs/benchmarks.md")
+        console.print("written: docs/benchmarks.md, docs/yardsticks.json")
     else:
         console.print(f"docs/benchmarks.md is written with {SEEDS} seeds only")
     return 0

@@ -93,7 +93,7 @@ def simulate(program: Path, played: Played) -> Comparison:
     recording.edges = plain_sim.play(program, recording, TABLE)
     initial = TABLE.reset_levels()
     expected, actual, mismatch = compare_edges(model.edges, recording.edges, initial, recording.end)
-    return Comparison(recording, initial, expected, actual, mismatch)
+    return Comparison(recording, initial, expected, actual, mismatch, TABLE)
 
 
 def trains(comparison: Comparison) -> list[list[int]]:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from cocotb_tests.harness.stimulus import level_at
 from openppmc.model.bank.visits import Visits
 from openppmc.model.bank.window import CONFIG, GO
 from scripts.bank.session import Session
-from scripts.pictures.recorded import Levels, Row, Samples, labels, wave
+from scripts.pictures.recorded import Levels, Row, Samples, labels, thinned, wave
 
 AXES, CLK_HZ = 8, 20_000_000
 """A round of 8 clk; with vsel = L intervals that are no whole number of rounds."""
 INIT = (0x0A, 99, 99, 4, 0)
 ONE, OTHER = 2, 5
+PINS = ("hold", "dir", "pout_n")
 VISITS = {axis: Visits(axis, AXES, 0) for axis in (ONE, OTHER)}
 
 
@@ -32,7 +34,7 @@ def sampled(host: Session, columns: Iterable[int | None], more: Callable[[int], 
     """Pins of both axes, the host's pins and `more` on these edges."""
     model, outputs, inputs = host.model, {}, {}
     for axis in (ONE, OTHER):
-        for name in ("pout_n", "hold", "dir"):
+        for name in PINS:
             outputs[f"{name}[{axis}]"] = (model.bits(name, axis), model.log.initial[name] >> axis & 1)
     for name in ("a", "wr_n", "d_i"):
         changes = [(t, value) for t, pin, value in model.stimulus if pin == name]
@@ -129,6 +131,12 @@ def group() -> dict[str, Any]:
     ):
         columns += [*range(begin, end), None]
     columns.pop()
+    lines = [
+        Row("a", "a", lambda value: f"{value:03X}", host=True),
+        Row("wr_n", "wr_n", host=True),
+        *(Row(f"{pin}[{axis}]", f"{pin}[{axis}]") for axis in (ONE, OTHER) for pin in PINS),
+    ]
+    columns = thinned(columns, sampled(host, columns, lambda edge: {}), lines)
     place = {edge: column for column, edge in enumerate(columns) if edge is not None}
     names = {
         starts[ONE]: f"start {ONE}",
@@ -138,16 +146,12 @@ def group() -> dict[str, Any]:
         first + low: "+W",
     }
     samples = sampled(host, columns, lambda edge: {})
-    rows = [
-        Row("a", "a", lambda value: f"{value:03X}", host=True),
-        Row("wr_n", "wr_n", host=True, nodes={place[write + 2]: "A"}),
-    ]
-    for axis, name in ((ONE, "B"), (OTHER, "C")):
-        rows += [
-            Row(f"hold[{axis}]", f"hold[{axis}]"),
-            Row(f"dir[{axis}]", f"dir[{axis}]"),
-            Row(f"pout_n[{axis}]", f"pout_n[{axis}]", nodes={place[first]: name}),
-        ]
+    nodes = {
+        "wr_n": {place[write + 2]: "A"},
+        f"pout_n[{ONE}]": {place[first]: "B"},
+        f"pout_n[{OTHER}]": {place[first]: "C"},
+    }
+    rows = [replace(row, nodes=nodes.get(row.name, {})) for row in lines]
     return {
         "signal": [labels("edge", words(columns, names)), *(wave(row, samples) for row in rows)],
         "edge": ["A~>B", "B-C skew 0"],

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 
 from scripts.bank import cost
 from scripts.pictures.blocks import Arrow, Box, draw
-from scripts.pictures.plots import BLUE, GREY, RED, svg
+from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 STAGES = (
     "0 address\nof the next axis",
@@ -55,27 +55,34 @@ def visit() -> bytes:
 
 
 def axis_cost() -> bytes:
-    """COMB an axis over the number of axes, beside designs of one axis."""
+    """COMB an axis over the number of axes: bank, parts with as many of the same axes, other designs."""
     found = cost.figures()
-    figure, axes = plt.subplots(figsize=(8.4, 4.2), layout="constrained")
+    figure, axes = plt.subplots(figsize=(8.4, 4.6), layout="constrained")
     for name, color in (("plain", BLUE), ("tuned", RED)):
-        values = [found[f"{n} {name}"]["comb"] / n for n in cost.AXES]
-        axes.plot(cost.AXES, values, "o-", color=color, label=f"ppmc_bank, {name}")
+        known = [n for n in cost.AXES if f"{n} {name}" in found]
+        values = [found[f"{n} {name}"]["comb"] / n for n in known]
+        axes.plot(known, values, "o-", color=color, label=f"ppmc_bank, {name}")
         if name == "plain":
-            for n, value in zip(cost.AXES, values, strict=True):
+            for n, value in zip(known, values, strict=True):
                 axes.annotate(f"{value:.0f}", (n, value), (5, 5), textcoords="offset points", color=color)
-    for title, comb in cost.singles():
+    family = cost.family()
+    axes.plot(*zip(*family.values(), strict=True), "s-", color=GREEN, label="parts, plain")
+    for title, (n, comb) in family.items():
+        axes.annotate(f"{title}: {comb:.0f}", (n, comb), (6, 6), textcoords="offset points", color=GREEN)
+    others = cost.singles()
+    for title, comb in others.items():
         axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
-        near = any(0 < other - comb < 0.1 * comb for _, other in cost.singles())
+        near = any(0 < other - comb < 0.1 * comb for other in others.values())
         side = "top" if near else "bottom"  # of two lines close together the lower one is named below
         axes.text(73, comb, f"{title}: {comb}", va=side, ha="right", size=7.5, color="#444444")
-    axes.set(xscale="log", yscale="log", xlabel="axes of the bank", ylabel="COMB an axis, ECP5")
-    axes.set_xticks(cost.AXES, [str(n) for n in cost.AXES])
+    axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB an axis, ECP5")
+    ticks = (1, 2, *cost.AXES)
+    axes.set_xticks(ticks, [str(n) for n in ticks])
     axes.set_yticks([50, 100, 200, 500, 1000, 2000], ["50", "100", "200", "500", "1000", "2000"])
     axes.minorticks_off()
-    axes.set(xlim=(3.6, 74), ylim=(45, 2900))
+    axes.set(xlim=(0.9, 74), ylim=(45, 2900))
     axes.legend(loc="lower left")
-    axes.set_title("An axis of a bank beside designs of one axis (dashed; recipe plain)")
+    axes.set_title("What an axis costs, by how many there are (dashed: each of that design, plain)")
     return svg(figure)
 
 

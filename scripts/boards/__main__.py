@@ -40,6 +40,8 @@ def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
     readme = project.ROOT / "README.md"
     found[docs] = tables.page(boards, every, docs.read_text(encoding="utf-8"))
     found[readme] = tables.readme(boards, readme.read_text(encoding="utf-8"))
+    bridge = project.DOCS / "uart_bridge.md"
+    found[bridge] = tables.bridge(bridge.read_text(encoding="utf-8"))
     found[sources] = tables.listing(boards, every, sources.read_text(encoding="utf-8"))
     return found
 

@@ -29,7 +29,7 @@ LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cy
 KEYS = {
     "board": (
         "title place chip family clock reset lamps uart pads headers parts",
-        "devices vendor suffix loader port ties defaults statements",
+        "code devices vendor suffix loader port ties defaults statements",
     ),
     "device": ("title device route", "chip"),
     "vendor": ("tool target device", "family"),
@@ -94,6 +94,7 @@ class Description:
     name: str
     path: Path
     title: str
+    code: str
     place: int
     chip: str
     family: str
@@ -211,14 +212,14 @@ def load(path: Path) -> Description:
         Device(name=str(known), **{**checked(f"{where}: devices: {known}", "device", found)})
         for known, found in keys.pop("devices", {}).items()
     ]
-    for key in ("suffix", "loader", "port"):
+    for key in ("code", "suffix", "loader", "port"):
         if devices and key not in keys:
             raise ProjectError(f"{where}: {key} is missing")
     keys["headers"] = headers(f"{where}: headers", keys["headers"])
     keys["parts"] = tuple(
         carried(f"{where}: parts: {part}", part, found) for part, found in keys["parts"].items()
     )
-    optional: dict[str, Any] = {"suffix": "", "loader": "", "port": "", "defaults": {}}
+    optional: dict[str, Any] = {"code": "", "suffix": "", "loader": "", "port": "", "defaults": {}}
     return Description(name=name, path=path, devices=tuple(devices), **{**optional, **keys})
 
 

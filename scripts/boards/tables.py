@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
+from openppmc import parts
+from openppmc.host.selftest.plan import Plan
 
 from .description import Description
 from .pads import Fitted
@@ -47,6 +50,50 @@ def flash_table(boards: tuple[Description, ...]) -> str:
     return "\n".join(rows)
 
 
+def jumper_table(fitted: list[Fitted]) -> str:
+    """The wires of the self-test on each board with the UART host; what has no pin there is told."""
+    rows = ["| board | part | from | to | for |", "|---|---|---|---|---|"]
+    for one in fitted:
+        if "uart" not in one.on.hosts or not one.on.row.selftest or not one.board.devices:
+            continue
+        plan: Plan = one.on.row.load("selftest")
+        places = {pad.bit: pad.where for pad in one.pads}
+        for wire in plan.jumpers:
+            ends = [
+                f"{places[bit].split(',')[0]} (`{bit}`)" if bit in places else f"`{bit}` has no pin"
+                for bit in (wire.output, wire.input)
+            ]
+            rows.append(f"| {one.board.title} | `{one.on.part}` | {ends[0]} | {ends[1]} | {wire.what} |")
+    return "\n".join(rows)
+
+
+def recorder_table() -> str:
+    """Pins in a record of each part, from the lowest bit on; of the bank's with 8 axes."""
+    rows = ["| part | levels | pins, from the lowest bit on |", "| --- | --- | --- |"]
+    for row in parts.having("selftest"):
+        plan: Plan = row.load("selftest")
+        width = record_width(row)
+        pins = ", ".join(f"`{name}`" + (f" {bits}" if bits > 1 else "") for name, bits in plan.layout(width))
+        axes = " (8 axes)" if row.name == "bank" else ""
+        rows.append(f"| {row.title}{axes} | {width} | {pins} |")
+    return "\n".join(rows)
+
+
+def record_width(row: parts.Row) -> int:
+    """Levels that the carrier of a part records, from its text; of a bank those of 8 axes."""
+    path = project.RTL / row.folder / f"{row.rtl}_carrier.sv"
+    found = re.search(r"localparam int unsigned Watch = ([^;]*);", path.read_text(encoding="utf-8"))
+    words = re.fullmatch(r"(\d+)(?: \+ (\d+) \* AXES)?", found[1]) if found else None
+    if words is None:
+        raise ProjectError(f"{project.relative(path)}: no line `localparam int unsigned Watch = …`")
+    return int(words[1]) + 8 * int(words[2] or 0)
+
+
+def bridge(text: str) -> str:
+    """docs/uart_bridge.md with its table of levels anew."""
+    return put(text, "<!-- recorder -->", "<!-- /recorder -->", recorder_table(), "docs/uart_bridge.md")
+
+
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
     """`text` with `body` between the lines `begin` and `end`; ProjectError if they are not there."""
     head, found, rest = text.partition(f"{begin}\n")
@@ -59,6 +106,7 @@ def put(text: str, begin: str, end: str, body: str, where: str) -> str:
 def page(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
     """docs/boards.md with all its tables anew."""
     text = put(text, "<!-- boards -->", "<!-- /boards -->", board_table(boards), "docs/boards.md")
+    text = put(text, "<!-- jumpers -->", "<!-- /jumpers -->", jumper_table(fitted), "docs/boards.md")
     for one in fitted:
         name = f"pins {one.board.constraints(one.on)}"
         text = put(text, f"<!-- {name} -->", f"<!-- /{name} -->", pin_table(one), "docs/boards.md")

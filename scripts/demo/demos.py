@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.config import F16, Config
+from openppmc.capture.common.words import Words
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
 from scripts.demo.scenes import Changes, access_text, falls
-from scripts.demo.words import Words
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from vcd import VCDWriter
 
 from cocotb_tests.harness.part import PARTS, recorded
+from cocotb_tests.harness.stimulus import Recording
+from openppmc.capture.common.vcd_file import core_comment
 from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 
@@ -58,6 +60,12 @@ def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
     }
 
 
+def _writer(file: IO[str], recording: Recording) -> VCDWriter:
+    """A VCD that tells `openppmc decode` which core made it."""
+    comment = core_comment(recording.part, recording.params)
+    return VCDWriter(file, timescale="1 ps", date="", comment=comment)
+
+
 def write_vcd(comparison: Any, view: View, path: Path) -> None:
     """Write all pins, the host's accesses, and pulse count and speed of each motor."""
     recording = comparison.recording
@@ -70,7 +78,7 @@ def write_vcd(comparison: Any, view: View, path: Path) -> None:
     pins = single_pins({"rst_n": 1, **part.inputs}, driven, view.split)
     pins |= single_pins(comparison.initial, comparison.actual, view.split)
     rows: list[tuple[int, Any, Any]] = []
-    with path.open("w") as file, VCDWriter(file, timescale="1 ps", date="") as writer:
+    with path.open("w") as file, _writer(file, recording) as writer:
         for name, (level, changes) in pins.items():
             # A bit of a vector is no port of the part.
             size = part.width(name) if name in part.inputs or name in part.outputs else 1

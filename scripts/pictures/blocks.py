@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch
 
-EDGE, TEXT, FAINT = "#44505c", "#1c2733", "#7a8794"
+EDGE, TEXT, FAINT = "#44505c", "#1c2733", "#5b6875"
 FILLS = {"plain": "#eef2f6", "host": "#dbe8f7", "motion": "#dff0e1", "part": "#fdeecb", "pin": "#ffffff"}
 
 

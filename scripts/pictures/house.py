@@ -1,4 +1,4 @@
-"""Pictures of docs/architecture.md: the folders of the tree, the way of a command through a part."""
+"""Pictures of docs/architecture.md: the folders of the tree, the way of a command. PLOTS: all of docs/."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from matplotlib.patches import Rectangle
 from cocotb_tests.harness.project import ROOT
 from openppmc import parts
 
+from .around import board
 from .blocks import EDGE, FAINT, TEXT, Arrow, Box, draw
 from .plots import svg
 
@@ -147,4 +148,4 @@ def command() -> bytes:
     return svg(draw(boxes, arrows, (10.4, 3.6)))
 
 
-PLOTS = {"house": house, "command": command}
+PLOTS = {"house": house, "command": command, "board": board}

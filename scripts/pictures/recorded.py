@@ -10,6 +10,8 @@ Levels = Mapping[str, int]
 Schedule = Sequence[tuple[int, Levels]]  # (clk edge that samples them first, pin levels), in time order
 Samples = Sequence[Levels | None]  # one a column; None: many clk that are not shown
 
+LONG = 10_000
+LETTERS = "nmk"
 COLOURS = "345"  # WaveDrom's filled boxes, in turn
 
 
@@ -74,19 +76,6 @@ def record(
     return found
 
 
-def beside_gaps(drawn: str, data: Sequence[str]) -> list[str]:
-    """The texts of the boxes, moved to the left where a gap would be drawn over them."""
-    starts = [column for column, brick in enumerate(drawn) if brick in COLOURS]
-    ends = [
-        min((n for n in range(a + 1, len(drawn)) if drawn[n] not in ".|"), default=len(drawn)) for a in starts
-    ]
-    found = []
-    for text, first, end in zip(data, starts, ends, strict=True):
-        hit = any(abs(gap + 0.5 - (first + end) / 2) < 0.5 for gap in range(first, end) if drawn[gap] == "|")
-        found.append(text + " " * 16 if hit else text)
-    return found
-
-
 def wave(row: Row, samples: Samples) -> dict[str, Any]:
     """WaveDrom's line of a row."""
     drawn, data = "", []
@@ -110,12 +99,56 @@ def wave(row: Row, samples: Samples) -> dict[str, Any]:
         last = level
     line: dict[str, Any] = {"name": row.name, "wave": drawn + ("." if row.host else "")}
     if data:
-        line["data"] = beside_gaps(drawn, data)
+        line["data"] = data
     if row.host:
         line["phase"] = 0.5
     if row.nodes:
         line["node"] = "".join(row.nodes.get(column, ".") for column in range(len(drawn)))
     return line
+
+
+def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]) -> list[int | None]:
+    """The columns without those between two more on which no line changes; a gap is in their place."""
+    levels = [None if found is None else tuple(row.of(found) for row in rows) for found in samples]
+    last = len(columns) - 1
+    while last > 1 and levels[last] == levels[last - 1] == levels[last - 2]:
+        last -= 1
+    still = [0 < n < last and levels[n - 1] == levels[n] == levels[n + 1] for n in range(last + 1)]
+    found: list[int | None] = []
+    for n, column in enumerate(columns[: last + 1]):
+        alone = still[n] and not (still[n - 1] or still[n + 1])
+        if not still[n] or alone or column is None:
+            found.append(column)
+        elif found[-1] is not None:
+            found.append(None)
+    return found
+
+
+def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
+    """Words of edges, a letter for a long number and its neighbours, and a line that tells the letters."""
+    words: list[str | None] = []
+    told: dict[int, str] = {}
+    for edge in edges:
+        if edge is None or abs(edge) < LONG:
+            words.append(None if edge is None else str(edge))
+            continue
+        near = [other for other in edges if other is not None and abs(other - edge) < len(edges)]
+        base = max(near, key=lambda other: (_zeros(other), -other))
+        letter = told.setdefault(base, LETTERS[len(told)])
+        words.append(letter if edge == base else f"{letter}{edge - base:+}")
+    return words, ", ".join(f"{letter} = {base}" for base, letter in told.items())
+
+
+def _zeros(number: int) -> int:
+    """Zeros at the end."""
+    text = str(number)
+    return len(text) - len(text.rstrip("0"))
+
+
+def table(lines: Sequence[dict[str, Any]], title: str, foot: str, arrows: Sequence[str]) -> dict[str, Any]:
+    """A drawing of edges that are far apart."""
+    drawing = {"signal": list(lines), "config": {"hscale": 2}, "head": {"text": title}, "edge": list(arrows)}
+    return {**drawing, "foot": {"text": foot}} if foot else drawing
 
 
 def clock(samples: Samples) -> dict[str, Any]:
@@ -124,6 +157,11 @@ def clock(samples: Samples) -> dict[str, Any]:
 
 
 def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
-    """A line with a word in each column, a gap for None."""
-    drawn = "".join("|" if word is None else "2" for word in words)
-    return {"name": name, "wave": drawn, "data": [word for word in words if word is not None]}
+    """A line with a word in each column, a gap for None; a word has the room of the empty ones behind it."""
+    drawn, data = "", list[str]()
+    for word, before in zip(words, (None, *words), strict=False):
+        begins = word is not None and (word or not before)
+        if begins:
+            data.append(word)
+        drawn += "|" if word is None else "2" if begins else "."
+    return {"name": name, "wave": drawn, "data": data}

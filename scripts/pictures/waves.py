@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
 import wavedrom
+from wavedrom.waveskin import WaveSkin
 
-SVG = "http://www.w3.org/2000/svg"
+from .breaks import SVG, step_aside
+from .fit import EDGE, MOST, fitted, names, step_of, text_width
+from .fit import width as lines
+
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
 # Pixels instead of points (not every viewer knows the dpi), larger labels, darker tick numbers.
@@ -36,11 +41,40 @@ def _referenced(root: ET.Element) -> set[str]:
     return found
 
 
-def _tidy(svg: str) -> str:
+def _style(root: ET.Element) -> None:
+    """The colours of all skins: the bricks of the narrow one are numbered as those of the default one."""
+    for style in root.iter(f"{{{SVG}}}style"):
+        style.text = WaveSkin["default"][2][2]
+
+
+def _texts_whole(root: ET.Element, drawing: dict[str, Any]) -> None:
+    """Names, head and foot whole: the picture grows where they are wider than WaveDrom has reckoned."""
+    (lanes,) = (node for node in root.iter() if node.get("id") == "lanes_0")
+    (marks,) = (node for node in root.iter() if node.get("id") == "gmarks_0")
+    _, _, y = lanes.get("transform", "").rstrip(")").partition(",")
+    before = names(drawing)
+    lanes.set("transform", f"translate({before:g},{y})")
+    titles = [node for node in marks if node.tag.endswith("text") and node.get("class") is None]
+    needed = [text_width("".join(node.itertext())) + EDGE for node in titles]
+    width = max([lines(drawing, step_of(drawing)), *needed])
+    if width > MOST:
+        raise ValueError(f"{width:.0f} px wide with head and foot, at most {MOST}")
+    for node, long in zip(titles, needed, strict=True):
+        middle = float(node.get("x", "0")) + before
+        node.set("x", f"{min(max(middle, long / 2), width - long / 2) - before:.1f}")
+    root.set("width", f"{math.ceil(width)}")
+    root.set("viewBox", f"0,0,{math.ceil(width)},{root.get('height')}")
+
+
+def _tidy(svg: str, drawing: dict[str, Any]) -> str:
     """Drop the unused bricks, put a white sheet below the drawing and name fonts that exist everywhere."""
     ET.register_namespace("", SVG)
     ET.register_namespace("xlink", XLINK)
     root = ET.fromstring(svg)
+    if "signal" in drawing:
+        _style(root)
+        _texts_whole(root, drawing)
+        step_aside(root, drawing["signal"], step_of(drawing))
     wanted = _referenced(root)
     for defs in root.iter(f"{{{SVG}}}defs"):
         for brick in list(defs):
@@ -58,15 +92,16 @@ def _tidy(svg: str) -> str:
     return re.sub(r">\s*<g ", ">\n<g ", text).rstrip() + "\n"
 
 
-def draw(drawing: Any, name: str) -> bytes:
-    """The SVG of a WaveDrom drawing; ValueError begins with `name` when it is not a valid one."""
+def draw(drawing: dict[str, Any], name: str) -> bytes:
+    """The SVG of a WaveDrom drawing; ValueError begins with `name` when it is not a valid one or too wide."""
     try:
+        drawing = fitted(drawing)
         drawn = wavedrom.render(json.dumps(drawing))
+        if drawn is None:
+            raise ValueError("neither a signal nor a reg diagram")
+        return _tidy(drawn.tostring(), drawing).encode()
     except (ValueError, KeyError, IndexError) as error:
         raise ValueError(f"{name}: {error}") from error
-    if drawn is None:
-        raise ValueError(f"{name}: neither a signal nor a reg diagram")
-    return _tidy(drawn.tostring()).encode()
 
 
 def render(source: Path) -> bytes:

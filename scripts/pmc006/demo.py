@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from cocotb_tests.pmc006.story import BUILD
+from openppmc.capture.pmc006.words import Words006
 from scripts.demo.demos import Demo, View
 from scripts.demo.scenes import frame_text, rises
 from scripts.pmc006.picture import draw
-from scripts.pmc006.words import Words006
 
 _BRIDGES = ("bridge_a_en", "m10", "m11", "cmp_a", "bridge_b_en", "m20", "m21", "cmp_b")
 VIEW = View(

@@ -26,6 +26,12 @@ LOOKED = tuple(dict.fromkeys(name for pins in BRIDGES.values() for name in pins[
 By = Mapping[str, Mapping[str, Any]]
 
 
+CHOPPER = (
+    "m10, m11: half bridges, high = the supply\n"
+    "cmp_a high: the current (blue) has reached its reference (grey)"
+)
+
+
 class Motor:
     """Both windings on the bridges as they were recorded, up to edge `end`."""
 
@@ -176,6 +182,7 @@ def chopper(axes: Axes, motor: Motor, comparison: Any, begin: int) -> None:
     axes.set_yticks([round(low, 2), round(high, 2)])
     axes.set_xlabel("µs", fontsize=9, color=GREY, labelpad=1)
     heading(axes, "The chopper of phase A")
+    axes.text(1, -0.16, CHOPPER, transform=axes.transAxes, fontsize=8.5, color=GREY, ha="right", va="top")
 
 
 def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> None:
@@ -187,7 +194,7 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     plt.rcParams["font.family"] = "DejaVu Sans"
     figure = plt.figure(figsize=(16, 13), dpi=110, facecolor="white")
     rows = figure.add_gridspec(
-        3, 1, height_ratios=(3.6, 2.4, 2.8), hspace=0.34, left=0.055, right=0.945, top=0.92, bottom=0.045
+        3, 1, height_ratios=(3.6, 2.4, 2.8), hspace=0.34, left=0.055, right=0.945, top=0.92, bottom=0.07
     )
     overview(figure.add_subplot(rows[0]), steps, comparison, by_key, hz / 1000)
     keys = [f"move{micro}" for micro, _ in MOVES]
@@ -196,7 +203,16 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     currents(
         middle, motor, first["begin"], first["end"], f"Phase currents: {first['title']}", references=False
     )
-    middle.legend(loc="upper right", frameon=False, fontsize=9, labelcolor=INK, ncols=2)
+    # Above the curves, which fill their axes, in the line of the heading.
+    middle.legend(
+        loc="lower right",
+        bbox_to_anchor=(1, 0.98),
+        frameon=False,
+        fontsize=9,
+        labelcolor=INK,
+        ncols=2,
+        borderaxespad=0,
+    )
     middle.set_ylabel("A", fontsize=9, color=GREY)
     below = rows[2].subgridspec(1, 4, wspace=0.22)
     for place, (key, (micro, _)) in enumerate(zip(keys, MOVES, strict=True)):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from openppmc.capture.ppmc104.words import Words104
 from scripts.demo.demos import Demo, View
 from scripts.ppmc104.picture import picture
-from scripts.ppmc104.words import Words104
 
 VIEW = View(
     split={"s": ("s1", "s2", "s3", "s4", "s5")},

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from openppmc.capture.ppmc2104.words import Words2104
 from scripts.demo.demos import Demo, View
 from scripts.ppmc2104.picture import picture
-from scripts.ppmc2104.words import Words2104
 
 _PER_AXIS = (
     "pout_n",

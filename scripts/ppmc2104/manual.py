@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from scripts.pictures.manual import Manual
-from scripts.ppmc2104.plots import PLOTS
+from scripts.ppmc2104 import flow, plots
 from scripts.ppmc2104.tables import TABLES
 
-MANUAL = Manual(TABLES, PLOTS)
+MANUAL = Manual(TABLES, {**plots.PLOTS, **flow.PLOTS})

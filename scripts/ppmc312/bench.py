@@ -11,7 +11,19 @@ from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.model_bench import OnModel
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
-from scripts.pictures.recorded import Levels, Row, Samples, Schedule, clock, labels, record, wave
+from scripts.pictures.recorded import (
+    Levels,
+    Row,
+    Samples,
+    Schedule,
+    clock,
+    labels,
+    numbered,
+    record,
+    thinned,
+    wave,
+)
+from scripts.pictures.recorded import table as drawn
 
 Drawing = dict[str, Any]
 WIDE = {"hscale": 2}
@@ -114,10 +126,12 @@ def table(
     """A diagram whose columns are edges counted from `base`, a gap for None; rows with their letters."""
     at = [None if number is None else base + number for number in columns]
     samples = look(host, schedule, at)
-    words = [None if number is None else f"{number}" for number in columns]
+    shown = thinned(at, samples, [row for row, _ in rows])
+    samples = [None if edge is None else samples[at.index(edge)] for edge in shown]
+    words, foot = numbered([None if edge is None else edge - base for edge in shown])
     lines = [labels("clk edge", words)]
     lines += [wave(marked(row, samples, letters), samples) for row, letters in rows]
-    return {"signal": lines, "config": WIDE, "head": {"text": title}, "edge": list(arrows)}
+    return drawn(lines, title, foot, arrows)
 
 
 def cycle(

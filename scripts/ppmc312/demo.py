@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from openppmc.capture.ppmc312.words import Words312
 from scripts.demo.demos import Demo, View
 from scripts.demo.scenes import register_text, rises
 from scripts.ppmc312.picture import draw
-from scripts.ppmc312.words import Words312
 
 VIEW = View(
     split={"auxo_n": [f"auxo{n}_n" for n in range(6)], "auxi": [f"auxi{n}" for n in range(8)]},

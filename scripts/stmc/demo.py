@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.stimulus import steps
+from openppmc.capture.stmc.words import WordsStmc
 from scripts.demo.demos import Demo, View
 from scripts.stmc.picture import picture
-from scripts.stmc.words import WordsStmc
 
 _SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
 VIEW = View(

@@ -13,8 +13,10 @@ from scripts.pictures.recorded import (
     Schedule,
     clock,
     labels,
+    numbered,
     read_cycle,
     record,
+    table,
     wave,
     write_cycle,
 )
@@ -23,7 +25,6 @@ from scripts.stmc.bench import Bench, little
 Drawing = dict[str, Any]
 RAMP = (20, 5, 8)
 INIT, CHOPPED = 0x0A, 0x2A
-WIDE = {"hscale": 2}
 COMMAND_PORT = 0x3B1
 
 
@@ -81,10 +82,11 @@ def _table(
     """A diagram whose columns are edges counted from `base`, a gap for None."""
     at = [None if number is None else base + number for number in columns]
     samples = record(bench.chip, bench.chip.inputs, schedule, at)
+    foot = ""
     if words is None:
-        words = [None if number is None else f"{number}" for number in columns]
+        words, foot = numbered(columns)
     lines = [labels(what, words), *(wave(row, samples) for row in rows)]
-    return {"signal": lines, "config": WIDE, "head": {"text": title}, "edge": list(arrows)}
+    return table(lines, title, foot, arrows)
 
 
 def _cycle(bench: Bench, schedule: Schedule, first: int, count: int, groups: Any, texts: Any) -> Drawing:

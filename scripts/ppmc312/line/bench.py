@@ -25,6 +25,7 @@ from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.master import Master, at_once
 from cocotb_tests.ppmc312.line.models import ModelLine
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
+from scripts.bench import lines
 from scripts.flow.machine import machine
 from scripts.flow.report import markdown_table
 
@@ -113,4 +114,4 @@ def main() -> int:
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(heads, rows))
     console.print("written: docs/benchmarks.md")
-    return 0
+    return lines.main()

@@ -1,4 +1,4 @@
-"""VCD and saved views of the line: who speaks, and of each station its driver, pulses, position and speed."""
+"""VCD and saved views of the line: who speaks, and of each station its pins, position and speed."""
 
 from __future__ import annotations
 
@@ -8,12 +8,17 @@ from typing import Any
 from vcd import VCDWriter
 
 from cocotb_tests.harness.comparison import Comparison
+from cocotb_tests.ppmc312.line.models import straps
+from cocotb_tests.ppmc312.line.setting import LINE
+from openppmc.capture.common.vcd_file import core_comment
 from scripts.demo import waves
 from scripts.demo.demos import View
 from scripts.demo.scenes import pin
 from scripts.ppmc312.line.run import LineRun
 
 PINS = ("txd", "snd", "pout", "dir", "cd_n")
+STRAPS = {"adr": 4, "mod": 3}
+"""Of each station, with their bits."""
 MOVING = ("speed_pps", "position")
 
 
@@ -46,8 +51,10 @@ def write(run: LineRun, comparisons: list[Comparison], stem: Path) -> list[Path]
     recording = run.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
     period = round(1e12 / clk_hz)
+    first = {**LINE.inputs, **{change.pin: change.value for change in recording.stimulus if change.t == 0}}
+    comment = core_comment("ppmc312-serial", comparisons[0].recording.params)
     rows: list[tuple[int, Any, Any]] = []
-    with vcd.open("w") as file, VCDWriter(file, timescale="1 ps", date="") as writer:
+    with vcd.open("w") as file, VCDWriter(file, timescale="1 ps", date="", comment=comment) as writer:
         for name, changes in (
             ("master", pin(recording.stimulus, "master")),
             ("line", [(edge.t, edge.value) for edge in recording.edges if edge.signal == "line"]),
@@ -65,6 +72,12 @@ def write(run: LineRun, comparisons: list[Comparison], stem: Path) -> list[Path]
             for name in PINS:
                 var = writer.register_var(scope, name, "wire", size=1, init=comparison.initial[name])
                 rows += [(t, var, level) for t, level in comparison.actual[name]]
+            levels = straps(first, number)
+            heard = {change.pin for change in comparison.recording.stimulus} | {"rxd"}
+            for name in [*STRAPS, *sorted(heard)]:
+                size, level = STRAPS.get(name, 1), levels.get(name, 1)
+                var = writer.register_var(scope, name, "wire", size=size, init=level)
+                rows += [(t, var, now) for t, now in pin(comparison.recording.stimulus, name)]
             var = writer.register_var(scope, "speed_pps", "real", init=0.0)
             pulses = [t for t, level in comparison.actual["pout"] if level]
             rows += [(t, var, value) for t, value in waves.speed_changes(pulses, clk_hz)]

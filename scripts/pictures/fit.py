@@ -1,0 +1,178 @@
+"""Timing diagrams no wider than a page: narrower columns, or rows that are cut at the breaks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from fontTools.ttLib import TTFont
+
+COLUMN = 688
+"""px: the text of a page of the site in a window of 1220 px; in wider ones, and on GitHub, it is wider."""
+MOST = COLUMN * 11 // 10
+"""px of a drawing: its smallest text, 11 px, is shown with 10 px in that column."""
+STEPS = ({"hscale": 2}, {"hscale": 3, "skin": "narrow"}, {"hscale": 1}, {"hscale": 1, "skin": "narrow"})
+"""WaveDrom's settings for columns of 80, 60, 40 and 20 px."""
+WIDTHS = (80, 60, 40, 20)
+NAMES, GROUP, EDGE = 16, 33, 8
+"""px around the names of lines, of the name of a group, right of the lines and of a title."""
+TEXT = 13
+"""px of a text in a box."""
+FRAME = 9
+"""px that WaveDrom adds to the fields of a register."""
+TRIES = sorted(
+    ((rows, *step) for rows in range(1, 5) for step in zip(WIDTHS, STEPS, strict=True)),
+    key=lambda found: (found[0] + 1.5 * (found[1] < 40), -found[1]),
+)
+"""Rows and columns: few rows, wide columns; of less than 40 px rather than three rows."""
+
+Lane = dict[str, Any]
+
+
+def text_width(text: str) -> float:
+    """px of a text of 13 px in the widest of the fonts, DejaVu Sans."""
+    advance, names = _advances()
+    return sum(advance[names.get(ord(letter), ".notdef")] for letter in text) * TEXT
+
+
+@cache
+def _advances() -> tuple[dict[str, float], dict[int, str]]:
+    """em of each glyph, and the glyph of each code."""
+    font = TTFont(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
+    unit = font["head"].unitsPerEm
+    return {name: font["hmtx"][name][0] / unit for name in font.getGlyphOrder()}, font.getBestCmap()
+
+
+def lanes(signal: Sequence[Any]) -> Iterator[Lane]:
+    """The lines of a drawing, its groups opened."""
+    for entry in signal:
+        if isinstance(entry, list):
+            yield from lanes(entry[1:])
+        else:
+            yield entry
+
+
+def boxes(wave: str) -> list[tuple[int, int]]:
+    """First column of each box with a text, and the first behind it."""
+    starts = [n for n, brick in enumerate(wave) if brick in "=23456789"]
+    return [(n, next((m for m in range(n + 1, len(wave)) if wave[m] not in ".|"), len(wave))) for n in starts]
+
+
+def step_of(drawing: dict[str, Any]) -> int:
+    """px of a column."""
+    config = drawing.get("config", {})
+    return int((20 if config.get("skin") == "narrow" else 40) * config.get("hscale", 1))
+
+
+def _columns(lane: Lane) -> int:
+    """Columns of a line; half a clk earlier it has one more brick."""
+    return len(lane.get("wave", "")) - bool(lane.get("phase"))
+
+
+def _depth(signal: Sequence[Any]) -> int:
+    return max((1 + _depth(entry[1:]) if isinstance(entry, list) else 0 for entry in signal), default=0)
+
+
+def names(drawing: dict[str, Any]) -> float:
+    """px of the names of lines and groups."""
+    longest = max(text_width(lane.get("name", "")) for lane in lanes(drawing["signal"]))
+    return NAMES + math.ceil(longest) + GROUP * _depth(drawing["signal"])
+
+
+def width(drawing: dict[str, Any], step: int) -> float:
+    """px of a drawing with columns of so many px."""
+    half = any(lane.get("phase") for lane in lanes(drawing["signal"])) / 2
+    return names(drawing) + EDGE + step * (max(map(_columns, lanes(drawing["signal"]))) + half)
+
+
+def readable(drawing: dict[str, Any], step: int) -> bool:
+    """Whether all texts fit into their boxes, and the numbers of edges above their columns."""
+    tick = drawing.get("head", {}).get("tick")
+    every = list(lanes(drawing["signal"]))
+    if tick is not None and text_width(str(max(map(_columns, every)) + tick)) > step:
+        return False
+    return all(
+        text_width(text.strip()) <= step * (end - first) - 4
+        for lane in every
+        for text, (first, end) in zip(lane.get("data", ()), boxes(lane.get("wave", "")), strict=False)
+    )
+
+
+def _cut(lane: Lane, first: int, end: int) -> Lane:
+    """Columns of a line; it begins with the level that it has there."""
+    if "wave" not in lane:
+        return {**lane, "node": lane["node"][first:end]} if "node" in lane else lane
+    wave, tail = lane["wave"], "." if lane.get("phase") else ""
+    texts = dict(zip((at for at, _ in boxes(wave)), lane.get("data", ()), strict=False))
+    at = next(n for n in range(first, -1, -1) if wave[n] not in ".|")
+    piece = wave[at] + wave[first + 1 : end] + tail
+    found = {**lane, "wave": piece, "data": [texts[n] for n in (at, *range(first + 1, end)) if n in texts]}
+    if "node" in lane:
+        found["node"] = lane["node"][first:end]
+    return {key: value for key, value in found.items() if value or key == "name"}
+
+
+def _part(signal: Sequence[Any], first: int, end: int) -> list[Any]:
+    return [
+        [entry[0], *_part(entry[1:], first, end)] if isinstance(entry, list) else _cut(entry, first, end)
+        for entry in signal
+    ]
+
+
+def wrapped(drawing: dict[str, Any], cuts: Sequence[int]) -> dict[str, Any] | None:
+    """The drawing in rows that begin at these columns; None if an arrow leads from one row to another."""
+    count = max(map(_columns, lanes(drawing["signal"])))
+    rows = [_part(drawing["signal"], a, b) for a, b in zip((0, *cuts), (*cuts, count), strict=True)]
+    for arrow in drawing.get("edge", ()):
+        ends = {arrow.split()[0][0], arrow.split()[0][-1]}
+        held = [ends & {c for lane in lanes(row) for c in lane.get("node", "")} for row in rows]
+        if ends not in held:
+            return None
+    signal = rows[0]
+    for row in rows[1:]:
+        signal += [{}, *row]
+    return {**drawing, "signal": signal}
+
+
+def _breaks(drawing: dict[str, Any]) -> list[int]:
+    """Columns behind which all lines are broken."""
+    waves = [lane["wave"] for lane in lanes(drawing["signal"]) if "wave" in lane]
+    shortest = min(map(len, waves))
+    return [n + 1 for n in range(shortest - 1) if all(wave[n] == "|" for wave in waves)]
+
+
+def _rows(drawing: dict[str, Any], step: int, count: int) -> dict[str, Any] | None:
+    """The drawing in so many rows of the same length or nearly so; None if none of them would fit."""
+    if count == 1:
+        return drawing if width(drawing, step) <= MOST else None
+
+    def choose(before: tuple[int, ...], left: int) -> Iterator[tuple[int, ...]]:
+        if not left:
+            yield before
+            return
+        for at in found:
+            if not before or at > before[-1]:
+                yield from choose((*before, at), left - 1)
+
+    found = _breaks(drawing)
+    made = [wrapped(drawing, cuts) for cuts in choose((), count - 1)]
+    fitting = [one for one in made if one and width(one, step) <= MOST]
+    return min(fitting, key=lambda one: width(one, step), default=None)
+
+
+def fitted(drawing: dict[str, Any]) -> dict[str, Any]:
+    """A drawing no wider than MOST; ValueError when there is no way."""
+    drawing = deepcopy(drawing)
+    config = drawing.setdefault("config", {})
+    if "signal" not in drawing:
+        return {**drawing, "config": config | {"hspace": MOST - FRAME}}
+    most = step_of(drawing)
+    for rows, step, settings in TRIES:
+        if step <= most and readable(drawing, step) and (found := _rows(drawing, step, rows)):
+            return {**found, "config": config | settings}
+    raise ValueError(f"wider than {MOST} px, and cannot be cut")
