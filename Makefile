@@ -17,7 +17,7 @@ WITH_bitstream := --any carrier line
 WITH_flash := --any carrier line
 WITH_trace := --folders
 SPECIAL := $(firstword $(foreach goal,$(MAKECMDGOALS),$(if $(WITH_$(goal)),$(goal))))
-PARTS := $(call names,$(or $(WITH_$(SPECIAL)),--tops))
+PARTS := $(call names,$(or $(WITH_$(SPECIAL)),--tops))$(if $(filter soak,$(SPECIAL)), all)
 PART  ?= ppmc104
 # What a target that can do all parts works on: PART if it is given.
 GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
@@ -30,21 +30,37 @@ J     ?= 2
 # --- variables that may be set on the command line, per target -----------------------------------------------------
 GOALS := $(or $(MAKECMDGOALS),help)
 VARS_test  := T SEED CLK_HZ J WAVES INSIDE MODEL SIM_MAIN
-VARS_soak  := SEED COUNT J PART SIM_MAIN
+CAMPAIGN := J SCHEDULER FRESH# variables of every campaign
+VARS_soak  := SEED COUNT PART SIM_MAIN $(CAMPAIGN)
+VARS_fuzz  := SEED COUNT $(CAMPAIGN)
+VARS_coverage := T $(CAMPAIGN)
+VARS_mutate := T COUNT QUICK $(CAMPAIGN)
+VARS_nightly := COUNT SEED $(CAMPAIGN)
+VARS_worker := SCHEDULER J
+VARS_test-campaign := T
 VARS_replay := FILE
+VARS_lint  := VERILATOR
 VARS_synth := PART
 VARS_trace := PART
 VARS_bench := PART
 VARS_report := PART
 VARS_size  := PART
+VARS_recipes := PART
 VARS_yardsticks := PEERS
-VARS_test-gates := T SEED J SIM_MAIN
+VARS_test-gates := T SEED SIM_MAIN $(CAMPAIGN)
+VARS_verilog := TOP PARAMS
+VARS_test-verilog := T SEED SIM $(CAMPAIGN)
 VARS_test-board := T J
+VARS_test-web := T J
+VARS_test-lab := T J
+VARS_prove := T J BREAK
+VARS_prove-night := J
 VARS_board := SIM PART
-TOP_VARS := XTAL_HZ TIMING PHASE_IDLE PHASE_ON READ_MAP BAUD# parameters of a board's top
+TOP_VARS := XTAL_HZ TIMING PHASE_IDLE PHASE_ON READ_MAP BAUD RECORD# parameters of a board's top
 VARS_bitstream := BOARD HOST PART SEED $(TOP_VARS)
 VARS_flash := BOARD HOST PART
 VARS_demo  := PART
+VARS_release := SKIP ONLY
 GIVEN_TOP := $(foreach v,$(TOP_VARS),$(if $(findstring command line,$(origin $v)),$v))
 SETTABLE := PYTHON $(foreach goal,$(GOALS),$(VARS_$(goal)))
 GIVEN    := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)),$v))
@@ -55,8 +71,13 @@ $(error $(firstword $(UNKNOWN)): `make $(firstword $(GOALS))' has no such variab
 endif
 
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
-NEED_ENV := setup demo test soak replay lint format synth bench trace docs report size yardsticks test-gates board test-board bitstream packages boards rom
-CHECKED  := $(foreach v,T PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
+TARGETS  := help setup demo waves test test-board test-gates test-campaign test-web test-lab replay
+TARGETS  += prove prove-night coverage mutate soak fuzz nightly scheduler worker
+TARGETS  += verilog test-verilog
+TARGETS  += lint format trace docs site packages boards rom board bitstream flash
+TARGETS  += synth report size recipes yardsticks bench release clean distclean
+NEED_ENV := $(filter-out help waves flash clean distclean,$(TARGETS))
+CHECKED  := $(foreach v,T BREAK PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN SCHEDULER FRESH QUICK $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))
@@ -66,6 +87,12 @@ VENV   := .venv
 PY     := $(VENV)/bin/python
 ENVSIM := $(VENV)/.requirements-sim
 ENVDEV := $(VENV)/.requirements-dev
+ENVCAMP := $(VENV)/.requirements-campaign
+ENVSITE := $(VENV)/.requirements-site
+ENVREL  := $(VENV)/.requirements-release
+ENVLAB  := $(VENV)/.requirements-lab
+# How a campaign gets its workers, and whether it takes over earlier results.
+ON = -n $(J) $(if $(SCHEDULER),--scheduler $(call quote,$(SCHEDULER))) $(if $(filter 1,$(FRESH)),--fresh)
 PYTEST := $(PY) -m pytest
 
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
@@ -74,18 +101,17 @@ unexport VERILATOR_ROOT
 export PYTHONPYCACHEPREFIX := $(CURDIR)/build/pycache
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup demo test test-gates test-board soak replay lint format synth report size yardsticks bench trace waves docs board \
-        bitstream flash packages boards rom clean distclean
+.PHONY: $(TARGETS)
 .DEFAULT_GOAL := help
 
 help: ## this list
 	@echo 'OpenPPMC: make TARGET [VARIABLE=VALUE]'
 	@echo
-	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "  %-11s %s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "  %-13s %s\n", $$1, $$2 }'
 	@echo
 	@echo '  PYTHON=… names the Python (3.10 or newer) to make the environment with. Parts: $(strip $(PARTS)). Boards: $(BOARDS)'
 
-setup: $(ENVDEV) ## make the whole environment in .venv (other targets do it when they need it)
+setup: $(ENVDEV) $(ENVCAMP) ## make the whole environment in .venv (other targets do it when they need it)
 
 demo: $(ENVSIM) ## PART=ppmc104 through a move: what was sent, what came back, plot and waveforms in build/demo/
 	@$(PY) -m scripts.demo --part $(PART)
@@ -95,14 +121,37 @@ test: $(ENVSIM) ## all tests; T=name picks some, SEED=n another random seed, CLK
 	  $(if $(filter 1,$(WAVES)),--waves) $(if $(filter 1,$(INSIDE)),--inside) $(if $(filter 1,$(MODEL)),--model) \
 	  || { code=$$?; [ $$code != 5 ] || echo 'error: no test matches' $(call quote,$(strip $(if $(T),T=$(T)) $(if $(CLK_HZ),CLK_HZ=$(CLK_HZ)))) >&2; exit $$code; }
 
-soak: $(ENVSIM) ## COUNT=n random hosts from SEED=n on against the golden model
-	@$(PY) -m scripts.soak $(PART) --seed $(or $(SEED),1) --count $(or $(COUNT),1000)
+soak: $(ENVCAMP) ## COUNT=n random hosts from SEED=n on against the golden model, PART=all of each part; goes on where it was interrupted
+	@$(PY) -m scripts.soak $(PART) --seed $(or $(SEED),1) --count $(or $(COUNT),1000) $(ON)
+
+fuzz: $(ENVCAMP) ## COUNT=n characters from SEED=n on, good frames and bad ones, into each deframer of the RTL and of its golden model
+	@$(PY) -m scripts.fuzz $(if $(SEED),--seed $(SEED)) $(if $(COUNT),--count $(COUNT)) $(ON)
+
+scheduler: $(ENVCAMP) ## where workers of other machines meet, on port 8786; campaigns take it with SCHEDULER=tcp://host:8786
+	@$(PY) -m scripts.campaign scheduler
+
+worker: $(ENVCAMP) ## J=n workers of this checkout for SCHEDULER=tcp://host:port
+	@$(PY) -m scripts.campaign worker --scheduler $(call quote,$(SCHEDULER)) -n $(J)
+
+coverage: $(ENVCAMP) ## docs/coverage.md: lines, branches, toggles of the RTL and crosses of the sheets that `make test` reaches; T=name a sample, into build/
+	@$(PY) -m scripts.coverage $(ON) $(if $(T),-k $(call quote,$(T)))
+
+mutate: $(ENVCAMP) ## docs/mutants.md: small faults of the RTL and whether a test fails; T=folder or file, COUNT=n of each folder; QUICK=1 first tests alone
+	@$(PY) -m scripts.mutants.made $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(COUNT),--count $(COUNT)) $(if $(filter 1,$(QUICK)),--quick)
+
+nightly: $(ENVDEV) $(ENVCAMP) ## what takes hours: COUNT=n hosts of each part from SEED=n on, coverage, mutants, all netlists, proofs; goes on where it was interrupted
+	@code=0; for work in 'fuzz --count 100000000' 'soak all --seed $(or $(SEED),1000000) --count $(or $(COUNT),2000)' coverage mutants.made gates; do \
+	   echo "== nightly: $$work"; $(PY) -m scripts.$$work $(ON) || code=1; done; \
+	 echo '== nightly: proofs'; $(PY) -m scripts.prove --night -n $(J) || code=1; exit $$code
+
+test-campaign: $(ENVCAMP) ## the runner of campaigns: lost workers, interruption, going on
+	@$(PYTEST) tests/*/campaign $(if $(T),-k $(call any,$(T)))
 
 replay: $(ENVSIM) ## FILE=build/failures/…/recording.json on RTL and golden model: what a failing random test has left, long or short
 	@$(PY) -m scripts.replay $(call quote,$(FILE))
 
-lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang, ruff, import contracts and mypy; no warning passes
-	@$(PY) -m scripts.lint
+lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang, ruff, import contracts and mypy; no warning passes; VERILATOR=program instead: what we hand out, with that Verilator
+	@$(PY) -m $(if $(VERILATOR),scripts.packages --try --verilator $(call quote,$(VERILATOR)),scripts.lint)
 
 format: $(ENVDEV) ## lay out RTL and Python as `make lint` wants them
 	@$(PY) -m scripts.lint --fix
@@ -110,22 +159,43 @@ format: $(ENVDEV) ## lay out RTL and Python as `make lint` wants them
 synth: $(ENVDEV) ## cells and clock rate of PART=ppmc104 on iCE40 and ECP5, into docs/benchmarks.md
 	@$(PY) -m scripts.synth --part $(PART)
 
-bench: $(ENVSIM) ## speed of RTL, golden model and virtual board on this machine, into docs/benchmarks.md
+bench: $(ENVSIM) ## speed of the RTL under cocotb and alone, golden model, virtual board and commands, as ratios of one run, into docs/benchmarks.md
 	@$(PY) -m scripts.bench --part $(PART)
-	@$(PY) -m scripts.bench_board
 
 trace: $(ENVSIM) ## docs/<part>/traceability.md: each rule with its tests, from the last test run; fails on a gap
 	@[ -d build/trace ] || $(PYTEST) -n $(J)
 	@for part in $(or $(GIVEN_PART),$(call names,--folders)); do $(PY) -m scripts.trace $$part || exit 1; done
 
-test-gates: $(ENVDEV) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
-	@$(PY) -m scripts.gates -n $(J) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
+test-gates: $(ENVDEV) $(ENVCAMP) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
+	@$(PY) -m scripts.gates $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
 
-board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top (ppmc312-serial, pmc006: golden models), motor, switches; SIM='cw=20000,…'
+verilog: $(ENVDEV) ## each part and bridge as one file of plain Verilog-2005 in build/verilog/; TOP=ppmc104 PARAMS=CLK_HZ=50000000,… one with other parameters
+	@$(PY) -m scripts.verilog $(if $(TOP),--top $(call quote,$(TOP))) $(if $(PARAMS),--params $(call quote,$(PARAMS)))
+
+test-verilog: $(ENVDEV) $(ENVCAMP) ## the part tests on that Verilog; T=quick for the sample that CI runs; SIM=icarus in four states, without X at an output
+	@$(if $(SIM),SIM_MAIN=$(call quote,$(SIM))) $(PY) -m scripts.gates --plain $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
+
+prove: $(ENVDEV) ## prove properties of the RTL blocks (docs/proofs.md); T=name picks some, BREAK=1 breaks the RTL of each, which must be found
+	@$(PY) -m scripts.prove -n $(J) $(if $(filter 1,$(BREAK)),--break) $(if $(T),$(call quote,$(T)))
+
+prove-night: $(ENVDEV) ## all proofs, also those that take long, with whole and with broken RTL
+	@$(PY) -m scripts.prove --night -n $(J) && $(PY) -m scripts.prove --night --break -n $(J)
+
+board: $(ENVSIM) ## a virtual board on a pseudo-terminal: Verilated board top, or a line of stations (ppmc312-serial, pmc006), motor, switches; SIM='cw=20000,…'
 	@$(PY) -m openppmc.sim $(addprefix part=,$(GIVEN_PART)) $(if $(SIM),$(call quote,$(SIM)))
 
 test-board: $(ENVSIM) ## the host package on the virtual board, through pyserial, unplugging included
 	@$(PYTEST) tests/*/board -n $(J) $(if $(T),-k $(call any,$(T)))
+
+site: $(ENVSITE) ## all documents and the playground (the RTL in the browser) as build/site/html; needs Node.js
+	@$(PY) -m scripts.site
+
+test-web: $(ENVSITE) ## the playground: modules against the golden models, its engine under node, the page in Chromium if one can be had
+	@rm -f build/site/figures.txt
+	@$(PYTEST) tests/*/web -n $(J) $(if $(T),-k $(call any,$(T))); code=$$?; cat build/site/figures.txt 2>/dev/null; exit $$code
+
+test-lab: $(ENVLAB) ## openppmc.ophyd: bluesky scans, limits, stops, an unplugged port on the golden models
+	@$(PYTEST) tests/*/lab -n $(J) $(if $(T),-k $(call any,$(T)))
 
 report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each, into docs/benchmarks.md and docs/sizes.json
 	@$(PY) -m scripts.report $(addprefix --part ,$(GIVEN_PART))
@@ -133,12 +203,18 @@ report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
 	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
 
+recipes: $(ENVDEV) ## every part with both recipes, COMB, FF, RAM, clock rate of five seeds, into docs/recipes.json and docs/benchmarks.md
+	@$(PY) -m scripts.recipes $(addprefix --part ,$(GIVEN_PART))
+
 yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose sources and peers.json lie in PEERS=folder, into docs/benchmarks.md
 	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
 
 bitstream: $(ENVDEV) ## bitstream of BOARD=… (docs/boards.md: which carries which part) with PART=… and HOST=uart, bus or spi, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \
 	  $(foreach v,$(GIVEN_TOP),-G $v=$($v))
+
+release: $(ENVDEV) $(ENVSITE) $(ENVREL) ## everything of this version into dist/, the same bytes from the same commit; trials: SKIP=bitstreams,site ONLY=icebreaker,ulx3s-25f-stmc
+	@$(PY) -m scripts.release $(if $(SKIP),--skip $(call quote,$(SKIP))) $(if $(ONLY),--only $(call quote,$(ONLY)))
 
 flash: ## load that bitstream into the board with openFPGALoader
 	@$(PY) -m scripts.flash $(BOARD) --host $(HOST) --part $(PART)
@@ -163,12 +239,24 @@ clean: ## remove what was built, keep the environment
 	@find . -path ./$(VENV) -prune -o -name __pycache__ -type d -print | xargs rm -rf
 
 distclean: clean ## remove the environment as well
-	@rm -rf $(VENV)
+	@rm -rf $(VENV) site/node_modules site/browser/node_modules
 
 $(ENVSIM): requirements-sim.txt scripts/bootstrap.py
 	@$(call bootstrap,$(notdir $<))
 
 $(ENVDEV): requirements-dev.txt $(ENVSIM)
+	@$(call bootstrap,$(notdir $<))
+
+$(ENVCAMP): requirements-campaign.txt $(ENVSIM)
+	@$(call bootstrap,$(notdir $<))
+
+$(ENVLAB): requirements-lab.txt $(ENVSIM)
+	@$(call bootstrap,$(notdir $<))
+
+$(ENVSITE): requirements-site.txt $(ENVSIM)
+	@$(call bootstrap,$(notdir $<))
+
+$(ENVREL): requirements-release.txt $(ENVSIM)
 	@$(call bootstrap,$(notdir $<))
 
 bootstrap = python=$(PY); [ -x "$$python" ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); "$$python" scripts/bootstrap.py $1
