@@ -1,40 +1,19 @@
-"""`make verilog [TOP=…] [PARAMS=…]`: parts and bridges as plain Verilog-2005, in build/verilog/.
+"""`make verilog [TOP=…] [PARAMS=…]`: parts, bridges and boards as plain Verilog-2005, in build/verilog/.
 
-Each file is read by yosys' `read_verilog` and by Verilator before it is there.
+Each file is read by yosys' `read_verilog` and by Verilator before it is there. Without TOP the boards go into
+a folder of their own with a FuseSoC core that builds them (D-89).
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Mapping
-from pathlib import Path
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console
-from scripts.flow import gates, plain
-from scripts.flow.plain_check import check
-
-FOLDER = project.BUILD / "verilog"
-
-
-def write(top: str, folder: Path, params: Mapping[str, plain.Value] | None = None) -> Path:
-    """The file of a top module, into a folder; ProjectError if there is no such top or a tool refuses it."""
-    known = plain.tops()
-    if top not in known:
-        raise ProjectError(f"TOP={top}: no such part or bridge (known: {', '.join(known)})")
-    sources = project.files(known[top][0])
-    values = plain.given(top, sources, params or {})
-    made = gates.netlist(plain.FAMILY, top, sources, values) / "netlist.v"
-    folder.mkdir(parents=True, exist_ok=True)
-    path, new = folder / f"{top}.v", folder / f".{top}.v"
-    new.write_bytes(made.read_bytes())
-    try:
-        check(new, top)
-        new.replace(path)
-    finally:
-        new.unlink(missing_ok=True)
-    return path
+from scripts.flow import plain
+from scripts.flow.plain_file import FOLDER, write
+from scripts.packages.plain_boards import write_library
 
 
 def parameters(text: str) -> dict[str, plain.Value]:
@@ -55,7 +34,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m scripts.verilog", description=(__doc__ or "").split("\n")[0]
     )
-    parser.add_argument("--top", help="one top module; without it all parts and bridges")
+    parser.add_argument("--top", help="one top module; without it all parts, bridges and boards")
     parser.add_argument("--params", default="", help="NAME=VALUE of its parameters, with commas between")
     args = parser.parse_args()
     params = parameters(args.params)
@@ -65,6 +44,8 @@ def main() -> int:
         path = write(top, FOLDER, params)
         lines = len(path.read_text(encoding="utf-8").splitlines())
         console.print(f"[green]ok[/]   {project.relative(path)}, {lines} lines")
+    if not args.top:
+        console.print(f"[green]ok[/]   {project.relative(write_library())} and its boards")
     return 0
 
 

@@ -16,7 +16,7 @@ from openppmc import parts as table
 from openppmc import sources as sources_of
 
 from . import board_route
-from .board_table import BOARDS, BY_PART, HOSTS, HOSTS_OF, Board, board, check_host, part_of
+from .board_table import BOARDS, BY_PART, HOSTS, HOSTS_OF, PART_OF, Board, board, check_host, part_of
 from .synthesis import run_yosys
 from .yosys_job import BEST
 
@@ -24,7 +24,8 @@ SEEDS = 5  # tried one after the other until the clock rate is met
 VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
 CONSTRAINTS = project.ROOT / "constraints"
 
-__all__ = ["BOARDS", "BY_PART", "HOSTS", "HOSTS_OF", "Board", "board", "build_board", "check_host", "part_of"]
+__all__ = ["BOARDS", "BY_PART", "HOSTS", "HOSTS_OF", "PART_OF", "Board", "board", "build_board"]
+__all__ += ["check_host", "part_of"]
 
 
 def sources(top: str) -> list[Path]:

@@ -117,7 +117,7 @@ def netlist(
             job["verilog"] = project.relative(folder / "netlist.v")
             made = run_yosys(folder, job)
             if family == plain.FAMILY:
-                plain.finish(folder / "netlist.v", top, sources, job["params"])
+                plain.finish(folder / "netlist.v", made, top, sources, job["params"])
             ports = list(json.loads(made.read_text())["modules"][top]["ports"])
             done.write_text(control_file(top, [*ports, *inside], family))
         done.touch()

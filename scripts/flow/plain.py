@@ -6,8 +6,11 @@ yosys' `read_slang` elaborates the sources under given parameters and writes its
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.header import Parameter, parameters
@@ -78,11 +81,39 @@ def header(top: str, about: str, sources: Sequence[Path], params: Mapping[str, V
     return "\n".join(f"// {row}".rstrip() for row in rows) + "\n"
 
 
-def finish(path: Path, top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> None:
-    """Make yosys' file of a top readable, with its header, in place."""
+def vendor_attributes(modules: Mapping[str, Any]) -> dict[str, dict[str, str]]:
+    """Type of a vendor's cell -> its attributes, which are part of what it does; of yosys' JSON netlist.
+
+    ProjectError if two cells of a type differ in them.
+    """
+    found: dict[str, dict[str, str]] = {}
+    cells = [cell for module in modules.values() for cell in module["cells"].values()]
+    for cell in cells:
+        # Theirs are in capitals, yosys' own are not. A text that looks like bits has a space behind it.
+        own = {
+            name: re.sub(r"^([01xz]*) ", r"\1", value)
+            for name, value in cell["attributes"].items()
+            if name.isupper()
+        }
+        if found.setdefault(cell["type"], own) != own:
+            raise ProjectError(f"{cell['type']}: two of them with different attributes")
+    return {kind: own for kind, own in found.items() if own}
+
+
+def with_attributes(text: str, attributes: Mapping[str, Mapping[str, str]]) -> str:
+    """Verilog with these attributes before the instances of those types."""
+    for kind, own in attributes.items():
+        rows = ", ".join(f'{name} = "{value}"' for name, value in own.items())
+        text = re.sub(rf"^(?=  {kind} )", lambda _, rows=rows: f"  (* {rows} *)\n", text, flags=re.M)
+    return text
+
+
+def finish(path: Path, netlist: Path, top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> None:
+    """Make yosys' file of a top readable, with its header, in place; netlist: the same as yosys' JSON."""
     texts = {source.stem: source.read_text(encoding="utf-8") for source in sources}
     about = {name: what for name, (_, what) in tops().items()}.get(top, "")
-    text = readable(path.read_text(encoding="utf-8"), top, texts)
+    attributes = vendor_attributes(json.loads(netlist.read_text())["modules"])
+    text = with_attributes(readable(path.read_text(encoding="utf-8"), top, texts), attributes)
     path.write_text(
         f"{header(top, about, sources, params)}\n`default_nettype none\n\n{text}\n`default_nettype wire\n"
     )

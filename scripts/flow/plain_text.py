@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 WIDTH = 110  # of a line, and of an expression that numbered wires are put into
 _MODULE = re.compile(r"^module (\\\S+|\w+) ?\((.*?)\);\n(.*?)^endmodule$", re.S | re.M)
 _DECLARED = re.compile(
-    r"^  (?P<kind>input|output|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
+    r"^  (?P<kind>input|output|inout|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
 )
 _ESCAPED = re.compile(r"\\(\S+) ")
 _NUMBERED = re.compile(r"\b_\d+_\b")

@@ -11,7 +11,7 @@ NOTES = "RELEASE_NOTES.md"
 SUMS = "SHA256SUMS"
 WHAT = (
     ("-py3-none-any.whl", "Python package: `pip install` this file"),
-    ("-verilog-", "each part and bridge as one file of plain Verilog-2005, with default parameters"),
+    ("-verilog-", "each part, bridge and board as one file of plain Verilog-2005, with default parameters"),
     ("-rtl-", "SystemVerilog with FuseSoC cores, Bender manifest, lists for vendor tools, C drivers"),
     ("-bitstreams-", "bitstreams of the boards, each with its report"),
     ("-site-", "all documents and the playground, to be opened as files"),

@@ -1,4 +1,4 @@
-"""Plain Verilog of each part and bridge, as `make verilog` writes it, in one archive."""
+"""Plain Verilog as `make verilog` writes it, the library of the boards included, in one archive."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT
 from scripts.flow import plain
-from scripts.verilog import write
+from scripts.flow.plain_file import write
+from scripts.packages.plain_boards import write_library
 
-from .archive import zipped
+from .archive import files_below, zipped
 from .state import Release
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
     """The archive into `out`."""
     files = {f"{top}.v": write(top, scratch / "verilog") for top in plain.tops()}
+    boards = write_library(folder=scratch / "boards").parent
+    files |= {f"boards/{name}": path for name, path in files_below(boards).items()}
     zipped(out / release.name("verilog", ".zip"), {**files, "LICENSE": ROOT / "LICENSE"}, release.epoch)

@@ -85,7 +85,7 @@ def test_header():
 
 def test_bad_input():
     """Given a top or parameter that there is not, or a value of another kind, then one line says so."""
-    with pytest.raises(ProjectError, match="TOP=nosuch: no such part or bridge .known: ppmc104, "):
+    with pytest.raises(ProjectError, match="TOP=nosuch: no such part, bridge or board .known: ppmc104, "):
         verilog.write("nosuch", verilog.FOLDER)
     with pytest.raises(ProjectError, match="NOSUCH: ppmc104 has no such parameter"):
         verilog.write("ppmc104", verilog.FOLDER, {"NOSUCH": 1})

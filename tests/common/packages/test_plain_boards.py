@@ -1,0 +1,144 @@
+"""Boards in plain Verilog for FuseSoC: what edalize is told, and what takes the place of its tools."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import BUILD, ProjectError
+from scripts.flow.board_table import BOARDS
+from scripts.flow.plain import vendor_attributes, with_attributes
+from scripts.packages import plain_boards
+
+LAUNCHER = ROOT / "scripts" / "flow" / "launcher.py"
+TYPES = {".pcf": "PCF", ".lpf": "LPF", ".cst": "CST", ".sdc": "SDC"}
+MODULE = "module m (input a, output b);\n  assign b = ~a;\nendmodule\n"
+
+
+def launched(*words: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    """The launcher as edalize's makefile starts it."""
+    command = [sys.executable, str(LAUNCHER), *words]
+    return subprocess.run(command, cwd=folder, text=True, capture_output=True, check=False, timeout=300)
+
+
+def test_core_has_the_board_tables_options():
+    """Given all boards with a PPMC-104, then each has a target with its top, pins, flow and device."""
+    core = yaml.safe_load(plain_boards.core(BOARDS))
+    assert list(core["targets"]) == list(BOARDS) and "icebreaker" in BOARDS
+    flows = {"ice40": "icestorm", "ecp5": "trellis", "gowin": "apicula"}
+    for name, target in core["targets"].items():
+        on = BOARDS[name]
+        assert (target["toplevel"], target["flow"]) == (on.top["uart"], flows[on.family])
+        words = [*target["flow_options"]["nextpnr_options"], target["flow_options"].get("device")]
+        assert on.family == "gowin" or words[:-1] == list(on.route)
+        assert on.family != "gowin" or words[-1] == on.route[1] and f"{on.clk_hz / 1e6:g}" in words
+        listed = core["filesets"][target["filesets"][0]]["files"]
+        files = {path: said["file_type"] for entry in listed for path, said in entry.items()}
+        assert files.pop(f"{target['toplevel']}.v") == "verilogSource-2005"
+        assert {Path(path).suffix: kind for path, kind in files.items()}.items() <= TYPES.items()
+        assert files and all((ROOT / "constraints" / path).is_file() for path in files)
+
+
+def test_library():
+    """Given one board, then its folder holds core, Verilog and pins, and nothing names this machine."""
+    folder = BUILD / "test" / "plain_boards"
+    made = plain_boards.write_library(["ulx3s-25f"], folder)
+    names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+    assert names == ["board_ulx3s_ppmc104.v", made.name, "ulx3s/ppmc104/pins.lpf"]
+    verilog = (folder / "board_ulx3s_ppmc104.v").read_text(encoding="utf-8")
+    # The loop of the PLL is in its attributes; without them it would be another.
+    assert '(* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8", ' in verilog
+    assert 'MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)\n  EHXPLLL #(\n' in verilog
+    assert "    inout  wire [7:0] d,\n" in verilog and str(ROOT) not in verilog
+
+
+def test_unknown_board():
+    """Given a board without a PPMC-104, then one line has those with one, and nothing is written."""
+    with pytest.raises(ProjectError, match="^BOARD=tangnano20k: no FuseSoC target .there are icebreaker, "):
+        plain_boards.write_library(["tangnano20k"], BUILD / "test" / "nowhere")
+    assert not (BUILD / "test" / "nowhere").exists()
+
+
+def test_verdict(tmp_path, monkeypatch):
+    """Given what FuseSoC leaves, then a missed or a wrong clock is no success, nor is an empty file."""
+    monkeypatch.setattr(plain_boards, "relative", str)
+    line = "Info: Max frequency for clock 'clk': {} MHz ({} at {} MHz)\n"
+    log, bitstream = tmp_path / "next.log", tmp_path / "x.bin"
+
+    def judged(reached: str, verdict: str, asked: str) -> plain_boards.Built:
+        log.write_text(line.format("20.00", "FAIL", asked) + line.format(reached, verdict, asked))
+        return plain_boards.judged("icebreaker", tmp_path)
+
+    with pytest.raises(ProjectError, match="no bitstream in "):
+        judged("27.74", "PASS", "24.00")
+    bitstream.write_bytes(b"")
+    with pytest.raises(ProjectError, match="no bitstream in "):
+        judged("27.74", "PASS", "24.00")
+    bitstream.write_bytes(b"\xff")
+    assert judged("27.74", "PASS", "24.00") == plain_boards.Built(bitstream, 27.74, 24.0)
+    with pytest.raises(ProjectError, match="23.00 MHz, FAIL at 24.00 MHz; clk is 24 MHz"):
+        judged("23.00", "FAIL", "24.00")
+    with pytest.raises(ProjectError, match="PASS at 12.00 MHz; clk is 24 MHz"):
+        judged("27.74", "PASS", "12.00")
+
+
+def test_attributes_of_vendors_cells():
+    """Given attributes in capitals, then they stand before their instances, as texts; others do not."""
+    own = {"ICP_CURRENT": "12", "MFG_ENABLE_FILTEROPAMP": "1 ", "src": "a.sv:1.2"}
+    cells = {"u_pll": {"type": "PLL", "attributes": own}, "u_x": {"type": "x", "attributes": {"src": "b"}}}
+    found = vendor_attributes({"top": {"cells": cells}})
+    assert found == {"PLL": {"ICP_CURRENT": "12", "MFG_ENABLE_FILTEROPAMP": "1"}}
+    text = with_attributes("  PLL #(\n  ) u_pll (\n  PLLS u_no (\n", found)
+    assert text.splitlines()[0] == '  (* ICP_CURRENT = "12", MFG_ENABLE_FILTEROPAMP = "1" *)'
+    assert text.count("(*") == 1
+    cells["u_b"] = {"type": "PLL", "attributes": {"ICP_CURRENT": "13"}}
+    with pytest.raises(ProjectError, match="PLL: two of them with different attributes"):
+        vendor_attributes({"top": {"cells": cells}})
+
+
+def test_yosys_does_what_tcl_says(tmp_path):
+    """Given a script as edalize writes it, then yosys carries it out; its words are in the log alone."""
+    (tmp_path / "m.v").write_text(MODULE)
+    (tmp_path / "procs.tcl").write_text("proc read_files {} {\nread_verilog {m.v}\n}\nset top m\n")
+    script = "yosys -import\nsource procs.tcl\nread_files\nsynth -top $top\nprocs\nwrite_json $top.json\n"
+    (tmp_path / "s.tcl").write_text(script)
+    done = launched("yosys", "-l", "y.log", "-p", "tcl s.tcl", folder=tmp_path)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert list(json.loads((tmp_path / "m.json").read_text())["modules"]) == ["m"]
+    assert ">>> synth -top m" in (tmp_path / "y.log").read_text()
+
+
+def test_what_yosys_refuses(tmp_path):
+    """Given Verilog that yosys does not read, then its error is on the terminal, and the code is not 0."""
+    (tmp_path / "m.v").write_text("module m (;\n")
+    (tmp_path / "s.tcl").write_text("read_verilog m.v\n")
+    done = launched("yosys", "-l", "y.log", "-p", "tcl s.tcl", folder=tmp_path)
+    assert done.returncode and done.stderr.startswith("m.v:1: ERROR: ") and len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    (
+        (("icetime",), "icetime: no such tool (there are yosys, nextpnr-ice40, "),
+        (("yosys", "-p", "synth"), "yosys -p synth: expected 'tcl SCRIPT'"),
+    ),
+)
+def test_unknown_tool(words, told):
+    """Given a tool or a command that there is not, then one line says so."""
+    done = launched(*words)
+    assert done.returncode == 1 and done.stderr.startswith(f"error: {told}")
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_missing_tool(tmp_path):
+    """Given an environment without a package, then one line names it."""
+    python = tmp_path / "python"
+    python.symlink_to(Path(sys.executable).resolve())
+    done = subprocess.run([python, LAUNCHER, "icepack"], text=True, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (1, "error: yowasp-icepack is not installed: run `make setup`\n")
