@@ -10,7 +10,7 @@ class PpmcError(Exception):
 
 
 class MissingExtraError(PpmcError):
-    """A library of an extra (`plot`, `decode`, `ophyd`) is not installed. One line that says which."""
+    """A library of an extra, such as `plot` or `ophyd`, is not installed. One line that says which."""
 
 
 def needs(extra: str, what: str, *modules: str) -> None:

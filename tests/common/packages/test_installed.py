@@ -74,7 +74,7 @@ def test_commands_load_what_always_comes_along_only():
         for extra in PROJECT["optional-dependencies"].values()
         for name in (re.split(r"\W", text)[0] for text in extra)
     }
-    assert extras == {"matplotlib", "numpy", "ophyd", "vcd", "yaml"}
+    assert extras == {"litex", "matplotlib", "migen", "numpy", "ophyd", "vcd", "yaml"}
     assert not (extras | {"serial"}) & set(foreign("import openppmc.cli.common.app"))
 
 
