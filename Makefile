@@ -50,6 +50,8 @@ VARS_yardsticks := PEERS
 VARS_test-gates := T SEED SIM_MAIN $(CAMPAIGN)
 VARS_verilog := TOP PARAMS
 VARS_test-verilog := T SEED SIM $(CAMPAIGN)
+VARS_test-fusesoc := BOARD
+VARS_test-litex := T
 VARS_test-board := T J
 VARS_test-web := T J
 VARS_test-lab := T J
@@ -73,7 +75,7 @@ endif
 # --- checks before anything runs: one line, nothing half done -------------------------------------------------------
 TARGETS  := help setup demo waves test test-board test-gates test-campaign test-web test-lab replay
 TARGETS  += prove prove-night coverage mutate soak fuzz nightly scheduler worker
-TARGETS  += verilog test-verilog
+TARGETS  += verilog test-verilog test-fusesoc test-litex
 TARGETS  += lint format trace docs site packages boards rom board bitstream flash
 TARGETS  += synth report size recipes yardsticks bench release clean distclean
 NEED_ENV := $(filter-out help waves flash clean distclean,$(TARGETS))
@@ -91,6 +93,7 @@ ENVCAMP := $(VENV)/.requirements-campaign
 ENVSITE := $(VENV)/.requirements-site
 ENVREL  := $(VENV)/.requirements-release
 ENVLAB  := $(VENV)/.requirements-lab
+ENVLITEX := $(VENV)/.requirements-litex
 # How a campaign gets its workers, and whether it takes over earlier results.
 ON = -n $(J) $(if $(SCHEDULER),--scheduler $(call quote,$(SCHEDULER))) $(if $(filter 1,$(FRESH)),--fresh)
 PYTEST := $(PY) -m pytest
@@ -169,11 +172,17 @@ trace: $(ENVSIM) ## docs/<part>/traceability.md: each rule with its tests, from 
 test-gates: $(ENVDEV) $(ENVCAMP) ## the part tests on the netlists of iCE40 and ECP5; T=quick for the sample that CI runs
 	@$(PY) -m scripts.gates $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
 
-verilog: $(ENVDEV) ## each part and bridge as one file of plain Verilog-2005 in build/verilog/; TOP=ppmc104 PARAMS=CLK_HZ=50000000,… one with other parameters
+verilog: $(ENVDEV) ## each part, bridge and board as one file of plain Verilog-2005 in build/verilog/; TOP=ppmc104 PARAMS=CLK_HZ=50000000,… one with other parameters
 	@$(PY) -m scripts.verilog $(if $(TOP),--top $(call quote,$(TOP))) $(if $(PARAMS),--params $(call quote,$(PARAMS)))
 
 test-verilog: $(ENVDEV) $(ENVCAMP) ## the part tests on that Verilog; T=quick for the sample that CI runs; SIM=icarus in four states, without X at an output
 	@$(if $(SIM),SIM_MAIN=$(call quote,$(SIM))) $(PY) -m scripts.gates --plain $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
+
+test-fusesoc: $(ENVDEV) ## FuseSoC and edalize build the bitstream of BOARD=… from that Verilog, in build/edalize/
+	@$(PY) -m scripts.packages.plain_boards $(BOARD)
+
+test-litex: $(ENVLITEX) $(ENVDEV) ## openppmc.litex: a VexRiscv moves motors with the C driver; needs riscv64-unknown-elf-gcc, without it that is skipped
+	@$(PYTEST) tests/*/litex $(if $(T),-k $(call any,$(T)))
 
 prove: $(ENVDEV) ## prove properties of the RTL blocks (docs/proofs.md); T=name picks some, BREAK=1 breaks the RTL of each, which must be found
 	@$(PY) -m scripts.prove -n $(J) $(if $(filter 1,$(BREAK)),--break) $(if $(T),$(call quote,$(T)))
@@ -251,6 +260,9 @@ $(ENVCAMP): requirements-campaign.txt $(ENVSIM)
 	@$(call bootstrap,$(notdir $<))
 
 $(ENVLAB): requirements-lab.txt $(ENVSIM)
+	@$(call bootstrap,$(notdir $<))
+
+$(ENVLITEX): requirements-litex.txt $(ENVSIM)
 	@$(call bootstrap,$(notdir $<))
 
 $(ENVSITE): requirements-site.txt $(ENVSIM)
