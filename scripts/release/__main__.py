@@ -83,7 +83,10 @@ def main() -> int:
         raise ProjectError(f"SKIP={strange[0]}: expected {' or '.join(SLOW)}")
     only = tuple(args.only.replace(",", " ").split())
     bitstreams.wanted(only)
-    build(present(only), skip)
+    release = present(only)
+    if "site" not in skip:
+        site.check()
+    build(release, skip)
     for path in sorted(DIST.iterdir()):
         console.print(f"{path.stat().st_size:>12,}  {relative(path)}")
     return 0

@@ -25,12 +25,17 @@ def dated(pdf: bytes, epoch: int) -> bytes:
     return _DATE.sub(lambda match: match[0][: -len(match[1])] + when, pdf)
 
 
-def make(release: Release, out: Path, scratch: Path) -> None:
-    """Archive and PDFs into `out`; one line if there is no browser."""
+def check() -> None:
+    """ProjectError if what the site needs beside Python is not there; asked before anything is made."""
     if shutil.which("npm") is None:
         raise ProjectError(
             "npm is not installed: the site needs Node.js (Debian: apt-get install npm), or SKIP=site"
         )
+
+
+def make(release: Release, out: Path, scratch: Path) -> None:
+    """Archive and PDFs into `out`; one line if there is no browser."""
+    check()
     command = [sys.executable, "-m", "scripts.site"]
     done = subprocess.run(
         command, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import sys
 import tarfile
 import zipfile
 
 import pytest
 
+from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
+from scripts.release import __main__ as command
 from scripts.release import archive, bitstreams, notes, site, state
 from scripts.release.__main__ import build
 
@@ -97,6 +100,22 @@ def test_unknown_bitstreams_are_named():
         bitstreams.wanted(("nosuch",))
     assert list(bitstreams.wanted(("ulx3s-25f-stmc",))) == ["ulx3s-25f-stmc"]
     assert len(bitstreams.wanted(())) > 30
+
+
+def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
+    """Given no npm, then one line says what to install, at once; without the site nobody asks for it."""
+    made = []
+    monkeypatch.setattr(site.shutil, "which", lambda name: None)
+    monkeypatch.setattr(command, "present", lambda only: release())
+    monkeypatch.setattr(command, "build", lambda of, skip: made.append(skip))
+    monkeypatch.setattr(command, "DIST", project.BUILD / "test" / "no_dist")
+    (project.BUILD / "test" / "no_dist").mkdir(parents=True, exist_ok=True)
+    monkeypatch.setattr(sys, "argv", ["release"])
+    with pytest.raises(ProjectError, match="^npm is not installed: the site needs Node.js"):
+        command.main()
+    assert made == []
+    monkeypatch.setattr(sys, "argv", ["release", "--skip", "site"])
+    assert command.main() == 0 and made == [{"site"}]
 
 
 def test_dist_is_whole_or_as_it_was(tmp_path):
