@@ -20,6 +20,8 @@ MEMORIES = {
     "ppmc312_codebook": "rom",
     "ppmc312_codes": "rom",
     "pmc006_sine_rom": "rom",
+    "pmc006_base_rom": "rom",
+    "pmc006_calc_words": "words",
     "pmc006_range": "rom",
     "pmc006_calc_rom": "rom",
     "ppmc_bank_times": "words",

@@ -356,15 +356,7 @@ Compensate:
         div RMstep
         load RLo
         store MX                ; full-step speed, steps/s
-        load RCur
-        sub.lo K325
-        div K150
-        load.lo RLo             ; k = (current - 325 mA) / 150 mA
-        load K416
-        mul.16 K153
-        load RMid               ; 416 + 153 * k
-        shift.4                 ; base code RB
-        add.lo K0               ; lo = RB
+        load.lo RBase
         mul.16 RCcomp
         load RMid               ; RB * CCOMP
         store MT

@@ -29,7 +29,7 @@ module pmc006_calc
     // settings, as sampled
     input  wire logic [13:0] vmax_i,     // VMAX
     input  wire logic [ 9:0] adc_i,      // h
-    input  wire logic [11:0] cur_i,      // current, mA
+    input  wire logic [ 7:0] base_i,     // base code RB of the current
     input  wire logic [10:0] ccomp_i,    // CCOMP
     input  wire logic [10:0] scomp_i,    // SCOMP
     // results
@@ -50,10 +50,10 @@ module pmc006_calc
   logic [2:0] acc_q, dec_q;
 
   logic [31:0] hi_q, lo_q, operand, a, b;
-  logic [31:0] word_q, constant, constant_q, outer, outer_q, inner, inner_q;  // one of them is not 0
+  logic [31:0] word, register, register_q;  // word and register_q: one of them is 0
   logic [32:0] sum;
   logic mul, div, root, shift_only;
-  logic [2:0] n_way, n_rate;
+  logic [2:0] coefficient;
 
   // ---- sequence --------------------------------------------------------------------------------------------------
 
@@ -125,62 +125,42 @@ module pmc006_calc
 
   // ---- operands --------------------------------------------------------------------------------------------------
 
-  assign src = operand_e'(instr.low[5:0]);
-  assign n_way = instr.aux[0] ? dec_q : acc_q;
-  assign n_rate = up_q ? acc_q : dec_q;
+  assign src = operand_e'(instr.low[6:0]);
+  assign coefficient = (src[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
-  // Constants, registers of the motion and those of the calculator by themselves: what comes late out of the program's
-  // RAM goes through few cells then.
+  // Words of a register's code are 0.
+  pmc006_calc_words u_words (
+      .clk_i,
+      .we_i  (done && ir_q.op == OpStore),
+      .at_i  (ir_q.low[3:0]),
+      .data_i(hi_q),
+      .read_i({src[6:3], src[5] ? coefficient : src[2:0]}),
+      .word_o(word)
+  );
+
   always_comb begin
-    unique case (src)
-      K1:      constant = 32'd1;
-      K3:      constant = 32'd3;
-      K4:      constant = 32'd4;
-      K100:    constant = 32'd100;
-      K150:    constant = 32'd150;
-      K153:    constant = 32'd153;
-      K325:    constant = 32'd325;
-      K416:    constant = 32'd416;
-      K20000:  constant = 32'd20000;
-      K54400:  constant = 32'd54400;
-      K3x2p16: constant = 32'd196608;
-      K2p31:   constant = 32'h8000_0000;
-      default: constant = '0;
-    endcase
-    unique case (src[2:0])
-      RV[2:0]:    outer = 32'(v_i);
-      RVe[2:0]:   outer = 32'(ve_i);
-      RLeft[2:0]: outer = 32'(left_i);
-      RVmax[2:0]: outer = 32'(vmax_i);
-      RAdc[2:0]:  outer = 32'({adc_i, 6'd0});
-      RAdc9[2:0]: outer = 32'({adc_i[9], 6'd0});
-      RCur[2:0]:  outer = 32'(cur_i);
-      default:    outer = 32'(ccomp_i);
-    endcase
-    unique case (src[2:0])
-      RScomp[2:0]:  inner = 32'(scomp_i);
-      RMstep[2:0]:  inner = 32'(mstep_i);
-      RLo[2:0]:     inner = lo_q;
-      RMid[2:0]:    inner = {hi_q[15:0], lo_q[31:16]};
-      RMargin[2:0]: inner = 32'({1'b1, hi_q[13:12]});
-      RRoot[2:0]:   inner = 32'({next_o, 2'b01});
-      RRate[2:0]:   inner = 32'd17 << n_rate;
-      default:      inner = 32'd3400 << n_way;
+    unique case (src[3:0])
+      RV[3:0]:      register = 32'(v_i);
+      RVe[3:0]:     register = 32'(ve_i);
+      RLeft[3:0]:   register = 32'(left_i);
+      RVmax[3:0]:   register = 32'(vmax_i);
+      RAdc[3:0]:    register = 32'({adc_i, 6'd0});
+      RAdc9[3:0]:   register = 32'({adc_i[9], 6'd0});
+      RBase[3:0]:   register = 32'(base_i);
+      RCcomp[3:0]:  register = 32'(ccomp_i);
+      RScomp[3:0]:  register = 32'(scomp_i);
+      RMstep[3:0]:  register = 32'(mstep_i);
+      RLo[3:0]:     register = lo_q;
+      RMid[3:0]:    register = {hi_q[15:0], lo_q[31:16]};
+      RMargin[3:0]: register = 32'({1'b1, hi_q[13:12]});
+      RRoot[3:0]:   register = 32'({next_o, 2'b01});
+      default:      register = '0;
     endcase
   end
 
-  (* no_rw_check *)
-  logic [31:0] words[16];
+  always_ff @(posedge clk_i) register_q <= src[6] ? register : '0;
 
-  always_ff @(posedge clk_i) begin
-    if (done && ir_q.op == OpStore) words[ir_q.low[3:0]] <= hi_q;
-    word_q     <= (src[5:4] == 2'b00) ? words[src[3:0]] : '0;
-    constant_q <= (src[5:4] == 2'b01) ? constant : '0;
-    outer_q    <= (src[5:3] == 3'b100) ? outer : '0;
-    inner_q    <= (src[5:3] == 3'b101) ? inner : '0;
-  end
-
-  assign operand = word_q | constant_q | outer_q | inner_q;
+  assign operand = word | register_q;
 
   // ---- the adder -------------------------------------------------------------------------------------------------
 
