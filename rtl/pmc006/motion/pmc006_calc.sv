@@ -2,7 +2,7 @@
 // pmc006_calc: the planner's calculator: one adder that multiplies and divides step by step, a small memory and
 //         the program of pmc006_calc_rom (pmc006_calc.asm).
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
-// Timing: 2 clk for an instruction, n + 1 for n steps. A planning ends within 700 clk of plan_i, an update tick
+// Timing: 2 clk for an instruction without operand, 3 for one with, n + 2 for n steps. A planning ends within 700 clk of plan_i, an update tick
 //         within 640 of advance_i; either may come while an old run is still going on, which it ends.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -41,16 +41,16 @@ module pmc006_calc
 );
 
 
-  instr_t instr, ir_q;  // as fetched, while the operand is read; as executed
+  instr_t instr, ir_q;  // as fetched; as its operand is chosen, and executed
   operand_e src;
-  logic run_q, exec_q, fetch, last, done, taken;
+  logic run_q, read_q, bare, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] left_q, steps;
   logic plan_q, up_q, smooth_q, carry_q, zero;
   logic [2:0] acc_q, dec_q;
 
-  logic [31:0] hi_q, lo_q, operand, a, b;
-  logic [31:0] word, register, register_q;  // word and register_q: one of them is 0
+  logic [31:0] hi_q, lo_q, operand_q, a, b;
+  logic [31:0] word, register;  // one of them is 0
   logic [32:0] sum;
   logic mul, div, root, shift_only;
   logic [2:0] coefficient;
@@ -61,6 +61,7 @@ module pmc006_calc
   assign last   = exec_q && left_q == '0;
   assign done   = last && run_q;
   assign fetch  = plan_i || advance_i || done;
+  assign bare   = instr.op[3] || instr.op[1:0] == '0;  // no operand
 
   always_comb begin
     unique case (cond_e'(ir_q.aux))
@@ -86,9 +87,9 @@ module pmc006_calc
     else if (advance_i) pc_d = EntryTick;
     else if (ir_q.op == OpJump && taken) pc_d = ir_q.low;
     else pc_d = pc_q + 1'b1;
-    unique case (instr.op)
+    unique case (ir_q.op)
       OpMul: begin
-        unique case (steps_e'(instr.aux))
+        unique case (steps_e'(ir_q.aux))
           N1:      steps = 5'd0;
           N2:      steps = 5'd1;
           N4:      steps = 5'd3;
@@ -118,15 +119,17 @@ module pmc006_calc
   always_ff @(posedge clk_i) begin
     if (fetch) pc_q <= pc_d;
     ir_q   <= instr;
-    exec_q <= !fetch && run_q;
-    if (!exec_q) left_q <= steps;
+    read_q <= fetch;
+    exec_q <= !fetch && run_q && (!read_q || bare);
+    if (read_q) left_q <= '0;
+    else if (!exec_q) left_q <= steps;
     else left_q <= left_q - 1'b1;
   end
 
   // ---- operands --------------------------------------------------------------------------------------------------
 
-  assign src = operand_e'(instr.low[6:0]);
-  assign coefficient = (src[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
+  assign src = operand_e'(ir_q.low[6:0]);
+  assign coefficient = (instr.low[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
   // Words of a register's code are 0.
   pmc006_calc_words u_words (
@@ -134,7 +137,7 @@ module pmc006_calc
       .we_i  (done && ir_q.op == OpStore),
       .at_i  (ir_q.low[3:0]),
       .data_i(hi_q),
-      .read_i({src[6:3], src[5] ? coefficient : src[2:0]}),
+      .read_i({instr.low[6:3], instr.low[5] ? coefficient : instr.low[2:0]}),
       .word_o(word)
   );
 
@@ -158,9 +161,7 @@ module pmc006_calc
     endcase
   end
 
-  always_ff @(posedge clk_i) register_q <= src[6] ? register : '0;
-
-  assign operand = word | register_q;
+  always_ff @(posedge clk_i) operand_q <= word | (src[6] ? register : '0);
 
   // ---- the adder -------------------------------------------------------------------------------------------------
 
@@ -172,7 +173,7 @@ module pmc006_calc
 
   always_comb begin
     a   = div ? {hi_q[30:0], lo_q[31]} : (ir_q.op == OpLoad) ? '0 : hi_q;
-    b   = (div || ir_q.op == OpSub) ? ~operand : (mul && !lo_q[0]) ? '0 : operand;
+    b   = (div || ir_q.op == OpSub) ? ~operand_q : (mul && !lo_q[0]) ? '0 : operand_q;
     sum = {1'b0, a} + {1'b0, b} + 33'(div || ir_q.op == OpSub);
   end
 
