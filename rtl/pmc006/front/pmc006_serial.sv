@@ -147,11 +147,11 @@ module pmc006_serial
       if (left_q != '0) begin
         left_q <= left_q - 1'b1;
         bits_q <= {1'b1, bits_q[7:1]};
+        if (left_q == 4'd9) sum_q <= sum_q + bits_q;
       end else if (!at_q[3]) begin
         left_q <= 4'd9;
         bits_q <= next;
         at_q   <= at_q + 1'b1;
-        sum_q  <= sum_q + next;
       end
     end
   end

@@ -28,6 +28,7 @@ module pmc006_exec
     input  wire logic          store_i,      // carry out; else only look whether it is legal
     // what is carried out
     output order_t             order_o,      // what is carried out
+    output access_t            access_o,     // the register that it means
     output logic               legal_o,      // its data are in range
     output logic               act_o,        // order_o is carried out in this clk
     output logic               place_o,      // the same for the position
@@ -82,6 +83,7 @@ module pmc006_exec
       .program_i(state_q == StDecode),
       .op_i     (op_d),
       .order_i  (order_o),
+      .access_o,
       .ok_o     (ok)
   );
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_range: which data each instruction accepts, whatever the state of the motor.
+// pmc006_range: which data each instruction accepts, whatever the state of the motor, and which register it means.
 // Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57, P006-BAD-08/09.
 // Timing: ok_o is combinational from order_i; the limits come out of a table in a block RAM, one clk after take_i.
 `default_nettype none
@@ -12,55 +12,90 @@ module pmc006_range
     input  wire logic         program_i,  // with take_i: out of the user program
     input  wire logic   [7:0] op_i,       // with take_i
     input  wire order_t       order_i,    // the same instruction, from the next clk on
+    output access_t           access_o,   // its register
     output logic              ok_o        // its data are accepted
 );
 
   typedef struct packed {
     logic        listed;  // there are limits
-    logic [13:0] low;
+    logic [8:0]  low;
     logic [13:0] high;
+    access_t     access;
   } limits_t;
+
+  function automatic access_t access_of(logic [7:0] op);
+    unique case (op)
+      I_MSTEP:        return '{write: 1'b1, which: RegMstep};
+      I_CURRENT:      return '{write: 1'b1, which: RegCurrent};
+      I_ACC:          return '{write: 1'b1, which: RegAcc};
+      I_DEC:          return '{write: 1'b1, which: RegDec};
+      I_AUTODEC:      return '{write: 1'b1, which: RegAutodec};
+      I_ATT:          return '{write: 1'b1, which: RegAtt};
+      I_VSTART:       return '{write: 1'b1, which: RegVstart};
+      I_VSTOP:        return '{write: 1'b1, which: RegVstop};
+      I_CCOMP:        return '{write: 1'b1, which: RegCcomp};
+      I_SCOMP:        return '{write: 1'b1, which: RegScomp};
+      I_VMAX:         return '{write: 1'b1, which: RegVmax};
+      I_DIR:          return '{write: 1'b1, which: RegDir};
+      I_FREE:         return '{write: 1'b1, which: RegFree};
+      I_ADDR:         return '{write: 1'b1, which: RegAddr};
+      I_TRIGGER:      return '{write: 1'b1, which: RegTrigger};
+      I_EXTEN:        return '{write: 1'b1, which: RegExten};
+      I_OFFLINE:      return '{write: 1'b1, which: RegOffline};
+      I_STLEN:        return '{write: 1'b1, which: RegStlen};
+      I_STCFG:        return '{write: 1'b1, which: RegStcfg};
+      I_STLVL:        return '{write: 1'b1, which: RegStlvl};
+      I_MSTEP_READ:   return '{write: 1'b0, which: RegMstep};
+      I_CURRENT_READ: return '{write: 1'b0, which: RegCurrent};
+      I_ACC_READ:     return '{write: 1'b0, which: RegAcc};
+      I_DEC_READ:     return '{write: 1'b0, which: RegDec};
+      I_ATT_READ:     return '{write: 1'b0, which: RegAtt};
+      I_VMAX_READ:    return '{write: 1'b0, which: RegVmax};
+      I_TRIGGER_READ: return '{write: 1'b0, which: RegTrigger};
+      default:        return '{write: 1'b0, which: RegNone};
+    endcase
+  endfunction
 
   function automatic limits_t limits_of(logic program_op, logic [7:0] op);
     limits_t l;
-    l = '{listed: 1'b1, low: 14'd0, high: 14'd1};
+    l = '{listed: 1'b1, low: 9'd0, high: 14'd1, access: access_of(op)};
     unique case (op)
       I_OFFLINE, I_RUN, I_AUTODEC, I_DIR, I_FREE: l.high = 14'd1;
       I_POINTER: l.high = 14'd199;
       I_TRIGGER: l.high = 14'd3;
       I_EXTEN: l.high = program_op ? 14'd1 : 14'd3;
       I_VSTART, I_VSTOP: begin
-        l.low  = 14'd65;
+        l.low  = 9'd65;
         l.high = 14'd3000;
       end
       I_CCOMP: begin
-        l.low  = 14'd100;
+        l.low  = 9'd100;
         l.high = 14'd1200;
       end
       I_SCOMP: begin
-        l.low  = 14'd300;
+        l.low  = 9'd300;
         l.high = 14'd2000;
       end
       I_ATT: begin
-        l.low  = 14'd1;
+        l.low  = 9'd1;
         l.high = 14'd4;
       end
       I_STLEN: l.high = 14'd63;
       I_STCFG: l.high = 14'd7;
       I_STLVL: l.high = 14'd511;
       I_CURRENT: begin
-        l.low  = 14'd400;
+        l.low  = 9'd400;
         l.high = 14'd4000;
       end
       I_MSTEP: l.high = 14'd128;
       I_DEC: l.high = 14'd5;
       I_ACC: l.high = program_op ? 14'd6 : 14'd5;
       I_VMAX: begin
-        l.low  = program_op ? 14'd0 : 14'd1;
+        l.low  = program_op ? 9'd0 : 9'd1;
         l.high = 14'd16_000;
       end
       I_ADDR: begin
-        l.low  = 14'd1;
+        l.low  = 9'd1;
         l.high = 14'd120;
       end
       P_JMP, P_JNE, P_JEQ, P_RESET_EN: l.high = 14'd99;
@@ -87,7 +122,8 @@ module pmc006_range
 
   always_ff @(posedge clk_i) if (take_i) limits_q <= rom[{program_i, op_i}];
 
-  assign inner = order_i.data[31:14] == '0 && order_i.data[13:0] >= limits_q.low &&
+  assign access_o = limits_q.access;
+  assign inner = order_i.data[31:14] == '0 && order_i.data[13:0] >= 14'(limits_q.low) &&
       order_i.data[13:0] <= limits_q.high;
 
   always_comb begin

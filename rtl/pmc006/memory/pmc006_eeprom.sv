@@ -71,6 +71,7 @@ module pmc006_eeprom
     StIdle
   } state_e;
 
+  (* fsm_encoding = "none" *)
   state_e state_q;
   logic tick, first, done, fail, nack;
   logic

@@ -61,7 +61,7 @@ package pmc006_calc_pkg;
     MX      = 7'h07,
     MWay1   = 7'h08,  // way of the acceleration, steps
     MWay2   = 7'h09,  // of the deceleration
-    MSlack  = 7'h0a,  // margin(VT)
+    MSlack  = 7'h0a,  // margin(VT) + 3
     // constants
     K0      = 7'h10,
     K1      = 7'h11,

@@ -89,13 +89,13 @@ module pmc006_calc_rom
     rom[67]  = 17'h06005;  // sub MLeft
     rom[68]  = 17'h142a3;  // jump Fit if Carry
     rom[69]  = 17'h14004;  // jump Target
-    rom[70]  = 17'h0800a;  // PlanWay: store MSlack
-    rom[71]  = 17'h0204c;  // load RLo
-    rom[72]  = 17'h08009;  // store MWay2
-    rom[73]  = 17'h02008;  // PlanNeed: load MWay1
-    rom[74]  = 17'h04009;  // add MWay2
-    rom[75]  = 17'h0400a;  // add MSlack
-    rom[76]  = 17'h04012;  // add K3
+    rom[70]  = 17'h04012;  // PlanWay: add K3
+    rom[71]  = 17'h0800a;  // store MSlack
+    rom[72]  = 17'h0204c;  // load RLo
+    rom[73]  = 17'h08009;  // store MWay2
+    rom[74]  = 17'h02008;  // PlanNeed: load MWay1
+    rom[75]  = 17'h04009;  // add MWay2
+    rom[76]  = 17'h0400a;  // add MSlack
     rom[77]  = 17'h06042;  // sub RLeft
     rom[78]  = 17'h1447a;  // jump PlanFree if NotCarry
     rom[79]  = 17'h15c57;  // jump PlanDec if Acc5
@@ -104,7 +104,7 @@ module pmc006_calc_rom
     rom[82]  = 17'h04011;  // add K1
     rom[83]  = 17'h0a010;  // shift.1
     rom[84]  = 17'h08008;  // store MWay1
-    rom[85]  = 17'h15e49;  // jump PlanNeed if Dec5
+    rom[85]  = 17'h15e4a;  // jump PlanNeed if Dec5
     rom[86]  = 17'h14058;  // jump PlanDecMore
     rom[87]  = 17'h15e5e;  // PlanDec: jump PlanPeak if Dec5
     rom[88]  = 17'h10a10;  // PlanDecMore: out Dec
@@ -112,7 +112,7 @@ module pmc006_calc_rom
     rom[90]  = 17'h04011;  // add K1
     rom[91]  = 17'h0a010;  // shift.1
     rom[92]  = 17'h08009;  // store MWay2
-    rom[93]  = 17'h14049;  // jump PlanNeed
+    rom[93]  = 17'h1404a;  // jump PlanNeed
     rom[94]  = 17'h02440;  // PlanPeak: load.lo RV
     rom[95]  = 17'h0a640;  // mul.16 RV
     rom[96]  = 17'h0204d;  // load RMid
@@ -125,7 +125,7 @@ module pmc006_calc_rom
     rom[103] = 17'h08006;  // store MT
     rom[104] = 17'h02042;  // load RLeft
     rom[105] = 17'h0600a;  // sub MSlack
-    rom[106] = 17'h06013;  // sub K4
+    rom[106] = 17'h06011;  // sub K1
     rom[107] = 17'h08007;  // store MX
     rom[108] = 17'h02416;  // load.lo K54400
     rom[109] = 17'h02006;  // load MT
