@@ -49,7 +49,7 @@ module pmc006_exec
 
   state_e  state_q;
   source_e source_q;
-  logic ask_q, again_q, ok, legal_q, program_q, place;
+  logic ask_q, again_q, program_q, place;
   logic [7:0] op_d, op_q;
   logic [3:0] option_q;
 
@@ -61,7 +61,6 @@ module pmc006_exec
 
   assign act_o = state_q == StAct && !place && !(cancel_i && source_q == FromProgram);
   assign reply_o = state_q == StReply;
-  assign legal_o = legal_q;
   assign begin_o = state_q == StIdle && !ask_q && next_i;
   assign trial_o = source_q == FromTry;
   assign second_o = program_q && state_q != StFirst;
@@ -84,7 +83,7 @@ module pmc006_exec
       .op_i     (op_d),
       .order_i  (order_o),
       .access_o,
-      .ok_o     (ok)
+      .ok_o     (legal_o)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -130,7 +129,6 @@ module pmc006_exec
     else if (state_q == StDecode) begin
       option_q <= (word_i[15:12] == '0) ? word_i[11:8] : 4'hf;
     end
-    legal_q <= ok;
     again_q <= act_o && try_i;
   end
 

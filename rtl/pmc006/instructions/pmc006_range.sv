@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_range: which data each instruction accepts, whatever the state of the motor, and which register it means.
 // Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57, P006-BAD-08/09.
-// Timing: ok_o is combinational from order_i; the limits come out of a table in a block RAM, one clk after take_i.
+// Timing: ok_o is for order_i of the clk before; the limits come out of a table in a block RAM, one clk after take_i.
 `default_nettype none
 
 module pmc006_range
@@ -99,7 +99,10 @@ module pmc006_range
         l.high = 14'd120;
       end
       P_JMP, P_JNE, P_JEQ, P_RESET_EN: l.high = 14'd99;
-      default: l.listed = 1'b0;
+      default: begin
+        l.listed = 1'b0;
+        l.high   = 14'h3fff;
+      end
     endcase
     return l;
   endfunction
@@ -116,31 +119,41 @@ module pmc006_range
   (* rom_style = "block" *)
   limits_t rom[512];
   limits_t limits_q;
-  logic inner;
+  logic [31:0] data;
+  logic may, own;
+  logic above_q, below_q, may_q, own_q;  // not below the lowest, not above the highest, else right; right anyway
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = Words[9'(i)];
 
   always_ff @(posedge clk_i) if (take_i) limits_q <= rom[{program_i, op_i}];
 
   assign access_o = limits_q.access;
-  assign inner = order_i.data[31:14] == '0 && order_i.data[13:0] >= 14'(limits_q.low) &&
-      order_i.data[13:0] <= limits_q.high;
+  assign data = order_i.data;
 
+  // Of what is not listed the lowest 14 bits are within limits.
   always_comb begin
-    ok_o = !limits_q.listed || inner;
+    may = !limits_q.listed || data[31:14] == '0;
+    own = 1'b0;
     unique case (order_i.op)
-      I_STEP: ok_o = !order_i.data[31] && order_i.data[30:0] != '0;
+      I_STEP: may = !data[31] && data[30:0] != '0;
       // One bit of the byte, or none.
-      I_MSTEP: ok_o = inner && !order_i.data[0] && (order_i.data[7:0] & (order_i.data[7:0] - 1'b1)) == '0;
-      I_ADDR: ok_o = inner || (order_i.source == FromBoot && order_i.data[15:0] == 16'h00ff);
-      I_VMAX: ok_o = inner && order_i.option <= 4'd1;
-      P_RESET_EN: ok_o = inner && order_i.option <= 4'd1;
-      P_PAUSE_EN: ok_o = order_i.option <= 4'd1;
-      P_OUT: ok_o = order_i.option inside {[4'd1 : 4'd5]};
-      P_WAIT, P_CMP: ok_o = order_i.option inside {[4'd1 : 4'd9]};
+      I_MSTEP: if (data[0] || (data[7:0] & (data[7:0] - 1'b1)) != '0) may = 1'b0;
+      I_ADDR: own = order_i.source == FromBoot && data[15:0] == 16'h00ff;
+      I_VMAX, P_RESET_EN, P_PAUSE_EN: if (order_i.option > 4'd1) may = 1'b0;
+      P_OUT: may = order_i.option inside {[4'd1 : 4'd5]};
+      P_WAIT, P_CMP: may = order_i.option inside {[4'd1 : 4'd9]};
       default: ;
     endcase
   end
+
+  always_ff @(posedge clk_i) begin
+    above_q <= data[13:0] >= 14'(limits_q.low);
+    below_q <= data[13:0] <= limits_q.high;
+    may_q   <= may;
+    own_q   <= own;
+  end
+
+  assign ok_o = (above_q && below_q && may_q) || own_q;
 
 endmodule
 
