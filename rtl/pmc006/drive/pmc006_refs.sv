@@ -33,11 +33,11 @@ module pmc006_refs (
   logic [8:0] sine, product_q;
   logic [9:0] sum;
 
-  assign at_d = at_q + 1'b1;
+  assign at_d    = at_q + 1'b1;
 
   // ---- peak code -------------------------------------------------------------------------------------------------
 
-  assign whole = 12'(bump_q) + 12'(base_i);
+  assign whole   = 12'(bump_q) + 12'(base_i);
 
   // ---- sine and product ------------------------------------------------------------------------------------------
 

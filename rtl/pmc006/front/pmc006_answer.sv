@@ -10,28 +10,28 @@ module pmc006_answer
     parameter bit          Echo    = 1'b0,          // s answers its data
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             take_i,      // the reply is due
-    input  wire order_t           order_i,     // the instruction
-    input  wire logic             took_i,      // s, t, B, E, W, G, z have been accepted
-    input  wire logic      [13:0] value_i,     // of the instruction's register, else 0, when reply_o has to stand
-    input  wire settings_t        settings_i,  // parameter registers
-    input  wire control_t         control_i,   // registers of the control
-    input  wire logic             speed_i,     // SPEED_MODE
-    input  wire logic             busy_i,      // a motion is under way
-    input  wire logic             stall_i,     // register STALL
-    input  wire logic      [ 1:0] flags_i,     // EXT1, EXT2
-    input  wire logic      [ 1:0] ext_i,       // pins
-    input  wire logic      [ 4:0] gpi_i,       // general inputs, synchronised
-    input  wire logic      [ 4:0] gpo_i,       // pins of the general outputs
-    input  wire logic      [ 4:0] out_i,       // register GPO
-    input  wire logic      [ 7:0] pp_i,        // where the user program stands
-    input  wire logic      [31:0] pos_i,       // position
-    input  wire logic      [31:0] stpos_i,     // position of the last stall
-    input  wire logic      [31:0] word_i,      // of the program
-    input  wire logic             free_i,      // EEPROM: nothing is under way
-    input  wire logic             failed_i,    // its last work
-    output logic           [31:0] reply_o      // data of the reply
+    input wire logic clk_i,
+    input wire logic take_i,  // the reply is due
+    input wire order_t order_i,  // the instruction
+    input wire logic took_i,  // s, t, B, E, W, G, z have been accepted
+    input wire logic [13:0] value_i,  // of the instruction's register, else 0, when reply_o has to stand
+    input wire settings_t settings_i,  // parameter registers
+    input wire control_t control_i,  // registers of the control
+    input wire logic speed_i,  // SPEED_MODE
+    input wire logic busy_i,  // a motion is under way
+    input wire logic stall_i,  // register STALL
+    input wire logic [1:0] flags_i,  // EXT1, EXT2
+    input wire logic [1:0] ext_i,  // pins
+    input wire logic [4:0] gpi_i,  // general inputs, synchronised
+    input wire logic [4:0] gpo_i,  // pins of the general outputs
+    input wire logic [4:0] out_i,  // register GPO
+    input wire logic [7:0] pp_i,  // where the user program stands
+    input wire logic [31:0] pos_i,  // position
+    input wire logic [31:0] stpos_i,  // position of the last stall
+    input wire logic [31:0] word_i,  // of the program
+    input wire logic free_i,  // EEPROM: nothing is under way
+    input wire logic failed_i,  // its last work
+    output logic [31:0] reply_o  // data of the reply
 );
 
   logic [31:0] whole, reply_q;

@@ -41,8 +41,8 @@ module pmc006_control
     input  wire logic           step_i       // a step is made at the coming edge
 );
 
-  order_t   order;
-  access_t  access;
+  order_t order;
+  access_t access;
   logic [13:0] value;
   control_t control;
   logic next, cancel, begins, claim, second, trial, tries;

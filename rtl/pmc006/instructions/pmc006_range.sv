@@ -17,10 +17,10 @@ module pmc006_range
 );
 
   typedef struct packed {
-    logic        listed;  // there are limits
-    logic [8:0]  low;
-    logic [13:0] high;
-    access_t     access;
+    logic            listed;  // there are limits
+    logic [8:0]      low;
+    logic [13:0]     high;
+    access_t access;
   } limits_t;
 
   function automatic access_t access_of(logic [7:0] op);
@@ -58,7 +58,7 @@ module pmc006_range
 
   function automatic limits_t limits_of(logic program_op, logic [7:0] op);
     limits_t l;
-    l = '{listed: 1'b1, low: 9'd0, high: 14'd1, access: access_of(op)};
+    l = '{listed: 1'b1, low: 9'd0, high: 14'd1, access : access_of(op)};
     unique case (op)
       I_OFFLINE, I_RUN, I_AUTODEC, I_DIR, I_FREE: l.high = 14'd1;
       I_POINTER: l.high = 14'd199;
@@ -121,7 +121,11 @@ module pmc006_range
   limits_t limits_q;
   logic [31:0] data;
   logic may, own;
-  logic above_q, below_q, may_q, own_q;  // not below the lowest, not above the highest, else right; right anyway
+  logic
+      above_q,
+      below_q,
+      may_q,
+      own_q;  // not below the lowest, not above the highest, else right; right anyway
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = Words[9'(i)];
 

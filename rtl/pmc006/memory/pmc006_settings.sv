@@ -7,15 +7,15 @@
 module pmc006_settings
   import pmc006_pkg::*;
 (
-    input  wire logic   clk_i,
-    input  wire logic   rst_ni,
-    input  wire order_t  order_i,     // what is carried out
-    input  wire access_t access_i,    // its register
-    input  wire logic    write_i,     // order_i is carried out, its data are legal
-    input  wire logic    take_i,      // its reply is due
-    output settings_t    settings_o,  // what motion and drive look at
-    output control_t     control_o,   // what only the control looks at
-    output logic [13:0]  value_o      // its register's value from the end of take_i on, 0 without one
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire order_t         order_i,     // what is carried out
+    input  wire access_t        access_i,    // its register
+    input  wire logic           write_i,     // order_i is carried out, its data are legal
+    input  wire logic           take_i,      // its reply is due
+    output settings_t           settings_o,  // what motion and drive look at
+    output control_t            control_o,   // what only the control looks at
+    output logic         [13:0] value_o      // its register's value from the end of take_i on, 0 without one
 );
 
   logic [13:0] data;

@@ -71,8 +71,8 @@ module pmc006_values
   end
 
   always_ff @(posedge clk_i) begin
-    if (filling || write_i) words[{1'b0, filling ? count_q[4:0] : which_i}] <= filling ? value_o : data_i;
-    if (filling || take_i) value_o <= words[{filling, filling ? count_q[4:0] : which_i}];
+    if (filling || write_i) words[{1'b0, filling?count_q[4:0] : which_i}] <= filling ? value_o : data_i;
+    if (filling || take_i) value_o <= words[{filling, filling?count_q[4:0] : which_i}];
   end
 
 `ifndef SYNTHESIS

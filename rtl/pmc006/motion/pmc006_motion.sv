@@ -13,24 +13,24 @@ module pmc006_motion
   import pmc006_pkg::*;
   import pmc006_calc_pkg::*;
 (
-    input  wire logic      clk_i,
-    input  wire logic      rst_ni,
-    input  wire logic      us_i,        // one clk every microsecond
-    input  wire settings_t settings_i,  // parameter registers
-    input  wire logic [7:0] base_i,     // base code of their current, one clk behind
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire logic            us_i,        // one clk every microsecond
+    input  wire settings_t       settings_i,  // parameter registers
+    input  wire logic      [7:0] base_i,      // base code of their current, one clk behind
     // instructions, already judged
-    input  wire launch_t   launch_i,    // a motion to begin
-    input  wire logic      halt_i,      // stop at once; no step in this clk
-    input  wire sample_t   adc_i,       // h of the analog target
-    output motion_t        motion_o,    // how it stands
-    output logic           step_o,      // a step is made at the coming edge
-    output thrust_t        thrust_o     // what the drive needs
+    input  wire launch_t         launch_i,    // a motion to begin
+    input  wire logic            halt_i,      // stop at once; no step in this clk
+    input  wire sample_t         adc_i,       // h of the analog target
+    output motion_t              motion_o,    // how it stands
+    output logic                 step_o,      // a step is made at the coming edge
+    output thrust_t              thrust_o     // what the drive needs
 );
 
   logic load, load_q, launch, update, look, look_q, sample, advance, stop, start_v, calc_busy;
   logic short_q, speed_q, stop_q, analog_q, rest, busy_q, forward_q, steady_q;
   logic [11:0] ve_q;
-  logic [7:0] base_q;
+  logic [ 7:0] base_q;
   logic [2:0] acc_q, dec_q;
   logic [10:0] ccomp_q, scomp_q, bump, bump_now;
   logic [6:0] lead, lead_now;
