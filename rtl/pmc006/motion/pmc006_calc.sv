@@ -42,7 +42,6 @@ module pmc006_calc
 
 
   instr_t instr, ir_q;  // as fetched; as its operand is chosen, and executed
-  operand_e src;
   logic run_q, read_q, bare, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] left_q, steps;
@@ -128,7 +127,6 @@ module pmc006_calc
 
   // ---- operands --------------------------------------------------------------------------------------------------
 
-  assign src = operand_e'(ir_q.low[6:0]);
   assign coefficient = (instr.low[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
   // Words of a register's code are 0.
@@ -142,7 +140,7 @@ module pmc006_calc
   );
 
   always_comb begin
-    unique case (src[3:0])
+    unique case (ir_q.low[3:0])
       RV[3:0]:      register = 32'(v_i);
       RVe[3:0]:     register = 32'(ve_i);
       RLeft[3:0]:   register = 32'(left_i);
@@ -161,7 +159,7 @@ module pmc006_calc
     endcase
   end
 
-  always_ff @(posedge clk_i) operand_q <= word | (src[6] ? register : '0);
+  always_ff @(posedge clk_i) operand_q <= word | (ir_q.low[6] ? register : '0);
 
   // ---- the adder -------------------------------------------------------------------------------------------------
 
