@@ -2,8 +2,9 @@
 // pmc006_calc: the planner's calculator: one adder that multiplies and divides step by step, a small memory and
 //         the program of pmc006_calc_rom (pmc006_calc.asm).
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
-// Timing: 2 clk for an instruction without operand, 3 for one with, n + 2 for n steps. A planning ends within 700 clk of plan_i, an update tick
-//         within 640 of advance_i; either may come while an old run is still going on, which it ends.
+// Timing: 2 clk for an instruction without operand, 3 for one with, n + 2 for n steps. A planning ends within 785 clk of
+//         plan_i, an update tick within 590 of advance_i; either may come while an old run is still going on, which it
+//         ends.
 `include "ppmc_assert.svh"
 `default_nettype none
 
