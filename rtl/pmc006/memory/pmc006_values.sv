@@ -12,10 +12,10 @@ module pmc006_values
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     input  wire logic             write_i,  // which_i := data_i
-    input  wire register_e        which_i,
-    input  wire logic      [13:0] data_i,
+    input  wire register_e        which_i,  // a register
+    input  wire logic      [13:0] data_i,   // of write_i
     input  wire logic             take_i,   // value_o := which_i
-    output logic           [13:0] value_o
+    output logic           [13:0] value_o   // value of which_i at take_i
 );
 
   function automatic logic [13:0] factory(logic [4:0] which);

@@ -9,8 +9,8 @@ module pmc006_calc_words
 (
     input  wire logic        clk_i,
     input  wire logic        we_i,    // word at_i := data_i
-    input  wire logic [ 3:0] at_i,
-    input  wire logic [31:0] data_i,
+    input  wire logic [ 3:0] at_i,    // a word that may be written
+    input  wire logic [31:0] data_i,  // of we_i
     input  wire logic [ 6:0] read_i,  // as operand_e, tables with a coefficient in its lowest three bits
     output logic      [31:0] word_o   // 0 for a register
 );
