@@ -125,10 +125,12 @@ add_file -type verilog $root/rtl/ppmc312/ppmc312.sv
 add_file -type verilog $root/rtl/pmc006/pmc006_pkg.sv
 add_file -type verilog $root/rtl/pmc006/motion/pmc006_calc_pkg.sv
 add_file -type verilog $root/rtl/pmc006/motion/pmc006_calc_rom.sv
+add_file -type verilog $root/rtl/pmc006/motion/pmc006_calc_words.sv
 add_file -type verilog $root/rtl/pmc006/motion/pmc006_calc.sv
 add_file -type verilog $root/rtl/pmc006/motion/pmc006_rate.sv
 add_file -type verilog $root/rtl/pmc006/motion/pmc006_motion.sv
 add_file -type verilog $root/rtl/pmc006/drive/pmc006_sine_rom.sv
+add_file -type verilog $root/rtl/pmc006/drive/pmc006_base_rom.sv
 add_file -type verilog $root/rtl/pmc006/drive/pmc006_refs.sv
 add_file -type verilog $root/rtl/pmc006/drive/pmc006_bridge.sv
 add_file -type verilog $root/rtl/pmc006/drive/pmc006_drive.sv
@@ -136,6 +138,7 @@ add_file -type verilog $root/rtl/pmc006/front/pmc006_frame.sv
 add_file -type verilog $root/rtl/pmc006/front/pmc006_serial.sv
 add_file -type verilog $root/rtl/pmc006/instructions/pmc006_range.sv
 add_file -type verilog $root/rtl/pmc006/instructions/pmc006_exec.sv
+add_file -type verilog $root/rtl/pmc006/memory/pmc006_values.sv
 add_file -type verilog $root/rtl/pmc006/memory/pmc006_settings.sv
 add_file -type verilog $root/rtl/pmc006/instructions/pmc006_accept.sv
 add_file -type verilog $root/rtl/pmc006/motion/pmc006_guard.sv

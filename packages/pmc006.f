@@ -40,10 +40,12 @@
 ../rtl/pmc006/pmc006_pkg.sv
 ../rtl/pmc006/motion/pmc006_calc_pkg.sv
 ../rtl/pmc006/motion/pmc006_calc_rom.sv
+../rtl/pmc006/motion/pmc006_calc_words.sv
 ../rtl/pmc006/motion/pmc006_calc.sv
 ../rtl/pmc006/motion/pmc006_rate.sv
 ../rtl/pmc006/motion/pmc006_motion.sv
 ../rtl/pmc006/drive/pmc006_sine_rom.sv
+../rtl/pmc006/drive/pmc006_base_rom.sv
 ../rtl/pmc006/drive/pmc006_refs.sv
 ../rtl/pmc006/drive/pmc006_bridge.sv
 ../rtl/pmc006/drive/pmc006_drive.sv
@@ -51,6 +53,7 @@
 ../rtl/pmc006/front/pmc006_serial.sv
 ../rtl/pmc006/instructions/pmc006_range.sv
 ../rtl/pmc006/instructions/pmc006_exec.sv
+../rtl/pmc006/memory/pmc006_values.sv
 ../rtl/pmc006/memory/pmc006_settings.sv
 ../rtl/pmc006/instructions/pmc006_accept.sv
 ../rtl/pmc006/motion/pmc006_guard.sv

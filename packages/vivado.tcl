@@ -124,10 +124,12 @@ set files [list \
   $root/rtl/pmc006/pmc006_pkg.sv \
   $root/rtl/pmc006/motion/pmc006_calc_pkg.sv \
   $root/rtl/pmc006/motion/pmc006_calc_rom.sv \
+  $root/rtl/pmc006/motion/pmc006_calc_words.sv \
   $root/rtl/pmc006/motion/pmc006_calc.sv \
   $root/rtl/pmc006/motion/pmc006_rate.sv \
   $root/rtl/pmc006/motion/pmc006_motion.sv \
   $root/rtl/pmc006/drive/pmc006_sine_rom.sv \
+  $root/rtl/pmc006/drive/pmc006_base_rom.sv \
   $root/rtl/pmc006/drive/pmc006_refs.sv \
   $root/rtl/pmc006/drive/pmc006_bridge.sv \
   $root/rtl/pmc006/drive/pmc006_drive.sv \
@@ -135,6 +137,7 @@ set files [list \
   $root/rtl/pmc006/front/pmc006_serial.sv \
   $root/rtl/pmc006/instructions/pmc006_range.sv \
   $root/rtl/pmc006/instructions/pmc006_exec.sv \
+  $root/rtl/pmc006/memory/pmc006_values.sv \
   $root/rtl/pmc006/memory/pmc006_settings.sv \
   $root/rtl/pmc006/instructions/pmc006_accept.sv \
   $root/rtl/pmc006/motion/pmc006_guard.sv \

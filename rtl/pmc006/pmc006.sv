@@ -156,6 +156,7 @@ module pmc006
   motion_t   motion;
   thrust_t   thrust;
   logic halt, step;
+  logic [7:0] base;
 
   pmc006_control #(
       .ClkHz  (CLK_HZ),
@@ -188,11 +189,18 @@ module pmc006
       .step_i    (step)
   );
 
+  pmc006_base_rom u_base (
+      .clk_i    (clk),
+      .current_i(settings.cur),
+      .base_o   (base)
+  );
+
   pmc006_motion u_motion (
       .clk_i     (clk),
       .rst_ni    (rst),
       .us_i      (us),
       .settings_i(settings),
+      .base_i    (base),
       .launch_i  (launch),
       .halt_i    (halt),
       .adc_i     ({adc_valid, adc_data}),
@@ -211,6 +219,7 @@ module pmc006
       .us_i          (us),
       .boot_i        (boot),
       .settings_i    (settings),
+      .base_i        (base),
       .busy_i        (motion.busy),
       .step_i        (step),
       .forward_i     (motion.forward),

@@ -103,6 +103,39 @@ package pmc006_pkg;
     logic [31:0] data;
   } order_t;
 
+  // ---- registers that an instruction writes, by the place of their copy for replies -------------------------------
+
+  typedef enum logic [4:0] {
+    RegNone,
+    RegUnused,
+    RegMstep,
+    RegCurrent,
+    RegAcc,
+    RegDec,
+    RegAutodec,
+    RegAtt,
+    RegVstart,
+    RegVstop,
+    RegCcomp,
+    RegScomp,
+    RegVmax,
+    RegDir,
+    RegFree,
+    RegAddr,
+    RegTrigger,
+    RegExten,
+    RegOffline,
+    RegStlen,
+    RegStcfg,
+    RegStlvl
+  } register_e;
+
+  // What an instruction has to do with them.
+  typedef struct packed {
+    logic      write;  // it writes the register, else it only answers it
+    register_e which;
+  } access_t;
+
   // ---- between line, control, motion and drive -------------------------------------------------------------------
 
   // A frame of the host; it stands until the next one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/icebreaker/board.yml and pmc006_carrier.sv; change those, not this.
-// board_icebreaker_pmc006: PMC006B4 on iCEBreaker (iCE40UP5K-SG48), clk 18 MHz from the 12 MHz oscillator.
+// board_icebreaker_pmc006: PMC006B4 on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz oscillator.
 // Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/pmc006/pins.pcf. The pins have room for three
 //         of the five inputs and outputs each, and for no converter: no analog speed, no stall.
 // Timing: of pmc006_carrier.
@@ -47,15 +47,13 @@ module board_icebreaker_pmc006 #(
     output logic            ledr_n
 );
 
-  localparam int unsigned ClkHz = 18_000_000;
+  localparam int unsigned ClkHz = 24_000_000;
 
   logic clk, lock, scl_oe, sda_oe, unused;
   logic [3:0] lamps;
   logic [4:0] part_gpo;
 
-  ppmc_clock_icebreaker #(
-      .Divf(47)
-  ) u_clock (
+  ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
       .clk_o    (clk),
       .lock_o   (lock)

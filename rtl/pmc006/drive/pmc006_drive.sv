@@ -17,6 +17,7 @@ module pmc006_drive
     input  wire logic             us_i,            // one clk every microsecond
     input  wire logic             boot_i,          // the part is not ready yet: no current
     input  wire settings_t        settings_i,      // parameter registers
+    input  wire logic      [ 7:0] base_i,          // base code of their current, one clk behind
     // motion
     input  wire logic             busy_i,          // a motion is under way
     input  wire logic             step_i,          // a step is made at the coming edge
@@ -73,7 +74,7 @@ module pmc006_drive
       .off_i   (off),
       .decay_i (idle && !busy_i && settings_i.autodec),
       .att_i   (settings_i.att),
-      .cur_i   (settings_i.cur),
+      .base_i,
       .bump_i,
       .lead_i,
       .forward_i,
@@ -123,6 +124,7 @@ module pmc006_drive
   assign unused_settings = &{
     1'b0,
     settings_i.mstep,
+    settings_i.cur,
     settings_i.acc,
     settings_i.dec,
     settings_i.vstart,

@@ -3,8 +3,7 @@
 // Rules:  P006-EXC-10..13, P006-EXC-20, P006-EXC-30, P006-STA-12.
 // Timing: every 32nd clk, the first one after the reset included, takes what it needs at one edge; the four
 //         outputs change together 24 clk later.
-// How:    one step of one bit a clk. k is divided out of the current in 5 steps, 16 * RB = 416 + 153 * k grows beside
-//         it; then two products of 8 steps with the rounding put in first.
+// How:    peak code, less by the decay; then two products of 8 steps of one bit with the rounding put in first.
 `default_nettype none
 
 module pmc006_refs (
@@ -13,7 +12,7 @@ module pmc006_refs (
     input  wire logic        off_i,      // BOOT or FREE
     input  wire logic        decay_i,    // the idle time is over: less current
     input  wire logic [ 2:0] att_i,      // 1 .. 4
-    input  wire logic [11:0] cur_i,      // mA, 400 .. 4000
+    input  wire logic [ 7:0] base_i,     // RB, one clk behind the rest
     input  wire logic [10:0] bump_i,     // B
     input  wire logic [ 6:0] lead_i,     // W
     input  wire logic        forward_i,  // direction of the motion
@@ -27,32 +26,18 @@ module pmc006_refs (
   logic [4:0] at_q, at_d;
   logic off_q;
   logic [2:0] att_q;
-  logic [11:0] mA_q, mA_part;
-  logic [12:0] mA_rest;
-  logic [15:0] peak_q;  // 16 * (RB + B)
-  logic [11:0] peak_part;
+  logic [10:0] bump_q;
+  logic [11:0] whole;  // RB + B
   logic [8:0] angle_q, angle_a;
-  logic [7:0] peak, peak8_q, angle, index, a_q;
+  logic [7:0] peak_q, less_q, angle, index, a_q;
   logic [8:0] sine, product_q;
   logic [9:0] sum;
 
-  assign at_d = at_q + 1'b1;
+  assign at_d    = at_q + 1'b1;
 
   // ---- peak code -------------------------------------------------------------------------------------------------
 
-  always_comb begin
-    unique case (at_q)
-      5'd1:    {mA_part, peak_part} = {12'd325, 12'd416};
-      5'd2:    {mA_part, peak_part} = {12'd2400, 12'd2448};
-      5'd3:    {mA_part, peak_part} = {12'd1200, 12'd1224};
-      5'd4:    {mA_part, peak_part} = {12'd600, 12'd612};
-      5'd5:    {mA_part, peak_part} = {12'd300, 12'd306};
-      5'd6:    {mA_part, peak_part} = {12'd150, 12'd153};
-      default: {mA_part, peak_part} = '0;
-    endcase
-    mA_rest = {1'b0, mA_q} - {1'b0, mA_part};
-    peak = (peak_q[15:12] != '0) ? 8'hff : peak_q[11:4];
-  end
+  assign whole   = 12'(bump_q) + 12'(base_i);
 
   // ---- sine and product ------------------------------------------------------------------------------------------
 
@@ -60,7 +45,7 @@ module pmc006_refs (
   assign angle_a = {angle_q[8:7] + 2'd1, angle_q[6:0]};
   assign angle   = at_d[4] ? angle_q[7:0] : angle_a[7:0];
   assign index   = angle[7] ? 8'd128 - 8'(angle[6:0]) : 8'(angle[6:0]);
-  assign sum     = ((at_q[2:0] == '0) ? 10'd128 : 10'(product_q)) + (peak8_q[at_q[2:0]] ? 10'(sine) : 10'd0);
+  assign sum     = ((at_q[2:0] == '0) ? 10'd128 : 10'(product_q)) + (less_q[at_q[2:0]] ? 10'(sine) : 10'd0);
 
   pmc006_sine_rom u_sine (
       .clk_i,
@@ -78,14 +63,11 @@ module pmc006_refs (
     if (at_q == '0) begin
       off_q   <= off_i;
       att_q   <= decay_i ? att_i : '0;
-      mA_q    <= cur_i;
-      peak_q  <= {1'b0, bump_i, 4'd0};
+      bump_q  <= bump_i;
       angle_q <= forward_i ? angle_i + 9'(lead_i) : angle_i - 9'(lead_i);
-    end else if (!mA_rest[12]) begin
-      mA_q   <= mA_rest[11:0];
-      peak_q <= peak_q + 16'(peak_part);
     end
-    if (at_q == 5'd7) peak8_q <= off_q ? '0 : peak >> att_q;
+    if (at_q == 5'd1) peak_q <= (whole[11:8] != '0) ? 8'hff : whole[7:0];
+    if (at_q == 5'd2) less_q <= off_q ? '0 : peak_q >> att_q;
     product_q <= 9'(sum >> 1);
     if (at_q == 5'd16) a_q <= product_q[7:0];
   end

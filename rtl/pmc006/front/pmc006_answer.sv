@@ -10,34 +10,35 @@ module pmc006_answer
     parameter bit          Echo    = 1'b0,          // s answers its data
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             take_i,      // the reply is due
-    input  wire order_t           order_i,     // the instruction
-    input  wire logic             took_i,      // s, t, B, E, W, G, z have been accepted
-    input  wire settings_t        settings_i,  // parameter registers
-    input  wire control_t         control_i,   // registers of the control
-    input  wire logic             speed_i,     // SPEED_MODE
-    input  wire logic             busy_i,      // a motion is under way
-    input  wire logic             stall_i,     // register STALL
-    input  wire logic      [ 1:0] flags_i,     // EXT1, EXT2
-    input  wire logic      [ 1:0] ext_i,       // pins
-    input  wire logic      [ 4:0] gpi_i,       // general inputs, synchronised
-    input  wire logic      [ 4:0] gpo_i,       // pins of the general outputs
-    input  wire logic      [ 4:0] out_i,       // register GPO
-    input  wire logic      [ 7:0] pp_i,        // where the user program stands
-    input  wire logic      [31:0] pos_i,       // position
-    input  wire logic      [31:0] stpos_i,     // position of the last stall
-    input  wire logic      [31:0] word_i,      // of the program
-    input  wire logic             free_i,      // EEPROM: nothing is under way
-    input  wire logic             failed_i,    // its last work
-    output logic           [31:0] reply_o      // data of the reply
+    input wire logic clk_i,
+    input wire logic take_i,  // the reply is due
+    input wire order_t order_i,  // the instruction
+    input wire logic took_i,  // s, t, B, E, W, G, z have been accepted
+    input wire logic [13:0] value_i,  // of the instruction's register, else 0, when reply_o has to stand
+    input wire settings_t settings_i,  // parameter registers
+    input wire control_t control_i,  // registers of the control
+    input wire logic speed_i,  // SPEED_MODE
+    input wire logic busy_i,  // a motion is under way
+    input wire logic stall_i,  // register STALL
+    input wire logic [1:0] flags_i,  // EXT1, EXT2
+    input wire logic [1:0] ext_i,  // pins
+    input wire logic [4:0] gpi_i,  // general inputs, synchronised
+    input wire logic [4:0] gpo_i,  // pins of the general outputs
+    input wire logic [4:0] out_i,  // register GPO
+    input wire logic [7:0] pp_i,  // where the user program stands
+    input wire logic [31:0] pos_i,  // position
+    input wire logic [31:0] stpos_i,  // position of the last stall
+    input wire logic [31:0] word_i,  // of the program
+    input wire logic free_i,  // EEPROM: nothing is under way
+    input wire logic failed_i,  // its last work
+    output logic [31:0] reply_o  // data of the reply
 );
 
-  logic [31:0] whole, reply;
+  logic [31:0] whole, reply_q;
   logic [13:0] part;
   logic unused_bits;
 
-  assign unused_bits = &{1'b0, order_i, settings_i};
+  assign unused_bits = &{1'b0, order_i, settings_i, control_i};
 
   // Few have more than 14 bits.
   always_comb begin
@@ -58,37 +59,19 @@ module pmc006_answer
       I_POINTER: part = 14'(pp_i);
       I_BURN, I_TRY, I_SAVE, I_START: part = 14'(took_i);
       I_STORED: part = 14'({failed_i && free_i, !free_i});
-      I_OFFLINE: part = 14'(control_i.offline);
-      I_TRIGGER, I_TRIGGER_READ: part = 14'(control_i.trigm);
-      I_VSTART: part = 14'(settings_i.vstart);
-      I_CCOMP: part = 14'(settings_i.ccomp);
       I_RUN: part = 14'(speed_i);
       I_STATUS2: part = 14'({control_i.offline, settings_i.dir, speed_i, control_i.exten, settings_i.free});
-      I_SCOMP: part = 14'(settings_i.scomp);
-      I_ATT, I_ATT_READ: part = 14'(settings_i.att);
-      I_VSTOP: part = 14'(settings_i.vstop);
-      I_STLEN: part = 14'(control_i.stlen);
-      I_STCFG: part = 14'(control_i.stcfg);
-      I_STLVL: part = 14'(control_i.stlvl);
-      I_AUTODEC: part = 14'(settings_i.autodec);
-      I_DIR: part = 14'(settings_i.dir);
-      I_CURRENT, I_CURRENT_READ: part = 14'(settings_i.cur);
-      I_EXTEN: part = 14'(control_i.exten);
-      I_FREE: part = 14'(settings_i.free);
-      I_DEC, I_DEC_READ: part = 14'(settings_i.dec);
       I_STATUS1: part = 14'({stall_i, settings_i.autodec, flags_i, busy_i});
-      I_MSTEP, I_MSTEP_READ: part = 14'(settings_i.mstep);
-      I_VMAX, I_VMAX_READ: part = settings_i.vmax;
-      I_ACC, I_ACC_READ: part = 14'(settings_i.acc);
-      I_ADDR: part = 14'(control_i.addr);
       I_PORTS: part = 14'({ext_i, gpi_i[4:3], gpo_i, gpi_i[2:0]});
       I_OUT: part = 14'({out_i, 3'd0});
       default: part = 14'd0;
     endcase
-    reply = whole | 32'(part);
   end
 
-  always_ff @(posedge clk_i) if (take_i) reply_o <= reply;
+  always_ff @(posedge clk_i) if (take_i) reply_q <= whole | 32'(part);
+
+  // What belongs to a register is 0 in one of them.
+  assign reply_o = reply_q | 32'(value_i);
 
 endmodule
 

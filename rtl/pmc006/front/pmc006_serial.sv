@@ -38,13 +38,12 @@ module pmc006_serial
   // Bits are counted from the sample on, which is two clk old when its result stands in the registers.
   localparam logic [Width-1:0] Zero = Width'(Rest + 64'd2 * Unit);
   localparam logic [Width-1:0] Half = Width'(Rest + 64'd2 * Unit + Modulus / 64'd2);
-  localparam logic [7:0] Silence = 8'd202;  // 192 bits until the next start, 9.5 from there to its end
+  localparam int unsigned Silence = 202;  // 192 bits until the next start, 9.5 from there to its end
 
   logic [7:0] char, next, sum_q, bits_q;
   logic valid, error, unused_break, line, unused_meta;
-  logic listen, open_q, deaf_q, late_q, over_q, stop;
+  logic listen, open_q, deaf_q, late, over_q, stop;
   logic [Width-1:0] phase_q;
-  logic [7:0] count_q;
   logic [3:0] left_q, at_q;
 
   // ---- receiver --------------------------------------------------------------------------------------------------
@@ -87,7 +86,7 @@ module pmc006_serial
       .byte_i (char),
       .valid_i(valid && listen),
       .error_i(error),
-      .late_i (late_q),
+      .late_i (late),
       .frame_o
   );
 
@@ -96,15 +95,16 @@ module pmc006_serial
   always_ff @(posedge clk_i) begin
     if (valid) {over_q, phase_q} <= {1'b0, frame_o.go ? Zero : Half};
     else {over_q, phase_q} <= {1'b0, phase_q} + {1'b0, !over_q ? Step : stop ? WrapHalf : Wrap};
-    if (valid) count_q <= '0;
-    else if (over_q) count_q <= count_q + 1'b1;
   end
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) late_q <= 1'b0;
-    else if (valid) late_q <= 1'b0;
-    else if (over_q && count_q == Silence - 1'b1) late_q <= 1'b1;
-  end
+  ppmc_delay #(
+      .Ticks(Silence)
+  ) u_silence (
+      .clk_i,
+      .restart_i(valid),
+      .tick_i   (over_q),
+      .past_o   (late)
+  );
 
   // ---- reply -----------------------------------------------------------------------------------------------------
 
@@ -147,11 +147,11 @@ module pmc006_serial
       if (left_q != '0) begin
         left_q <= left_q - 1'b1;
         bits_q <= {1'b1, bits_q[7:1]};
+        if (left_q == 4'd9) sum_q <= sum_q + bits_q;
       end else if (!at_q[3]) begin
         left_q <= 4'd9;
         bits_q <= next;
         at_q   <= at_q + 1'b1;
-        sum_q  <= sum_q + next;
       end
     end
   end

@@ -41,7 +41,9 @@ module pmc006_control
     input  wire logic           step_i       // a step is made at the coming edge
 );
 
-  order_t   order;
+  order_t order;
+  access_t access;
+  logic [13:0] value;
   control_t control;
   logic next, cancel, begins, claim, second, trial, tries;
   logic load, load_wide, store, legal, act, place, take, write, took, took_q;
@@ -73,6 +75,7 @@ module pmc006_control
       .load_data_i({load_wide ? pair[15:8] : 8'd0, pair[7:0]}),
       .store_i    (store),
       .order_o    (order),
+      .access_o   (access),
       .legal_o    (legal),
       .act_o      (act),
       .place_o    (place),
@@ -87,9 +90,12 @@ module pmc006_control
       .clk_i,
       .rst_ni   (rst_set),
       .order_i  (order),
+      .access_i (access),
       .write_i  (write),
+      .take_i   (take),
       .settings_o,
-      .control_o(control)
+      .control_o(control),
+      .value_o  (value)
   );
 
   // ---- user program ----------------------------------------------------------------------------------------------
@@ -269,6 +275,7 @@ module pmc006_control
       .take_i    (take),
       .order_i   (order),
       .took_i    (took_q),
+      .value_i   (value),
       .settings_i(settings_o),
       .control_i (control),
       .speed_i   (mode),

@@ -28,6 +28,7 @@ module pmc006_exec
     input  wire logic          store_i,      // carry out; else only look whether it is legal
     // what is carried out
     output order_t             order_o,      // what is carried out
+    output access_t            access_o,     // the register that it means
     output logic               legal_o,      // its data are in range
     output logic               act_o,        // order_o is carried out in this clk
     output logic               place_o,      // the same for the position
@@ -48,7 +49,7 @@ module pmc006_exec
 
   state_e  state_q;
   source_e source_q;
-  logic ask_q, again_q, ok, legal_q, program_q, place;
+  logic ask_q, again_q, program_q, place;
   logic [7:0] op_d, op_q;
   logic [3:0] option_q;
 
@@ -60,7 +61,6 @@ module pmc006_exec
 
   assign act_o = state_q == StAct && !place && !(cancel_i && source_q == FromProgram);
   assign reply_o = state_q == StReply;
-  assign legal_o = legal_q;
   assign begin_o = state_q == StIdle && !ask_q && next_i;
   assign trial_o = source_q == FromTry;
   assign second_o = program_q && state_q != StFirst;
@@ -82,7 +82,8 @@ module pmc006_exec
       .program_i(state_q == StDecode),
       .op_i     (op_d),
       .order_i  (order_o),
-      .ok_o     (ok)
+      .access_o,
+      .ok_o     (legal_o)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -128,7 +129,6 @@ module pmc006_exec
     else if (state_q == StDecode) begin
       option_q <= (word_i[15:12] == '0) ? word_i[11:8] : 4'hf;
     end
-    legal_q <= ok;
     again_q <= act_o && try_i;
   end
 

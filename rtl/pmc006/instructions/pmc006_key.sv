@@ -7,7 +7,7 @@
 
 module pmc006_key #(
     parameter int unsigned LowTicks  = 1001,
-    parameter int unsigned HighTicks = 1001,  // to arm it again; 0: at once
+    parameter int unsigned HighTicks = 1001,  // to arm it again: as many, or 0: at once
     parameter bit          Armed     = 1'b0   // after reset
 ) (
     input  wire logic clk_i,
@@ -18,25 +18,33 @@ module pmc006_key #(
     output logic      armed_o  // being armed
 );
 
-  localparam int unsigned Width = ppmc_pkg::cnt_width(LowTicks);
+  if (HighTicks != 0 && HighTicks != LowTicks) begin : g_check
+    $fatal(1, "pmc006_key: HighTicks must be 0 or LowTicks");
+  end
 
-  localparam int unsigned High = (HighTicks == 0) ? 1 : HighTicks;
+  logic armed_q, begun_q, nearly, done;
 
-  logic armed_q, done;
-  logic [Width-1:0] count_q;
+  // All ticks but the last one.
+  ppmc_delay #(
+      .Ticks(LowTicks - 1)
+  ) u_nearly (
+      .clk_i,
+      .restart_i(pin_i == armed_q || hit_o || armed_o || !begun_q),
+      .tick_i   (us_i),
+      .past_o   (nearly)
+  );
 
-  assign done = us_i && count_q == (armed_q ? Width'(LowTicks - 1) : Width'(High - 1));
+  assign done = us_i && nearly && begun_q;
   assign hit_o = armed_q && !pin_i && done;
   assign armed_o = !armed_q && pin_i && (HighTicks == 0 || done);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       armed_q <= Armed;
-      count_q <= '0;
+      begun_q <= 1'b0;
     end else begin
       if (hit_o || armed_o) armed_q <= !armed_q;
-      if (pin_i == armed_q || hit_o || armed_o) count_q <= '0;
-      else if (us_i) count_q <= count_q + 1'b1;
+      begun_q <= 1'b1;
     end
   end
 

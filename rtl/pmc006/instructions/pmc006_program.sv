@@ -50,7 +50,8 @@ module pmc006_program
   logic reset_hit, reset_armed, pause_hit, unused_armed;
   logic [3:0] option_q, option;
   logic [6:0] line_q, target_q;
-  logic [31:0] count_q, value;
+  logic [31:0] count_q;
+  logic [4:0] value;
   logic [8:0] bits;
   logic [PaceBits-1:0] pace_q;
   logic unused_bits;
@@ -68,11 +69,10 @@ module pmc006_program
     for (int unsigned i = 0; i < 9; i++) begin
       if (option == 4'(i + 1)) met = bits[i] == ((state_q == StWait) ? want_q : order_i.data[0]);
     end
-    value = 32'd0;
+    value = 5'd0;
     for (int unsigned i = 0; i < 7; i++) if (order_i.option == 4'(i + 1)) value[0] = bits[i];
-    if (order_i.option == 4'd8) value = count_q;
-    if (order_i.option == 4'd9) value = {27'd0, gpi_i};
-    equal = value == order_i.data;
+    if (order_i.option == 4'd9) value = gpi_i;
+    equal = (order_i.option == 4'd8) ? order_i.data == count_q : order_i.data == 32'(value);
   end
 
   // ---- keys ------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_range: which data each instruction accepts, whatever the state of the motor.
+// pmc006_range: which data each instruction accepts, whatever the state of the motor, and which register it means.
 // Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57, P006-BAD-08/09.
-// Timing: ok_o is combinational from order_i; the limits come out of a table in a block RAM, one clk after take_i.
+// Timing: ok_o is for order_i of the clk before; the limits come out of a table in a block RAM, one clk after take_i.
 `default_nettype none
 
 module pmc006_range
@@ -12,59 +12,97 @@ module pmc006_range
     input  wire logic         program_i,  // with take_i: out of the user program
     input  wire logic   [7:0] op_i,       // with take_i
     input  wire order_t       order_i,    // the same instruction, from the next clk on
+    output access_t           access_o,   // its register
     output logic              ok_o        // its data are accepted
 );
 
   typedef struct packed {
-    logic        listed;  // there are limits
-    logic [13:0] low;
-    logic [13:0] high;
+    logic            listed;  // there are limits
+    logic [8:0]      low;
+    logic [13:0]     high;
+    access_t access;
   } limits_t;
+
+  function automatic access_t access_of(logic [7:0] op);
+    unique case (op)
+      I_MSTEP:        return '{write: 1'b1, which: RegMstep};
+      I_CURRENT:      return '{write: 1'b1, which: RegCurrent};
+      I_ACC:          return '{write: 1'b1, which: RegAcc};
+      I_DEC:          return '{write: 1'b1, which: RegDec};
+      I_AUTODEC:      return '{write: 1'b1, which: RegAutodec};
+      I_ATT:          return '{write: 1'b1, which: RegAtt};
+      I_VSTART:       return '{write: 1'b1, which: RegVstart};
+      I_VSTOP:        return '{write: 1'b1, which: RegVstop};
+      I_CCOMP:        return '{write: 1'b1, which: RegCcomp};
+      I_SCOMP:        return '{write: 1'b1, which: RegScomp};
+      I_VMAX:         return '{write: 1'b1, which: RegVmax};
+      I_DIR:          return '{write: 1'b1, which: RegDir};
+      I_FREE:         return '{write: 1'b1, which: RegFree};
+      I_ADDR:         return '{write: 1'b1, which: RegAddr};
+      I_TRIGGER:      return '{write: 1'b1, which: RegTrigger};
+      I_EXTEN:        return '{write: 1'b1, which: RegExten};
+      I_OFFLINE:      return '{write: 1'b1, which: RegOffline};
+      I_STLEN:        return '{write: 1'b1, which: RegStlen};
+      I_STCFG:        return '{write: 1'b1, which: RegStcfg};
+      I_STLVL:        return '{write: 1'b1, which: RegStlvl};
+      I_MSTEP_READ:   return '{write: 1'b0, which: RegMstep};
+      I_CURRENT_READ: return '{write: 1'b0, which: RegCurrent};
+      I_ACC_READ:     return '{write: 1'b0, which: RegAcc};
+      I_DEC_READ:     return '{write: 1'b0, which: RegDec};
+      I_ATT_READ:     return '{write: 1'b0, which: RegAtt};
+      I_VMAX_READ:    return '{write: 1'b0, which: RegVmax};
+      I_TRIGGER_READ: return '{write: 1'b0, which: RegTrigger};
+      default:        return '{write: 1'b0, which: RegNone};
+    endcase
+  endfunction
 
   function automatic limits_t limits_of(logic program_op, logic [7:0] op);
     limits_t l;
-    l = '{listed: 1'b1, low: 14'd0, high: 14'd1};
+    l = '{listed: 1'b1, low: 9'd0, high: 14'd1, access : access_of(op)};
     unique case (op)
       I_OFFLINE, I_RUN, I_AUTODEC, I_DIR, I_FREE: l.high = 14'd1;
       I_POINTER: l.high = 14'd199;
       I_TRIGGER: l.high = 14'd3;
       I_EXTEN: l.high = program_op ? 14'd1 : 14'd3;
       I_VSTART, I_VSTOP: begin
-        l.low  = 14'd65;
+        l.low  = 9'd65;
         l.high = 14'd3000;
       end
       I_CCOMP: begin
-        l.low  = 14'd100;
+        l.low  = 9'd100;
         l.high = 14'd1200;
       end
       I_SCOMP: begin
-        l.low  = 14'd300;
+        l.low  = 9'd300;
         l.high = 14'd2000;
       end
       I_ATT: begin
-        l.low  = 14'd1;
+        l.low  = 9'd1;
         l.high = 14'd4;
       end
       I_STLEN: l.high = 14'd63;
       I_STCFG: l.high = 14'd7;
       I_STLVL: l.high = 14'd511;
       I_CURRENT: begin
-        l.low  = 14'd400;
+        l.low  = 9'd400;
         l.high = 14'd4000;
       end
       I_MSTEP: l.high = 14'd128;
       I_DEC: l.high = 14'd5;
       I_ACC: l.high = program_op ? 14'd6 : 14'd5;
       I_VMAX: begin
-        l.low  = program_op ? 14'd0 : 14'd1;
+        l.low  = program_op ? 9'd0 : 9'd1;
         l.high = 14'd16_000;
       end
       I_ADDR: begin
-        l.low  = 14'd1;
+        l.low  = 9'd1;
         l.high = 14'd120;
       end
       P_JMP, P_JNE, P_JEQ, P_RESET_EN: l.high = 14'd99;
-      default: l.listed = 1'b0;
+      default: begin
+        l.listed = 1'b0;
+        l.high   = 14'h3fff;
+      end
     endcase
     return l;
   endfunction
@@ -81,30 +119,45 @@ module pmc006_range
   (* rom_style = "block" *)
   limits_t rom[512];
   limits_t limits_q;
-  logic inner;
+  logic [31:0] data;
+  logic may, own;
+  logic
+      above_q,
+      below_q,
+      may_q,
+      own_q;  // not below the lowest, not above the highest, else right; right anyway
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = Words[9'(i)];
 
   always_ff @(posedge clk_i) if (take_i) limits_q <= rom[{program_i, op_i}];
 
-  assign inner = order_i.data[31:14] == '0 && order_i.data[13:0] >= limits_q.low &&
-      order_i.data[13:0] <= limits_q.high;
+  assign access_o = limits_q.access;
+  assign data = order_i.data;
 
+  // Of what is not listed the lowest 14 bits are within limits.
   always_comb begin
-    ok_o = !limits_q.listed || inner;
+    may = !limits_q.listed || data[31:14] == '0;
+    own = 1'b0;
     unique case (order_i.op)
-      I_STEP: ok_o = !order_i.data[31] && order_i.data[30:0] != '0;
+      I_STEP: may = !data[31] && data[30:0] != '0;
       // One bit of the byte, or none.
-      I_MSTEP: ok_o = inner && !order_i.data[0] && (order_i.data[7:0] & (order_i.data[7:0] - 1'b1)) == '0;
-      I_ADDR: ok_o = inner || (order_i.source == FromBoot && order_i.data[15:0] == 16'h00ff);
-      I_VMAX: ok_o = inner && order_i.option <= 4'd1;
-      P_RESET_EN: ok_o = inner && order_i.option <= 4'd1;
-      P_PAUSE_EN: ok_o = order_i.option <= 4'd1;
-      P_OUT: ok_o = order_i.option inside {[4'd1 : 4'd5]};
-      P_WAIT, P_CMP: ok_o = order_i.option inside {[4'd1 : 4'd9]};
+      I_MSTEP: if (data[0] || (data[7:0] & (data[7:0] - 1'b1)) != '0) may = 1'b0;
+      I_ADDR: own = order_i.source == FromBoot && data[15:0] == 16'h00ff;
+      I_VMAX, P_RESET_EN, P_PAUSE_EN: if (order_i.option > 4'd1) may = 1'b0;
+      P_OUT: may = order_i.option inside {[4'd1 : 4'd5]};
+      P_WAIT, P_CMP: may = order_i.option inside {[4'd1 : 4'd9]};
       default: ;
     endcase
   end
+
+  always_ff @(posedge clk_i) begin
+    above_q <= data[13:0] >= 14'(limits_q.low);
+    below_q <= data[13:0] <= limits_q.high;
+    may_q   <= may;
+    own_q   <= own;
+  end
+
+  assign ok_o = (above_q && below_q && may_q) || own_q;
 
 endmodule
 

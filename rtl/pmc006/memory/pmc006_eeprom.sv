@@ -49,7 +49,6 @@ module pmc006_eeprom
 );
 
   localparam int unsigned PollTicks = 4 * I2cHz / 100;
-  localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollTicks);
   localparam logic [9:0] Program = 10'h020;
   localparam logic [9:0] Mark = 10'h342;
   localparam logic [4:0] FirstField = 5'h03;
@@ -72,6 +71,7 @@ module pmc006_eeprom
     StIdle
   } state_e;
 
+  (* fsm_encoding = "none" *)
   state_e state_q;
   logic tick, first, done, fail, nack;
   logic
@@ -81,7 +81,6 @@ module pmc006_eeprom
   logic [2:0] phase_q;
   logic [9:0] at_q;
   logic [7:0] received, data, ahead_q, out;
-  logic [PollBits-1:0] poll_count_q;
   i2c_cmd_e cmd;
 
   // ---- bus -------------------------------------------------------------------------------------------------------
@@ -181,13 +180,19 @@ module pmc006_eeprom
   assign boot_o = boot_q;
   assign load_o = state_q == StLoad && phase_q == 3'd3;
   assign store_o = store_q;
-  assign over = poll_count_q == PollBits'(PollTicks);
   assign give_up = fail || (done && state_q == StStop && (fail_q || (again_q && over)));
   assign autostart_o = state_q == StSettle && !restore_q && boot_q && control_i.offline && !program_bad_q;
 
+  ppmc_delay #(
+      .Ticks(PollTicks)
+  ) u_poll (
+      .clk_i,
+      .restart_i(!poll_q),
+      .tick_i   (tick),
+      .past_o   (over)
+  );
+
   always_ff @(posedge clk_i) begin
-    if (!poll_q) poll_count_q <= '0;
-    else if (tick && !over) poll_count_q <= poll_count_q + 1'b1;
     phase_q <= (state_q == StLoad) ? phase_q + 1'b1 : 3'd0;
   end
 

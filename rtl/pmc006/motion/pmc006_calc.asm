@@ -114,7 +114,8 @@ Way:    ; way from speed hi down to VSTOP
         jump Fit if Carry       ; it is time to slow down
         jump Target
 PlanWay:
-        store MSlack            ; margin(LT)
+        add K3
+        store MSlack            ; margin(LT) + 3
         load RLo
         store MWay2             ; way of the deceleration
 
@@ -122,7 +123,6 @@ PlanNeed: ; do both ways fit? else steeper ramps, up to 5
         load MWay1
         add MWay2
         add MSlack
-        add K3
         sub RLeft               ; Carry: more than there is
         jump PlanFree if NotCarry
         jump PlanDec if Acc5
@@ -156,7 +156,7 @@ PlanPeak: ; too short even so: the peak speed is lowered
         store MT                ; half of it
         load RLeft
         sub MSlack
-        sub K4
+        sub K1
         store MX                ; steps for both ramps
         load.lo K54400          ; the steepest acceleration, 1700 << 5
         load MT
@@ -356,15 +356,7 @@ Compensate:
         div RMstep
         load RLo
         store MX                ; full-step speed, steps/s
-        load RCur
-        sub.lo K325
-        div K150
-        load.lo RLo             ; k = (current - 325 mA) / 150 mA
-        load K416
-        mul.16 K153
-        load RMid               ; 416 + 153 * k
-        shift.4                 ; base code RB
-        add.lo K0               ; lo = RB
+        load.lo RBase
         mul.16 RCcomp
         load RMid               ; RB * CCOMP
         store MT

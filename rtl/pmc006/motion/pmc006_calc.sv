@@ -2,8 +2,9 @@
 // pmc006_calc: the planner's calculator: one adder that multiplies and divides step by step, a small memory and
 //         the program of pmc006_calc_rom (pmc006_calc.asm).
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
-// Timing: 2 clk for an instruction, n + 1 for n steps. A planning ends within 700 clk of plan_i, an update tick
-//         within 640 of advance_i; either may come while an old run is still going on, which it ends.
+// Timing: 2 clk for an instruction without operand, 3 for one with, n + 2 for n steps. A planning ends within 785 clk of
+//         plan_i, an update tick within 590 of advance_i; either may come while an old run is still going on, which it
+//         ends.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -29,7 +30,7 @@ module pmc006_calc
     // settings, as sampled
     input  wire logic [13:0] vmax_i,     // VMAX
     input  wire logic [ 9:0] adc_i,      // h
-    input  wire logic [11:0] cur_i,      // current, mA
+    input  wire logic [ 7:0] base_i,     // base code RB of the current
     input  wire logic [10:0] ccomp_i,    // CCOMP
     input  wire logic [10:0] scomp_i,    // SCOMP
     // results
@@ -41,19 +42,18 @@ module pmc006_calc
 );
 
 
-  instr_t instr, ir_q;  // as fetched, while the operand is read; as executed
-  operand_e src;
-  logic run_q, exec_q, fetch, last, done, taken;
+  instr_t instr, ir_q;  // as fetched; as its operand is chosen, and executed
+  logic run_q, read_q, bare, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] left_q, steps;
   logic plan_q, up_q, smooth_q, carry_q, zero;
   logic [2:0] acc_q, dec_q;
 
-  logic [31:0] hi_q, lo_q, operand, a, b;
-  logic [31:0] word_q, constant, constant_q, outer, outer_q, inner, inner_q;  // one of them is not 0
+  logic [31:0] hi_q, lo_q, operand_q, a, b;
+  logic [31:0] word, register;  // one of them is 0
   logic [32:0] sum;
   logic mul, div, root, shift_only;
-  logic [2:0] n_way, n_rate;
+  logic [2:0] coefficient;
 
   // ---- sequence --------------------------------------------------------------------------------------------------
 
@@ -61,6 +61,7 @@ module pmc006_calc
   assign last   = exec_q && left_q == '0;
   assign done   = last && run_q;
   assign fetch  = plan_i || advance_i || done;
+  assign bare   = instr.op[3] || instr.op[1:0] == '0;  // no operand
 
   always_comb begin
     unique case (cond_e'(ir_q.aux))
@@ -86,9 +87,9 @@ module pmc006_calc
     else if (advance_i) pc_d = EntryTick;
     else if (ir_q.op == OpJump && taken) pc_d = ir_q.low;
     else pc_d = pc_q + 1'b1;
-    unique case (instr.op)
+    unique case (ir_q.op)
       OpMul: begin
-        unique case (steps_e'(instr.aux))
+        unique case (steps_e'(ir_q.aux))
           N1:      steps = 5'd0;
           N2:      steps = 5'd1;
           N4:      steps = 5'd3;
@@ -118,69 +119,48 @@ module pmc006_calc
   always_ff @(posedge clk_i) begin
     if (fetch) pc_q <= pc_d;
     ir_q   <= instr;
-    exec_q <= !fetch && run_q;
-    if (!exec_q) left_q <= steps;
+    read_q <= fetch;
+    exec_q <= !fetch && run_q && (!read_q || bare);
+    if (read_q) left_q <= '0;
+    else if (!exec_q) left_q <= steps;
     else left_q <= left_q - 1'b1;
   end
 
   // ---- operands --------------------------------------------------------------------------------------------------
 
-  assign src = operand_e'(instr.low[5:0]);
-  assign n_way = instr.aux[0] ? dec_q : acc_q;
-  assign n_rate = up_q ? acc_q : dec_q;
+  assign coefficient = (instr.low[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
-  // Constants, registers of the motion and those of the calculator by themselves: what comes late out of the program's
-  // RAM goes through few cells then.
+  // Words of a register's code are 0.
+  pmc006_calc_words u_words (
+      .clk_i,
+      .we_i  (done && ir_q.op == OpStore),
+      .at_i  (ir_q.low[3:0]),
+      .data_i(hi_q),
+      .read_i({instr.low[6:3], instr.low[5] ? coefficient : instr.low[2:0]}),
+      .word_o(word)
+  );
+
   always_comb begin
-    unique case (src)
-      K1:      constant = 32'd1;
-      K3:      constant = 32'd3;
-      K4:      constant = 32'd4;
-      K100:    constant = 32'd100;
-      K150:    constant = 32'd150;
-      K153:    constant = 32'd153;
-      K325:    constant = 32'd325;
-      K416:    constant = 32'd416;
-      K20000:  constant = 32'd20000;
-      K54400:  constant = 32'd54400;
-      K3x2p16: constant = 32'd196608;
-      K2p31:   constant = 32'h8000_0000;
-      default: constant = '0;
-    endcase
-    unique case (src[2:0])
-      RV[2:0]:    outer = 32'(v_i);
-      RVe[2:0]:   outer = 32'(ve_i);
-      RLeft[2:0]: outer = 32'(left_i);
-      RVmax[2:0]: outer = 32'(vmax_i);
-      RAdc[2:0]:  outer = 32'({adc_i, 6'd0});
-      RAdc9[2:0]: outer = 32'({adc_i[9], 6'd0});
-      RCur[2:0]:  outer = 32'(cur_i);
-      default:    outer = 32'(ccomp_i);
-    endcase
-    unique case (src[2:0])
-      RScomp[2:0]:  inner = 32'(scomp_i);
-      RMstep[2:0]:  inner = 32'(mstep_i);
-      RLo[2:0]:     inner = lo_q;
-      RMid[2:0]:    inner = {hi_q[15:0], lo_q[31:16]};
-      RMargin[2:0]: inner = 32'({1'b1, hi_q[13:12]});
-      RRoot[2:0]:   inner = 32'({next_o, 2'b01});
-      RRate[2:0]:   inner = 32'd17 << n_rate;
-      default:      inner = 32'd3400 << n_way;
+    unique case (ir_q.low[3:0])
+      RV[3:0]:      register = 32'(v_i);
+      RVe[3:0]:     register = 32'(ve_i);
+      RLeft[3:0]:   register = 32'(left_i);
+      RVmax[3:0]:   register = 32'(vmax_i);
+      RAdc[3:0]:    register = 32'({adc_i, 6'd0});
+      RAdc9[3:0]:   register = 32'({adc_i[9], 6'd0});
+      RBase[3:0]:   register = 32'(base_i);
+      RCcomp[3:0]:  register = 32'(ccomp_i);
+      RScomp[3:0]:  register = 32'(scomp_i);
+      RMstep[3:0]:  register = 32'(mstep_i);
+      RLo[3:0]:     register = lo_q;
+      RMid[3:0]:    register = {hi_q[15:0], lo_q[31:16]};
+      RMargin[3:0]: register = 32'({1'b1, hi_q[13:12]});
+      RRoot[3:0]:   register = 32'({next_o, 2'b01});
+      default:      register = '0;
     endcase
   end
 
-  (* no_rw_check *)
-  logic [31:0] words[16];
-
-  always_ff @(posedge clk_i) begin
-    if (done && ir_q.op == OpStore) words[ir_q.low[3:0]] <= hi_q;
-    word_q     <= (src[5:4] == 2'b00) ? words[src[3:0]] : '0;
-    constant_q <= (src[5:4] == 2'b01) ? constant : '0;
-    outer_q    <= (src[5:3] == 3'b100) ? outer : '0;
-    inner_q    <= (src[5:3] == 3'b101) ? inner : '0;
-  end
-
-  assign operand = word_q | constant_q | outer_q | inner_q;
+  always_ff @(posedge clk_i) operand_q <= word | (ir_q.low[6] ? register : '0);
 
   // ---- the adder -------------------------------------------------------------------------------------------------
 
@@ -192,7 +172,7 @@ module pmc006_calc
 
   always_comb begin
     a   = div ? {hi_q[30:0], lo_q[31]} : (ir_q.op == OpLoad) ? '0 : hi_q;
-    b   = (div || ir_q.op == OpSub) ? ~operand : (mul && !lo_q[0]) ? '0 : operand;
+    b   = (div || ir_q.op == OpSub) ? ~operand_q : (mul && !lo_q[0]) ? '0 : operand_q;
     sum = {1'b0, a} + {1'b0, b} + 33'(div || ir_q.op == OpSub);
   end
 

@@ -48,51 +48,49 @@ package pmc006_calc_pkg;
     OutDec     // nd = nd + 1
   } out_e;
 
-  typedef enum logic [5:0] {
-    // words of the calculator's memory
-    MLt     = 6'h00,  // live target last used
-    MU      = 6'h01,  // progress of the ramp
-    MDu     = 6'h02,  // its increment; 0 stands for 2^32
-    MV1     = 6'h03,  // its first speed
-    MDv     = 6'h04,  // and its height
-    MLeft   = 6'h05,  // R of this update tick
-    MT      = 6'h06,
-    MX      = 6'h07,
-    MWay1   = 6'h08,  // way of the acceleration, steps
-    MWay2   = 6'h09,  // of the deceleration
-    MSlack  = 6'h0a,  // margin(VT)
+  // Bits 6, 5: 00 a word of pmc006_calc_words, 01 a table there, 10 a register.
+  typedef enum logic [6:0] {
+    // words that are written
+    MLt     = 7'h00,  // live target last used
+    MU      = 7'h01,  // progress of the ramp
+    MDu     = 7'h02,  // its increment; 0 stands for 2^32
+    MV1     = 7'h03,  // its first speed
+    MDv     = 7'h04,  // and its height
+    MLeft   = 7'h05,  // R of this update tick
+    MT      = 7'h06,
+    MX      = 7'h07,
+    MWay1   = 7'h08,  // way of the acceleration, steps
+    MWay2   = 7'h09,  // of the deceleration
+    MSlack  = 7'h0a,  // margin(VT) + 3
     // constants
-    K0      = 6'h10,
-    K1      = 6'h11,
-    K3      = 6'h1c,
-    K4      = 6'h12,
-    K100    = 6'h13,
-    K150    = 6'h14,
-    K153    = 6'h15,
-    K325    = 6'h16,
-    K416    = 6'h17,
-    K20000  = 6'h18,
-    K54400  = 6'h19,
-    K3x2p16 = 6'h1a,  // 196608
-    K2p31   = 6'h1b,
+    K0      = 7'h10,
+    K1      = 7'h11,
+    K3      = 7'h12,
+    K4      = 7'h13,
+    K100    = 7'h14,
+    K20000  = 7'h15,
+    K54400  = 7'h16,
+    K3x2p16 = 7'h17,  // 196608
+    K2p31   = 7'h18,
+    // tables by a coefficient, which is the lowest three bits
+    RRate   = 7'h20,  // 17 << na or, for a ramp that falls, nd
+    RWay    = 7'h28,  // 3400 << na, with Dec nd
     // the motion's registers and its settings as sampled
-    RV      = 6'h20,
-    RVe     = 6'h21,
-    RLeft   = 6'h22,  // R
-    RVmax   = 6'h23,
-    RAdc    = 6'h24,  // h << 6
-    RAdc9   = 6'h25,  // h[9] << 6
-    RCur    = 6'h26,
-    RCcomp  = 6'h27,
-    RScomp  = 6'h28,
-    RMstep  = 6'h29,  // 1, 2, 4, .. 128
+    RV      = 7'h40,
+    RVe     = 7'h41,
+    RLeft   = 7'h42,  // R
+    RVmax   = 7'h43,
+    RAdc    = 7'h44,  // h << 6
+    RAdc9   = 7'h45,  // h[9] << 6
+    RBase   = 7'h46,  // RB
+    RCcomp  = 7'h47,
+    RScomp  = 7'h48,
+    RMstep  = 7'h49,  // 1, 2, 4, .. 128
     // of the calculator
-    RLo     = 6'h2a,
-    RMid    = 6'h2b,  // {hi, lo} >> 16
-    RMargin = 6'h2c,  // margin(hi): (hi >> 12) + 4
-    RRoot   = 6'h2d,  // 4 * VN + 1
-    RRate   = 6'h2e,  // 17 << na or, for a ramp that falls, nd
-    RWay    = 6'h2f   // 3400 << na, with Dec nd
+    RLo     = 7'h4c,
+    RMid    = 7'h4d,  // {hi, lo} >> 16
+    RMargin = 7'h4e,  // margin(hi): (hi >> 12) + 4
+    RRoot   = 7'h4f   // 4 * VN + 1
   } operand_e;
 
   typedef enum logic [3:0] {
@@ -135,7 +133,7 @@ package pmc006_calc_pkg;
 
   localparam logic [8:0] EntryPlan = 9'd0;
   localparam logic [8:0] EntryTick = 9'd1;
-  localparam int unsigned ProgramWords = 280;
+  localparam int unsigned ProgramWords = 272;
 
   // ---- end of what is written --------------------------------------------------------------------------------
 

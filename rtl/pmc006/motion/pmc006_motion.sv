@@ -13,22 +13,24 @@ module pmc006_motion
   import pmc006_pkg::*;
   import pmc006_calc_pkg::*;
 (
-    input  wire logic      clk_i,
-    input  wire logic      rst_ni,
-    input  wire logic      us_i,        // one clk every microsecond
-    input  wire settings_t settings_i,  // parameter registers
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire logic            us_i,        // one clk every microsecond
+    input  wire settings_t       settings_i,  // parameter registers
+    input  wire logic      [7:0] base_i,      // base code of their current, one clk behind
     // instructions, already judged
-    input  wire launch_t   launch_i,    // a motion to begin
-    input  wire logic      halt_i,      // stop at once; no step in this clk
-    input  wire sample_t   adc_i,       // h of the analog target
-    output motion_t        motion_o,    // how it stands
-    output logic           step_o,      // a step is made at the coming edge
-    output thrust_t        thrust_o     // what the drive needs
+    input  wire launch_t         launch_i,    // a motion to begin
+    input  wire logic            halt_i,      // stop at once; no step in this clk
+    input  wire sample_t         adc_i,       // h of the analog target
+    output motion_t              motion_o,    // how it stands
+    output logic                 step_o,      // a step is made at the coming edge
+    output thrust_t              thrust_o     // what the drive needs
 );
 
-  logic load, load_q, launch, update, sample, advance, stop, start_v, calc_busy;
+  logic load, load_q, launch, update, look, look_q, sample, advance, stop, start_v, calc_busy;
   logic short_q, speed_q, stop_q, analog_q, rest, busy_q, forward_q, steady_q;
-  logic [11:0] ve_q, cur_q;
+  logic [11:0] ve_q;
+  logic [ 7:0] base_q;
   logic [2:0] acc_q, dec_q;
   logic [10:0] ccomp_q, scomp_q, bump, bump_now;
   logic [6:0] lead, lead_now;
@@ -40,6 +42,7 @@ module pmc006_motion
   phase_e phase;
 
   assign load = launch_i.start || launch_i.run;
+  assign look = load || launch || update;
   assign rest = speed_q && phase == PhEnd && !launch_i.speed;
   assign thrust_o = '{increment: increment_q, bump: bump_now, lead: lead_now};
   assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q && busy_q};
@@ -74,11 +77,12 @@ module pmc006_motion
       for (int unsigned i = 1; i < 8; i++) increment_q[7-i] <= settings_i.mstep[i];
       increment_q[7] <= settings_i.mstep == '0;
     end
-    if (load || launch || update) begin
+    look_q <= look;
+    if (look_q) base_q <= base_i;
+    if (look) begin
       vmax_q   <= settings_i.vmax;
       analog_q <= settings_i.regulate;
       stop_q   <= !launch_i.speed;
-      cur_q    <= settings_i.cur;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
       steady_q <= !load && phase == PhCruise && next != '0;  // at t = 0 the planning has left V in Vn
@@ -103,7 +107,7 @@ module pmc006_motion
       .mstep_i  (mstep),
       .vmax_i   (vmax_q),
       .adc_i    (h_q),
-      .cur_i    (cur_q),
+      .base_i   (base_q),
       .ccomp_i  (ccomp_q),
       .scomp_i  (scomp_q),
       .phase_o  (phase),
@@ -142,7 +146,7 @@ module pmc006_motion
 
   logic unused_settings;
 
-  assign unused_settings = &{1'b0, settings_i.autodec, settings_i.att, settings_i.free, settings_i.mstep[0]};
+  assign unused_settings = &{1'b0, settings_i.autodec, settings_i.att, settings_i.cur, settings_i.free, settings_i.mstep[0]};
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(motion_start_at_rest, !(load && busy_q))

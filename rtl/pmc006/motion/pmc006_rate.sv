@@ -40,7 +40,6 @@ module pmc006_rate (
   // The accumulator holds ACCU + 2^20 - 10^6: a carry is a step.
   localparam logic [19:0] Rest = 20'd48_576;
 
-  logic [9:0] plan_q;
   logic [6:0] ticks_q, updates_q;
   logic [19:0] accu_q;
   logic [20:0] sum;
@@ -49,7 +48,15 @@ module pmc006_rate (
   logic due_q;  // step
   logic [1:0] updated_q;
 
-  assign planned  = plan_q == '0;
+  ppmc_delay #(
+      .Ticks(Plan - 1)
+  ) u_plan (
+      .clk_i,
+      .restart_i(load_i),
+      .tick_i   (1'b1),
+      .past_o   (planned)
+  );
+
   assign launch_o = busy_i && !run_q && planned && us_i;
   assign tick     = run_q && us_i;
   assign wrap     = ticks_q == Ticks - 1'b1;
@@ -78,9 +85,6 @@ module pmc006_rate (
 
   // No reset: an accepted motion sets what follows.
   always_ff @(posedge clk_i) begin
-    if (load_i) plan_q <= 10'(Plan - 1);
-    else if (!planned) plan_q <= plan_q - 1'b1;
-
     if (!run_q) {ticks_q, updates_q} <= '0;
     else if (tick) begin
       ticks_q <= wrap ? '0 : ticks_q + 1'b1;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_base_rom: base code RB of a current setting: (416 + 153 * k) / 16 with k = (current - 325 mA) / 150 mA.
+// Rules:  P006-EXC-20.
+// Timing: base_o stands one clk after current_i.
+`default_nettype none
+
+module pmc006_base_rom (
+    input  wire logic        clk_i,
+    input  wire logic [11:0] current_i,  // mA, 400 .. 4000
+    output logic      [ 7:0] base_o      // 26 .. 255
+);
+
+  localparam int unsigned Least = 325;
+  localparam int unsigned Most = 4000;
+
+  function automatic logic [4095:0][7:0] every_base();
+    logic [4095:0][7:0] words;
+    for (int unsigned i = 0; i < 4096; i++) begin
+      words[12'(i)] = (i < Least || i > Most) ? '0 : 8'((416 + 153 * ((i - Least) / 150)) / 16);
+    end
+    return words;
+  endfunction
+
+  localparam logic [4095:0][7:0] Words = every_base();
+
+  (* rom_style = "block" *)
+  logic [7:0] rom[4096];
+
+  // Tools unroll no more than 4000 turns in a block.
+  for (genvar half = 0; half < 2; half++) begin : g_half
+    initial for (int unsigned i = 0; i < 2048; i++) rom[2048*half+i] = Words[12'(2048*half+i)];
+  end
+
+  always_ff @(posedge clk_i) base_o <= rom[current_i];
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_values: the parameter registers once more, in a block RAM, for the replies.
+// Rules:  section 3.1 (reply data), section 3.0 (factory values).
+// Timing: a value that is written can be asked for in the next clk; value_o stands from the end of take_i until the
+//         next one. Within 32 clk of a reset, in which nobody writes or asks, the factory values are put in.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module pmc006_values
+  import pmc006_pkg::*;
+(
+    input  wire logic             clk_i,
+    input  wire logic             rst_ni,
+    input  wire logic             write_i,  // which_i := data_i
+    input  wire register_e        which_i,  // a register
+    input  wire logic      [13:0] data_i,   // of write_i
+    input  wire logic             take_i,   // value_o := which_i
+    output logic           [13:0] value_o   // value of which_i at take_i
+);
+
+  function automatic logic [13:0] factory(logic [4:0] which);
+    unique case (which)
+      RegMstep:   return 14'(SETTINGS_RESET.mstep);
+      RegCurrent: return 14'(SETTINGS_RESET.cur);
+      RegAcc:     return 14'(SETTINGS_RESET.acc);
+      RegDec:     return 14'(SETTINGS_RESET.dec);
+      RegAutodec: return 14'(SETTINGS_RESET.autodec);
+      RegAtt:     return 14'(SETTINGS_RESET.att);
+      RegVstart:  return 14'(SETTINGS_RESET.vstart);
+      RegVstop:   return 14'(SETTINGS_RESET.vstop);
+      RegCcomp:   return 14'(SETTINGS_RESET.ccomp);
+      RegScomp:   return 14'(SETTINGS_RESET.scomp);
+      RegVmax:    return SETTINGS_RESET.vmax;
+      RegDir:     return 14'(SETTINGS_RESET.dir);
+      RegFree:    return 14'(SETTINGS_RESET.free);
+      RegAddr:    return 14'(CONTROL_RESET.addr);
+      RegTrigger: return 14'(CONTROL_RESET.trigm);
+      RegExten:   return 14'(CONTROL_RESET.exten);
+      RegOffline: return 14'(CONTROL_RESET.offline);
+      RegStlen:   return 14'(CONTROL_RESET.stlen);
+      RegStcfg:   return 14'(CONTROL_RESET.stcfg);
+      RegStlvl:   return 14'(CONTROL_RESET.stlvl);
+      default:    return '0;
+    endcase
+  endfunction
+
+  // The upper half is never written; the factory value of a register stands one before its place there, because it is
+  // written a clk after it has been read.
+  function automatic logic [63:0][13:0] every_word();
+    logic [63:0][13:0] words_of_all;
+    words_of_all = '0;
+    for (int unsigned i = 0; i < 31; i++) words_of_all[6'(32+i)] = factory(5'(i + 1));
+    return words_of_all;
+  endfunction
+
+  localparam logic [63:0][13:0] Words = every_word();
+
+  (* ram_style = "block", no_rw_check *)
+  logic [13:0] words[64];
+  logic [5:0] count_q;
+  logic filling;
+
+  initial for (int unsigned i = 0; i < 64; i++) words[i] = Words[6'(i)];
+
+  assign filling = !count_q[5];
+
+  // Place 0 is never written, 1 with anything.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) count_q <= 6'd1;
+    else if (filling) count_q <= count_q + 1'b1;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (filling || write_i) words[{1'b0, filling?count_q[4:0] : which_i}] <= filling ? value_o : data_i;
+    if (filling || take_i) value_o <= words[{filling, filling?count_q[4:0] : which_i}];
+  end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(values_filled_in_time, !filling || !(write_i || take_i))
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_calc_words: memory of the planner's calculator: words that its program writes, constants, tables.
+// Rules:  P006-MOT-10..23 (the constants are binding).
+// Timing: word_o is the word of read_i one clk later. A word that is being written is not read.
+`default_nettype none
+
+module pmc006_calc_words
+  import pmc006_calc_pkg::*;
+(
+    input  wire logic        clk_i,
+    input  wire logic        we_i,    // word at_i := data_i
+    input  wire logic [ 3:0] at_i,    // a word that may be written
+    input  wire logic [31:0] data_i,  // of we_i
+    input  wire logic [ 6:0] read_i,  // as operand_e, tables with a coefficient in its lowest three bits
+    output logic      [31:0] word_o   // 0 for a register
+);
+
+  function automatic logic [31:0] word_of(logic [6:0] at);
+    unique case (at)
+      K1:      return 32'd1;
+      K3:      return 32'd3;
+      K4:      return 32'd4;
+      K100:    return 32'd100;
+      K20000:  return 32'd20000;
+      K54400:  return 32'd54400;
+      K3x2p16: return 32'd196608;
+      K2p31:   return 32'h8000_0000;
+      default: begin
+        if (at[6:3] == RRate[6:3]) return 32'd17 << at[2:0];
+        if (at[6:3] == RWay[6:3]) return 32'd3400 << at[2:0];
+        return '0;
+      end
+    endcase
+  endfunction
+
+  function automatic logic [127:0][31:0] every_word();
+    logic [127:0][31:0] words_of_all;
+    for (int unsigned i = 0; i < 128; i++) words_of_all[7'(i)] = word_of(7'(i));
+    return words_of_all;
+  endfunction
+
+  localparam logic [127:0][31:0] Words = every_word();
+
+  (* ram_style = "block", no_rw_check *)
+  logic [31:0] words[128];
+
+  initial for (int unsigned i = 0; i < 128; i++) words[i] = Words[7'(i)];
+
+  always_ff @(posedge clk_i) begin
+    if (we_i) words[{3'b000, at_i}] <= data_i;
+    word_o <= words[read_i];
+  end
+
+endmodule
+
+`default_nettype wire
