@@ -70,13 +70,16 @@ module ppmc_pace_motion #(
   logic [1:0] cycles;
   logic [CountBits-1:0] count_q, amount;
   logic [7:0] limit;
+  logic unused_bits;
   logic [StoreBits:0] store_q;  // portions to take off, minus 1; negative: none
   logic [3:0] part_q;  // sixteenths
 
-  assign ready_o  = state_q == StInit && past;
-  assign go_o     = past;
-  assign linger_o = (state_q == StEnding && !past) || last_q;
-  assign closed_o = state_q inside {StEnding, StClosed};
+  assign unused_bits = &{1'b0, number_i};
+
+  assign ready_o     = state_q == StInit && past;
+  assign go_o        = past;
+  assign linger_o    = (state_q == StEnding && !past) || last_q;
+  assign closed_o    = state_q inside {StEnding, StClosed};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
