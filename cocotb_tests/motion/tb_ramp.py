@@ -25,7 +25,7 @@ BLOCKS = {
     },
     "table": Block(
         "ppmc_ramp_table",
-        "start_i slow_i:8 fast_i:8 steps_i:14 busy_o addr_i:8 data_o:14",
+        "start_i slow_i:8 fast_i:8 steps_i:14 busy_o slow_o:8 fast_o:8 steps_o:14 addr_i:8 data_o:14",
         {"RateBits": 8, "StepBits": 14},
     ),
     "tables": Block(
@@ -35,14 +35,14 @@ BLOCKS = {
     ),
     "seq": Block(
         "ppmc_ramp_seq",
-        "slow_i:8 fast_i:8 steps_i:14 lut_addr_o:8 lut_data_i:14 load_i count_i:24 single_i rate_i:8 ramp_i"
+        "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:14 load_i count_i:24 single_i rate_i:8 ramp_i"
         " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
     # One bit more than the table's words, for the longest ramp that these can hold.
     "wide": Block(
         "ppmc_ramp_seq",
-        "slow_i:8 fast_i:8 steps_i:5 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
+        "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
         " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 5, "LutBits": 4},
     ),
@@ -75,8 +75,8 @@ def threshold(slow: int, fast: int, steps: int, r: int) -> int:
 
 
 def table(slow: int, fast: int, steps: int) -> dict[int, int]:
-    """The whole table, r -> thr(r)."""
-    return {r: threshold(slow, fast, steps, r) for r in range(fast + 1, slow + 1)}
+    """The whole table, r -> thr(r), and PA where the ramp ends."""
+    return {fast: steps, **{r: threshold(slow, fast, steps, r) for r in range(fast + 1, slow + 1)}}
 
 
 def triples(rand: random.Random, bits: int, count: int) -> list[tuple[int, int, int]]:
@@ -127,25 +127,27 @@ async def ramp_builder_exact(dut, bits):
         same(f"(slow, fast, steps) {triple}: r -> (got, want)", wrong, {})
         assert took <= LONGEST_BUILD, f"{triple}: {took} clk"
         longest = max(longest, took)
-    same("nothing for equal rates", (await _build(u, 77, 77, 100))[0], {})
+    same("PA alone for equal rates", (await _build(u, 77, 77, 100))[0], {77: 100})
     cocotb.log.info("longest build of %d bits: %d clk", bits, longest)
 
 
 @cocotb.test()
 async def ramp_table_read(dut):
-    """Given a built table, then thr(r) stands two clk after its address, also for a second ramp."""
-    u = Unit(dut, "table", BLOCKS, "busy_o data_o")
+    """Given a built table, then thr(r) stands two clk after its address, the ramp's numbers beside it; again."""
+    u = Unit(dut, "table", BLOCKS, "busy_o data_o slow_o fast_o steps_o")
     await u.reset()
-    for slow, fast, steps in ((40, 5, 300), (30, 22, 9)):
+    for slow, fast, steps in ((40, 5, 300), (30, 22, 9), (77, 77, 100)):
         await u.clk(start_i=1, slow_i=slow, fast_i=fast, steps_i=steps)
         clk = 0
         while (await u.clk(start_i=0))[0]:
             clk += 1
             assert clk <= LONGEST_BUILD
-        order = list(range(fast + 1, slow + 1))
+        u.put(slow_i=1, fast_i=2, steps_i=3)
+        want = table(slow, fast, steps)
+        order = list(want)
         rng().shuffle(order)
-        got = [(await u.clk(addr_i=r))[1] for r in [*order, 0, 0]]
-        same("table", got[2:], [threshold(slow, fast, steps, r) for r in order])
+        got = [(await u.clk(addr_i=r))[1:] for r in [*order, 0, 0]]
+        same("table, numbers", got[2:], [(want[r], slow, fast, steps) for r in order])
 
 
 def build_clk(slow: int, fast: int) -> int:
@@ -186,13 +188,14 @@ async def ramp_tables_shared(dut):
             begun = sum(bits for at, bits in start.items() if at < t)
             want = sum(1 << n for n in (0, 1) if begun >> n & 1 and t <= due[n])
             same(f"case {case}, {ramps}, {gap} clk apart, clk {t}: busy_o", busy, want)
-        rates = [list(range(fast + 1, slow + 1)) for slow, fast, _ in ramps]
+        tables = [table(*ramp) for ramp in ramps]
+        rates = [list(one) for one in tables]
         for k in range(max(map(len, rates))):
             r = [rates[n][k % len(rates[n])] for n in (0, 1)]
             await u.clk(addr_i=r[0] | r[1] << 8)
             await u.clk()
             _, data = await u.clk()
-            want = [threshold(*ramps[n], r[n]) for n in (0, 1)]
+            want = [tables[n][r[n]] for n in (0, 1)]
             same(f"case {case}: thresholds of {r}", [data & 0x3FFF, data >> 14], want)
 
 
@@ -217,7 +220,7 @@ class Walker:
         """n pulses, deceleration asked for at pulse forced_at (0: before pulse 1; above n: never)."""
         slow, fast, steps = self.ramp
         where = f"{self.ramp}, {n} pulses, forced at {forced_at}"
-        self.u.put(slow_i=slow, fast_i=fast, steps_i=steps, ramp_i=1, forced_i=0)
+        self.u.put(slow_i=slow, fast_i=fast, ramp_i=1, forced_i=0)
         await self.clk(load_i=1, count_i=n - 1, single_i=0, rate_i=slow)
         self.u.put(load_i=0)
         kp, dec, turned = -1, False, False
@@ -295,7 +298,7 @@ async def ramp_seq_constant(dut):
     """Given constant speed and single steps, then the rate is the one loaded, the count runs to its end."""
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
-    await u.reset(slow_i=200, fast_i=10, steps_i=50, ramp_i=0)
+    await u.reset(slow_i=200, fast_i=10, ramp_i=0)
     for n, single in ((1, 0), (2, 0), (40, 0), (16_777_216, 1), (70_000, 0)):
         rate = rand.getrandbits(8)
         await u.clk(load_i=1, count_i=n - 1, rate_i=rate, single_i=single)

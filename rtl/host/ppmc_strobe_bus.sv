@@ -51,20 +51,22 @@ module ppmc_strobe_bus (
   endfunction
 
   strobes_t raw, s1, s2;
-  logic a01, a02, rd_raw, rd1, rd2, wr1, wr2;
-  logic [7:0] unused_d1, d2;
+  logic a01, rd_raw, rd1, rd2, wr1, wr2;
+  logic [7:0] d1;
 
   assign raw = {cs_ni, rd_ni, wr_ni};
 
   ppmc_sync #(
-      .Width(12)
+      .Width(3)
   ) u_sync (
       .clk_i,
       .rst_ni,
-      .d_i ({raw, a0_i, d_i}),
-      .q1_o({s1, a01, unused_d1}),
-      .q2_o({s2, a02, d2})
+      .d_i (raw),
+      .q1_o(s1),
+      .q2_o(s2)
   );
+
+  always_ff @(posedge clk_i) {a01, d1} <= {a0_i, d_i};
 
   always_comb begin
     rd_raw = is_read(raw, style_i);
@@ -74,7 +76,9 @@ module ppmc_strobe_bus (
     wr2    = is_write(s2, style_i);
   end
 
-  // Write: the byte of the last sample that had the strobe.
+  // Write: the byte of the last sample that had the strobe. The second stage of address and data is where they are
+  // kept. What lets them in is the first stage of the strobe: at its end, where that may be metastable, they stand
+  // since the sample before (P104-BUS-04), so that it makes no difference whether they come in once more.
   logic wr3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -84,10 +88,7 @@ module ppmc_strobe_bus (
       wr_data_o <= '0;
     end else begin
       wr3_q <= wr2;
-      if (wr2) begin
-        wr_a0_o   <= a02;
-        wr_data_o <= d2;
-      end
+      if (wr1) {wr_a0_o, wr_data_o} <= {a01, d1};
     end
   end
 

@@ -28,7 +28,7 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
-    parameter int unsigned ClimbBits = StepBits,  // must hold steps_i + 1
+    parameter int unsigned ClimbBits = StepBits,  // must hold PA + 1
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
     parameter int unsigned FastQuanta = 8,  // fast internal base clock
     parameter int unsigned SlowQuanta = 32,  // slow internal base clock
@@ -51,9 +51,8 @@ module ppmc_axis
     // ramp in force, steady while busy
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
-    input wire logic [StepBits-1:0] steps_i,  // acceleration pulses PA
     output logic [RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two clk later
-    input wire logic [StepBits-1:0] lut_data_i,  // thr(r)
+    input wire logic [StepBits-1:0] lut_data_i,  // thr(r); PA at rate_fast_i
     // stops
     input wire logic halt_i,  // immediate stop command
     input wire logic decel_i,  // decelerating stop command
@@ -176,7 +175,6 @@ module ppmc_axis
       .rst_ni,
       .slow_i  (rate_slow_i),
       .fast_i  (rate_fast_i),
-      .steps_i (ClimbBits'(steps_i)),
       .lut_addr_o,
       .lut_data_i,
       .load_i  (start_i),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_builder: fills the ramp table: for every rate r from fast + 1 to slow the first step with a rate
-// below r.
+//         below r; PA for fast itself, which a walk up the ramp comes to last.
 // Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 clk for every legal initialisation).
 // Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete.
-//         slow_i, fast_i, steps_i must stand still meanwhile. fast_i = slow_i: no table is needed, busy_o is
-//         short.
+//         slow_i, fast_i, steps_i must stand still meanwhile, from the clk after start_i on. fast_i = slow_i: PA
+//         is all of the table, busy_o is short. addr_o = slow_i from the end of a build until the next one.
 // How:    with s = 2r + 1, a = RL + 1, b = RH + 1, E = PA*b*b:
 //             thr(r) - 1 = floor((E*(2a)*(2a)/(s*s) - E) / ((a - b)*(a + b))).
 //         A quotient may be rounded down before the next division or an integer is subtracted: so there are
@@ -43,15 +43,15 @@ module ppmc_ramp_builder
   logic [MulBits-1:0] mul_q;  // multiplier bit, the highest between two factors
   logic [RateBits-1:0] rate_q;  // r
   logic found_q;  // bits_q is a threshold
-  logic [StepBits-1:0] bits_q;
-  logic next, last, done, mul_bit, sum, product;
+  logic [StepBits-1:0] bits_q;  // PA, then a threshold as it comes
+  logic next, last, done, use_bit, mul_bit, sum, product;
   logic [RateBits:0] first, second;
 
   assign done    = rate_q == slow_i;
   assign next    = begin_q ? !done : last && !(pass_q == PassTell && done);
   assign mul_bit = slower_q ? slow_i[mul_q] : fast_i[mul_q];
   assign product = pass_q == PassMulEnd && slower_q && again_q;  // the last one
-  assign we_o    = found_q;
+  assign we_o    = begin_q || found_q;
   assign addr_o  = rate_q;
   assign data_o  = bits_q;
 
@@ -76,10 +76,11 @@ module ppmc_ramp_builder
       .pass_i  (pass_q),
       .mul_i   (mul_bit),
       .keep_i  (!slower_q),
-      .steps_i,
+      .init_i  (bits_q[0]),
       .first_i (first),
       .second_i(second),
       .bit_o   (sum),
+      .use_o   (use_bit),
       .last_o  (last)
   );
 
@@ -116,7 +117,7 @@ module ppmc_ramp_builder
       begin_q <= first_q;
       found_q <= last && pass_q == PassTell;
       if (!busy_o) busy_o <= start_i;
-      else if (done && (begin_q || we_o)) busy_o <= 1'b0;
+      else if (done && we_o) busy_o <= 1'b0;
 
       if (next) pass_q <= pass;
       if (last && pass_q == PassMulEnd) {slower_q, again_q} <= {slower_q ^ again_q, !again_q};
@@ -127,12 +128,13 @@ module ppmc_ramp_builder
   // No reset: every build begins with a load.
   always_ff @(posedge clk_i) begin
     if (first_q) rate_q <= fast_i;
-    else if (we_o || (last && product)) rate_q <= RateBits'(ppmc_pkg::inc(32'(rate_q)));
-    bits_q <= {sum, bits_q[StepBits-1:1]};
+    else if ((found_q && !done) || (last && product)) rate_q <= RateBits'(ppmc_pkg::inc(32'(rate_q)));
+    if (first_q) bits_q <= steps_i;
+    else if (use_bit) bits_q <= {sum, bits_q[StepBits-1:1]};
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p104_rmp_02_range, !we_o || (data_o != '0 && data_o <= steps_i))
+  `PPMC_ASSERT(p104_rmp_02_range, !we_o || ((data_o != '0 || begin_q) && data_o <= steps_i))
 `endif
 
 endmodule

@@ -12,22 +12,23 @@
 module ppmc_ramp_serial
   import ppmc_ramp_pkg::*;
 #(
-    parameter  int unsigned StepBits = 14,           // bits of steps_i
+    parameter  int unsigned StepBits = 14,           // bits of PA
     parameter  int unsigned RateBits = 8,
     localparam int unsigned Width    = RateBits + 1
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic                 start_i,   // begin a pass
-    input  wire pass_e                next_i,    // which; with start_i
-    input  wire pass_e                pass_i,    // the same from the clk after, steady during the pass
-    input  wire logic                 mul_i,     // multiplier bit of a PassMulBit; steady during the pass
-    input  wire logic                 keep_i,    // a PassMulEnd sets u, too; steady during the pass
-    input  wire logic  [StepBits-1:0] steps_i,   // PA
-    input  wire logic  [   Width-1:0] first_i,   // first divisor of a division, minus 1
-    input  wire logic  [   Width-1:0] second_i,  // the divisor of its quotient, minus 1
-    output logic                      bit_o,     // bit of a PassTell, the lowest first
-    output logic                      last_o     // the pass ends with this clk
+    input  wire logic              clk_i,
+    input  wire logic              rst_ni,
+    input  wire logic              start_i,   // begin a pass
+    input  wire pass_e             next_i,    // which; with start_i
+    input  wire pass_e             pass_i,    // the same from the clk after, steady during the pass
+    input  wire logic              mul_i,     // multiplier bit of a PassMulBit; steady during the pass
+    input  wire logic              keep_i,    // a PassMulEnd sets u, too; steady during the pass
+    input  wire logic              init_i,    // bit of a PassInit, as bit_o
+    input  wire logic  [Width-1:0] first_i,   // first divisor of a division, minus 1
+    input  wire logic  [Width-1:0] second_i,  // the divisor of its quotient, minus 1
+    output logic                   bit_o,     // bit of a PassTell, the lowest first
+    output logic                   use_o,     // with each of them
+    output logic                   last_o     // the pass ends with this clk
 );
 
   localparam int unsigned ShareBits = StepBits + 2 * RateBits;  // of v where u is subtracted
@@ -64,6 +65,7 @@ module ppmc_ramp_serial
   logic run_q, read_q, use_q, second_q;  // address, RAM, use, second division
 
   assign down   = pass_i inside {PassSquare, PassShare};
+  assign use_o  = use_q;
   assign last_o = use_q && !read_q;
   // Two back: a pass that runs upwards takes away, in gates.
   assign turn   = {{(AddrBits - 1) {!down}}, 1'b0};
@@ -100,6 +102,7 @@ module ppmc_ramp_serial
 
   always_comb begin
     unique case (pass_i)
+      PassInit:               addend = 1'b0;
       PassMulBit, PassMulOne: addend = v_q[0];  // times 2
       PassLess:               addend = v_q[1];  // stands two words lower
       default:                addend = rd.v;
@@ -107,7 +110,7 @@ module ppmc_ramp_serial
     unique case (pass_i)
       PassMulBit: operand = rd.n && mul_i;
       PassLess:   operand = !rd.u;
-      PassTell:   operand = 1'b0;
+      PassInit, PassTell: operand = 1'b0;
       default:    operand = rd.n;
     endcase
     sum = addend ^ operand ^ carry_q;
@@ -153,18 +156,11 @@ module ppmc_ramp_serial
 
   // ---- what each pass writes back ------------------------------------------------------------------
 
-  logic [15:0] steps;
-
-  assign steps = 16'(steps_i);
-
   always_comb begin
     wr   = rd;
     wr.v = sum;
     unique case (pass_i)
-      PassInit: begin
-        wr.n = at[AddrBits-1:4] == '0 && steps[at[3:0]];
-        wr.v = 1'b0;
-      end
+      PassInit: wr.n = init_i;  // the sum is 0
       PassMulEnd: begin
         wr.n = sum;
         wr.v = 1'b0;

@@ -39,7 +39,7 @@ module ppmc_rate_counter #(
       past_q  <= 1'b0;
     end else begin
       match_q <= !restart_i && !wait_i && equal;
-      half_q  <= !restart_i && !rising_i && (rate_i[0] ? count_q : number) == {1'b0, rate_i[RateBits-1:1]};
+      half_q  <= !restart_i && !rising_i && !ppmc_pkg::less(32'({number, 1'b0}), 32'(rate_i));
       past_q  <= !restart_i && !rising_i && !ppmc_pkg::less(32'({count_q, 1'b0}), 32'(rate_i));
     end
   end

@@ -29,7 +29,7 @@ module ppmc_stop_guard
     input  wire logic      slow_i,       // act on a slow-down limit now; slow_seen_o, or later
     output logic           slow_seen_o,  // one is seen that counts
     output logic           stop_o,       // end the motion now, no further pulse
-    output logic           forced_o,     // forced deceleration is requested
+    output logic           forced_o,     // forced deceleration is requested; says nothing in a clk of stop_o
     output logic           flagged_o,    // the same, as a state (registered)
     output cause_t         cause_o       // why the motion ended, until clear_i
 );
@@ -46,8 +46,9 @@ module ppmc_stop_guard
   assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
   assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
 
-  // Deceleration can be asked for once; an immediate end at the same edge goes first.
-  assign free = armed_i && op_i.ramp && !hard && !flagged_o && !dec_i;
+  // Deceleration can be asked for once; an immediate end at the same edge goes first, which does not matter to
+  // who asks with a pulse: there is none then.
+  assign free = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = free && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = free && slow_i;
   assign decel_now = free && decel_i;
@@ -61,13 +62,13 @@ module ppmc_stop_guard
       flagged_o <= 1'b0;
       cause_o   <= '0;
     end else begin
-      flagged_o <= forced_o;
+      flagged_o <= flagged_o || (!hard && forced_o);
       if (stop_o) begin
         cause_o.alarm <= switches_i.alarm;
         cause_o.limit <= limit;
       end
-      cause_o.stop <= cause_o.stop || decel_now || (armed_i && halt);
-      cause_o.slow <= cause_o.slow || slow_now || (armed_i && block);
+      cause_o.stop <= cause_o.stop || (!hard && decel_now) || (armed_i && halt);
+      cause_o.slow <= cause_o.slow || (!hard && slow_now) || (armed_i && block);
     end
   end
 

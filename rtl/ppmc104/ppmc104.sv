@@ -114,7 +114,7 @@ module ppmc104
           value: judge(asked.params),
           judged: sent.held[7:6] == 2'b00,
           select: asked.code[2:0],
-          setup: asked.params
+          setup: sent.params
       };
   assign base_now = '{external: setup.external, slow: !csel_s, extra: !vsel_s};
   assign unused_bits = &{1'b0, sent, asked, params_late, setup};

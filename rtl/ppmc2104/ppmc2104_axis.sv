@@ -129,7 +129,6 @@ module ppmc2104_axis
       .base_i     ('{external: setup.external, slow: !levels_i.csel, extra: 1'b0}),
       .rate_slow_i(setup.slow),
       .rate_fast_i(setup.fast),
-      .steps_i    (setup.steps),
       .lut_addr_o,
       .lut_data_i,
       .halt_i     (act_i.halt),

@@ -86,16 +86,13 @@ package ppmc_code_pkg;
     logic [31:0] params;  // those that came, the last one in the high bits
   } asking_t;
 
-  // What the initialisation sets (ppmc_setup).
+  // What the initialisation sets beside the ramp (ppmc_setup).
   typedef struct packed {
-    logic [7:0]  slow;      // start-up rate
-    logic [7:0]  fast;      // high-speed rate
-    logic [15:0] steps;     // acceleration pulses PA
-    logic        external;  // base clock from the pin
-    logic        chop;      // chop at rest; 0 until an initialisation is complete
-    logic        positive;  // phases: high is on
-    logic        half;      // half step
-    logic [1:0]  motor;     // phases of the motor, as motor_e
+    logic       external;  // base clock from the pin
+    logic       chop;      // chop at rest; 0 until an initialisation is complete
+    logic       positive;  // phases: high is on
+    logic       half;      // half step
+    logic [1:0] motor;     // phases of the motor, as motor_e
   } setup_t;
 
 endpackage

@@ -24,7 +24,7 @@ module ppmc_pace
     // command unit, at the C-event
     input  wire action_t                act_i,          // what the byte asks for
     input  wire logic    [         7:0] code_i,         // its code
-    input  wire logic    [        31:0] params_i,       // its parameters
+    input  wire logic    [        31:0] params_i,       // its parameters; a clk later a byte lower
     input  wire logic    [         7:0] code_held_i,    // the same afterwards
     input  wire logic    [        31:0] params_held_i,  // the same afterwards
     input  wire logic    [         2:0] base_i,         // base clock as it is selected now
@@ -191,7 +191,6 @@ module ppmc_pace
     ppmc_pace_motion #(
         .ClkHz    (ClkHz),
         .XtalHz   (XtalHz),
-        .StepBits (StepBits),
         .StepsMin (StepsMin),
         .StepsMax (StepsMax),
         .RampTimes(RampTimes)
@@ -199,10 +198,9 @@ module ppmc_pace
         .clk_i,
         .rst_ni,
         .init_i    (act_i.init),
-        .steps_i   (params_i[16+:StepBits]),
         .start_i   (act_i.start),
         .triangle_i(triangle),
-        .pulses_i  (params_i[22:8]),
+        .number_i  (params_i[23:8]),
         .ramp_i,
         .single_i,
         .stop_i,

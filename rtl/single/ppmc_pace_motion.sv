@@ -4,35 +4,35 @@
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: times run from the edge of init_i, start_i or stop_i, or one clk after that of pulse_i with last_i; what
 //         they release happens one clk after the nominal time.
-// How:    the parts that grow with a number, 209 crystal cycles a step of PA or 123/16 a pulse of a triangle, are
+// How:    PA comes a clk late, on the wires of the pulses: no portion can be taken off so early.
+//         The parts that grow with a number, 209 crystal cycles a step of PA or 123/16 a pulse of a triangle, are
 //         taken off the count as soon as it can spare them, one portion a clk: that never lags behind the count.
+`include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_pace_motion #(
     parameter int unsigned ClkHz = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000,
-    parameter int unsigned StepBits = 14,  // of PA
     parameter int unsigned StepsMin = 4,  // smallest PA
     parameter int unsigned StepsMax = 11_220,
     parameter bit RampTimes = 1'b1  // a stop in a ramp and the start of one without a plateau take longer
 ) (
-    input  wire logic                clk_i,
-    input  wire logic                rst_ni,
-    input  wire logic                init_i,      // an initialisation is taken
-    input  wire logic [StepBits-1:0] steps_i,     // with init_i: its PA
-    input  wire logic                start_i,     // an operation is taken
-    input  wire logic                triangle_i,  // with start_i: its ramp has no plateau
-    input  wire logic [        14:0] pulses_i,    // with start_i: its pulses, minus 1
-    input  wire logic                ramp_i,      // the running operation has a ramp
-    input  wire logic                single_i,    // is a single step
-    input  wire logic                stop_i,      // immediate end decided at the coming edge
-    input  wire logic                pulse_i,     // pulse event at the coming edge
-    input  wire logic                last_i,      // with pulse_i: the last one
-    input  wire logic                final_i,     // with pulse_i: and the count is complete
-    output logic                     ready_o,     // initialisation complete
-    output logic                     go_o,        // pulse 1 may come; not before the operation runs
-    output logic                     linger_o,    // the motion must not end yet
-    output logic                     closed_o     // because of its end no byte may be taken
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        init_i,      // an initialisation is taken
+    input  wire logic        start_i,     // an operation is taken
+    input  wire logic        triangle_i,  // with start_i: its ramp has no plateau
+    input  wire logic [15:0] number_i,    // with start_i: its pulses, minus 1; a clk after init_i: its PA
+    input  wire logic        ramp_i,      // the running operation has a ramp
+    input  wire logic        single_i,    // is a single step
+    input  wire logic        stop_i,      // immediate end decided at the coming edge
+    input  wire logic        pulse_i,     // pulse event at the coming edge
+    input  wire logic        last_i,      // with pulse_i: the last one
+    input  wire logic        final_i,     // with pulse_i: and the count is complete
+    output logic             ready_o,     // initialisation complete
+    output logic             go_o,        // pulse 1 may come; not before the operation runs
+    output logic             linger_o,    // the motion must not end yet
+    output logic             closed_o     // because of its end no byte may be taken
 );
 
   // Crystal cycles.
@@ -61,20 +61,25 @@ module ppmc_pace_motion #(
     StClosed   // until the mailbox opens
   } state_e;
 
+  (* fsm_encoding = "none" *)
   state_e state_q;
   logic slow_q, brief_q;  // of an end: END_RAMP; no StClosed
   logic last_q;  // the count starts in this clk: with the change of the pins
+  logic init_q;  // a clk after init_i
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
   logic [CountBits-1:0] count_q, amount;
   logic [7:0] limit;
+  logic unused_bits;
   logic [StoreBits:0] store_q;  // portions to take off, minus 1; negative: none
   logic [3:0] part_q;  // sixteenths
 
-  assign ready_o  = state_q == StInit && past;
-  assign go_o     = past;
-  assign linger_o = (state_q == StEnding && !past) || last_q;
-  assign closed_o = state_q inside {StEnding, StClosed};
+  assign unused_bits = &{1'b0, number_i};
+
+  assign ready_o     = state_q == StInit && past;
+  assign go_o        = past;
+  assign linger_o    = (state_q == StEnding && !past) || last_q;
+  assign closed_o    = state_q inside {StEnding, StClosed};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -82,8 +87,10 @@ module ppmc_pace_motion #(
       slow_q  <= 1'b0;
       brief_q <= 1'b0;
       last_q  <= 1'b0;
+      init_q  <= 1'b0;
     end else begin
       last_q <= pulse_i && last_i;
+      init_q <= init_i;
       if (init_i) state_q <= StInit;
       else if (start_i) state_q <= StFirst;
       else if (stop_i || (pulse_i && last_i)) begin
@@ -134,7 +141,7 @@ module ppmc_pace_motion #(
   assign full = count_q[12] && state_q != StInit;
 
   assign more    = !store_q[StoreBits];
-  assign portion = more && count_q[CountBits-1:8] != '0;
+  assign portion = more && count_q[8];  // the count does not get to 512 as long as there are more
 
   logic [4:0] part;
 
@@ -157,14 +164,17 @@ module ppmc_pace_motion #(
       if (restart) count_q <= '0;
       else if (!full) count_q <= count_q + amount;
 
-      if (init_i) store_q <= {1'b0, StoreBits'(steps_i)};
-      else if (restart) store_q <= {!(start_i && triangle_i), StoreBits'(pulses_i)};
+      if (init_q || restart) store_q <= {!init_q && !(start_i && triangle_i), StoreBits'(number_i)};
       else if (portion) store_q <= store_q - 1'b1;
 
       if (restart) part_q <= '0;
       else if (portion) part_q <= part[3:0];
     end
   end
+
+`ifndef SYNTHESIS
+  `PPMC_ASSERT(p104_ds_02_portions_in_time, !more || count_q[CountBits-1:9] == '0)
+`endif
 
 endmodule
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_setup: what the initialisation sets in a part with one axis.
+// ppmc_setup: what the initialisation sets in a part with one axis, but for the ramp (ppmc_ramp_table).
 // Rules:  P104-INI-01/05/06/08, P104-PHS-02/05; STMC-INI-04/06, STMC-CHP-02.
 // Timing: everything changes at the edge that ends the cycle of its action.
 `default_nettype none
@@ -7,34 +7,29 @@
 module ppmc_setup
   import ppmc_code_pkg::*;
 #(
-    parameter int unsigned StepBits  = 14,   // of PA, at most 16
-    parameter bit          PhaseIdle = 1'b1  // level of the phases until the first initialisation
+    parameter bit PhaseIdle = 1'b1  // level of the phases until the first initialisation
 ) (
-    input  wire logic              clk_i,
-    input  wire logic              rst_ni,
-    input  wire logic              init_i,        // initialisation accepted
-    input  wire init_code_t        code_i,        // with init_i
-    input  wire logic       [31:0] params_i,      // with init_i
-    input  wire logic              home_i,        // phases go to index 0 for the first time
-    input  wire logic              positive_i,    // with home_i
-    input  wire logic              ready_i,       // the initialisation is complete
-    input  wire logic              off_i,         // back to not initialised
-    output setup_t                 setup_o,       // what is set
-    output logic                   initialised_o  // operations may start
+    input  wire logic       clk_i,
+    input  wire logic       rst_ni,
+    input  wire logic       init_i,        // initialisation accepted
+    input  wire init_code_t code_i,        // with init_i
+    input  wire logic       home_i,        // phases go to index 0 for the first time
+    input  wire logic       positive_i,    // with home_i
+    input  wire logic       ready_i,       // the initialisation is complete
+    input  wire logic       off_i,         // back to not initialised
+    output setup_t          setup_o,       // what is set
+    output logic            initialised_o  // operations may start
 );
 
   logic chop_next_q, first;
   logic unused_bits;
 
-  assign unused_bits = &{1'b0, code_i, params_i};
+  assign unused_bits = &{1'b0, code_i};
   assign first = init_i && !initialised_o;
 
   // What is frozen until Excitation OFF is taken from the first initialisation only.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      setup_o.slow     <= '0;
-      setup_o.fast     <= '0;
-      setup_o.steps    <= '0;
       setup_o.external <= 1'b0;
       setup_o.chop     <= 1'b0;
       setup_o.positive <= !PhaseIdle;
@@ -44,9 +39,6 @@ module ppmc_setup
       initialised_o    <= 1'b0;
     end else begin
       if (init_i) begin
-        setup_o.slow     <= params_i[7:0];
-        setup_o.fast     <= params_i[15:8];
-        setup_o.steps    <= 16'(params_i[16+:StepBits]);
         setup_o.external <= code_i.external;
         chop_next_q      <= code_i.chop;
       end

@@ -58,9 +58,8 @@ module ppmc_single
   // ---- host ----------------------------------------------------------------------------------------
 
   logic ready, is_command, take, open, initialised, building;
-  logic [ 7:0] code_late;
-  logic [31:0] params_held;
-  logic [ 3:0] judgement;
+  logic [7:0] code_late;
+  logic [3:0] judgement;
   logic [23:0] answer, remaining;
   action_t act_taken;  // what a byte asks for at its C-event; act_o: when it happens
 
@@ -109,7 +108,7 @@ module ppmc_single
       .code_o        (asked_o.code),
       .params_o      (asked_o.params),
       .code_held_o   (sent_o.held),
-      .params_held_o (params_held)
+      .params_held_o (sent_o.params)
   );
 
   // ---- set-up, ramp table, motion ------------------------------------------------------------------
@@ -118,22 +117,19 @@ module ppmc_single
   init_code_t init_late;
   logic home, ready_init, unused_bits;
   logic [Traits.step_bits-1:0] steps, lut_data;
-  logic [7:0] lut_addr;
+  logic [7:0] slow, fast, lut_addr;
 
   assign op_code     = op_code_t'(code_late);  // a code, read as one or as the other
   assign init_late   = init_code_t'(code_late);
-  assign steps       = setup_o.steps[Traits.step_bits-1:0];
-  assign unused_bits = &{1'b0, op_code, init_late, chop_i};
+  assign unused_bits = &{1'b0, op_code, init_late, chop_i, verdict_i};
 
   ppmc_setup #(
-      .StepBits (Traits.step_bits),
       .PhaseIdle(PhaseIdle)
   ) u_setup (
       .clk_i,
       .rst_ni,
       .init_i       (act_o.init),
       .code_i       (init_code_t'(asked_o.code)),
-      .params_i     (verdict_i.setup),
       .home_i       (home),
       .positive_i   (init_late.positive),
       .ready_i      (ready_init),
@@ -148,10 +144,13 @@ module ppmc_single
       .clk_i,
       .rst_ni,
       .start_i(act_o.init),
-      .slow_i (setup_o.slow),
-      .fast_i (setup_o.fast),
-      .steps_i(steps),
+      .slow_i (verdict_i.setup[7:0]),
+      .fast_i (verdict_i.setup[15:8]),
+      .steps_i(verdict_i.setup[16+:Traits.step_bits]),
       .busy_o (building),
+      .slow_o (slow),
+      .fast_o (fast),
+      .steps_o(steps),
       .addr_i (lut_addr),
       .data_o (lut_data)
   );
@@ -201,9 +200,8 @@ module ppmc_single
       .count_i    (count),
       .rate_i     ((op_code.op == OP_CONSTANT) ? params_late_o[7:0] : params_late_o[31:24]),
       .base_i     (base_late),
-      .rate_slow_i(setup_o.slow),
-      .rate_fast_i(setup_o.fast),
-      .steps_i    (steps),
+      .rate_slow_i(slow),
+      .rate_fast_i(fast),
       .lut_addr_o (lut_addr),
       .lut_data_i (lut_data),
       .halt_i     (act_o.halt),
@@ -240,7 +238,7 @@ module ppmc_single
       .code_i       (asked_o.code),
       .params_i     (asked_o.params),
       .code_held_i  (sent_o.held),
-      .params_held_i(params_held),
+      .params_held_i(sent_o.params),
       .base_i,
       .open_o       (open),
       .act_o,

@@ -32,9 +32,10 @@ package ppmc_single_pkg;
 
   // The byte at hand and where it stands.
   typedef struct packed {
-    logic [7:0] data;  // the byte
-    logic [2:0] left;  // parameters to come, this byte included
-    logic [7:0] held;  // code that parameters are collected for
+    logic [7:0]  data;    // the byte
+    logic [2:0]  left;    // parameters to come, this byte included
+    logic [7:0]  held;    // code that parameters are collected for
+    logic [31:0] params;  // those that came, the last one in the high bits
   } sent_t;
 
   // What the byte means in this part.
@@ -51,10 +52,10 @@ package ppmc_single_pkg;
 
   // What the part says to it.
   typedef struct packed {
-    error_e      value;   // what is wrong with the parameters; ErrUndefined: nothing
+    error_e      value;   // what is wrong with asked_t.params; ErrUndefined: nothing
     logic        judged;  // value counts for the code that is held
     logic [2:0]  select;  // what the read code shows
-    logic [31:0] setup;   // the parameters as an initialisation sets them
+    logic [31:0] setup;   // sent_t.params as an initialisation sets them
   } verdict_t;
 
   // Pins of the motor, each a flip-flop.

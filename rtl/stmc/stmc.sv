@@ -152,7 +152,7 @@ module stmc
           value: fault,
           judged: 1'b1,
           select: selected(Sheet, asked.code[2:0]),
-          setup: levelled(asked.params)
+          setup: levelled(sent.params)
       };
   assign base = '{external: setup.external, default: 1'b0};
 

@@ -31,15 +31,12 @@ module ppmc_axis_fv
 
   localparam int unsigned Width = 6;
 
-  logic [2:0] steps_i;
   logic [1:0] lut_addr_o, rate_o;
   logic slow_seen_o, restart_o, low_o;
   motion_t motion_o;
   event_t event_o;
   cause_t cause_o;
   logic [3:0] left_o;
-
-  assign steps_i = {1'b0, ramp_steps_i};
 
   `FV_RESET
 
@@ -72,6 +69,11 @@ module ppmc_axis_fv
   `FV_ASSUME(quantum_of_four_clk, !quantum_i || quantum_gap_q == '1)
   `FV_ASSUME(pin_not_too_fast, !dut.rise || rise_gap_q == '1)
   `FV_ASSUME(legal_ramp, rate_slow_i >= rate_fast_i && ramp_steps_i != '0)
+  // The builder: no threshold beyond PA, which stands at the high-speed rate.
+  logic [1:0] addr1_q, addr2_q;
+  always_ff @(posedge clk_i) {addr2_q, addr1_q} <= {addr1_q, lut_addr_o};
+  `FV_ASSUME(table_up_to_pa,
+             lut_data_i <= 3'(ramp_steps_i) && (addr2_q != rate_fast_i || lut_data_i == 3'(ramp_steps_i)))
   `FV_ASSUME(steady_ramp, start_i || !motion_o.busy || {rate_slow_i, rate_fast_i, ramp_steps_i} == $past
              ({rate_slow_i, rate_fast_i, ramp_steps_i}))
 

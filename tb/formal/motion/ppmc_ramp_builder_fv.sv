@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder_fv: a build ends within its bound and writes each word of the table once, in order; rates
+// ppmc_ramp_builder_fv: a build ends within its bound and writes each word of the table once, in order, PA first; rates
 // of 2 bits, PA of 3, and passes shortened to 2 clk (stub), which ppmc_ramp_serial_fv makes good for.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -32,24 +32,34 @@ module ppmc_ramp_builder_fv (
   logic [6:0] age_q;  // clk of the build
   logic [1:0] next_q;  // address of the coming word
   logic any_q;  // a word was written
+  logic built_q;  // a build has ended
+  logic [1:0] slow_q;  // its start-up rate
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {age_q, next_q, any_q} <= '0;
-    else if (!busy_o) {age_q, next_q, any_q} <= {7'd0, fast_i + 2'd1, 1'b0};
+    else if (!busy_o) {age_q, any_q} <= '0;
     else begin
       age_q <= age_q + 1'b1;
+      if (age_q == '0) next_q <= fast_i;
       if (we_o) {next_q, any_q} <= {next_q + 1'b1, 1'b1};
     end
 
+  always_ff @(posedge clk_i)
+    if (!rst_ni || start_i) built_q <= 1'b0;
+    else if (busy_o) {built_q, slow_q} <= {1'b1, slow_i};
+
   `FV_ASSUME(legal, fast_i <= slow_i && steps_i != '0)
   `FV_ASSUME(start_at_rest, !(start_i && busy_o))
-  `FV_ASSUME(stands_while_busy, !busy_o || {slow_i, fast_i, steps_i} == $past({slow_i, fast_i, steps_i}))
+  `FV_ASSUME(stands_while_busy, !(busy_o && $past(busy_o)) || {slow_i, fast_i, steps_i} == $past
+             ({slow_i, fast_i, steps_i}))
 
   `FV_ASSERT(p104_hsk_04_ends, age_q <= 7'(Bound))
   `FV_ASSERT(p104_rmp_02_in_order,
-             !we_o || (busy_o && addr_o == next_q && addr_o > fast_i && addr_o <= slow_i))
-  `FV_ASSERT(p104_rmp_02_whole_table, !($past(rst_ni && busy_o) && !busy_o) || $past(slow_i == fast_i)
-             || $past(we_o && addr_o == slow_i))
+             !we_o || (busy_o && addr_o == next_q && addr_o >= fast_i && addr_o <= slow_i))
+  `FV_ASSERT(p104_rmp_02_whole_table, !($past(rst_ni && busy_o) && !busy_o) || $past(we_o && addr_o == slow_i
+                                                                                        ))
+  `FV_ASSERT(p104_rmp_02_pa_first, !we_o || any_q || data_o == steps_i)
+  `FV_ASSERT(p104_ini_05_slow_stands_behind_it, !built_q || busy_o || addr_o == slow_q)
   `FV_COVER(seen_three_words, we_o && addr_o == 2'd3 && fast_i == '0 && any_q)
 
 endmodule

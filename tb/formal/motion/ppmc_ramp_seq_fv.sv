@@ -16,7 +16,8 @@ module ppmc_ramp_seq_fv (
     input wire logic [2:0] rate_i,
     input wire logic       ramp_i,
     input wire logic       pulse_i,
-    input wire logic       forced_i
+    input wire logic       forced_i,
+    input wire logic       stop_i       // of the motion: no pulse in its clk or later
 );
 
   logic [2:0] lut_addr_o, rate_o;
@@ -31,44 +32,58 @@ module ppmc_ramp_seq_fv (
       .StepBits (3),
       .LutBits  (3)
   ) dut (
-      .steps_i({1'b0, steps_i}),
       .*
   );
 
   logic loaded_q, over_q, rated_q;  // a motion; its last pulse was made; its rate stands
   logic [5:0] due_q;  // pulses still to make
-  logic [1:0] gap_q;  // clk since load or pulse, at most 3
+  logic [2:0] gap_q;  // clk since load or pulse, at most 7
+  logic [2:0] addr1_q, addr2_q;  // addresses of the table, a clk and two clk ago
   logic [2:0] constant_q;
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {loaded_q, over_q, rated_q, due_q, gap_q, constant_q} <= '0;
     else begin
-      gap_q <= (load_i || pulse_i) ? 2'd1 : (gap_q == 2'd3) ? 2'd3 : gap_q + 1'b1;
+      gap_q <= (load_i || pulse_i) ? 3'd1 : (gap_q == '1) ? '1 : gap_q + 1'b1;
       if (load_i)
         {loaded_q, over_q, due_q, constant_q} <= {2'b10, single_i ? 6'd1 : {1'b0, count_i} + 6'd1, rate_i};
       else if (pulse_i) {over_q, due_q} <= {last_o, due_q - 1'b1};
+      else if (stop_i) over_q <= 1'b1;
     end
+
+  always_ff @(posedge clk_i) {addr2_q, addr1_q} <= {addr1_q, lut_addr_o};
+
+  logic first_q;  // no pulse since the load
+  always_ff @(posedge clk_i)
+    if (!rst_ni || load_i) first_q <= 1'b1;
+    else if (pulse_i) first_q <= 1'b0;
 
   logic top_q;
   always_ff @(posedge clk_i) top_q <= rst_ni && !load_i && (top_q || top_o);
 
-  // The axis: pulses of a motion 3 clk apart, none while a look-up runs, none after the last one.
-  `FV_ASSUME(pulses_apart, !(pulse_i && (load_i || gap_q != 2'd3 || !loaded_q || over_q || seek_o)))
+  // The axis: pulses of a motion 3 clk apart, the first one 4 clk behind its start, none while a look-up runs, none
+  // after the last one.
+  `FV_ASSUME(
+      pulses_apart,
+      !(pulse_i && (load_i || stop_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
+  // The builder: no threshold beyond PA, which stands at the high-speed rate.
+  `FV_ASSUME(table_up_to_pa, lut_data_i <= 3'(steps_i) && (addr2_q != fast_i || lut_data_i == 3'(steps_i)))
   `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
              ({slow_i, fast_i, steps_i}))
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  `FV_ASSUME(forced_stays, !$past(forced_i && loaded_q && !load_i) || forced_i)
+  `FV_ASSUME(forced_stays, !$past(forced_i && loaded_q && !over_q && !load_i && !stop_i) || forced_i)
   `FV_ASSUME(no_force_at_the_start, !load_i || !forced_i)
 
-  `FV_ASSERT(p104_opr_02_exact_count, !(loaded_q && !over_q && gap_q == 2'd3) || final_o == (due_q == 6'd1))
+  `FV_ASSERT(p104_opr_02_exact_count, !(loaded_q && !over_q && gap_q >= 3'd3) || final_o == (due_q == 6'd1))
   `FV_ASSERT(p104_rd_07_left, !(loaded_q && !over_q) || left_o == 5'(due_q - 6'd1))
   `FV_ASSERT(p104_opr_02_never_too_many, !(loaded_q && !over_q) || due_q != '0)
   `FV_ASSERT(p104_fdc_03_last_by_count_or_force,
              !(pulse_i && last_o) || due_q == 6'd1 || (forced_i && ramp_i) || !ramp_i)
   `FV_ASSERT(p104_int_01_constant_rate,
-             !(loaded_q && !over_q && !load_i && !ramp_i && gap_q == 2'd3) || rate_o == constant_q)
+             !(loaded_q && !over_q && !load_i && !ramp_i && gap_q >= 3'd3) || rate_o == constant_q)
+  `FV_ASSERT(p104_pro_index_up_to_pa, !(pulse_i && ramp_i) || dut.climb <= 3'(steps_i) + 3'd1)
   `FV_COVER(seen_plateau_and_down,
             loaded_q && pulse_i && last_o && final_o && dec_o && steps_i == 2'd2 && ramp_i && top_q)
 

@@ -12,7 +12,7 @@ module ppmc_ramp_serial_fv
     input wire logic [2:0] code_i,
     input wire logic       mul_i,
     input wire logic       keep_i,
-    input wire logic [2:0] steps_i,
+    input wire logic       init_i,
     input wire logic [3:0] first_i,
     input wire logic [3:0] second_i
 );
@@ -21,7 +21,7 @@ module ppmc_ramp_serial_fv
   localparam int unsigned Bits = Share + 2 * 4;
 
   pass_e next_i, pass_i;
-  logic bit_o, last_o;
+  logic bit_o, use_o, last_o;
 
   assign next_i = pass_e'(code_i);
 
@@ -61,6 +61,7 @@ module ppmc_ramp_serial_fv
   `FV_ASSERT(p104_rmp_04_length, !(run_q && last_o) || age_q == words + 5'd1)
   `FV_ASSERT(ends, !run_q || age_q <= words + 5'd1)
   `FV_ASSERT(nothing_between_passes, run_q || !last_o)
+  `FV_ASSERT(a_bit_with_each_word, use_o == (run_q && age_q >= 5'd2))
   `FV_ASSERT(no_word_read_and_written, !(dut.use_q && dut.run_q && dut.read_at_q == dut.at))
   `FV_COVER(seen_division_behind_another_pass, run_q && last_o && again_q && pass_i == PassSquare)
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_table_fv: what the builder has written stands in the table when busy_o falls, and until the next build.
+// ppmc_ramp_table_fv: what the builder has written stands in the table when busy_o falls, and until the next build; so
+// do the numbers that it was built from.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -13,7 +14,7 @@ module ppmc_ramp_table_fv (
 );
 
   logic busy_o;
-  logic [1:0] data_o;
+  logic [1:0] slow_o, fast_o, steps_o, data_o;
 
   `FV_RESET
 
@@ -24,18 +25,19 @@ module ppmc_ramp_table_fv (
       .*
   );
 
-  `FV_ASSUME(stands_while_busy, !busy_o || {slow_i, fast_i, steps_i} == $past({slow_i, fast_i, steps_i}))
+  `FV_ASSUME(stands_while_busy, !(busy_o && $past(busy_o)) || {slow_i, fast_i, steps_i} == $past
+             ({slow_i, fast_i, steps_i}))
   `FV_ASSUME(once, !(start_i && busy_o))
 
   // The stand-in writes one word: PA at the start-up rate.
-  logic [1:0] at_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: clk since the build, at most 3
+  logic [1:0] at_q, fast_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: clk since the build, at most 3
 
   always_ff @(posedge clk_i) begin
     {addr2_q, addr1_q} <= {addr1_q, addr_i};
-    if (!rst_ni) {at_q, word_q, rest_q} <= '0;
+    if (!rst_ni) {at_q, fast_q, word_q, rest_q} <= '0;
     else if (busy_o || start_i) begin
       rest_q <= '0;
-      if (busy_o) {at_q, word_q} <= {slow_i, steps_i};
+      if (busy_o) {at_q, fast_q, word_q} <= {slow_i, fast_i, steps_i};
     end else begin
       rest_q <= (rest_q == '1) ? '1 : rest_q + 1'b1;
     end
@@ -45,6 +47,7 @@ module ppmc_ramp_table_fv (
   always_ff @(posedge clk_i) some_q <= rst_ni && (some_q || busy_o);
 
   `FV_ASSERT(p104_ini_07_what_was_built, !(some_q && rest_q == '1 && addr2_q == at_q) || data_o == word_q)
+  `FV_ASSERT(p104_ini_05_rates_kept, !some_q || busy_o || {slow_o, fast_o, steps_o} == {at_q, fast_q, word_q})
   `FV_COVER(seen_word, some_q && rest_q == '1 && addr2_q == at_q && data_o == 2'd3)
 
 endmodule

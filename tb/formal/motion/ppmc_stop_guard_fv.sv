@@ -54,7 +54,8 @@ module ppmc_stop_guard_fv
       !stmc_stop || (armed_i && (immediate || (op_i.origin && slow) || (crawl_i && (slow_i || decel_i)))))
   `FV_ASSERT(p104_fdc_01_asked_for,
              !(armed_i && op_i.ramp && !immediate && !dec_i && (decel_i || slow_i)) || forced_o)
-  `FV_ASSERT(p104_fdc_04_not_withdrawn, !$past(rst_ni && forced_o && !clear_i && !complete_i) || forced_o)
+  `FV_ASSERT(p104_fdc_04_not_withdrawn, !$past(rst_ni && forced_o && !stop_o && !clear_i && !complete_i)
+             || forced_o)
   `FV_ASSERT(p104_end_04_limit_told, !$past(rst_ni && stop_o && limit && !clear_i && !complete_i)
              || cause_o.limit)
   `FV_ASSERT(p104_end_04_alarm_told, !$past(rst_ni && stop_o && switches_i.alarm && !clear_i && !complete_i)

@@ -6,10 +6,9 @@
 module ppmc_pace_motion_fv (
     input wire logic        clk_i,
     input wire logic        init_i,
-    input wire logic [13:0] steps_i,
     input wire logic        start_i,
     input wire logic        triangle_i,
-    input wire logic [14:0] pulses_i,
+    input wire logic [15:0] number_i,
     input wire logic        ramp_i,
     input wire logic        single_i,
     input wire logic        stop_i,

@@ -7,14 +7,13 @@
 module ppmc_setup_fv
   import ppmc_code_pkg::*;
 (
-    input wire logic              clk_i,
-    input wire logic              init_i,
-    input wire init_code_t        code_i,
-    input wire logic       [31:0] params_i,
-    input wire logic              home_i,
-    input wire logic              positive_i,
-    input wire logic              ready_i,
-    input wire logic              off_i
+    input wire logic       clk_i,
+    input wire logic       init_i,
+    input wire init_code_t code_i,
+    input wire logic       home_i,
+    input wire logic       positive_i,
+    input wire logic       ready_i,
+    input wire logic       off_i
 );
 
   setup_t setup_o;
@@ -42,13 +41,10 @@ module ppmc_setup_fv
   `FV_ASSERT(p104_ini_08_ready_starts_operations, !$past(rst_ni && !initialised_o && !ready_i)
              || !initialised_o)
   `FV_ASSERT(p104_phs_05_off_ends_it, !$past(rst_ni && off_i) || !(initialised_o || setup_o.chop))
-  `FV_ASSERT(p104_ini_05_rates_taken, !$past(rst_ni && init_i) || {setup_o.fast, setup_o.slow} == $past
-             (params_i[15:0]))
-  `FV_ASSERT(p104_ini_05_rates_kept, $past(init_i || !rst_ni)
-             || {setup_o.fast, setup_o.slow, setup_o.steps} == $past
-             ({setup_o.fast, setup_o.slow, setup_o.steps}))
+  `FV_ASSERT(p104_ini_05_clock_taken, !$past(rst_ni && init_i) || setup_o.external == $past(code_i.external))
+  `FV_ASSERT(p104_ini_05_clock_kept, $past(init_i || !rst_ni) || setup_o.external == $past(setup_o.external))
   `FV_COVER(seen_second,
-            initialised_o && setup_o.chop && setup_o.slow == 8'd9 && setup_o.motor != code_i.motor && init_i)
+            initialised_o && setup_o.chop && setup_o.external && setup_o.motor != code_i.motor && init_i)
 
 endmodule
 

@@ -41,14 +41,16 @@ module ppmc_single_fv
   logic on;  // the part is out of reset
   action_t act;
   logic busy, building, init_open_q;
-  logic [39:0] numbers;  // of the ramp
+  logic [31:0] asked;  // numbers of the ramp that is being built
+  logic [15:0] rates;  // of the ramp in force
   decoded_t decoded;
 
   assign on       = dut.rst;
   assign act      = dut.u_single.act_o;
   assign busy     = dut.u_single.motion_o.busy;
   assign building = dut.u_single.building;
-  assign numbers  = 40'({dut.u_single.setup_o.slow, dut.u_single.setup_o.fast, dut.u_single.setup_o.steps});
+  assign asked    = dut.u_single.verdict_i.setup;
+  assign rates    = {dut.u_single.slow, dut.u_single.fast};
   assign decoded  = dut.u_single.meaning_i.decoded;
 
   always_ff @(posedge clk_i) init_open_q <= on && (act.init || (init_open_q && !dut.u_single.ready_init));
@@ -56,7 +58,8 @@ module ppmc_single_fv
   // Assumptions of the proofs of axis, finish, table and builder, setup, mailbox, command and judge.
   `FV_ASSERT(start_at_rest, !on || !act.start || !(busy || dut.u_single.event_now.done || building))
   `FV_ASSERT(table_once, !on || !(act.init && building))
-  `FV_ASSERT(ramp_stands, !$past(on) || !(building || busy) || $past(act.init) || numbers == $past(numbers))
+  `FV_ASSERT(ramp_stands, !$past(on) || !busy || rates == $past(rates))
+  `FV_ASSERT(ramp_stands_while_built, !($past(on && building) && building) || asked == $past(asked))
   `FV_ASSERT(home_in_the_first, !on || !dut.u_single.home || !dut.u_single.initialised)
   `FV_ASSERT(ready_behind_init, !on || !dut.u_single.ready_init || init_open_q)
   `FV_ASSERT(init_alone, !on || !(act.exc_off && (act.init || init_open_q)) && !(act.init && init_open_q))

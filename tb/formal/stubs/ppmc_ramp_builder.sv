@@ -20,16 +20,20 @@ module ppmc_ramp_builder #(
 );
 
   logic [2:0] left_q;
+  logic [RateBits-1:0] rate_q;
 
   assign busy_o = left_q != '0;
   assign we_o   = left_q == 3'd3;
-  assign addr_o = slow_i;
+  assign addr_o = rate_q;
   assign data_o = steps_i;
 
   always_ff @(posedge clk_i or negedge rst_ni)
     if (!rst_ni) left_q <= '0;
     else if (busy_o) left_q <= left_q - 1'b1;
     else if (start_i) left_q <= 3'd5;
+
+  // The start-up rate stands behind a build.
+  always_ff @(posedge clk_i) if (busy_o) rate_q <= slow_i;
 
 endmodule
 
