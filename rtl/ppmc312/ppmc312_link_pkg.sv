@@ -77,13 +77,13 @@ package ppmc312_link_pkg;
   } op_t;
 
   typedef struct packed {
-    logic  start;     // strobe: op along plan; only at rest
-    op_t   op;        // stands with start
-    logic  change;    // strobe: another rate, plan.to
-    plan_t plan;      // steady from start to t0; its rate until 2 clk after change
-    logic  home;      // steady the same: one pulse at the start-up rate instead of plan.to, whatever plan.dec is
-    logic  pos_halt;  // strobe: an immediate stop is due at this position
-    logic  settled;   // everything that has been triggered is processed
+    logic start;  // strobe: op along plan; only at rest
+    op_t op;  // stands with start
+    logic change;  // strobe: another rate, plan.to
+    plan_t plan;  // steady from start to t0; its rate until 2 clk after change
+    logic home;  // steady the same: one pulse at the start-up rate instead of plan.to, whatever plan.dec is
+    logic pos_halt;  // strobe: an immediate stop is due at this position
+    logic settled;  // everything that has been triggered is processed
   } motion_order_t;
 
   // ---- what motions look at, as instructions have set it ---------------------------------------------------------

@@ -104,7 +104,7 @@ module ppmc312_mailbox
       if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == Arm;
       if (wr && wr_rs == RegAr && !mwef) begin
         at_q         <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
-        offer_o.size <= 6'(ppmc_pkg::inc(32'(~wr_data[BLOCK_BITS:0]))) ^ Top;  // Top less that
+        offer_o.size <= 6'(ppmc_pkg::inc({26'd0, ~wr_data[BLOCK_BITS:0]})) ^ Top;  // Top less that
       end
       if (take) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
       if (take && at_q == Top - 1'b1) offer_o.valid <= 1'b1;
@@ -163,7 +163,7 @@ module ppmc312_mailbox
   always_comb begin
     unique case (rd_rs)
       RegCsr:  rd_data = {1'b0, enable_wrq_q, enable_write_q, enable_read_q, mwef, mref, 2'b00};
-      RegAr:   rd_data = 8'(ppmc_pkg::inc(32'(~left_q)));  // 40 less that
+      RegAr:   rd_data = 8'(ppmc_pkg::inc({26'd0, ~left_q}));  // 40 less that
       RegDrr:  rd_data = mref ? 8'h00 : rd_data_i;
       default: rd_data = 8'h00;
     endcase

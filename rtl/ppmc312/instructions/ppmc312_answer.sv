@@ -104,7 +104,8 @@ module ppmc312_answer
     if (!answer_i.echo) len_q <= 6'(ppmc_pkg::inc(32'(answer_i.extra)));
     else if (blk_size_i[5:1] == '0) len_q <= 6'd2;
     else len_q <= (blk_size_i[5] || blk_size_i[4:0] == '1) ? 6'd30 : blk_size_i;
-    if (start_i) beyond_q <= ~{5'(ppmc_pkg::inc(32'(answer_i.extra[3:1]))), answer_i.extra[0]};  // 3 more, below 0
+    if (start_i)
+      beyond_q <= ~{5'(ppmc_pkg::inc(32'(answer_i.extra[3:1]))), answer_i.extra[0]};  // 3 more, below 0
     else beyond_q <= 6'(ppmc_pkg::inc(32'(beyond_q)));
   end
 

@@ -33,7 +33,7 @@ module ppmc312_free
     output logic      [           1:0] list_o,      // 0 rates, 1 acceleration, 2 deceleration
     output logic      [           6:0] left_o,      // stages of this list to come
     output logic      [          23:0] acc_sum_o,   // pulses of the acceleration side; with complete_o
-    output logic      [          23:0] dec_sum_o,   // of the deceleration side, if that is one of its own
+    output logic      [          23:0] dec_sum_o,   // of the deceleration side
     output entry_t                     entry_o      // into the table
 );
 
@@ -97,7 +97,8 @@ module ppmc312_free
 
   // No reset: a transfer begins with open_i, a block with data_i.
   always_ff @(posedge clk_i) begin
-    if (open_i || (list_done && list_o == 2'd1)) dec_sum_o <= '0;
+    // Without a side of its own the deceleration has the pulses of the acceleration.
+    if (open_i || (list_done && list_o == 2'd1 && split_q)) dec_sum_o <= '0;
     else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin
       split_q    <= split_i;

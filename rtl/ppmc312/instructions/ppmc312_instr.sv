@@ -210,7 +210,9 @@ module ppmc312_instr
       .stage_o
   );
 
-  assign first = ppmc_pkg::less(32'(table_o.first_acc), 32'(table_o.first_dec)) ? table_o.first_acc : table_o.first_dec;
+  assign first = ppmc_pkg::less(
+      32'(table_o.first_acc), 32'(table_o.first_dec)
+  ) ? table_o.first_acc : table_o.first_dec;
 
   // ---- answers ---------------------------------------------------------------------------------------------------
 

@@ -28,13 +28,15 @@ module ppmc312_readback
 );
 
   localparam logic [6:0] Fastest = 7'd126;
-  localparam logic [7:0][3:0] Lengths = {12'd0, 4'd13, 4'd10, 4'd7, 4'd4, 4'd1};  // of 4 .. 0 stages: 3 * n + 1
+  localparam logic [7:0][3:0] Lengths = {
+    12'd0, 4'd13, 4'd10, 4'd7, 4'd4, 4'd1
+  };  // of 4 .. 0 stages: 3 * n + 1
 
   logic run_q, rates, last_item, ends, stage_ends, in_words;
   logic [1:0] item_q, part_q, wait_q;
   logic [2:0] left_q;  // stages of this block
   logic [6:0] stage_q, first;
-  logic [2:0] room;
+  logic [ 2:0] room;
   logic [ 6:0] rest_q;  // stages of this item to come
   logic [ 5:0] at_q;
   logic [23:0] word;

@@ -46,7 +46,7 @@ module ppmc312_store
   logic [1:0] trigs[16];
   logic [31:0] head_pos_q;
   tag_t head_q;
-  logic [1:0] done_trig_q, event_q;
+  logic [1:0] done_word_q, done_trig_q, event_q;
   logic [1:0][2:0] count_q;
   logic [1:0][1:0] next_q;
   logic [3:0] written_q, armed_q, done_q, done_next, taken_q;
@@ -102,8 +102,9 @@ module ppmc312_store
     // Block RAM answers slowly: the next head stands ready.
     ahead_q <= heads[armed_q+4'(head_valid_q)];
     if (!head_valid_q) {head_q, head_pos_q} <= ahead_q;
-    // Late by a clk only after one has been taken, and then nobody looks.
-    done_trig_q <= trigs[done_q];
+    // Late by two clk only after one has been taken, and then nobody looks.
+    done_word_q <= trigs[done_q];
+    done_trig_q <= done_word_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

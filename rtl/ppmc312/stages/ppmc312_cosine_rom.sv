@@ -5,10 +5,10 @@
 `default_nettype none
 
 module ppmc312_cosine_rom (
-    input  wire logic        clk_i,    // clock
+    input  wire logic        clk_i,     // clock
     input  wire logic        linear_i,  // i itself
-    input  wire logic [ 6:0] index_i,  // i, 0 .. 126
-    output logic      [16:0] weight_o  // its weight, two clk later
+    input  wire logic [ 6:0] index_i,   // i, 0 .. 126
+    output logic      [16:0] weight_o   // its weight, two clk later
 );
 
   localparam int unsigned Half = 63;

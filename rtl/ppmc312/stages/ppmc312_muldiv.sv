@@ -42,8 +42,8 @@ module ppmc312_muldiv #(
   assign hi_o   = sum[HiBits-1:0];
 
   // A load goes through the adder, too: h is added to 0.
-  assign take = take_q || load;
-  assign less = less_q && !load;
+  assign take   = take_q || load;
+  assign less   = less_q && !load;
 
   always_comb begin
     x   = load ? '0 : shift_q ? {hi_q[HiBits-2:0], lo_o[LoBits-1]} : hi_q;

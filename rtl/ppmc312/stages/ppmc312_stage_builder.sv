@@ -12,25 +12,25 @@
 module ppmc312_stage_builder
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic          clk_i,        // clock
-    input  wire logic          rst_ni,       // reset, asynchronous
-    input  wire logic          start_i,      // strobe
-    input  wire curve_t        curve_i,      // steady while busy
-    output logic               busy_o,       // from the clk after start_i until all is written
-    output logic               thin_o,       // a stage has two pulses or less; stands until the next start
-    output entry_t             entry_o,      // into the table
-    output logic        [ 1:0] begins_o,     // strobes: with its stage the sides begin, unless there is a later one
-    input  wire logic   [ 6:0] first_acc_i,  // the last one of those, 0 .. 126
-    input  wire logic   [ 6:0] first_dec_i,  // of the deceleration side
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic start_i,  // strobe
+    input wire curve_t curve_i,  // steady while busy
+    output logic busy_o,  // from the clk after start_i until all is written
+    output logic thin_o,  // a stage has two pulses or less; stands until the next start
+    output entry_t entry_o,  // into the table
+    output logic [1:0] begins_o,  // strobes: with its stage the sides begin, unless there is a later one
+    input wire logic [6:0] first_acc_i,  // the last one of those, 0 .. 126
+    input wire logic [6:0] first_dec_i,  // of the deceleration side
     // arithmetic, shared with the planner
-    output logic               op_start_o,   // strobe
-    output logic               op_mul_o,     // 1 multiply, 0 divide
-    output logic        [ 5:0] op_steps_o,   // 1 .. 24
-    output logic        [23:0] op_lo_o,      // multiplier
-    output logic        [39:0] word_o,       // h with op_start_o, then the operand
-    input  wire logic          op_busy_i,    // the result does not stand yet
-    input  wire logic   [39:0] hi_i,         // result, remainder
-    input  wire logic   [23:0] lo_i          // its low bits, quotient
+    output logic op_start_o,  // strobe
+    output logic op_mul_o,  // 1 multiply, 0 divide
+    output logic [5:0] op_steps_o,  // 1 .. 24
+    output logic [23:0] op_lo_o,  // multiplier
+    output logic [39:0] word_o,  // h with op_start_o, then the operand
+    input wire logic op_busy_i,  // the result does not stand yet
+    input wire logic [39:0] hi_i,  // result, remainder
+    input wire logic [23:0] lo_i  // its low bits, quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
@@ -182,11 +182,11 @@ module ppmc312_stage_builder
       state_q <= StIdle;
       phase_q <= '0;
       op_start_o <= 1'b0;
-      wait_q  <= 1'b0;
-      pass_q  <= 1'b0;
-      side_q  <= 1'b0;
+      wait_q <= 1'b0;
+      pass_q <= 1'b0;
+      side_q <= 1'b0;
       stage_q <= Last;
-      thin_o  <= 1'b0;
+      thin_o <= 1'b0;
     end else begin
       op_start_o <= works && phase_q == 2'd1;  // as phase 2 begins
       if (op_start_o) wait_q <= 1'b1;

@@ -256,7 +256,7 @@ module ppmc312_stage_seq
   always_ff @(posedge clk_i) begin
     if (!seek_q) seek_at_q <= '0;
     else if (look) seek_at_q <= 7'(ppmc_pkg::inc(32'(seek_at_q)));
-    in_use_q  <= seek_q && (look_q[1] ? in_use : in_use_q);
+    in_use_q <= seek_q && (look_q[1] ? in_use : in_use_q);
   end
 
   // ---- state -----------------------------------------------------------------------------------------------------
@@ -297,15 +297,15 @@ module ppmc312_stage_seq
       else if (!in_use_q) target_q.gt1 <= addr_q[1];
     end
     if (load_i) begin
-      now_q     <= '{flat: !plan_i.climb, default: 1'b0};
-      stage_q   <= first_acc_i;
-      edge_at_q <= plan_i.to.ge;
-      more_q    <= '0;
-      endless_q <= plan_i.endless;
+      now_q      <= '{flat: !plan_i.climb, default: 1'b0};
+      stage_q    <= first_acc_i;
+      edge_at_q  <= plan_i.to.ge;
+      more_q     <= '0;
+      endless_q  <= plan_i.endless;
       no_point_q <= plan_i.endless || single_i;
-      left_q    <= plan_i.count;
-      dec_q     <= plan_i.dec;
-      from_q    <= plan_i.from;
+      left_q     <= plan_i.count;
+      dec_q      <= plan_i.dec;
+      from_q     <= plan_i.from;
     end else if (step_i) begin
       now_q   <= then_q;
       stage_q <= addr_q[1];
