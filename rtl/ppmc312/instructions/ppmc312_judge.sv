@@ -126,8 +126,8 @@ module ppmc312_judge
       end
       I_FREE: begin
         value_error = (block_i.head == 8'h03) ? E_FREE_HEADER : E_FREE_STAGES;
-        value_bad = block_i.head == 8'h03 || stages_bad(block_i.par[1]) ||
-            (le && (stages_bad(block_i.par[2]) || block_i.len == 8'd3));
+        value_bad = block_i.head == 8'h03 || stages_bad(block_i.par[1][7:1]) ||
+            (le && (stages_bad(block_i.par[2][7:1]) || block_i.len == 8'd3));
       end
       I_INPOS: begin
         value_error = E_INPOS_ZERO;
@@ -162,7 +162,7 @@ module ppmc312_judge
     endcase
   end
 
-  function automatic logic stages_bad(logic [7:0] n);
+  function automatic logic stages_bad(logic [7:1] n);  // without the lowest bit
     return n[7] || n[6:1] == '0;  // below 2, above 127
   endfunction
 
