@@ -28,7 +28,8 @@ package ppmc312_link_pkg;
 
   localparam int unsigned PARAMS = 13;  // parameters of the longest instruction
 
-  // A block, parameters at their place in the long form of the instruction, missing ones 0.
+  // A block, parameters at their place in the long form of the instruction, missing ones 0. An
+  // initial setting without sides of their own has those of the acceleration for both.
   typedef struct packed {
     source_e                source;
     logic [BLOCK_BITS:0]    size;    // from the host: bytes written, 1 .. 32
@@ -76,13 +77,13 @@ package ppmc312_link_pkg;
   } op_t;
 
   typedef struct packed {
-    logic  start;     // strobe: op along plan; only at rest
-    op_t   op;        // stands with start
-    logic  change;    // strobe: another rate, plan.to
-    plan_t plan;      // steady from start to t0; its rate until 2 clk after change
-    logic  home;      // steady the same: the start-up rate instead of plan.to
-    logic  pos_halt;  // strobe: an immediate stop is due at this position
-    logic  settled;   // everything that has been triggered is processed
+    logic start;  // strobe: op along plan; only at rest
+    op_t op;  // stands with start
+    logic change;  // strobe: another rate, plan.to
+    plan_t plan;  // steady from start to t0; its rate until 2 clk after change
+    logic home;  // steady the same: one pulse at the start-up rate instead of plan.to, whatever plan.dec is
+    logic pos_halt;  // strobe: an immediate stop is due at this position
+    logic settled;  // everything that has been triggered is processed
   } motion_order_t;
 
   // ---- what motions look at, as instructions have set it ---------------------------------------------------------

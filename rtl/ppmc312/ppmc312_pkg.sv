@@ -74,7 +74,7 @@ package ppmc312_pkg;
     logic       counted;    // parameters 3 .. 6 are a number of pulses
     logic [5:0] now;        // statuses that accept it, OV = 0
     logic [5:0] later;      // statuses that accept it, OV = 1
-    logic [4:0] len_a;      // lengths of code and parameters
+    logic [4:0] len_a;      // lengths of code and parameters, the longer one first
     logic [4:0] len_b;
   } info_t;
 
@@ -109,8 +109,8 @@ package ppmc312_pkg;
         i.len_b = 5'd9;
       end
       I_FREE: begin
-        i = common_info(AT_REST, 5'd3);
-        i.len_b = 5'd4;
+        i = common_info(AT_REST, 5'd4);
+        i.len_b = 5'd3;
       end
       I_INPOS, I_ENCODE:                              i = common_info(AT_REST, 5'd4);
       I_LOCK_POS:                                     i = common_info(AT_REST, 5'd5);
@@ -125,13 +125,13 @@ package ppmc312_pkg;
       I_LOCK:                                         i = common_info(StatusNor, 5'd1);
       I_SYNC:                                         i = common_info(StatusNor | StatusWrn, 5'd1);
       I_EVT_READ: begin
-        i = common_info(StatusNor, 5'd1);
-        i.len_b = 5'd2;
+        i = common_info(StatusNor, 5'd2);
+        i.len_b = 5'd1;
       end
       I_EVT_SET:                                      i = common_info(StatusNor, 5'd2);
       I_HALT, I_DECEL: begin
-        i = common_info(RUNNING, 5'd2);
-        i.len_b = 5'd6;
+        i = common_info(RUNNING, 5'd6);
+        i.len_b = 5'd2;
       end
       I_MOVE: begin
         i = common_info(StatusNor, 5'd8);
@@ -141,12 +141,12 @@ package ppmc312_pkg;
       I_STEP:                                         i = common_info(StatusNor, 5'd2);
       I_HIGH, I_CONT, I_ORIGIN, I_ZERO:               i = common_info(StatusNor, 5'd4);
       I_RAMP: begin
-        i = common_info(StatusFix, 5'd4);
-        i.len_b = 5'd8;
+        i = common_info(StatusFix, 5'd8);
+        i.len_b = 5'd4;
       end
       I_SPEED: begin
-        i = common_info(RUNNING, 5'd4);
-        i.len_b = 5'd8;
+        i = common_info(RUNNING, 5'd8);
+        i.len_b = 5'd4;
       end
       default:                                        i.known = 1'b0;
     endcase

@@ -17,9 +17,9 @@ INTERVAL = "base_i:3 extck_i arm_i first_i fire_i rate_i:16 due_o high_o"
 BLOCKS = {
     "muldiv": Block(
         "ppmc312_muldiv",
-        "start_i mul_i zero_i keep_i steps_i:6 hi_i:40 lo_i:24 operand_i:40 busy_o hi_o:40 lo_o:24",
+        "start_i mul_i keep_i steps_i:6 lo_i:24 operand_i:40 busy_o hi_o:40 lo_o:24",
     ),
-    "rom": Block("ppmc312_cosine_rom", "clk_i index_i:7 weight_o:17", bare=True),
+    "rom": Block("ppmc312_cosine_rom", "clk_i linear_i index_i:7 weight_o:17", bare=True),
     "unit": Block(
         "ppmc312_stage_unit",
         f"drop_i build_i curve_i:101:{PACKAGE}curve_t busy_o thin_o open_i open_acc_i:7 open_dec_i:7"
@@ -30,7 +30,7 @@ BLOCKS = {
     "seq": Block(
         "ppmc312_stage_seq",
         f"first_acc_i:7 first_dec_i:7 rate_dec_i:16 look_o:8 stage_i:40:{PACKAGE}stage_t"
-        f" load_i plan_i:128:{PACKAGE}plan_t change_i change_ramp_i slow_i"
+        f" load_i plan_i:128:{PACKAGE}plan_t single_i change_i change_ramp_i slow_i"
         " next_end_o next_low_o next_count_o next_slow_o next_walk_o next_rate_o:16 step_i rate_o:16 flat_o"
         " walk_o first_o complete_o",
     ),

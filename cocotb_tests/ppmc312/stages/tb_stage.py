@@ -51,8 +51,8 @@ async def muldiv_exact(dut):
         else:
             hi = rand.randrange(operand)
             lo = small << 24 - steps
-        await u.clk(start_i=1, mul_i=mul, steps_i=steps, hi_i=hi, lo_i=lo, operand_i=operand)
-        u.put(start_i=0, hi_i=rand.getrandbits(40), lo_i=rand.getrandbits(24), mul_i=rand.randrange(2))
+        await u.clk(start_i=1, mul_i=mul, steps_i=steps, lo_i=lo, operand_i=hi)
+        u.put(start_i=0, lo_i=rand.getrandbits(24), mul_i=rand.randrange(2), operand_i=operand)
         for clk in range(steps):
             same(f"{n}: busy in clk {clk} of {steps}", (await u.clk())[0], 1)
         busy, got_hi, got_lo = await u.settle()
@@ -66,22 +66,20 @@ async def muldiv_exact(dut):
 
 @cocotb.test()
 async def muldiv_product_is_divided(dut):
-    """Given a product that is kept, then it can be divided as it stands; 0 counts instead of hi_i."""
+    """Given a product that is kept, then it can be divided as it stands."""
     rand = rng()
     u = Unit(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
     for n in range(40):
         pulses, speed = rand.getrandbits(24), rand.getrandbits(32)
         whole = rand.randrange(speed * pulses >> 24, 1 << 39) + 1
-        await u.clk(
-            start_i=1, mul_i=1, zero_i=1, steps_i=24, hi_i=rand.getrandbits(40), lo_i=pulses, operand_i=speed
-        )
-        u.put(start_i=0)
+        await u.clk(start_i=1, mul_i=1, steps_i=24, lo_i=pulses, operand_i=0)
+        u.put(start_i=0, operand_i=speed)
         for _ in range(24):
             await u.clk()
-        u.put(hi_i=rand.getrandbits(40), lo_i=rand.getrandbits(24), operand_i=whole, mul_i=0)
-        await u.clk(start_i=1, keep_i=1, zero_i=rand.randrange(2))
-        u.put(start_i=0, keep_i=0, zero_i=0)
+        u.put(lo_i=rand.getrandbits(24), operand_i=whole, mul_i=0)
+        await u.clk(start_i=1, keep_i=1)
+        u.put(start_i=0, keep_i=0)
         for _ in range(24):
             await u.clk()
         same(f"{n}: {pulses} * {speed} / {whole}", (await u.settle())[2:0:-1], divmod(pulses * speed, whole))
@@ -89,12 +87,14 @@ async def muldiv_product_is_divided(dut):
 
 @cocotb.test()
 async def cosine_weights(dut):
-    """Given every stage, in any order, then its weight stands two clk later."""
+    """Given every stage, in any order, then its weight stands two clk later, or its number."""
     u = Unit(dut, "rom", BLOCKS, "weight_o")
     u.choose()
     order = [*range(STAGES), *rng().sample(range(STAGES), STAGES)]
-    got = [await u.clk(index_i=i) for i in [*order, 0, 0]]
+    got = [await u.clk(linear_i=0, index_i=i) for i in [*order, 0, 0]]
     same("weights", got[2:], [sigmoid_weights()[i] for i in order])
+    got = [await u.clk(linear_i=1, index_i=i) for i in [*order, 0, 0]]
+    same("linear weights", got[2:], order)
 
 
 async def _idle(u: Unit, port: str) -> int:
@@ -106,7 +106,7 @@ async def _idle(u: Unit, port: str) -> int:
 def curve_word(setting: tuple[int, ...]) -> int:
     """curve_t of a setting, base clock 5."""
     start, stop, high, acc, dec, sigmoid, separate = setting
-    stop = stop if separate else start
+    stop, dec = (stop, dec) if separate else (start, acc)
     return pack(
         (sigmoid, 1), (separate, 1), (5, 3), (start, 16), (stop, 16), (high, 16), (acc, 24), (dec, 24)
     )

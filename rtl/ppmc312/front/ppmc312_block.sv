@@ -21,7 +21,6 @@ module ppmc312_block
 
   localparam logic [3:0] Flags = 4'd3;  // place of the first parameter
   localparam logic [3:0] InnerLen = 4'd5;  // of the length within an event registration
-  localparam logic [7:0] InnerTop = 8'd8;  // its longest value
   localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes of the block around it
   localparam logic [BLOCK_BITS:0] None = 6'd2;  // makes a size abnormality
 
@@ -31,7 +30,7 @@ module ppmc312_block
   always_ff @(posedge clk_i) begin
     if (we_i && !head_i && at_i == InnerLen) begin
       inner_q <= data_i[3:0];
-      long_q  <= data_i > InnerTop;
+      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // more than 8
     end
   end
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_codes: what an instruction code of the serial mode means on the parallel bus.
 // Rules:  section 3.6; P312-SER-40..44.
-// Timing: one clk.
+// Timing: two clk: a block RAM answers slowly, so its output has a register.
 // How:    a table in a block RAM, written from the function below.
 `default_nettype none
 
@@ -117,10 +117,14 @@ module ppmc312_codes
 
   (* rom_style = "block" *)
   serial_code_t rom[256];
+  serial_code_t word_q;
 
   initial for (int unsigned i = 0; i < 256; i++) rom[i] = Words[8'(i)];
 
-  always_ff @(posedge clk_i) info_o <= rom[code_i];
+  always_ff @(posedge clk_i) begin
+    word_q <= rom[code_i];
+    info_o <= word_q;
+  end
 
 endmodule
 

@@ -16,7 +16,7 @@ module ppmc312_counts (
   logic [7:0] old, more;
 
   assign old  = error_i[0] ? count_o[0] : error_i[1] ? count_o[1] : count_o[2];
-  assign more = old + 8'(old != '1);
+  assign more = (old == '1) ? old : 8'(ppmc_pkg::inc(32'(old)));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) count_o <= '0;

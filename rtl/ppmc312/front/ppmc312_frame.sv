@@ -23,7 +23,7 @@ module ppmc312_frame
     input  wire logic               busy_i,     // a reply is pending or being sent
     // code table
     output logic              [7:0] code_o,     // code as received
-    input  wire serial_code_t       info_i,     // what it means, one clk later
+    input  wire serial_code_t       info_i,     // what it means, two clk later
     // the block that means the same on the parallel bus: its bytes, data first, then what comes before them
     output logic                    we_o,       // strobe: a byte
     output logic                    head_o,     // one of those
@@ -52,7 +52,7 @@ module ppmc312_frame
 
   state_e state_q;
   logic control, own, take, digit, letter, hex, past, silent, ends, right, last;
-  logic poll_q, bad_q, low_q;
+  logic poll_q, bad_q, low_q, waited_q;
   logic [3:0] nibble, high_q, at_q, first;
   logic [6:0] sum_q;
 
@@ -100,7 +100,7 @@ module ppmc312_frame
     else if (control) begin
       state_q <= StSkip;
       if (own && !busy_i) state_q <= byte_i[4] ? StCode : StSum;
-    end else if (state_q == StWait) state_q <= StLook;
+    end else if (state_q == StWait) state_q <= waited_q ? StLook : StWait;
     else if (state_q == StLook) begin
       state_q <= StData;
       if (first == info_i.size) state_q <= StHead;
@@ -138,6 +138,7 @@ module ppmc312_frame
       end
     end
     if (take) high_q <= nibble;
+    waited_q <= state_q == StWait;
     if (take && state_q == StCode) code_o <= {code_o[3:0], nibble};
   end
 

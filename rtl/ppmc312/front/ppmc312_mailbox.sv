@@ -104,9 +104,9 @@ module ppmc312_mailbox
       if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == Arm;
       if (wr && wr_rs == RegAr && !mwef) begin
         at_q         <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
-        offer_o.size <= Top - wr_data[BLOCK_BITS:0];
+        offer_o.size <= 6'(ppmc_pkg::inc({26'd0, ~wr_data[BLOCK_BITS:0]})) ^ Top;  // Top less that
       end
-      if (take) at_q <= at_q + 1'b1;
+      if (take) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
       if (take && at_q == Top - 1'b1) offer_o.valid <= 1'b1;
       else if (blk_done_i) offer_o.valid <= 1'b0;
     end
@@ -133,7 +133,7 @@ module ppmc312_mailbox
   assign last = rd_done && shown_q && rd_rs == RegDrr && left_q == (BLOCK_BITS + 1)'(1);
   assign rd_load_o = rd_any_i && mref && !loaded_q && pause_q == '0;
   assign rd_done_o = last;
-  assign rd_addr_o = BLOCK_BITS'((mref ? rd_size_i : left_q) - 1'b1);
+  assign rd_addr_o = BLOCK_BITS'(ppmc_pkg::dec(32'(mref ? rd_size_i : left_q)));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -163,7 +163,7 @@ module ppmc312_mailbox
   always_comb begin
     unique case (rd_rs)
       RegCsr:  rd_data = {1'b0, enable_wrq_q, enable_write_q, enable_read_q, mwef, mref, 2'b00};
-      RegAr:   rd_data = 8'h40 - 8'(left_q);
+      RegAr:   rd_data = 8'(ppmc_pkg::inc({26'd0, ~left_q}));  // 40 less that
       RegDrr:  rd_data = mref ? 8'h00 : rd_data_i;
       default: rd_data = 8'h00;
     endcase

@@ -56,7 +56,7 @@ module ppmc312_reports
   cause_t cause_q;
   logic [31:0] pos_q;
   logic [7:0] ram_byte, own_byte, own_q, code;
-  logic [2:0] own_size;
+  logic [2:0] own_size, own_at_q;
 
   // ---- what waits, which is next ---------------------------------------------------------------------------------
 
@@ -226,7 +226,7 @@ module ppmc312_reports
   end
 
   always_comb begin
-    unique case (rd_addr_i[2:0])
+    unique case (own_at_q)
       3'd0:    own_byte = 8'h23;
       3'd1:    own_byte = 8'(own_size);
       3'd2:    own_byte = code;
@@ -245,7 +245,11 @@ module ppmc312_reports
     endcase
   end
 
-  always_ff @(posedge clk_i) own_q <= own_byte;
+  // As slow as the RAM.
+  always_ff @(posedge clk_i) begin
+    own_at_q <= rd_addr_i[2:0];
+    own_q <= own_byte;
+  end
 
   assign rd_size_o = (class_q == 4'd2) ? size_q : (BLOCK_BITS + 1)'(own_size) + (BLOCK_BITS + 1)'(2);
   assign rd_data_o = (serial_i || class_q == 4'd2) ? ram_byte : own_q;

@@ -58,7 +58,7 @@ module ppmc312_serial
   logic we;
   logic [3:0] at;
   logic [7:0] placed;
-  serial_code_t info, found;  // meaning of code; the same a clk earlier
+  serial_code_t info;  // meaning of code
   reply_t reply;
 
   always_comb begin
@@ -99,11 +99,8 @@ module ppmc312_serial
   ppmc312_codes u_codes (
       .clk_i,
       .code_i(code),
-      .info_o(found)
+      .info_o(info)
   );
-
-  // Block RAM answers slowly. The frame looks at once; a block is made, and replied to, later.
-  always_ff @(posedge clk_i) info <= found;
 
   ppmc312_frame #(
       .ClkHz   (ClkHz),
@@ -118,7 +115,7 @@ module ppmc312_serial
       .error_i  (framing),
       .busy_i   (busy),
       .code_o   (code),
-      .info_i   (found),
+      .info_i   (info),
       .we_o     (we),
       .head_o   (head),
       .at_o     (at),

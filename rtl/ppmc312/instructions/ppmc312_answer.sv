@@ -40,13 +40,13 @@ module ppmc312_answer
   logic [7:0] tail;
   logic in_tail;
 
-  assign size_o = len_q + 6'd2;
+  assign size_o = {5'(ppmc_pkg::inc(32'(len_q[5:1]))), len_q[0]};
   assign busy_o = run_q;
   assign done_o = run_q && at_q == size_o;
   assign byte_o.we = run_q && at_q != size_o;
   assign byte_o.addr = at_q[BLOCK_BITS-1:0];
   // Two ahead of the byte that is written; code and parameters begin at byte 2 of the instruction.
-  assign echo_addr_o = BLOCK_BITS'(beyond_q + 6'd4);
+  assign echo_addr_o = {3'(ppmc_pkg::inc(32'(beyond_q[4:2]))), beyond_q[1:0]};  // 4 more
   assign rest = ~beyond_q[3:0];
   assign peek_o = run_q && answer_i.tail == TailCodes;
   assign peek_at_o = 2'd1 - rest[1:0];
@@ -94,17 +94,19 @@ module ppmc312_answer
       at_q  <= '0;
     end else if (run_q) begin
       if (at_q == size_o) run_q <= 1'b0;
-      else at_q <= at_q + 1'b1;
+      else at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
     end
   end
 
   // The sizes stand with the first byte.
   always_ff @(posedge clk_i) begin
     // An echo stands behind a code and one byte, and is the instruction without header and length, at most 28 bytes.
-    if (!answer_i.echo) len_q <= 6'(answer_i.extra) + 6'd1;
-    else if (blk_size_i < 6'd2) len_q <= 6'd2;
-    else len_q <= (blk_size_i > 6'd30) ? 6'd30 : blk_size_i;
-    beyond_q <= start_i ? ~6'(answer_i.extra) - 6'd2 : beyond_q + 1'b1;
+    if (!answer_i.echo) len_q <= 6'(ppmc_pkg::inc(32'(answer_i.extra)));
+    else if (blk_size_i[5:1] == '0) len_q <= 6'd2;
+    else len_q <= (blk_size_i[5] || blk_size_i[4:0] == '1) ? 6'd30 : blk_size_i;
+    if (start_i)
+      beyond_q <= ~{5'(ppmc_pkg::inc(32'(answer_i.extra[3:1]))), answer_i.extra[0]};  // 3 more, below 0
+    else beyond_q <= 6'(ppmc_pkg::inc(32'(beyond_q)));
   end
 
 endmodule

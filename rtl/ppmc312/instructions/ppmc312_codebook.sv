@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_codebook: what is known of an instruction code, as a table in a block RAM.
 // Rules:  P312-STA-01, section 3.1 (info_of in ppmc312_pkg).
-// Timing: one clk.
+// Timing: two clk: a block RAM answers slowly, so its output has a register.
 `default_nettype none
 
 module ppmc312_codebook
@@ -9,7 +9,7 @@ module ppmc312_codebook
 (
     input  wire logic       clk_i,   // clock
     input  wire logic [7:0] code_i,  // instruction code
-    output info_t           info_o   // what is known of it
+    output info_t           info_o   // what is known of it, two clk later
 );
 
   // A constant of all words: synthesis runs the branches of info_of wrongly in an initial block.
@@ -23,10 +23,14 @@ module ppmc312_codebook
 
   (* rom_style = "block" *)
   info_t rom[256];
+  info_t word_q;
 
   initial for (int unsigned i = 0; i < 256; i++) rom[i] = Words[8'(i)];
 
-  always_ff @(posedge clk_i) info_o <= rom[code_i];
+  always_ff @(posedge clk_i) begin
+    word_q <= rom[code_i];
+    info_o <= word_q;
+  end
 
 endmodule
 

@@ -28,16 +28,17 @@ module ppmc312_fetch
 );
 
   localparam logic [4:0] Bytes = 5'd16;
-  localparam logic [4:0] Inner = 5'd4;  // header of the block within an event setting
 
   logic run_q, copy_q;
-  logic [4:0] sent_q, at_q;
+  logic [4:0] sent_q, was_q, at_q;
   logic [1:0] valid_q;
   logic [BLOCK_BITS:0] left_q;  // bytes that are there still
   logic [3:0] index;
-  logic shifted;
+  logic shifted, twins;
+  logic [PARAMS-1:0] takes;
 
-  assign addr_o = sent_q + (copy_q && inner_i ? Inner : '0);
+  // The block within an event setting begins at 4.
+  assign addr_o = {(copy_q && inner_i) ? 3'(ppmc_pkg::inc(32'(sent_q[4:2]))) : sent_q[4:2], sent_q[1:0]};
   assign busy_o = run_q;
   assign done_o = run_q && at_q == Bytes;
   assign put_we_o = copy_q && valid_q[1];
@@ -49,23 +50,31 @@ module ppmc312_fetch
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
 
+  // Without sides of their own, stop rate and pulses of the deceleration are those of the acceleration.
+  assign twins = block_o.code == I_INIT && !block_o.par[0][4];
+
+  always_comb begin
+    for (int unsigned n = 0; n < PARAMS; n++) takes[n] = index == 4'(n);
+    if (twins) begin
+      takes[4:3]   = takes[2:1];
+      takes[12:10] = takes[9:7];
+    end
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       run_q   <= 1'b0;
       copy_q  <= 1'b0;
       sent_q  <= '0;
-      at_q    <= '0;
       valid_q <= '0;
     end else if (start_i || copy_i) begin
       run_q   <= 1'b1;
       copy_q  <= copy_i;
       sent_q  <= '0;
-      at_q    <= '0;
       valid_q <= '0;
     end else begin
       valid_q <= {valid_q[0], run_q && sent_q != Bytes};
-      if (run_q && sent_q != Bytes) sent_q <= sent_q + 1'b1;
-      if (valid_q[1]) at_q <= at_q + 1'b1;
+      if (run_q && sent_q != Bytes) sent_q <= 5'(ppmc_pkg::inc(32'(sent_q)));
       if (done_o) begin
         run_q  <= 1'b0;
         copy_q <= 1'b0;
@@ -73,12 +82,18 @@ module ppmc312_fetch
     end
   end
 
+  // The byte that has come was asked for two clk before.
+  always_ff @(posedge clk_i) begin
+    if (start_i || copy_i) {at_q, was_q} <= '0;
+    else {at_q, was_q} <= {was_q, sent_q};
+  end
+
   // What has been stored is as long as its length, which has been judged, tells.
   always_ff @(posedge clk_i) begin
     if (start_i) left_q <= (source_i == SrcHost) ? size_i : 6'd2;
     else if (valid_q[1]) begin
       if (at_q == 5'd1 && block_o.source != SrcHost) left_q <= data_i[BLOCK_BITS:0];
-      else if (left_q != '0) left_q <= left_q - 1'b1;
+      else if (left_q != '0) left_q <= 6'(ppmc_pkg::dec(32'(left_q)));
     end
   end
 
@@ -91,7 +106,7 @@ module ppmc312_fetch
           5'd0:    block_o.head <= data_i;
           5'd1:    block_o.len <= (left_q == '0) ? 8'd0 : data_i;
           5'd2:    block_o.code <= data_i;
-          default: if (index < 4'(PARAMS)) block_o.par[index] <= data_i;
+          default: for (int unsigned n = 0; n < PARAMS; n++) if (takes[n]) block_o.par[n] <= data_i;
         endcase
       end
     end

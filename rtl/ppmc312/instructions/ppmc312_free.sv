@@ -33,7 +33,7 @@ module ppmc312_free
     output logic      [           1:0] list_o,      // 0 rates, 1 acceleration, 2 deceleration
     output logic      [           6:0] left_o,      // stages of this list to come
     output logic      [          23:0] acc_sum_o,   // pulses of the acceleration side; with complete_o
-    output logic      [          23:0] dec_sum_o,   // of the deceleration side, if that is one of its own
+    output logic      [          23:0] dec_sum_o,   // of the deceleration side
     output entry_t                     entry_o      // into the table
 );
 
@@ -41,7 +41,8 @@ module ppmc312_free
 
   logic [1:0] valid_q, part_q;
   logic run_q, split_q, whole, tiny, size_q, rate_q, pulses_q, over_q, finishing_q, list_done;
-  logic [4:0] sent_q, seen_q;
+  logic [4:0] sent_q, was_q, seen_q;
+  logic last_byte;
   logic [6:0] stage_q, acc_q, dec_q;
   logic [15:0] high_q;
   logic [23:0] word;
@@ -54,9 +55,10 @@ module ppmc312_free
   assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
   assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // of any list
   assign list_done = whole && left_o == 7'd1;
-  assign addr_o = BLOCK_BITS'(sent_q + 5'd2);
+  assign addr_o = {4'(ppmc_pkg::inc(32'(sent_q[4:1]))), sent_q[0]};  // 2 more
   assign busy_o = run_q;
   assign done_o = finishing_q;
+  assign last_byte = 5'(ppmc_pkg::inc(32'(seen_q))) == bytes_i;
 
   assign entry_o = '{
           rate: whole && rates && !complete_o,
@@ -89,49 +91,49 @@ module ppmc312_free
       if (data_i) run_q <= 1'b1;
       else if (finishing_q) run_q <= 1'b0;
       valid_q     <= {valid_q[0], run_q && sent_q != bytes_i};
-      finishing_q <= valid_q[1] && seen_q + 5'd1 == bytes_i;
+      finishing_q <= valid_q[1] && last_byte;
     end
   end
 
   // No reset: a transfer begins with open_i, a block with data_i.
   always_ff @(posedge clk_i) begin
-    if (open_i || (list_done && list_o == 2'd1)) dec_sum_o <= '0;
+    // Without a side of its own the deceleration has the pulses of the acceleration.
+    if (open_i || (list_done && list_o == 2'd1 && split_q)) dec_sum_o <= '0;
     else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin
       split_q    <= split_i;
       acc_q      <= acc_i;
       dec_q      <= split_i ? dec_i : acc_i;
       list_o     <= 2'd0;
-      left_o     <= (split_i && dec_i > acc_i) ? dec_i : acc_i;
-      stage_q    <= Fastest;
       complete_o <= 1'b0;
     end
+    if (open_i || (!data_i && list_done)) stage_q <= Fastest;
+    else if (!data_i && whole) stage_q <= 7'(ppmc_pkg::dec(32'(stage_q)));
+    if (open_i) left_o <= (split_i && ppmc_pkg::less(32'(acc_i), 32'(dec_i))) ? dec_i : acc_i;
+    else if (!data_i && whole) left_o <= !list_done ? 7'(ppmc_pkg::dec(32'(left_o))) : rates ? acc_q : dec_q;
+    // The byte that has come was asked for two clk before.
+    if (data_i) {seen_q, was_q} <= '0;
+    else {seen_q, was_q} <= {was_q, sent_q};
     if (data_i) begin
       {size_q, rate_q, pulses_q, over_q} <= '0;
       part_q <= '0;
       sent_q <= '0;
-      seen_q <= '0;
     end else begin
-      if (run_q && sent_q != bytes_i) sent_q <= sent_q + 1'b1;
+      if (run_q && sent_q != bytes_i) sent_q <= 5'(ppmc_pkg::inc(32'(sent_q)));
       if (valid_q[1]) begin
-        seen_q <= seen_q + 1'b1;
         high_q <= {high_q[7:0], byte_i};
         part_q <= whole ? '0 : part_q + 1'b1;
         // A block holds whole stages of one list.
-        if ((seen_q + 5'd1 == bytes_i) ? !whole : list_done) size_q <= 1'b1;
+        if (last_byte ? !whole : list_done) size_q <= 1'b1;
         if (complete_o) size_q <= 1'b1;
       end
       if (whole) begin
-        stage_q <= stage_q - 1'b1;
-        left_o  <= left_o - 1'b1;
         if (rates && tiny) rate_q <= 1'b1;
         if (!rates && tiny) pulses_q <= 1'b1;
         if (!rates && sum[24]) over_q <= 1'b1;
         if (list_o == 2'd1) acc_sum_o <= sum[23:0];
         if (list_done) begin
-          stage_q    <= Fastest;
           list_o     <= list_o + 1'b1;
-          left_o     <= rates ? acc_q : dec_q;
           complete_o <= list_o == (split_q ? 2'd2 : 2'd1);
         end
       end

@@ -210,7 +210,9 @@ module ppmc312_instr
       .stage_o
   );
 
-  assign first = (table_o.first_acc < table_o.first_dec) ? table_o.first_acc : table_o.first_dec;
+  assign first = ppmc_pkg::less(
+      32'(table_o.first_acc), 32'(table_o.first_dec)
+  ) ? table_o.first_acc : table_o.first_dec;
 
   // ---- answers ---------------------------------------------------------------------------------------------------
 
@@ -265,9 +267,16 @@ module ppmc312_instr
       .size_o (read_size)
   );
 
+  // The last byte is written in the clk of the commit.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) byte_o <= '0;
+    else begin
+      byte_o    <= read_busy ? read_byte : answer_byte;
+      byte_o.we <= answer_byte.we || read_byte.we;
+    end
+  end
+
   always_comb begin
-    byte_o = read_busy ? read_byte : answer_byte;
-    byte_o.we = answer_byte.we || read_byte.we;
     commit_o = '{
         valid: commit,
         host: block_o.source == SrcHost,

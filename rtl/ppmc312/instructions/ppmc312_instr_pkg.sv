@@ -113,7 +113,7 @@ package ppmc312_instr_pkg;
     logic [1:0]  which;     // what comes next: 0 rates, 1 acceleration, 2 deceleration
     logic [6:0]  left;      // stages of this list to come
     logic [23:0] acc_sum;   // pulses of the sides, when it is
-    logic [23:0] dec_sum;   // only if it has a deceleration side of its own
+    logic [23:0] dec_sum;
   } progress_t;
 
   typedef struct packed {

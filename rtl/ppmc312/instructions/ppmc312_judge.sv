@@ -24,11 +24,14 @@ module ppmc312_judge
     output logic               ov_o         // is to be registered
 );
 
-  logic host, ov, le, trig_pos, size_bad, len_bad, len_long, accepted, at_table, table_q;
-  logic [7:0] flags, value_error, size_error;
-  logic [15:0] rate, range, start, stop, fast, slowest_q;
-  logic [16:0] above_q;  // a rate less the high-speed rate
-  logic side_q, above_stop_q;  // 1: of the stop rate
+  logic host, ov, le, trig_pos, size_bad, len_bad, len_long, huge, accepted, at_table, table_q;
+  logic [4:0] few;  // size / 2
+  logic [4:0] fits;  // the length that belongs to the size
+  logic [7:0] flags, inner, value_error, size_error;
+  logic [15:0] rate, range, start, stop, fast, bound;
+  logic [16:0] above_q;  // a rate less its bound
+  logic [1:0] turn_q, above_turn_q;  // what is compared; of what above_q is
+  logic above, near, slow_bad_q, fast_bad_q, given_q, acc_slowest_q;
   logic [1:0] order_q, near_q;
   logic [31:0] count;
   logic rate_bad_q, count_bad_q, init_rate_q, value_bad;
@@ -46,21 +49,35 @@ module ppmc312_judge
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
   assign at_table = block_i.code == I_TABLE;
 
-  // Initialisation: rates, and how far they are apart: at least 128 is far. Start-up and stop rate take turns; they
+  // One subtractor: start-up and stop rate of an initialisation against its high-speed rate, and how far they are
+  // apart: at least 128 is far; a rate against the fastest and the slowest one of the table. They take turns, and all
   // stand long before the block does.
   assign start = rate;
-  assign stop = le ? {block_i.par[3], block_i.par[4]} : start;
+  assign stop = {block_i.par[3], block_i.par[4]};
   assign fast = {block_i.par[5], block_i.par[6]};
+  assign above = !above_q[16] && above_q[15:0] != '0;
+  assign near = above_q[15:7] == '0;
+
+  always_comb begin
+    bound = fast;
+    if (turn_q == 2'd2) bound = table_i.fast;
+    if (turn_q == 2'd3) bound = acc_slowest_q ? table_i.rate_acc : table_i.rate_dec;
+  end
 
   always_ff @(posedge clk_i) begin
-    slowest_q <= (table_i.first_acc < table_i.first_dec) ? table_i.rate_acc : table_i.rate_dec;
-    rate_bad_q <= (rate != '0 || !info_i.rate_zero) && (rate < table_i.fast || rate > slowest_q);
+    acc_slowest_q <= ppmc_pkg::less(32'(table_i.first_acc), 32'(table_i.first_dec));
+    given_q <= rate != '0;
+    rate_bad_q <= (given_q || !info_i.rate_zero) && (fast_bad_q || slow_bad_q);
     count_bad_q <= count == '0;
-    init_rate_q <= fast < 16'h0002 || fast > 16'hffef || start < 16'h0011 || stop < 16'h0011;
-    above_q <= {1'b0, side_q ? stop : start} - {1'b0, fast};
-    above_stop_q <= side_q;
-    order_q[above_stop_q] <= above_q[16] || above_q == '0;
-    near_q[above_stop_q] <= above_q[15:7] == '0;
+    init_rate_q <= fast[15:1] == '0 || fast[15:4] == '1 || tiny(start) || tiny(stop);
+    above_q <= {1'b0, (turn_q == 2'd1) ? stop : start} - {1'b0, bound};
+    above_turn_q <= turn_q;
+    unique case (above_turn_q)
+      2'd0: {order_q[0], near_q[0]} <= {!above, near};
+      2'd1: {order_q[1], near_q[1]} <= {!above, near};
+      2'd2: fast_bad_q <= above_q[16];
+      default: slow_bad_q <= above;
+    endcase
     event_q <= block_i.source == SrcEvent &&
         ((info_i.has_ov && flags[2]) || block_i.code inside {I_FREE, I_TABLE, I_EVT_SET});
     table_q <= table_i.valid;
@@ -68,13 +85,20 @@ module ppmc312_judge
 
   // ---- size and length -------------------------------------------------------------------------------------------
 
-  assign size_bad = host && (block_i.size < 6'd3 || block_i.len == '0 || block_i.len >= 8'd31 ||
-      block_i.len != 8'(block_i.size) - 8'd2);
-  assign size_error = (block_i.size > 6'd1 && block_i.len >= 8'd31) ? E_FREE_LONG : E_FREE_SIZE;
-  assign len_long = block_i.len == {3'd0, (info_i.len_a > info_i.len_b) ? info_i.len_a : info_i.len_b};
-  assign embedded_bad = block_i.len < 8'd5 || block_i.par[1] != 8'h03 ||
-      block_i.par[2] == '0 || block_i.par[2] > 8'd14 ||
-      block_i.len != block_i.par[2] + 8'd4;
+  // Bit patterns: a comparison with a constant is a carry chain otherwise.
+  assign few = block_i.size[5:1];
+  assign huge = block_i.len[7:5] != '0 || block_i.len[4:0] == '1;  // 31 or more
+  // Size less 2; that of 1 or less is bad anyway.
+  assign fits = {
+    few[3] ^ (few[2:0] == '0), few[2] ^ (few[1:0] == '0), few[1] ^ !few[0], !few[0], block_i.size[0]
+  };
+  assign size_bad = host && (few == '0 || block_i.len == '0 || huge || block_i.len[4:0] != fits);
+  assign size_error = (few != '0 && huge) ? E_FREE_LONG : E_FREE_SIZE;
+  assign len_long = block_i.len == 8'(info_i.len_a);
+  // The length of what is in it: 1 .. 14, and 4 less than that around it.
+  assign inner = block_i.par[2];
+  assign embedded_bad = block_i.par[1] != 8'h03 || inner == '0 || inner[7:4] != '0 || inner[3:0] == '1 ||
+      block_i.len != {3'd0, inner[3] && inner[2], inner[3] ^ inner[2], !inner[2], inner[1:0]};
 
   always_comb begin
     len_bad = block_i.len != 8'(info_i.len_a) && block_i.len != 8'(info_i.len_b);
@@ -102,8 +126,8 @@ module ppmc312_judge
       end
       I_FREE: begin
         value_error = (block_i.head == 8'h03) ? E_FREE_HEADER : E_FREE_STAGES;
-        value_bad = block_i.head == 8'h03 || stages_bad(block_i.par[1]) ||
-            (le && (stages_bad(block_i.par[2]) || block_i.len == 8'd3));
+        value_bad = block_i.head == 8'h03 || stages_bad(block_i.par[1][7:1]) ||
+            (le && (stages_bad(block_i.par[2][7:1]) || block_i.len == 8'd3));
       end
       I_INPOS: begin
         value_error = E_INPOS_ZERO;
@@ -115,12 +139,12 @@ module ppmc312_judge
       end
       I_LIMIT: begin
         value_error = E_RATE_RANGE;
-        value_bad   = {block_i.par[0], block_i.par[1]} < 16'd2;
+        value_bad   = flags == '0 && block_i.par[1][7:1] == '0;
       end
-      I_END, I_POS, I_POS_SET: value_bad = flags > 8'd1;
+      I_END, I_POS, I_POS_SET: value_bad = flags[7:1] != '0;
       I_EVT_READ: begin
         value_error = E_EVT_NUMBER;
-        value_bad   = flags > 8'd1;
+        value_bad   = flags[7:1] != '0;
       end
       default: begin
         value_bad = 1'b0;
@@ -138,8 +162,12 @@ module ppmc312_judge
     endcase
   end
 
-  function automatic logic stages_bad(logic [7:0] n);
-    return n < 8'd2 || n > 8'd127;
+  function automatic logic stages_bad(logic [7:1] n);  // without the lowest bit
+    return n[7] || n[6:1] == '0;  // below 2, above 127
+  endfunction
+
+  function automatic logic tiny(logic [15:0] r);
+    return r[15:5] == '0 && !(r[4] && r[3:0] != '0);  // below 17
   endfunction
 
   function automatic logic [7:0] len_error(logic [7:0] code, logic [7:0] head);
@@ -159,7 +187,7 @@ module ppmc312_judge
     if (size_bad && transfer_i) {verdict, error} = {VerdictPar, size_error};
     else if (size_bad) verdict = VerdictSize;
     else if (host && transfer_i) begin
-      if (block_i.head > 8'h01) {verdict, error} = {VerdictStatus, 8'h02};
+      if (block_i.head[7:1] != '0) {verdict, error} = {VerdictStatus, 8'h02};
       else verdict = VerdictData;
     end else if (host && !(block_i.head inside {8'h02, 8'h03})) {verdict, error} = {VerdictStatus, 8'h01};
     else if (!info_i.known) verdict = VerdictCommand;
@@ -173,12 +201,12 @@ module ppmc312_judge
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      side_q    <= 1'b0;
+      turn_q    <= '0;
       verdict_o <= VerdictGo;
       error_o   <= '0;
       ov_o      <= 1'b0;
     end else begin
-      side_q <= !side_q;
+      turn_q <= turn_q + 1'b1;
       if (!keep_i) begin
         verdict_o <= verdict;
         error_o   <= error;

@@ -28,22 +28,27 @@ module ppmc312_readback
 );
 
   localparam logic [6:0] Fastest = 7'd126;
+  localparam logic [7:0][3:0] Lengths = {
+    12'd0, 4'd13, 4'd10, 4'd7, 4'd4, 4'd1
+  };  // of 4 .. 0 stages: 3 * n + 1
 
-  logic run_q, rates, last_item, ends, stage_ends;
+  logic run_q, rates, last_item, ends, stage_ends, in_words;
   logic [1:0] item_q, part_q, wait_q;
   logic [2:0] left_q;  // stages of this block
-  logic [6:0] stage_q, first, room;
+  logic [6:0] stage_q, first;
+  logic [ 2:0] room;
   logic [ 6:0] rest_q;  // stages of this item to come
   logic [ 5:0] at_q;
   logic [23:0] word;
 
   assign rates = item_q == 2'd1;
   assign last_item = item_q == (table_i.split ? 2'd3 : 2'd2);
-  assign room = rates ? 7'd6 : 7'd4;
+  assign room = rates ? 3'd6 : 3'd4;
   assign look_o = '{side: item_q[0], stage: stage_q};
   assign busy_o = run_q;
-  assign done_o = run_q && at_q > 6'd2 && left_q == '0;
-  assign stage_ends = run_q && !done_o && wait_q == '0 && at_q > 6'd2 && part_q == (rates ? 2'd1 : 2'd2);
+  assign in_words = at_q[5:2] != '0 || at_q[1:0] == 2'd3;
+  assign done_o = run_q && in_words && left_q == '0;
+  assign stage_ends = run_q && !done_o && wait_q == '0 && in_words && part_q == (rates ? 2'd1 : 2'd2);
   assign size_o = at_q;
   assign byte_o.addr = at_q[BLOCK_BITS-1:0];
 
@@ -54,12 +59,11 @@ module ppmc312_readback
       default: first = table_i.first_dec;
     endcase
     word = rates ? {stage_i.rate, 8'd0} : stage_i.pulses;
-    byte_o.we = run_q && !done_o && (at_q < 6'd3 || wait_q == '0);
+    byte_o.we = run_q && !done_o && (!in_words || wait_q == '0);
     unique case (at_q)
       6'd0: byte_o.data = 8'(last_item && ends);
       6'd1: begin
-        if (rates) byte_o.data = 8'd1 + {4'd0, left_q, 1'b0};
-        else byte_o.data = 8'd1 + {4'd0, left_q, 1'b0} + 8'(left_q);
+        byte_o.data = rates ? {4'd0, left_q, 1'b1} : {4'd0, Lengths[left_q]};
       end
       6'd2: byte_o.data = 8'(item_q);
       default: begin
@@ -91,7 +95,7 @@ module ppmc312_readback
       at_q   <= '0;
       part_q <= '0;
       wait_q <= 2'd0;
-      left_q <= ends ? rest_q[2:0] : room[2:0];
+      left_q <= ends ? rest_q[2:0] : room;
     end else if (done_o) begin
       run_q <= 1'b0;
       if (rest_q == '0) begin
@@ -100,14 +104,14 @@ module ppmc312_readback
         more_o  <= !last_item;
       end
     end else if (run_q) begin
-      if (byte_o.we) at_q <= at_q + 1'b1;
+      if (byte_o.we) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
       if (wait_q != '0) wait_q <= wait_q - 1'b1;
-      else if (at_q > 6'd2) begin
+      else if (in_words) begin
         part_q <= part_q + 1'b1;
         if (stage_ends) begin
           part_q  <= '0;
-          stage_q <= stage_q - 1'b1;
-          left_q  <= left_q - 1'b1;
+          stage_q <= 7'(ppmc_pkg::dec(32'(stage_q)));
+          left_q  <= 3'(ppmc_pkg::dec(32'(left_q)));
           wait_q  <= 2'd3;
         end
       end
@@ -117,8 +121,9 @@ module ppmc312_readback
   // Looked at long after they have changed.
   always_ff @(posedge clk_i) begin
     if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 less that
-    else if (stage_ends) rest_q <= rest_q - 1'b1;
-    ends <= rest_q <= room;
+    else if (stage_ends) rest_q <= 7'(ppmc_pkg::dec(32'(rest_q)));
+    // At most 6, at most 4.
+    ends <= rest_q[6:3] == '0 && (rates ? rest_q[2:0] != '1 : !rest_q[2] || rest_q[1:0] == '0);
   end
 
   logic unused_table;

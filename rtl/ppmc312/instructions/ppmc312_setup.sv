@@ -54,7 +54,7 @@ module ppmc312_setup
           split: taken || state_q == StBuild ? le : split_q,
           base: block_i.par[0][2:0],
           start: {block_i.par[1], block_i.par[2]},
-          stop: le ? {block_i.par[3], block_i.par[4]} : {block_i.par[1], block_i.par[2]},
+          stop: {block_i.par[3], block_i.par[4]},
           fast: {block_i.par[5], block_i.par[6]},
           acc: (state_q == StData) ? progress.acc_sum : {block_i.par[7], block_i.par[8], block_i.par[9]},
           dec: (state_q == StData) ? progress.dec_sum : {block_i.par[10], block_i.par[11], block_i.par[12]}

@@ -37,12 +37,16 @@ module ppmc312_store
     logic [1:0] trig;
   } tag_t;
 
-  tag_t tags[16];
-  logic [31:0] places[16];
+  // Bytes come before the entry counts, and all of the entry stands with them: it is written with each. Nobody looks at
+  // what is read from the place that is being written.
+  (* ram_style = "block", no_rw_check *)
+  logic [34:0] heads[16];
+  logic [34:0] ahead_q;  // of what is armed next
+  (* ram_style = "block", no_rw_check *)
+  logic [1:0] trigs[16];
   logic [31:0] head_pos_q;
   tag_t head_q;
-  logic [1:0] trigs[16];
-  logic [1:0] done_trig, event_q;
+  logic [1:0] done_word_q, done_trig_q, event_q;
   logic [1:0][2:0] count_q;
   logic [1:0][1:0] next_q;
   logic [3:0] written_q, armed_q, done_q, done_next, taken_q;
@@ -79,11 +83,10 @@ module ppmc312_store
     end
   end
 
-  assign done_trig = trigs[done_q];
   assign done_next = done_q + 1'b1;
   assign stored_o = '{
           due: due_q,
-          due_trig: done_trig,
+          due_trig: done_trig_q,
           events: event_q,
           fifo_count: written_q - armed_q,
           fifo_events: {waits_q[1] != '0, waits_q[0] != '0},
@@ -92,13 +95,16 @@ module ppmc312_store
       };
 
   always_ff @(posedge clk_i) begin
-    if (push) begin
-      tags[written_q]   <= '{halt: put_i.code == I_HALT, trig: put_i.trig};
-      trigs[written_q]  <= put_i.trig;
-      places[written_q] <= put_i.pos;
+    if (put_i.we && !put_i.to_event) begin
+      heads[written_q] <= {put_i.code == I_HALT, put_i.trig, put_i.pos};
+      trigs[written_q] <= put_i.trig;
     end
-    head_q     <= tags[armed_q];
-    head_pos_q <= places[armed_q];
+    // Block RAM answers slowly: the next head stands ready.
+    ahead_q <= heads[armed_q+4'(head_valid_q)];
+    if (!head_valid_q) {head_q, head_pos_q} <= ahead_q;
+    // Late by two clk only after one has been taken, and then nobody looks.
+    done_word_q <= trigs[done_q];
+    done_trig_q <= done_word_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

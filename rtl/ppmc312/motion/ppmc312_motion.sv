@@ -258,6 +258,7 @@ module ppmc312_motion
       .stage_i,
       .load_i      (launch_o),
       .plan_i      (plan),
+      .single_i    (order_i.home),
       .change_i    (order_i.change && state_q == StGo),
       .change_ramp_i,
       .slow_i      ((too_fast || decel_q || near) && state_q == StGo),  // not later than 4 clk after the pin

@@ -74,10 +74,7 @@ module ppmc312_move
 
   always_comb begin
     plan_o = plan_i;
-    if (single_q) begin
-      plan_o.climb = 1'b0;
-      plan_o.dec   = '0;
-    end
+    if (single_q) plan_o.climb = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

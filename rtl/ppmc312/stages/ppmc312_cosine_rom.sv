@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_cosine_rom: raised cosine in 126 steps: round(65536 * (1 - cos(pi * i / 126)) / 2).
+// ppmc312_cosine_rom: raised cosine in 126 steps: round(65536 * (1 - cos(pi * i / 126)) / 2); or i itself.
 // Rules:  P312-TBL-01 (the values are binding).
-// Timing: weight_o stands two clk after index_i.
+// Timing: weight_o stands two clk after its address.
 `default_nettype none
 
 module ppmc312_cosine_rom (
-    input  wire logic        clk_i,    // clock
-    input  wire logic [ 6:0] index_i,  // 0 .. 126
-    output logic      [16:0] weight_o  // its weight, two clk later
+    input  wire logic        clk_i,     // clock
+    input  wire logic        linear_i,  // i itself
+    input  wire logic [ 6:0] index_i,   // i, 0 .. 126
+    output logic      [16:0] weight_o   // its weight, two clk later
 );
 
   localparam int unsigned Half = 63;
@@ -79,16 +80,17 @@ module ppmc312_cosine_rom (
   };
 
   (* rom_style = "block" *)
-  logic [16:0] rom[128];
+  logic [16:0] rom[256];
   logic [16:0] word_q;
 
   initial begin
     for (int unsigned i = 0; i < 128; i++)
     rom[i] = (i <= Half) ? 17'(Weights[6'(i)]) : 17'h10000 - 17'(Weights[6'(2*Half-i)]);
+    for (int unsigned i = 0; i < 128; i++) rom[128+i] = 17'(i);
   end
 
   always_ff @(posedge clk_i) begin
-    word_q   <= rom[index_i];
+    word_q   <= rom[{linear_i, index_i}];
     weight_o <= word_q;
   end
 

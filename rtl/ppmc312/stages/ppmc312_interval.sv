@@ -34,7 +34,8 @@ module ppmc312_interval #(
   logic past_q, elapsed, old, elapsed_now;
   logic [2:0] age_q;  // clk since the pulse, up to 4
   logic [PreBits-1:0] pre_q, pre_load;
-  logic [RateBits-1:0] left_q, half_q;
+  logic rest_q;  // pre_q is 0: much hangs on it
+  logic [RateBits-1:0] left_q, half_q;  // base clocks to come; with so many half of the interval ends
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;
@@ -72,7 +73,7 @@ module ppmc312_interval #(
       default: pre_load = '0;
     endcase
     edge_now = level != last_q && level == (base_i == ExtRise);
-    tick = external ? edge_now : quantum && pre_q == '0;
+    tick = external ? edge_now : quantum && rest_q;
   end
 
   // A base clock in the cycle of a pulse belongs to the interval before.
@@ -80,7 +81,7 @@ module ppmc312_interval #(
   assign elapsed_now = tick && left_q == RateBits'(1);
   assign elapsed = elapsed_now || past_q;
   assign due_o = first_i ? up && (!external || tick) : elapsed && old;
-  assign cut = tick && half_q == RateBits'(1);
+  assign cut = tick && left_q == half_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -88,12 +89,18 @@ module ppmc312_interval #(
       past_q <= 1'b0;
       age_q  <= '0;
       pre_q  <= '0;
+      rest_q <= 1'b1;
       left_q <= '0;
       half_q <= '0;
     end else begin
       last_q <= level;
-      if (restart) pre_q <= pre_load;
-      else if (quantum) pre_q <= (pre_q == '0) ? pre_load : pre_q - 1'b1;
+      if (restart || (quantum && rest_q)) begin
+        pre_q  <= pre_load;
+        rest_q <= pre_load == '0;
+      end else if (quantum) begin
+        pre_q  <= PreBits'(ppmc_pkg::dec(32'(pre_q)));
+        rest_q <= pre_q == PreBits'(1);
+      end
       if (arm_i) begin
         past_q <= 1'b0;
         left_q <= '0;
@@ -101,12 +108,12 @@ module ppmc312_interval #(
         past_q <= 1'b0;
         age_q  <= 3'd1;
         left_q <= rate_i;
-        half_q <= {1'b0, rate_i[RateBits-1:1]};
+        half_q <= RateBits'(((RateBits + 1)'(rate_i) + (RateBits + 1)'(3)) >> 1);
       end else begin
         if (elapsed_now) past_q <= 1'b1;
         if (!old) age_q <= age_q + 1'b1;
-        if (tick && left_q != '0) left_q <= left_q - 1'b1;
-        if (tick && half_q != '0) half_q <= half_q - 1'b1;
+        // Below 0 it begins anew: past_q knows.
+        if (tick) left_q <= left_q - 1'b1;
       end
     end
   end
@@ -131,6 +138,7 @@ module ppmc312_interval #(
   );
 
 `ifndef SYNTHESIS
+  `PPMC_ASSERT(p312_mot_02_prescaler, rest_q == (pre_q == '0))
   `PPMC_ASSERT(p312_mot_04, !(fire_i && !first_i) || age_q[2])
 `endif
 

@@ -2,9 +2,9 @@
 // ppmc312_muldiv: multiplies and divides step by step with one adder; the pair {hi, lo} holds what goes in and out.
 // Rules:  P312-TBL-02/04, P312-MOT-11 (exact integer products and quotients).
 // Timing: busy_o is high for steps_i clk after start_i, then the result stands.
-// How:    multiply: hi_i + operand * (low bits of lo_i), shifted right; after n steps the result has its low n
+// How:    multiply: h + operand * (low bits of lo_i), shifted right; after n steps the result has its low n
 //         bits on top of lo. Divide: {hi, lo} by the operand, shifted left; after n steps hi is
-//         the remainder and the low n bits of lo the quotient, for which hi_i < operand < 2**(HiBits - 1) must
+//         the remainder and the low n bits of lo the quotient, for which h < operand < 2**(HiBits - 1) must
 //         hold. It is not restored: a remainder below 0 gets the operand back in the next step, or in hi_o.
 `default_nettype none
 
@@ -16,12 +16,12 @@ module ppmc312_muldiv #(
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe
     input wire logic mul_i,  // 1 multiply, 0 divide
-    input wire logic zero_i,  // 0 instead of hi_i
-    input wire logic keep_i,  // go on with the product instead of both
+    input wire logic keep_i,  // go on with the product instead of h and lo_i
     input wire logic [5:0] steps_i,  // 1 .. LoBits
-    input wire logic [HiBits-1:0] hi_i,  // summand; upper part of the dividend
     input wire logic [LoBits-1:0] lo_i,  // multiplier; lower part of the dividend
-    input wire logic [HiBits-1:0] operand_i,  // steady while busy and, of a division, while hi_o is looked at
+    // with start_i h: summand, upper part of the dividend; then the operand, steady while busy and, of a division,
+    // while hi_o is looked at
+    input wire logic [HiBits-1:0] operand_i,
     output logic busy_o,  // the result does not stand yet
     output logic [HiBits-1:0] hi_o,  // product; remainder
     output logic [LoBits-1:0] lo_o  // low bits of the product on top; quotient
@@ -30,7 +30,7 @@ module ppmc312_muldiv #(
   logic [5:0] left_q;
   logic mul_q, load, last;
   logic busy_q, shift_q;  // what left_q is; a division is under way
-  logic take_q, less_q;  // the operand goes into the sum; it is subtracted
+  logic take_q, less_q, take, less;  // the operand goes into the sum; it is subtracted
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;
@@ -42,10 +42,14 @@ module ppmc312_muldiv #(
   // At rest the sum gives a remainder below 0 the operand back.
   assign hi_o   = sum[HiBits-1:0];
 
+  // A load goes through the adder, too: h is added to 0.
+  assign take   = take_q || load;
+  assign less   = less_q && !load;
+
   always_comb begin
-    x   = shift_q ? {hi_q[HiBits-2:0], lo_o[LoBits-1]} : hi_q;
-    y   = (take_q ? operand_i : '0) ^ {HiBits{less_q}};
-    sum = {1'b0, x} + {1'b0, y} + (HiBits + 1)'(less_q);
+    x   = load ? '0 : shift_q ? {hi_q[HiBits-2:0], lo_o[LoBits-1]} : hi_q;
+    y   = (take ? operand_i : '0) ^ {HiBits{less}};
+    sum = {1'b0, x} + {1'b0, y} + (HiBits + 1)'(less);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -56,7 +60,7 @@ module ppmc312_muldiv #(
       left_q <= steps_i;
       busy_q <= 1'b1;
     end else if (busy_q) begin
-      left_q <= left_q - 1'b1;
+      left_q <= 6'(ppmc_pkg::dec(32'(left_q)));
       busy_q <= !last;
     end
   end
@@ -73,11 +77,9 @@ module ppmc312_muldiv #(
       take_q  <= mul_q ? lo_o[1] && !last : under || !last;
       less_q  <= !mul_q && !under && !last;
     end
-    if (load) begin
-      hi_q <= zero_i ? '0 : hi_i;
-      lo_o <= lo_i;
-    end else if (busy_q) begin
-      hi_q <= mul_q ? sum[HiBits:1] : sum[HiBits-1:0];
+    if (load || busy_q) hi_q <= (mul_q && !load) ? sum[HiBits:1] : sum[HiBits-1:0];
+    if (load) lo_o <= lo_i;
+    else if (busy_q) begin
       lo_o <= mul_q ? {sum[0], lo_o[LoBits-1:1]} : {lo_o[LoBits-2:0], !under};
     end
   end

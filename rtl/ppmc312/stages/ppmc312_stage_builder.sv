@@ -12,28 +12,25 @@
 module ppmc312_stage_builder
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic          clk_i,        // clock
-    input  wire logic          rst_ni,       // reset, asynchronous
-    input  wire logic          start_i,      // strobe
-    input  wire curve_t        curve_i,      // steady while busy
-    output logic               busy_o,       // from the clk after start_i until all is written
-    output logic               thin_o,       // a stage has two pulses or less; stands until the next start
-    output entry_t             entry_o,      // into the table
-    // where the sides begin
-    output logic        [ 6:0] first_acc_o,  // 0 .. 126
-    output logic        [ 6:0] first_dec_o,  // of the deceleration side
-    output logic        [15:0] rate_acc_o,   // the rates there, base clocks
-    output logic        [15:0] rate_dec_o,   // of the deceleration side
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic start_i,  // strobe
+    input wire curve_t curve_i,  // steady while busy
+    output logic busy_o,  // from the clk after start_i until all is written
+    output logic thin_o,  // a stage has two pulses or less; stands until the next start
+    output entry_t entry_o,  // into the table
+    output logic [1:0] begins_o,  // strobes: with its stage the sides begin, unless there is a later one
+    input wire logic [6:0] first_acc_i,  // the last one of those, 0 .. 126
+    input wire logic [6:0] first_dec_i,  // of the deceleration side
     // arithmetic, shared with the planner
-    output logic               op_start_o,   // strobe
-    output logic               op_mul_o,     // 1 multiply, 0 divide
-    output logic               op_zero_o,    // h = 0
-    output logic        [ 5:0] op_steps_o,   // 1 .. 24
-    output logic        [23:0] op_lo_o,      // multiplier
-    output logic        [39:0] word_o,       // h with op_start_o, then the operand
-    input  wire logic          op_busy_i,    // the result does not stand yet
-    input  wire logic   [39:0] hi_i,         // result, remainder
-    input  wire logic   [23:0] lo_i          // its low bits, quotient
+    output logic op_start_o,  // strobe
+    output logic op_mul_o,  // 1 multiply, 0 divide
+    output logic [5:0] op_steps_o,  // 1 .. 24
+    output logic [23:0] op_lo_o,  // multiplier
+    output logic [39:0] word_o,  // h with op_start_o, then the operand
+    input wire logic op_busy_i,  // the result does not stand yet
+    input wire logic [39:0] hi_i,  // result, remainder
+    input wire logic [23:0] lo_i  // its low bits, quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
@@ -63,7 +60,7 @@ module ppmc312_stage_builder
     WordScale,
     WordSpeed,
     WordHalf,
-    WordUnused,
+    WordZero,    // never written
     WordSum,     // of the first side
     WordSumDec,
     WordRest,
@@ -75,46 +72,43 @@ module ppmc312_stage_builder
   logic [1:0] phase_q, hit_q, open_q;
   word_e h_word, x_word, to_word;
   logic [6:0] stage_q;
-  logic [1:0][6:0] first_q;
-  logic [1:0][15:0] entry_q;
-  logic [16:0] cosine, weight;
+  logic [1:0][6:0] first;
+  logic [16:0] weight;
   logic [15:0] slow_q, spread_q, rate, limit, given;
   logic [39:0] result;
-  logic hit, begins;
+  logic hit, opens;
 
   ppmc312_cosine_rom u_rom (
       .clk_i,
+      .linear_i(!curve_i.cosine),
       .index_i (stage_q),
-      .weight_o(cosine)
+      .weight_o(weight)
   );
 
-  assign weight = curve_i.cosine ? cosine : 17'(stage_q);
   assign rate = lo_i[15:0];
   assign limit = side_q ? curve_i.stop : curve_i.start;
   // The slower side has all stages, whatever rounding makes of R[1].
   assign hit = (limit == slow_q) ? stage_q == '0 : rate >= limit;
-  assign begins = stage_q == first_q[side_q];
+  assign opens = stage_q == first[side_q];
   assign last_side = side_q || !curve_i.split;
 
   assign busy_o = state_q != StIdle;
-  assign first_acc_o = first_q[0];
-  assign first_dec_o = first_q[1];
-  assign rate_acc_o = entry_q[0];
-  assign rate_dec_o = entry_q[1];
+  assign first = {first_dec_i, first_acc_i};
+  assign begins_o = {side_q, !side_q} & {2{state_q == StBegin && hit}};
 
   // ---- one operation a state: h, then the operand is read, then it is started --------------------------------
 
   assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum, StShare, StPulses};
   assign done = wait_q && !op_busy_i;
-  assign op_start_o = works && phase_q == 2'd2;
   assign op_mul_o = !(state_q inside {StRate, StPulses});
 
   always_comb begin
-    op_zero_o  = state_q inside {StBase, StScale};
     op_steps_o = 6'd24;
     h_word     = WordBase;
     x_word     = WordSpeed;
     to_word    = WordSpeed;
+    // At rest the word is 0: the planner's operand is combined with it.
+    if (state_q inside {StIdle, StBase, StScale}) h_word = WordZero;
     unique case (state_q)
       StBase: begin
         x_word  = WordFast;
@@ -137,13 +131,11 @@ module ppmc312_stage_builder
       end
       StRate:  op_steps_o = 6'd16;
       StSum: begin
-        op_zero_o = hit_q[side_q];
-        h_word    = side_q ? WordSumDec : WordSum;
-        to_word   = side_q ? WordSumDec : WordSum;
+        to_word = side_q ? WordSumDec : WordSum;
+        h_word  = hit_q[side_q] ? WordZero : to_word;
       end
       StShare: begin
-        op_zero_o = begins;
-        h_word    = side_q ? WordRestDec : WordRest;
+        h_word = opens ? WordZero : side_q ? WordRestDec : WordRest;
       end
       StPulses: begin
         x_word  = side_q ? WordSumDec : WordSum;
@@ -189,12 +181,14 @@ module ppmc312_stage_builder
     if (!rst_ni) begin
       state_q <= StIdle;
       phase_q <= '0;
-      wait_q  <= 1'b0;
-      pass_q  <= 1'b0;
-      side_q  <= 1'b0;
+      op_start_o <= 1'b0;
+      wait_q <= 1'b0;
+      pass_q <= 1'b0;
+      side_q <= 1'b0;
       stage_q <= Last;
-      thin_o  <= 1'b0;
+      thin_o <= 1'b0;
     end else begin
+      op_start_o <= works && phase_q == 2'd1;  // as phase 2 begins
       if (op_start_o) wait_q <= 1'b1;
       else if (done) wait_q <= 1'b0;
       if (op_start_o || done || !(works || state_q == StCopy)) phase_q <= '0;
@@ -243,7 +237,7 @@ module ppmc312_stage_builder
           if (!last_side && !open_q[1]) side_q <= 1'b0;
         end
         StNext: begin
-          stage_q <= stage_q + 1'b1;
+          stage_q <= 7'(ppmc_pkg::inc(32'(stage_q)));
           state_q <= StSpeed;
           if (stage_q == Last) begin
             stage_q <= '0;
@@ -260,17 +254,11 @@ module ppmc312_stage_builder
   always_ff @(posedge clk_i) begin
     slow_q   <= (curve_i.start > curve_i.stop) ? curve_i.start : curve_i.stop;
     spread_q <= slow_q - curve_i.fast;
-    if (state_q == StBegin) begin
-      hit_q[side_q] <= hit;
-      if (hit) begin
-        first_q[side_q] <= stage_q;
-        entry_q[side_q] <= rate;
-      end
-    end
+    if (state_q == StBegin) hit_q[side_q] <= hit;
     // Second pass: the sides that have begun.
     for (int unsigned n = 0; n < 2; n++) begin
       if (!pass_q) open_q[n] <= 1'b0;
-      else if (stage_q == first_q[n]) open_q[n] <= 1'b1;
+      else if (stage_q == first[n]) open_q[n] <= 1'b1;
     end
   end
 

@@ -27,10 +27,10 @@ package ppmc312_stage_pkg;
     logic        split;   // acceleration and deceleration side of their own
     logic [2:0]  base;    // base clock, see ppmc312_interval
     logic [15:0] start;   // start-up rate
-    logic [15:0] stop;    // stop rate
+    logic [15:0] stop;    // stop rate; not split: the same
     logic [15:0] fast;    // high-speed rate
     logic [23:0] acc;     // pulses of the sides
-    logic [23:0] dec;
+    logic [23:0] dec;     // not split: the same
   } curve_t;
 
   // The table in force.

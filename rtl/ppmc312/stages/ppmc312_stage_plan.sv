@@ -39,7 +39,7 @@ module ppmc312_stage_plan
     output logic             op_start_o,    // strobe
     output logic             op_mul_o,      // 1 multiply, 0 divide
     output logic      [23:0] op_lo_o,       // multiplier
-    output logic      [24:0] operand_o,     // multiplicand, divisor
+    output logic      [24:0] operand_o,     // 0 with the start of a product; multiplicand, divisor
     input  wire logic        op_busy_i,     // the result does not stand yet
     input  wire logic [23:0] lo_i           // low bits of the product, quotient
 );
@@ -66,28 +66,29 @@ module ppmc312_stage_plan
   } state_e;
 
   state_e state_q;
-  logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first;
+  logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
   logic [1:0] valid_q, in_acc_q, in_dec_q;  // in the sides: this stage, the one before
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
   logic [6:0] at, ge_q, ge1_q, gt1_q;
-  logic [23:0] own_q, acc_q, dec_q, own_kept_q, acc_kept_q, dec_kept_q, x;
+  logic [23:0] own_q, acc_q, own_kept_q, acc_kept_q, dec_kept_q, x;
   logic [24:0] sum_q, over_q;
   logic [25:0] ahead;
 
-  assign acc_first = first_acc_i < first_dec_i;
+  assign acc_first = ppmc_pkg::less(32'(first_acc_i), 32'(first_dec_i));
   assign busy_o = state_q != StIdle;
 
   // ---- passes ----------------------------------------------------------------------------------------------------
 
   // The table's answer is that of stage `at`. A look-up begins before stage 0: "none" may be there.
   assign at = at_q[1];
+  assign both = in_acc_q[0] && in_dec_q[0];
   assign step = valid_q[1];
   assign both_o = ramp_q;
 
   always_ff @(posedge clk_i) begin
     at_q <= {at_q[0], addr_o};
-    if (run_q) addr_o <= addr_o + 1'b1;
+    if (run_q) addr_o <= 7'(ppmc_pkg::inc(32'(addr_o)));
     else addr_o <= (state_q == StMeet) ? first_dec_i : 7'h7f;
     if (!run_q) begin
       in_acc_q <= '0;
@@ -98,7 +99,7 @@ module ppmc312_stage_plan
     end
   end
 
-  assign past = at >= ge1_q;
+  assign past = !ppmc_pkg::less(32'(at), 32'(ge1_q));
   assign ends = run_q && step && ((state_q == StFind) ? at == Last : past);
 
   // ---- look-up ---------------------------------------------------------------------------------------------------
@@ -129,18 +130,14 @@ module ppmc312_stage_plan
     if (state_q == StIdle) begin
       own_q <= '0;
       acc_q <= '0;
-      dec_q <= '0;
     end else if (state_q == StFind && step) begin
       if (in_acc_q[0] != in_dec_q[0]) own_q <= own_q + (acc_first ? table_acc_i : table_dec_i);
-      if (in_acc_q[0] && in_dec_q[0]) begin
-        acc_q <= acc_q + table_acc_i;
-        dec_q <= dec_q + table_dec_i;
-      end
+      if (both) acc_q <= acc_q + table_acc_i;
     end
     if (hit_q) begin
       own_kept_q <= own_q;
       acc_kept_q <= acc_q;
-      dec_kept_q <= dec_q;
+      dec_kept_q <= sum_q[23:0];
     end
   end
 
@@ -151,7 +148,8 @@ module ppmc312_stage_plan
   assign none  = !big && (ahead[25] || ahead[24:0] == '0);
 
   always_comb begin
-    counts = step && !past;
+    // The first pass adds what the deceleration has where both sides are.
+    counts = step && ((state_q == StFind) ? both : !past);
     unique case (state_q)
       StOwn:                      x = own_kept_q;
       StDecOwn:                   x = acc_first ? '0 : own_kept_q;
@@ -161,8 +159,14 @@ module ppmc312_stage_plan
       StSplit:                    x = lo_i;
       default:                    x = counts ? table_dec_i : '0;
     endcase
-    clear = state_q inside {StIdle, StFind, StKind, StShort} || (state_q == StDivide && op_done);
+    clear = state_q inside {StIdle, StKind, StShort} || (state_q == StFind && done_q) ||
+        (state_q == StDivide && op_done);
   end
+
+  // The deceleration as it is, or what is left of it.
+  assign dec_some = state_q == StShort || (state_q == StMeet && next_q);
+  assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) ||
+      (state_q == StMeet && next_q && none);
 
   always_ff @(posedge clk_i) begin
     if (clear) sum_q <= '0;
@@ -174,22 +178,20 @@ module ppmc312_stage_plan
       dec_from_o.left  <= ahead[23:0];
     end
     if (state_q == StShort) begin
-      dec_o            <= sum_q[23:0];
       dec_from_o.stage <= ge_q;
       dec_from_o.part  <= 1'b0;
     end
-    if (state_q == StKind) dec_o <= '0;
-    if (state_q == StMeet) begin
-      dec_from_o.part <= 1'b1;
-      if (next_q) dec_o <= none ? '0 : ahead[23:0];
-    end
+    if (state_q == StMeet) dec_from_o.part <= 1'b1;
+    if (dec_none) dec_o <= '0;
+    else if (dec_some) dec_o <= next_q ? ahead[23:0] : sum_q[23:0];
   end
 
   // ---- arithmetic ------------------------------------------------------------------------------------------------
 
   assign op_start_o = !wait_q && state_q inside {StMultiply, StDivide};
   assign op_mul_o = state_q == StMultiply;
-  assign operand_o = op_mul_o ? over_q : sum_q;
+  // A product begins with 0.
+  assign operand_o = (over_q & {25{op_mul_o && wait_q}}) | (sum_q & {25{!op_mul_o}});
   assign op_lo_o = acc_kept_q;
   assign op_done = wait_q && !op_busy_i;
 

@@ -26,6 +26,7 @@ module ppmc312_stage_seq
     // operation
     input  wire logic          load_i,         // strobe: plan_i begins
     input  wire plan_t         plan_i,         // with load_i; plan_i.to of a change 2 clk after change_i
+    input  wire logic          single_i,       // with load_i: one pulse, whatever plan_i.dec says
     // requests
     input  wire logic          change_i,       // strobe: another rate; a newer one replaces an older one
     input  wire logic          change_ramp_i,  // along the table; 2 clk after change_i
@@ -74,7 +75,7 @@ module ppmc312_stage_seq
   logic [1:0] low_end_q, ramp_end_q;  // where this direction ends
   logic low_end, ramp_end;
   target_t held_q, target_q;
-  logic held_valid_q, held_ramp_q, load_q, endless_q, first_q;
+  logic held_valid_q, held_ramp_q, load_q, endless_q, no_point_q, first_q;
   logic [1:0] change_q;
   logic [6:0] stage_q, edge_at_q;
   logic [15:0] rate_q;
@@ -110,17 +111,17 @@ module ppmc312_stage_seq
 
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
-    point_q <= left_q == 32'(dec_q) && !endless_q;
+    point_q <= left_q == 32'(dec_q) && !no_point_q;
     // A constant rate faster than R[first_dec] has a stage there or above.
-    walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || stage_q >= first_dec_i);
+    walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || !ppmc_pkg::less(32'(stage_q), 32'(first_dec_i)));
     spent_q <= more_q == '0;
     edge_q <= stage_q == edge_at_q;
     // The stage beside this one, or beside the constant rate; for pulse 1 this one.
     beside_q  <= ((now_q.flat && ramp_down_q) ? target_q.gt1 : here) +
         {{6{back}}, back || now_q.flat || !first_q};
     ramp_down_q <= held_q.rate >= rate_q;
-    ramp_end_at_q <= (a > b) ? a : b;
-    ramp_some_q <= ramp_end_at_q < (ramp_down_q ? target_q.gt1 : held_q.ge1);
+    ramp_end_at_q <= ppmc_pkg::less(32'(b), 32'(a)) ? a : b;
+    ramp_some_q <= ppmc_pkg::less(32'(ramp_end_at_q), 32'(ramp_down_q ? target_q.gt1 : held_q.ge1));
   end
 
   // ---- decision --------------------------------------------------------------------------------------------------
@@ -253,8 +254,9 @@ module ppmc312_stage_seq
   end
 
   always_ff @(posedge clk_i) begin
-    seek_at_q <= !seek_q ? '0 : seek_at_q + {6'd0, look};
-    in_use_q  <= seek_q && (look_q[1] ? in_use : in_use_q);
+    if (!seek_q) seek_at_q <= '0;
+    else if (look) seek_at_q <= 7'(ppmc_pkg::inc(32'(seek_at_q)));
+    in_use_q <= seek_q && (look_q[1] ? in_use : in_use_q);
   end
 
   // ---- state -----------------------------------------------------------------------------------------------------
@@ -295,14 +297,15 @@ module ppmc312_stage_seq
       else if (!in_use_q) target_q.gt1 <= addr_q[1];
     end
     if (load_i) begin
-      now_q     <= '{flat: !plan_i.climb, default: 1'b0};
-      stage_q   <= first_acc_i;
-      edge_at_q <= plan_i.to.ge;
-      more_q    <= '0;
-      endless_q <= plan_i.endless;
-      left_q    <= plan_i.count;
-      dec_q     <= plan_i.dec;
-      from_q    <= plan_i.from;
+      now_q      <= '{flat: !plan_i.climb, default: 1'b0};
+      stage_q    <= first_acc_i;
+      edge_at_q  <= plan_i.to.ge;
+      more_q     <= '0;
+      endless_q  <= plan_i.endless;
+      no_point_q <= plan_i.endless || single_i;
+      left_q     <= plan_i.count;
+      dec_q      <= plan_i.dec;
+      from_q     <= plan_i.from;
     end else if (step_i) begin
       now_q   <= then_q;
       stage_q <= addr_q[1];

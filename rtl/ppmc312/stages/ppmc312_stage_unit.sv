@@ -49,8 +49,8 @@ module ppmc312_stage_unit
   logic begin_q, build_busy, plan_busy, plan_start, found;
   logic [15:0] find_rate;
   entry_t built, entry;
-  logic [6:0] plan_addr, built_acc, built_dec;
-  logic [15:0] built_acc_rate, built_dec_rate;
+  logic [6:0] plan_addr;
+  logic [1:0] build_begins, begins;
   target_t target;
   logic takes, plan_climb, plan_both, ramp_q;
   logic [23:0] plan_dec;
@@ -58,9 +58,9 @@ module ppmc312_stage_unit
 
   // ---- arithmetic ------------------------------------------------------------------------------------------------
 
-  logic op_start, op_busy, build_op, plan_op, op_mul, build_mul, plan_mul, build_zero;
+  logic op_start, op_busy, build_op, plan_op, op_mul, build_mul, plan_mul;
   logic [5:0] op_steps, build_steps;
-  logic [39:0] word, operand, hi;
+  logic [39:0] word, hi;
   logic [24:0] plan_operand;
   logic [23:0] op_lo, build_lo, plan_lo, lo;
 
@@ -68,7 +68,6 @@ module ppmc312_stage_unit
   assign op_mul   = build_busy ? build_mul : plan_mul;
   assign op_steps = build_busy ? build_steps : 6'd24;
   assign op_lo    = build_busy ? build_lo : plan_lo;
-  assign operand  = build_busy ? word : 40'(plan_operand);
 
   ppmc312_muldiv #(
       .HiBits(40),
@@ -79,11 +78,9 @@ module ppmc312_stage_unit
       .start_i  (op_start),
       .mul_i    (op_mul),
       .steps_i  (op_steps),
-      .zero_i   (build_zero || !build_busy),
       .keep_i   (!op_mul),
-      .hi_i     (word),
       .lo_i     (op_lo),
-      .operand_i(operand),
+      .operand_i(word | 40'(plan_operand)),  // 0 is what the other one says
       .busy_o   (op_busy),
       .hi_o     (hi),
       .lo_o     (lo)
@@ -99,14 +96,12 @@ module ppmc312_stage_unit
       .busy_o     (build_busy),
       .thin_o,
       .entry_o    (built),
-      .first_acc_o(built_acc),
-      .first_dec_o(built_dec),
-      .rate_acc_o (built_acc_rate),
-      .rate_dec_o (built_dec_rate),
+      .begins_o   (build_begins),
+      .first_acc_i(table_o.first_acc),
+      .first_dec_i(table_o.first_dec),
       .op_start_o (build_op),
       .op_mul_o   (build_mul),
       .op_steps_o (build_steps),
-      .op_zero_o  (build_zero),
       .op_lo_o    (build_lo),
       .word_o     (word),
       .op_busy_i  (op_busy),
@@ -177,7 +172,7 @@ module ppmc312_stage_unit
           endless: plan_i.endless,
           climb: ramp_q && plan_climb,
           count: plan_i.count,
-          dec: ramp_q ? plan_dec : '0,
+          dec: plan_dec,
           from : plan_from,
           to: target
       };
@@ -187,6 +182,9 @@ module ppmc312_stage_unit
   // ---- table in force --------------------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle;
+  // The last one of several counts: a ramp is built upward.
+  assign begins = build_busy ? build_begins :
+      {2{entry.rate}} & {entry.stage == table_o.first_dec, entry.stage == table_o.first_acc};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -219,25 +217,20 @@ module ppmc312_stage_unit
       if (open_i) begin
         table_o.first_acc <= open_acc_i;
         table_o.first_dec <= open_dec_i;
+      end else begin
+        if (begins[0]) table_o.first_acc <= entry.stage;
+        if (begins[1]) table_o.first_dec <= entry.stage;
       end
+      if (begins[0]) table_o.rate_acc <= entry.data[15:0];
+      if (begins[1]) table_o.rate_dec <= entry.data[15:0];
+      if (entry.rate && entry.stage == 7'd126) table_o.fast <= entry.data[15:0];
       if (open_i || build_i) begin
         table_o.split <= curve_i.split;
         table_o.base  <= curve_i.base;
       end
-      if (state_q == StBuild) begin
-        table_o.first_acc <= built_acc;
-        table_o.first_dec <= built_dec;
-        table_o.rate_acc  <= built_acc_rate;
-        table_o.rate_dec  <= built_dec_rate;
-        table_o.fast      <= curve_i.fast;
-      end else if (entry_i.rate) begin
-        if (entry_i.stage == table_o.first_acc) table_o.rate_acc <= entry_i.data[15:0];
-        if (entry_i.stage == table_o.first_dec) table_o.rate_dec <= entry_i.data[15:0];
-        if (entry_i.stage == 7'd126) table_o.fast <= entry_i.data[15:0];
-      end
       if (close_i || build_i) begin
         table_o.acc <= curve_i.acc;
-        table_o.dec <= curve_i.split ? curve_i.dec : curve_i.acc;
+        table_o.dec <= curve_i.dec;
       end
     end
   end
