@@ -232,7 +232,6 @@ module ppmc_axis_fv
 
   `FV_COVER(seen_ramp_to_its_end,
             event_o.pulse && event_o.complete && op_q.ramp && motion_o.dec && pulses_q == 5'd3)
-  `FV_COVER(seen_cut, dut.cut && low_o && dut.half && between && pulses_q == 5'd2)
   `FV_COVER(seen_limit_between_pulses, event_o.stop && limit && pulses_q == 5'd2)
 
 endmodule
