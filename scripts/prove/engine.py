@@ -50,7 +50,7 @@ def hits(said: str) -> dict[int, int]:
 
 
 def induction(folder: Path, length: int, limit: int) -> tuple[str, dict[int, int]]:
-    """The same by induction over at most `length` clk: bounded search from reset, longer than needed, then any such run.
+    """The same by induction over at most `length` clk, after a bounded search from reset that is longer.
 
     For blocks with much memory, whose wrappers say what ties it to the outputs.
     """

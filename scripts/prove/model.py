@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 ANY = ("proc", "setundef -anyseq t:$buf")
-"""What nobody drives, the outputs of a stand-in, becomes one free input for all who read it. Left as it is read, an X,
-each reader would take it for what is simplest."""
+"""What nobody drives, the outputs of a stand-in, becomes one free input for all who read it. Left an X, each
+reader would take it for what is simplest."""
 LOWER = ("async2sync", "chformal -lower")
 SHAPE = ("opt_clean", "memory_map -formal", "formalff -clk2ff -ff2anyinit -hierarchy")
 GATES = ("setundef -undriven -anyseq", "opt -full", "techmap", "opt -full", "dffunmap", "aigmap", "opt_clean")
