@@ -52,15 +52,18 @@ module ppmc_bank_carrier_fv (
   logic asked_q;
   always_ff @(posedge clk_i) asked_q <= rst_ni && known_q && (asked_q || (!dut.part_cs_n && axis_q == 8'd2));
 
-  `FV_ASSERT(bank_win_04_the_axis_that_was_chosen, !known_q || dut.part_cs_n || dut.part_a == {axis_q[5:0], dut.g_uart.host_a})
-  `FV_ASSERT(no_strobe_of_its_own, !known_q || dut.part_cs_n || (!dut.g_uart.host_cs_n && !own && axis_q[7:6] == '0))
+  `FV_ASSERT(bank_win_04_the_axis_that_was_chosen,
+             !known_q || dut.part_cs_n || dut.part_a == {axis_q[5:0], dut.g_uart.host_a})
+  `FV_ASSERT(no_strobe_of_its_own,
+             !known_q || dut.part_cs_n || (!dut.g_uart.host_cs_n && !own && axis_q[7:6] == '0))
   `FV_ASSERT(reads_the_bank_or_the_choice,
              !known_q || dut.g_uart.to_host == (own ? axis_q : axis_q[7:6] != '0 ? 8'hFF : dut.from_part))
-  `FV_ASSERT(pins_of_the_chosen_axis,
-             !known_q || dut.g_uart.u_host.switches_ni == {alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]}
-             && dut.g_uart.u_host.hold_i == hold[n])
-  `FV_ASSERT(switches_reach_the_bank, dut.u_part.alm_n == alm_n && dut.u_part.cnp_n == cnp_n &&
-             {dut.u_part.l4_n, dut.u_part.l3_n, dut.u_part.l2_n, dut.u_part.l1_n} == {l4_n, l3_n, l2_n, l1_n})
+  `FV_ASSERT(
+      pins_of_the_chosen_axis,
+      !known_q || dut.g_uart.u_host.switches_ni == {alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]} && dut.g_uart.u_host.hold_i == hold[n])
+  `FV_ASSERT(
+      switches_reach_the_bank,
+      dut.u_part.alm_n == alm_n && dut.u_part.cnp_n == cnp_n && {dut.u_part.l4_n, dut.u_part.l3_n, dut.u_part.l2_n, dut.u_part.l1_n} == {l4_n, l3_n, l2_n, l1_n})
   `FV_ASSERT(lamps, led_moving == (hold != '1) && led_switch == ({l1_n, l2_n, l3_n, l4_n, alm_n} != '1))
   `FV_ASSERT(spi_is_quiet, !miso_oe && !miso_o)
   `FV_COVER(seen_axis, asked_q && dut.part_cs_n)

@@ -69,7 +69,7 @@ module ppmc_bank_engine_fv
   logic ends;  // one is in its last stage
   logic clears;  // and resets its axis
 
-  assign ends   = axis[5] == watched_i && clk_q > 5'd4;
+  assign ends = axis[5] == watched_i && clk_q > 5'd4;
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {clk_q, rest_q, known_q, clears} <= '0;
@@ -104,7 +104,9 @@ module ppmc_bank_engine_fv
       if (axis[4] == watched_i && known_q) begin
         if (dut.take4_q) {worded_q, words_q} <= {1'b1, dut.code4_q, dut.params4_q[31:8]};
         if (dut.plan4_q.init)
-          {ramped_q, ramp_q} <= {1'b1, dut.init.chop, dut.params4_q[7:0], dut.params4_q[15:8], dut.params4_q[29:16]};
+          {ramped_q, ramp_q} <= {
+            1'b1, dut.init.chop, dut.params4_q[7:0], dut.params4_q[15:8], dut.params4_q[29:16]
+          };
         if (dut.plan4_q.switching) {chopped_q, units_q} <= {1'b1, dut.params4_q[31:16]};
       end
     end
@@ -122,10 +124,12 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(lemma_pace_r, !(known_q && axis[0] + 3'd1 == watched_i) || dut.pace_r_q == pace_q)
   `FV_ASSERT(lemma_pace0, !(known_q && axis[0] == watched_i) || dut.pace0_q == pace_q)
   `FV_ASSERT(lemma_pace1, !(known_q && axis[1] == watched_i) || dut.pace1_q == pace_q)
-  `FV_ASSERT(lemma_words1, axis[1] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words1_q == words_q)
-             && (!ramped_q || dut.ramp1_q == ramp_q)))
-  `FV_ASSERT(lemma_words2, axis[2] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words2_q == words_q)
-             && (!ramped_q || dut.ramp2_q == ramp_q)))
+  `FV_ASSERT(
+      lemma_words1,
+      axis[1] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words1_q == words_q) && (!ramped_q || dut.ramp1_q == ramp_q)))
+  `FV_ASSERT(
+      lemma_words2,
+      axis[2] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words2_q == words_q) && (!ramped_q || dut.ramp2_q == ramp_q)))
 
   `FV_ASSERT(bank_gen_05_motion_stays, !(known_q && axis[2] == watched_i) || dut.early2_q == early_q)
   `FV_ASSERT(bank_gen_05_position_stays, !(known_q && axis[2] == watched_i) || dut.late2_q == late_q)
@@ -141,14 +145,17 @@ module ppmc_bank_engine_fv
 
   `FV_ASSERT(one_order, 2'(order_o.pulse) + 2'(order_o.rise) + 2'(order_o.sets) <= 2'd1 || clk_q < 5'd8)
   `FV_ASSERT(bank_mot_02_none_when_stopped, !order_o.pulse || clk_q < 5'd8 || $past(seen_i.armed, 3))
-  `FV_ASSERT(no_pulse_without_a_motion, !same || !(order_o.pulse || order_o.rise) || (status_q.busy && status_o.busy))
+  `FV_ASSERT(no_pulse_without_a_motion,
+             !same || !(order_o.pulse || order_o.rise) || (status_q.busy && status_o.busy))
   `FV_ASSERT(bank_mot_03_position_by_one, !same || position_o - position_q inside {32'd0, 32'd1, '1})
-  `FV_ASSERT(bank_hsk_01_taken_as_written, !same || status_o.taken == status_q.taken ||
-             status_o.taken == $past(mail_i.seq, 4))
-  `FV_ASSERT(bank_hsk_01_motion_by_a_byte, !(same && status_o.busy && !status_q.busy) || status_o.taken != status_q.taken)
+  `FV_ASSERT(bank_hsk_01_taken_as_written,
+             !same || status_o.taken == status_q.taken || status_o.taken == $past(mail_i.seq, 4))
+  `FV_ASSERT(bank_hsk_01_motion_by_a_byte,
+             !(same && status_o.busy && !status_q.busy) || status_o.taken != status_q.taken)
   `FV_ASSERT(bank_hsk_04_answer_by_a_byte, !(same && answer_we_o) || status_o.taken != status_q.taken)
   `FV_ASSERT(p104_end_07_interrupt_at_an_end, !(same && call_o) || (status_q.busy && !status_o.busy))
-  `FV_ASSERT(bank_gen_05_reset, !(clears && clk_q > 5'd8) || (status_o == '0 && order_o == '0 && position_o == '0))
+  `FV_ASSERT(bank_gen_05_reset,
+             !(clears && clk_q > 5'd8) || (status_o == '0 && order_o == '0 && position_o == '0))
 
   // Words as they stand in the memories.
   logic [$bits(early_q)-1:0] early_word;
@@ -165,15 +172,20 @@ module ppmc_bank_engine_fv
   assign units_word = dut.chops[watched_i];
 
   `FV_ASSERT(lemma_words, !known_q || {early_word, late_word, pace_word} == {early_q, late_q, pace_q})
-  `FV_ASSERT(lemma_set, (!worded_q || words_word == words_q) && (!ramped_q || ramp_word == ramp_q) &&
-             (!chopped_q || units_word == units_q))
+  `FV_ASSERT(
+      lemma_set,
+      (!worded_q || words_word == words_q) && (!ramped_q || ramp_word == ramp_q) && (!chopped_q || units_word == units_q))
 
   // For the search: the stages of the watched axis, and what the outputs say of its last visit.
   localparam int unsigned BusyAt = $bits(command_t) + $bits(setting_t) + $bits(walk_t) - 1;
-  `FV_ASSERT(lemma_visit3, !(known_q && axis[3] == watched_i) || {dut.early3_q, dut.late3_q} == {early_q, late_q})
-  `FV_ASSERT(lemma_visit4, !(known_q && axis[4] == watched_i) || {dut.early4_q, dut.late4_q} == {early_q, late_q})
-  `FV_ASSERT(lemma_visit_last, !known_q || (status_q == {early_q[5:0], early_q[BusyAt]} && position_q == late_q[31:0]))
-  `FV_ASSERT(lemma_visit_armed, !dut.plan4_q.pulse || clk_q < 5'd8 || (dut.seen4_q.armed && dut.early4_q.walk.busy))
+  `FV_ASSERT(lemma_visit3,
+             !(known_q && axis[3] == watched_i) || {dut.early3_q, dut.late3_q} == {early_q, late_q})
+  `FV_ASSERT(lemma_visit4,
+             !(known_q && axis[4] == watched_i) || {dut.early4_q, dut.late4_q} == {early_q, late_q})
+  `FV_ASSERT(lemma_visit_last,
+             !known_q || (status_q == {early_q[5:0], early_q[BusyAt]} && position_q == late_q[31:0]))
+  `FV_ASSERT(lemma_visit_armed,
+             !dut.plan4_q.pulse || clk_q < 5'd8 || (dut.seen4_q.armed && dut.early4_q.walk.busy))
 
   // What the visits rely on, of every axis in every stage.
   for (genvar n = 0; n < 8; n++) begin : g_axis
@@ -185,11 +197,16 @@ module ppmc_bank_engine_fv
     assign {walk, setting, command} = word[0+:$bits(walk_t)+$bits(setting_t)+$bits(command_t)];
     `FV_ASSERT(lemma_kept0, clk_q < 5'd3 || rests(walk, setting, command))
   end
-  `FV_ASSERT(lemma_kept1, clk_q < 5'd5 || rests(dut.early1_q.walk, dut.early1_q.setting, dut.early1_q.command))
-  `FV_ASSERT(lemma_kept2, clk_q < 5'd6 || rests(dut.early2_q.walk, dut.early2_q.setting, dut.early2_q.command))
-  `FV_ASSERT(lemma_kept3, clk_q < 5'd7 || rests(dut.early3_q.walk, dut.early3_q.setting, dut.early3_q.command))
-  `FV_ASSERT(lemma_kept4, clk_q < 5'd8 || rests(dut.early4_q.walk, dut.early4_q.setting, dut.early4_q.command))
-  `FV_ASSERT(lemma_kept5, clk_q < 5'd2 || rests(dut.early5_q.walk, dut.early5_q.setting, dut.early5_q.command))
+  `FV_ASSERT(lemma_kept1, clk_q < 5'd5 || rests(dut.early1_q.walk, dut.early1_q.setting, dut.early1_q.command
+             ))
+  `FV_ASSERT(lemma_kept2, clk_q < 5'd6 || rests(dut.early2_q.walk, dut.early2_q.setting, dut.early2_q.command
+             ))
+  `FV_ASSERT(lemma_kept3, clk_q < 5'd7 || rests(dut.early3_q.walk, dut.early3_q.setting, dut.early3_q.command
+             ))
+  `FV_ASSERT(lemma_kept4, clk_q < 5'd8 || rests(dut.early4_q.walk, dut.early4_q.setting, dut.early4_q.command
+             ))
+  `FV_ASSERT(lemma_kept5, clk_q < 5'd2 || rests(dut.early5_q.walk, dut.early5_q.setting, dut.early5_q.command
+             ))
 
   function automatic logic rests(walk_t walk, setting_t setting, command_t command);
     return walk.busy ? !setting.building && (command.error || command.number == '0) : !(walk.run || walk.low);
