@@ -3,12 +3,25 @@ golden model."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from cocotb_tests.harness.crosses import Cross, Crosses, before
-from cocotb_tests.harness.family_crosses import ERRORS, MOTION, UNINIT, Count, hook_errors, hook_motion
+from cocotb_tests.harness.family_crosses import (
+    CLOCKS,
+    ERRORS,
+    MOTION,
+    UNINIT,
+    Count,
+    hook_errors,
+    hook_motion,
+)
 from openppmc.model.bank.axis import Axis
 
+NO_PIN = {("*", name): "a bank has no external base clock" for name in CLOCKS if name.startswith("external")}
+CLOCKED = tuple(
+    replace(cross, never={**cross.never, **NO_PIN}) if cross.columns == CLOCKS else cross for cross in MOTION
+)
 STATES = (UNINIT, "at rest", "waiting for GO", "in motion", "decelerating")
 GROUP = Cross("axis and state that a GO finds it in", ("member of the group", "another one"), STATES)
 
@@ -27,4 +40,4 @@ def _hook(count: Count) -> None:
     before(Axis, "go", gone)
 
 
-CROSSES = Crosses((*MOTION, ERRORS, GROUP), _hook)
+CROSSES = Crosses((*CLOCKED, ERRORS, GROUP), _hook)

@@ -94,6 +94,22 @@ async def bank_mot_01_slow_clocks(dut):
         await axis.halt()
 
 
+@directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
+async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
+    """Given csel L and a ramp that skips so many rates that the way down looks for the next one beyond the low
+    time, then intervals are those of the PPMC-104."""
+    lab = await Lab.start(dut)
+    axis = lab.axes[lab.size - 2]
+    ramp = (90, 2, 3)
+    await axis.init(0x0A, *ramp)
+    for csel, vsel in ((0, 1), (0, 0), (1, 1)):
+        await axis.set_config(csel, vsel)
+        await lab.bench.clocks(2 * lab.round)
+        await axis.move(0x43, 12)
+        axis.check_train("BANK-MOT-01", rates(ramp, indices(12, ramp[2])), csel, vsel)
+        await axis.finish()
+
+
 @directed("BANK-MOT-04", builds=(B4, B8, B32, F100))
 async def bank_mot_04_busy_falls(dut):
     """Given a complete move, then BUSY falls at the first visit after the last low time: V - 1, V."""

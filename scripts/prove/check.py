@@ -100,7 +100,7 @@ def check(proof: Proof, breaking: bool = False, limit: int = LIMIT) -> Outcome:
             proof.name, trouble, tuple(labels["prove"]), reached, time.monotonic() - begin, refuted
         )
 
-    verdict, found = engine.prove(folder, proof.bound, limit)
+    verdict, found = engine.prove(folder, proof.bound, limit, proof.induct)
     if verdict == engine.FAILED:
         number, clk = min(found.items(), key=lambda hit: hit[1])
         return outcome(f"{labels['prove'][number]} fails in clk {clk}: {trace(folder)}", refuted=True)

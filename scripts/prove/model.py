@@ -13,6 +13,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
+ANY = ("proc", "setundef -anyseq t:$buf")
+"""What nobody drives, the outputs of a stand-in, becomes one free input for all who read it. Left an X, each
+reader would take it for what is simplest."""
 LOWER = ("async2sync", "chformal -lower")
 SHAPE = ("opt_clean", "memory_map -formal", "formalff -clk2ff -ff2anyinit -hierarchy")
 GATES = ("setundef -undriven -anyseq", "opt -full", "techmap", "opt -full", "dffunmap", "aigmap", "opt_clean")
@@ -49,7 +52,7 @@ def main() -> int:
     for kind in ("prove", "cover"):
         base = f"{job['folder']}/{kind}"
         design = ys.Design()
-        begin = [read(job, kind), f"prep -flatten -top {job['top']}", *LOWER]
+        begin = [read(job, kind), *ANY, f"prep -flatten -top {job['top']}", *LOWER]
         rest = [*SHAPE, f"write_rtlil {base}.il", *GATES]
         for command in begin:
             run(design, command)

@@ -8,6 +8,7 @@ of one RTL file (`file`, `old`, which stands there once, `new`) that makes the p
 `wrapper`  the module that holds the properties, without _fv, if it is not the name
 `only`     labels or their beginnings: the properties and covers of the wrapper that this proof is about
 `bound`    not proved without end, but none of the first so many clk has a counterexample; `why` tells why
+`induct`   by induction over so many clk, also without end: for blocks with much memory
 `assumes`  what the wrapper takes for granted: label -> what guards it where the block is driven
 `stubs`    files below tb/formal that stand for blocks inside; other proofs say what those blocks do
 `night`    takes long: `make prove-night`
@@ -40,6 +41,7 @@ class Proof:
     rules: tuple[str, ...] = ()
     block: str = ""
     bound: int = 0
+    induct: int = 0
     why: str = ""
     assumes: dict[str, str] = field(default_factory=dict)
     night: bool = False

@@ -54,6 +54,7 @@ module ppmc_uart_rx_fv (
 
   `FV_ASSERT(lemma_phase, !busy || dut.phase_q == phases[3:0])
   `FV_ASSERT(lemma_start, !busy || (dut.state_q == 1) == (phases[7:4] == '0))
+  `FV_ASSERT(lemma_age, !busy || age_q <= 7'(Character))
   `FV_ASSERT(lemma_bits, dut.state_q != 2 || 5'(dut.left_q) + 5'(phases[7:4]) == 5'd9)
   `FV_ASSERT(lemma_high, high_q <= 7'd3 || !busy || high_q <= age_q + 7'd3)
   `FV_ASSERT(lemma_waits, dut.state_q != 3 || high_q <= 7'd3)

@@ -54,6 +54,36 @@ module ppmc_uart_tx_fv (
       else if (rx_valid) {way_q, again_q} <= 2'b01;
     end
 
+  // For the search: both shift registers and phases are functions of the byte and its age. Sixteenths of a bit
+  // that the transmitter has sent, and that the receiver has seen; the bits are the upper half.
+  logic [7:0] sent, seen;
+  logic [8:0] rest;  // the bits to come
+  logic line, rx_idle;
+  logic [2:0] young_q;  // clk since reset, at most 7
+
+  assign sent    = 8'(age_q) * 8'd3;
+  assign seen    = 8'd2 + 8'(age_q) * 8'd3;
+  assign rest    = ~(~{1'b1, byte_q} >> sent[7:4]);
+  assign line    = (sent[7:4] == '0) ? 1'b0 : (sent[7:4] > 4'd8) ? 1'b1 : byte_q[3'(sent[7:4]-4'd1)];
+  assign rx_idle = u_rx.state_q == 0;
+
+  always_ff @(posedge clk_i) young_q <= !rst_ni ? '0 : (young_q == '1) ? '1 : young_q + 1'b1;
+
+  `FV_ASSERT(lemma_age, !way_q || age_q <= 7'd53)
+  `FV_ASSERT(
+      lemma_sends,
+      way_q ? !ready_o && dut.phase_q == sent[3:0] && 5'(dut.left_q) + 5'(sent[7:4]) == 5'd9 && dut.bits_q == rest && txd_o == line : ready_o && txd_o)
+  `FV_ASSERT(lemma_waits, !(way_q ? age_q < 7'd3 : young_q > 3'd2) || (rx_idle && u_rx.phase_q == 4'd8))
+  `FV_ASSERT(lemma_idle_line, way_q || young_q < 3'd3 || (u_rx.unused_meta && u_rx.line))
+  `FV_ASSERT(lemma_line, !way_q || age_q < 7'd2 || u_rx.line == $past(line, 2))
+  `FV_ASSERT(
+      lemma_receives,
+      !(way_q && age_q >= 7'd3 && age_q < 7'd53) || (u_rx.phase_q == seen[3:0] && (seen[7:4] == '0 ? u_rx.state_q == 1 : u_rx.state_q == 2 && 5'(u_rx.left_q) + 5'(seen[7:4]) == 5'd9)))
+  `FV_ASSERT(
+      lemma_byte,
+      !(way_q && age_q >= 7'd3 && age_q < 7'd53 && seen[7:4] != '0) || (rx_byte >> (4'd9 - seen[7:4])) == (byte_q & ~(8'hFF << (seen[7:4] - 4'd1))))
+  `FV_ASSERT(lemma_arrives, rx_valid == (way_q && age_q == 7'd53))
+
   `FV_ASSUME(line_was_at_rest, up_q || !valid_i)
   `FV_ASSERT(rests_high, !ready_o || txd_o)
   `FV_ASSERT(arrives_as_sent, !rx_valid || (way_q && rx_byte == byte_q))

@@ -70,6 +70,30 @@ module ppmc_bridge_answer_fv (
       if (we_o && busy_o) read_q[8*2'(waddr_o-before_q[7:0])+:8] <= wdata_o;
     end
 
+  // For the search: where a block is, which bytes of the counter are as it is now, what the flags say.
+  logic [4:0] left;
+  logic same;
+  assign left = 5'(dut.left_q);
+  assign same = counter_i[0] == dut.parity_q;
+
+  `FV_ASSERT(lemma_begun, !busy_o || begun_q)
+  `FV_ASSERT(
+      lemma_flags,
+      !(begun_q && settled_q != '0) || (full_o == length_o[8] && full4_o == (length_o > 9'd252) && full16_o == (length_o > 9'd240)))
+  `FV_ASSERT(lemma_kind, !busy_o || dut.counting_q == counting_q)
+  `FV_ASSERT(lemma_room, !busy_o || before_q <= (counting_q ? 9'd252 : 9'd240))
+  `FV_ASSERT(lemma_block,
+             !(busy_o && !counting_q) || (length_o == before_q + 9'd15 - 9'(left) && age_q == 5'd15 - left))
+  `FV_ASSERT(lemma_count, !(busy_o && counting_q) || (length_o == before_q + 9'd3 - 9'(left) && left <= 5'd3))
+  `FV_ASSERT(
+      lemma_passes,
+      !(busy_o && counting_q) || age_q == 5'd3 - left || (age_q == 5'd7 - left && 5'(gap_q) < age_q && 5'(gap_q) + 5'd3 >= age_q))
+  `FV_ASSERT(lemma_moved, !(busy_o && counting_q && left < 5'd3 && !same) || 5'(gap_q) + left <= 5'd2)
+  for (genvar n = 0; n < 3; n++) begin : g_byte
+    `FV_ASSERT(lemma_bytes,
+               !(busy_o && counting_q && left < 5'(3 - n) && same) || read_q[8*n+:8] == counter_i[8*n+:8])
+  end
+
   `FV_ASSERT(block_ends, age_q <= 5'd20)
   `FV_ASSERT(block_has_its_length, !(begun_q && $past(busy_o)
              && !busy_o) || length_o == before_q + (counting_q ? 9'd4 : 9'd16))

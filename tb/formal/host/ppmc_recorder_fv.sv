@@ -50,6 +50,12 @@ module ppmc_recorder_fv (
   logic seen_q;  // the levels are known
   always_ff @(posedge clk_i) seen_q <= rst_ni && (seen_q || begin_i);
 
+  // With these the search needs no more than two clk.
+  `FV_ASSERT(lemma_levels, !seen_q || (dut.levels_q == now_q && dut.moved_q[0] == (now_q != before_q)))
+  `FV_ASSERT(lemma_time, !seen_q || (dut.time_q == age_q && dut.rest_q == (age_q == '1)))
+  `FV_ASSERT(lemma_state, dut.first_q == first_q || !$past(rst_ni))
+  `FV_ASSERT(lemma_begun, seen_q || !running)
+
   `FV_ASSERT(ub_rec_01_a_change_a_record, !($past(seen_q && wanted && !begin_i && count != 5'd16)
              ) || count == $past(count) + 1'b1)
   `FV_ASSERT(ub_rec_01_nothing_else, !($past(seen_q && !wanted && !begin_i)) || count == $past(count))

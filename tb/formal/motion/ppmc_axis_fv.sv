@@ -109,6 +109,37 @@ module ppmc_axis_fv
              !(event_o.done && cause_o == '0 && !op_q.origin) || pulses_q == total_q)
   `FV_ASSERT(p104_end_05_complete_is_told, !(event_o.pulse && event_o.complete) || pulses_q + 5'd1 == total_q)
 
+  // What ties the count to the registers of the axis: with these the search for the count ends.
+  logic [1:0] gap_q;  // clk since the start or the last pulse, at most 3
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) gap_q <= '0;
+    else gap_q <= (start_i || event_o.pulse) ? 2'd1 : (gap_q == 2'd3) ? 2'd3 : gap_q + 2'(gap_q != '0);
+
+  localparam int unsigned Age = ppmc_lfsr_pkg::width(Width - 1);
+  localparam logic [Age-1:0] Second = Age'(ppmc_lfsr_pkg::after(1, Age));
+
+  logic near;  // less than three clk behind the start or a pulse
+  assign near = gap_q inside {2'd1, 2'd2};
+
+  `FV_ASSERT(lemma_count_operation, op_q == dut.op_q && base_q == dut.base_q)
+  `FV_ASSERT(lemma_count_left,
+             !motion_o.moving || (5'(left_o) + 5'd1 + pulses_q == total_q && pulses_q < total_q))
+  `FV_ASSERT(lemma_count_zero, !motion_o.moving || gap_q < 2'd2 || dut.complete == (left_o == '0))
+  `FV_ASSERT(lemma_count_apart, !event_o.pulse || gap_q == 2'd3)
+  `FV_ASSERT(lemma_count_gap, !motion_o.moving || gap_q != '0)
+  `FV_ASSERT(
+      lemma_count_width,
+      !near || (!dut.up && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 && dut.u_shaper.age_q == Second))))
+  `FV_ASSERT(lemma_count_quanta,
+             !(near && motion_o.running && !base_q.external) || quantum_gap_q == gap_q - 2'd1)
+  `FV_ASSERT(
+      lemma_count_edges,
+      !(near && motion_o.running && base_q.external) || (!dut.g_extra.u_lag.after_q && (rise_gap_q < 3'd3 || (base_q.extra && dut.g_extra.u_lag.before_q))))
+  `FV_ASSERT(lemma_count_forced, !dut.flagged || cause_o.stop || cause_o.slow)
+  `FV_ASSERT(lemma_count_why,
+             !(motion_o.busy && !motion_o.moving) || op_q.origin || cause_o != '0 || pulses_q == total_q)
+
   // ---- set-up, direction, low time -----------------------------------------------------------------
 
   logic [2:0] setup_q, age_q;  // clk since the start or the end of the gate; since the pulse; at most 7
@@ -143,6 +174,74 @@ module ppmc_axis_fv
       rate_o)))
   `FV_ASSERT(p104_int_01_constant_rate,
              !(event_o.pulse && motion_o.running && !op_q.ramp) || rate_o == rate_q)
+
+  // What ties the intervals to the registers of the axis.
+  logic [3:0] since_q;  // clk since the start or the last pulse, at most 15
+  logic [1:0] from_q;  // rate before the last pulse
+  logic still_q;  // neither rate nor base clocks have moved in the clk before
+  logic between, inner;  // between pulses; of the internal base clock
+
+  assign between = motion_o.running;
+  assign inner   = between && !base_q.external;
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {since_q, from_q, still_q} <= '0;
+    else begin
+      since_q <= (start_i || event_o.pulse) ? 4'd1 : (since_q == '1) ? '1 : since_q + 4'(since_q != '0);
+      if (event_o.pulse) from_q <= rate_o;
+      still_q <= !(start_i || event_o.pulse || dut.seek || dut.tick);
+    end
+
+  logic [1:0] state, probe, counted;
+  logic [2:0] climb;
+  logic test, read, waits, slower, loads;
+  assign {state, probe, counted} = {dut.u_seq.state_q, dut.u_seq.probe_q, dut.u_rate.count_q};
+  assign climb = dut.u_seq.climb_q;
+  assign {test, read, waits} = {state == 2'd3, state == 2'd1, state == 2'd2};
+  assign {slower, loads} = {dut.u_seq.slower_q, dut.u_seq.load_q};
+
+  `FV_ASSERT(lemma_rate_since, gap_q == (since_q > 4'd3 ? 2'd3 : since_q[1:0]))
+  `FV_ASSERT(lemma_rate_first, !(motion_o.moving && !between) || (state == '0 && !slower && climb == '0))
+  `FV_ASSERT(
+      lemma_rate_near,
+      !motion_o.moving || gap_q < 2'd2 || (dut.u_seq.near_q == (!left_o[3] && climb >= left_o[2:0]) && dut.u_seq.low_q == (climb[2:1] == '0)))
+  `FV_ASSERT(lemma_rate_loads, !loads || (since_q == 4'd1 && state == '0))
+  `FV_ASSERT(
+      lemma_rate_constant,
+      !(motion_o.moving && !op_q.ramp) || (!slower && state == '0 && probe == rate_q && (loads || rate_o == rate_q)))
+  `FV_ASSERT(lemma_rate_range,
+             !(motion_o.moving && op_q.ramp) || loads || (rate_o <= rate_slow_i && rate_o >= rate_fast_i))
+  `FV_ASSERT(
+      lemma_rate_probe,
+      !(motion_o.moving && op_q.ramp) || (slower ? loads || probe == rate_o + 2'd1 : probe >= rate_fast_i && probe <= rate_slow_i && (loads || probe <= rate_o)))
+  `FV_ASSERT(lemma_rate_back,
+             !(between && op_q.ramp) || (dut.u_seq.back_q >= rate_fast_i && dut.u_seq.back_q <= rate_slow_i))
+  `FV_ASSERT(
+      lemma_rate_end,
+      !(motion_o.moving && (waits || test || (state == '0 && since_q > 4'd2))) || dut.u_seq.end_q == (slower ? rate_o == rate_slow_i : probe == rate_fast_i))
+  `FV_ASSERT(
+      lemma_rate_search,
+      !(between && state != '0) || 4'(since_q) == 4'd3 * 4'(slower ? rate_o - from_q : rate_o - probe) + (test ? 4'd1 : read ? 4'hF : 4'd0))
+  `FV_ASSERT(lemma_rate_searched, !(between && slower && state != '0) || rate_o >= from_q)
+  `FV_ASSERT(
+      lemma_rate_clk,
+      !inner || since_q == '1 || 6'(since_q) >= {1'b0, quanta_q[2:0], 2'b00} + 6'(quantum_gap_q) + 6'd1)
+  `FV_ASSERT(lemma_rate_few, !inner || quanta_q < 5'd16)
+  `FV_ASSERT(
+      lemma_rate_edges,
+      !(between && base_q.external) || since_q == '1 || 6'(since_q) >= {1'b0, counted, 3'b000} + (dut.g_extra.u_lag.before_q ? 6'd0 : 6'(rise_gap_q)) + 6'd1)
+  `FV_ASSERT(lemma_rate_before,
+             !(between && base_q.external && base_q.extra && dut.g_extra.u_lag.before_q) || counted == '0)
+  `FV_ASSERT(lemma_rate_counted, !between || counted <= rate_o || loads)
+  `FV_ASSERT(
+      lemma_rate_left,
+      !inner || (dut.u_base.last_q == (dut.u_base.left_q == '0) && dut.u_base.left_q <= (base_q.slow && !dut.u_base.extra_q ? 2'd2 : 2'd1)))
+  `FV_ASSERT(
+      lemma_rate_stretch,
+      !inner || !dut.u_base.extra_q || (base_q.extra && counted == '0 && quanta_q + 5'(dut.u_base.left_q) == 5'd1))
+  `FV_ASSERT(lemma_rate_quanta,
+             !inner || dut.u_base.extra_q || quanta_q + 5'(dut.u_base.left_q) + 5'd1 == interval(counted))
+  `FV_ASSERT(lemma_rate_match, !(between && still_q) || dut.u_rate.match_q == (counted == rate_o))
 
   `FV_COVER(seen_ramp_to_its_end,
             event_o.pulse && event_o.complete && op_q.ramp && motion_o.dec && pulses_q == 5'd3)

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_carrier_fv: with the UART as host, four axes, around any bank and any host: strobes reach the bank as
+// the view passes them on, op PINS sees the switches of the axis that was chosen, the lamps tell what they say.
+`include "ppmc_fv.svh"
+`default_nettype none
+
+module ppmc_bank_carrier_fv (
+    input wire logic       clk_i,
+    input wire logic       uart_rxd,
+    input wire logic       spi_cs_n,
+    input wire logic       sck,
+    input wire logic       mosi,
+    input wire logic [3:0] l1_n,
+    input wire logic [3:0] l2_n,
+    input wire logic [3:0] l3_n,
+    input wire logic [3:0] l4_n,
+    input wire logic [3:0] cnp_n,
+    input wire logic [3:0] alm_n
+);
+
+  logic uart_txd, miso_o, miso_oe, int_n, led_link, led_moving, led_switch;
+  logic [19:0] s;
+  logic [3:0] hold, pout_n, dir;
+
+  `FV_RESET
+
+  ppmc_bank_carrier #(
+      .CLK_HZ(8_000_000),
+      .AXES  (4)
+  ) dut (
+      .clk  (clk_i),
+      .rst_n(rst_ni),
+      .*
+  );
+
+  // The choice, as the host has written it.
+  logic [7:0] axis_q;
+  logic own, writes;
+  logic [1:0] n;
+
+  assign own    = dut.g_uart.host_a == 4'h3;
+  assign writes = own && !dut.g_uart.host_cs_n && !dut.part_wr_n;
+  assign n      = axis_q[1:0];
+
+  always_ff @(posedge clk_i or negedge dut.part_rst_n)
+    if (!dut.part_rst_n) axis_q <= '0;
+    else if (writes) axis_q <= dut.to_part;
+
+  logic known_q;  // the host has had the bank in reset, as ppmc_uart_host begins
+  always_ff @(posedge clk_i) known_q <= rst_ni && (known_q || !dut.part_rst_n);
+
+  logic asked_q;
+  always_ff @(posedge clk_i) asked_q <= rst_ni && known_q && (asked_q || (!dut.part_cs_n && axis_q == 8'd2));
+
+  `FV_ASSERT(bank_win_04_the_axis_that_was_chosen,
+             !known_q || dut.part_cs_n || dut.part_a == {axis_q[5:0], dut.g_uart.host_a})
+  `FV_ASSERT(no_strobe_of_its_own,
+             !known_q || dut.part_cs_n || (!dut.g_uart.host_cs_n && !own && axis_q[7:6] == '0))
+  `FV_ASSERT(reads_the_bank_or_the_choice,
+             !known_q || dut.g_uart.to_host == (own ? axis_q : axis_q[7:6] != '0 ? 8'hFF : dut.from_part))
+  `FV_ASSERT(
+      pins_of_the_chosen_axis,
+      !known_q || dut.g_uart.u_host.switches_ni == {alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]} && dut.g_uart.u_host.hold_i == hold[n])
+  `FV_ASSERT(
+      switches_reach_the_bank,
+      dut.u_part.alm_n == alm_n && dut.u_part.cnp_n == cnp_n && {dut.u_part.l4_n, dut.u_part.l3_n, dut.u_part.l2_n, dut.u_part.l1_n} == {l4_n, l3_n, l2_n, l1_n})
+  `FV_ASSERT(lamps, led_moving == (hold != '1) && led_switch == ({l1_n, l2_n, l3_n, l4_n, alm_n} != '1))
+  `FV_ASSERT(spi_is_quiet, !miso_oe && !miso_o)
+  `FV_COVER(seen_axis, asked_q && dut.part_cs_n)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_board_host, a stand-in for the proof of who holds one: any strobes, any answer to the PC. Its outputs are driven by
+// nobody.
+`default_nettype none
+
+module ppmc_board_host #(
+    parameter int unsigned ClkHz     = 24_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter bit          Datasheet = 1'b0,
+    parameter string       Host      = "UART",      // or "BUS"
+    parameter int unsigned Baud      = 115_200,
+    parameter int unsigned Part      = 104,         // number in IDENT
+    parameter int unsigned Axes      = 1,           // axis 1 in the low bits
+    parameter int unsigned AddrBits  = 1,           // address lines of the part, 1 .. 4
+    parameter bit          Counter   = 1'b1,        // pulses are counted
+    parameter int unsigned Watch     = 1,           // levels that are recorded
+    parameter int unsigned Record    = 0            // 2**Record records of them; 0: no recorder
+) (
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    // UART host
+    input  wire logic                rxd_i,
+    output logic                     txd_o,
+    // bus host
+    input  wire logic                cs_ni,
+    input  wire logic                rd_ni,
+    input  wire logic                wr_ni,
+    input  wire logic [AddrBits-1:0] a_i,
+    input  wire logic [         7:0] d_i,
+    // the part's bus
+    output logic                     part_rst_no,
+    output logic                     part_cs_no,
+    output logic                     part_rd_no,
+    output logic                     part_wr_no,
+    output logic      [AddrBits-1:0] part_a_o,
+    output logic      [         7:0] part_d_o,
+    input  wire logic [         7:0] part_d_i,
+    input  wire logic                int_ni,
+    // board
+    output logic      [         7:0] straps_o,
+    input  wire logic [  Axes*6-1:0] switches_ni,  // as ppmc_uart_host has them
+    input  wire logic [    Axes-1:0] hold_i,
+    input  wire logic [    Axes-1:0] pout_ni,
+    input  wire logic [    Axes-1:0] dir_i,
+    input  wire logic [   Watch-1:0] watch_i,      // all pins of the part, of the clock domain
+    output logic                     link_o        // 1: a script is running or an answer is on its way
+);
+
+endmodule
+
+`default_nettype wire
