@@ -11,7 +11,7 @@ import typer
 from ... import parts
 from ...host import PpmcError
 from ...host.bridge.link import DEFAULT_BAUD, Link
-from ...host.ports.transport import SIM
+from ...host.ports.transport import MODEL, SIM
 from ...host.selftest import page
 from ...host.selftest.plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Plan
 from ...host.selftest.run import SelfTest
@@ -76,8 +76,10 @@ def selftest(
 
 
 def _spec() -> str:
-    """The port; a virtual board gets a recorder."""
+    """The port; a virtual board gets a recorder, the golden model cannot be compared with itself."""
     spec = BOARD.spec
+    if spec.startswith(MODEL):
+        raise PpmcError("model: is what a board is compared with: name its port, or sim: for a virtual one")
     if not spec.startswith(SIM) or "record=" in spec:
         return spec
     return f"{spec}{'' if spec.endswith(':') else ','}record={RECORDS}"

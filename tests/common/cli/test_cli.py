@@ -138,6 +138,7 @@ def test_ports(run: Run) -> None:
         (["--port", FAST + ",alarm=4100..4200", "move", "1000"], 1, "alarm input ended the motion"),
         (["--baud", "9600", "info"], 1, "9600 baud is not a rate"),
         (["script", "/nowhere.txt"], 1, "/nowhere.txt: cannot be read"),
+        (["selftest", "--yes"], 1, "name its port, or sim:"),
     ],
 )
 def test_refusals_are_one_line(run: Run, words: list[str], code: int, text: str) -> None:
