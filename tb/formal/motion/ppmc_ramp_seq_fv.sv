@@ -16,8 +16,7 @@ module ppmc_ramp_seq_fv (
     input wire logic [2:0] rate_i,
     input wire logic       ramp_i,
     input wire logic       pulse_i,
-    input wire logic       forced_i,
-    input wire logic       stop_i       // of the motion: no pulse in its clk or later
+    input wire logic       forced_i
 );
 
   logic [2:0] lut_addr_o, rate_o;
@@ -48,7 +47,6 @@ module ppmc_ramp_seq_fv (
       if (load_i)
         {loaded_q, over_q, due_q, constant_q} <= {2'b10, single_i ? 6'd1 : {1'b0, count_i} + 6'd1, rate_i};
       else if (pulse_i) {over_q, due_q} <= {last_o, due_q - 1'b1};
-      else if (stop_i) over_q <= 1'b1;
     end
 
   always_ff @(posedge clk_i) {addr2_q, addr1_q} <= {addr1_q, lut_addr_o};
@@ -65,7 +63,7 @@ module ppmc_ramp_seq_fv (
   // after the last one.
   `FV_ASSUME(
       pulses_apart,
-      !(pulse_i && (load_i || stop_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
+      !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
   // The builder: no threshold beyond PA, which stands at the high-speed rate.
   `FV_ASSUME(table_up_to_pa, lut_data_i <= 3'(steps_i) && (addr2_q != fast_i || lut_data_i == 3'(steps_i)))
   `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
@@ -73,7 +71,8 @@ module ppmc_ramp_seq_fv (
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  `FV_ASSUME(forced_stays, !$past(forced_i && loaded_q && !over_q && !load_i && !stop_i) || forced_i)
+  // The guard may take it back with the end of a motion; no pulse comes then that could use it.
+  `FV_ASSUME(forced_stays, !$past(forced_i && loaded_q && !load_i) || forced_i)
   `FV_ASSUME(no_force_at_the_start, !load_i || !forced_i)
 
   `FV_ASSERT(p104_opr_02_exact_count, !(loaded_q && !over_q && gap_q >= 3'd3) || final_o == (due_q == 6'd1))
