@@ -196,7 +196,7 @@ module ppmc_axis_fv
   logic [2:0] climb;
   logic test, read, waits, slower, loads;
   assign {state, probe, counted} = {dut.u_seq.state_q, dut.u_seq.probe_q, dut.u_rate.count_q};
-  assign climb = dut.u_seq.climb_q;
+  assign climb = dut.u_seq.climb;
   assign {test, read, waits} = {state == 2'd3, state == 2'd1, state == 2'd2};
   assign {slower, loads} = {dut.u_seq.slower_q, dut.u_seq.load_q};
 

@@ -71,8 +71,12 @@ module ppmc_ramp_seq_fv (
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  // The guard may take it back with the end of a motion; no pulse comes then that could use it.
-  `FV_ASSUME(forced_stays, !$past(forced_i && loaded_q && !load_i) || forced_i)
+  // The guard takes it back with the end of a motion alone, behind which no pulse comes.
+  logic forced_q, taken_back_q;
+  always_ff @(posedge clk_i)
+    if (!rst_ni || load_i) {forced_q, taken_back_q} <= '0;
+    else {forced_q, taken_back_q} <= {forced_i, taken_back_q || (forced_q && !forced_i)};
+  `FV_ASSUME(forced_stays, !(pulse_i && !forced_i && forced_q) && !(pulse_i && taken_back_q))
   `FV_ASSUME(no_force_at_the_start, !load_i || !forced_i)
 
   `FV_ASSERT(p104_opr_02_exact_count, !(loaded_q && !over_q && gap_q >= 3'd3) || final_o == (due_q == 6'd1))
