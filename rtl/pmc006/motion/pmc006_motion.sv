@@ -146,7 +146,9 @@ module pmc006_motion
 
   logic unused_settings;
 
-  assign unused_settings = &{1'b0, settings_i.autodec, settings_i.att, settings_i.cur, settings_i.free, settings_i.mstep[0]};
+  assign unused_settings = &{
+    1'b0, settings_i.autodec, settings_i.att, settings_i.cur, settings_i.free, settings_i.mstep[0]
+  };
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(motion_start_at_rest, !(load && busy_q))
