@@ -100,7 +100,7 @@ async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
     time, then intervals are those of the PPMC-104."""
     lab = await Lab.start(dut)
     axis = lab.axes[lab.size - 2]
-    ramp = (90, 2, 3)
+    ramp = (90, 2, 4)
     await axis.init(0x0A, *ramp)
     for csel, vsel in ((0, 1), (0, 0), (1, 1)):
         await axis.set_config(csel, vsel)
