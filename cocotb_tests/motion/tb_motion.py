@@ -483,7 +483,11 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 @cocotb.test()
 @cocotb.parametrize(flagged=[0, 1], variant=[0, 1, 2])
 async def stop_guard_truth_table(dut, flagged, variant):
-    """Given every combination of levels, then stop, forced and slow_seen are those of a plain function."""
+    """Given every combination of levels, then stop, forced and slow_seen are those of a plain function.
+
+    In a clk of stop the other two say nothing: there is no pulse that could use them, and what is kept of them
+    is asked in stop_guard_causes.
+    """
     u = Unit(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
     await u.reset()
     if flagged:
@@ -496,7 +500,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
     # One level changes at a time (Gray code): one write a combination.
     for n in range(1, 2 ** len(names) + 1):
         got, want = await u.settle(), guard(p, flagged, variant)[:3]
-        if got != want:
+        if got[1] != want[1] or (not want[1] and got != want):
             same(f"{[name for name in p if p[name]]}: seen, stop, forced", got, want)
         bit = (n & -n).bit_length() - 1
         if bit < len(names):

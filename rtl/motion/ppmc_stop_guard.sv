@@ -27,7 +27,7 @@ module ppmc_stop_guard
     input  wire logic      halt_i,       // immediate stop command
     input  wire logic      decel_i,      // decelerating stop command
     input  wire logic      slow_i,       // act on a slow-down limit now; slow_seen_o, or later
-    output logic           slow_seen_o,  // one is seen that counts
+    output logic           slow_seen_o,  // one is seen that counts; says nothing in a clk of stop_o
     output logic           stop_o,       // end the motion now, no further pulse
     output logic           forced_o,     // forced deceleration is requested; says nothing in a clk of stop_o
     output logic           flagged_o,    // the same, as a state (registered)
