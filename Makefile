@@ -179,7 +179,7 @@ test-verilog: $(ENVDEV) $(ENVCAMP) ## the part tests on that Verilog; T=quick fo
 	@$(if $(SIM),SIM_MAIN=$(call quote,$(SIM))) $(PY) -m scripts.gates --plain $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(SEED),--seed $(SEED))
 
 test-fusesoc: $(ENVDEV) ## FuseSoC and edalize build the bitstream of BOARD=… from that Verilog, in build/edalize/
-	@$(PY) -m scripts.packages.plain_boards $(BOARD)
+	@$(PYTEST) tests/*/fusesoc && $(PY) -m scripts.packages.plain_boards $(BOARD)
 
 test-litex: $(ENVLITEX) $(ENVDEV) ## openppmc.litex: a VexRiscv moves motors with the C driver; needs riscv64-unknown-elf-gcc, without it that is skipped
 	@$(PYTEST) tests/*/litex $(if $(T),-k $(call any,$(T)))

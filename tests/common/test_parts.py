@@ -45,7 +45,7 @@ SHARED = {
     "tests": {"common"},
     "docs": {"img", "boards"},
     "rtl": {"common", "motion", "single", "host", "boards"},
-    "tb": {"board", "cdriver", "formal", "fuzz", "line"},
+    "tb": {"board", "cdriver", "formal", "fuzz", "line", "litex"},
 }
 PLACES = [(row.name, column) for row in PARTS.values() for column in LAYER_OF if getattr(row, column)]
 own = pytest.mark.parametrize("row", folders(), ids=lambda row: row.name)

@@ -19,9 +19,9 @@ module ppmc312_muldiv #(
     input wire logic keep_i,  // go on with the product instead of h and lo_i
     input wire logic [5:0] steps_i,  // 1 .. LoBits
     input wire logic [LoBits-1:0] lo_i,  // multiplier; lower part of the dividend
-    // with start_i h: summand, upper part of the dividend; then the operand, steady while busy and, of a division,
-    // while hi_o is looked at
-    input wire logic [HiBits-1:0] operand_i,
+    // With start_i h: summand, upper part of the dividend. Then steady while busy and, of a division, while hi_o is
+    // looked at.
+    input wire logic [HiBits-1:0] operand_i,  // h, then the operand
     output logic busy_o,  // the result does not stand yet
     output logic [HiBits-1:0] hi_o,  // product; remainder
     output logic [LoBits-1:0] lo_o  // low bits of the product on top; quotient

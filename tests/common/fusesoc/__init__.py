@@ -1,0 +1,1 @@
+"""FuseSoC builds boards: what needs yosys."""
