@@ -96,8 +96,8 @@ async def bank_mot_01_slow_clocks(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
-    """Given csel L and a ramp that skips so many rates that the way down looks for the next one beyond the low
-    time, then intervals are those of the PPMC-104."""
+    """Given csel L and a ramp that skips so many rates that the way down looks for the next one beyond the
+    low time, then intervals are those of the PPMC-104."""
     lab = await Lab.start(dut)
     axis = lab.axes[lab.size - 2]
     ramp = (90, 2, 4)

@@ -485,8 +485,8 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 async def stop_guard_truth_table(dut, flagged, variant):
     """Given every combination of levels, then stop, forced and slow_seen are those of a plain function.
 
-    In a clk of stop the other two say nothing: there is no pulse that could use them, and what is kept of them
-    is asked in stop_guard_causes.
+    In a clk of stop the other two say nothing: there is no pulse that could use them, and what is kept of
+    them is asked in stop_guard_causes.
     """
     u = Unit(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
     await u.reset()

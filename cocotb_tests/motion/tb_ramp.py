@@ -133,7 +133,7 @@ async def ramp_builder_exact(dut, bits):
 
 @cocotb.test()
 async def ramp_table_read(dut):
-    """Given a built table, then thr(r) stands two clk after its address, the ramp's numbers beside it; again."""
+    """Given a built table, then thr(r) stands two clk after its address, the ramp beside it; again."""
     u = Unit(dut, "table", BLOCKS, "busy_o data_o slow_o fast_o steps_o")
     await u.reset()
     for slow, fast, steps in ((40, 5, 300), (30, 22, 9), (77, 77, 100)):

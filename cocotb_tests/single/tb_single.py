@@ -52,7 +52,8 @@ BLOCKS = {
     **{
         f"setup{idle}": Block(
             "ppmc_setup",
-            "init_i code_i:8:ppmc_code_pkg::init_code_t home_i positive_i ready_i off_i setup_o:6 initialised_o",
+            "init_i code_i:8:ppmc_code_pkg::init_code_t home_i positive_i ready_i off_i setup_o:6"
+            " initialised_o",
             {"PhaseIdle": idle},
         )
         for idle in (0, 1)

@@ -133,7 +133,7 @@ module ppmc312_mailbox
   assign last = rd_done && shown_q && rd_rs == RegDrr && left_q == (BLOCK_BITS + 1)'(1);
   assign rd_load_o = rd_any_i && mref && !loaded_q && pause_q == '0;
   assign rd_done_o = last;
-  assign rd_addr_o = BLOCK_BITS'(ppmc_pkg::dec(32'(mref ? rd_size_i : left_q)));
+  assign rd_addr_o = BLOCK_BITS'(ppmc_pkg::dec(mref ? 32'(rd_size_i) : 32'(left_q)));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

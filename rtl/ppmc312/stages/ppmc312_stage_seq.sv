@@ -121,7 +121,7 @@ module ppmc312_stage_seq
         {{6{back}}, back || now_q.flat || !first_q};
     ramp_down_q <= held_q.rate >= rate_q;
     ramp_end_at_q <= ppmc_pkg::less(32'(b), 32'(a)) ? a : b;
-    ramp_some_q <= ppmc_pkg::less(32'(ramp_end_at_q), 32'(ramp_down_q ? target_q.gt1 : held_q.ge1));
+    ramp_some_q <= ppmc_pkg::less(32'(ramp_end_at_q), ramp_down_q ? 32'(target_q.gt1) : 32'(held_q.ge1));
   end
 
   // ---- decision --------------------------------------------------------------------------------------------------

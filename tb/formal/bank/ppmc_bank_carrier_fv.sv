@@ -58,12 +58,17 @@ module ppmc_bank_carrier_fv (
              !known_q || dut.part_cs_n || (!dut.g_uart.host_cs_n && !own && axis_q[7:6] == '0))
   `FV_ASSERT(reads_the_bank_or_the_choice,
              !known_q || dut.g_uart.to_host == (own ? axis_q : axis_q[7:6] != '0 ? 8'hFF : dut.from_part))
-  `FV_ASSERT(
-      pins_of_the_chosen_axis,
-      !known_q || dut.g_uart.u_host.switches_ni == {alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]} && dut.g_uart.u_host.hold_i == hold[n])
-  `FV_ASSERT(
-      switches_reach_the_bank,
-      dut.u_part.alm_n == alm_n && dut.u_part.cnp_n == cnp_n && {dut.u_part.l4_n, dut.u_part.l3_n, dut.u_part.l2_n, dut.u_part.l1_n} == {l4_n, l3_n, l2_n, l1_n})
+  logic pins_of_the_chosen_axis_holds;
+  assign pins_of_the_chosen_axis_holds =
+      !known_q ||
+      dut.g_uart.u_host.switches_ni == {alm_n[n], cnp_n[n], l4_n[n], l3_n[n], l2_n[n], l1_n[n]} &&
+      dut.g_uart.u_host.hold_i == hold[n];
+  `FV_ASSERT(pins_of_the_chosen_axis, pins_of_the_chosen_axis_holds)
+  logic switches_reach_the_bank_holds;
+  assign switches_reach_the_bank_holds =
+      dut.u_part.alm_n == alm_n && dut.u_part.cnp_n == cnp_n &&
+      {dut.u_part.l4_n, dut.u_part.l3_n, dut.u_part.l2_n, dut.u_part.l1_n} == {l4_n, l3_n, l2_n, l1_n};
+  `FV_ASSERT(switches_reach_the_bank, switches_reach_the_bank_holds)
   `FV_ASSERT(lamps, led_moving == (hold != '1) && led_switch == ({l1_n, l2_n, l3_n, l4_n, alm_n} != '1))
   `FV_ASSERT(spi_is_quiet, !miso_oe && !miso_o)
   `FV_COVER(seen_axis, asked_q && dut.part_cs_n)

@@ -124,12 +124,16 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(lemma_pace_r, !(known_q && axis[0] + 3'd1 == watched_i) || dut.pace_r_q == pace_q)
   `FV_ASSERT(lemma_pace0, !(known_q && axis[0] == watched_i) || dut.pace0_q == pace_q)
   `FV_ASSERT(lemma_pace1, !(known_q && axis[1] == watched_i) || dut.pace1_q == pace_q)
-  `FV_ASSERT(
-      lemma_words1,
-      axis[1] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words1_q == words_q) && (!ramped_q || dut.ramp1_q == ramp_q)))
-  `FV_ASSERT(
-      lemma_words2,
-      axis[2] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words2_q == words_q) && (!ramped_q || dut.ramp2_q == ramp_q)))
+  logic lemma_words1_holds;
+  assign lemma_words1_holds =
+      axis[1] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words1_q == words_q) && (!ramped_q ||
+      dut.ramp1_q == ramp_q));
+  `FV_ASSERT(lemma_words1, lemma_words1_holds)
+  logic lemma_words2_holds;
+  assign lemma_words2_holds =
+      axis[2] != watched_i || clk_q < 5'd6 || ((!worded_q || dut.words2_q == words_q) && (!ramped_q ||
+      dut.ramp2_q == ramp_q));
+  `FV_ASSERT(lemma_words2, lemma_words2_holds)
 
   `FV_ASSERT(bank_gen_05_motion_stays, !(known_q && axis[2] == watched_i) || dut.early2_q == early_q)
   `FV_ASSERT(bank_gen_05_position_stays, !(known_q && axis[2] == watched_i) || dut.late2_q == late_q)
@@ -172,9 +176,11 @@ module ppmc_bank_engine_fv
   assign units_word = dut.chops[watched_i];
 
   `FV_ASSERT(lemma_words, !known_q || {early_word, late_word, pace_word} == {early_q, late_q, pace_q})
-  `FV_ASSERT(
-      lemma_set,
-      (!worded_q || words_word == words_q) && (!ramped_q || ramp_word == ramp_q) && (!chopped_q || units_word == units_q))
+  logic lemma_set_holds;
+  assign lemma_set_holds =
+      (!worded_q || words_word == words_q) && (!ramped_q || ramp_word == ramp_q) && (!chopped_q ||
+      units_word == units_q);
+  `FV_ASSERT(lemma_set, lemma_set_holds)
 
   // For the search: the stages of the watched axis, and what the outputs say of its last visit.
   localparam int unsigned BusyAt = $bits(command_t) + $bits(setting_t) + $bits(walk_t) - 1;

@@ -83,9 +83,11 @@ module ppmc_bank_fv
   `FV_ASSERT(bank_mot_01_phases_by_its_own_order,
              !steady || s[5*watched_i+:5] == s_q || (now_q && (sets_q || ordered_q)))
   `FV_ASSERT(bank_mot_02_none_at_its_own_alarm, !(steady && pout_q && !pout_n[watched_i]) || !alarm_q[2])
-  `FV_ASSERT(
-      bank_mot_05_its_own_switches,
-      dut.axis[2] != {1'b0, watched_i} || !steady || (dut.seen.switches.alarm == alarm_q[1] && dut.seen.switches.limit_cw == cw_q[1] && dut.seen.mask == dut.mask[watched_i]))
+  logic bank_mot_05_its_own_switches_holds;
+  assign bank_mot_05_its_own_switches_holds =
+      dut.axis[2] != {1'b0, watched_i} || !steady || (dut.seen.switches.alarm == alarm_q[1] &&
+      dut.seen.switches.limit_cw == cw_q[1] && dut.seen.mask == dut.mask[watched_i]);
+  `FV_ASSERT(bank_mot_05_its_own_switches, bank_mot_05_its_own_switches_holds)
   `FV_ASSERT(bank_win_08_map, !told_q || dut.pending_q[watched_i] == pending_q)
   `FV_ASSERT(bank_win_08_pending, !steady || int_n == $past(dut.pending_q == '0))
   `FV_COVER(seen_pulse, steady && pout_q && !pout_n[watched_i] && pending_q)

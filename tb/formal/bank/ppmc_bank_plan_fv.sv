@@ -53,17 +53,23 @@ module ppmc_bank_plan_fv
   `FV_ASSUME(at_rest_nothing_runs, walk_i.busy || !(walk_i.run || walk_i.low))
   `FV_ASSUME(known_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)
 
-  `FV_ASSERT(
-      bank_hsk_02_takes_none,
-      !take_o || !(plan_o.finish || plan_o.ready || plan_o.toggle || plan_o.proceed || plan_o.refuse || (facts_i.go && seen_i.mask)))
+  logic bank_hsk_02_takes_none_holds;
+  assign bank_hsk_02_takes_none_holds =
+      !take_o || !(plan_o.finish || plan_o.ready || plan_o.toggle || plan_o.proceed || plan_o.refuse ||
+      (facts_i.go && seen_i.mask));
+  `FV_ASSERT(bank_hsk_02_takes_none, bank_hsk_02_takes_none_holds)
   `FV_ASSERT(bank_hsk_01_takes_what_is_new, !take_o || new_i)
   `FV_ASSERT(bank_hsk_05_waits_for_the_builder, !(take_o && last) || free_i)
-  `FV_ASSERT(
-      bank_hsk_02_takes_the_others,
-      take_o || !new_i || plan_o.finish || setting_i.building || (facts_i.go && seen_i.mask) || plan_o.toggle || (last && !free_i))
-  `FV_ASSERT(
-      a_byte_for_what_a_host_wants,
-      take_o || !(plan_o.start || plan_o.init || plan_o.exc_off || plan_o.switching || plan_o.read || plan_o.halt || plan_o.flag_stop))
+  logic bank_hsk_02_takes_the_others_holds;
+  assign bank_hsk_02_takes_the_others_holds =
+      take_o || !new_i || plan_o.finish || setting_i.building || (facts_i.go && seen_i.mask) ||
+      plan_o.toggle || (last && !free_i);
+  `FV_ASSERT(bank_hsk_02_takes_the_others, bank_hsk_02_takes_the_others_holds)
+  logic a_byte_for_what_a_host_wants_holds;
+  assign a_byte_for_what_a_host_wants_holds =
+      take_o || !(plan_o.start || plan_o.init || plan_o.exc_off || plan_o.switching || plan_o.read ||
+      plan_o.halt || plan_o.flag_stop);
+  `FV_ASSERT(a_byte_for_what_a_host_wants, a_byte_for_what_a_host_wants_holds)
   `FV_ASSERT(
       bank_grp_02_goes_on_or_is_refused,
       (plan_o.proceed || plan_o.refuse) == (facts_i.go && seen_i.mask) && !(plan_o.proceed && plan_o.refuse))
@@ -72,9 +78,11 @@ module ppmc_bank_plan_fv
              !plan_o.proceed || plan_o.finish || plan_o.rise || (anew_o && add_o == due_i))
   `FV_ASSERT(bank_mot_01_first_pulse, !plan_o.start || (anew_o && add_o == 18'(Width - Round)))
   `FV_ASSERT(bank_mot_04_ends_at_rest, !plan_o.finish || !(plan_o.pulse || plan_o.rise || plan_o.start))
-  `FV_ASSERT(
-      p104_err_00_nothing_by_a_fault,
-      !(take_o && asking_o.error) || !(plan_o.start || plan_o.init || plan_o.exc_off || plan_o.switching || plan_o.read || plan_o.halt || plan_o.flag_stop))
+  logic p104_err_00_nothing_by_a_fault_holds;
+  assign p104_err_00_nothing_by_a_fault_holds =
+      !(take_o && asking_o.error) || !(plan_o.start || plan_o.init || plan_o.exc_off || plan_o.switching ||
+      plan_o.read || plan_o.halt || plan_o.flag_stop);
+  `FV_ASSERT(p104_err_00_nothing_by_a_fault, p104_err_00_nothing_by_a_fault_holds)
   `FV_COVER(seen_go, plan_o.proceed && new_i)
   `FV_COVER(seen_start, plan_o.start && take_o)
 

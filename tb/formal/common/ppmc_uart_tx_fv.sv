@@ -70,18 +70,24 @@ module ppmc_uart_tx_fv (
   always_ff @(posedge clk_i) young_q <= !rst_ni ? '0 : (young_q == '1) ? '1 : young_q + 1'b1;
 
   `FV_ASSERT(lemma_age, !way_q || age_q <= 7'd53)
-  `FV_ASSERT(
-      lemma_sends,
-      way_q ? !ready_o && dut.phase_q == sent[3:0] && 5'(dut.left_q) + 5'(sent[7:4]) == 5'd9 && dut.bits_q == rest && txd_o == line : ready_o && txd_o)
+  logic lemma_sends_holds;
+  assign lemma_sends_holds =
+      way_q ? !ready_o && dut.phase_q == sent[3:0] && 5'(dut.left_q) + 5'(sent[7:4]) == 5'd9 &&
+      dut.bits_q == rest && txd_o == line : ready_o && txd_o;
+  `FV_ASSERT(lemma_sends, lemma_sends_holds)
   `FV_ASSERT(lemma_waits, !(way_q ? age_q < 7'd3 : young_q > 3'd2) || (rx_idle && u_rx.phase_q == 4'd8))
   `FV_ASSERT(lemma_idle_line, way_q || young_q < 3'd3 || (u_rx.unused_meta && u_rx.line))
   `FV_ASSERT(lemma_line, !way_q || age_q < 7'd2 || u_rx.line == $past(line, 2))
-  `FV_ASSERT(
-      lemma_receives,
-      !(way_q && age_q >= 7'd3 && age_q < 7'd53) || (u_rx.phase_q == seen[3:0] && (seen[7:4] == '0 ? u_rx.state_q == 1 : u_rx.state_q == 2 && 5'(u_rx.left_q) + 5'(seen[7:4]) == 5'd9)))
-  `FV_ASSERT(
-      lemma_byte,
-      !(way_q && age_q >= 7'd3 && age_q < 7'd53 && seen[7:4] != '0) || (rx_byte >> (4'd9 - seen[7:4])) == (byte_q & ~(8'hFF << (seen[7:4] - 4'd1))))
+  logic lemma_receives_holds;
+  assign lemma_receives_holds =
+      !(way_q && age_q >= 7'd3 && age_q < 7'd53) || (u_rx.phase_q == seen[3:0] &&
+      (seen[7:4] == '0 ? u_rx.state_q == 1 : u_rx.state_q == 2 && 5'(u_rx.left_q) + 5'(seen[7:4]) == 5'd9));
+  `FV_ASSERT(lemma_receives, lemma_receives_holds)
+  logic lemma_byte_holds;
+  assign lemma_byte_holds =
+      !(way_q && age_q >= 7'd3 && age_q < 7'd53 && seen[7:4] != '0) ||
+      (rx_byte >> (4'd9 - seen[7:4])) == (byte_q & ~(8'hFF << (seen[7:4] - 4'd1)));
+  `FV_ASSERT(lemma_byte, lemma_byte_holds)
   `FV_ASSERT(lemma_arrives, rx_valid == (way_q && age_q == 7'd53))
 
   `FV_ASSUME(line_was_at_rest, up_q || !valid_i)

@@ -77,17 +77,21 @@ module ppmc_bridge_answer_fv (
   assign same = counter_i[0] == dut.parity_q;
 
   `FV_ASSERT(lemma_begun, !busy_o || begun_q)
-  `FV_ASSERT(
-      lemma_flags,
-      !(begun_q && settled_q != '0) || (full_o == length_o[8] && full4_o == (length_o > 9'd252) && full16_o == (length_o > 9'd240)))
+  logic lemma_flags_holds;
+  assign lemma_flags_holds =
+      !(begun_q && settled_q != '0) || (full_o == length_o[8] && full4_o == (length_o > 9'd252) &&
+      full16_o == (length_o > 9'd240));
+  `FV_ASSERT(lemma_flags, lemma_flags_holds)
   `FV_ASSERT(lemma_kind, !busy_o || dut.counting_q == counting_q)
   `FV_ASSERT(lemma_room, !busy_o || before_q <= (counting_q ? 9'd252 : 9'd240))
   `FV_ASSERT(lemma_block,
              !(busy_o && !counting_q) || (length_o == before_q + 9'd15 - 9'(left) && age_q == 5'd15 - left))
   `FV_ASSERT(lemma_count, !(busy_o && counting_q) || (length_o == before_q + 9'd3 - 9'(left) && left <= 5'd3))
-  `FV_ASSERT(
-      lemma_passes,
-      !(busy_o && counting_q) || age_q == 5'd3 - left || (age_q == 5'd7 - left && 5'(gap_q) < age_q && 5'(gap_q) + 5'd3 >= age_q))
+  logic lemma_passes_holds;
+  assign lemma_passes_holds =
+      !(busy_o && counting_q) || age_q == 5'd3 - left || (age_q == 5'd7 - left && 5'(gap_q) < age_q &&
+      5'(gap_q) + 5'd3 >= age_q);
+  `FV_ASSERT(lemma_passes, lemma_passes_holds)
   `FV_ASSERT(lemma_moved, !(busy_o && counting_q && left < 5'd3 && !same) || 5'(gap_q) + left <= 5'd2)
   for (genvar n = 0; n < 3; n++) begin : g_byte
     `FV_ASSERT(lemma_bytes,

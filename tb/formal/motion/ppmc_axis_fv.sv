@@ -128,14 +128,18 @@ module ppmc_axis_fv
   `FV_ASSERT(lemma_count_zero, !motion_o.moving || gap_q < 2'd2 || dut.complete == (left_o == '0))
   `FV_ASSERT(lemma_count_apart, !event_o.pulse || gap_q == 2'd3)
   `FV_ASSERT(lemma_count_gap, !motion_o.moving || gap_q != '0)
-  `FV_ASSERT(
-      lemma_count_width,
-      !near || (!dut.up && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 && dut.u_shaper.age_q == Second))))
+  logic lemma_count_width_holds;
+  assign lemma_count_width_holds =
+      !near || (!dut.up && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 &&
+      dut.u_shaper.age_q == Second)));
+  `FV_ASSERT(lemma_count_width, lemma_count_width_holds)
   `FV_ASSERT(lemma_count_quanta,
              !(near && motion_o.running && !base_q.external) || quantum_gap_q == gap_q - 2'd1)
-  `FV_ASSERT(
-      lemma_count_edges,
-      !(near && motion_o.running && base_q.external) || (!dut.g_extra.u_lag.after_q && (rise_gap_q < 3'd3 || (base_q.extra && dut.g_extra.u_lag.before_q))))
+  logic lemma_count_edges_holds;
+  assign lemma_count_edges_holds =
+      !(near && motion_o.running && base_q.external) || (!dut.g_extra.u_lag.after_q && (rise_gap_q < 3'd3 ||
+      (base_q.extra && dut.g_extra.u_lag.before_q)));
+  `FV_ASSERT(lemma_count_edges, lemma_count_edges_holds)
   `FV_ASSERT(lemma_count_forced, !dut.flagged || cause_o.stop || cause_o.slow)
   `FV_ASSERT(lemma_count_why,
              !(motion_o.busy && !motion_o.moving) || op_q.origin || cause_o != '0 || pulses_q == total_q)
@@ -202,43 +206,60 @@ module ppmc_axis_fv
 
   `FV_ASSERT(lemma_rate_since, gap_q == (since_q > 4'd3 ? 2'd3 : since_q[1:0]))
   `FV_ASSERT(lemma_rate_first, !(motion_o.moving && !between) || (state == '0 && !slower && climb == '0))
-  `FV_ASSERT(
-      lemma_rate_near,
-      !motion_o.moving || gap_q < 2'd2 || (dut.u_seq.near_q == (!left_o[3] && climb >= left_o[2:0]) && dut.u_seq.low_q == (climb[2:1] == '0)))
+  logic lemma_rate_near_holds;
+  assign lemma_rate_near_holds =
+      !motion_o.moving || gap_q < 2'd2 || (dut.u_seq.near_q == (!left_o[3] && climb >= left_o[2:0]) &&
+      dut.u_seq.low_q == (climb[2:1] == '0));
+  `FV_ASSERT(lemma_rate_near, lemma_rate_near_holds)
   `FV_ASSERT(lemma_rate_loads, !loads || (since_q == 4'd1 && state == '0))
-  `FV_ASSERT(
-      lemma_rate_constant,
-      !(motion_o.moving && !op_q.ramp) || (!slower && state == '0 && probe == rate_q && (loads || rate_o == rate_q)))
+  logic lemma_rate_constant_holds;
+  assign lemma_rate_constant_holds =
+      !(motion_o.moving && !op_q.ramp) || (!slower && state == '0 && probe == rate_q && (loads ||
+      rate_o == rate_q));
+  `FV_ASSERT(lemma_rate_constant, lemma_rate_constant_holds)
   `FV_ASSERT(lemma_rate_range,
              !(motion_o.moving && op_q.ramp) || loads || (rate_o <= rate_slow_i && rate_o >= rate_fast_i))
-  `FV_ASSERT(
-      lemma_rate_probe,
-      !(motion_o.moving && op_q.ramp) || (slower ? loads || probe == rate_o + 2'd1 : probe >= rate_fast_i && probe <= rate_slow_i && (loads || probe <= rate_o)))
+  logic lemma_rate_probe_holds;
+  assign lemma_rate_probe_holds =
+      !(motion_o.moving && op_q.ramp) || (slower ? loads || probe == rate_o + 2'd1 : probe >= rate_fast_i &&
+      probe <= rate_slow_i && (loads || probe <= rate_o));
+  `FV_ASSERT(lemma_rate_probe, lemma_rate_probe_holds)
   `FV_ASSERT(lemma_rate_back,
              !(between && op_q.ramp) || (dut.u_seq.back_q >= rate_fast_i && dut.u_seq.back_q <= rate_slow_i))
-  `FV_ASSERT(
-      lemma_rate_end,
-      !(motion_o.moving && (waits || test || (state == '0 && since_q > 4'd2))) || dut.u_seq.end_q == (slower ? rate_o == rate_slow_i : probe == rate_fast_i))
-  `FV_ASSERT(
-      lemma_rate_search,
-      !(between && state != '0) || 4'(since_q) == 4'd3 * 4'(slower ? rate_o - from_q : rate_o - probe) + (test ? 4'd1 : read ? 4'hF : 4'd0))
+  logic lemma_rate_end_holds;
+  assign lemma_rate_end_holds =
+      !(motion_o.moving && (waits || test || (state == '0 && since_q > 4'd2))) ||
+      dut.u_seq.end_q == (slower ? rate_o == rate_slow_i : probe == rate_fast_i);
+  `FV_ASSERT(lemma_rate_end, lemma_rate_end_holds)
+  logic lemma_rate_search_holds;
+  assign lemma_rate_search_holds =
+      !(between && state != '0) ||
+      4'(since_q) == 4'd3 * 4'(slower ? rate_o - from_q : rate_o - probe) +
+      (test ? 4'd1 : read ? 4'hF : 4'd0);
+  `FV_ASSERT(lemma_rate_search, lemma_rate_search_holds)
   `FV_ASSERT(lemma_rate_searched, !(between && slower && state != '0) || rate_o >= from_q)
   `FV_ASSERT(
       lemma_rate_clk,
       !inner || since_q == '1 || 6'(since_q) >= {1'b0, quanta_q[2:0], 2'b00} + 6'(quantum_gap_q) + 6'd1)
   `FV_ASSERT(lemma_rate_few, !inner || quanta_q < 5'd16)
-  `FV_ASSERT(
-      lemma_rate_edges,
-      !(between && base_q.external) || since_q == '1 || 6'(since_q) >= {1'b0, counted, 3'b000} + (dut.g_extra.u_lag.before_q ? 6'd0 : 6'(rise_gap_q)) + 6'd1)
+  logic lemma_rate_edges_holds;
+  assign lemma_rate_edges_holds =
+      !(between && base_q.external) || since_q == '1 ||
+      6'(since_q) >= {1'b0, counted, 3'b000} + (dut.g_extra.u_lag.before_q ? 6'd0 : 6'(rise_gap_q)) + 6'd1;
+  `FV_ASSERT(lemma_rate_edges, lemma_rate_edges_holds)
   `FV_ASSERT(lemma_rate_before,
              !(between && base_q.external && base_q.extra && dut.g_extra.u_lag.before_q) || counted == '0)
   `FV_ASSERT(lemma_rate_counted, !between || counted <= rate_o || loads)
-  `FV_ASSERT(
-      lemma_rate_left,
-      !inner || (dut.u_base.last_q == (dut.u_base.left_q == '0) && dut.u_base.left_q <= (base_q.slow && !dut.u_base.extra_q ? 2'd2 : 2'd1)))
-  `FV_ASSERT(
-      lemma_rate_stretch,
-      !inner || !dut.u_base.extra_q || (base_q.extra && counted == '0 && quanta_q + 5'(dut.u_base.left_q) == 5'd1))
+  logic lemma_rate_left_holds;
+  assign lemma_rate_left_holds =
+      !inner || (dut.u_base.last_q == (dut.u_base.left_q == '0) && dut.u_base.left_q <= (base_q.slow &&
+      !dut.u_base.extra_q ? 2'd2 : 2'd1));
+  `FV_ASSERT(lemma_rate_left, lemma_rate_left_holds)
+  logic lemma_rate_stretch_holds;
+  assign lemma_rate_stretch_holds =
+      !inner || !dut.u_base.extra_q || (base_q.extra && counted == '0 &&
+      quanta_q + 5'(dut.u_base.left_q) == 5'd1);
+  `FV_ASSERT(lemma_rate_stretch, lemma_rate_stretch_holds)
   `FV_ASSERT(lemma_rate_quanta,
              !inner || dut.u_base.extra_q || quanta_q + 5'(dut.u_base.left_q) + 5'd1 == interval(counted))
   `FV_ASSERT(lemma_rate_match, !(between && still_q) || dut.u_rate.match_q == (counted == rate_o))

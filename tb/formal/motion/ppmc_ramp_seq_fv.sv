@@ -61,9 +61,8 @@ module ppmc_ramp_seq_fv (
 
   // The axis: pulses of a motion 3 clk apart, the first one 4 clk behind its start, none while a look-up runs, none
   // after the last one.
-  `FV_ASSUME(
-      pulses_apart,
-      !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
+  `FV_ASSUME(pulses_apart,
+             !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
   // The builder: no threshold beyond PA, which stands at the high-speed rate.
   `FV_ASSUME(table_up_to_pa, lut_data_i <= 3'(steps_i) && (addr2_q != fast_i || lut_data_i == 3'(steps_i)))
   `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
