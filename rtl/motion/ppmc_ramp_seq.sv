@@ -2,8 +2,8 @@
 // ppmc_ramp_seq: pulse count and place on the ramp: how many pulses are left and at which rate the next
 // interval runs.
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
-// Timing: pulses are at least 3 clk apart, the first one 4 clk behind load_i. What pulse_i changes stands after its edge, but for rate_o, which is
-//         the rate of the new interval
+// Timing: pulses are at least 3 clk apart, the first one 4 clk behind load_i. What pulse_i changes stands after
+//         its edge, but for rate_o, which is the rate of the new interval
 //         - speeding up or holding: at once. The look-up of the next rate follows; for its 3 n + 1 clk, n = rates
 //           that the ramp skips, seek_o keeps a pulse back.
 //         - first step down: one clk later (rising_o). It is the rate of the interval before the last step up.
