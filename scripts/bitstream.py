@@ -19,7 +19,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("board", help=", ".join(BOARDS))
     parser.add_argument("--host", default="uart", help=" or ".join(HOSTS))
     parser.add_argument("--part", default="ppmc104", help=" or ".join(BY_PART))
-    parser.add_argument("--seed", type=int, help="one place-and-route seed instead of trying 1 to 5")
+    parser.add_argument("--seed", type=int, help="one place-and-route seed instead of trying 1 to 8")
     parser.add_argument(
         "-G",
         metavar="NAME=VALUE",
