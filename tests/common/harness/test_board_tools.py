@@ -216,8 +216,8 @@ def test_missed_timing_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     old = BOARDS["icebreaker"].file("uart")
     old.parent.mkdir(parents=True)
     old.write_text("an older one")
-    said = r"24 MHz needed: 20\.1 MHz with seed 1, .*20\.5 MHz with seed 5"
+    said = r"24 MHz needed: 20\.1 MHz with seed 1, .*20\.8 MHz with seed 8"
     with pytest.raises(project.ProjectError, match=said):
         boards.build_board("icebreaker", "uart")
-    assert tried == [1, 2, 3, 4, 5]
+    assert tried == [1, 2, 3, 4, 5, 6, 7, 8]
     assert not old.exists()
