@@ -107,7 +107,8 @@ async def p312_stop_between_the_phases_of_a_zero_return(dut: Any, case: Any) -> 
     await host.pins(org_n=0)
     last = await host.pulse(27)
     done = last + 6400 + pace.turn_back
-    await host.go(done - pace.effect - pace.turn - host.side.golden.latency.input_sync)
+    acts = pace.turn + pace.effect + (pace.halt if code == 0x80 else 0)
+    await host.go(done - acts - host.side.golden.latency.input_sync)
     await host.pins(evt0_n=0)
     assert await host.response() == message(code, source=Source.OVERRIDE)
     assert await host.response() == stopped(cause, 27)

@@ -20,7 +20,7 @@ class Pace:
     block is fetched at one byte a clk and judged). judge, effect: from there to the checks, and to the effect
     of anything short. copy: more for what is registered. limits: effect to the limit check of a start.
     answer: effect to the stored answer, without its bytes (one clk each). done: stored to MWEF = 0. reset:
-    begin of processing to the reset by FF, reboot: from there to its effect, reopen: to MWEF = 0. found:
+    begin of processing to the reset by FF, alarm: multiple occurrence to its alarm, halt: effect of 80 to its stop, reboot: from there to its effect, reopen: to MWEF = 0. found:
     further block of a table read after the one before has been read, without its bytes, and one_stage: for
     each of its stages.
     lookup(low), climb, triangle, split: see `starting`. build: 00 to the valid table, without look-ups.
@@ -62,6 +62,8 @@ class Pace:
     answer: int = 3
     done: int = 1
     reset: int = 20
+    alarm: int = 1
+    halt: int = 1
     reboot: int = 2
     reopen: int = 4
     late: int = 1
@@ -121,21 +123,21 @@ class Pace:
         if end - 1 <= table.sa:
             clk, part = clk + 3, plan.n < sum(table.pd[table.sd : end])
         else:
-            clk += {TRAPEZOID_KIND: 7, TRIANGLE: 60}.get(plan.kind, 4)
+            clk += {TRAPEZOID_KIND: 7, TRIANGLE: 61}.get(plan.kind, 4)
             part = plan.kind in (TRIANGLE, RIGHT_DOWN)
         return clk + part * (5 + max(0, end - table.sd))
 
     def filling(self, table: Table) -> int:
         """clk from the effect of 00 to the last word of the table.
 
-        One operation of n steps takes n + 4 clk: K RH, K Rs (24 steps each); then for each stage its speed D
+        One operation of n steps takes n + 4 clk, a division one more: K RH, K Rs (24 steps each); then for each stage its speed D
         (24), D / 2 (1), C + D / 2 and C / D (16 each), and S + D for each side (24); then again D, and for
         each side that uses the stage P D and its share of S (24 each).
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)
-        shares = sum((127 - first) * (28 + 28 + 1) for first in sides) + separate * table.sa
-        rates = speed + 5 + 20 + 20 + 2 + 28 * (1 + separate) + 1
+        shares = sum((127 - first) * (28 + 29 + 1) for first in sides) + separate * table.sa
+        rates = speed + 5 + 20 + 21 + 2 + 28 * (1 + separate) + 1
         return 3 + 28 + 28 + stages * rates + stages * (speed + 1) + shares + 1
 
     def looking_up(self) -> int:

@@ -44,7 +44,7 @@ module pmc006_stall
 
   always_ff @(posedge clk_i) begin
     if (sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};
-    if (start_i) count_q <= '0;
+    if (!busy_i) count_q <= '0;  // each motion begins with 0
     else if (sample_q) count_q <= counts ? up[6:0] : '0;
   end
 

@@ -42,7 +42,8 @@ module pmc006_motion
   phase_e phase;
 
   assign load = launch_i.start || launch_i.run;
-  assign look = load || launch || update;
+  // Until a motion is accepted they follow, for load has a long way.
+  assign look = !busy_q || launch || update;
   assign rest = speed_q && phase == PhEnd && !launch_i.speed;
   assign thrust_o = '{increment: increment_q, bump: bump_now, lead: lead_now};
   assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q && busy_q};
@@ -62,13 +63,13 @@ module pmc006_motion
       else if (stop) busy_q <= 1'b0;
       if (load) forward_q <= settings_i.dir;
       if (adc_i.valid) adc_q <= adc_i.level;
-      if (load || sample) h_q <= adc_q;
+      if (!busy_q || sample) h_q <= adc_q;
     end
   end
 
-  // No reset: an accepted motion sets what follows.
+  // No reset: what follows is set before a motion.
   always_ff @(posedge clk_i) begin
-    if (load) begin
+    if (!busy_q) begin
       speed_q <= launch_i.run;
       short_q <= launch_i.start && launch_i.count[30:8] == '0;
       ve_q    <= settings_i.vstop;
@@ -85,7 +86,7 @@ module pmc006_motion
       stop_q   <= !launch_i.speed;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
-      steady_q <= !load && phase == PhCruise && next != '0;  // at t = 0 the planning has left V in Vn
+      steady_q <= busy_q && phase == PhCruise && next != '0;  // at t = 0 the planning has left V in Vn
     end
   end
 
@@ -121,7 +122,6 @@ module pmc006_motion
       .clk_i,
       .rst_ni,
       .us_i,
-      .load_i   (load),
       .count_i  (launch_i.count),
       .vstart_i (settings_i.vstart),
       .endless_i(speed_q),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_rate: the running motion's time and steps: update ticks, speed in force, rate accumulator, steps left.
 // Rules:  P006-MOT-01..05, section 5.3.
-// Timing: E = edge of a us tick. At E the count of ticks, V, B and W change, or the motion ends; a step that is due
+// Timing: busy_i falls with the edge of stop_o. E = edge of a us tick. At E the count of ticks, V, B and W change, or the motion ends; a step that is due
 //         is made at E + 2 (step_o is high in the clk before that edge); advance_o follows in the clk after it.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -10,9 +10,8 @@ module pmc006_rate (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        us_i,       // one clk every microsecond
-    input  wire logic        load_i,     // a motion is accepted
-    input  wire logic [30:0] count_i,    // its steps
-    input  wire logic [11:0] vstart_i,   // VSTART, its first V
+    input  wire logic [30:0] count_i,    // with the clk before busy_i: its steps
+    input  wire logic [11:0] vstart_i,   // and VSTART, its first V
     input  wire logic        endless_i,  // kind V
     input  wire logic        busy_i,     // it is under way
     input  wire logic        halt_i,     // stop at once
@@ -47,18 +46,20 @@ module pmc006_rate (
   logic begun_q;  // accumulate
   logic due_q;  // step
   logic [1:0] updated_q;
+  logic [10:0] bump_q;
+  logic [6:0] lead_q;
 
   ppmc_delay #(
       .Ticks(Plan - 1)
   ) u_plan (
       .clk_i,
-      .restart_i(load_i),
+      .restart_i(!busy_i),
       .tick_i   (1'b1),
       .past_o   (planned)
   );
 
   assign launch_o = busy_i && !run_q && planned && us_i;
-  assign tick     = run_q && us_i;
+  assign tick     = run_q && busy_i && us_i;
   assign wrap     = ticks_q == Ticks - 1'b1;
   assign update_o = tick && wrap;
   assign sample_o = update_o && updates_q == Ticks - 1'b1;
@@ -74,16 +75,16 @@ module pmc006_rate (
       due_q     <= 1'b0;
       advance_o <= 1'b0;
     end else begin
-      if (launch_o) run_q <= 1'b1;
-      if (stop_o || load_i) run_q <= 1'b0;
+      // Cleared by BUSY, a clk after stop_o: that has a long way.
+      run_q     <= busy_i && (run_q || launch_o);
       begun_q   <= tick;
-      updated_q <= stop_o ? '0 : {updated_q[0], launch_o || update_o};
+      updated_q <= {2{busy_i}} & {updated_q[0], launch_o || update_o};
       due_q     <= begun_q && sum[20] && busy_i;
-      advance_o <= updated_q[1] && !stop_o;
+      advance_o <= updated_q[1] && busy_i;
     end
   end
 
-  // No reset: an accepted motion sets what follows.
+  // No reset: what follows is set before a motion.
   always_ff @(posedge clk_i) begin
     if (!run_q) {ticks_q, updates_q} <= '0;
     else if (tick) begin
@@ -94,19 +95,23 @@ module pmc006_rate (
     if (!run_q) accu_q <= Rest;
     else if (begun_q || due_q) accu_q <= sum[19:0];
 
-    if (load_i) v_o <= 14'(vstart_i);
+    // Until it is accepted: load_i has a long way.
+    if (!busy_i) v_o <= 14'(vstart_i);
     else if (update_o || start_v_i) v_o <= next_i;
 
-    if (load_i) left_o <= count_i;
+    if (!busy_i) left_o <= count_i;
     else if (step_o) left_o <= left_o - 1'b1;
     last_q <= left_o == 31'd1;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {bump_o, lead_o} <= '0;
-    else if (load_i || stop_o) {bump_o, lead_o} <= '0;
-    else if (update_o) {bump_o, lead_o} <= {bump_i, lead_i};
+    if (!rst_ni) {bump_q, lead_q} <= '0;
+    else if (!busy_i) {bump_q, lead_q} <= '0;
+    else if (update_o) {bump_q, lead_q} <= {bump_i, lead_i};
   end
+
+  assign bump_o = bump_q & {11{busy_i}};
+  assign lead_o = lead_q & {7{busy_i}};
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(rate_pulse_apart, !(step_o && $past(step_o)))

@@ -92,6 +92,7 @@ module ppmc312_instr
       .told_i     (told),
       .open_i     (paced),
       .idle_o     (idle),
+      .settled_o  (order_o.settled),
       .block_o,
       .do_o,
       .multi_o,
@@ -139,8 +140,6 @@ module ppmc312_instr
       .peek_at_i    (peek_at),
       .fetch_data_o (entry_data)
   );
-
-  assign order_o.settled = !stored.due && (idle || block_o.source != SrcOverride);
 
   // ---- what they set going ---------------------------------------------------------------------------------------
 

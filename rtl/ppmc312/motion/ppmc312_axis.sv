@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_axis: the motor side: settings, motion, positions, outputs.
-// Rules:  through its blocks. Timing: act_i is carried out at the edge that ends its cycle.
+// Rules:  through its blocks.
+// Timing: act_i is carried out at the edge that ends its cycle, an immediate stop a clk later.
 `default_nettype none
 
 module ppmc312_axis
@@ -40,10 +41,13 @@ module ppmc312_axis
 
   assign code = block_i.code;
 
-  // The code stands long before act_i; a halt has a long way to go.
-  always_ff @(posedge clk_i) begin
-    halt_q  <= code == I_HALT;
-    decel_q <= code == I_DECEL;
+  // An immediate stop has a long way to the pulses. The code stands long before act_i.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {halt_q, decel_q} <= '0;
+    else begin
+      halt_q  <= act_i && code == I_HALT;
+      decel_q <= code == I_DECEL;
+    end
   end
 
   ppmc312_settings u_settings (
@@ -71,7 +75,7 @@ module ppmc312_axis
       .stage_i,
       .order_i,
       .change_ramp_i(code == I_RAMP),
-      .halt_i       (act_i && halt_q),
+      .halt_i       (halt_q),
       .decel_i      (act_i && decel_q),
       .settings_i   (state_o.settings),
       .levels_i     (inputs_i.levels),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_muldiv: multiplies and divides step by step with one adder; the pair {hi, lo} holds what goes in and out.
 // Rules:  P312-TBL-02/04, P312-MOT-11 (exact integer products and quotients).
-// Timing: busy_o is high for steps_i clk after start_i, then the result stands.
+// Timing: busy_o is high for steps_i clk after start_i, of a division one more; then the result stands.
 // How:    multiply: h + operand * (low bits of lo_i), shifted right; after n steps the result has its low n
 //         bits on top of lo. Divide: {hi, lo} by the operand, shifted left; after n steps hi is
 //         the remainder and the low n bits of lo the quotient, for which h < operand < 2**(HiBits - 1) must
-//         hold. It is not restored: a remainder below 0 gets the operand back in the next step, or in hi_o.
+//         hold. It is not restored: a remainder below 0 gets the operand back in the next step, or in that last clk.
 `default_nettype none
 
 module ppmc312_muldiv #(
@@ -19,8 +19,7 @@ module ppmc312_muldiv #(
     input wire logic keep_i,  // go on with the product instead of h and lo_i
     input wire logic [5:0] steps_i,  // 1 .. LoBits
     input wire logic [LoBits-1:0] lo_i,  // multiplier; lower part of the dividend
-    // With start_i h: summand, upper part of the dividend. Then steady while busy and, of a division, while hi_o is
-    // looked at.
+    // With start_i h: summand, upper part of the dividend. Then steady while busy.
     input wire logic [HiBits-1:0] operand_i,  // h, then the operand
     output logic busy_o,  // the result does not stand yet
     output logic [HiBits-1:0] hi_o,  // product; remainder
@@ -30,17 +29,17 @@ module ppmc312_muldiv #(
   logic [5:0] left_q;
   logic mul_q, load, last;
   logic busy_q, shift_q;  // what left_q is; a division is under way
+  logic mend_q;  // a remainder below 0 gets the operand back
   logic take_q, less_q, take, less;  // the operand goes into the sum; it is subtracted
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;
 
-  assign busy_o = busy_q;
+  assign busy_o = busy_q || mend_q;
   assign load   = start_i && !keep_i;
   assign last   = left_q == 6'd1;
   assign under  = sum[HiBits-1];
-  // At rest the sum gives a remainder below 0 the operand back.
-  assign hi_o   = sum[HiBits-1:0];
+  assign hi_o   = hi_q;
 
   // A load goes through the adder, too: h is added to 0.
   assign take   = take_q || load;
@@ -56,12 +55,16 @@ module ppmc312_muldiv #(
     if (!rst_ni) begin
       left_q <= '0;
       busy_q <= 1'b0;
-    end else if (start_i) begin
-      left_q <= steps_i;
-      busy_q <= 1'b1;
-    end else if (busy_q) begin
-      left_q <= 6'(ppmc_pkg::dec(32'(left_q)));
-      busy_q <= !last;
+      mend_q <= 1'b0;
+    end else begin
+      mend_q <= busy_q && last && !mul_q;
+      if (start_i) begin
+        left_q <= steps_i;
+        busy_q <= 1'b1;
+      end else if (busy_q) begin
+        left_q <= 6'(ppmc_pkg::dec(32'(left_q)));
+        busy_q <= !last;
+      end
     end
   end
 
@@ -77,7 +80,7 @@ module ppmc312_muldiv #(
       take_q  <= mul_q ? lo_o[1] && !last : under || !last;
       less_q  <= !mul_q && !under && !last;
     end
-    if (load || busy_q) hi_q <= (mul_q && !load) ? sum[HiBits:1] : sum[HiBits-1:0];
+    if (load || busy_o) hi_q <= (mul_q && !load) ? sum[HiBits:1] : sum[HiBits-1:0];
     if (load) lo_o <= lo_i;
     else if (busy_q) begin
       lo_o <= mul_q ? {sum[0], lo_o[LoBits-1:1]} : {lo_o[LoBits-2:0], !under};

@@ -68,9 +68,11 @@ module ppmc312_stage_plan
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
   logic [1:0] valid_q, in_acc_q, in_dec_q;  // in the sides: this stage, the one before
+  // StMeet, a clk late: nothing is left, or less; its first clk; counts.
+  logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
-  logic [6:0] at, ge_q, ge1_q, gt1_q;
+  logic [6:0] at, met_q, ge_q, ge1_q, gt1_q;
   logic [23:0] own_q, acc_q, own_kept_q, acc_kept_q, dec_kept_q, x;
   logic [24:0] sum_q, over_q;
   logic [25:0] ahead;
@@ -143,9 +145,10 @@ module ppmc312_stage_plan
 
   // What is left of the operation without the pulses of the sum.
   assign ahead = {1'b0, count_i[24:0]} - {1'b0, sum_q};
-  assign big   = count_i[31:25] != '0;
-  assign full  = big || !ahead[25];
-  assign none  = !big && (ahead[25] || ahead[24:0] == '0);
+  assign big = count_i[31:25] != '0;
+  assign full = big || !ahead[25];
+  assign none = !big && (ahead[25] || ahead[24:0] == '0);
+  assign over_none = !big && (below_q || over_q == '0);
 
   always_comb begin
     // The first pass adds what the deceleration has where both sides are.
@@ -164,18 +167,20 @@ module ppmc312_stage_plan
   end
 
   // The deceleration as it is, or what is left of it.
-  assign dec_some = state_q == StShort || (state_q == StMeet && next_q);
-  assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) ||
-      (state_q == StMeet && next_q && none);
+  assign dec_some = state_q == StShort || begins_q;
+  assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 
   always_ff @(posedge clk_i) begin
     if (clear) sum_q <= '0;
     else if (!(state_q inside {StMultiply, StDivide})) sum_q <= sum_q + 25'(x);
-    if (state_q == StAcc) over_q <= ahead[24:0];
+    if (state_q inside {StAcc, StMeet}) {below_q, over_q} <= ahead;
+    begins_q <= state_q == StMeet && next_q;
+    counts_q <= state_q == StMeet && counts;
+    met_q    <= at;
     // The deceleration begins with the last stage before which some of its pulses are left.
-    if (state_q == StMeet && counts && !none) begin
-      dec_from_o.stage <= at;
-      dec_from_o.left  <= ahead[23:0];
+    if (counts_q && !over_none) begin
+      dec_from_o.stage <= met_q;
+      dec_from_o.left  <= over_q[23:0];
     end
     if (state_q == StShort) begin
       dec_from_o.stage <= ge_q;
@@ -183,7 +188,7 @@ module ppmc312_stage_plan
     end
     if (state_q == StMeet) dec_from_o.part <= 1'b1;
     if (dec_none) dec_o <= '0;
-    else if (dec_some) dec_o <= next_q ? ahead[23:0] : sum_q[23:0];
+    else if (dec_some) dec_o <= begins_q ? over_q[23:0] : sum_q[23:0];
   end
 
   // ---- arithmetic ------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...common.blocks import Phase
 from .. import pace
 from ..codes import DIR, IDX, Answer, Code, State
 from ..motion.motion import Order
@@ -85,10 +86,13 @@ def start(core: Core, block: bytes) -> Work:
 def stop(core: Core, code: int, at_position: bool) -> Work:
     """80, 81. at_position: triggered by a position."""
 
+    def halt(t: int) -> None:
+        if not core.operation.waits_for_end:
+            core.operation.stop(t)
+
     def act(t: int) -> bytes:
         if code == Code.STOP:
-            if not core.operation.waits_for_end:
-                core.operation.stop(t)
+            core.context.queue.at(t + core.pace.halt, Phase.BUS, halt)
         else:
             core.operation.slow_stop(t)
         return bytes([code])

@@ -47,6 +47,7 @@ class Unit:
         self._job: Job | None = None
         self._storing = False
         self._late: bytes | None = None
+        self._losing = False
         self._rest: list[bytes] = []
         self.holding = False
 
@@ -75,7 +76,8 @@ class Unit:
     @property
     def settled(self) -> bool:
         """Everything that the command FIFO has released is processed."""
-        return not self._core.fifo.triggered and not (self._busy and self._source is Source.OVERRIDE)
+        busy = self._busy and self._source is Source.OVERRIDE
+        return not self._core.fifo.triggered and not self._losing and not busy
 
     def _at(self, t: int, action: Callable[[int], None]) -> None:
         """Instructions see what there was before an edge, so they come first."""
@@ -138,9 +140,17 @@ class Unit:
             self._core.events[number].clear()
         else:
             self._core.drop_overrides(t)
+        self._losing = True
+        self._alarm_soon(t)
+        self.kick(t)
+
+    def _alarm_soon(self, t: int) -> None:
+        self._at(t + self._core.pace.alarm, self._alarm)
+
+    def _alarm(self, t: int) -> None:
+        self._losing = False
         self._core.alarm(t, Alarm.HOST)
         self._core.operation.motion.look_at_rest_soon(t)
-        self.kick(t)
 
     # ------------------------------------------------------------------ processing
 
@@ -160,7 +170,7 @@ class Unit:
         if answer and answer.source is Source.HOST:
             self._idle(t)
             self._answered = True
-            self._core.alarm(t, Alarm.HOST)
+            self._alarm_soon(t)
             self._core.host.done(t)
             self.kick(t)
 
