@@ -20,10 +20,9 @@ class Pace:
     block is fetched at one byte a clk and judged). judge, effect: from there to the checks, and to the effect
     of anything short. copy: more for what is registered. limits: effect to the limit check of a start.
     answer: effect to the stored answer, without its bytes (one clk each). done: stored to MWEF = 0. reset:
-    begin of processing to the reset by FF, alarm: multiple occurrence to its alarm, halt: effect of 80 to its stop, reboot: from there to its effect, reopen: to MWEF = 0. found:
-    further block of a table read after the one before has been read, without its bytes, and one_stage: for
-    each of its stages.
-    lookup(low), climb, triangle, split: see `starting`. build: 00 to the valid table, without look-ups.
+    begin of processing to the reset by FF, alarm: multiple occurrence to its alarm, halt: effect of 80 to its
+    stop, reboot: from there to its effect, reopen: to MWEF = 0. found: further block of a table read after
+    the one before has been read, without its bytes, three more for each of its stages.
 
     Responses. late: an earlier answer read to the one that waited for it (P312-RSP-20, <= 4). load: store to
     load; show: load to MREF = 0; reload: MREF = 1 to the next load (P312-PAR-08).
@@ -130,9 +129,9 @@ class Pace:
     def filling(self, table: Table) -> int:
         """clk from the effect of 00 to the last word of the table.
 
-        One operation of n steps takes n + 4 clk, a division one more: K RH, K Rs (24 steps each); then for each stage its speed D
-        (24), D / 2 (1), C + D / 2 and C / D (16 each), and S + D for each side (24); then again D, and for
-        each side that uses the stage P D and its share of S (24 each).
+        One operation of n steps takes n + 4 clk, a division one more: K RH, K Rs (24 steps each); then for
+        each stage its speed D (24), D / 2 (1), C + D / 2 and C / D (16 each), and S + D for each side (24);
+        then again D, and for each side that uses the stage P D and its share of S (24 each).
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)

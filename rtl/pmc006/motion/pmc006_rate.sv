@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_rate: the running motion's time and steps: update ticks, speed in force, rate accumulator, steps left.
 // Rules:  P006-MOT-01..05, section 5.3.
-// Timing: busy_i falls with the edge of stop_o. E = edge of a us tick. At E the count of ticks, V, B and W change, or the motion ends; a step that is due
-//         is made at E + 2 (step_o is high in the clk before that edge); advance_o follows in the clk after it.
+// Timing: busy_i falls with the edge of stop_o. E = edge of a us tick. At E the count of ticks, V, B and W change, or
+//         the motion ends; a step that is due is made at E + 2 (step_o is high in the clk before that edge); advance_o
+//         follows in the clk after it.
 `include "ppmc_assert.svh"
 `default_nettype none
 
