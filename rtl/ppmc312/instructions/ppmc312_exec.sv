@@ -13,41 +13,40 @@ module ppmc312_exec
   import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input wire logic clk_i,  // clock
-    input wire logic rst_ni,  // reset, asynchronous
-    input wire logic serial_i,  // answers never wait to be read
-    input wire logic boot_i,  // after a reset by instruction: tell so
-    output logic reset_o,  // strobe: reset everything
+    input  wire logic                          clk_i,        // clock
+    input  wire logic                          rst_ni,       // reset, asynchronous
+    input  wire logic                          serial_i,     // answers never wait to be read
+    input  wire logic                          boot_i,       // after a reset by instruction: tell so
+    output logic                               reset_o,      // strobe: reset everything
     // where instructions come from
-    input wire offer_t offer_i,  // a block of the host
-    output logic blk_done_o,  // strobe: it is processed and answered
-    output logic [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
-    input wire logic [7:0] byte_i,  // that byte, two clk later
-    input wire stored_t stored_i,  // instructions that wait for a trigger
-    output remove_t remove_o,  // out of their store
-    output put_t put_o,  // into it
+    input  wire offer_t                        offer_i,      // a block of the host
+    output logic                               blk_done_o,   // strobe: it is processed and answered
+    output logic              [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
+    input  wire logic         [           7:0] byte_i,       // that byte, two clk later
+    input  wire stored_t                       stored_i,     // instructions that wait for a trigger
+    output remove_t                            remove_o,     // out of their store
+    output put_t                               put_o,        // into it
     // state of the part
-    input wire axis_state_t state_i,  // of the motor side
-    input wire table_t table_i,  // in force
-    input wire told_t told_i,  // what block_o tells when it is executed
-    input wire logic open_i,  // the time for block_o has come
-    output logic idle_o,  // no instruction is being processed
-    output logic settled_o,  // nothing that a position has triggered is left
+    input  wire axis_state_t                   state_i,      // of the motor side
+    input  wire table_t                        table_i,      // in force
+    input  wire told_t                         told_i,       // what block_o tells when it is executed
+    input  wire logic                          open_i,       // the time for block_o has come
+    output logic                               idle_o,       // no instruction is being processed
     // to be carried out
-    output block_t block_o,  // the instruction that is being processed
-    output logic do_o,  // strobe: carry it out
-    output logic multi_o,  // strobe, a clk late: multiple occurrence, cause 1
-    output setup_order_t setup_o,  // initial setting, free curve
-    input wire setup_state_t setup_i,  // what has come of it
-    output logic move_o,  // strobe: a start or a rate change
-    input wire move_state_t move_i,  // what has come of it
+    output block_t                             block_o,      // the instruction that is being processed
+    output logic                               do_o,         // strobe: carry it out
+    output logic                               multi_o,      // strobe, a clk late: multiple occurrence
+    output setup_order_t                       setup_o,      // initial setting, free curve
+    input  wire setup_state_t                  setup_i,      // what has come of it
+    output logic                               move_o,       // strobe: a start or a rate change
+    input  wire move_state_t                   move_i,       // what has come of it
     // answers
-    output answer_t answer_o,  // steady while it is written and until commit_o
-    output write_order_t write_o,  // what is to be written
-    input wire write_state_t write_i,  // how far that is
-    output logic hold_o,  // an answer is about to come
-    output logic commit_o,  // strobe: it is complete
-    input wire class2_t class2_i  // answers that wait to be read
+    output answer_t                            answer_o,     // steady while it is written and until commit_o
+    output write_order_t                       write_o,      // what is to be written
+    input  wire write_state_t                  write_i,      // how far that is
+    output logic                               hold_o,       // an answer is about to come
+    output logic                               commit_o,     // strobe: it is complete
+    input  wire class2_t                       class2_i      // answers that wait to be read
 );
 
   typedef enum logic [3:0] {
@@ -73,7 +72,7 @@ module ppmc312_exec
   answer_t next;
   logic move_ends, setup_ends;
   logic [7:0] error, code, flags;
-  logic ov, host, start, fetch_done, n, n_q, lost, lost_q, copy, act, go, registers, unread, idle_read;
+  logic ov, host, start, fetch_done, n, n_q, lost, copy, act, go, registers, unread, idle_read;
   logic host_wait_q, fails, slow;
   logic settle_q, reset_q, plain_q, build_q, used, full, inner, empty, evt_n, unused_busy, write_q, ready;
   logic [2:0] evt_count;
@@ -149,7 +148,6 @@ module ppmc312_exec
 
   assign hold_o = act || state_q inside {StWrite, StReadback} || write_i.table_more;
   assign idle_o = state_q == StIdle;
-  assign settled_o = !stored_i.due && !lost_q && (idle_o || block_o.source != SrcOverride);
 
   // A reset always executes. An instruction on top of an unread answer never does.
   assign reset_o = state_q == StFirst && reset_q;
@@ -287,11 +285,9 @@ module ppmc312_exec
       settle_q    <= 1'b0;
       build_q     <= 1'b0;
       host_wait_q <= 1'b0;
-      lost_q      <= 1'b0;
       multi_o     <= 1'b0;
     end else begin
       state_q  <= state_d;
-      lost_q   <= lost;
       multi_o  <= lost || unread;  // it has a long way to the pulses
       settle_q <= state_q == StSettle;
       write_q  <= state_d == StWrite && state_q != StWrite;  // once, as it begins

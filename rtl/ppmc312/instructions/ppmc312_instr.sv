@@ -92,7 +92,6 @@ module ppmc312_instr
       .told_i     (told),
       .open_i     (paced),
       .idle_o     (idle),
-      .settled_o  (order_o.settled),
       .block_o,
       .do_o,
       .multi_o,
@@ -140,6 +139,9 @@ module ppmc312_instr
       .peek_at_i    (peek_at),
       .fetch_data_o (entry_data)
   );
+
+  // An alarm on its way comes before the end of what a position has stopped.
+  assign order_o.settled = !stored.due && !multi_o && (idle || block_o.source != SrcOverride);
 
   // ---- what they set going ---------------------------------------------------------------------------------------
 

@@ -47,7 +47,7 @@ class Unit:
         self._job: Job | None = None
         self._storing = False
         self._late: bytes | None = None
-        self._losing = False
+        self._alarming = False
         self._rest: list[bytes] = []
         self.holding = False
 
@@ -77,7 +77,7 @@ class Unit:
     def settled(self) -> bool:
         """Everything that the command FIFO has released is processed."""
         busy = self._busy and self._source is Source.OVERRIDE
-        return not self._core.fifo.triggered and not self._losing and not busy
+        return not self._core.fifo.triggered and not self._alarming and not busy
 
     def _at(self, t: int, action: Callable[[int], None]) -> None:
         """Instructions see what there was before an edge, so they come first."""
@@ -140,15 +140,15 @@ class Unit:
             self._core.events[number].clear()
         else:
             self._core.drop_overrides(t)
-        self._losing = True
         self._alarm_soon(t)
         self.kick(t)
 
     def _alarm_soon(self, t: int) -> None:
+        self._alarming = True
         self._at(t + self._core.pace.alarm, self._alarm)
 
     def _alarm(self, t: int) -> None:
-        self._losing = False
+        self._alarming = False
         self._core.alarm(t, Alarm.HOST)
         self._core.operation.motion.look_at_rest_soon(t)
 
