@@ -81,6 +81,7 @@ BLOCKS = {
         )
         for unit, bits in CHOPS
     },
+    "count": Block("ppmc_pulse_counter", "clear_i pout_ni dir_i count_o:4", {"Width": 4}),
     "excitation": Block(
         "ppmc_excitation",
         "motor_i:2:ppmc_motion_pkg::motor_e half_i home_i off_i step_i ccw_i pattern_o:5",
@@ -532,3 +533,21 @@ async def stop_guard_causes(dut, variant):
         stopped = (stopped or bool(stop)) and not clear
         if clear or complete:
             flagged, causes = 0, [0] * 4
+
+
+@cocotb.test()
+async def pulse_counter(dut):
+    """Given pulses of both directions and clears, then falls of pout_n are counted, modulo 16."""
+    rand = rng()
+    u = Unit(dut, "count", BLOCKS, "count_o")
+    await u.reset(pout_ni=1)
+    count, was = 0, 1
+    for n in range(2000):
+        clear, level, ccw = rand.random() < 0.02, rand.randrange(2), rand.randrange(2)
+        if clear:
+            count = 0
+        elif was and not level:
+            count = (count + (-1 if ccw else 1)) % 16
+        was = level
+        await u.clk(clear_i=clear, pout_ni=level, dir_i=ccw)
+        same(f"clk {n}", await u.settle(), count)

@@ -190,3 +190,49 @@ async def p312_echo_is_cut_at_28_bytes(dut: Any) -> None:
     answer = await host.ask("00 1E" + data)
     assert answer == clean("03 1E F0 18" + "0064" * 14)
     assert await host.ask(RATES) == message(Answer.STATUS, "01 01")
+
+
+@directed("P312-OVR-10", "P312-RSP-20")
+async def p312_event_buffer_before_an_override_on_the_same_edge(dut: Any) -> None:
+    host = await Host.start(
+        dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)), message(Code.STOP, "07")
+    )
+    await host.pins(evt0_n=0, evt1_n=0)
+    await host.pause(500)
+    assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
+    assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 40")  # no override waits
+
+
+@cocotb.parametrize(gap=range(38, 56, 3))
+@directed("P312-OVR-10", "P312-RSP-20", "P312-EVT-04")
+async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> None:
+    """The first edge has released the only override of its pin while the entry was being registered."""
+    host = await Host.start(dut, *TF, message(Code.STOP, "07"))
+    await host.put(message(Code.EVENT_SET, "01", message(Code.INPUT)), gap=0)
+    await host.go(host.header + 6)
+    await host.pins(evt1_n=0)
+    await host.go(host.header + 16)
+    await host.pins(evt1_n=1)
+    await host.go(host.header + gap)
+    await host.pins(evt1_n=0)
+    await host.pause(500)
+    assert await host.response() == message(Code.EVENT_SET, "00")
+    assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
+
+
+@cocotb.parametrize(shift=range(-3, 5))
+@directed("P312-OVR-12", "P312-MOT-34", "P312-RSP-20")
+async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
+    """80 by an event, around the clk in which the pulse that a position waits for is made."""
+    setting = (message(Code.STOP, "04 0000000A"), message(Code.EVENT_SET, "00", message(Code.STOP, "00")))
+    host = await Host.start(dut, *TF, *setting)
+    pace = host.side.golden.pace
+    await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
+    before = await host.pulse(8)
+    last = await host.pulse(9)
+    acts = pace.turn + pace.effect + pace.halt + host.side.golden.latency.input_sync
+    await host.go(2 * last - before - acts + shift)
+    await host.pins(evt0_n=0)
+    await host.pause(7000)
+    assert len(host.pulses()) == (9 if shift < 1 else 10)

@@ -10,7 +10,7 @@
 ;   add X            hi = hi + X; Carry: it did not fit
 ;   sub X            hi = hi - X; Carry: X was not greater
 ;   load.lo, add.lo, sub.lo    the same, but the result goes to lo, and hi = 0
-;   mul.N X          {hi, lo} = hi + X * (the lowest N bits of lo); N = 1, 2, 4, 16, 32. After 16 the product is RMid
+;   mul.N X          {hi, lo} = hi + X * (the lowest N bits of lo); N = 1, 2, 16, 32. After 16 the product is RMid
 ;   shift.N          {hi, lo} moves right by N bits; it is mul.N K0
 ;   div X            lo = {hi, lo} / X, hi = the remainder
 ;   add.dec, sub.dec, div.dec  with RWay of the deceleration

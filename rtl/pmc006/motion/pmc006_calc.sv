@@ -92,7 +92,6 @@ module pmc006_calc
         unique case (steps_e'(ir_q.aux))
           N1:      steps = 5'd0;
           N2:      steps = 5'd1;
-          N4:      steps = 5'd3;
           N16:     steps = 5'd15;
           default: steps = 5'd31;
         endcase

@@ -33,8 +33,7 @@ package pmc006_calc_pkg;
   typedef enum logic [3:0] {
     N1,
     N2,
-    N4,
-    N16,
+    N16 = 4'd3,
     N32
   } steps_e;
 
