@@ -20,9 +20,9 @@ class Pace:
     block is fetched at one byte a clk and judged). judge, effect: from there to the checks, and to the effect
     of anything short. copy: more for what is registered. limits: effect to the limit check of a start.
     answer: effect to the stored answer, without its bytes (one clk each). done: stored to MWEF = 0. reset:
-    begin of processing to the reset by FF, alarm: multiple occurrence to its alarm, halt: effect of 80 to its
-    stop, reboot: from there to its effect, reopen: to MWEF = 0. found: further block of a table read after
-    the one before has been read, without its bytes, three more for each of its stages.
+    begin of processing to the reset by FF, reboot: from there to its effect, reopen: to MWEF = 0. alarm:
+    multiple occurrence to its alarm. halt: effect of 80 to its stop. found: further block of a table read
+    after the one before has been read, without its bytes, three more for each of its stages.
 
     Responses. late: an earlier answer read to the one that waited for it (P312-RSP-20, <= 4). load: store to
     load; show: load to MREF = 0; reload: MREF = 1 to the next load (P312-PAR-08).
@@ -61,10 +61,10 @@ class Pace:
     answer: int = 3
     done: int = 1
     reset: int = 20
-    alarm: int = 1
-    halt: int = 1
     reboot: int = 2
     reopen: int = 4
+    alarm: int = 1
+    halt: int = 1
     late: int = 1
     load: int = 1
     show: int = 6

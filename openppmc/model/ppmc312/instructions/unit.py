@@ -75,7 +75,7 @@ class Unit:
 
     @property
     def settled(self) -> bool:
-        """Everything that the command FIFO has released is processed."""
+        """Everything that the command FIFO has released is processed, and no alarm is on its way."""
         busy = self._busy and self._source is Source.OVERRIDE
         return not self._core.fifo.triggered and not self._alarming and not busy
 
@@ -144,6 +144,7 @@ class Unit:
         self.kick(t)
 
     def _alarm_soon(self, t: int) -> None:
+        """Multiple occurrence at edge t; its alarm is on its way."""
         self._alarming = True
         self._at(t + self._core.pace.alarm, self._alarm)
 
