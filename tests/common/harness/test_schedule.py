@@ -6,6 +6,8 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -35,13 +37,13 @@ def test_sample(item, sim_options):
 
 
 @pytest.fixture(name="sample")
-def _sample(tmp_path: Path) -> Path:
-    """The file, below the project's folder, where its plugin is loaded."""
-    folder = BUILD / "sample" / tmp_path.name
-    folder.mkdir(parents=True, exist_ok=True)
-    file = folder / "test_sample.py"
-    file.write_text(SAMPLE, encoding="utf-8")
-    return file
+def _sample() -> Iterator[Path]:
+    """The file, below the project's folder, where its plugin is loaded; no two workers share it."""
+    (BUILD / "sample").mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=BUILD / "sample") as folder:
+        file = Path(folder) / "test_sample.py"
+        file.write_text(SAMPLE, encoding="utf-8")
+        yield file
 
 
 def ran(sample: Path, seen: Path, *words: str) -> tuple[dict[str, int], list[list[str]]]:
