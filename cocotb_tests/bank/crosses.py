@@ -3,7 +3,6 @@ golden model."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from cocotb_tests.harness.crosses import Cross, Crosses, before
@@ -15,19 +14,18 @@ from cocotb_tests.harness.family_crosses import (
     Count,
     hook_errors,
     hook_motion,
+    without,
 )
 from openppmc.model.bank.axis import Axis
+from openppmc.model.bank.motion import Motion
 
-NO_PIN = {("*", name): "a bank has no external base clock" for name in CLOCKS if name.startswith("external")}
-CLOCKED = tuple(
-    replace(cross, never={**cross.never, **NO_PIN}) if cross.columns == CLOCKS else cross for cross in MOTION
-)
+CLOCKED = without(MOTION, CLOCKS[2:], "a bank has no external base clock")
 STATES = (UNINIT, "at rest", "waiting for GO", "in motion", "decelerating")
 GROUP = Cross("axis and state that a GO finds it in", ("member of the group", "another one"), STATES)
 
 
 def _hook(count: Count) -> None:
-    hook_motion(count)
+    hook_motion(count, [Motion])
     hook_errors(count)
 
     def gone(axis: Any, t: int, go: int) -> None:

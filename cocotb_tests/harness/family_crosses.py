@@ -3,7 +3,8 @@ of the ramp, base clock; and of those with its commands, error and state."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from openppmc.model.motion import codes
@@ -49,7 +50,6 @@ NEVER_CAUSE = {
 NEVER_PHASE = {
     ("slow-down limit", "constant"): CONSTANT,
     ("slow-down limit", "down"): "the way down is not begun twice",
-    (COUNT_DONE, "before the first pulse"): "no operation has a count of 0",
     **{(ORIGIN_FOUND, phase): ORIGIN for phase in ("up", "top", "down")},
 }
 NEVER_CLOCK = {("single step", clock): ONE_PULSE for clock in ("external", "external, plain")}
@@ -60,6 +60,20 @@ MOTION = (
     Cross("cause of the end and phase that it came in", ALL_CAUSES, PHASES, NEVER_PHASE),
     Cross("operation and base clock", tuple(OPERATIONS.values()), CLOCKS, NEVER_CLOCK),
     Cross("cause of the end and base clock", ALL_CAUSES, CLOCKS),
+)
+
+
+def without(crosses: Iterable[Cross], columns: Sequence[str], why: str) -> tuple[Cross, ...]:
+    """The crosses; some columns cannot happen in a part."""
+    never = {("*", column): why for column in columns}
+    return tuple(
+        replace(cross, never={**cross.never, **never}) if set(columns) <= set(cross.columns) else cross
+        for cross in crosses
+    )
+
+
+NO_EXTRA_TIME = without(
+    MOTION, ("internal", "external"), "intervals have no extra time here (as vsel = L adds)"
 )
 UNINIT = "before initialisation"
 NEVER_ERROR = {
@@ -90,8 +104,8 @@ def _clock(motion: Any) -> str:
     return f"{name}, plain" if motion._plain else name
 
 
-def hook_motion(count: Count) -> None:
-    """Count what ends in any axis."""
+def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
+    """Count what ends in any axis. own: classes of the part that decide an end without the family's."""
     came: dict[int, str] = {}
 
     def begin(motion: Any, t: int) -> None:
@@ -115,7 +129,8 @@ def hook_motion(count: Count) -> None:
         count(MOTION[3].name, cause, clock)
 
     before(Motion, "_begin", begin)
-    before(Motion, "_end_now", cause_came)
+    for owner in (Motion, *own):
+        before(owner, "_end_now", cause_came)
     before(Motion, "_flag", cause_came)
     before(Motion, "_finish", finish)
 

@@ -18,6 +18,7 @@ ITEMS = cocotb_items(
     "cocotb_tests.pmc006",
     "tb_boot",
     "tb_save",
+    "tb_everywhere",
     "tb_memory",
     "tb_acceptance_memory",
     part=PMC006,

@@ -4,9 +4,12 @@ priorities, timing.
 
 from __future__ import annotations
 
+from itertools import repeat
+
 from cocotb_tests.harness.bus import BUSY
 from cocotb_tests.harness.config import F16, F50, F100
 from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness.two_causes import BOTH, two_causes
 
 from .figures import INIT_A, INIT_B, forced, rates
 from .lab import Lab
@@ -276,6 +279,32 @@ async def p104_lim_09_two_requests_on_one_edge(dut):
         (set(kinds), kinds.count(0xCB)),
         (set(order), 1),
     )
+
+
+@directed("P104-LIM-09", "P104-END-04")
+async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
+    """Given every operation, up, at the top and down, when L1 and ALM fall on one edge, then both bits."""
+    lab = await Lab.start(dut, INIT_A)
+    await two_causes(lab, "P104-LIM-09", ("l1_n", "alm_n"))
+    lab.bench.set(l1_n=0, alm_n=0)
+    await lab.go(0x42)
+    await lab.result("P104-LIM-09", 0, BOTH | 2, 0)
+
+
+@directed("P104-LIM-09", "P104-LIM-04", "P104-LIM-06", "P104-END-04")
+async def p104_lim_09_causes_on_the_external_clock(dut):
+    """Given vsel = L and an external clock, when L3, CNP, or L1 and ALM fall, then as on an internal one."""
+    lab = await Lab.start(dut, (0x1A, 9, 4, 4), vsel=0)
+    period = lab.cfg.us(4)
+    lab.bench.external_clock(repeat(period), high=period // 2)
+    await two_causes(lab, "P104-LIM-09", ("l1_n", "alm_n"))
+    for code, rate, pin, made, finish in ((0x46, None, "l3_n", 11, 0x8E), (0x47, 9, "cnp_n", 6, 0x87)):
+        await lab.go(code, None, rate)
+        await lab.pulse(6, 100)
+        lab.bench.set(**{pin: 0})
+        await lab.idle()
+        lab.bench.set(**{pin: 1})
+        await lab.result("P104-LIM-09", made, finish, ALL - made - 1)
 
 
 @directed("P104-LIM-09", "P104-END-04", "P104-STP-03")

@@ -8,6 +8,7 @@ from typing import Any
 from cocotb_tests.harness.config import F16, F48, F100
 from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import NO_PULSES_DONE, forced, rates
+from cocotb_tests.harness.two_causes import BOTH, two_causes
 
 from .figures import INIT_A
 from .lab import Lab
@@ -83,6 +84,21 @@ async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
     """Given every operation of axis 2, when each input falls on the plateau, then end, slow or nothing."""
     lab = await Lab.start(dut)
     await matrix_in_motion(lab, 2)
+
+
+@directed("P2104-LIM-09", "P2104-END-04")
+async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
+    """Given every operation, up, at the top, down, held by RUN, when FL and ALM fall at once, then both."""
+    lab = await Lab.start(dut)
+    for axis in await lab.both(INIT_A):
+        pins = (axis.pin("fl_n"), axis.pin("alm_n"))
+        await two_causes(axis, "P2104-LIM-09", pins)
+        axis.set(run=0)
+        await lab.bench.clocks(4)
+        await axis.go(0x42)
+        lab.bench.set(**dict.fromkeys(pins, 0))
+        await axis.result("P2104-LIM-09", 0, BOTH | 2, 0)
+        axis.set(run=1, fl_n=1, alm_n=1)
 
 
 @directed("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17")

@@ -1,26 +1,84 @@
-"""What the sheet crosses: instruction and state, cause of the end and state. Counted in the golden model."""
+"""What the sheet crosses: instruction and state, refusal and who asked, cause of the end and state. Counted
+in the golden model."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.crosses import Cross, Crosses, before
+from cocotb_tests.harness.crosses import Cross, Crosses, after, before
 from cocotb_tests.harness.family_crosses import Count
-from openppmc.model.ppmc312.codes import Cause, State
+from openppmc.model.ppmc312.codes import Answer, Cause, Code, Source, State
+from openppmc.model.ppmc312.instructions.checks import CODE_LAST, CODE_MORE
+from openppmc.model.ppmc312.instructions.unit import Unit
+from openppmc.model.ppmc312.motion.motion import Motion
 from openppmc.model.ppmc312.motion.operation import Operation
 
-STATES = ("at rest", State.ACC.name, State.FIX.name, State.WRN.name)
+NONE = "a code that is none"
+CODES = {code.value: f"{code:02X} {code.name}" for code in Code}
+INSTRUCTIONS = Cross(
+    "instruction and state that it meets", (*CODES.values(), NONE), tuple(state.name for state in State)
+)
+REFUSALS = Cross(
+    "refusal and who asked",
+    tuple(
+        f"{answer:02X} {answer.name}"
+        for answer in Answer
+        if 0xF0 <= answer <= 0xF7 and answer != Answer.ALARM
+    ),
+    tuple(source.name for source in Source),
+)
+HELD, FIRST, ACC, FIX = ("held by RUN", "before the first pulse", State.ACC.name, State.FIX.name)
 CAUSES = Cross(
-    "cause of the end and state that it is reported in", tuple(cause.name for cause in Cause), STATES
+    "cause of the end and where it came",
+    tuple(cause.name for cause in Cause),
+    (HELD, FIRST, ACC, FIX),
+    {
+        (cause.name, HELD): "no pulse output that could end"
+        for cause in Cause
+        if cause not in (Cause.STOP, Cause.ALARM)
+    }
+    | {(Cause.NORMAL.name, FIRST): "no operation is without a pulse"},
 )
 
 
+def _where(motion: Any) -> str:
+    if motion.sequence.running is None:
+        return FIRST
+    return ACC if motion.sequence.in_table else FIX
+
+
 def _hook(count: Count) -> None:
-    def reported(operation: Any, t: int, cause: Cause) -> None:
-        state = operation.state
-        count(CAUSES.name, cause.name, state.name if state else "at rest")
+    boundaries: dict[int, str] = {}
 
-    before(Operation, "_report", reported)
+    def begun(unit: Any, t: int, job: Any) -> None:
+        header, body = job.block[0], job.block[2:]
+        if header in (CODE_MORE, CODE_LAST) and body and unit._core.transfer is None:
+            count(INSTRUCTIONS.name, CODES.get(body[0], NONE), unit._core.state.name)
+
+    def refused(unit: Any, t: int, job: Any, refusal: Any) -> None:
+        count(REFUSALS.name, f"{refusal.answer:02X} {refusal.answer.name}", job.source.name)
+
+    def stopped(operation: Any, t: int, cause: Cause = Cause.STOP) -> None:
+        if operation._held:
+            count(CAUSES.name, cause.name, HELD)
+
+    def boundary(motion: Any, t: int) -> None:
+        if motion.active:
+            boundaries[id(motion)] = _where(motion)
+
+    def past(motion: Any, result: None, t: int) -> None:
+        boundaries.pop(id(motion), None)
+
+    def ended(motion: Any, t: int, cause: Cause) -> None:
+        found = Cause.NORMAL if motion.sequence.complete else cause
+        count(CAUSES.name, found.name, boundaries.get(id(motion)) or _where(motion))
+
+    before(Unit, "_begin", begun)
+    before(Unit, "_refuse", refused)
+    before(Operation, "stop", stopped)
+    before(Motion, "_pulse", boundary)
+    after(Motion, "_pulse", past)
+    before(Motion, "_end", ended)
 
 
-CROSSES = Crosses((CAUSES,), _hook)
+CROSSES = Crosses((INSTRUCTIONS, REFUSALS, CAUSES), _hook)

@@ -7,6 +7,7 @@ from typing import Any
 from cocotb_tests.harness.bus import BUSY
 from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import differences
+from cocotb_tests.harness.two_causes import BOTH, two_causes
 
 from .figures import ALL, EXT, MOST, SWITCHES, gaps, slowed
 from .lab import END_LATEST, PINS_LATEST, Lab
@@ -214,6 +215,19 @@ async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
         lab.set(**dict.fromkeys(pins, 1))
         total = 100 if code & 7 in (3, 4) else ALL
         await lab.result("STMC-IN-04", made, 0x80 | bits | code & 7, total - 1 - made)
+
+
+@directed("STMC-IN-04", "STMC-FIN-02", "STMC-IN-03")
+async def stmc_in_04_limit_and_monitor_on_one_edge(dut: Any) -> None:
+    """Given every operation, on either clock, when l1_n and mon fall on one edge, then both bits."""
+    lab = await Lab.start(dut)
+    for code in (0x1A, 0x0A):
+        await lab.init(code, 19, 9, 4)
+        await two_causes(lab, "STMC-IN-04", ("l1_n", "mon"))
+        lab.set(l1_n=0, mon=0)
+        await lab.go(0x42)
+        await lab.result("STMC-IN-04", 0, BOTH | 2, 0)
+        lab.set(l1_n=1, mon=1)
 
 
 @directed("STMC-IN-04", "STMC-DEC-07", "STMC-FIN-02")
