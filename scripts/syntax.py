@@ -8,13 +8,15 @@ from typing import Any
 
 
 def _hidden(text: str) -> str:
-    """The text without what is not for synthesis, every other letter in its place."""
+    """The text without what is not for synthesis, every other letter in its place: slang counts bytes, so a
+    letter is one."""
 
     def blank(match: re.Match[str]) -> str:
         return re.sub(r"[^\n]", " ", match[0])
 
     text = re.sub(r"`ifndef SYNTHESIS.*?`endif", blank, text, flags=re.DOTALL)
-    return re.sub(r"^`(include|default_nettype).*$", blank, text, flags=re.MULTILINE)
+    text = re.sub(r"^`(include|default_nettype).*$", blank, text, flags=re.MULTILINE)
+    return re.sub(r"[^\x00-\x7f]", "?", text)
 
 
 def tree(text: str) -> Any:
@@ -22,6 +24,13 @@ def tree(text: str) -> Any:
     from pyslang import syntax
 
     return syntax.SyntaxTree.fromText(_hidden(text)).root
+
+
+def findings(text: str) -> list[str]:
+    """What slang has against a text, as it is written."""
+    from pyslang import syntax
+
+    return [str(found.code) for found in syntax.SyntaxTree.fromText(_hidden(text)).diagnostics]
 
 
 def kind(node: Any) -> str:

@@ -11,6 +11,7 @@ from scripts.mutants.made.faults import faults
 from scripts.mutants.made.page import Tried, score
 from scripts.mutants.made.schema import CHOSEN, instrumented
 from scripts.mutants.made.work import ALIVE, ENDLESS, KILLED
+from scripts.syntax import findings
 
 TEXT = """module m #(parameter int W = 4 + 1) (input wire logic clk_i, rst_ni, a, b, output logic [W-1:0] q);
   localparam int N = W * 2 - 1;
@@ -58,14 +59,25 @@ def test_a_copy_holds_all_and_keeps_lines() -> None:
     assert plain.replace(plain[plain.index(f" int {CHOSEN}") : plain.index("\n")], "") == TEXT
 
 
+def test_letters_of_several_bytes() -> None:
+    """Given such letters in comments, then the same mutants in the same places."""
+    text = TEXT.replace("begin\n", "begin  // 0 µs, 1 …\n")
+    assert [text[fault.start : fault.end] for fault in faults(text)] == [
+        TEXT[fault.start : fault.end] for fault in faults(TEXT)
+    ]
+
+
 def test_every_file_can_be_changed() -> None:
-    """Given each file of rtl/, then its copy keeps the lines, and there are thousands of mutants in all."""
+    """Given each file of rtl/, then its copy is as good SystemVerilog, with as many lines, and there are
+    thousands of mutants in all."""
     count = 0
     for file in rtl_files():
         text = (ROOT / file).read_text(encoding="utf-8")
         every = faults(text)
         count += len(every)
-        assert instrumented(text, every).count("\n") == text.count("\n"), file
+        copy = instrumented(text, every)
+        assert copy.count("\n") == text.count("\n"), file
+        assert findings(copy) == findings(text), file
     assert count > 10_000
 
 
