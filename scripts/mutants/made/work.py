@@ -47,12 +47,13 @@ def digest(file: str) -> str:
 
 def copy_of(file: str) -> Path:
     """The copy with all mutants of a file; written if need be."""
-    path = BUILD / "mutants" / digest(file) / Path(file).name
+    text = (ROOT / file).read_text(encoding="utf-8")
+    copy = instrumented(text, faults(text))
+    path = BUILD / "mutants" / hashlib.sha256(copy.encode()).hexdigest()[:12] / Path(file).name
     with locked(path.parent.with_suffix(".lock")):
         if not path.is_file():
             path.parent.mkdir(parents=True, exist_ok=True)
-            text = (ROOT / file).read_text(encoding="utf-8")
-            path.write_text(instrumented(text, faults(text)), encoding="utf-8")
+            path.write_text(copy, encoding="utf-8")
     return path
 
 
