@@ -13,6 +13,7 @@ from itertools import product
 
 from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import steps
+from cocotb_tests.harness.two_causes import BOTH, two_causes
 
 from .bench import B4, B8, B32, B64, F100
 from .lab import GO, STATUS, STOP, SYNC, Axis, Lab
@@ -222,6 +223,27 @@ async def bank_mot_02_two_causes(dut):
         for axis in lab.axes:
             if axis.n % max(1, lab.size // 8):
                 waves.positions[axis.n] += len(come)
+
+
+@directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
+async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
+    """Given every operation, up, at the top and down, when L1 and ALM fall on one edge, then both bits. A
+    count that is done with a slow-down limit before its last pulse has no bit."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3)
+    pins = (axis.pin("l1_n"), axis.pin("alm_n"))
+    await two_causes(axis, "BANK-MOT-02", pins)
+    axis.bench.set(**dict.fromkeys(pins, 0))
+    await axis.go(0x42)
+    await axis.result("BANK-MOT-02", 0, BOTH | 2, 0)
+    axis.bench.set(**dict.fromkeys(pins, 1))
+    for n in (1, 2):
+        await axis.go(0x43, n)
+        if n == 2:
+            await axis.pulse(1, 10)
+        axis.set(l3_n=0)
+        await axis.result("BANK-MOT-05", n, 0x83, 0)
+        axis.set(l3_n=1)
 
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))

@@ -18,6 +18,11 @@ CODES = {code.value: f"{code:02X} {code.name}" for code in Code}
 INSTRUCTIONS = Cross(
     "instruction and state that it meets", (*CODES.values(), NONE), tuple(state.name for state in State)
 )
+NEVER_REFUSED = {
+    **{("F5 COMMAND", "OVERRIDE"): "a registration has looked at the code"},
+    **{("F6 SIZE", source): "registered blocks have passed it" for source in ("EVENT", "OVERRIDE")},
+    **{("F7 REGISTRATION", source): "only the host registers" for source in ("EVENT", "OVERRIDE")},
+}
 REFUSALS = Cross(
     "refusal and who asked",
     tuple(
@@ -26,18 +31,21 @@ REFUSALS = Cross(
         if 0xF0 <= answer <= 0xF7 and answer != Answer.ALARM
     ),
     tuple(source.name for source in Source),
+    NEVER_REFUSED,
 )
 HELD, FIRST, ACC, FIX = ("held by RUN", "before the first pulse", State.ACC.name, State.FIX.name)
+NEVER_ENDED = {
+    **{(cause.name, HELD): "there is no pulse output to end, and 80 is refused" for cause in Cause},
+    **{(cause.name, FIRST): "before it the cause is LOW" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)},
+    **{(cause.name, FIX): "the way down lies in ACC" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)},
+    (Cause.NORMAL.name, FIRST): "no operation is without a pulse",
+}
+del NEVER_ENDED[Cause.ALARM.name, HELD]
 CAUSES = Cross(
     "cause of the end and where it came",
     tuple(cause.name for cause in Cause),
     (HELD, FIRST, ACC, FIX),
-    {
-        (cause.name, HELD): "no pulse output that could end"
-        for cause in Cause
-        if cause not in (Cause.STOP, Cause.ALARM)
-    }
-    | {(Cause.NORMAL.name, FIRST): "no operation is without a pulse"},
+    NEVER_ENDED,
 )
 
 

@@ -91,3 +91,12 @@ async def p312_accept_table(dut: Any, case: Any) -> None:
             assert answer == message(Answer.STATUS, f"00 {condition:02X}"), hex(condition)
         else:
             assert answer.split()[2] in (block.split()[2], "E8"), (hex(condition), answer)
+
+
+@directed("P312-STA-01", "P312-BLK-01")
+async def p312_a_code_that_is_none(dut: Any) -> None:
+    """The code is looked at before the state, in each of which the answer names it."""
+    for condition in CONDITIONS:
+        host = await in_state(dut, condition)
+        for code in ("07", "48", "FE"):
+            assert await host.ask(message(int(code, 16))) == message(Answer.COMMAND, code), hex(condition)
