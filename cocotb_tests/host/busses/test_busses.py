@@ -12,7 +12,9 @@ from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.runner import run_item
 
-ITEMS = cocotb_items("cocotb_tests.host.busses", "tb_axil", "tb_wishbone", part=Part("busses", {}))
+ITEMS = cocotb_items(
+    "cocotb_tests.host.busses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("busses", {})
+)
 
 # The wheel's verilated.mk cannot build a design that is split into several C++ files.
 ONE_FILE = ("--output-split", "0")

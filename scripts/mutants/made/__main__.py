@@ -62,7 +62,8 @@ def main() -> int:
     jobs = []
     for file, fault in sample(files, args.count):
         groups = suites.of(file, fault.line) if suites else []
-        mutant = Mutant(file, fault, tuple(groups[:2] if args.quick else groups))
+        known_equal = Tried(file, fault, "", "").why
+        mutant = Mutant(file, fault, tuple(groups[:2] if args.quick or known_equal else groups))
         faults[mutant.key] = (file, fault)
         jobs.append(Job(mutant.key, mutant, killed.get(mutant.key, f"{stamp}{' quick' * args.quick}")))
     tried = []

@@ -1,8 +1,8 @@
 """Which tests the mutants of a file meet: groups of tests, each a simulator process, the quickest first.
 
-If a coverage campaign is on file (`make coverage`), they are the groups that reach the line of the mutant, by
-the time that they took. Else they are those of the folder: tests of blocks, then of the parts that have the
-file, directed ones before random ones.
+If a coverage campaign is on file (`make coverage`), they are the groups that reach the line of the mutant,
+first those of its block, by the time that they took. Else they are those of the folder: tests of blocks, then
+of the parts that have the file, directed ones before random ones.
 """
 
 from __future__ import annotations
@@ -71,12 +71,14 @@ class Suites:
 
     def of(self, file: str, line: int) -> list[Group]:
         """The groups in the order in which they are tried, several as one: each start takes seconds."""
+        own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
-                (seconds, group) for seconds, group, lines in self._reached if line in lines.get(file, ())
+                (own not in group[0], seconds, group)
+                for seconds, group, lines in self._reached
+                if line in lines.get(file, ())
             ]
-            return list(_together([group for _, group in sorted(found)], GUIDED))
-        own = Path(file).stem.partition("_")[2]
+            return list(_together([group for *_, group in sorted(found)], GUIDED))
         ranked: dict[int, list[Group]] = {}
         for group in every():
             if (rank := _rank(group, file)) >= 0:

@@ -1,0 +1,68 @@
+"""A reset in the middle of an access, on both busses: all is at rest at once, and nothing is left of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cocotb
+from cocotb.triggers import FallingEdge, RisingEdge, Timer
+
+from .setting import PERIOD_PS, start
+
+REST = {
+    "model_wb": {"ack": 0, "err": 0, "bus_irq": 0, "bus_cs_n": 1, "bus_rd_n": 1, "bus_wr_n": 1},
+    "model_axil": {"bvalid": 0, "rvalid": 0, "bus_irq": 0, "bus_cs_n": 1, "bus_rd_n": 1, "bus_wr_n": 1},
+}
+CALLS = {
+    "model_wb": ({"cyc": 1, "stb": 1, "we": 1, "sel": 15}, {"cyc": 1, "stb": 1, "sel": 15}),
+    "model_axil": ({"awvalid": 1, "wvalid": 1, "wstrb": 15}, {"arvalid": 1}),
+}
+ADDRESS = {"model_wb": ("adr", 2), "model_axil": ("awaddr", 0)}
+"""Pin, and how far a byte address is shifted."""
+LONGEST = 14
+"""clk that an access lasts at most."""
+
+
+async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
+    """An access that a reset ends `after` clk into it, in the low half of clk."""
+
+    def put(**levels: int) -> None:
+        for name, level in levels.items():
+            getattr(dut, f"{prefix}_{name}").value = level
+
+    def outputs() -> dict[str, int]:
+        return {name: int(getattr(dut, f"{prefix}_{name}").value) for name in REST[prefix]}
+
+    put(**call)
+    for _ in range(after):
+        await RisingEdge(dut.clk)
+    await FallingEdge(dut.clk)
+    dut.rst_n.value = 0
+    await Timer(PERIOD_PS // 4, "ps")
+    assert outputs() == REST[prefix], f"{after} clk into {call}"
+    put(**dict.fromkeys(call, 0))
+    for _ in range(3):
+        await RisingEdge(dut.clk)
+        assert outputs() == REST[prefix], f"{after} clk into {call}, held"
+    await FallingEdge(dut.clk)
+    dut.rst_n.value = 1
+    for n in range(2 * LONGEST):
+        await RisingEdge(dut.clk)
+        irq = 1 if n else 0
+        assert outputs() == {**REST[prefix], "bus_irq": irq}, f"{after} clk into {call}, {n} clk after"
+
+
+@cocotb.test()
+@cocotb.parametrize(prefix=list(REST), register=[0, 1])
+async def bus_reset_in_an_access(dut: Any, prefix: str, register: int) -> None:
+    """Given reads and writes of a register or of the bridge, then at rest at once; irq comes back by itself."""
+    await start(dut)
+    getattr(dut, f"{prefix}_bus_int_n").value = 0
+    for _ in range(3):
+        await RisingEdge(dut.clk)
+    bridge = 4 << len(getattr(dut, f"{prefix}_bus_a"))
+    pin, shift = ADDRESS[prefix]
+    for call in CALLS[prefix]:
+        name = "araddr" if "arvalid" in call else pin
+        for after in range(1, LONGEST):
+            await cut(dut, prefix, {**call, name: (bridge if register else 4) >> shift}, after)
