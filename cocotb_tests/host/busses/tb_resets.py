@@ -55,7 +55,7 @@ async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
 @cocotb.test()
 @cocotb.parametrize(prefix=list(REST), register=[0, 1])
 async def bus_reset_in_an_access(dut: Any, prefix: str, register: int) -> None:
-    """Given reads and writes of a register or of the bridge, then at rest at once; irq comes back by itself."""
+    """Given accesses to a register or to the bridge, then at rest at once; irq comes back by itself."""
     await start(dut)
     getattr(dut, f"{prefix}_bus_int_n").value = 0
     for _ in range(3):
