@@ -1,13 +1,15 @@
 """Which tests the mutants of a file meet: groups of tests, each a simulator process, the quickest first.
 
 If a coverage campaign is on file (`make coverage`), they are the groups that reach the line of the mutant,
-first those of its block, by the time that they took. Else they are those of the folder: tests of blocks, then
-of the parts that have the file, directed ones before random ones.
+first those of its block, then by the time that they took a point of the file. Else they are those of the
+folder: tests of blocks, then of the parts that have the file, directed ones before random ones.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -53,11 +55,21 @@ def _rank(group: Group, file: str) -> int:
     return 3 if "random" in first else 1 if "test_part" in first else 2
 
 
+@dataclass(frozen=True)
+class _Reach:
+    """What a group has reached: lines of files, and how many points of them."""
+
+    group: Group
+    seconds: float
+    lines: dict[str, set[int]]
+    weights: Counter[str]
+
+
 class Suites:
     """Groups of tests for lines of files; `of` asks."""
 
     def __init__(self) -> None:
-        self._reached: list[tuple[float, Group, dict[str, set[int]]]] = []
+        self._reached: list[_Reach] = []
         known = {f"{group[0]} {len(group)}": group for group in every()}
         latest: dict[str, Done] = {}
         with Store() as store:
@@ -65,7 +77,8 @@ class Suites:
                 if done.key in known and done.good:
                     latest[done.key] = done
         for key, done in latest.items():
-            self._reached.append((done.seconds, known[key], _lines(Points.unpack(done.data["points"]))))
+            points = Points.unpack(done.data["points"])
+            self._reached.append(_Reach(known[key], done.seconds, _lines(points), _weights(points)))
         # A sample tells nothing of the groups that it lacks.
         self.guided = len(latest) == len(known)
 
@@ -74,9 +87,9 @@ class Suites:
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
-                (own not in group[0], seconds, group)
-                for seconds, group, lines in self._reached
-                if line in lines.get(file, ())
+                (own not in reach.group[0], reach.seconds / reach.weights[file], reach.group)
+                for reach in self._reached
+                if reach.weights[file] and line in reach.lines.get(file, ())
             ]
             return list(_together([group for *_, group in sorted(found)], GUIDED))
         ranked: dict[int, list[Group]] = {}
@@ -92,6 +105,11 @@ def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
     """So many groups as one, in their order."""
     for at in range(0, len(all_groups), size):
         yield tuple(test for group in all_groups[at : at + size] for test in group)
+
+
+def _weights(points: Points) -> Counter[str]:
+    """File -> points that were reached."""
+    return Counter(name.split(" ", 1)[0] for name, was in points.reached.items() if was)
 
 
 def _lines(points: Points) -> dict[str, set[int]]:
