@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from cocotb_tests.harness.bus import BUSY
 from cocotb_tests.harness.directed import directed
 from cocotb_tests.harness.figures import indices, rates, steps
@@ -185,6 +187,37 @@ async def bank_mot_05_slow_down_limit(dut):
         else:
             await axis.pulse(30)
             await axis.halt()
+
+
+@directed("BANK-MOT-05", "P104-LIM-09", "P104-FDC-05", builds=(B8, B32))
+async def bank_mot_05_only_the_first_request(dut):
+    """Given a way down that a command or the count has begun, when a slow-down limit comes, then no bit of
+    it; nor of one that a visit sees which knows of an end."""
+    lab = await Lab.start(dut)
+    axis = await lab.ready(3)
+    for code, n, made, finish in ((0x41, 1_000, 6, 0xC3), (None, 24, 21, 0x83), (0x40, 24, 21, 0xC3)):
+        await axis.go(0x43, n)
+        await axis.pulse(made, 100)
+        if code == 0x41:
+            await axis.command(code)
+            await axis.pulse(made + 1, 100)
+        axis.set(l3_n=0)
+        if code == 0x40:
+            await lab.bench.clocks(2 * lab.round)
+            await axis.command(code)
+        await axis.idle()
+        axis.set(l3_n=1)
+        lab.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
+    # While pout_n is high, and in its low time, which an end waits for.
+    for early, plus in product((7, 6, 5, 4, 3, 2), (100, 0)):
+        await axis.go(0x46)
+        await axis.pulse(6, plus)
+        visit = axis.visit(lab.bench.now + (60 if plus else 8 + SYNC))
+        axis.at(visit - early - SYNC, l1_n=0, l3_n=0)
+        await axis.idle()
+        axis.set(l1_n=1, l3_n=1)
+        # Both are seen on edge V - early; visit V sees the slow-down limit, and from 5 clk on the end.
+        await axis.result(f"BANK-MOT-03, V - {early}, {plus}", 6, 0x9E if early == 4 else 0x96)
 
 
 @directed("BANK-MOT-05", "BANK-MOT-02", builds=(B8, B32, F100))
