@@ -14,6 +14,8 @@ NONE = Config("none8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Counter"
 BANK = Config("bank8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("AXES", 4)))
 # With a recorder of 32 records: 3 bytes each of 9 levels, and 15 bits of time.
 REC = Config("rec8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Watch", 9), ("Record", 5)))
+# A carrier with a recorder of 16 records.
+RECORDING = Config("recording8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Record", 4)))
 # Every rate code; the highest rate has exactly 5 clk a bit.
 ALL_RATES = Config("rates15m", clk_hz=15_000_000, extra=(("Baud", 115_200),))
 # Few clk a millisecond, for what takes long.

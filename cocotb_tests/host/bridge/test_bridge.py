@@ -27,6 +27,7 @@ BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)
 BOARDS = ROOT / "rtl" / "boards"
 ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
 BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
+CARRIER_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_carriers", part=PART)
 STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART)
 
 
@@ -46,10 +47,24 @@ def board_design(item) -> Design:
     )
 
 
+def carrier_design(item) -> Design:
+    """A part behind its bridge; the test's name says which."""
+    name, extra = item.test.rpartition("=")[2], dict(item.config.extra)
+    part = part_design(name, item.config)
+    params = {"CLK_HZ": item.config.clk_hz, "BAUD": extra["Baud"], "RECORD": extra.get("Record", 0)}
+    return Design(f"{name}_carrier", [*part.sources, *board_files(name)], part.includes, params, FROM_ZERO)
+
+
 @pytest.mark.parametrize("item", ITEMS)
 def test_bridge(item, sim_options):
     """Run one simulation."""
     run_item(item, sim_options, design=bridge_design(item))
+
+
+@pytest.mark.parametrize("item", CARRIER_ITEMS)
+def test_bridge_carrier(item, sim_options):
+    """Run one simulation of another part and its bridge."""
+    run_item(item, sim_options, design=carrier_design(item))
 
 
 @pytest.mark.parametrize("item", BOARD_ITEMS)
