@@ -1,8 +1,9 @@
 """Which tests the mutants of a file meet: groups of tests, each a simulator process, the quickest first.
 
 If a coverage campaign is on file (`make coverage`), they are the groups that reach the line of the mutant,
-first those of its block, then by the time that they took a point of the file. Else they are those of the
-folder: tests of blocks, then of the parts that have the file, directed ones before random ones.
+first those of its block, then those that are newer than the campaign, then by the time that they took a point
+of the file. Else they are those of the folder: tests of blocks, then of the parts that have the file,
+directed ones before random ones.
 """
 
 from __future__ import annotations
@@ -41,12 +42,23 @@ def every() -> list[Group]:
     return [tuple(tests) for tests in groups()]
 
 
+def _part(group: Group) -> parts.Row | None:
+    """The part whose tests they are."""
+    rows = (row for row in parts.folders() if group[0].startswith(f"cocotb_tests/{row.name}/"))
+    return next(rows, None)
+
+
+def _may_reach(group: Group, file: str) -> bool:
+    """Whether the group, of which nothing is known, may have the file."""
+    return _part(group) is None or _rank(group, file) >= 0
+
+
 def _rank(group: Group, file: str) -> int:
     """Place in the order of the folder: blocks, directed, random; -1 for tests that do not have the file."""
     folder, first = file.split("/")[1], group[0]
     if first.startswith(BLOCKS.get(folder, ())):
         return 0
-    part = next((row for row in parts.folders() if first.startswith(f"cocotb_tests/{row.name}/")), None)
+    part = _part(group)
     if part is None or first.startswith(AT_LAST):
         return 9 if first.startswith(AT_LAST) else -1
     carrier = f"{part.rtl}_carrier"
@@ -79,8 +91,9 @@ class Suites:
         for key, done in latest.items():
             points = Points.unpack(done.data["points"])
             self._reached.append(_Reach(known[key], done.seconds, _lines(points), _weights(points)))
-        # A sample tells nothing of the groups that it lacks.
-        self.guided = len(latest) == len(known)
+        self._new = [group for key, group in known.items() if key not in latest]
+        # A sample tells nothing of the groups that it lacks; a few new tests do not make it one.
+        self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
         """The groups in the order in which they are tried, several as one: each start takes seconds."""
@@ -91,6 +104,7 @@ class Suites:
                 for reach in self._reached
                 if reach.weights[file] and line in reach.lines.get(file, ())
             ]
+            found += [(True, 0.0, group) for group in self._new if _may_reach(group, file)]
             return list(_together([group for *_, group in sorted(found)], GUIDED))
         ranked: dict[int, list[Group]] = {}
         for group in every():
