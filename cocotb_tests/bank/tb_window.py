@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from cocotb_tests.harness.bus import BUSY, IBF, OBF
 from cocotb_tests.harness.directed import directed
 
@@ -168,6 +170,23 @@ async def bank_win_06_last_sample(dut):
     edge0 = await axis.host.write(STATUS, 0x42)
     await bench.level_is("hold[3]", 0)
     lab.check("BANK-HSK-01", "visit", bench.falls("hold[3]", edge0), [axis.visit(edge0 + 2 + 7)])
+
+
+@directed("BANK-WIN-05", "BANK-WIN-06", "BANK-WIN-04", builds=(B8,))
+async def bank_win_05_reset_in_an_access(dut):
+    """Given a read or a write, when reset comes some clk into it, then at once d_oe is 0 and it is lost."""
+    lab = await Lab.start(dut)
+    bench = lab.bench
+    for strobe, into in product(("rd_n", "wr_n"), range(1, 8)):
+        bench.set(a=CONFIG, d_i=0, cs_n=0, **{strobe: 0})
+        await bench.clocks(into)
+        bench.set(rst_n=0)
+        await bench.clocks(1)
+        lab.check("BANK-WIN-05", f"d_oe, {strobe} since {into} clk", bench.level("d_oe"), 0)
+        await bench.clocks(3)
+        bench.set(cs_n=1, **{strobe: 1})
+        await lab.reset()
+        lab.check("BANK-WIN-06", f"CONFIG, {strobe} since {into} clk", await lab.host.read(CONFIG), 3)
 
 
 @directed("BANK-WIN-07", builds=(B8, F100))
