@@ -38,7 +38,7 @@ STATES = {
     "save": State("t"),
 }
 DATA = {"g": 1, "s": LONG, "N": 1}
-MOVING = "sN"
+MOVING = ("s", "N")
 
 REPLIES: dict[str, int | None] = {
     **{"A": OUT, "B": 1, "E": 1, "F": 1, "G": PROGRAM[1].words[0], "I": 77, "J": 3, "K": 3, "M": 300, "N": 0},
@@ -98,5 +98,5 @@ async def p006_every_code(dut: Any, name: str) -> None:
         got = await host.ask(code, data)
         assert wanted in (None, got), f"{code} {data} {name}: {got:#x} instead of {wanted:#x}"
         if code not in "NIs":
-            assert await host.busy() == (state.begun in MOVING and bool(state.begun)), f"{code} {name}"
+            assert await host.busy() == (state.begun in MOVING), f"{code} {name}"
         disturbed = code in DISTURBS

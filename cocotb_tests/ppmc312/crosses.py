@@ -35,12 +35,15 @@ REFUSALS = Cross(
 )
 HELD, FIRST, ACC, FIX = ("held by RUN", "before the first pulse", State.ACC.name, State.FIX.name)
 NEVER_ENDED = {
-    **{(cause.name, HELD): "there is no pulse output to end, and 80 is refused" for cause in Cause},
+    **{
+        (cause.name, HELD): "there is no pulse output to end, and 80 is refused"
+        for cause in Cause
+        if cause is not Cause.ALARM
+    },
     **{(cause.name, FIRST): "before it the cause is LOW" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)},
     **{(cause.name, FIX): "the way down lies in ACC" for cause in (Cause.SLOW, Cause.LIMIT_SLOW)},
     (Cause.NORMAL.name, FIRST): "no operation is without a pulse",
 }
-del NEVER_ENDED[Cause.ALARM.name, HELD]
 CAUSES = Cross(
     "cause of the end and where it came",
     tuple(cause.name for cause in Cause),

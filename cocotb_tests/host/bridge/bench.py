@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+from collections.abc import Mapping
 from typing import Any
 
 import cocotb
@@ -74,6 +75,23 @@ class Bench:
         await bench.clocks(4)
         bench.watch_line(dut.txd_o)
         cocotb.start_soon(bench._bus())
+        return bench
+
+    @classmethod
+    async def of_carrier(cls, dut: Any, idle: Mapping[str, int], settle: int = 10) -> Bench:
+        """A carrier with the bridge as its host: pins idle, clock, reset, `settle` clk behind it."""
+        bench = cls(dut, None)
+        dut.clk.set(Immediate(0))
+        dut.rst_n.set(Immediate(1))
+        for pin, level in {"uart_rxd": 1, **idle}.items():
+            getattr(dut, pin).value = level
+        await Timer(bench.period // 2, "ps")
+        dut.rst_n.value = 0
+        clockwork().clock(clockwork().port("clk"), bench.period // 2)
+        await Timer(4 * bench.period, "ps")
+        dut.rst_n.value = 1
+        await bench.clocks(settle)
+        bench.watch_line(dut.uart_txd)
         return bench
 
     def watch_line(self, txd: Any) -> None:

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import random
 from typing import Any
 
 import cocotb
-from cocotb.handle import Immediate
-from cocotb.triggers import Timer
 
-from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import configs
 
 from .bench import Bench, same
@@ -31,22 +26,8 @@ def chosen(axis: int) -> str:
 
 async def start(dut: Any) -> Bench:
     """The board with idle pins, out of reset, the bank ready."""
-    bench = Bench(dut, None)
-    bench.rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
-    dut.clk.set(Immediate(0))
-    dut.rst_n.set(Immediate(1))
-    for pin in SWITCHES:
-        getattr(dut, pin).value = ALL
-    for pin, level in (("uart_rxd", 1), ("spi_cs_n", 1), ("sck", 0), ("mosi", 0)):
-        getattr(dut, pin).value = level
-    await Timer(bench.period // 2, "ps")
-    dut.rst_n.value = 0
-    clockwork().clock(clockwork().port("clk"), bench.period // 2)
-    await Timer(4 * bench.period, "ps")
-    dut.rst_n.value = 1
-    await bench.clocks(AXES + 40)
-    bench.watch_line(dut.uart_txd)
-    return bench
+    idle = {**dict.fromkeys(SWITCHES, ALL), "spi_cs_n": 1, "sck": 0, "mosi": 0}
+    return await Bench.of_carrier(dut, idle, AXES + 40)
 
 
 @cocotb.test()

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import os
-import random
 from typing import Any
 
 import cocotb
-from cocotb.handle import Immediate
-from cocotb.triggers import Timer, ValueChange
+from cocotb.triggers import ValueChange
 
-from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import configs
 from cocotb_tests.harness.part import PARTS
 
@@ -27,21 +23,7 @@ FINISH = "51 80 61"
 
 async def start(dut: Any) -> Bench:
     """The board with idle pins, out of reset."""
-    bench = Bench(dut, None)
-    bench.rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
-    dut.clk.set(Immediate(0))
-    dut.rst_n.set(Immediate(1))
-    for pin, level in PARTS["ppmc104"].inputs.items():
-        getattr(dut, pin).value = level
-    dut.uart_rxd.value = 1
-    await Timer(bench.period // 2, "ps")
-    dut.rst_n.value = 0
-    clockwork().clock(clockwork().port("clk"), bench.period // 2)
-    await Timer(4 * bench.period, "ps")
-    dut.rst_n.value = 1
-    await bench.clocks(10)
-    bench.watch_line(dut.uart_txd)
-    return bench
+    return await Bench.of_carrier(dut, PARTS["ppmc104"].inputs)
 
 
 def pulses_of(dut: Any) -> list[int]:

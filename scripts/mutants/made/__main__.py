@@ -16,7 +16,7 @@ from scripts.campaign.store import Store
 from scripts.campaign.tree import SIMULATED, tree
 
 from .chosen import folder_of, rtl_files, sample
-from .page import Tried, page, score
+from .page import QUICK, SO_FAR, Tried, page, score
 from .suites import Suites
 from .work import ALIVE, BROKEN, KILLED, Mutant, digest, run_one
 
@@ -62,10 +62,10 @@ def main() -> int:
     jobs = []
     for file, fault in sample(files, args.count):
         groups = suites.of(file, fault.line) if suites else []
-        known_equal = Tried(file, fault, "", "").why
-        mutant = Mutant(file, fault, tuple(groups[:2] if args.quick or known_equal else groups))
+        first = args.quick or bool(Tried(file, fault, "", "").why)
+        mutant = Mutant(file, fault, tuple(groups[:2] if first else groups))
         faults[mutant.key] = (file, fault)
-        jobs.append(Job(mutant.key, mutant, killed.get(mutant.key, f"{stamp}{' quick' * args.quick}")))
+        jobs.append(Job(mutant.key, mutant, killed.get(mutant.key, f"{stamp}{' quick' * first}")))
     tried = []
     campaign = Campaign(NAME, run_one, jobs, len(jobs), "mutants")
     for done in on_file(faults) if args.so_far else run(campaign, workers_of(args), args.fresh):
@@ -78,7 +78,8 @@ def main() -> int:
                 console.print(f"  {one.test or done.data.get('message', '')}", markup=False)
     tried.sort(key=lambda one: (one.file, one.fault.number))
     path = BUILD / "mutants.md" if args.k else DOCS / "mutants.md"
-    path.write_text(page(tried, files, not args.quick), encoding="utf-8")
+    note = QUICK if args.quick else SO_FAR if args.so_far else ""
+    path.write_text(page(tried, files, note), encoding="utf-8")
     bad = 0
     for folder in sorted({folder_of(file) for file in files}):
         mine = [one for one in tried if folder_of(one.file) == folder]

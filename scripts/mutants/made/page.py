@@ -24,6 +24,7 @@ only come to no end with it, which is counted apart. *Equivalent*: somebody has 
 RTL does. The score is the share of the killed ones among those that are killed or alive and not equivalent.
 """
 QUICK = "**Each mutant here has met the first of its tests alone: some that are alive would be killed.**\n"
+SO_FAR = "They ran at different times; some that are alive have met the first of their tests alone.\n"
 
 
 @dataclass(frozen=True)
@@ -125,8 +126,8 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
             yield f"| {one.file} | `{text}` | {what} | {said} |"
 
 
-def page(tried: Sequence[Tried], files: Sequence[str], whole: bool = True) -> str:
-    """The whole page. Not `whole`: each mutant has met its first tests alone."""
+def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
+    """The whole page. note: how far the tests went (QUICK, SO_FAR)."""
     modules = [
         row(file, mine, len(of_file(file)))
         for file in files
@@ -134,7 +135,7 @@ def page(tried: Sequence[Tried], files: Sequence[str], whole: bool = True) -> st
     ]
     parts = [
         HEAD,
-        *([] if whole else [QUICK]),
+        *([note] if note else []),
         *table("folder of rtl/", list(folder_rows(tried, files))),
         "\n## Modules\n",
     ]

@@ -99,7 +99,7 @@ def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (found := score(tried, 9)).percent == 75 and found.endless == 1 and found.alive == 1
     monkeypatch.setattr(page, "judged", lambda: {(file, tried[0].source, fault.what): "the same"})
     assert (found := score(tried, 9)).percent == 100 and found.equivalent == 1 and found.alive == 0
-    assert "equivalent: the same" in page.page(tried, [file], whole=False)
+    assert "equivalent: the same" in page.page(tried, [file], page.QUICK)
 
 
 def test_judged_mutants_fit_the_tree() -> None:
