@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from cocotb_tests.harness.inside import inside
+
 from .builds import directed
 from .host import Host
 from .moves import DECAY, quick, start
@@ -37,6 +39,25 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
     assert await host.ask("c") == 0
     assert await host.ask("x") == 0xF07
     assert FACTORY_PAGE[3] == 0xFF
+
+
+@directed("P006-BAD-24", "P006-CMD-15")
+@inside("u_control.u_settings.u_values.count_q")
+async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
+    """Replies are right also if the copies of the registers begin with anything at power-up."""
+    host = await Host.start(dut)
+    if host.side.simulated:
+        for state in range(64):
+            await host.pins(rst_n=0)
+            await host.pause(4)
+            dut.u_control.u_settings.u_values.count_q.value = state
+            await host.pause(4)
+            await host.pins(rst_n=1)
+    await host.pause(4)
+    await host.forget()
+    await host.boot()
+    assert await host.ask("R") == 0x123 and not await host.busy()
+    assert await values(host) == FACTORY
 
 
 @directed("P006-EEP-21", "P006-EEP-22")

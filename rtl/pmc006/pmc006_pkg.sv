@@ -105,10 +105,9 @@ package pmc006_pkg;
 
   // ---- registers that an instruction writes, by the place of their copy for replies -------------------------------
 
+  // A reset fills all places but the first two.
   typedef enum logic [4:0] {
-    RegNone,
-    RegUnused,
-    RegMstep,
+    RegMstep = 5'd2,
     RegCurrent,
     RegAcc,
     RegDec,
@@ -127,7 +126,8 @@ package pmc006_pkg;
     RegOffline,
     RegStlen,
     RegStcfg,
-    RegStlvl
+    RegStlvl,
+    RegNone
   } register_e;
 
   // What an instruction has to do with them.

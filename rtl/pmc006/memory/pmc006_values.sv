@@ -15,7 +15,7 @@ module pmc006_values
     input  wire register_e        which_i,  // a register
     input  wire logic      [13:0] data_i,   // of write_i
     input  wire logic             take_i,   // value_o := which_i
-    output logic           [13:0] value_o   // value of which_i at take_i
+    output logic           [13:0] value_o   // value of which_i at take_i, 0 of RegNone
 );
 
   function automatic logic [13:0] factory(logic [4:0] which);
@@ -64,7 +64,7 @@ module pmc006_values
 
   assign filling = !count_q[5];
 
-  // Place 0 is never written, 1 with anything.
+  // Whatever the places held, 2 and up are right after a reset; nobody asks for 0 and 1.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) count_q <= 6'd1;
     else if (filling) count_q <= count_q + 1'b1;
