@@ -139,7 +139,7 @@ worker: $(ENVCAMP) ## J=n workers of this checkout for SCHEDULER=tcp://host:port
 coverage: $(ENVCAMP) ## docs/coverage.md: lines, branches, toggles of the RTL and crosses of the sheets that `make test` reaches; T=name a sample, into build/
 	@$(PY) -m scripts.coverage $(ON) $(if $(T),-k $(call quote,$(T)))
 
-mutate: $(ENVCAMP) ## docs/mutants.md: small faults of the RTL and whether a test fails; T=folder or file, COUNT=n of each folder; QUICK=1 first tests alone
+mutate: $(ENVDEV) $(ENVCAMP) ## docs/mutants.md: small faults of the RTL and whether a proof or a test fails; T=folder or file, COUNT=n of each folder; QUICK=1 first tests alone
 	@$(PY) -m scripts.mutants.made $(ON) $(if $(T),-k $(call quote,$(T))) $(if $(COUNT),--count $(COUNT)) $(if $(filter 1,$(QUICK)),--quick)
 
 nightly: $(ENVDEV) $(ENVCAMP) ## what takes hours: COUNT=n hosts of each part from SEED=n on, coverage, mutants, all netlists, proofs; goes on where it was interrupted

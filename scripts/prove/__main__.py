@@ -46,12 +46,13 @@ def main() -> int:
     bad = 0
     shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
     # Threads: what takes time are programs that each of them waits for.
+    jobs = [(proof, args.limit, proof.broken() if args.breaking else None) for proof in todo]
     with (
         ThreadPoolExecutor(args.n) as pool,
         Progress(*shown, console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task("breaking" if args.breaking else "proving", total=len(todo))
-        for job in as_completed([pool.submit(check, proof, args.breaking, args.limit) for proof in todo]):
+        for job in as_completed([pool.submit(check, *job) for job in jobs]):
             outcome = job.result()
             console.print(line(outcome, args.breaking), markup=False, soft_wrap=True)
             bad += not (outcome.refuted if args.breaking else outcome.good)

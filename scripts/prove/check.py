@@ -7,13 +7,14 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, include_dirs, relative
 
 from . import engine
-from .table import FORMAL, Proof
+from .table import FORMAL, Change, Proof
 
 LIMIT = 600
 """Seconds for one run of the solver."""
@@ -58,14 +59,14 @@ def yosys(folder: Path, *command: str) -> str:
     return lines[0] if lines else f"yosys ended with exit code {done.returncode}"
 
 
-def model(proof: Proof, folder: Path, broken: Path | None) -> str:
+def model(proof: Proof, folder: Path, changed: Mapping[Path, Path]) -> str:
     """Make the graphs of a proof; the reason if that fails."""
     job = {
         "top": proof.file.stem,
         "only": proof.only,
         "folder": relative(folder),
         "includes": [relative(path) for path in (*include_dirs(), FORMAL)],
-        "sources": [relative(path) for path in proof.sources(broken)],
+        "sources": [relative(path) for path in proof.sources(changed)],
     }
     path = folder / "job.json"
     path.write_text(json.dumps(job), encoding="utf-8")
@@ -81,17 +82,17 @@ def trace(folder: Path) -> str:
     return said or relative(folder / "trace.vcd")
 
 
-def check(proof: Proof, breaking: bool = False, limit: int = LIMIT) -> Outcome:
-    """Prove one, or, `breaking`, the same with its RTL broken, which has to fail."""
+def check(proof: Proof, limit: int = LIMIT, change: Change | None = None) -> Outcome:
+    """Prove one, of the RTL as it is or with a change, which should make it fail."""
     begin = time.monotonic()
-    folder = BUILD / "prove" / (f"{proof.name}.broken" if breaking else proof.name)
+    folder = BUILD / "prove" / (f"{proof.name}.{change.name}" if change else proof.name)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    broken = None
-    if breaking:
-        broken = folder / Path(proof.breaks["file"]).name
-        broken.write_text(proof.broken(), encoding="utf-8")
-    if said := model(proof, folder, broken):
+    changed = {}
+    if change:
+        changed[ROOT / change.file] = folder / Path(change.file).name
+        changed[ROOT / change.file].write_text(change.text, encoding="utf-8")
+    if said := model(proof, folder, changed):
         return Outcome(proof.name, said)
     labels = json.loads((folder / "labels.json").read_text(encoding="utf-8"))
 
@@ -108,8 +109,6 @@ def check(proof: Proof, breaking: bool = False, limit: int = LIMIT) -> Outcome:
         return outcome(f"no result in {limit} s")
     if not labels["prove"] or not labels["cover"]:
         return outcome("it has no property" if labels["cover"] else "it has no cover")
-    if breaking:
-        return outcome("")
     seen = engine.covered(folder, proof.cover, limit)
     reached = tuple((label, seen.get(at, -1)) for at, label in enumerate(labels["cover"]))
     missed = [label for label, clk in reached if clk < 0]

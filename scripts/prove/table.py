@@ -16,9 +16,10 @@ of one RTL file (`file`, `old`, which stands there once, `new`) that makes the p
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 import yaml
 
@@ -26,6 +27,15 @@ from cocotb_tests.harness.project import ROOT, ProjectError, files
 
 HERE = Path(__file__).parent / "table"
 FORMAL = ROOT / "tb" / "formal"
+
+
+@dataclass(frozen=True)
+class Change:
+    """A file of the RTL with another text. name: tells the run's folder from others of the proof."""
+
+    name: str
+    file: str
+    text: str
 
 
 @dataclass(frozen=True)
@@ -54,20 +64,18 @@ class Proof:
         """The module that instantiates the block and holds the properties."""
         return FORMAL / self.folder / f"{self.wrapper or self.name}_fv.sv"
 
-    def sources(self, broken: Path | None = None) -> list[Path]:
-        """RTL and wrapper in compile order; `broken` takes the place of the file that `breaks` changes."""
+    def sources(self, changed: Mapping[Path, Path] = MappingProxyType({})) -> list[Path]:
+        """RTL and wrapper in compile order. changed: file of the RTL -> what takes its place."""
         stubs = {Path(stub).name: FORMAL / stub for stub in self.stubs}
-        place = {path: stubs[path.name] for path in files(self.group) if path.name in stubs}
-        if broken:
-            place[ROOT / self.breaks["file"]] = broken
+        place = {path: stubs[path.name] for path in files(self.group) if path.name in stubs} | dict(changed)
         return [*(place.get(path, path) for path in files(self.group)), self.file]
 
-    def broken(self) -> str:
-        """Text of the file that `breaks` changes, changed; ProjectError unless the old text is there once."""
+    def broken(self) -> Change:
+        """What `breaks` says; ProjectError unless the old text is there once."""
         text = (ROOT / self.breaks["file"]).read_text(encoding="utf-8")
         if (times := text.count(self.breaks["old"])) != 1:
             raise ProjectError(f"{self.name}: {self.breaks['file']} has {times} times {self.breaks['old']!r}")
-        return text.replace(self.breaks["old"], self.breaks["new"])
+        return Change("broken", self.breaks["file"], text.replace(self.breaks["old"], self.breaks["new"]))
 
 
 def proofs() -> Iterator[Proof]:

@@ -1,6 +1,8 @@
-"""`make mutate`: mutants of rtl/, each against tests until one fails. Writes docs/mutants.md if all folders
-take part, else build/mutants.md. What is killed stays so while its file stays; survivors are tried again when
-the sources have changed. Ends with 1 if a mutant does not compile, or a folder's score is below its goal."""
+"""`make mutate`: mutants of rtl/, each against proofs and tests until one fails.
+
+Writes docs/mutants.md if all folders take part, else build/mutants.md. What is killed stays so while its file
+stays; survivors are tried again when the sources have changed. Ends with 1 if a mutant does not compile, or a
+folder's score is below its goal."""
 
 from __future__ import annotations
 
@@ -63,7 +65,7 @@ def main() -> int:
     for file, fault in sample(files, args.count):
         groups = suites.of(file, fault.line) if suites else []
         first = args.quick or bool(Tried(file, fault, "", "").why)
-        mutant = Mutant(file, fault, tuple(groups[:2] if first else groups))
+        mutant = Mutant(file, fault, tuple(groups[:2] if first else groups), briefly=first)
         faults[mutant.key] = (file, fault)
         jobs.append(Job(mutant.key, mutant, killed.get(mutant.key, f"{stamp}{' quick' * first}")))
     tried = []

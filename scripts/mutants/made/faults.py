@@ -57,6 +57,11 @@ class Fault:
     dropped: bool = False
 
 
+def alone(text: str, fault: Fault) -> str:
+    """The file with this fault and nothing else changed."""
+    return text[: fault.start] + ("begin end" if fault.dropped else f"({fault.text})") + text[fault.end :]
+
+
 class Finder:
     """Walks over a file and collects its faults."""
 

@@ -13,15 +13,16 @@ from cocotb_tests.harness.project import ROOT, ProjectError
 
 from .chosen import folder_of, of_file
 from .faults import Fault
-from .work import ALIVE, BROKEN, ENDLESS, KILLED
+from .work import ALIVE, BROKEN, ENDLESS, KILLED, PROOF
 
 JUDGED = Path(__file__).with_name("judged.yml")
 HEAD = """# Mutants
 
 Written by `make mutate`. A mutant is the RTL with one small fault: an operator, a constant, a condition,
-an assignment ([how they are made](testing.md#mutants-by-rule)). It is killed if a test fails. *No end*: tests
-only come to no end with it, which is counted apart. *Equivalent*: somebody has found that it does what the
-RTL does. The score is the share of the killed ones among those that are killed or alive and not equivalent.
+an assignment ([how they are made](testing.md#mutants-by-rule)). It is killed if a proof or a test fails; the
+proofs of its block come first. *No end*: tests only come to no end with it, which is counted apart.
+*Equivalent*: somebody has found that it does what the RTL does. The score is the share of the killed ones
+among those that are killed or alive and not equivalent.
 """
 QUICK = "**Each mutant here has met the first of its tests alone: some that are alive would be killed.**\n"
 SO_FAR = "They ran at different times; some that are alive have met the first of their tests alone.\n"
@@ -69,6 +70,7 @@ class Score:
 
     made: int
     killed: int
+    proved: int
     endless: int
     equivalent: int
     alive: int
@@ -86,21 +88,24 @@ def score(tried: Sequence[Tried], made: int) -> Score:
     alive = [one for one in tried if one.verdict == ALIVE]
     equivalent = sum(bool(one.why) for one in alive)
     count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in (KILLED, ENDLESS, BROKEN)}
-    return Score(made, count[KILLED], count[ENDLESS], equivalent, len(alive) - equivalent, count[BROKEN])
+    proved = sum(one.test.startswith(PROOF) for one in tried)
+    left = len(alive) - equivalent
+    return Score(made, count[KILLED], proved, count[ENDLESS], equivalent, left, count[BROKEN])
 
 
 def row(name: str, tried: Sequence[Tried], made: int) -> str:
     """Of the tables."""
     found = score(tried, made)
     percent = "–" if found.percent is None else f"{found.percent:.1f} %"
-    figures = (made, len(tried), found.killed, found.endless, found.equivalent, found.alive, percent)
+    killed = (found.killed, found.proved, found.endless)
+    figures = (made, len(tried), *killed, found.equivalent, found.alive, percent)
     return f"| {name} | " + " | ".join(map(str, figures)) + " |"
 
 
 def table(title: str, rows: Sequence[str]) -> Iterator[str]:
     """With its head."""
-    yield f"| {title} | made | tried | killed | no end | equivalent | alive | score |"
-    yield "|---|---|---|---|---|---|---|---|"
+    yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | alive | score |"
+    yield "|---|---|---|---|---|---|---|---|---|"
     yield from rows
 
 

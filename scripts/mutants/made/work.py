@@ -1,4 +1,5 @@
-"""One mutant on a worker: its groups of tests, one after the other, until a test fails."""
+"""One mutant on a worker: the proofs of its block, then its groups of tests, then the proofs of the blocks
+that hold it, one after the other, until one fails."""
 
 from __future__ import annotations
 
@@ -18,21 +19,24 @@ from cocotb_tests.harness.project import BUILD, ROOT
 from scripts.campaign.jobs import Result
 
 from .faults import Fault, faults
+from .proved import failing, proofs_of
 from .schema import instrumented
 from .suites import Group
 
 WALL_S = "100"
 """Of one test, in s."""
+PROOF = "proof "
 KILLED, ALIVE, ENDLESS, BROKEN = "killed", "alive", "no end", "no build"
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One, and the tests that it meets."""
+    """One, and the tests that it meets; `briefly`: no proof but those of its block."""
 
     file: str
     fault: Fault
     groups: tuple[Group, ...]
+    briefly: bool = False
 
     @property
     def key(self) -> str:
@@ -77,13 +81,21 @@ def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
     return (ENDLESS if TIMEOUT in done.stdout else KILLED), name
 
 
-def run_one(mutant: Mutant) -> Result:
-    """Try one mutant. A result without end counts apart from one that a check has found."""
+def met(mutant: Mutant) -> tuple[str, str]:
+    """What became of the mutant, and what it was killed by: the name of a test, or `PROOF` and of a proof."""
+    own, others = proofs_of(mutant.file)
+    if name := failing(mutant.file, mutant.fault, own):
+        return KILLED, PROOF + name
     for group in mutant.groups:
         verdict, test = pytest(mutant, group)
         if verdict != ALIVE:
-            break
-    else:
-        verdict, test = ALIVE, ""
-    found = {"verdict": verdict, "test": test, "file": digest(mutant.file)}
-    return Result(verdict != BROKEN, found)
+            return verdict, test
+    if not mutant.briefly and (name := failing(mutant.file, mutant.fault, others)):
+        return KILLED, PROOF + name
+    return ALIVE, ""
+
+
+def run_one(mutant: Mutant) -> Result:
+    """Try one mutant. A result without end counts apart from one that a check has found."""
+    verdict, test = met(mutant)
+    return Result(verdict != BROKEN, {"verdict": verdict, "test": test, "file": digest(mutant.file)})

@@ -5,12 +5,13 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.project import ROOT, ProjectError
-from scripts.mutants.made import page
+from scripts.mutants.made import page, work
 from scripts.mutants.made.chosen import rtl_files, sample
-from scripts.mutants.made.faults import faults
+from scripts.mutants.made.faults import alone, faults
 from scripts.mutants.made.page import Tried, score
+from scripts.mutants.made.proved import proofs_of
 from scripts.mutants.made.schema import CHOSEN, instrumented
-from scripts.mutants.made.work import ALIVE, ENDLESS, KILLED
+from scripts.mutants.made.work import ALIVE, ENDLESS, KILLED, PROOF, Mutant, met
 from scripts.syntax import findings
 
 TEXT = """module m #(parameter int W = 4 + 1) (input wire logic clk_i, rst_ni, a, b, output logic [W-1:0] q);
@@ -60,6 +61,60 @@ def test_a_copy_holds_all_and_keeps_lines() -> None:
     assert plain.replace(plain[plain.index(f" int {CHOSEN}") : plain.index("\n")], "") == TEXT
 
 
+def test_one_alone() -> None:
+    """Given a mutant, then its file alone is as good SystemVerilog, and differs from the others'."""
+    texts = [alone(TEXT, fault) for fault in faults(TEXT)]
+    assert len({*texts, TEXT}) == len(texts) + 1
+    assert all(findings(text) == findings(TEXT) for text in texts)
+    assert any("else if (a) begin end" in text for text in texts)
+    assert any("en_i(((a) || (b)))" in text for text in texts)
+
+
+def test_proofs_of_a_file() -> None:
+    """Given a file, then the proofs of its block are apart from those of the blocks that it is in."""
+    own, others = proofs_of("rtl/motion/ppmc_stop_guard.sv")
+    assert {one.block for one in own} == {"ppmc_stop_guard"}
+    assert {"ppmc_axis", "ppmc_pace"} & {one.block for one in others}
+    assert "ppmc_uart_rx" not in {one.block for one in others}
+    assert proofs_of("rtl/common/ppmc_lfsr_pkg.sv")[0] == []
+    assert proofs_of("rtl/pmc006/pmc006.sv") == ([], [])
+
+
+@pytest.mark.parametrize(
+    "proof, group, wanted",
+    [
+        ("ppmc_stop_guard", None, ["own"]),
+        (None, "a", ["own", "a"]),
+        (None, "b", ["own", "a", "b"]),
+        ("ppmc_axis_stop", None, ["own", "a", "b", "others"]),
+        (None, None, ["own", "a", "b", "others"]),
+    ],
+)
+def test_order_of_what_a_mutant_meets(
+    monkeypatch: pytest.MonkeyPatch, proof: str | None, group: str | None, wanted: list[str]
+) -> None:
+    """Given what kills it, then nothing behind that is tried, and the result names it."""
+    file, tried = "rtl/motion/ppmc_stop_guard.sv", []
+    own = proofs_of(file)[0]
+
+    def failing(_file: str, _fault: object, chosen: list[object]) -> str:
+        tried.append("own" if chosen == own else "others")
+        return next((one.name for one in chosen if one.name == proof), "")  # type: ignore[attr-defined]
+
+    def pytest_of(_mutant: Mutant, tests: tuple[str, ...]) -> tuple[str, str]:
+        tried.append(tests[0])
+        return (KILLED, "a test") if tests[0] == group else (ALIVE, "")
+
+    monkeypatch.setattr(work, "failing", failing)
+    monkeypatch.setattr(work, "pytest", pytest_of)
+    mutant = Mutant(file, faults(TEXT)[0], (("a",), ("b",)))
+    by = PROOF + proof if proof else "a test" if group else ""
+    assert met(mutant) == (KILLED if by else ALIVE, by) and tried == wanted
+    tried.clear()
+    met(Mutant(file, mutant.fault, mutant.groups, briefly=True))
+    assert tried == [one for one in wanted if one != "others"]
+
+
 def test_letters_of_several_bytes() -> None:
     """Given such letters in comments, then the same mutants in the same places."""
     text = TEXT.replace("begin\n", "begin  // 0 µs, 1 …\n")
@@ -95,8 +150,10 @@ def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
     """Given verdicts, then those without end and equivalent ones count apart."""
     file = "rtl/common/ppmc_sync.sv"
     fault = faults(TEXT)[0]
-    tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, KILLED, ENDLESS, ALIVE)]
-    assert (found := score(tried, 9)).percent == 75 and found.endless == 1 and found.alive == 1
+    tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, ENDLESS, ALIVE)]
+    tried.append(Tried(file, fault, KILLED, f"{PROOF}ppmc_sync"))
+    found = score(tried, 9)
+    assert (found.percent, found.killed, found.proved, found.endless, found.alive) == (75, 3, 1, 1, 1)
     monkeypatch.setattr(page, "judged", lambda: {(file, tried[0].source, fault.what): "the same"})
     assert (found := score(tried, 9)).percent == 100 and found.equivalent == 1 and found.alive == 0
     assert "equivalent: the same" in page.page(tried, [file], page.QUICK)
