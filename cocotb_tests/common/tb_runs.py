@@ -11,6 +11,7 @@ import cocotb
 import pytest
 from cocotb.triggers import Timer
 
+from ..harness.clockwork import clockwork
 from ..harness.inside import inside
 
 LEFT: list[str] = []
@@ -79,6 +80,20 @@ async def shows(dut):
     """A plain assert."""
     levels = [await _clk(dut) for _ in range(2)]
     assert levels == [7, 7]
+
+
+@cocotb.test()
+@cocotb.parametrize(edge=[1, 2])
+async def clocked(dut: Any, edge: int) -> None:
+    """An assertion fires at one rising edge of a clock that is started."""
+    work = clockwork()
+    dut.fire.value = dut.die.value = 0
+    work.clock(work.port("clk"), 10)
+    await Timer(20 * edge - 15, "step")
+    dut.fire.value = 1
+    await Timer(10, "step")
+    dut.fire.value = 0
+    await Timer(30, "step")
 
 
 @cocotb.test()

@@ -104,9 +104,11 @@ void record() {
     }
 }
 
-// An edge of the clock.
+// An edge of the clock. Assertions begin behind the first rising one: before it registers hold anything, and a reset
+// that such a register says has begun already has no edge.
 void tick() {
     clock_level ^= 1;
+    if (!clock_level) Verilated::assertOn(true);
     ports[clock_port].store(clock_level);
     clock_next += clock_half;
     dirty = true;
@@ -178,6 +180,7 @@ void openppmc_clock(int port, std::uint64_t half) {
     clock_half = half;
     clock_level = 0;
     clock_next = main_time + half;
+    Verilated::assertOn(false);
     openppmc_put(port, 0);
 }
 

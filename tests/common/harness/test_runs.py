@@ -70,6 +70,13 @@ def test_each_ends_in_its_own_way(design: Design) -> None:
     assert kinds(design, *names) == dict(zip(names, ends, strict=True))
 
 
+def test_nothing_is_asserted_of_the_first_edge(design: Design) -> None:
+    """What state there is at power-up, no assertion tells of it; of the second edge it does."""
+    design = replace(design, main="own")  # cocotb's cannot turn them off
+    assert kinds(design, "clocked/edge=1", "passes") == {"clocked/edge=1": "passed", "passes": "passed"}
+    assert kinds(design, "clocked/edge=2", "passes") == {"clocked/edge=2": "failed", "passes": "passed"}
+
+
 @pytest.mark.parametrize("end", ["dies", "crashes", "loops"])
 def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
     """$fatal, a segmentation fault and an endless loop are named; the others have results of their own."""
