@@ -167,6 +167,25 @@ async def p006_traffic_of_other_nodes(dut: Any) -> None:
     assert not host.steps(0)
 
 
+@directed("P006-UART-02", "P006-UART-05", "P006-FRM-04", builds=BUILDS)
+async def p006_start_bits_about_the_middle_of_a_stop_bit(dut: Any) -> None:
+    """A stop bit may be cut short behind its middle; the next character counts from its own edge."""
+    host = await Host.start(dut)
+    data, heard = 0x55AA33CC, []
+    *first, last = command(0xFF, "i", data)
+    for late in range(-3, 5):
+        for byte in first:
+            begin = host.t
+            await host.character(byte)
+            host.back_to(begin + ceil(Fraction(19, 2) * host.bit) + late)
+        await host.character(last)
+        await host.pause(ceil(300 * host.bit))
+        await host.forget()
+        heard.append(await host.ask("c") == data)
+        assert await host.ask("i", 0) == 0
+    assert heard == sorted(heard) and set(heard) == {False, True}
+
+
 @directed("P006-FRM-04", "P006-BAD-04", builds=BUILDS)
 async def p006_silence_within_a_frame(dut: Any) -> None:
     """Less than 192 bit times between the stop-bit sample and the next start bit are nothing; more end it."""
