@@ -6,7 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.block_host import DWR, WAR, WCR, clean
+from cocotb_tests.harness.block_host import CSR, DRR, DWR, MWEF, RAR, WAR, WCR, clean
 from cocotb_tests.harness.config import D16
 from cocotb_tests.harness.directed import directed
 from cocotb_tests.ppmc312.blocks import RATES, T1, TF
@@ -202,6 +202,24 @@ async def p312_event_buffer_before_an_override_on_the_same_edge(dut: Any) -> Non
     assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
     assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 40")  # no override waits
+
+
+@directed("P312-RSP-20", "P312-PAR-06")
+async def p312_an_answer_due_as_the_one_before_it_is_read(dut: Any) -> None:
+    """The read of the last byte ends some clk before, with and behind the end of the host's instruction."""
+    for shift in range(18, 38):
+        host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
+        await host.write(CSR, 0x30)
+        await host.blip("evt0_n")
+        await host.wait()
+        left = 0x40 - await host.read(RAR)
+        for _ in range(left - 1):
+            await host.read(DRR)
+        await host.put(message(Code.VERSION), gap=0)
+        await host.go(host.header + shift)
+        await host.read(DRR)
+        assert await host.response() == message(Code.VERSION, "12")
+        assert not await host.read(CSR) & MWEF
 
 
 @cocotb.parametrize(gap=range(38, 56, 3))

@@ -47,6 +47,8 @@ class Unit:
         self._job: Job | None = None
         self._storing = False
         self._late: bytes | None = None
+        self._open_from = 0
+        """Edge from which the place of the answer that was read last may be used."""
         self._alarming = False
         self._rest: list[bytes] = []
         self.holding = False
@@ -281,6 +283,11 @@ class Unit:
             self._answered = True
             self._core.host.answer(t, source, block)
             return
+        if t < self._open_from:
+            self._core.context.queue.at(
+                self._open_from, Phase.STORE, lambda now: self._store(now, block, source)
+            )
+            return
         if not self._core.responses.post(t, ANSWER, [block], source):
             # Behind an answer to an event or an override; the mailbox stays closed (P312-RSP-20).
             self._late = block
@@ -298,8 +305,9 @@ class Unit:
         if report.kind != ANSWER:
             return
         pace, queue, late = self._core.pace, self._core.context.queue, self._late
+        self._open_from = t + pace.late
         if late is not None:
-            queue.at(t + pace.late, Phase.STORE, lambda now: self._store(now, late, Source.HOST))
+            queue.at(self._open_from, Phase.STORE, lambda now: self._store(now, late, Source.HOST))
         elif self._rest:
             following = self._rest.pop(0)
             self._at(t + 1, self._fetch)
