@@ -222,6 +222,22 @@ async def p312_an_answer_due_as_the_one_before_it_is_read(dut: Any) -> None:
         assert not await host.read(CSR) & MWEF
 
 
+@cocotb.parametrize(pin=["fl_n", "bhl_n"])
+@directed("P312-INP-11")
+async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
+    """The pin falls some clk before, with and behind the look at the limits."""
+    refused = []
+    for shift in range(16, 40):
+        host = await Host.start(dut, *TF)
+        option = "40" if pin[0] == "b" else "00"
+        await host.put(message(Code.RAMP, option + "0000 00000001"), gap=0)
+        await host.go(host.header + shift)
+        await host.pins(**{pin: 0})
+        refused.append(await host.response() == message(Answer.LIMIT))
+        await host.pause(2000)
+    assert refused == sorted(refused, reverse=True) and set(refused) == {True, False}
+
+
 @cocotb.parametrize(gap=range(38, 56, 3))
 @directed("P312-OVR-10", "P312-RSP-20", "P312-EVT-04")
 async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> None:

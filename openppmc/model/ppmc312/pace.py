@@ -18,11 +18,12 @@ class Pace:
 
     Instructions. turn: header write event, trigger, or end of the last one to the begin of processing (the
     block is fetched at one byte a clk and judged). judge, effect: from there to the checks, and to the effect
-    of anything short. copy: more for what is registered. limits: effect to the limit check of a start.
-    answer: effect to the stored answer, without its bytes (one clk each). done: stored to MWEF = 0. reset:
-    begin of processing to the reset by FF, reboot: from there to its effect, reopen: to MWEF = 0. alarm:
-    multiple occurrence to its alarm. halt: effect of 80 to its stop. found: further block of a table read
-    after the one before has been read, without its bytes, three more for each of its stages.
+    of anything short. copy: more for what is registered. limits: effect to the limit check of a start, which
+    sees the levels of its edge. answer: effect to the stored answer, without its bytes (one clk each). done:
+    stored to MWEF = 0. reset: begin of processing to the reset by FF, reboot: from there to its effect,
+    reopen: to MWEF = 0. alarm: multiple occurrence to its alarm. halt: effect of 80 to its stop. found:
+    further block of a table read after the one before has been read, without its bytes, three more for each
+    of its stages.
 
     Responses. late: an earlier answer read to the one that waited for it (P312-RSP-20, <= 4). load: store to
     load; show: load to MREF = 0; reload: MREF = 1 to the next load (P312-PAR-08).

@@ -218,7 +218,9 @@ class Unit:
             return
         self.holding = False
         if work.check:
-            self._at(t + self._core.pace.limits, lambda now: self._check(now, job, work, due))
+            # The levels of that edge count.
+            look = t + self._core.pace.limits
+            self._core.context.queue.at(look, Phase.COMMAND, lambda now: self._check(now, job, work, due))
         else:
             self._at(due, lambda now: self._finish(now, job, work))
 
