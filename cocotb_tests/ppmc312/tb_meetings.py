@@ -238,6 +238,28 @@ async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
     assert refused == sorted(refused, reverse=True) and set(refused) == {True, False}
 
 
+@cocotb.parametrize(code=[Code.FOREVER_CONSTANT, Code.VERSION])
+@directed("P312-RSP-11", "P312-MON-04")
+async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code) -> None:
+    """The encoder leaves its window some clk before, with and behind the effect: who is read first, and when."""
+    first = []
+    for shift in range(8, 40):
+        host = await Host.start(dut, *TF)
+        await host.write(CSR, 0x30)
+        await host.ask(message(Code.ENCODE, "03 0002"))
+        for _ in range(2):
+            await host.pins(epin=1)
+            await host.pause(4)
+            await host.pins(epin=0)
+            await host.pause(4)
+        await host.put(message(code, "00 0190" if code is Code.FOREVER_CONSTANT else ""), gap=0)
+        await host.go(host.header + shift)
+        await host.pins(epin=1)
+        responses = [await host.response() for _ in range(2)]
+        first.append(responses.index(message(Answer.ENCODE_CHANGE, "01", source=SPONTANEOUS)))
+    assert 0 in first and (1 in first or code is not Code.VERSION)
+
+
 @cocotb.parametrize(gap=range(38, 56, 3))
 @directed("P312-OVR-10", "P312-RSP-20", "P312-EVT-04")
 async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> None:

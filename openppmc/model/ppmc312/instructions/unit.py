@@ -217,6 +217,7 @@ class Unit:
             self._finish(t, job, work)
             return
         self.holding = False
+        self._core.host.offer(t)
         if work.check:
             # The levels of that edge count.
             look = t + self._core.pace.limits
