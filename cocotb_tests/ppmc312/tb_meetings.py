@@ -241,7 +241,7 @@ async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
 @cocotb.parametrize(code=[Code.FOREVER_CONSTANT, Code.VERSION])
 @directed("P312-RSP-11", "P312-MON-04")
 async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code) -> None:
-    """The encoder leaves its window some clk before, with and behind the effect: who is read first, and when."""
+    """The encoder leaves its window some clk before, with and behind the effect: what is read first."""
     first = []
     for shift in range(8, 40):
         host = await Host.start(dut, *TF)
