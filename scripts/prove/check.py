@@ -82,10 +82,15 @@ def trace(folder: Path) -> str:
     return said or relative(folder / "trace.vcd")
 
 
+def place(proof: Proof, change: Change | None = None) -> Path:
+    """Folder of a run, which stays when it has ended."""
+    return BUILD / "prove" / (f"{proof.name}.{change.name}" if change else proof.name)
+
+
 def check(proof: Proof, limit: int = LIMIT, change: Change | None = None) -> Outcome:
     """Prove one, of the RTL as it is or with a change, which should make it fail."""
     begin = time.monotonic()
-    folder = BUILD / "prove" / (f"{proof.name}.{change.name}" if change else proof.name)
+    folder = place(proof, change)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     changed = {}

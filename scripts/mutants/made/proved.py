@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT
-from scripts.prove.check import check
+from scripts.prove.check import check, place
 from scripts.prove.table import Change, Proof, proofs
 
 from .faults import Fault, alone
@@ -45,6 +46,7 @@ def failing(file: str, fault: Fault, tried: Sequence[Proof]) -> str:
     change = Change(f"{Path(file).stem}-{fault.number}", file, text)
     for proof in tried:
         outcome = check(proof, LIMIT, change)
+        shutil.rmtree(place(proof, change), ignore_errors=True)
         if outcome.refuted or any(clk < 0 for _, clk in outcome.reached):
             return proof.name
     return ""
