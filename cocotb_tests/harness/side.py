@@ -15,6 +15,7 @@ from typing import Any, ClassVar, Protocol
 
 from .config import Config
 from .follower import Follower, new_model
+from .given import Given
 from .part import Part
 from .stimulus import Access, Change, Edge, Recording, bit_changes, level_at
 
@@ -56,6 +57,7 @@ class Side(ABC):
         self.accesses: list[Access] = []
         self.initial: dict[str, int] = {}
         self.follower: Follower | None = None
+        self._given = Given()
         self._later: list[Handle] = []
 
     # ---------------------------------------------------------------- primitives
@@ -135,9 +137,8 @@ class Side(ABC):
         if not part.fed:
             return self.stimulus
         seen = self._seen()
-        made = [Change(t + 1, name, level) for name in part.fed for t, level in seen[name]]
         driven = [change for change in self.stimulus if change.pin not in part.aside]
-        return sorted([*driven, *made], key=lambda change: change.t)
+        return self._given.add(driven, {name: seen[name] for name in part.fed})
 
     def close(self) -> None:
         """Let the pins rest: whatever was to change them later no longer does."""

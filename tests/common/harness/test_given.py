@@ -1,0 +1,27 @@
+"""Pin changes of two sources: what a golden model that follows has been fed stays where it is."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.given import Given
+from cocotb_tests.harness.stimulus import Change
+
+
+def test_what_comes_later_stands_behind() -> None:
+    """Given a change of the bench's top that is in the list, when a test drives a pin at the same edge, then
+    that comes behind it: a model that counts what it has been fed misses nothing."""
+    given, driven = Given(), [Change(3, "rxd", 0)]
+    made = {"sda_i": [(4, 0), (7, 1)], "scl_i": [(6, 0)]}
+    fed = list(given.add(driven, made))
+    assert fed == [Change(3, "rxd", 0), Change(5, "sda_i", 0), Change(7, "scl_i", 0), Change(8, "sda_i", 1)]
+    driven.append(Change(8, "rxd", 1))
+    made["scl_i"].append((9, 1))
+    assert given.add(driven, made) == [*fed, Change(8, "rxd", 1), Change(10, "scl_i", 1)]
+    assert given.add(driven, made) == given.changes and len(given.changes) == 6
+
+
+def test_a_level_that_has_changed_within_its_edge() -> None:
+    """Given the last level of a pin, when it is another one at the end of that edge, then that follows."""
+    given = Given()
+    given.add([], {"sda_i": [(4, 0)]})
+    assert given.add([], {"sda_i": [(4, 1)]}) == [Change(5, "sda_i", 0), Change(5, "sda_i", 1)]
+    assert given.add([], {"sda_i": [(4, 1), (6, 0)]})[2:] == [Change(7, "sda_i", 0)]
