@@ -93,6 +93,9 @@ def stream(rng: random.Random, adr: int, sum_mode: str = "BINARY", size: int = 4
             items.append(None)
         else:
             items.append(rng.choice((300, CHARACTER, 30_000, SILENCE - 500, SILENCE + 500)))
+    if items[-1] == SILENCE - 500:
+        # What is said after 20 ms (P312-SER-12, -17) would meet the poll that follows.
+        items[-1] = SILENCE + 500
     return items
 
 
