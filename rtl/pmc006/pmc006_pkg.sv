@@ -107,7 +107,7 @@ package pmc006_pkg;
 
   // A reset fills all places but the first two.
   typedef enum logic [4:0] {
-    RegMstep = 5'd2,
+    RegMstep   = 5'd2,
     RegCurrent,
     RegAcc,
     RegDec,
