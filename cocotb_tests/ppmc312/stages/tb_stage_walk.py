@@ -236,3 +236,38 @@ async def stage_seq_searches(dut):
         await walker.run(120)
         searched += walker.searched
     assert searched > 100, f"a search ran in {searched} intervals only"
+
+
+class Forgotten(Walker):
+    """A stage of the acceleration side becomes a constant rate, 88 is decided within the search for it, and
+    81 comes before the boundary."""
+
+    def plan_requests(self) -> dict[int, str]:
+        """88 and 87 to where the search begins; in it 88, then 81."""
+        if self.sequence.sought and self.jump:
+            requests = {self.jump: "jump", LEADS["slow"]: "slow"}
+            self.jump = 0
+            return requests
+        return {37: {LEADS["jump"]: "jump"}, 44: {LEADS["ramp"]: "ramp"}}.get(self.sequence.done, {})
+
+    def aim(self) -> int:
+        """Slower than all stages, then along the first one."""
+        return 169 if self.sequence.done == 44 else 363
+
+
+@cocotb.test()
+async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
+    """Given 88 within a search, then 81 forgets it if the search has ended, and waits for it if not."""
+    rand = rng()
+    u = Unit(dut, "seq", BLOCKS, WATCH)
+    await u.reset()
+    table = curve([169, 250, 332, 169, 363], [5, 5, 6, 6, 6], [4, 2])
+    ends = set()
+    for before in (*range(-8, 4), 40):
+        walker = Forgotten(u, table, ramped(table, 169, 52), rand)
+        walker.jump = SEARCH + FOUND + before
+        await walker.load()
+        end = await walker.run(80)
+        ends.add((end, walker.searched > 0))
+    # At 363, taken where 81 waits, there is nothing to decelerate; the walk lasts until the count ends.
+    same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])
