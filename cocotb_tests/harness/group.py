@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
+from . import mutant
 from .collect import Item
 from .outcome import MISSING, Outcome
 from .simulate import Job, tried
@@ -32,7 +33,8 @@ def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T
 def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
     """Outcome of each item of a job, and the process that it comes from.
 
-    What a crash keeps from running has a new process, without the test that crashed.
+    What a crash keeps from running has a new process, without the test that crashed; but one failure says all
+    of a mutant.
     """
     found: dict[Item, tuple[Outcome, Job]] = {}
     left: Sequence[Item] = job.items
@@ -40,7 +42,8 @@ def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
         now = replace(job, items=tuple(left))
         outcomes = tried(now)
         left = [item for item, outcome in outcomes.items() if outcome.kind == MISSING]
-        if len(left) == len(outcomes):  # nothing came to run at all
+        nothing_ran = len(left) == len(outcomes)
+        if nothing_ran or mutant.present():
             left = []
         found |= {item: (outcome, now) for item, outcome in outcomes.items() if item not in left}
     return found

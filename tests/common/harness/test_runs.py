@@ -12,6 +12,7 @@ from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.collect import Item, cocotb_items
 from cocotb_tests.harness.group import run_group
 from cocotb_tests.harness.inside import HINT, inside, seen
+from cocotb_tests.harness.mutant import MUTANT
 from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import BUILD, FAILURES, ROOT, relative
 from cocotb_tests.harness.runner import SimOptions, attempt, outcome_of, run_item
@@ -83,6 +84,15 @@ def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
     found = kinds(design, "passes", end, "raises", "shows", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
     assert found == {"passes": "passed", "raises": "passed", "shows": "failed"}
+
+
+@pytest.mark.parametrize("end", ["dies", "loops"])
+def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A process that ends within a test has no successor: 36 tests at 100 s each would come to an hour."""
+    monkeypatch.setenv(MUTANT, "rtl/none.sv 1 none.sv")
+    found = kinds(design, "passes", end, "leaks", "looks", OPENPPMC_WALL_S="6")
+    assert found.pop(end) in ("failed", "crashed")
+    assert found == {"passes": "passed", "leaks": "did not run", "looks": "did not run"}
 
 
 @pytest.mark.parametrize(
