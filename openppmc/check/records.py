@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from bisect import bisect_right
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -98,13 +99,9 @@ def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, li
 
 
 def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
-    """Level just after clk edge t."""
-    level = initial
-    for when, value in changes:
-        if when > t:
-            break
-        level = value
-    return level
+    """Level just after clk edge t, by bisection: recordings have a hundred thousand changes."""
+    place = bisect_right(changes, t, key=lambda change: change[0])
+    return changes[place - 1][1] if place else initial
 
 
 def bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from pathlib import Path
+from time import process_time
 
 import pytest
 
@@ -181,6 +182,16 @@ def test_differing_spans_cover_exactly_the_wrong_time() -> None:
     result = compare_recording(recording(edges), Scripted(move()))
     assert differing_spans(result, "pout_n") == [(2000, 1), (2002, 0)]
     assert differing_spans(result, "s") == []
+
+
+def test_a_long_recording_is_reported_in_seconds(tmp_path: Path) -> None:
+    """60 000 edges: some seconds of CPU time; a scan for each of them would take minutes."""
+    long = move(20_000)
+    edges = sorted([*long[:-1], long[-1]._replace(t=long[-1].t + 2)])
+    result = compare_recording(recording(edges, edges[-1].t + 10), Scripted(long))
+    begin = process_time()
+    write_report(result, tmp_path)
+    assert process_time() - begin < 30
 
 
 def test_missing_and_extra_tail_edges_are_drawn_too(tmp_path: Path) -> None:
