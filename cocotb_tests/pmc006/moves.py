@@ -60,7 +60,7 @@ async def move(host: Host, count: int) -> list[int]:
     return host.intervals()
 
 
-async def after_steps(host: Host, count: int, limit_us: float = 20_000_000) -> int:
+async def after_steps(host: Host, count: int, limit_us: float = 5_000_000) -> int:
     """Run until so many steps have been made since `mark`; returns the edge of that step."""
     end = host.t + host.us(limit_us)
     made = host.made()
