@@ -206,7 +206,7 @@ class Scenes(Player):
         count = full + rng.randint(16, 24)
         await self.tell(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
         before = rng.randint(6, 12)
-        while (motion := self.model.motion).active:
+        while (motion := self.model.motion).active and host.t < self.end:  # it may wait for a start
             if count - motion.sequence.done <= motion.sequence.plan.down + before:
                 break
             await self.attend(30)
