@@ -20,6 +20,8 @@ TICKS = [
     (100_000_000, 16_000_000, 4),
     (200_000_000, 16_000_000, 4),
     (11_059_200, 1_000_000, 1),
+    (25_000_000, 16_000_000, 1),  # shorter than two clk
+    (16_000_000, 16_000_000, 1),  # each clk
 ]
 SQUARES = [
     (8_000_000, 16_000_000, 2),
@@ -51,7 +53,9 @@ BLOCKS = {
     ),
     **{
         f"tick{i}": Block(
-            "ppmc_tick_gen", "restart_i tick_o", {"ClkHz": clk, "XtalHz": xtal, "TickXtal": step}
+            "ppmc_tick_gen",
+            "restart_i tick_o",
+            {"ClkHz": clk, "XtalHz": xtal, "TickXtal": step, "MinClk": 1 + (step * clk >= 2 * xtal)},
         )
         for i, (clk, xtal, step) in enumerate(TICKS)
     },
@@ -139,6 +143,8 @@ async def tick_gen_exact(dut):
                 due = j == ceil(n * period)
                 same(f"{clk} Hz, {xtal} Hz, clk {j} of {run}", await u.clk(restart_i=0), due)
                 n += due
+        await u.settle(rst_ni=0)
+        same(f"{clk} Hz, {xtal} Hz, in reset", await u.settle(), 0)
 
 
 @cocotb.test()
