@@ -2,7 +2,7 @@
 
 `simulate` names this module in front of those with tests; it holds none. The limit runs anew with each test,
 and with each bench of a test that has many (a batch of seeds). What it ends says in the log which line was
-waiting, and so does a crash.
+waiting, and so does a crash. A simulation of a mutant ends with the first test that fails.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ import logging
 import os
 import re
 import warnings
+
+from . import mutant
 
 LIMIT = "OPENPPMC_WALL_S"
 """Environment: seconds of wall clock that a test may take (300)."""
@@ -26,11 +28,17 @@ def arm(least: int = 1) -> None:
 class _EachTest(logging.Handler):
     """Follows cocotb from test to test by what it logs; there is no other hook."""
 
+    failed = False
+
     def emit(self, record: logging.LogRecord) -> None:
         # What the simulator has printed so far belongs before this line.
         ctypes.CDLL(None).fflush(None)
-        if record.getMessage().startswith("running "):
+        said = record.getMessage()
+        if said.startswith("running "):
+            if self.failed and mutant.present():  # that says all of it
+                os._exit(1)
             arm()
+        self.failed |= re.match(r"\S+ failed\b", said) is not None
 
 
 def _watch() -> None:
