@@ -99,7 +99,7 @@ def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, li
 
 
 def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
-    """Level just after clk edge t, by bisection: recordings have a hundred thousand changes."""
+    """Level at t, changes at t included, by bisection: recordings have a hundred thousand of them."""
     place = bisect_right(changes, t, key=lambda change: change[0])
     return changes[place - 1][1] if place else initial
 

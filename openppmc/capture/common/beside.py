@@ -7,7 +7,7 @@ the moves it is known by how much, and that is taken out.
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
@@ -18,7 +18,7 @@ from .decoding import Decoded
 from .errors import CaptureError
 from .kind import DecodeKind, Train
 from .pulses import moves, unchopped
-from .signals import SECOND, US, Channel, joined
+from .signals import SECOND, US, Channel, joined, level_at
 
 SETTLED = 100 * US
 """ps from the end of an initialisation to the first pattern, at most."""
@@ -139,8 +139,8 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
 
     feed: dict[int, dict[str, int]] = {1: {}}
     for port, channel in _inputs(decoded).items():
-        feed[1][port] = 1 if port == "rst_n" else _level(channel, begin)
-        if port == "rst_n" and not _level(channel, begin):
+        feed[1][port] = 1 if port == "rst_n" else level_at(channel, begin)
+        if port == "rst_n" and not level_at(channel, begin):
             feed.setdefault(lead, {})[port] = 0
         for t, level in channel.changes:
             if t > begin:
@@ -189,11 +189,6 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
             whole = joined([places.get(bit, Channel(idle >> bit & 1)) for bit in range(width)])
         found[port] = whole
     return found
-
-
-def _level(channel: Channel, t: int) -> int:
-    place = bisect_right(channel.changes, t, key=lambda change: change[0])
-    return channel.changes[place - 1][1] if place else channel.initial
 
 
 def _model_level(model: Any, name: str, t: int) -> int:
@@ -304,7 +299,7 @@ def _same_place(
     """Whether chip and model show the same phases when the comparison begins."""
     start = starts.get(kind.axis_of(port, 0), starts[0]) + SETTLED
     return all(
-        _level(channel, start) == _level(played.outputs[port].bit(bit), start)
+        level_at(channel, start) == level_at(played.outputs[port].bit(bit), start)
         for bit, channel in places.items()
     )
 
@@ -316,7 +311,7 @@ def _match(
     they agree first."""
     mine = [change for change in chip.changes if start <= change[0]]
     other = [change for change in model.changes if start <= change[0]]
-    if not known and _level(chip, start) != _level(model, start):
+    if not known and level_at(chip, start) != level_at(model, start):
         # Whoever changes first comes to agree with the other.
         mine_first = mine[0][0] if mine else end + 1
         other_first = other[0][0] if other else end + 1

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import gcd
 
+from ...check import records
+
 US = 1_000_000
 """Picoseconds of a microsecond."""
 SECOND = 10**12
@@ -82,10 +84,7 @@ def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
 
 def level_at(channel: Channel, t: int) -> int:
     """Level at a time, changes at that time included."""
-    from bisect import bisect_right
-
-    place = bisect_right(channel.changes, t, key=lambda change: change[0])
-    return channel.changes[place - 1][1] if place else channel.initial
+    return records.level_at(channel.changes, t, channel.initial)
 
 
 def joined(bits: Sequence[Channel]) -> Channel:
