@@ -102,3 +102,18 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
         if cause == 0x20:
             await host.pins(org_n=0)
         assert await host.response() == stopped(cause, 1)
+
+
+@directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
+async def p312_zero_return_whose_origin_meets_a_slow_stop(dut: Any) -> None:
+    # Too slow for a walk: of both in one interval the stop counts, and there is no way back.
+    for origin_first in (False, True):
+        host = await Host.start(dut, *TF)
+        await host.ask(message(Code.ZERO_RETURN, "00 0190"))
+        await host.pulse(3, 20)
+        if origin_first:
+            await host.pins(org_n=0)
+        await host.ask(SLOW_STOP)
+        await host.pins(org_n=0)
+        assert await host.response() == stopped(0x10, 3)
+        assert host.out("dir") == 0 and await host.quiet()
