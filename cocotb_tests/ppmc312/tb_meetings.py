@@ -292,3 +292,22 @@ async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
     await host.pins(evt0_n=0)
     await host.pause(7000)
     assert len(host.pulses()) == (9 if shift < 1 else 10)
+
+
+@directed("P312-OVR-10", "P312-CMD-41")
+async def p312_an_event_about_the_next_block_of_a_table(dut: Any) -> None:
+    """An event finds an answer of the table unread: its report comes before the next block, or behind it."""
+    report, first = message(Answer.ALARM, "01", source=SPONTANEOUS), set()
+    for gap in range(12):
+        host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
+        await host.ask(message(Code.TABLE_READ))
+        await host.wait()
+        for _ in range(0x40 - await host.read(RAR) - 1):
+            await host.read(DRR)
+        host.side.drive([(host.t + gap, {"evt0_n": 0})])
+        await host.read(DRR)
+        await host.pause(60)
+        answers = [await host.response(), await host.response()]
+        first.add(answers.index(report))
+        assert answers[1 - answers.index(report)][:8] == "01 0A 02" and await host.quiet(300), gap
+    assert first == {0, 1}

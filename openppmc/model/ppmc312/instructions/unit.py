@@ -317,5 +317,7 @@ class Unit:
             self._write(t + pace.reading(following), following, Source.HOST)
 
     def _fetch(self, t: int) -> None:
-        """The next block of a table read is put together."""
+        """The next block of a table read is put together, behind what is lost on the same edge."""
+        if waits := self._next(t):
+            self._lost(t, waits)
         self._busy, self._source = True, Source.HOST
