@@ -40,13 +40,10 @@ VARS_worker := SCHEDULER J
 VARS_test-campaign := T
 VARS_replay := FILE
 VARS_lint  := VERILATOR
-VARS_synth := PART
 VARS_trace := PART
 VARS_bench := PART
-VARS_report := PART
+VARS_report := PART PEERS
 VARS_size  := PART
-VARS_recipes := PART
-VARS_yardsticks := PEERS
 VARS_test-gates := T SEED SIM_MAIN $(CAMPAIGN)
 VARS_verilog := TOP PARAMS
 VARS_test-verilog := T SEED SIM $(CAMPAIGN)
@@ -77,7 +74,7 @@ TARGETS  := help setup demo waves test test-board test-gates test-campaign test-
 TARGETS  += prove prove-night coverage mutate soak fuzz nightly scheduler worker
 TARGETS  += verilog test-verilog test-fusesoc test-litex
 TARGETS  += lint format trace docs site packages boards rom board bitstream flash
-TARGETS  += synth report size recipes yardsticks bench release clean distclean
+TARGETS  += report size bench release clean distclean
 NEED_ENV := $(filter-out help waves flash clean distclean,$(TARGETS))
 CHECKED  := $(foreach v,T BREAK PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN SCHEDULER FRESH QUICK $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
 PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
@@ -159,9 +156,6 @@ lint: $(ENVDEV) ## verible, Verilator -Wall, read_slang, ruff, import contracts 
 format: $(ENVDEV) ## lay out RTL and Python as `make lint` wants them
 	@$(PY) -m scripts.lint --fix
 
-synth: $(ENVDEV) ## cells and clock rate of PART=ppmc104 on iCE40 and ECP5, into docs/benchmarks.md
-	@$(PY) -m scripts.synth --part $(PART)
-
 bench: $(ENVSIM) ## speed of the RTL under cocotb and alone, golden model, virtual board and commands, as ratios of one run, into docs/benchmarks.md
 	@$(PY) -m scripts.bench --part $(PART)
 
@@ -206,17 +200,11 @@ test-web: $(ENVSITE) ## the playground: modules against the golden models, its e
 test-lab: $(ENVLAB) ## openppmc.ophyd: bluesky scans, limits, stops, an unplugged port on the golden models
 	@$(PYTEST) tests/*/lab -n $(J) $(if $(T),-k $(call any,$(T)))
 
-report: $(ENVDEV) ## size and clock rate of each part and board, five seeds each, into docs/benchmarks.md and docs/sizes.json
-	@$(PY) -m scripts.report $(addprefix --part ,$(GIVEN_PART))
+report: $(ENVDEV) ## measure size and clock rate (15 runs each) of all that has changed, into docs/sizes.json; PART=… designs with it, PEERS=folder other open designs; continues after an interruption
+	@$(PY) -m scripts.size $(addprefix --part ,$(GIVEN_PART)) $(if $(PEERS),--peers $(call quote,$(PEERS)))
 
 size: $(ENVDEV) ## compare the sizes with docs/sizes.json; more than 5 % growth fails
-	@$(PY) -m scripts.report --check $(addprefix --part ,$(GIVEN_PART))
-
-recipes: $(ENVDEV) ## every part with both recipes, COMB, FF, RAM, clock rate of five seeds, into docs/recipes.json and docs/benchmarks.md
-	@$(PY) -m scripts.recipes $(addprefix --part ,$(GIVEN_PART))
-
-yardsticks: $(ENVDEV) ## the PPMC-104 beside open designs whose sources and peers.json lie in PEERS=folder, into docs/benchmarks.md
-	@$(PY) -m scripts.yardsticks $(call quote,$(or $(PEERS),build/peers))
+	@$(PY) -m scripts.size --check $(addprefix --part ,$(GIVEN_PART))
 
 bitstream: $(ENVDEV) ## bitstream of BOARD=… (docs/boards.md: which carries which part) with PART=… and HOST=uart, bus or spi, in build/boards/; XTAL_HZ=… TIMING=… PHASE_IDLE=… as docs/boards.md says
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between
 from openppmc import parts
+from scripts.flow import figures, size_page
 from scripts.pictures import house, plots, waves
 from scripts.pictures.manual import Manual
 from scripts.prove import page as proofs
@@ -46,6 +47,12 @@ def wanted() -> dict[Path, bytes]:
         for marker, table in manual.tables.items():
             text = replace_between(text, marker, table())
         files[page] = text.encode()
+    page = DOCS / "benchmarks.md"
+    text = page.read_text(encoding="utf-8")
+    measured = figures.read()
+    for marker, block in size_page.BLOCKS.items():
+        text = replace_between(text, marker, block(measured))
+    files[page] = text.encode()
     files |= wiring.pages()
     files[proofs.PAGE] = proofs.text().encode()
     return files

@@ -23,6 +23,7 @@ from cocotb_tests.harness.project import ProjectError, console, relative
 from openppmc.parts import Row, tops
 from openppmc.sim.common import verilator as start
 from openppmc.sources import needed, walls
+from scripts.flow import figures
 from scripts.flow.boards import HOSTS_OF, parameters
 from scripts.flow.boards import sources as board_sources
 from scripts.flow.module_rules import all_findings
@@ -266,6 +267,7 @@ def checks() -> list[Check]:
             "import-linter", "Python", lambda: tool(project.tool("lint-imports"), *CONTRACTS, ok_output=True)
         ),
         Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
+        Check("figures", "docs/sizes.json", lambda: "\n".join(figures.stale(figures.read()))),
         Check("rtl/files.yml", "complete", listed),
         Check("rtl/files.yml", "walls between groups", walled),
         Check("modules", "ports and lines", all_findings),

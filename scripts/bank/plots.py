@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import matplotlib.pyplot as plt
 
-from scripts.bank import cost
+from scripts.flow import designs, figures, size_page
 from scripts.pictures.blocks import Arrow, Box, draw
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
@@ -56,27 +56,27 @@ def visit() -> bytes:
 
 def axis_cost() -> bytes:
     """COMB an axis over the number of axes: bank, parts with as many of the same axes, other designs."""
-    found = cost.figures()
+    found = figures.read()
     figure, axes = plt.subplots(figsize=(8.4, 4.6), layout="constrained")
     for name, color in (("plain", BLUE), ("tuned", RED)):
-        known = [n for n in cost.AXES if f"{n} {name}" in found]
-        values = [found[f"{n} {name}"]["comb"] / n for n in known]
+        known = [n for n in designs.BANKS if f"bank {n} ecp5 {name}" in found]
+        values = [found[f"bank {n} ecp5 {name}"]["comb"] / n for n in known]
         axes.plot(known, values, "o-", color=color, label=f"ppmc_bank, {name}")
         if name == "plain":
             for n, value in zip(known, values, strict=True):
                 axes.annotate(f"{value:.0f}", (n, value), (5, 5), textcoords="offset points", color=color)
-    family = cost.family()
-    axes.plot(*zip(*family.values(), strict=True), "s-", color=GREEN, label="parts, plain")
+    family, others = size_page.axis_costs(found)
+    points = list(zip(*family.values(), strict=True)) or [(), ()]
+    axes.plot(*points, "s-", color=GREEN, label="parts, plain")
     for title, (n, comb) in family.items():
         axes.annotate(f"{title}: {comb:.0f}", (n, comb), (6, 6), textcoords="offset points", color=GREEN)
-    others = cost.singles()
     for title, comb in others.items():
         axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         near = any(0 < other - comb < 0.1 * comb for other in others.values())
         side = "top" if near else "bottom"  # of two lines close together the lower one is named below
         axes.text(73, comb, f"{title}: {comb}", va=side, ha="right", size=7.5, color="#444444")
     axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB an axis, ECP5")
-    ticks = (1, 2, *cost.AXES)
+    ticks = (1, 2, *designs.BANKS)
     axes.set_xticks(ticks, [str(n) for n in ticks])
     axes.set_yticks([50, 100, 200, 500, 1000, 2000], ["50", "100", "200", "500", "1000", "2000"])
     axes.minorticks_off()

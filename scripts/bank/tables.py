@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from openppmc.model.bank.window import CONFIG, DATA, GO, INFO, MAP, MASK, POSITION, STATUS, STOP
-from scripts.bank import cost
 from scripts.bank.session import READ_FINISH, Access, Session
+from scripts.flow import figures, size_page
 
 AXES, CLK_HZ = 32, 100_000_000
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses
@@ -133,4 +133,9 @@ def group() -> str:
     return "\n".join([*HEAD, *rows(host.accesses[begin:], notes)])
 
 
-TABLES: dict[str, Callable[[], str]] = {"axis-session": one_axis, "group-session": group, "cost": cost.manual}
+def cost() -> str:
+    """Size and clock rate by the number of axes."""
+    return size_page.bank(figures.read())
+
+
+TABLES: dict[str, Callable[[], str]] = {"axis-session": one_axis, "group-session": group, "cost": cost}

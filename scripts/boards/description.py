@@ -42,7 +42,7 @@ KEYS = {
     "tie": ("pin level what reason", ""),
     "pads": ("standard", "drive exceptions"),
     "statements": ("reason lines", ""),
-    "part": ("mhz hosts pins", "of goal seeds recipe pll set omit low note lamps"),
+    "part": ("mhz hosts pins", "of goal recipe pll set omit low note lamps"),
 }
 
 
@@ -72,7 +72,6 @@ class Carried:
     goal: float
     hosts: tuple[str, ...]
     pins: dict[str, dict[str, tuple[str, ...]]]
-    seeds: int = 5
     recipe: str = ""
     pll: Mapping[str, Any] | None = None
     set: Mapping[str, Any] | None = None

@@ -35,7 +35,6 @@ class Board:
     part: str = "ppmc104"
     code: str = ""  # four letters in what its bitstreams tell of themselves
     chip: str = ""  # Gowin's family, as nextpnr and the packer call it
-    seeds: int = 5  # `make report` places it with at most so many; one takes minutes on some
     recipe: str = ""  # of yosys_job; none: the family's best
 
     def folder(self, host: str) -> Path:
@@ -71,7 +70,6 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
         route=tuple(map(str, device.route)),
         part=on.part,
         chip=device.chip,
-        seeds=on.seeds,
         recipe=on.recipe,
     )
 

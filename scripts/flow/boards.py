@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.header import parameters as parameters_of
@@ -76,6 +77,20 @@ def git_state() -> tuple[bytes, bool]:
     return bytes.fromhex(told["commit"]), bool(told["changes"])
 
 
+def board_job(on: Board, host: str, params: Mapping[str, int | str] | None = None) -> dict[str, Any]:
+    """Return the yosys job of a board's top with `params`, without family and recipe."""
+    top = on.top[host]
+    given = dict(params or {})
+    if "HOST" in parameters(top):
+        given["HOST"] = host.upper()
+    return {
+        "top": top,
+        "include": [project.relative(path) for path in project.include_dirs()],
+        "sources": [project.relative(path) for path in sources(top)],
+        "params": given,
+    }
+
+
 def synthesize_board(
     on: Board, host: str, params: dict[str, int | str] | None = None, known: bool = False
 ) -> Path:
@@ -83,20 +98,9 @@ def synthesize_board(
 
     known: it tells what it was built from; sizes must not depend on that.
     """
-    top = on.top[host]
-    given = dict(params or {})
-    if "HOST" in parameters(top):
-        given["HOST"] = host.upper()
-    job = {
-        "top": top,
-        "include": [project.relative(path) for path in project.include_dirs()],
-        "sources": [project.relative(path) for path in sources(top)],
-        "params": given,
-        "defines": [sources_of.build_define(build_id(on))] if known else [],
-        "family": on.family,
-        "recipe": on.recipe or BEST[on.family],
-        "keep": False,
-    }
+    job = board_job(on, host, params)
+    job["defines"] = [sources_of.build_define(build_id(on))] if known else []
+    job |= {"family": on.family, "recipe": on.recipe or BEST[on.family], "keep": False}
     return run_yosys(on.folder(host), job)
 
 

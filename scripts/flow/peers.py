@@ -28,13 +28,14 @@ WHERE = {
 """Where the designs of docs/benchmarks.md are."""
 
 OLDER = (
-    ("hostmot2 stepgen (LinuxCNC)", "velocity DDS; the host makes the ramp", 271, 212, 0, 173),
-    ("LiteX-CNC stepgen", "velocity with an acceleration limit", 887, 213, 0, 99),
-    ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0, 163),
-    ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1, 46),
+    ("riocore stepdir", "divider; the host makes the ramp", 376, 100, 0),
+    ("fsref step_motor", "ramp table; no bus, limits or phases", 854, 348, 2),
+    ("hostmot2 stepgen (LinuxCNC)", "velocity DDS; the host makes the ramp", 271, 212, 0),
+    ("LiteX-CNC stepgen", "velocity with an acceleration limit", 887, 213, 0),
+    ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0),
+    ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1),
 )
-"""Measured once, with plain `synth_ecp5` only: COMB, FF, block RAM, MHz (median of five seeds). Their sources
-are VHDL, are written by a generator, or use `$sin`: the reader used here does not take them."""
+"""Sizes measured earlier with plain `synth_ecp5`: title, description, COMB, FF, block RAM."""
 
 
 @dataclass(frozen=True)

@@ -139,8 +139,3 @@ def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> R
     ours = [mhz for name, mhz in clocks.items() if CLOCK in name] or list(clocks.values())
     used = {kind: entry["used"] for kind, entry in data["utilization"].items() if entry["used"]}
     return Run(seed, round(min(ours), 2), used, slowest_path(data))
-
-
-def median_run(runs: list[Run]) -> Run:
-    """The run with the median Fmax (the lower one of two in the middle)."""
-    return sorted(runs, key=lambda run: run.fmax)[(len(runs) - 1) // 2]

@@ -1,138 +1,157 @@
-"""The resource report: the table for the terminal and the Markdown block of docs/benchmarks.md."""
+"""Tables of sizes and clock rates, from docs/sizes.json."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
+from typing import Any
 
-from rich import box
-from rich.table import Table
-
-from .netlist import Breakdown, Count
+from . import designs, figures
+from .designs import Design
+from .figures import PEER, Figures, rate_text
+from .peers import OLDER, WHERE
 from .report import markdown_table
-from .sizes import LIMIT
+from .yosys_job import BEST, recipe_text
 
-HEADS = ("design", "device", "LUT", "FF", "block RAM", "of the device", "Fmax / MHz", "all seeds", "runs at")
-BRIDGE = "u_host.g_uart"
-KEYS = ("lut", "ff", "ram")
-INSIDE = {"ecp5": "ECP5", "ice40": "iCE40"}
-
-
-@dataclass(frozen=True)
-class Row:
-    """One design on one device.
-
-    `fmax`: MHz of all seeds, rising. `used`: LUTs and RAMs as packed, with the device's totals. `clk_mhz`:
-    the clock of a bitstream.
-    """
-
-    design: str
-    device: str
-    count: Count
-    fmax: list[float]
-    used: Mapping[str, float | int] | None = None
-    clk_mhz: float | None = None
-
-    @property
-    def median(self) -> float:
-        """Median Fmax, the lower one of two in the middle."""
-        return self.fmax[(len(self.fmax) - 1) // 2]
-
-    def cells(self, seeds: int = 0) -> list[str]:
-        """The row as text; the number of its seeds in brackets if it has fewer than `seeds`."""
-        share = ""
-        if self.used:
-            share = f"{100 * self.used['lut'] / self.used['lut_total']:.0f} %"
-        return [
-            self.design,
-            self.device,
-            str(self.count.lut),
-            str(self.count.ff),
-            str(self.count.ram),
-            share,
-            f"{self.median:.1f}",
-            f"{self.fmax[0]:.1f} … {self.fmax[-1]:.1f}"
-            + ("" if len(self.fmax) >= seeds else f" ({len(self.fmax)})"),
-            f"{self.clk_mhz:g} MHz" if self.clk_mhz else "",
-        ]
+FAMILY = {"ecp5": "ECP5", "ice40": "iCE40", "gowin": "Gowin"}
+RATE = (
+    f"MHz is Fmax of `clk`, median and in brackets the lowest of {figures.RUNS} runs: {designs.SEEDS} seeds "
+    f"of place and route for each of {designs.TURNS} syntheses that only differ in the names of cells. "
+    "A dash: not measured with this RTL."
+)
+RECIPE = f"*plain* is `synth_ecp5`, *tuned* is `{recipe_text('ecp5', BEST['ecp5'])}`."
+HEADS = ["COMB, plain", "MHz", "COMB, tuned", "MHz"]
 
 
-def terminal(rows: list[Row]) -> Table:
-    """The table for the terminal."""
-    table = Table(title="size and clock rate", title_justify="left", box=box.SIMPLE_HEAD)
-    for place, head in enumerate(HEADS):
-        table.add_column(head, justify="left" if place < 2 else "right")
-    for row in rows:
-        table.add_row(*row.cells())
-    return table
+def _pair(found: Figures, name: str) -> list[dict[str, Any] | None]:
+    return [found.get(f"{name} ecp5 {recipe}") for recipe in designs.RECIPES]
 
 
-def _sum(counts: Mapping[str, Count], below: str) -> Count:
-    """Sum over an instance and everything in it."""
-    total = Count()
-    for path, count in counts.items():
-        if path == below or path.startswith(f"{below}."):
-            total.lut += count.lut
-            total.ff += count.ff
-            total.ram += count.ram
-    return total
+def _cells(found: Figures, name: str, axes: int = 0) -> list[str]:
+    """FF and RAM, then COMB, COMB of an axis if there are `axes`, and MHz with each recipe."""
+    both = _pair(found, name)
+    cells = [str(both[0][key]) if both[0] else "–" for key in ("ff", "ram")]
+    for entry in both:
+        cells += [str(entry["comb"]) if entry else "–"]
+        cells += [f"{entry['comb'] / axes:.0f}" if entry else "–"] if axes else []
+        cells += [rate_text(entry)]
+    return cells
 
 
-def _cells(counts: Iterable[Count]) -> list[str]:
-    """LUT, FF and RAM of each family."""
-    return [str(figure) for count in counts for figure in (count.lut, count.ff, count.ram or "")]
+def _axes_heads(first: list[str]) -> list[str]:
+    return [*first, "FF", "RAM", *(text for at in (0, 2) for text in (HEADS[at], "an axis", HEADS[at + 1]))]
 
 
-def has_bridge(split: Mapping[str, Breakdown]) -> bool:
-    """Whether the board top has more to it than the part, reset and lamps."""
-    return any(path.startswith(f"{BRIDGE}.") for path in next(iter(split.values())).kept)
+def parts(found: Figures) -> str:
+    """Each part on an ECP5 with both recipes."""
+    rows = {d.name: d.axes for d in designs.of_parts() if d.rated and not d.name.startswith("bank ")}
+    table = [[name, str(axes), *_cells(found, name, axes)] for name, axes in rows.items()]
+    text = (
+        f"Parts on an ECP5-25F of speed grade 6 with default parameters. {RECIPE} COMB is the number of "
+        "logic cells that nextpnr packs; FF and block RAM are the same with both recipes. The pins are "
+        f"connected to shift registers that are not counted. {RATE}"
+    )
+    return f"{text}\n\n{markdown_table(_axes_heads(['part', 'axes']), table)}"
 
 
-def instance_rows(part: str, split: Mapping[str, Breakdown]) -> list[list[str]]:
-    """What the board top adds to the part, instance by instance; without a bridge, the part in this way."""
-    first, bridged = next(iter(split.values())), has_bridge(split)
-    whole = [_sum(result.flat, "u_part") for result in split.values()]
-    # The part by itself is in the row of its top, where its instances follow.
-    own = whole if bridged else [result.flat.get("u_part", Count()) for result in split.values()]
-    rows = [["u_part", f"{part}, all of it" if bridged else part, *_cells(own)]]
-    opened, margin = (BRIDGE, -1) if bridged else ("u_part", 0)
-    for path in sorted(path for path in first.kept if path.startswith(f"{opened}.")):
-        depth = path.count(".") - opened.count(".") + margin
-        name = "&nbsp;&nbsp;" * depth + path.rsplit(".", 1)[-1]
-        counts = [result.flat.get(path, Count()) for result in split.values()]
-        rows.append([name, first.module[path], *_cells(counts)])
-    rest = []
-    for result, inside in zip(split.values(), whole, strict=True):
-        bridge = _sum(result.flat, BRIDGE)
-        rest.append(
-            Count(*(getattr(result.total, key) - getattr(inside, key) - getattr(bridge, key) for key in KEYS))
-        )
-    total = [result.total for result in split.values()]
-    return [*rows, ["(top itself)", f"{part}_carrier", *_cells(rest)], ["total", "", *_cells(total)]]
+def synthesized(found: Figures) -> str:
+    """LUT, FF and block RAM of parts, carriers and bridges by family."""
+    listed = [*designs.of_parts(), *designs.of_carriers(), *designs.of_bridges()]
+    titles = {
+        d.name: d.title or d.name for d in listed if d.recipe == "tuned" and not d.name.startswith("bank ")
+    }
+    rows = []
+    for name, title in titles.items():
+        cells = [f"`{name.split()[0]}`", "" if title == name else title]
+        for family in FAMILY:
+            entry = found.get(f"{name} {family} tuned")
+            cells += [str(entry[key]) for key in figures.COUNTS] if entry else ["–"] * 3
+        rows.append(cells)
+    heads = ["module", "", *(f"{name} {what}" for name in FAMILY.values() for what in ("LUT", "FF", "RAM"))]
+    recipes = ", ".join(f"`{recipe_text(family, BEST[family])}`" for family in FAMILY)
+    text = (
+        "Cells after synthesis of parts, of parts with their host bridge (`…_carrier`), and of single "
+        f"bridges and recorders. Recipes: {recipes}. On an ECP5 LUT is LUT4 + 2 · CCU2C (carry cells); on "
+        "Gowin an adder bit counts as one LUT. `make size` fails if a count grows by more than "
+        f"{figures.LIMIT} %."
+    )
+    return f"{text}\n\n{markdown_table(heads, rows, left=2)}"
 
 
-def markdown(part: str, rows: list[Row], split: Mapping[str, Breakdown], seeds: int) -> str:
-    """The whole block between a part's markers; `split` is empty when the part has no board top."""
-    few = ", or as many as stand in brackets" if any(len(row.fmax) < seeds for row in rows) else ""
-    top = "part and UART bridge" if not split or has_bridge(split) else "part, reset and lamps"
-    parts = [
-        f"{part}, written by `make report`. LUT, FF and block RAM as synthesized (LUT on ECP5 is LUT4 + "
-        "2 · CCU2C, the carry cells; on Gowin an adder bit counts as one); Fmax of `clk` after place and "
-        f"route, median of {seeds} seeds{few}. Part and board top ({top}, 24 MHz) with free pins, through "
-        "shift registers where the device has too few (UP5K; the bank); the bitstreams with their boards' "
-        "constraints, *of the device* being the "
-        "share of its LUT places that are taken. `make size` compares the sizes with docs/sizes.json and "
-        f"fails when one has grown by more than {LIMIT} %.",
-        markdown_table(list(HEADS), [row.cells(seeds) for row in rows], left=2),
+def bitstreams(found: Figures) -> str:
+    """The bitstream of each board."""
+    rows = []
+    for design in designs.of_boards():
+        entry = found.get(design.key)
+        cells = [str(entry[key]) for key in figures.COUNTS] if entry else ["–"] * 3
+        assert design.board
+        clk = f"{design.board.clk_hz / 1e6:g}"
+        rows.append([design.name.removesuffix(" bitstream"), design.title, *cells, rate_text(entry), clk])
+    heads = ["bitstream", "FPGA", "LUT", "FF", "RAM", "MHz", "runs at, MHz"]
+    text = f"Bitstreams with the constraints of their boards, UART host; cells after synthesis. {RATE}"
+    return f"{text}\n\n{markdown_table(heads, rows, left=2)}"
+
+
+def peers(found: Figures) -> str:
+    """The PPMC-104 compared with other open designs."""
+    rows = [["**ppmc104**", *_cells(found, "ppmc104")]]
+    names = dict.fromkeys(
+        key.removeprefix(PEER).removesuffix(" ecp5 plain").removesuffix(" ecp5 tuned")
+        for key in found
+        if key.startswith(PEER)
+    )
+    rows += [
+        [f"[{name}]({WHERE[name]})" if name in WHERE else name, *_cells(found, PEER + name)] for name in names
     ]
-    if split:
-        heads = [
-            "instance",
-            "module",
-            *(f"{INSIDE[f]} {what}" for f in split for what in ("LUT", "FF", "RAM")),
-        ]
-        parts += [
-            f"Where the cells of {part}_carrier are, flattened, a LUT credited to the instance it feeds:",
-            markdown_table(heads, instance_rows(part, split), left=2),
-        ]
-    return "\n\n".join(parts)
+    for title, _, comb, ff, ram in OLDER:
+        linked = f"[{title}]({WHERE[title]})" if title in WHERE else title
+        rows.append([f"{linked} ¹", str(ff), str(ram), str(comb), "–", "–", "–"])
+    text = (
+        "The PPMC-104 and open designs of one axis on an ECP5-25F, measured with the same tools and recipes "
+        f"(`make report PEERS=folder`). {RATE}\n\n"
+        "¹ size measured earlier; its clock rate was not measured with the present recipe."
+    )
+    return f"{text}\n\n{markdown_table(['design', 'FF', 'RAM', *HEADS], rows)}"
+
+
+def bank(found: Figures) -> str:
+    """The bank by its number of axes; a table of its manual."""
+    rows = [[str(axes), *_cells(found, f"bank {axes}", axes)] for axes in designs.BANKS]
+    text = (
+        f"`ppmc_bank` on an ECP5-25F of speed grade 6, CLK_HZ {designs.BANK_CLK_HZ // 1_000_000} MHz, "
+        f"without a bridge. {RECIPE} COMB is the number of logic cells that nextpnr packs; FF and block "
+        "RAM (DP16KD) are counted after synthesis. The pins are connected to shift registers that are not "
+        f"counted. {RATE}"
+    )
+    return f"{text}\n\n{markdown_table(_axes_heads(['axes']), rows)}"
+
+
+def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:
+    """COMB of an axis with the plain recipe: parts of the PPMC-104's kind (axes, COMB), and other designs."""
+    kinds = {d.name: d for d in designs.of_parts() if d.name in ("ppmc104", "ppmc2104", "isa_4axis")}
+    measured = {name: found.get(f"{name} ecp5 plain") for name in kinds}
+    family = {
+        _title(kinds[name]): (kinds[name].axes, entry["comb"] / kinds[name].axes)
+        for name, entry in measured.items()
+        if entry
+    }
+    others = {
+        key.removeprefix(PEER).removesuffix(" ecp5 plain"): entry["comb"]
+        for key, entry in found.items()
+        if key.startswith(PEER) and key.endswith(" plain")
+    }
+    return family, others | {title: comb for title, _, comb, *_ in OLDER}
+
+
+def _title(design: Design) -> str:
+    from openppmc import parts as table
+
+    return table.part(design.part).title
+
+
+BLOCKS: dict[str, Callable[[Figures], str]] = {
+    "parts": parts,
+    "synthesized": synthesized,
+    "bitstreams": bitstreams,
+    "peers": peers,
+}
+"""Blocks of docs/benchmarks.md."""

@@ -51,7 +51,20 @@ RECIPES: dict[str, dict[str, tuple[str, str]]] = {
 PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
 PLAIN += "; opt_clean; memory_collect"
 # Chosen with `synth.py --sweep`: smallest without losing clock rate.
+# Registers get the name of the signal they drive, before abc9 drops the signals of the hierarchy.
+RENAME = "rename -wire"
+# Other names only change the order in which abc9 and nextpnr visit the cells: the luck in a clock rate. The
+# first entry is the recipe itself.
+PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
 BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
+
+
+def recipe_text(family: str, recipe: str) -> str:
+    """Return the yosys commands of a recipe as one line."""
+    pre, options = RECIPES[family][recipe]
+    synth = f"synth_{family} {options}".strip()
+    passes = [pre, f"{synth} -run begin:map_luts", RENAME, f"{synth} -run map_luts:"]
+    return "; ".join(filter(None, passes))
 
 
 def commands(job: dict) -> list[str]:
@@ -67,8 +80,12 @@ def commands(job: dict) -> list[str]:
         passes = PLAIN.split("; ") if job["family"] == "plain" else [f"{synth} -noflatten"]
     else:
         read += job["sources"]
-        # Registers take the name of the signal they drive, before abc9 forgets the signals of the hierarchy.
-        passes = [f"{synth} -run begin:map_luts", "rename -wire", f"{synth} -run map_luts:"]
+        passes = [
+            f"{synth} -run begin:map_luts",
+            RENAME,
+            *PERTURB[job.get("turn", 0)],
+            f"{synth} -run map_luts:",
+        ]
     if "verilog" in job:
         passes += [f"write_verilog -noattr {job['verilog']}"]
     return [*filter(None, [" ".join(read), pre]), *passes, f"write_json {job['json']}"]

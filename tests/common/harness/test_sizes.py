@@ -1,150 +1,201 @@
-"""docs/sizes.json and the size check: what fails it, what it lets pass, what it says of a bad file."""
+"""docs/sizes.json: growth, digests of the RTL, tables, unreadable files. No test synthesizes a design."""
 
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
-from scripts import report
-from scripts.flow import size_page, sizes
-from scripts.flow.netlist import Breakdown, Count
+from cocotb_tests.harness.stimulus import Edge, Recording
+from scripts import size
+from scripts.flow import designs, figures, plain_sim, scan_wrapper, size_page
+from scripts.flow.yosys_job import BEST, commands, recipe_text
 
-OLD = {"part": {"ecp5": {"lut": 1000, "ff": 600, "ram": 2}}}
-
-
-def changed(**figures: int) -> sizes.Sizes:
-    """OLD with other figures."""
-    return {"part": {"ecp5": {**OLD["part"]["ecp5"], **figures}}}
+KEY = "part ecp5 tuned"
+OLD: figures.Figures = {KEY: {"lut": 1000, "ff": 600, "ram": 2, "of": "0"}}
 
 
-@pytest.mark.parametrize("figures", [{}, {"lut": 1050}, {"ff": 630}, {"lut": 950, "ff": 570}, {"lut": 1001}])
-def test_up_to_five_per_cent_pass(figures: dict[str, int]) -> None:
-    verdict = sizes.compare(OLD, changed(**figures))
-    assert verdict.wrong == [] and verdict.smaller == []
+def changed(**counts: int) -> figures.Figures:
+    """OLD with other counts."""
+    return {KEY: {**OLD[KEY], **counts}}
+
+
+@pytest.mark.parametrize("counts", [{}, {"lut": 1050}, {"ff": 630}, {"lut": 950, "ff": 570}, {"lut": 1001}])
+def test_up_to_five_per_cent_pass(counts: dict[str, int]) -> None:
+    found = figures.compare(OLD, changed(**counts))
+    assert found.wrong == [] and found.smaller == []
 
 
 @pytest.mark.parametrize(
-    ("figures", "words"),
+    ("counts", "text"),
     [
         ({"lut": 1051}, "LUT 1000 -> 1051 (+5.1 %), more than 5 % larger"),
         ({"ff": 631}, "FF 600 -> 631 (+5.2 %), more than 5 % larger"),
         ({"ram": 3}, "block RAM 2 -> 3 (+50.0 %), more than 5 % larger"),
     ],
 )
-def test_more_growth_fails_with_one_line_a_figure(figures: dict[str, int], words: str) -> None:
-    assert sizes.compare(OLD, changed(**figures)).wrong == [f"part on ecp5: {words}"]
+def test_more_growth_fails_with_one_line_for_each_count(counts: dict[str, int], text: str) -> None:
+    assert figures.compare(OLD, changed(**counts)).wrong == [f"{KEY}: {text}"]
 
 
-def test_growth_from_nothing_fails() -> None:
-    old = {"part": {"ecp5": {"lut": 1000, "ff": 600, "ram": 0}}}
-    assert sizes.compare(old, OLD).wrong == [
-        "part on ecp5: block RAM 0 -> 2, more than 5 % larger",
-    ]
+def test_growth_from_zero_fails() -> None:
+    assert figures.compare(changed(ram=0), OLD).wrong == [f"{KEY}: block RAM 0 -> 2, more than 5 % larger"]
 
 
-def test_a_shrink_is_told_and_passes() -> None:
-    verdict = sizes.compare(OLD, changed(lut=949))
-    assert verdict.wrong == []
-    assert verdict.smaller == ["part on ecp5: LUT 1000 -> 949 (-5.1 %), more than 5 % smaller"]
+def test_a_smaller_size_is_reported_and_passes() -> None:
+    found = figures.compare(OLD, changed(lut=949))
+    assert found.wrong == []
+    assert found.smaller == [f"{KEY}: LUT 1000 -> 949 (-5.1 %), more than 5 % smaller"]
 
 
-def test_entries_on_one_side_only_fail() -> None:
-    more = {**OLD, "board": {"ice40": {"lut": 1, "ff": 1, "ram": 0}}}
-    assert sizes.compare(OLD, more).wrong == ["board on ice40: no committed sizes"]
-    assert sizes.compare(more, OLD).wrong == [
-        "board on ice40: has committed sizes but is not built any more",
-    ]
+def test_a_design_without_figures_fails() -> None:
+    assert figures.compare({}, OLD).wrong == [f"{KEY}: no committed figures"]
 
 
-def test_the_file_is_read_as_it_was_written(tmp_path: Path) -> None:
+def test_the_file_is_read_as_written(tmp_path: Path) -> None:
     path = tmp_path / "sizes.json"
-    table = {"b": {"ice40": {"lut": 1, "ff": 2, "ram": 3}, "ecp5": {"lut": 4, "ff": 5, "ram": 6}}, **OLD}
-    sizes.write(table, path)
-    assert sizes.read(path) == table
-    rows = [line.strip() for line in path.read_text().splitlines() if '"lut"' in line]
-    assert rows == [
-        '"ecp5": {"ff": 5, "lut": 4, "ram": 6},',
-        '"ice40": {"ff": 2, "lut": 1, "ram": 3}',
-        '"ecp5": {"ff": 600, "lut": 1000, "ram": 2}',
-    ]
+    table = {"b ice40 tuned": {"lut": 1, "ff": 2, "ram": 3, "mhz": [1.5], "of": "a"}, **OLD}
+    figures.write(table, path)
+    assert figures.read(path) == table
+    assert len(path.read_text().splitlines()) == 4
 
 
 def test_a_missing_file_names_the_remedy(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match="is missing: `make report` writes it"):
-        sizes.read(tmp_path / "sizes.json")
+    with pytest.raises(ProjectError, match="file is missing; run `make report`"):
+        figures.read(tmp_path / "sizes.json")
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
-        ("{ not json", "is not JSON"),
-        ("\x00\xff", "is not JSON"),
-        ("[]", "is not a table"),
-        ('{"part": 5}', "is not a table"),
-        ('{"part": {"ecp5": [1]}}', "is not a table"),
-        ('{"part": {"ecp5": {"lut": 1, "ff": 2}}}', "is not a table"),
-        ('{"part": {"ecp5": {"lut": "1", "ff": 2, "ram": 0}}}', "is not a table"),
-        ('{"part": {"ecp5": {"lut": -1, "ff": 2, "ram": 0}}}', "is not a table"),
+        ("{ not json", "not JSON"),
+        ("\x00\xff", "not JSON"),
+        ("[]", "not a table"),
+        ('{"part": 5}', "not a table"),
+        ('{"part": {"lut": 1, "ff": 2, "ram": 3}}', "not a table"),
+        ('{"part": {"lut": 1, "ff": 2, "of": "a"}}', "not a table"),
+        ('{"part": {"lut": "1", "ff": 2, "ram": 0, "of": "a"}}', "not a table"),
+        ('{"part": {"lut": -1, "ff": 2, "ram": 0, "of": "a"}}', "not a table"),
+        ('{"part": {"lut": 1, "ff": 2, "ram": 0, "mhz": ["a"], "of": "a"}}', "not a table"),
     ],
 )
-def test_a_garbled_file_is_one_clear_error(tmp_path: Path, text: str, words: str) -> None:
+def test_a_damaged_file_is_one_clear_error(tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "sizes.json"
     path.write_bytes(text.encode("latin-1"))
-    with pytest.raises(ProjectError, match=words):
-        sizes.read(path)
+    with pytest.raises(ProjectError, match=message):
+        figures.read(path)
 
 
 @pytest.mark.parametrize(("lut", "code"), [(1050, 0), (1051, 1), (500, 0)])
-def test_the_check_ends_with_the_right_code(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    lut: int,
-    code: int,
-) -> None:
-    path = tmp_path / "sizes.json"
-    path.write_text(json.dumps(OLD))
-    committed = sizes.read(path)
-    monkeypatch.setattr(sizes, "read", lambda: committed)
-    monkeypatch.setattr(report, "measured", lambda wanted, tell: (changed(lut=lut), []))
-    assert report.check([], [], lambda text: None) == code
-    assert ("`make report` accepts" in capsys.readouterr().err) == bool(code)
+def test_the_check_returns_the_exit_code(monkeypatch: pytest.MonkeyPatch, lut: int, code: int) -> None:
+    monkeypatch.setattr(figures, "read", lambda: OLD)
+    monkeypatch.setattr(size, "sizes", lambda wanted: changed(lut=lut))
+    assert size.check([]) == code
 
 
-def test_the_breakdown_adds_up_to_the_total() -> None:
-    bridge = f"{size_page.BRIDGE}.u_bridge"
-    split = Breakdown(
-        total=Count(lut=100, ff=50, ram=3),
-        flat={
-            "": Count(4, 1),
-            "u_part": Count(10, 5, 1),
-            "u_part.u_axis": Count(50, 20, 1),
-            bridge: Count(30, 20, 1),
-            f"{bridge}.u_rx": Count(6, 4),
-        },
-        kept={"": Count(), "u_part": Count(), bridge: Count(), f"{bridge}.u_rx": Count()},
-        module={bridge: "bridge", f"{bridge}.u_rx": "rx"},
-    )
-    assert size_page.instance_rows("ppmc104", {"ecp5": split}) == [
-        ["u_part", "ppmc104, all of it", "60", "25", "2"],
-        ["u_bridge", "bridge", "30", "20", "1"],
-        ["&nbsp;&nbsp;u_rx", "rx", "6", "4", ""],
-        ["(top itself)", "ppmc104_carrier", "4", "1", ""],
-        ["total", "", "100", "50", "3"],
+def test_a_design_of_other_rtl_is_stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A changed source makes the figures stale; a changed comment does not; no information is stale too."""
+    source = tmp_path / "a.sv"
+    monkeypatch.setattr(project, "ROOT", tmp_path)
+    job = {"top": "a", "include": [], "sources": ["a.sv"], "params": {}}
+    design = designs.Design("a", "ecp5", "plain", job=job)
+    source.write_text("module a;  // one\nendmodule\n")
+    held = {design.key: {"lut": 1, "ff": 1, "ram": 0, "of": design.digest()}}
+    assert figures.stale(held, [design]) == []
+    source.write_text("// other words\nmodule a; /* two */\n\nendmodule\n")
+    assert figures.stale(held, [design]) == []
+    source.write_text("module a; wire b;\nendmodule\n")
+    assert ["measured with other RTL" in line for line in figures.stale(held, [design])] == [True]
+    assert ["has no figures" in line for line in figures.stale({}, [design])] == [True]
+    assert ["does not exist any more" in line for line in figures.stale(held, [])] == [True]
+    other = replace(design, job={**job, "params": {"N": 1}})
+    assert other.digest() != design.digest()
+
+
+@pytest.mark.parametrize(
+    ("runs", "text"),
+    [(figures.RUNS - 1, "–"), (figures.RUNS, "107 (100)"), (0, "–")],
+)
+def test_a_clock_rate_needs_every_run(runs: int, text: str) -> None:
+    assert figures.RUNS >= 15
+    assert figures.rate_text({"mhz": [100.0 + at for at in range(runs)]}) == text
+    assert figures.rate_text(None) == "–"
+
+
+def test_the_printed_recipe_is_the_one_that_runs() -> None:
+    job = {"top": "a", "include": [], "sources": [], "params": {}, "json": "x", "keep": False}
+    for family in size_page.FAMILY:
+        text = recipe_text(family, BEST[family])
+        run = commands({**job, "family": family, "recipe": BEST[family]})[1:-1]
+        assert "; ".join(run).replace(" -top a", "") == text
+        assert "rename -wire" in text
+
+
+def test_syntheses_of_a_clock_rate_differ() -> None:
+    job = {"top": "a", "include": [], "sources": [], "params": {}, "json": "x", "keep": False}
+    lists = [
+        commands({**job, "family": "ecp5", "recipe": "default", "turn": turn})
+        for turn in range(designs.TURNS)
     ]
-    del split.kept[bridge], split.kept[f"{bridge}.u_rx"], split.flat[bridge], split.flat[f"{bridge}.u_rx"]
-    split.kept["u_part.u_axis"], split.module["u_part.u_axis"] = Count(), "axis"
-    assert size_page.instance_rows("pmc006", {"ecp5": split}) == [
-        ["u_part", "pmc006", "10", "5", "1"],
-        ["&nbsp;&nbsp;u_axis", "axis", "50", "20", "1"],
-        ["(top itself)", "pmc006_carrier", "40", "25", "1"],
-        ["total", "", "100", "50", "3"],
-    ]
+    assert len({tuple(commands) for commands in lists}) == designs.TURNS
 
 
-def test_the_median_is_the_middle_seed() -> None:
-    row = size_page.Row("d", "x", Count(1, 2, 0), [1.0, 2.0, 9.0], {"lut": 1, "lut_total": 3}, 24.0)
-    assert row.cells() == ["d", "x", "1", "2", "0", "33 %", "2.0", "1.0 … 9.0", "24 MHz"]
+def test_missing_source_names_the_design(tmp_path: Path) -> None:
+    from scripts.flow import peers
+
+    entry = {
+        "title": "one",
+        "what": "…",
+        "url": "https://example.org/it",
+        "top": "step",
+        "sources": ["one.v"],
+    }
+    (tmp_path / "peers.json").write_text(json.dumps([entry]))
+    with pytest.raises(ProjectError, match=r"one\.v is not there; one is at https://example\.org/it"):
+        designs.of_peers(tmp_path, peers.read(tmp_path))
+    (tmp_path / "one.v").touch()
+    found = designs.of_peers(tmp_path, peers.read(tmp_path))
+    assert [design.recipe for design in found] == list(designs.RECIPES)
+
+
+@pytest.mark.parametrize("text", [None, "[{]", '[{"title": "x"}]'])
+def test_bad_description_of_peers_is_one_line(text: str | None, tmp_path: Path) -> None:
+    from scripts.flow import peers
+
+    if text is not None:
+        (tmp_path / "peers.json").write_text(text)
+    with pytest.raises(ProjectError, match=r"peers\.json"):
+        peers.read(tmp_path)
+
+
+def test_wrapper_leaves_other_axes_idle(tmp_path: Path) -> None:
+    """Only the pins of one axis are connected to the shift registers; the reset has its own name."""
+    ports = {
+        "clk": "input",
+        "resetn": "input",
+        "m0_zpd": "input",
+        "m1_zpd": "input",
+        "m0_drive": "output",
+        "m1_dir": "output",
+    }
+    described = {name: {"direction": way, "bits": [1]} for name, way in ports.items()}
+    netlist = tmp_path / "netlist.json"
+    netlist.write_text(json.dumps({"modules": {"step": {"ports": described}}}))
+    text = scan_wrapper.source(netlist, "step", {}, reset="resetn", pins_like="m0_")
+    assert ".resetn(rst_n)" in text
+    assert ".m1_zpd('0)" in text
+    assert ".m0_zpd(in_q[0:0])" in text
+    assert ".m0_drive(out[0:0])" in text
+    assert "m1_dir" not in text
+
+
+def test_plain_verilator_must_make_the_same_edges() -> None:
+    edges = [Edge(5, "pout_n", 0), Edge(9, "pout_n", 1)]
+    recording = Recording("ppmc104", {"PHASE_IDLE": 1}, end=20, edges=edges)
+    plain_sim.check(recording, list(edges))
+    with pytest.raises(ProjectError, match="plain Verilator differs"):
+        plain_sim.check(recording, [edges[0], Edge(10, "pout_n", 1)])
