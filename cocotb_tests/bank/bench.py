@@ -50,6 +50,8 @@ B32 = build("b32", 32, 32)
 F100 = build("f100", 32, 100)
 B4 = build("b4", 4, 8, phase_idle=0)
 """A round that is longer than the axes are many; a quantum of 2 clk."""
+B16 = build("b16", 16, 16)
+"""Two bytes of map and MASK."""
 B64 = build("b64", 64, 64)
 BUILDS = (B8, B32, F100, B4, B64)
 

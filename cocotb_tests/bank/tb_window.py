@@ -7,8 +7,8 @@ from itertools import product
 from cocotb_tests.harness.bus import BUSY, IBF, OBF
 from cocotb_tests.harness.directed import directed
 
-from .bench import B4, B8, B32, B64, F100
-from .lab import CONFIG, DATA, GO, INFO, INIT_A, MAP, MASK, POSITION, STATUS, STOP, Lab
+from .bench import B4, B8, B16, B32, B64, F100
+from .lab import CONFIG, DATA, GO, INFO, INIT_A, MAP, MASK, POSITION, STATUS, STOP, Axis, Lab
 
 NOWHERE = (0x3, 0xD, 0xE, 0xF)
 REGISTERS = range(16)
@@ -253,6 +253,42 @@ async def bank_win_08_interrupts(dut):
         pending &= ~(1 << axis.n)
     lab.check("BANK-WIN-08", "map", await lab.map(), 0)
     lab.check("BANK-WIN-08", "int_n", lab.bench.level("int_n"), 1)
+
+
+@directed("BANK-WIN-05", "BANK-WIN-08", builds=(B4, B8, B16, B32, B64))
+async def bank_win_08_map_to_the_cycle(dut):
+    """A read of the map returns each bit as it is after edge 2 of the read, at every phase between the read and
+    the visits that set or clear bits, at each address of the byte (BANK-WIN-05, BANK-WIN-08)."""
+    lab = await Lab.start(dut)
+    await lab.all_ready()
+    for k in range(max(1, lab.size // 8)):
+        axes = lab.axes[8 * k : 8 * k + 8]
+        await lab.mask(*(axis.n for axis in axes))
+        # Axis a is visited one cycle after axis a - 1: the addresses that matter are those next to the byte.
+        for at in [n for n in range(k, lab.size, 8) if lab.size < 32 or -8 <= n - 8 * k <= 16]:
+            for step in range(len(axes) + 6):
+                await _map_near_visits(lab, axes, at << 4 | MAP, step)
+
+
+async def _map_near_visits(lab: Lab, axes: list[Axis], address: int, step: int) -> None:
+    """Read the map step - 3 cycles after the first visit that sets a bit, then near each that clears one."""
+    for axis in axes:
+        await axis.command(0x42)
+    g = await lab.go()
+    ends = [axis.visit(g + 4 + lab.round + 2 * lab.cfg.w + 1) for axis in axes]
+    edge = min(ends) + step - 3
+    want = sum(1 << axis.n % 8 for axis, end in zip(axes, ends, strict=True) if end <= edge)
+    got = await lab.as_of(edge, address)
+    lab.check("BANK-WIN-08", f"map at {address:03X}, {step - 3} after the first end", got, want)
+    await lab.bench.clocks(lab.round)
+    left = (1 << len(axes)) - 1
+    for axis in axes:
+        visit, offset = axis.visit(lab.bench.now + 16), step % 7 - 3
+        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x80)
+        before, left = left, left & ~(1 << axis.n % 8)
+        got = await lab.as_of(visit + offset, address)
+        what = f"map at {address:03X}, {offset} after axis {axis.n} was read"
+        lab.check("BANK-WIN-08", what, got, before if offset < 0 else left)
 
 
 @directed("BANK-GEN-05", builds=(B8, B4, B32, B64))

@@ -3,8 +3,8 @@
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
 // Timing: a write acts at the edge that ends the clk after the strobe has left the synchronisers, a read is answered
 //         two clk after. What an axis is given (mail_o, progress_o, config_no) stands one clk after axis_i.
-// How:    RAM words that the host reads are read all the time. A word that is being written while it is read is not
-//         taken over: the one before stands.
+// How:    RAM words of the addressed axis are read in every cycle. If a visit writes a word in the cycle in which it is
+//         read, the word read before is kept. Registers of the bank (other1_q, other2_q) are never kept.
 `default_nettype none
 
 module ppmc_bank_window
@@ -147,10 +147,10 @@ module ppmc_bank_window
     status_t     status;
     logic [31:0] position;
     answer_t     answer;
-    logic [7:0]  other;
   } view_t;
 
   view_t view1_q, view2_q;
+  logic [7:0] other1_q, other2_q;  // MASK, map or INFO
   logic clash_q;
   logic [RoundBits-1:0] axis2;
   logic [63:0] masks, maps;
@@ -177,19 +177,20 @@ module ppmc_bank_window
     view1_q.position <= positions[axis2];
     view1_q.answer   <= answers[axis2];
     unique case (a2[3:0])
-      REG_MASK: view1_q.other <= masks[{a2[6:4], 3'd0}+:8];
-      REG_MAP:  view1_q.other <= maps[{a2[6:4], 3'd0}+:8];
+      REG_MASK: other1_q <= masks[{a2[6:4], 3'd0}+:8];
+      REG_MAP:  other1_q <= maps[{a2[6:4], 3'd0}+:8];
       default: begin
         unique case (a2[6:4])
-          3'd0:    view1_q.other <= INFO_MARK;
-          3'd1:    view1_q.other <= INFO_VERSION;
-          3'd2:    view1_q.other <= 8'(Axes);
-          default: view1_q.other <= '0;
+          3'd0:    other1_q <= INFO_MARK;
+          3'd1:    other1_q <= INFO_VERSION;
+          3'd2:    other1_q <= 8'(Axes);
+          default: other1_q <= '0;
         endcase
       end
     endcase
     clash_q <= done_axis_i == axis2;
     if (!clash_q) view2_q <= view1_q;
+    other2_q <= other1_q;  // any visit may change the map, not only that of the addressed axis
   end
 
   // A byte gets a number that differs from that of the one before and of the one taken last.
@@ -224,7 +225,7 @@ module ppmc_bank_window
       REG_POSITION + 4'd1: value = kept_q[7:0];
       REG_POSITION + 4'd2: value = kept_q[15:8];
       REG_POSITION + 4'd3: value = kept_q[23:16];
-      REG_MASK, REG_MAP, REG_INFO: value = view2_q.other;
+      REG_MASK, REG_MAP, REG_INFO: value = other2_q;
       REG_GO, REG_STOP: value = '0;
       default: value = '1;
     endcase
