@@ -257,8 +257,8 @@ async def bank_win_08_interrupts(dut):
 
 @directed("BANK-WIN-05", "BANK-WIN-08", builds=(B4, B8, B16, B32, B64))
 async def bank_win_08_map_to_the_cycle(dut):
-    """A read of the map returns each bit as it is after edge 2 of the read, at every phase between the read and
-    the visits that set or clear bits, at each address of the byte (BANK-WIN-05, BANK-WIN-08)."""
+    """A read of the map returns each bit as it is after edge 2 of the read, at every phase between the read
+    and the visits that set or clear bits, at each address of the byte (BANK-WIN-05, BANK-WIN-08)."""
     lab = await Lab.start(dut)
     await lab.all_ready()
     for k in range(max(1, lab.size // 8)):

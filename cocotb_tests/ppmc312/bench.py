@@ -19,6 +19,8 @@ DEFAULTS = {
     "TIMING": "FAST",
     "VERSION": 0x12,
     "SUM_MODE": "BINARY",
+    "SND_LEAD": 1,
+    "SND_WAIT": 0,
 }
 
 PPMC312 = Part.of_model("ppmc312", pins, styles=(STROBES_WE_OE,), clock="extck", defaults=DEFAULTS)

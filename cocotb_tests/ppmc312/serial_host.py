@@ -37,6 +37,7 @@ class SerialHost(SerialLine, SideHost):
         self.adr = adr
         params = {**side.part.defaults, **side.part.params(side.config)}
         self.sum_mode = str(params["SUM_MODE"])
+        self.lead, self.wait = int(str(params["SND_LEAD"])), int(str(params["SND_WAIT"]))
         self.wire, self.waited = "", Fraction(0)
         self._behind = self._heard = 0
         self.open_line(Fraction(0), error)
@@ -110,21 +111,21 @@ class SerialHost(SerialLine, SideHost):
         TimeoutError if there is none by then.
         """
         await self.go(self.t)
-        end = ceil(self.middle + max(Fraction(within), self.bit)) + SLACK
+        end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK
         while (rise := self.rise()) is None:
             await self.side.edge("snd", 1, max(1, end + 1 - self.t))
         assert rise <= end, f"snd rises {rise - end} clk too late"
         return rise
 
     async def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
-        """The next reply, which starts as `begin` says, but not before half a bit after the end of the frame.
+        """Return the next reply, which begins at least SND_WAIT + 0.5 bits after the end of the frame.
 
         timed: the last stop bit was the end of the frame that is answered (P312-SER-18).
         """
         rise = await self.begin(within)
         self.waited = rise - self.middle - self.bit / 2
         late = f"snd rises {float(self.waited):.1f} clk after the frame"
-        assert not timed or self.waited >= self.bit / 2, late
+        assert not timed or self.waited >= self.bit * self.wait + self.bit / 2, late
         while not (falls := self.side.falls("snd", rise)):
             await self.side.edge("snd", 0)
         self._heard = falls[0]
@@ -134,12 +135,12 @@ class SerialHost(SerialLine, SideHost):
 
     def _decode(self, rise: int, fall: int) -> bytes:
         """The characters between two edges of snd; every edge is where it belongs (P312-SER-18)."""
-        bit = self.bit
-        count, rest = divmod(round((fall - rise) / bit) - 1, 10)
-        assert not rest and fall == rise + ceil((10 * count + 1) * bit), "snd falls in a character"
+        bit, lead = self.bit, self.lead
+        count, rest = divmod(round((fall - rise) / bit) - lead, 10)
+        assert not rest and fall == rise + ceil((10 * count + lead) * bit), "snd falls in a character"
         edges = [edge for edge in self.side.edges("txd", rise) if edge[0] <= fall]
-        assert not edges or edges[0][0] >= rise + bit, "no idle bit before the first character"
-        return characters(edges, rise + bit, bit, count)
+        assert not edges or edges[0][0] >= rise + lead * bit, "too few idle bits before the first character"
+        return characters(edges, rise + lead * bit, bit, count)
 
     def _meaning(self, line: bytes) -> str:
         assert FRAME.fullmatch(line), f"no frame: {self.wire}"

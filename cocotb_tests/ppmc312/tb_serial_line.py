@@ -11,7 +11,7 @@ import cocotb
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.directed import directed
 
-from .builds import F27, F27X12
+from .builds import F27, F27X12, SLOW, SLOWEST
 from .serial_frames import TS, summed
 from .serial_host import SerialHost
 
@@ -55,6 +55,37 @@ async def p312_serial_a_reply_leaves_one_pair_of_wires_to_its_master(dut: Any, m
         await host.raw(line)
         assert await host.hear() == answer
         assert 0 <= host.waited - host.bit / 2 <= 6
+
+
+@cocotb.parametrize(mod=[5, 6, 7])
+@directed("P312-SER-18", builds=(F16, SLOW, SLOWEST))
+async def p312_serial_a_slow_line_driver_has_its_time(dut: Any, mod: int) -> None:
+    """snd rises SND_WAIT + 0.5 bits after the end of the frame, the start bit begins exactly SND_LEAD bits
+    later, and snd falls at the end of the last stop bit (P312-SER-18)."""
+    host = await SerialHost.start(dut, mod=mod)
+    for line, answer in REPLIES.items():
+        await host.raw(line)
+        assert await host.hear() == answer
+        rise = host.side.rises("snd")[-1]
+        assert 0 <= host.waited - (host.wait + Fraction(1, 2)) * host.bit <= 6
+        assert host.side.falls("txd", rise)[0] == rise + ceil(host.lead * host.bit)
+        characters = len(bytes.fromhex(host.wire))
+        assert host.side.falls("snd", rise) == [rise + ceil((host.lead + 10 * characters) * host.bit)]
+
+
+@directed("P312-SER-15", "P312-SER-18", builds=(F16, SLOW, SLOWEST))
+async def p312_serial_frames_back_to_back_with_a_slow_line_driver(dut: Any) -> None:
+    """A control code for this station that ends before the fall of snd is an overrun, one after it is
+    executed, and frames for other stations do not matter (P312-SER-15, P312-SER-18)."""
+    host = await SerialHost.start(dut)
+    for line in ("82 7D", "92 34 31 2C", "81 7E"):
+        await host.raw(line)
+    assert await host.hear() == "90"
+    await host.raw("81 7E")
+    await host.go(host.t + 1)
+    await host.raw("81 7E")  # the reply to the frame before is pending or being sent
+    assert await host.hear(timed=False) == "90"
+    assert await host.ask("4F") == "A0 00 01 00"
 
 
 @directed("P312-SER-18", "P312-OVR-10")

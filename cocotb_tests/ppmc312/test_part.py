@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.elaborate import check_ranges
 from cocotb_tests.harness.runner import SimOptions, run_item
+from cocotb_tests.harness.verifies import verifies
 
 from .bench import PPMC312
 
@@ -45,6 +49,7 @@ MODULES = (
     "tb_serial_polls",
     "tb_serial_resets",
 )
+RANGES = {"SND_LEAD": (("1", "16"), ("0", "17")), "SND_WAIT": (("0", "8"), ("9", "-1"))}
 ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312)
 
 
@@ -52,3 +57,9 @@ ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312)
 def test_ppmc312(item: Item, sim_options: SimOptions) -> None:
     """Run one simulation."""
     run_item(item, sim_options)
+
+
+@verifies("P312-SER-18")
+def test_ppmc312_driver_times_in_range() -> None:
+    """Elaboration accepts SND_LEAD 1 .. 16 and SND_WAIT 0 .. 8 only (P312-SER-18)."""
+    check_ranges("P312-SER-18", part_design("ppmc312", F16), RANGES)

@@ -15,7 +15,9 @@ module ppmc312
     parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter string       TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
     parameter int unsigned VERSION  = 'h12,        // what the version instruction answers, 0 .. 255
-    parameter string       SUM_MODE = "BINARY"     // or "CHARS": checksum of the serial mode
+    parameter string       SUM_MODE = "BINARY",    // or "CHARS": checksum of the serial mode
+    parameter int unsigned SND_LEAD = 1,           // bits from the rise of snd to the start bit, 1 .. 16
+    parameter int unsigned SND_WAIT = 0            // bits that snd waits beyond half a bit, 0 .. 8
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -83,6 +85,12 @@ module ppmc312
 
   if (VERSION > 255) begin : g_check_version
     $fatal(1, "ppmc312: VERSION must be 0 .. 255");
+  end
+  if (SND_LEAD < 1 || SND_LEAD > 16) begin : g_check_lead
+    $fatal(1, "ppmc312: SND_LEAD must be 1 .. 16");
+  end
+  if (SND_WAIT > 8) begin : g_check_wait
+    $fatal(1, "ppmc312: SND_WAIT must be 0 .. 8");
   end
 
   localparam bit Datasheet = TIMING == "DATASHEET";
@@ -198,7 +206,9 @@ module ppmc312
   ppmc312_serial #(
       .ClkHz   (CLK_HZ),
       .XtalHz  (XTAL_HZ),
-      .CharsSum(SUM_MODE == "CHARS")
+      .CharsSum(SUM_MODE == "CHARS"),
+      .SndLead (SND_LEAD),
+      .SndWait (SND_WAIT)
   ) u_serial (
       .clk_i     (clk),
       .rst_ni    (rst_host),

@@ -12,6 +12,8 @@ module ppmc312_carrier #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter string       TIMING   = "FAST",
     parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
+    parameter int unsigned SND_WAIT = 0,           // bits that rs485_de waits beyond half a bit, 0 .. 8
     parameter string       HOST     = "UART",      // or "BUS", "SERIAL"
     parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
@@ -101,7 +103,9 @@ module ppmc312_carrier #(
       .CLK_HZ  (CLK_HZ),
       .XTAL_HZ (XTAL_HZ),
       .TIMING  (TIMING),
-      .SUM_MODE(SUM_MODE)
+      .SUM_MODE(SUM_MODE),
+      .SND_LEAD(SND_LEAD),
+      .SND_WAIT(SND_WAIT)
   ) u_part (
       .clk,
       .rst_n  (part_rst_n),

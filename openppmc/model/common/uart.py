@@ -76,16 +76,18 @@ class Receiver:
 
 
 class Transmitter:
-    """bit: clk of a bit. sent gets (edge in the middle of the stop bit, character). Changes txd and snd."""
+    """bit: cycles of a bit. sent gets (edge in the middle of the stop bit, character). lead: bits from the
+    rise of snd to the first start bit. Changes txd and snd."""
 
-    def __init__(self, context: Context, bit: Fraction, sent: list[tuple[int, int]]) -> None:
+    def __init__(self, context: Context, bit: Fraction, sent: list[tuple[int, int]], lead: int = 1) -> None:
         self._queue, self._log, self._bit, self._sent = context.queue, context.log, bit, sent
+        self._lead = lead
 
     def send(self, t: int, message: bytes, ended: Callable[[int], None]) -> None:
-        """snd rises at edge t, the first start bit comes one bit time later, the characters back to back.
+        """snd rises at edge t, the first start bit begins `lead` bits later, the characters back to back.
         ended(t): snd has fallen."""
         self._log.set(t, "snd", 1)
-        levels = [1]
+        levels = [1] * self._lead
         for byte in message:
             levels += [0, *(byte >> place & 1 for place in range(8)), 1]
         steps: list[tuple[Fraction, Callback]] = []
@@ -93,7 +95,7 @@ class Transmitter:
             if level != before:
                 steps.append((Fraction(number), self._level(level)))
         for number, byte in enumerate(message, 1):
-            middle = BITS * number + Fraction(1, 2)
+            middle = self._lead + BITS * number - Fraction(1, 2)
             steps.append((middle, self._character(byte)))
         steps.append((Fraction(len(levels)), lambda now: self._end(now, ended)))
         steps.sort(key=lambda step: step[0])

@@ -18,7 +18,7 @@ from .front.bus import IDLE, Strobes
 from .front.mailbox import Mailbox
 from .front.serial import bit_time
 from .front.side import HostSide
-from .front.station import Log, Station
+from .front.station import Driver, Log, Station
 from .motion.motion import Motion
 from .pace import READY, Pace
 from .pins import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS
@@ -33,8 +33,9 @@ class Ppmc312(Chip):
     """One PPMC-312.
 
     clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET", version 0..255; ValueError for
-    anything else. sum_mode "BINARY" or "CHARS": checksum of the serial mode. straps: pin levels from the
-    beginning on, as mode, mod, adr. The model starts just released from reset, before edge 0.
+    anything else. sum_mode "BINARY" or "CHARS": checksum of the serial mode. snd_lead 1..16: bits from the
+    rise of snd to the start bit; snd_wait 0..8: bits that snd waits beyond half a bit. straps: pin levels
+    from the beginning on, as mode, mod, adr. The model starts just released from reset, before edge 0.
     replies: (edge at which snd rises, whole frame) of all that the station has sent; sent: (edge in the
     middle of the stop bit, character). Both may be emptied at any time.
     """
@@ -48,6 +49,8 @@ class Ppmc312(Chip):
         timing: str = "FAST",
         version: int = 0x12,
         sum_mode: str = "BINARY",
+        snd_lead: int = 1,
+        snd_wait: int = 0,
         straps: Mapping[str, int] | None = None,
         pace: Pace | None = None,
         latency: Latency | None = None,
@@ -56,9 +59,14 @@ class Ppmc312(Chip):
             raise ValueError(f"version {version} is outside 0..255")
         if sum_mode not in ("BINARY", "CHARS"):
             raise ValueError(f"sum_mode {sum_mode!r} is neither BINARY nor CHARS")
+        if not 1 <= snd_lead <= 16:
+            raise ValueError(f"snd_lead {snd_lead} is outside 1..16")
+        if not 0 <= snd_wait <= 8:
+            raise ValueError(f"snd_wait {snd_wait} is outside 0..8")
         super().__init__(clk_hz, xtal_hz, timing, OUTPUTS, latency)
         self.pace = pace or Pace()
         self._version, self._sum_mode = version, sum_mode
+        self._driver = Driver(snd_lead, snd_wait)
         self._pins |= straps or {}
         self.replies: list[tuple[int, bytes]] = []
         self.sent: list[tuple[int, int]] = []
@@ -93,7 +101,7 @@ class Ppmc312(Chip):
         if not self._latched["mode"]:
             bit = bit_time(self._latched["mod"], self.timebase.clk_hz, self.timebase.xtal_hz)
             log = Log(self.replies, self.sent)
-            self._host = Station(self.core, bit, self._latched["adr"], self._sum_mode, log)
+            self._host = Station(self.core, bit, self._latched["adr"], self._sum_mode, log, self._driver)
             self._host_pins = {*SERIAL_PINS}
         self.core.connect(self._host, not self._latched["mode"])
 

@@ -10,7 +10,9 @@
 module board_ulx3s_ppmc312_serial #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter string       TIMING   = "FAST",
-    parameter string       SUM_MODE = "BINARY"     // of the part's own line; or "CHARS"
+    parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
+    parameter int unsigned SND_WAIT = 0            // bits that rs485_de waits beyond half a bit, 0 .. 8
 ) (
     input  wire logic       clk_25m,    // 25 MHz
     input  wire logic       btn_f1,     // 1: reset
@@ -87,6 +89,8 @@ module board_ulx3s_ppmc312_serial #(
       .XTAL_HZ (XTAL_HZ),
       .TIMING  (TIMING),
       .SUM_MODE(SUM_MODE),
+      .SND_LEAD(SND_LEAD),
+      .SND_WAIT(SND_WAIT),
       .HOST    ("SERIAL")
   ) u_carrier (
       .clk,

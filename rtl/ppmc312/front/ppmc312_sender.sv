@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_sender: sends a reply: gate, control code, hexadecimal data, checksum; not before the line is free.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
-// Timing: snd_o rises with the clk after send_i, but at least ceil(bit time) + 2 clk after heard_i, the middle of a
-//         stop bit: half a bit after its end. Edge n of the frame, the first start bit being number 1 and the fall of
-//         snd_o the last, comes ceil(n * bit time) after the rise.
+// Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after heard_i, the
+//         middle of a stop bit: SndWait + 0.5 bits after its end. Edge n of the frame, the first start bit being number
+//         SndLead and the fall of snd_o the last, occurs ceil(n * bit time) after the rise.
 // Rate:   the phase counts up by step_i a clk and has run through a bit when it passes 2**Width; wrap_i is then
 //         added instead: step_i less the modulus.
 `include "ppmc_assert.svh"
@@ -13,7 +13,9 @@ module ppmc312_sender
   import ppmc312_serial_pkg::*;
 #(
     parameter int unsigned Width    = 20,
-    parameter bit          CharsSum = 1'b0
+    parameter bit          CharsSum = 1'b0,
+    parameter int unsigned SndLead  = 1,     // bits from the rise of snd_o to the start bit, 1 .. 16
+    parameter int unsigned SndWait  = 0      // bits that snd_o waits beyond half a bit, 0 .. 8
 ) (
     input  wire logic               clk_i,     // clock
     input  wire logic               rst_ni,    // reset, asynchronous
@@ -38,7 +40,10 @@ module ppmc312_sender
   } state_e;
 
   state_e state_q;
-  logic over, last_q, gap_q;
+  localparam int unsigned GapBits = $clog2(SndWait + 2);
+
+  logic over, last_q;
+  logic [GapBits-1:0] gap_q;  // bits until the line is free
   logic [Width-1:0] phase_q;
   logic [2:0] at_q;  // data bytes sent
   logic [3:0] left_q;  // bits of the character to come
@@ -71,9 +76,10 @@ module ppmc312_sender
 
   assign sent_o = snd_o && over && left_q == '0 && last_q;
 
-  // It waits one step ahead, which makes room for the registers of the pins; a gap is one bit of it.
+  // The phase waits one step ahead, which compensates the registers of the pins. It also times the gap: at most 9 bits,
+  // so the gap ends before the next stop bit can be heard.
   always_ff @(posedge clk_i) begin
-    if (!snd_o && !gap_q) {over, phase_q} <= {1'b0, wrap_i};
+    if (!snd_o && gap_q == '0) {over, phase_q} <= {1'b0, wrap_i};
     else {over, phase_q} <= {1'b0, phase_q} + {1'b0, over ? wrap_i : step_i};
   end
 
@@ -81,12 +87,12 @@ module ppmc312_sender
     if (!rst_ni) begin
       snd_o <= 1'b0;
       txd_o <= 1'b1;
-      gap_q <= 1'b0;
+      gap_q <= '0;
     end else begin
       if (sent_o) snd_o <= 1'b0;
-      else if (send_i && !gap_q) snd_o <= 1'b1;
-      if (heard_i) gap_q <= 1'b1;
-      else if (over) gap_q <= 1'b0;
+      else if (send_i && gap_q == '0) snd_o <= 1'b1;
+      if (heard_i) gap_q <= GapBits'(SndWait + 1);
+      else if (over && gap_q != '0) gap_q <= gap_q - 1'b1;
       if (snd_o && over) txd_o <= (left_q == '0) ? last_q : bits_q[0];
     end
   end
@@ -94,9 +100,10 @@ module ppmc312_sender
   always_ff @(posedge clk_i) begin
     if (!snd_o) begin
       state_q <= StControl;
-      left_q  <= '0;
+      left_q  <= 4'(SndLead - 1);
       last_q  <= 1'b0;
       at_q    <= '0;
+      if (SndLead > 1) bits_q <= '1;
     end else if (over && left_q != '0) begin
       left_q <= left_q - 1'b1;
       bits_q <= {1'b1, bits_q[7:1]};

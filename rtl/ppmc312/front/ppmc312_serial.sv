@@ -14,7 +14,9 @@ module ppmc312_serial
 #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter bit          CharsSum = 1'b0
+    parameter bit          CharsSum = 1'b0,
+    parameter int unsigned SndLead  = 1,           // bits from the rise of snd_o to the start bit, 1 .. 16
+    parameter int unsigned SndWait  = 0            // bits that snd_o waits beyond half a bit, 0 .. 8
 ) (
     input  wire logic                       clk_i,       // clock
     input  wire logic                       rst_ni,      // reset, asynchronous
@@ -167,7 +169,9 @@ module ppmc312_serial
 
   ppmc312_sender #(
       .Width   (Width),
-      .CharsSum(CharsSum)
+      .CharsSum(CharsSum),
+      .SndLead (SndLead),
+      .SndWait (SndWait)
   ) u_sender (
       .clk_i,
       .rst_ni,

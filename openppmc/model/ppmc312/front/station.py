@@ -66,19 +66,35 @@ class Log(NamedTuple):
     sent: list[tuple[int, int]]
 
 
+class Driver(NamedTuple):
+    """SND_LEAD and SND_WAIT, in bits (P312-SER-18): from the rise of snd to the start bit, and the time that
+    snd waits beyond half a bit after the end of the last character."""
+
+    lead: int
+    wait: int
+
+
 class Station:
     """bit: clk of a bit, None for a silent station. address: 0..15. mode: SUM_MODE.
 
-    log: of everything sent.
+    log: of everything sent. driver: SND_LEAD and SND_WAIT.
     """
 
-    def __init__(self, core: Core, bit: Fraction | None, address: int, mode: str, log: Log) -> None:
+    def __init__(
+        self,
+        core: Core,
+        bit: Fraction | None,
+        address: int,
+        mode: str,
+        log: Log,
+        driver: Driver,
+    ) -> None:
         self._core, self._queue, self._pace = core, core.context.queue, core.pace
         self._address, self._mode = address, mode
         self._is_ready = False
         self._parser = Parser(address, LENGTHS, mode)
         self._receiver = Receiver(core.context, bit, self.hear) if bit else None
-        self._transmitter = Transmitter(core.context, bit, log.sent) if bit else None
+        self._transmitter = Transmitter(core.context, bit, log.sent, driver.lead) if bit else None
         self._silence: Event | None = None
         self._bit = bit
         self._heard: int | None = None
@@ -87,7 +103,7 @@ class Station:
         self._news: Note | None = None
         self._error = 0
         self.framing = self.overruns = self.checksums = 0
-        self._log = log
+        self._log, self._wait = log, driver.wait
 
     # ------------------------------------------------------------------ for the part
 
@@ -223,7 +239,7 @@ class Station:
         message = frame(kind | self._address, data, self._mode)
         at = t + self._pace.reply
         if self._bit and self._heard is not None and self._heard < t:
-            at = max(at, self._heard + ceil(self._bit) + self._pace.clear)
+            at = max(at, self._heard + ceil(self._bit * (1 + self._wait)) + self._pace.clear)
         self._queue.at(at, Phase.PIN, lambda now: self._send(now, message))
 
     def _send(self, t: int, message: bytes) -> None:
