@@ -20,7 +20,9 @@ module ppmc_bank_window_fv
     input wire logic        answers_i,      // and answers it
     input wire logic        long_i,         // with three bytes
     input wire logic [23:0] answer_data_i,
-    input wire logic [ 6:0] others_i        // status of other axes
+    input wire logic [ 6:0] others_i,       // status of other axes; of the watched one, but for `taken`
+    input wire logic [ 1:0] position_i,     // positions
+    input wire logic [ 3:0] map_i           // interrupts pending
 );
 
   localparam logic [2:0] Axis = 3'd2;  // the watched one
@@ -91,7 +93,7 @@ module ppmc_bank_window_fv
     end
 
   assign status = mine_5 ?
-      '{taken: new_taken_q, error: 1'b0, number: '0, busy: 1'b0}
+      '{taken: new_taken_q, error: others_i[4], number: others_i[3:1], busy: others_i[0]}
       : ready ? others_i : '0;
   assign answered = mine_5 && answer_q;
   // As in ppmc_bank_step.
@@ -122,10 +124,10 @@ module ppmc_bank_window_fv
       .config_no  (config_n),
       .done_axis_i(done_axis),
       .status_i   (status),
-      .position_i ('0),
+      .position_i (ready ? 32'(position_i) : '0),
       .answer_we_i(answered || !ready),
       .answer_i   (ready ? answer : answer_t'(0)),
-      .map_i      ('0),
+      .map_i,
       .mask_o     (mask),
       .go_o       (go),
       .stop_o     (stop)
@@ -190,6 +192,49 @@ module ppmc_bank_window_fv
   `FV_ASSERT(bank_hsk_04_there_until_all_are_read, !shows_q || dut.shown_q == there_q)
   `FV_ASSERT(bank_hsk_04_in_order, !(shows_q && there_q) || d == byte_q)
   `FV_ASSERT(bank_hsk_04_never_more_than_there_are, now_q.read <= now_q.bytes)
+  // ---- registers as of edge 2 of the read ----------------------------------------------------------------------------
+
+  // A visit writes its status one cycle before its edge, and pending interrupts change with it: what is there in this
+  // cycle is what a read shows that loads d_o two cycles later.
+  typedef struct packed {
+    logic [3:0] map, mask;
+    logic [4:0] status;
+    logic [1:0] config_n, position;
+  } bank_view_t;
+
+  bank_view_t bank, bank1_q, bank2_q;
+  logic [4:0] status_q;
+  logic [1:0] config_q, position_q;
+  logic [3:0] shown_register_q;
+  logic shown_mine_q, shown_first_q;
+  logic [7:0] map_q, mask_q, status2_q, config2_q, position2_q;
+
+  assign bank = '{map: map_i, mask: mask, status: status_q, config_n: config_q, position: position_q};
+
+  always_ff @(posedge clk_i)
+    if (!rst_ni) {status_q, config_q, position_q, bank1_q, bank2_q, shown_mine_q, shown_first_q} <= '0;
+    else begin
+      if (done_axis == Axis) {status_q, position_q} <= {status[4:0], ready ? position_i : 2'd0};
+      if (!ready) config_q <= '0;
+      else if (dut.write && dut.wa_q[9:4] == 6'(Axis) && dut.wa_q[3:0] == REG_CONFIG) config_q <= ~dut.wd_q[1:0];
+      {bank2_q, bank1_q} <= {bank1_q, bank};
+      shown_register_q <= dut.a2[3:0];
+      shown_mine_q     <= dut.load && dut.ready_q && dut.a2[9:4] == 6'(Axis);
+      shown_first_q    <= dut.load && dut.ready_q && dut.a2[9:4] == '0;
+      map_q            <= 8'(bank2_q.map);
+      mask_q           <= 8'(bank2_q.mask);
+      status2_q        <= {bank2_q.status[4:1], 1'b0, bank2_q.status[0], 2'b00};
+      position2_q      <= 8'(bank2_q.position);
+      config2_q        <= {6'd0, ~bank2_q.config_n};
+    end
+
+  `FV_ASSERT(bank_win_05_map, !(shown_first_q && shown_register_q == REG_MAP) || d == map_q)
+  `FV_ASSERT(bank_win_05_mask, !(shown_first_q && shown_register_q == REG_MASK) || d == mask_q)
+  `FV_ASSERT(bank_win_05_status, !(shown_mine_q && shown_register_q == REG_STATUS) || d[7:2] == status2_q[7:2])
+  `FV_ASSERT(bank_win_05_config, !(shown_mine_q && shown_register_q == REG_CONFIG) || d == config2_q)
+  `FV_ASSERT(bank_win_05_position, !(shown_mine_q && shown_register_q == REG_POSITION) || d == position2_q)
+  `FV_COVER(seen_map_during_a_clash, shown_first_q && shown_register_q == REG_MAP && $past(dut.clash_q) && d != '0)
+
   `FV_COVER(seen_answer_while_read, answered && dut.shown_q && current_q && now_q.read == 2'd1)
 
 endmodule
