@@ -192,7 +192,7 @@ module ppmc_bank_window_fv
   `FV_ASSERT(bank_hsk_04_there_until_all_are_read, !shows_q || dut.shown_q == there_q)
   `FV_ASSERT(bank_hsk_04_in_order, !(shows_q && there_q) || d == byte_q)
   `FV_ASSERT(bank_hsk_04_never_more_than_there_are, now_q.read <= now_q.bytes)
-  // ---- registers as of edge 2 of the read ----------------------------------------------------------------------------
+  // ---- registers as of edge 2 of the read ------------------------------------------------------------
 
   // A visit writes its status one cycle before its edge, and pending interrupts change with it: what is there in this
   // cycle is what a read shows that loads d_o two cycles later.
@@ -205,35 +205,35 @@ module ppmc_bank_window_fv
   bank_view_t bank, bank1_q, bank2_q;
   logic [4:0] status_q;
   logic [1:0] config_q, position_q;
-  logic [3:0] shown_register_q;
-  logic shown_mine_q, shown_first_q;
+  logic [3:0] register_q;
+  logic mine_q, first_q;
   logic [7:0] map_q, mask_q, status2_q, config2_q, position2_q;
 
   assign bank = '{map: map_i, mask: mask, status: status_q, config_n: config_q, position: position_q};
 
   always_ff @(posedge clk_i)
-    if (!rst_ni) {status_q, config_q, position_q, bank1_q, bank2_q, shown_mine_q, shown_first_q} <= '0;
+    if (!rst_ni) {status_q, config_q, position_q, bank1_q, bank2_q, mine_q, first_q} <= '0;
     else begin
       if (done_axis == Axis) {status_q, position_q} <= {status[4:0], ready ? position_i : 2'd0};
       if (!ready) config_q <= '0;
-      else if (dut.write && dut.wa_q[9:4] == 6'(Axis) && dut.wa_q[3:0] == REG_CONFIG) config_q <= ~dut.wd_q[1:0];
+      else if (dut.write && dut.wa_q == {6'(Axis), REG_CONFIG}) config_q <= ~dut.wd_q[1:0];
       {bank2_q, bank1_q} <= {bank1_q, bank};
-      shown_register_q <= dut.a2[3:0];
-      shown_mine_q     <= dut.load && dut.ready_q && dut.a2[9:4] == 6'(Axis);
-      shown_first_q    <= dut.load && dut.ready_q && dut.a2[9:4] == '0;
-      map_q            <= 8'(bank2_q.map);
-      mask_q           <= 8'(bank2_q.mask);
-      status2_q        <= {bank2_q.status[4:1], 1'b0, bank2_q.status[0], 2'b00};
-      position2_q      <= 8'(bank2_q.position);
-      config2_q        <= {6'd0, ~bank2_q.config_n};
+      register_q         <= dut.a2[3:0];
+      mine_q             <= dut.load && dut.ready_q && dut.a2[9:4] == 6'(Axis);
+      first_q            <= dut.load && dut.ready_q && dut.a2[9:4] == '0;
+      map_q              <= 8'(bank2_q.map);
+      mask_q             <= 8'(bank2_q.mask);
+      status2_q          <= {bank2_q.status[4:1], 1'b0, bank2_q.status[0], 2'b00};
+      position2_q        <= 8'(bank2_q.position);
+      config2_q          <= {6'd0, ~bank2_q.config_n};
     end
 
-  `FV_ASSERT(bank_win_05_map, !(shown_first_q && shown_register_q == REG_MAP) || d == map_q)
-  `FV_ASSERT(bank_win_05_mask, !(shown_first_q && shown_register_q == REG_MASK) || d == mask_q)
-  `FV_ASSERT(bank_win_05_status, !(shown_mine_q && shown_register_q == REG_STATUS) || d[7:2] == status2_q[7:2])
-  `FV_ASSERT(bank_win_05_config, !(shown_mine_q && shown_register_q == REG_CONFIG) || d == config2_q)
-  `FV_ASSERT(bank_win_05_position, !(shown_mine_q && shown_register_q == REG_POSITION) || d == position2_q)
-  `FV_COVER(seen_map_during_a_clash, shown_first_q && shown_register_q == REG_MAP && $past(dut.clash_q) && d != '0)
+  `FV_ASSERT(bank_win_05_map, !(first_q && register_q == REG_MAP) || d == map_q)
+  `FV_ASSERT(bank_win_05_mask, !(first_q && register_q == REG_MASK) || d == mask_q)
+  `FV_ASSERT(bank_win_05_status, !(mine_q && register_q == REG_STATUS) || {d[7:2], 2'b00} == status2_q)
+  `FV_ASSERT(bank_win_05_config, !(mine_q && register_q == REG_CONFIG) || d == config2_q)
+  `FV_ASSERT(bank_win_05_position, !(mine_q && register_q == REG_POSITION) || d == position2_q)
+  `FV_COVER(seen_map_during_a_clash, first_q && register_q == REG_MAP && $past(dut.clash_q) && d != '0)
 
   `FV_COVER(seen_answer_while_read, answered && dut.shown_q && current_q && now_q.read == 2'd1)
 
