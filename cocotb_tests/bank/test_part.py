@@ -13,7 +13,15 @@ from cocotb_tests.harness.verifies import verifies
 from .bench import BANK, F100
 
 ITEMS = cocotb_items(
-    "cocotb_tests.bank", "tb_window", "tb_bytes", "tb_motion", "tb_group", "tb_limits", "tb_rest", part=BANK
+    "cocotb_tests.bank",
+    "tb_window",
+    "tb_bytes",
+    "tb_motion",
+    "tb_group",
+    "tb_limits",
+    "tb_rest",
+    "tb_edges",
+    part=BANK,
 )
 
 # Parameter, legal values, values just outside; the others as the header has them: 32 axes, 100 MHz.

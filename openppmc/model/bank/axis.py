@@ -121,7 +121,7 @@ class Axis:
         elif motion.busy:
             commands.refuse(Error.NOT_WHILE_BUSY)
         else:
-            commands.refuse(Error.UNDEFINED if commands.initialised else Error.NOT_INITIALISED)
+            commands.refuse(Error.UNDEFINED if commands.known(t) else Error.NOT_INITIALISED)
         self.mailbox.look_again(t)
 
     def halt(self, t: int) -> None:

@@ -32,7 +32,7 @@ class Builder:
 
 class CommandUnit(commands.CommandUnit):
     """Commands of axis `axis`. completed: the visit that completed the last initialisation, or -1.
-    initialised: one is complete and in force."""
+    initialised: one is complete and in force; known: visit t finds one that an earlier visit completed."""
 
     while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)
 
@@ -51,7 +51,7 @@ class CommandUnit(commands.CommandUnit):
         super().__init__(context, port, motion, excitation, chopper, switching)
         self._visits, self._builder, self._axis = visits, builder, axis
         self.completed = -1
-        self.initialised = False
+        self.initialised = self._before = False
 
     def _decode(self, byte: int) -> Command:
         command = decode(byte)
@@ -62,6 +62,10 @@ class CommandUnit(commands.CommandUnit):
 
     def _pin(self, name: str) -> int:
         return super()._pin(name) >> self._axis & 1
+
+    def known(self, t: int) -> bool:
+        """Whether visit t finds an initialisation that was complete before it (BANK-GRP-02)."""
+        return self._before if t == self.completed else self.initialised
 
     def refuse(self, error: Error) -> None:
         """A GO that nothing was held for (BANK-GRP-02)."""
@@ -84,6 +88,6 @@ class CommandUnit(commands.CommandUnit):
         self._context.queue.at(visit, Phase.CHOPPER, self._complete)
 
     def _complete(self, t: int) -> None:
-        self.completed, self.initialised = t, True
+        self.completed, self._before, self.initialised = t, self.initialised, True
         self._context.counter.restart(t)
         super()._complete(t)

@@ -44,6 +44,7 @@ class Motion(motion.Motion):
         self.held = False
         self.ended = -1
         self._cut: int | None = None
+        self._stopped = -1
         self._lost = 0
         self._next: int | None = None
         self._position = 0
@@ -74,11 +75,12 @@ class Motion(motion.Motion):
     # ------------------------------------------------------------------ stops and inputs
 
     def stop(self, t: int) -> None:
-        """Immediate stop taken at visit t, which orders no pulse. If the motion was cut before without the
-        visit knowing, only the finish bit is added (BANK-MOT-03)."""
+        """Immediate stop accepted at visit t, which orders no pulse and ignores the slow-down limit
+        (BANK-MOT-05). After an end that was decided before t no finish bit is added (BANK-MOT-03)."""
+        self._stopped = t
         if self._cut is None:
             super().stop(t)
-        elif not self.finishing:
+        elif self._cut == t:
             self._stop_bits |= FINISH_STOP
         if not self.finishing:
             self._cancel("pulse")
@@ -105,7 +107,7 @@ class Motion(motion.Motion):
 
     def _look(self, t: int) -> None:
         """Visit t: the slow-down limit (BANK-MOT-05)."""
-        if not self.busy or self.finishing or t <= self._began:
+        if not self.busy or self.finishing or t <= self._began or t == self._stopped:
             return
         if self.is_ramp and self._slow_active() and self._slow_counts():
             self._request(t, "slow", FINISH_SLOW)
