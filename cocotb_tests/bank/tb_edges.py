@@ -25,11 +25,12 @@ def blip(axis: Axis, edge: int, **pins: int) -> None:
 @directed("BANK-MOT-02", "BANK-MOT-03", builds=(B8, B32))
 async def bank_mot_03_requests_around_an_end(dut):
     """If an alarm decides the end on edge e, 0x41 and a slow-down limit at visits up to e + 4 set their
-    finish bits, and so does 0x40 at visit e; 0x40 at visits e + 1 to e + 4 sets none (BANK-MOT-03)."""
+    finish bits; an immediate stop does so at visit e, but not at e + 1 to e + 4 (BANK-MOT-03)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
-    for request, late, plus in product((0x40, 0x41, "slow"), range(-2, 7), (100, 0)):
-        await axis.go(0x46)
+    requests = ((0x40, 0x46), (0x40, 0x45), (0x41, 0x45), (0x41, 0x46), ("slow", 0x46))
+    for (request, code), late, plus in product(requests, range(-2, 7), (100, 0)):
+        await axis.go(code, rate=9)
         await axis.pulse(6, plus)  # pout_n is high or low
         visit = axis.visit(lab.bench.now + (60 if plus else 12))
         blip(axis, visit - late, alm_n=0)
@@ -39,10 +40,12 @@ async def bank_mot_03_requests_around_an_end(dut):
             lab.at_event(visit - 7, axis.n << 4 | STATUS, request)
         await lab.bench.until(visit + 1)
         await axis.idle()
-        alarm = ALARM_BIT * (request != 0x40 or late >= 0)
-        bit = (SLOW_BIT if request == "slow" else STOP_BIT) * (late <= (0 if request == 0x40 else 4))
-        what = f"finish status, {request} at e {late:+}, {plus}"
-        lab.check("BANK-MOT-03", what, await axis.finish(), 0x86 | alarm | bit)
+        # At constant speed 0x41 is an immediate stop too.
+        immediate = request == 0x40 or code == 0x45
+        alarm = ALARM_BIT * (not immediate or late >= 0)
+        bit = (SLOW_BIT if request == "slow" else STOP_BIT) * (late <= (0 if immediate else 4))
+        what = f"finish status, {request} at e {late:+}, {code:02X}, {plus}"
+        lab.check("BANK-MOT-03", what, await axis.finish(), 0x80 | code & 7 | alarm | bit)
 
 
 @directed("BANK-MOT-05", builds=(B8, B32))

@@ -20,7 +20,7 @@ module ppmc_bank_window_fv
     input wire logic        answers_i,      // and answers it
     input wire logic        long_i,         // with three bytes
     input wire logic [23:0] answer_data_i,
-    input wire logic [ 6:0] others_i,       // status of other axes; of the watched one, but for `taken`
+    input wire logic [ 6:0] others_i,       // status of other axes; of the watched one without taken
     input wire logic [ 1:0] position_i,     // positions
     input wire logic [ 3:0] map_i           // interrupts pending
 );
@@ -194,8 +194,8 @@ module ppmc_bank_window_fv
   `FV_ASSERT(bank_hsk_04_never_more_than_there_are, now_q.read <= now_q.bytes)
   // ---- registers as of edge 2 of the read ------------------------------------------------------------
 
-  // A visit writes its status one cycle before its edge, and pending interrupts change with it: what is there in this
-  // cycle is what a read shows that loads d_o two cycles later.
+  // A visit writes its status one cycle before its edge, and pending interrupts change with it. A read that
+  // loads d_o two cycles later returns the registers of this cycle.
   typedef struct packed {
     logic [3:0] map, mask;
     logic [4:0] status;

@@ -139,8 +139,8 @@ def test_decelerating_stop_in_the_last_low_time(known, status, finish):
 
 @pytest.mark.parametrize("code", [0x40, 0x41])
 def test_immediate_stop_after_an_end(code):
-    """BANK-MOT-03: as if the motion went on, so its bit is set; known to the visit it is not."""
-    for known, finish in ((4, 0xD5), (5, 0x95)):
+    """The visit on the edge that decides the end still sets bit 6; later visits set none (BANK-MOT-03)."""
+    for known, finish in ((0, 0xD5), (1, 0x95), (4, 0x95), (5, 0x95)):
         host = Host(64)
         first = start(host, 5, "c 45 d 63") + host.w
         visit = host.model.visit(5, first + 100)
