@@ -8,12 +8,12 @@ from scripts.bench import costs
 
 
 def test_costs_in_benchmarks_are_those_of_the_rtl() -> None:
-    """The table of costs in docs/benchmarks.md has the cycle counts of the RTL (`make bench PART=ppmc104`)."""
+    """The costs in docs/benchmarks.md are the cycle counts of the RTL (`make bench PART=ppmc104`)."""
     page = (DOCS / "benchmarks.md").read_text(encoding="utf-8")
     block = page.split("<!-- bench:costs -->")[1].split("<!-- /bench:costs -->")[0]
     printed = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
     found = costs.measure()
     assert [row for row in printed if row[0] in found] == costs.rows(found)
-    # From the end of the last byte: two cycles to the write event, two to the byte, one to the next command.
+    # Five cycles from the strobe to the build, and from its end to the next command.
     longest = next(cycles for what, cycles in found.items() if "longest" in what)
     assert longest == Latency().build(255, 0, 11_220) + 5
