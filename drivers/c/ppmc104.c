@@ -52,6 +52,35 @@ const char *ppmc104_strerror(ppmc104_result_t result)
     case PPMC104_TIMEOUT: return "time-out: the part did not get ready";
     case PPMC104_NO_PART: return "time-out: no part answers, check address, wiring and reset";
     case PPMC104_BAD_ARGUMENT: return "argument out of range";
+    case PPMC104_UNCONFIRMED: return "the part does not confirm the end of the motion";
+    case PPMC104_POSITION_UNKNOWN: return "position unknown: find the origin, then set it";
+    case PPMC104_BAD_REPLY: return "damaged reply: check wiring, speed and address";
+    case PPMC104_REPORTS_LOST: return "reports lost: fetch them more often";
+    case PPMC2104_ERR_UNKNOWN: return "error 1: no such instruction";
+    case PPMC2104_ERR_DATA: return "error 2: unrequested data byte";
+    case PPMC2104_ERR_CUT: return "error 3: an unfinished instruction was dropped";
+    case PPMC2104_ERR_UNINITIALISED: return "error 4: no initial setting";
+    case PPMC2104_ERR_BUSY: return "error 5: not while the axis moves";
+    case PPMC2104_ERR_STANDSTILL: return "error 6: nothing to stop";
+    case PPMC2104_ERR_START: return "error 7: limit, alarm or origin is active";
+    case PPMC2104_ERR_NO_RAMP: return "error 8: nothing to decelerate, stop immediately";
+    case PPMC2104_ERR_RAMP: return "error 9: rates or ramp out of range";
+    case PPMC2104_ERR_RAMP_LONG: return "error 10: ramp longer than 11220 pulses";
+    case PPMC2104_ERR_SWITCHING: return "error 11: chopper time below 64";
+    case PPMC2104_ERR_FAST: return "error 12: too fast for one axis";
+    case PPMC2104_ERR_FAST_BOTH: return "error 13: too fast for both axes";
+    case PPMC312_ERR_PARAMETER: return "F0: a parameter is out of range";
+    case PPMC312_ERR_STATE: return "F1: not in this state";
+    case PPMC312_ERR_LIMIT: return "F2: the limit ahead is active";
+    case PPMC312_ERR_ALARM: return "F4: alarm, clear it";
+    case PPMC312_ERR_UNKNOWN: return "F5: no such instruction";
+    case PPMC312_ERR_SIZE: return "F6: wrong size";
+    case PPMC312_ERR_FULL: return "F7: buffer full, or event pin in use";
+    case PPMC312_ERR_BUS_ONLY: return "only on the parallel bus";
+    case PMC006_ERR_REFUSED: return "the controller refused it";
+    case PMC006_ERR_BUSY: return "not while a motion runs";
+    case PMC006_ERR_EEPROM: return "EEPROM busy, missing or failed";
+    case PMC006_ERR_NO_SWITCH: return "the motion ended without the switch";
     }
     return "unknown result";
 }
@@ -129,6 +158,12 @@ void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
     dev->write = write;
     dev->ctx = ctx;
     dev->starting = false;
+    dev->zero = STATUS_ZERO;
+    dev->order.operation = 0u;
+    dev->order.flags = 0u;
+    dev->order.ended = 0u;
+    dev->order.counted = false;
+    dev->order.pulses = 0u;
     dev->limit = PPMC104_DEFAULT_LIMIT;
     dev->give_up = NULL;
 }
@@ -138,21 +173,20 @@ uint8_t ppmc104_status(ppmc104_t *dev)
     return dev->read(dev->ctx, PPMC104_REG_STATUS);
 }
 
-/* Poll until status & mask == value, or a bit of `or_set` is 1; `status` gets the last one read. */
-static ppmc104_result_t wait_for(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status)
+ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status)
 {
     unsigned long polls = 0;
 
     for (;;) {
         bool over;
         *status = ppmc104_status(dev);
-        if (((*status & mask) == value || (*status & or_set) != 0u) && (*status & STATUS_ZERO) == 0u) {
+        if (((*status & mask) == value || (*status & or_set) != 0u) && (*status & dev->zero) == 0u) {
             return PPMC104_OK;
         }
         ++polls;
         over = dev->give_up != NULL ? dev->give_up(dev->ctx, polls) : polls >= dev->limit;
         if (over) {
-            return (*status & STATUS_ZERO) != 0u ? PPMC104_NO_PART : PPMC104_TIMEOUT;
+            return (*status & dev->zero) != 0u ? PPMC104_NO_PART : PPMC104_TIMEOUT;
         }
     }
 }
@@ -162,11 +196,11 @@ static ppmc104_result_t wait_for(ppmc104_t *dev, uint8_t mask, uint8_t value, ui
  * the buffer when BUSY rises: the old chip takes only stops during a fast motion (P104-DS-12). */
 static ppmc104_result_t settle(ppmc104_t *dev, uint8_t *status)
 {
-    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
+    ppmc104_result_t result = ppmc104_poll(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
 
     if (result == PPMC104_OK && (*status & PPMC104_STATUS_BUSY) == 0u) {
         dev->write(dev->ctx, PPMC104_REG_STATUS, CODE_UNKNOWN);
-        result = wait_for(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
+        result = ppmc104_poll(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
     }
     dev->starting = dev->starting && result != PPMC104_OK;
     return result;
@@ -182,19 +216,29 @@ bool ppmc104_busy(ppmc104_t *dev)
     return (status & PPMC104_STATUS_BUSY) != 0u;
 }
 
+ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set)
+{
+    uint8_t status;
+    ppmc104_result_t result = ppmc104_poll(dev, PPMC104_STATUS_IBF, 0u, or_set, &status);
+
+    if (result == PPMC104_OK) {
+        dev->write(dev->ctx, reg, value);
+    }
+    return result;
+}
+
 /* One byte: room for it, the write, and what the part made of it. A stop does not wait for room during a motion: what
  * it may replace is a byte whose own call did not wait for it any longer. */
 static ppmc104_result_t put(ppmc104_t *dev, unsigned reg, uint8_t value)
 {
     const bool stop = reg == PPMC104_REG_STATUS && (value == CODE_STOP || value == CODE_STOP_SLOWLY);
     uint8_t status;
-    ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_IBF, 0u, stop ? PPMC104_STATUS_BUSY : 0u, &status);
+    ppmc104_result_t result = ppmc104_send(dev, reg, value, stop ? PPMC104_STATUS_BUSY : 0u);
 
     if (result != PPMC104_OK) {
         return result;
     }
-    dev->write(dev->ctx, reg, value);
-    result = wait_for(dev, PPMC104_STATUS_IBF, 0u, 0u, &status);
+    result = ppmc104_poll(dev, PPMC104_STATUS_IBF, 0u, 0u, &status);
     if (result == PPMC104_OK && (status & PPMC104_STATUS_ERR) != 0u) {
         return (ppmc104_result_t)(PPMC104_ERR_UNKNOWN + ((status >> 4) & 7));
     }
@@ -231,7 +275,7 @@ ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value)
     }
     for (n = 0; n < count; ++n) {
         uint8_t status;
-        ppmc104_result_t result = wait_for(dev, PPMC104_STATUS_OBF, PPMC104_STATUS_OBF, 0u, &status);
+        ppmc104_result_t result = ppmc104_poll(dev, PPMC104_STATUS_OBF, PPMC104_STATUS_OBF, 0u, &status);
         if (result != PPMC104_OK) {
             return result;
         }
@@ -304,6 +348,13 @@ static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint
     data[3] = (uint8_t)(pulses >> 16 & 0xFFu);
     result = ppmc104_command(dev, (uint8_t)(op | flags), data + skip, count);
     dev->starting = result == PPMC104_OK;
+    if (result == PPMC104_OK || result == PPMC104_TIMEOUT) {
+        dev->order.operation = (uint8_t)(op & 7u);
+        dev->order.flags = flags;
+        dev->order.ended = 0u;
+        dev->order.counted = false;
+        dev->order.pulses = op == OP_MOVE || op == OP_CONSTANT || op == OP_STEP ? pulses + 1u : PULSES_MAX;
+    }
     return result;
 }
 
@@ -349,32 +400,82 @@ ppmc104_result_t ppmc104_stop_slowly(ppmc104_t *dev)
     return ppmc104_command(dev, CODE_STOP_SLOWLY, NULL, 0u);
 }
 
-ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish)
+ppmc104_result_t ppmc104_wait_by(ppmc104_t *dev, ppmc104_finish_t *finish, uint8_t remaining)
 {
     uint8_t status;
-    ppmc104_finish_t unused;
+    uint32_t number = 0;
+    ppmc104_finish_t own;
     ppmc104_result_t result = settle(dev, &status);
 
+    finish = finish != NULL ? finish : &own;
     if (result == PPMC104_OK) {
-        result = wait_for(dev, PPMC104_STATUS_BUSY, 0u, 0u, &status);
+        result = ppmc104_poll(dev, PPMC104_STATUS_BUSY, 0u, 0u, &status);
     }
-    return result == PPMC104_OK ? ppmc104_finish(dev, finish != NULL ? finish : &unused) : result;
+    if (result == PPMC104_OK) {
+        result = ppmc104_finish(dev, finish);
+    }
+    if (result == PPMC104_OK) {
+        ppmc104_recall(&dev->order, finish);
+        result = ppmc104_ask(dev, remaining, 3u, &number);
+    }
+    return result == PPMC104_OK ? ppmc104_confirm(&dev->order, finish, number) : result;
+}
+
+ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish)
+{
+    return ppmc104_wait_by(dev, finish, CODE_REMAINING);
 }
 
 /* ---- reads ---- */
+
+static void decode(uint8_t raw, ppmc104_finish_t *finish)
+{
+    finish->ended = (raw & 0x80u) != 0u;
+    finish->stopped = (raw & 0x40u) != 0u;
+    finish->alarm = (raw & 0x20u) != 0u;
+    finish->limit = (raw & 0x10u) != 0u;
+    finish->slow_limit = (raw & 0x08u) != 0u;
+    finish->operation = raw & 0x07u;
+    finish->raw = raw;
+}
+
+void ppmc104_decode_finish(uint8_t raw, ppmc104_order_t *order, ppmc104_finish_t *finish)
+{
+    decode(raw, finish);
+    if (finish->ended && order->ended == 0u && finish->operation == order->operation) {
+        order->ended = raw;
+    }
+}
+
+void ppmc104_recall(ppmc104_order_t *order, ppmc104_finish_t *finish)
+{
+    if (!finish->ended && order->ended != 0u && (order->ended & 0x7Fu) == finish->raw) {
+        decode(order->ended, finish);
+    }
+}
+
+ppmc104_result_t ppmc104_confirm(const ppmc104_order_t *order, const ppmc104_finish_t *finish, uint32_t number)
+{
+    if (!finish->ended || finish->operation != order->operation) {
+        return PPMC104_UNCONFIRMED;
+    }
+    if ((finish->raw & FINISH_CAUSES) == 0u) {
+        return number == 0u || finish->operation == (OP_HOME & 7u) ? PPMC104_OK : PPMC104_UNCONFIRMED;
+    }
+    return number < order->pulses ? PPMC104_OK : PPMC104_UNCONFIRMED;
+}
+
+int32_t ppmc104_signed(uint32_t value)
+{
+    return value <= (uint32_t)INT32_MAX ? (int32_t)value : -(int32_t)(~value) - 1;
+}
 
 ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish)
 {
     uint8_t raw = 0;
     ppmc104_result_t result = ppmc104_ask_byte(dev, CODE_FINISH, &raw);
     if (result == PPMC104_OK) {
-        finish->ended = (raw & 0x80u) != 0u;
-        finish->stopped = (raw & 0x40u) != 0u;
-        finish->alarm = (raw & 0x20u) != 0u;
-        finish->limit = (raw & 0x10u) != 0u;
-        finish->slow_limit = (raw & 0x08u) != 0u;
-        finish->operation = raw & 0x07u;
-        finish->raw = raw;
+        ppmc104_decode_finish(raw, &dev->order, finish);
     }
     return result;
 }
@@ -397,7 +498,12 @@ ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels)
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses)
 {
     uint32_t value = 0;
-    ppmc104_result_t result = ppmc104_ask(dev, CODE_REMAINING, 3u, &value);
+    ppmc104_result_t result;
+
+    if (finish->operation == 0u) {
+        return PPMC104_UNCONFIRMED;
+    }
+    result = ppmc104_ask(dev, CODE_REMAINING, 3u, &value);
     if (result == PPMC104_OK) {
         *pulses = ppmc104_left(finish, value);
     }

@@ -43,8 +43,50 @@ typedef enum {
     PPMC104_ERR_DECELERATING = 8,   /**< number 7: it decelerates already */
     PPMC104_TIMEOUT = 16,           /**< the part did not get ready within the limit */
     PPMC104_NO_PART = 17,           /**< as TIMEOUT, and what was read cannot come from a part */
-    PPMC104_BAD_ARGUMENT = 18       /**< out of range; nothing was sent */
+    PPMC104_BAD_ARGUMENT = 18,      /**< out of range; nothing was sent */
+    PPMC104_UNCONFIRMED = 19,       /**< the part does not confirm the end of the motion: it was reset, or the counts
+                                     *   disagree; its position is unknown */
+    PPMC104_POSITION_UNKNOWN = 20,  /**< no position was set since the last reset or unconfirmed end */
+    PPMC104_BAD_REPLY = 21,         /**< a reply is damaged or cannot belong to the request */
+    PPMC104_REPORTS_LOST = 22,      /**< more reports than the driver can store */
+    /* PPMC-2104: its error numbers 1 .. 13, plus 32. */
+    PPMC2104_ERR_UNKNOWN = 33,       /**< no such instruction */
+    PPMC2104_ERR_DATA = 34,          /**< a data byte that no instruction requested */
+    PPMC2104_ERR_CUT = 35,           /**< an unfinished instruction was dropped */
+    PPMC2104_ERR_UNINITIALISED = 36, /**< no initial setting */
+    PPMC2104_ERR_BUSY = 37,          /**< not while the axis moves */
+    PPMC2104_ERR_STANDSTILL = 38,    /**< nothing to stop */
+    PPMC2104_ERR_START = 39,         /**< limit, alarm or origin active: nothing moves */
+    PPMC2104_ERR_NO_RAMP = 40,       /**< nothing to decelerate: the motion continues */
+    PPMC2104_ERR_RAMP = 41,          /**< rates or ramp too short */
+    PPMC2104_ERR_RAMP_LONG = 42,     /**< ramp longer than 11 220 pulses */
+    PPMC2104_ERR_SWITCHING = 43,     /**< chopper time below 64 */
+    PPMC2104_ERR_FAST = 44,          /**< faster than one axis may run (DATASHEET) */
+    PPMC2104_ERR_FAST_BOTH = 45,     /**< faster than both axes may run (DATASHEET) */
+    /* PPMC-312: rejections; ppmc312_t::detail has the part's numbers. */
+    PPMC312_ERR_PARAMETER = 64, /**< F0: a value is out of range */
+    PPMC312_ERR_STATE = 65,     /**< F1: not in this state */
+    PPMC312_ERR_LIMIT = 66,     /**< F2: the limit in the direction of the motion is active */
+    PPMC312_ERR_ALARM = 67,     /**< F4: alarm; the part needs ppmc312_driver(dev, PPMC312_ALARM_CLEAR) */
+    PPMC312_ERR_UNKNOWN = 68,   /**< F5: no such instruction */
+    PPMC312_ERR_SIZE = 69,      /**< F6: wrong size */
+    PPMC312_ERR_FULL = 70,      /**< F7: buffer full, or the event pin serves the other buffer */
+    PPMC312_ERR_BUS_ONLY = 71,  /**< the serial line does not have this instruction; nothing was sent */
+    /* PMC006B4 */
+    PMC006_ERR_REFUSED = 96,  /**< the controller kept its old value, or did not start */
+    PMC006_ERR_BUSY = 97,     /**< not while a motion runs */
+    PMC006_ERR_EEPROM = 98,   /**< the EEPROM is busy, or the save has failed */
+    PMC006_ERR_NO_SWITCH = 99 /**< the motion ended without the switch */
 } ppmc104_result_t;
+
+/** Last operation: written by the driver only. */
+typedef struct {
+    uint8_t operation; /**< 2 .. 7 as in ppmc104_finish_t, 0: the driver has not started one */
+    uint8_t flags;     /**< its flags */
+    uint8_t ended;     /**< its finish status, if it has been read */
+    bool counted;      /**< its end is confirmed and is part of the position */
+    uint32_t pulses;   /**< requested; operations without a count: 16 777 216 */
+} ppmc104_order_t;
 
 /** Polls of the status register in a wait, if ppmc104_t::limit is left as ppmc104_setup() sets it. */
 #define PPMC104_DEFAULT_LIMIT 1000000ul
@@ -61,6 +103,8 @@ typedef struct {
      *  true ends the wait with a time-out. It may look at a clock, feed a watchdog or sleep. */
     bool (*give_up)(void *ctx, unsigned long polls);
     bool starting; /**< of the driver: an operation was accepted and has not been seen running */
+    uint8_t zero;  /**< of the driver: bits of the status register that read 0 on every part */
+    ppmc104_order_t order; /**< of the driver: what ppmc104_wait() expects */
 } ppmc104_t;
 
 /** Base clock of the speeds. */
@@ -96,7 +140,10 @@ typedef struct {
 #define PPMC104_NO_INT 0x10u     /**< no interrupt at the end */
 #define PPMC104_POUT_ONLY 0x80u  /**< phases stand still; ppmc104_move() and ppmc104_run() only */
 
-/** Finish status, decoded. All causes false: complete, or the origin was found. */
+/**
+ * Finish status, decoded. `ended` and all causes false: complete, or the origin was found. A part that was reset has
+ * `operation` 0: nothing is known then.
+ */
 typedef struct {
     bool ended;        /**< an operation has ended since the last time this was read */
     bool stopped;      /**< by a stop command */
@@ -171,9 +218,12 @@ uint8_t ppmc104_status(ppmc104_t *dev);
  */
 bool ppmc104_busy(ppmc104_t *dev);
 /**
- * Wait for the end of the operation, then read the finish status (which lifts the interrupt).
+ * Wait for the end of the operation, then read the finish status (which clears the interrupt) and compare it and the
+ * remaining pulses with the operation that was started. An interrupt routine may have read the finish status before.
  * The limit of the waits (`limit`, `give_up`) must be long enough for the motion.
- * @param finish may be null
+ * @param finish may be null; valid if the result is PPMC104_OK or PPMC104_UNCONFIRMED
+ * @return PPMC104_UNCONFIRMED: the part was reset during the motion, runs another program's motion, or disagrees about
+ *         the count
  */
 ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish);
 
@@ -191,6 +241,7 @@ ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< 
 /**
  * Pulses that the last operation did not put out, 0 .. 16 777 216. Uses and keeps no finish status, so the
  * caller gives the one of this operation: the part's number alone cannot tell 0 pulses from 1.
+ * @return PPMC104_UNCONFIRMED if that is the finish status of a part that was reset
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
 /** What the part's number of remaining pulses means after a motion with this finish status. */
@@ -222,6 +273,24 @@ ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value);
 ppmc104_result_t ppmc104_ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value);
 /** A read command and its answer of one byte. */
 ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
+/** @} */
+
+/** @name Core
+ * Shared by the drivers of the other parts; programs do not need it. @{ */
+/** Poll until status & mask == value, or a bit of `or_set` is 1; `status` receives the last byte read. */
+ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status);
+/** Wait until IBF = 0, or until a bit of `or_set` is 1, then write a byte. */
+ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set);
+/** Decode a finish status; the end of `order` is remembered in it. */
+void ppmc104_decode_finish(uint8_t raw, ppmc104_order_t *order, ppmc104_finish_t *finish);
+/** Replace a finish status that was read before by the remembered one. */
+void ppmc104_recall(ppmc104_order_t *order, ppmc104_finish_t *finish);
+/** Compare the finish status and the part's number of remaining pulses with the order. */
+ppmc104_result_t ppmc104_confirm(const ppmc104_order_t *order, const ppmc104_finish_t *finish, uint32_t number);
+/** ppmc104_wait() with another code of the remaining pulses. */
+ppmc104_result_t ppmc104_wait_by(ppmc104_t *dev, ppmc104_finish_t *finish, uint8_t remaining);
+/** Two's complement of 32 bits. */
+int32_t ppmc104_signed(uint32_t value);
 /** @} */
 
 #ifdef __cplusplus

@@ -111,7 +111,7 @@ ppmc104_result_t ppmc_bank_position(const ppmc_bank_t *bank, unsigned number, in
     for (n = 0; n < 4u; ++n) {
         value |= (uint32_t)peek(bank, number, PPMC_BANK_REG_POSITION + n) << (8u * n);
     }
-    *position = value <= (uint32_t)INT32_MAX ? (int32_t)value : -(int32_t)(~value) - 1;
+    *position = ppmc104_signed(value);
     return PPMC104_OK;
 }
 

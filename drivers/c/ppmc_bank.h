@@ -72,7 +72,8 @@ ppmc104_result_t ppmc_bank_axis(const ppmc_bank_t *bank, unsigned number, ppmc_b
 ppmc104_result_t ppmc_bank_config(const ppmc_bank_t *bank, unsigned number, bool fast, bool plain);
 
 /** @name Positions
- * Pulses since the reset of the bank, CW up. Allowed at any time. @{ */
+ * Pulses since the reset of the bank, CW up. Allowed at any time. A reset during a motion makes ppmc104_wait() return
+ * PPMC104_UNCONFIRMED; the count begins at 0 again then, wherever the motor is. @{ */
 ppmc104_result_t ppmc_bank_position(const ppmc_bank_t *bank, unsigned number, int32_t *position);
 /** @param positions as many as the bank has axes */
 void ppmc_bank_positions(const ppmc_bank_t *bank, int32_t *positions);

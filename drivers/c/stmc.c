@@ -55,6 +55,7 @@ void stmc_setup(stmc_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
 {
     ppmc104_setup(&dev->bus, read, write, ctx);
     dev->map = STMC_MAP_SHEET;
+    dev->probed = false;
 }
 
 ppmc104_result_t stmc_probe(stmc_t *dev)
@@ -69,6 +70,7 @@ ppmc104_result_t stmc_probe(stmc_t *dev)
     }
     dev->map = result == PPMC104_ERR_UNKNOWN ? STMC_MAP_FAMILY : STMC_MAP_SHEET;
     result = stmc_inputs(dev, &levels);
+    dev->probed = result == PPMC104_OK;
     return result == PPMC104_OK && (levels & INPUTS_ZERO) != 0u ? PPMC104_NO_PART : result;
 }
 
@@ -139,7 +141,17 @@ bool stmc_busy(stmc_t *dev)
 
 ppmc104_result_t stmc_wait(stmc_t *dev, ppmc104_finish_t *finish)
 {
-    return ppmc104_wait(&dev->bus, finish);
+    /* A wrong code would be another read, so the codes must be known. */
+    if (!dev->probed) {
+        uint8_t status;
+        ppmc104_result_t result = ppmc104_busy(&dev->bus) ? ppmc104_poll(&dev->bus, PPMC104_STATUS_BUSY, 0u, 0u, &status)
+                                                          : PPMC104_OK;
+        result = result == PPMC104_OK ? stmc_probe(dev) : result;
+        if (result != PPMC104_OK) {
+            return result;
+        }
+    }
+    return ppmc104_wait_by(&dev->bus, finish, CODE_REMAINING[dev->map]);
 }
 
 /* ---- reads ---- */
@@ -162,7 +174,12 @@ ppmc104_result_t stmc_outputs(stmc_t *dev, uint8_t *levels)
 ppmc104_result_t stmc_remaining(stmc_t *dev, const ppmc104_finish_t *finish, uint32_t *steps)
 {
     uint32_t value = 0;
-    ppmc104_result_t result = ppmc104_ask(&dev->bus, CODE_REMAINING[dev->map], 3u, &value);
+    ppmc104_result_t result;
+
+    if (finish->operation == 0u) {
+        return PPMC104_UNCONFIRMED;
+    }
+    result = ppmc104_ask(&dev->bus, CODE_REMAINING[dev->map], 3u, &value);
     if (result == PPMC104_OK) {
         *steps = ppmc104_left(finish, value);
     }

@@ -35,6 +35,7 @@ typedef enum {
 typedef struct {
     ppmc104_t bus;  /**< how the part is reached; its waits */
     stmc_map_t map; /**< stmc_probe() finds it out */
+    bool probed;    /**< of the driver: stmc_probe() has; else stmc_wait() does */
 } stmc_t;
 
 /** Initialisation. motor, half_step and active_high count only after a reset. */
@@ -105,7 +106,8 @@ ppmc104_result_t stmc_stop_slowly(stmc_t *dev);
 /** True while a motion runs, from the return of the function that started it on; see ppmc104_busy(). */
 bool stmc_busy(stmc_t *dev);
 /**
- * Wait for the end of the motion, then read the finish status (which lifts the interrupt).
+ * Wait for the end of the motion, then read the finish status (which clears the interrupt) and compare it and the
+ * remaining steps with the motion that was started: PPMC104_UNCONFIRMED as in ppmc104_wait().
  * The limit of the waits (`bus.limit`, `bus.give_up`) must be long enough for the motion.
  * @param finish may be null
  */

@@ -113,12 +113,27 @@ static void stops(void)
     ending("stopped", 4);
 }
 
+/* A reset of the bank in a motion. */
+static void reset(void)
+{
+    uint32_t left = 0;
+    ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
+
+    show("load", ppmc104_move(&axes[0].part, PPMC104_CW, 1000));
+    window_run_pulses(0, 7);
+    window_reset(false);
+    window_run(32);
+    show("reset", ppmc104_wait(&axes[0].part, &f));
+    show("reset left", ppmc104_remaining(&axes[0].part, &f, &left));
+}
+
 int main(void)
 {
     start();
     axes_alone();
     groups();
     stops();
+    reset();
     printf("done\n");
     return 0;
 }

@@ -159,6 +159,67 @@ static void gap(ppmc104_t *dev)
     ending(dev, "G wait");
 }
 
+/* A part that answers from a table: finish status, then three bytes of remaining pulses. */
+static struct {
+    uint8_t finish, left;
+    unsigned bytes;
+} fake;
+
+static uint8_t fake_read(void *ctx, unsigned reg)
+{
+    (void)ctx;
+    if (reg == PPMC104_REG_STATUS) return PPMC104_STATUS_OBF;
+    return fake.bytes++ == 0 ? fake.finish : fake.bytes == 2 ? fake.left : 0;
+}
+
+static void fake_write(void *ctx, unsigned reg, uint8_t value)
+{
+    (void)ctx;
+    if (reg == PPMC104_REG_STATUS) fake.bytes = value == 0x83 ? 1 : 0;
+}
+
+/* Ends that the part does not confirm: it was reset, it ran something else, its count disagrees. */
+static void unconfirmed(ppmc104_t *dev)
+{
+    static const struct {
+        const char *name;
+        uint8_t finish, left;
+    } cases[] = {{"U complete", 0x83, 0}, {"U count", 0x83, 247}, {"U operation", 0x84, 0}, {"U idle", 0x00, 0},
+                 {"U not ended", 0x40, 9}, {"U stopped", 0xC3, 99}, {"U too many left", 0xC3, 100}};
+    ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
+    ppmc104_t other;
+    uint32_t left = 99;
+    unsigned n;
+
+    show("U init", ppmc104_init(dev, &CONFIG));
+    show("U move", ppmc104_move(dev, PPMC104_CW, 1000));
+    sim_run_pulses(47);
+    sim_reset(false);
+    show("U reset", ppmc104_wait(dev, &f));
+    show("U reset left", ppmc104_remaining(dev, &f, &left));
+    show("U reset again", ppmc104_wait(dev, (ppmc104_finish_t *)0));
+    ppmc104_setup(&other, sim_read, sim_write, (void *)0);
+    show("U init", ppmc104_init(dev, &CONFIG));
+    show("U home", ppmc104_home(dev, PPMC104_CW, 40));
+    sim_reset(false);
+    show("U other", ppmc104_init(&other, &CONFIG));
+    show("U other", ppmc104_move(&other, PPMC104_CW, 3));
+    show("U replaced", ppmc104_wait(dev, (ppmc104_finish_t *)0));
+    show("U move", ppmc104_move(dev, PPMC104_CW, 5));
+    while (ppmc104_busy(dev)) {}
+    show("U routine", ppmc104_finish(dev, &f)); /* an interrupt routine was first */
+    show("U after it", ppmc104_wait(dev, &f));
+    printf("U after it raw=%02x\n", f.raw);
+    for (n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
+        ppmc104_setup(&other, fake_read, fake_write, (void *)0);
+        (void)ppmc104_move(&other, PPMC104_CW, 100);
+        fake.finish = cases[n].finish;
+        fake.left = cases[n].left;
+        show(cases[n].name, ppmc104_wait(&other, (ppmc104_finish_t *)0));
+    }
+    sim_forget();
+}
+
 static void pins(ppmc104_t *dev)
 {
     uint8_t outputs = 0, aux = 0xFF;
@@ -296,6 +357,7 @@ int main(void)
     ends(&dev);
     pins(&dev);
     errors(&dev);
+    unconfirmed(&dev);
     motors(&dev);
     external(&dev);
     gap(&dev);

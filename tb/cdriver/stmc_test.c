@@ -159,6 +159,21 @@ static void errors(stmc_t *dev)
     isa_print_steps("A");
 }
 
+/* A reset in a motion: the finish status of a fresh part has its bit 7 set (STMC-FIN-01). */
+static void unconfirmed(stmc_t *dev)
+{
+    ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
+    uint32_t left = 0;
+
+    show("U init", stmc_init(dev, &CONFIG));
+    show("U move", stmc_move(dev, PPMC104_CW, 1000));
+    isa_run_steps(24);
+    isa_reset(false);
+    show("U reset", stmc_wait(dev, &f));
+    show("U reset left", stmc_remaining(dev, &f, &left));
+    isa_print_steps("U");
+}
+
 /* Nobody at these ports; a motion longer than the wait. */
 static void dead(stmc_t *dev)
 {
@@ -256,6 +271,7 @@ int main(void)
     interrupt(&dev);
     ends(&dev);
     errors(&dev);
+    unconfirmed(&dev);
     dead(&dev);
     family();
     speeds();

@@ -104,3 +104,9 @@ def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
     cw, ccw, got = pulses(lines, "jog")
     assert (ending(lines, "jog")["raw"], ccw, cw) == (0xC5, 0, ending(lines, "jog")["position"])
     assert cw in (9, 10) and got == predict_move(INIT, cw, 30).intervals
+
+
+@pytest.mark.parametrize("name", ["reset", "reset left"])
+def test_reset_in_a_motion(lines: Lines, name: str) -> None:
+    """A reset of the bank in a motion is an unconfirmed end, not "complete" (P104-END-04)."""
+    assert result(lines, name) == (19, "the part does not confirm the end of the motion")

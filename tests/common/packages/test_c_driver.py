@@ -172,6 +172,24 @@ def test_bad_argument(lines, name):
     assert result(lines, f"E {name}") == (18, "argument out of range")
 
 
+@pytest.mark.parametrize(
+    "name",
+    ["reset", "reset left", "reset again", "replaced", "count", "operation", "idle", "not ended"]
+    + ["too many left"],
+)
+def test_an_end_that_the_part_does_not_confirm(lines, name):
+    """An end that the finish status or the count does not confirm is an error, not "complete"
+    (P104-END-04, P104-END-06)."""
+    assert result(lines, f"U {name}") == (19, "the part does not confirm the end of the motion")
+
+
+@pytest.mark.parametrize("name", ["routine", "after it", "complete", "stopped"])
+def test_a_confirmed_end(lines, name):
+    """A confirmed end is ok, even if an interrupt routine has read the finish status before."""
+    assert result(lines, f"U {name}") == (0, "ok")
+    assert lines["U after it"][1]["raw"] == "83"
+
+
 def test_pins_and_reads(lines):
     """Given the commands without motion, then all are taken and the reads show the pins."""
     for name in ("aux on", "aux bits", "aux off", "switching", "aux in", "outputs", "off"):

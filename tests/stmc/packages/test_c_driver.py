@@ -37,7 +37,7 @@ def lines(request) -> Lines:
     sources = [DRIVER / "ppmc104.c", DRIVER / "stmc.c", BENCH / "stmc_test.c", BENCH / "isa_bus.cpp"]
     # A fast "external" clock, because every clk is computed.
     design = part_design("j105_stmc", F16)
-    params = ("-GEXT_HZ=1000000", timed(request.param))
+    params = ("-GEXT_HZ=1000000", '-GREAD_MAP="SHEET"', timed(request.param))
     return simulate(f"cdriver_stmc_{request.param.lower()}", "j105_stmc", design, sources, params)
 
 
@@ -164,6 +164,12 @@ def test_errors_disturb_nothing(lines):
     end, (cw, ccw, got) = ending(lines, "E"), pulses(lines, "E")
     assert end["raw"] == 0xC3 and (cw + end["left"], ccw) == (60, 0)
     assert got == gaps(60)[: len(got) - 8] + gaps(60)[-8:]
+
+
+@pytest.mark.parametrize("name", ["reset", "reset left"])
+def test_reset_in_a_motion(lines, name):
+    """A reset in a motion is an unconfirmed end, not "complete" (STMC-FIN-01)."""
+    assert result(lines, f"U {name}") == (19, "the part does not confirm the end of the motion")
 
 
 def test_bad_arguments(lines):
