@@ -158,6 +158,7 @@ void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
     dev->write = write;
     dev->ctx = ctx;
     dev->starting = false;
+    dev->status_reg = PPMC104_REG_STATUS;
     dev->zero = STATUS_ZERO;
     dev->order.operation = 0u;
     dev->order.flags = 0u;
@@ -170,7 +171,12 @@ void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
 
 uint8_t ppmc104_status(ppmc104_t *dev)
 {
-    return dev->read(dev->ctx, PPMC104_REG_STATUS);
+    return dev->read(dev->ctx, dev->status_reg);
+}
+
+bool ppmc104_over(ppmc104_t *dev, unsigned long polls)
+{
+    return dev->give_up != NULL ? dev->give_up(dev->ctx, polls) : polls >= dev->limit;
 }
 
 ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status)
@@ -178,14 +184,11 @@ ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8
     unsigned long polls = 0;
 
     for (;;) {
-        bool over;
         *status = ppmc104_status(dev);
         if (((*status & mask) == value || (*status & or_set) != 0u) && (*status & dev->zero) == 0u) {
             return PPMC104_OK;
         }
-        ++polls;
-        over = dev->give_up != NULL ? dev->give_up(dev->ctx, polls) : polls >= dev->limit;
-        if (over) {
+        if (ppmc104_over(dev, ++polls)) {
             return (*status & dev->zero) != 0u ? PPMC104_NO_PART : PPMC104_TIMEOUT;
         }
     }

@@ -103,6 +103,7 @@ typedef struct {
      *  true ends the wait with a time-out. It may look at a clock, feed a watchdog or sleep. */
     bool (*give_up)(void *ctx, unsigned long polls);
     bool starting; /**< of the driver: an operation was accepted and has not been seen running */
+    uint8_t status_reg; /**< of the driver: number of the status register */
     uint8_t zero;  /**< of the driver: bits of the status register that read 0 on every part */
     ppmc104_order_t order; /**< of the driver: what ppmc104_wait() expects */
 } ppmc104_t;
@@ -279,6 +280,8 @@ ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
  * Shared by the drivers of the other parts; programs do not need it. @{ */
 /** Poll until status & mask == value, or a bit of `or_set` is 1; `status` receives the last byte read. */
 ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status);
+/** Whether a wait has taken too long after this number of unsuccessful polls. */
+bool ppmc104_over(ppmc104_t *dev, unsigned long polls);
 /** Wait until IBF = 0, or until a bit of `or_set` is 1, then write a byte. */
 ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set);
 /** Decode a finish status; the end of `order` is remembered in it. */

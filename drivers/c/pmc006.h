@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file pmc006.h
+ * Driver for the PMC006B4 on an RS-232 or RS-485 line: C99, no dependencies, no heap, no floating point, no globals.
+ *
+ * The driver uses the core in ppmc104.h: add ppmc104.c and pmc006.c to a program. Results are those of ppmc104.h. One
+ * pmc006_t serves one controller; calls for controllers of the same line must not overlap.
+ *
+ * Distances are microsteps of the current setting, speeds are microsteps per second.
+ */
+#ifndef PMC006_H
+#define PMC006_H
+
+#include "ppmc104.h"
+#include "ppmc_line.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PMC006_FACTORY 255u     /**< address of a new controller; others are 1 .. 120 */
+#define PMC006_WORDS_MAX 200u   /**< words of a program, two for an instruction */
+#define PMC006_STEPS_MAX 2147483647l
+
+/** Settings of pmc006_set() and pmc006_get(): letter of the instruction, range, factory value. */
+#define PMC006_ACCELERATION 'u'     /**< 0 .. 5: 1700 * 2^n steps/s^2; 0 */
+#define PMC006_DECELERATION 'o'     /**< likewise */
+#define PMC006_MAX_SPEED 'v'        /**< 1 .. 16 000; 1000 after each power-up */
+#define PMC006_START_SPEED 'L'      /**< 65 .. 3000, not above the maximum speed; 600 */
+#define PMC006_STOP_SPEED 'S'       /**< likewise */
+#define PMC006_MICROSTEPS 'm'       /**< 0, 2, 4, 8, 16, 32, 64, 128; 16 */
+#define PMC006_CURRENT 'e'          /**< peak current in mA, 400 .. 4000; 800 */
+#define PMC006_REDUCE 'a'           /**< 1: reduced current at standstill; 1. Write only: see pmc006_status_t */
+#define PMC006_HOLD 'Q'             /**< reduced current: 1/2, 1/4, 1/8, 1/16 for 1 .. 4; 1 */
+#define PMC006_CURRENT_BOOST 'M'    /**< current compensation, 100 .. 1200; 300 */
+#define PMC006_LEAD 'P'             /**< speed compensation, 300 .. 2000; 1250 */
+#define PMC006_EXT_EDGE 'J'         /**< bits 0, 1: EXT1, EXT2 act on the rising edge; 0 */
+#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63 */
+#define PMC006_STALL_MODE 'Y'       /**< bit 0 on, bit 1 stops, bit 2 drives GPO5; 0 */
+#define PMC006_STALL_LEVEL 'Z'      /**< 0 .. 511; 0 */
+#define PMC006_AUTOSTART 'F'        /**< 1: run the program after power-up; 0 also halts it now. Write only */
+#define PMC006_RELEASE 'g'          /**< 1: no current, stops a motion. Write only */
+#define PMC006_EXT_ON 'f'           /**< bits 0, 1: EXT1, EXT2 stop the motor; 0 after each power-up. Write only */
+
+/** Read-outs of pmc006_get(). */
+#define PMC006_VERSION 'R'
+#define PMC006_STALLED_AT 'X' /**< position of the last stall */
+#define PMC006_PORTS 'x'      /**< bits 0 .. 2, 8, 9: GPI1 .. GPI5; 3 .. 7: GPO1 .. GPO5; 10, 11: EXT1, EXT2 */
+
+/** One controller. Fill it with pmc006_setup(). */
+typedef struct {
+    ppmc104_t core;          /**< limits of the waits for motions and the EEPROM: core.limit, core.give_up */
+    const ppmc_line_t *line;
+    uint8_t address;
+    unsigned reply_ms;       /**< longest time to the first byte of a reply; 200 */
+    /* of the driver */
+    bool doubtful, moving, endless, stop_ordered, known;
+    uint8_t mark, ext;
+    int32_t speed, steps;
+    uint32_t begin;
+} pmc006_t;
+
+/** Status 1 and 2. */
+typedef struct {
+    bool busy;          /**< a motion is planned or runs */
+    bool ext1, ext2;    /**< stopped by EXT1, EXT2: starts are refused until pmc006_clear_stops() */
+    bool reduce;        /**< current reduction at standstill is on */
+    bool stall;         /**< stalled */
+    bool released;      /**< no current */
+    uint8_t ext_on;     /**< bits 0, 1: EXT1, EXT2 are on */
+    bool speed_mode;    /**< pmc006_run() is active */
+    bool forward;       /**< direction of the next motion */
+    bool autostart;     /**< the program runs after power-up */
+} pmc006_status_t;
+
+/** End of a motion. */
+typedef struct {
+    bool complete;      /**< all steps were made */
+    bool ext1, ext2;    /**< stopped by EXT1, EXT2 */
+    bool stall;         /**< the controller has detected a stall */
+    bool stopped;       /**< a stop was sent */
+    int32_t steps;      /**< made, forward positive */
+    int32_t position;   /**< step counter of the controller */
+} pmc006_end_t;
+
+/** Fill `dev`; nothing is sent. @param address 1 .. 120, or PMC006_FACTORY */
+ppmc104_result_t pmc006_setup(pmc006_t *dev, const ppmc_line_t *line, unsigned address);
+/** Wait until the controller answers: it is deaf for up to 80 ms after power-up. Motions continue; position unknown. */
+ppmc104_result_t pmc006_open(pmc006_t *dev);
+
+/** @name Settings
+ * They act until the next power-up, after pmc006_save() longer where the manual allows it. PMC006_ERR_REFUSED: the
+ * controller kept its old value. @{ */
+ppmc104_result_t pmc006_set(pmc006_t *dev, char setting, int32_t value);
+ppmc104_result_t pmc006_get(pmc006_t *dev, char setting, int32_t *value);
+/** Change the address, 1 .. 120. */
+ppmc104_result_t pmc006_set_address(pmc006_t *dev, unsigned address);
+/** Save the settings in the EEPROM and wait for the end of the write (the original does not report that). */
+ppmc104_result_t pmc006_save(pmc006_t *dev);
+/** @} */
+
+/** @name Motions
+ * They return when the controller has accepted them. @{ */
+/** Move. @param steps forward positive, not 0, not -2^31 */
+ppmc104_result_t pmc006_move(pmc006_t *dev, int32_t steps);
+/** Move to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is there already. */
+ppmc104_result_t pmc006_move_to(pmc006_t *dev, int32_t position);
+/** Run at constant speed until a stop. @param speed 1 .. 16 000; PMC006_MAX_SPEED changes it later */
+ppmc104_result_t pmc006_run(pmc006_t *dev, bool forward, int32_t speed);
+/** Stop at once. No error at standstill. */
+ppmc104_result_t pmc006_stop(pmc006_t *dev);
+/** Decelerate, then stop: only after pmc006_run(). PMC006_ERR_REFUSED in a move, which has no such instruction. */
+ppmc104_result_t pmc006_stop_slowly(pmc006_t *dev);
+/**
+ * Find a switch at EXT1 or EXT2, move off it by `back` steps and set the position to 0. Waits for all of it; the limit
+ * of the waits must be long enough.
+ * @param ext 1 or 2
+ * @param back 1 or more
+ * @return PMC006_ERR_NO_SWITCH: the motion ended without it
+ */
+ppmc104_result_t pmc006_home(pmc006_t *dev, unsigned ext, bool forward, int32_t back);
+/** @} */
+
+/**
+ * Wait for the end of the motion that this driver started.
+ * @param end may be null; valid if the result is PPMC104_OK
+ * @return PPMC104_UNCONFIRMED: the motor is at standstill, and neither the position nor a flag of the controller nor a
+ *         stop that was sent explains it, for example after a reset; PMC006_ERR_REFUSED: no motion was started
+ */
+ppmc104_result_t pmc006_wait(pmc006_t *dev, pmc006_end_t *end);
+
+ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status);
+/** Clear the flags of EXT1, EXT2 and the stall. */
+ppmc104_result_t pmc006_clear_stops(pmc006_t *dev);
+/**
+ * Step counter of the controller.
+ * @return PPMC104_POSITION_UNKNOWN: not set since pmc006_open(), or the controller was reset. The driver notices a
+ *         reset by the loss of PMC006_MAX_SPEED (other than 1000) and PMC006_EXT_ON
+ */
+ppmc104_result_t pmc006_position(pmc006_t *dev, int32_t *position);
+ppmc104_result_t pmc006_set_position(pmc006_t *dev, int32_t position);
+/** GPO1 .. GPO5 in bits 0 .. 4. */
+ppmc104_result_t pmc006_outputs(pmc006_t *dev, uint8_t bits);
+
+/** @name Program
+ * Words as in the manual: opcode and option, then the operand. @{ */
+/** Load into the program buffer and read back. @param count 1 .. PMC006_WORDS_MAX */
+ppmc104_result_t pmc006_program(pmc006_t *dev, const uint32_t *words, unsigned count);
+/** Burn the buffer into the EEPROM and wait for the end of the write. */
+ppmc104_result_t pmc006_program_burn(pmc006_t *dev);
+/** Run from an instruction, 0 .. 99. The position counts on; motions of a program are not waited for. */
+ppmc104_result_t pmc006_program_run(pmc006_t *dev, unsigned instruction);
+/** Halt the program; it does not run after power-up either (PMC006_AUTOSTART). A motion continues. */
+ppmc104_result_t pmc006_program_halt(pmc006_t *dev);
+/** @} */
+
+/** One frame and its reply, without repetition; for instructions that have no function here. */
+ppmc104_result_t pmc006_ask(pmc006_t *dev, char code, int32_t data, int32_t *reply);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

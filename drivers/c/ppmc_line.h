@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file ppmc_line.h
+ * Access functions of a serial line, for ppmc312.h and pmc006.h.
+ */
+#ifndef PPMC_LINE_H
+#define PPMC_LINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** A serial line with 8 data bits, no parity, one stop bit. Several stations may share one ppmc_line_t. */
+typedef struct {
+    /** Send bytes and return when the last stop bit has left; on RS-485 also switch the driver on and off. */
+    void (*send)(void *ctx, const uint8_t *bytes, unsigned count);
+    /** Wait at most `milliseconds` for a byte; false if none has arrived. 0: only what has been received already. */
+    bool (*receive)(void *ctx, uint8_t *byte, unsigned milliseconds);
+    void *ctx; /**< passed to the functions */
+    bool echo; /**< the receiver hears what is sent (two wires): the driver skips it */
+} ppmc_line_t;
+
+#endif
