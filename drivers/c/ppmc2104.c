@@ -120,19 +120,26 @@ ppmc104_result_t ppmc2104_command(ppmc2104_t *dev, uint8_t code, const uint8_t *
     const bool stop = (code & 0xC6u) == 0x40u;
     uint8_t status = 0u;
     unsigned n;
-    ppmc104_result_t result;
 
     if (count > 4u) {
         return PPMC104_BAD_ARGUMENT;
     }
-    result = ppmc104_send(&dev->bus, PPMC104_REG_STATUS, code, stop ? busy_bit(axis) : 0u);
-    for (n = 0; n < count && result == PPMC104_OK; ++n) {
-        result = ppmc104_send(&dev->bus, PPMC104_REG_DATA, data[n], 0u);
+    /* Each byte is checked: the data of a rejected code would overwrite its error number. */
+    for (n = 0; n <= count; ++n) {
+        ppmc104_result_t result = n == 0u
+                                      ? ppmc104_send(&dev->bus, PPMC104_REG_STATUS, code, stop ? busy_bit(axis) : 0u)
+                                      : ppmc104_send(&dev->bus, PPMC104_REG_DATA, data[n - 1u], 0u);
+        if (result == PPMC104_OK) {
+            result = ppmc104_poll(&dev->bus, PPMC104_STATUS_IBF, 0u, 0u, &status);
+        }
+        if (result == PPMC104_OK && (status & PPMC2104_STATUS_ERROR) != 0u) {
+            result = read_errors(dev, axis);
+        }
+        if (result != PPMC104_OK) {
+            return result;
+        }
     }
-    if (result == PPMC104_OK) {
-        result = ppmc104_poll(&dev->bus, PPMC104_STATUS_IBF, 0u, 0u, &status);
-    }
-    return result == PPMC104_OK && (status & PPMC2104_STATUS_ERROR) != 0u ? read_errors(dev, axis) : result;
+    return PPMC104_OK;
 }
 
 ppmc104_result_t ppmc2104_ask(ppmc2104_t *dev, uint8_t code, unsigned count, uint32_t *value)

@@ -26,6 +26,8 @@ class Clocked {
         while (count-- != 0) clk();
     }
 
+    uint64_t now() const { return now_; }
+
     // rst_n falls for four clk, or, `held`, for good.
     void reset(bool held) {
         top_->rst_n = 1;

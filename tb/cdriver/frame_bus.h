@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The simulated PMC006B4 that its C driver is tested on: 8 MHz, 115 200 baud, with an EEPROM. */
+#ifndef FRAME_BUS_H
+#define FRAME_BUS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+void frame_send(void *ctx, const uint8_t *bytes, unsigned count);
+bool frame_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
+
+void frame_reset(void);
+void frame_run_steps(unsigned count);          /* ends the program after 2 s */
+void frame_ext(unsigned number, bool high);
+void frame_switch(unsigned after, bool high);  /* EXT1 gets this level with the step of that number from now on */
+void frame_eeprom(bool on);
+void frame_damage(unsigned at, uint8_t flip);  /* of a byte that is received */
+unsigned frame_outputs(void);
+void frame_print_steps(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,1 @@
+"""The C driver of the PPMC-312, compiled and run."""
