@@ -491,7 +491,7 @@ ppmc104_result_t ppmc2104_hold_delay(ppmc2104_t *dev, unsigned axis, uint8_t uni
 ppmc104_result_t ppmc2104_aux_outputs(ppmc2104_t *dev, uint8_t bits)
 {
     return bits > 3u ? PPMC104_BAD_ARGUMENT
-                     : ppmc2104_command(dev, (uint8_t)(CODE_AUX_OUTPUTS | bits << 4), NULL, 0u);
+                     : ppmc2104_command(dev, (uint8_t)(CODE_AUX_OUTPUTS | (unsigned)bits << 4), NULL, 0u);
 }
 
 ppmc104_result_t ppmc2104_excitation_off(ppmc2104_t *dev, unsigned axis)

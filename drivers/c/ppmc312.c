@@ -63,6 +63,8 @@
 #define STAGES_MAX 127u
 #define EVENT_BYTES 9u
 #define EVENT_BYTES_LINE 7u
+#define COLLECT_MAX 256u
+#define GAP_READS 4u /* after a block the next one appears 8 cycles or more later */
 #define LOOK_POLLS 256u /* polls of CSR between two looks at the state in a wait */
 
 /* Causes of END codes 31 .. 39 on the line. */
@@ -101,7 +103,7 @@ static uint32_t get32(const uint8_t *bytes)
 
 static void clear(ppmc312_t *dev)
 {
-    dev->table = dev->armed = dev->moving = dev->ended = dev->lost = false;
+    dev->table = dev->armed = dev->busy = dev->moving = dev->ended = dev->lost = false;
     dev->known[0] = dev->known[1] = false;
     dev->rate_min = dev->rate_max = 0u;
     dev->first = dev->stored = 0u;
@@ -147,6 +149,7 @@ static void keep(ppmc312_t *dev, uint8_t source, uint8_t code, const uint8_t *da
         dev->ended = true;
         dev->cause = data[0];
         dev->stopped_at = count >= 5u ? get32(data + 1) : 0u;
+        return; /* for ppmc312_wait() */
     }
     if (dev->stored == PPMC312_REPORTS_MAX) {
         dev->lost = true;
@@ -213,17 +216,21 @@ static ppmc104_result_t sort(ppmc312_t *dev, const block_t *block)
 static ppmc104_result_t collect_bus(ppmc312_t *dev)
 {
     block_t block;
-    unsigned n;
+    unsigned n, empty = 0u;
 
-    for (n = 0; n < 2u * BLOCK_MAX; ++n) {
+    for (n = 0; n < COLLECT_MAX; ++n) {
         const uint8_t csr = dev->bus.read(dev->bus.ctx, REG_CSR);
         ppmc104_result_t result;
         if ((csr & CSR_ZERO) != 0u) {
             return PPMC104_NO_PART;
         }
         if ((csr & CSR_NO_ANSWER) != 0u) {
-            return PPMC104_OK;
+            if (++empty > GAP_READS) {
+                return PPMC104_OK;
+            }
+            continue;
         }
+        empty = 0u;
         result = read_block(dev, &block);
         if (result == PPMC104_OK && block.header > HOST) {
             result = sort(dev, &block);
@@ -497,6 +504,7 @@ static ppmc104_result_t poll_line(ppmc312_t *dev, bool *news)
     if (result == PPMC104_OK) {
         result = receive_frame(dev, 1u, &kind, data);
     }
+    dev->busy = result != PPMC104_OK || kind == LINE_BUSY;
     if (result != PPMC104_OK || kind == LINE_BUSY || kind == LINE_READY) {
         return result;
     }
@@ -555,6 +563,7 @@ static ppmc104_result_t collect(ppmc312_t *dev)
     bool news = true;
     ppmc104_result_t result = PPMC104_OK;
 
+    dev->busy = true;
     if (dev->line == NULL) {
         return collect_bus(dev);
     }
@@ -985,6 +994,7 @@ ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end)
         result = collect(dev);
         if (result == PPMC104_BAD_REPLY && dev->line != NULL) {
             result = PPMC104_OK; /* what it said is lost: see recover() */
+            dev->busy = false;
         }
         if (result != PPMC104_OK) {
             return result;
@@ -998,7 +1008,7 @@ ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end)
         if (dev->ended) {
             break;
         }
-        if (dev->line != NULL || (!dev->armed && polls % LOOK_POLLS == 0u)) {
+        if (dev->line != NULL ? !dev->busy : !dev->armed && polls % LOOK_POLLS == 0u) {
             ppmc312_status_t status;
             result = ppmc312_status(dev, &status);
             if (result != PPMC104_OK) {

@@ -151,7 +151,7 @@ typedef struct {
     unsigned reply_ms;       /**< on the line: longest time to the first byte of a reply; 300 */
     uint8_t detail[2];       /**< numbers of the last rejection: e of F0; s and condition of F1 */
     /* of the driver */
-    bool table, armed, moving, ended, known[2];
+    bool table, armed, busy, moving, ended, known[2];
     uint16_t rate_min, rate_max;
     ppmc312_op_t op;
     uint8_t flags, cause;

@@ -11,7 +11,7 @@
 
 namespace {
 
-constexpr unsigned kHz = 16'000'000, kBaud = 83'333, kStation = 5;
+constexpr unsigned kHz = 8'000'000, kBaud = 83'333, kStation = 5;
 constexpr unsigned kWrite = 3, kRead = 5, kPause = 3;  // cycles
 
 class Bus : public Clocked<Bus, Vppmc312> {
@@ -102,7 +102,7 @@ bool block_receive(void*, uint8_t* byte, unsigned milliseconds) {
 void block_reset(bool held, bool line) {
     bus().mode(line);
     bus().reset(held);
-    bus().run(30'000);  // DATASHEET: 1.6 ms
+    bus().run(15'000);  // DATASHEET: 1.6 ms
 }
 
 void block_run(unsigned cycles) { bus().run(cycles); }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Characters for the test of the PMC006B4's C driver: drives pmc006_eeprom cycle by cycle, records the steps.
+// Characters for the test of the PMC006B4's C driver: drives pmc006_line cycle by cycle, records the steps.
 #include "frame_bus.h"
 
 #include <vector>
 
-#include "Vpmc006_eeprom.h"
+#include "Vpmc006_line.h"
 #include "clocked.h"
 #include "line_port.h"
 #include "pulses.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr unsigned kHz = 8'000'000, kBaud = 115'200;
 
-class Bus : public Clocked<Bus, Vpmc006_eeprom> {
+class Bus : public Clocked<Bus, Vpmc006_line> {
   public:
     Bus() : port(kHz, kBaud) {
         top_->rxd = top_->ext1 = top_->ext2 = top_->eeprom_on = 1;

@@ -14,7 +14,7 @@ class LinePort {
 
     // After each cycle: txd of the station in, level of its rxd out.
     bool seen(uint64_t now, bool txd) {
-        if (uart_.next() == now || txd != txd_) uart_.step(now, txd);
+        if (uart_.next() <= now || txd != txd_) uart_.step(now, txd);
         txd_ = txd;
         return uart_.level();
     }

@@ -89,7 +89,7 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
         copy_runtime(runtime, folder)
         run(*command, *params, *objects, relative(sources[-1]), "-CFLAGS", f"-I{BENCH} -O2")
         copy_runtime(folder, runtime)
-        text = run(folder / "program", "+verilator+rand+reset+2", seconds=120)
+        text = run(folder / "program", "+verilator+rand+reset+2", seconds=600)
     (folder / "output.txt").write_text(text)
     found: Lines = {}
     for line in text.splitlines():

@@ -13,7 +13,7 @@ from tests.common.packages.c_programs import BENCH, DRIVER, Lines, pulses, resul
 
 OK, TIMEOUT, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, BAD_REPLY = 0, 16, 18, 19, 20, 21
 REFUSED, BUSY, EEPROM = 96, 97, 98
-TOP = "pmc006_eeprom"
+TOP = "pmc006_line"
 
 
 @pytest.fixture(scope="module")

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_eeprom: a PMC006B4 with its EEPROM, for the test of the C driver.
+// pmc006_line: a PMC006B4 with its EEPROM, for the test of the C driver.
 // Rules:  none of its own.
 // Timing: of pmc006.
 `default_nettype none
 
-module pmc006_eeprom #(
+module pmc006_line #(
     parameter int unsigned CLK_HZ = 8_000_000,
     parameter int unsigned BAUD   = 115_200
 ) (
