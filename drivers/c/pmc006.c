@@ -87,8 +87,7 @@ static ppmc104_result_t exchange(const pmc006_t *dev, char code, uint32_t data, 
     uint8_t frame[FRAME], byte;
     unsigned n, got = 0u;
 
-    for (n = 0; n < NOISE_MAX && line->receive(line->ctx, &byte, 0u); ++n) {
-    }
+    ppmc_line_drain(line, dev->doubtful ? BYTE_MS : 0u); /* a late reply may still arrive */
     frame[0] = HEAD;
     frame[1] = dev->address;
     frame[2] = (uint8_t)code;

@@ -309,8 +309,7 @@ static ppmc104_result_t send_frame(const ppmc312_t *dev, uint8_t control, const 
     uint8_t frame[2u * LINE_SEND_MAX + 2u], byte;
     unsigned size = 0u, n;
 
-    for (n = 0; n < LINE_NOISE_MAX && dev->line->receive(dev->line->ctx, &byte, 0u); ++n) {
-    }
+    ppmc_line_drain(dev->line, 0u);
     frame[size++] = control;
     for (n = 0; n < count; ++n) {
         frame[size++] = digit(data[n] >> 4);
@@ -335,7 +334,7 @@ static unsigned reply_size(uint8_t kind, unsigned gives, const uint8_t *data, un
     return kind != LINE_REPORT ? 0u : count > 0u && data[0] == 0x2Au ? 3u : 1u;
 }
 
-static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint8_t *kind, uint8_t *data)
+static ppmc104_result_t parse_frame(const ppmc312_t *dev, unsigned gives, uint8_t *kind, uint8_t *data)
 {
     const ppmc_line_t *line = dev->line;
     uint8_t control = 0u, character;
@@ -367,6 +366,17 @@ static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint
         }
     }
     return PPMC104_BAD_REPLY;
+}
+
+/* After a damaged reply the station may still send. */
+static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint8_t *kind, uint8_t *data)
+{
+    ppmc104_result_t result = parse_frame(dev, gives, kind, data);
+
+    if (result == PPMC104_BAD_REPLY) {
+        ppmc_line_drain(dev->line, LINE_BYTE_MS);
+    }
+    return result;
 }
 
 /* Code and data on the line for an instruction of the bus; 0: the line does not have it. */

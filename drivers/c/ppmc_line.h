@@ -19,4 +19,14 @@ typedef struct {
     bool echo; /**< the receiver hears what is sent (two wires): the driver skips it */
 } ppmc_line_t;
 
+/** Of the drivers: discard bytes until the line has been silent for `milliseconds`, or is never silent. */
+static inline void ppmc_line_drain(const ppmc_line_t *line, unsigned milliseconds)
+{
+    uint8_t byte;
+    unsigned n;
+
+    for (n = 0; n < 64u && line->receive(line->ctx, &byte, milliseconds); ++n) {
+    }
+}
+
 #endif

@@ -136,8 +136,8 @@ static void settings(void)
 
 static void memory(void)
 {
-    /* Output 2, 30 steps, wait for standstill, output 1, end. */
-    static const uint32_t words[10] = {0x0211, 1, 0x0001, 30, 0x0810, 0, 0x0111, 1, 0x0000, 0};
+    /* Output 2, 200 steps, wait for standstill, output 1, end. */
+    static const uint32_t words[10] = {0x0211, 1, 0x0001, 200, 0x0810, 0, 0x0111, 1, 0x0000, 0};
     pmc006_status_t status;
 
     show("M speed", pmc006_set(&dev, PMC006_MAX_SPEED, 8000));
@@ -149,16 +149,17 @@ static void memory(void)
     value("M kept", PMC006_CURRENT);
     frame_eeprom(false);
     show("M missing", pmc006_save(&dev));
-    frame_eeprom(true);
-    show("M speed", pmc006_set(&dev, PMC006_START_SPEED, 600));
+    frame_eeprom(true); /* the model is blank after a loss of power */
+    show("M save again", pmc006_save(&dev));
+    show("M speed", pmc006_set(&dev, PMC006_MAX_SPEED, 8000));
     show("M outputs", pmc006_outputs(&dev, 0));
     show("M program", pmc006_program(&dev, words, 10));
     show("M burn", pmc006_program_burn(&dev));
     frame_print_steps("M before");
     show("M run", pmc006_program_run(&dev, 0));
-    show("M while", pmc006_program(&dev, words, 2));
-    frame_run_steps(30);
+    show("M while", pmc006_program(&dev, words + 2, 2));
     show("M halt", pmc006_program_halt(&dev));
+    frame_run_steps(200);
     do {
         show("M status", pmc006_status(&dev, &status));
     } while (status.busy);

@@ -103,7 +103,7 @@ def test_outputs_version_release(lines):
 
 def test_memory(lines):
     """Address and current outlast a reset after a save; a missing EEPROM is an error (P006-EEP-01)."""
-    for name in ("M address", "M current", "M save", "M open", "M program", "M burn", "M run", "M halt"):
+    for name in ("M address", "M current", "M save", "M save again", "M open", "M program", "M burn", "M run", "M halt"):
         assert result(lines, name)[0] == OK, name
     assert lines["M kept"][0]["value"] == "1200"
     assert result(lines, "M missing")[0] == EEPROM
@@ -112,7 +112,7 @@ def test_memory(lines):
 def test_program(lines):
     """A loaded program runs; loading while it runs is refused; a halt keeps the motion (P006-PRG-01)."""
     assert result(lines, "M while")[0] == REFUSED
-    assert sum(pulses(lines, "M run")[:2]) == 30
+    assert sum(pulses(lines, "M run")[:2]) == 200
     assert lines["M pins"][0]["gpo"] == "02"
 
 
