@@ -196,7 +196,7 @@ static ppmc104_result_t read_block(ppmc312_t *dev, block_t *block)
     return PPMC104_OK;
 }
 
-/* Store a block that is not an answer to the host; what is damaged is an error. */
+/* Store a block that is not an answer to the host. A damaged one is an error. */
 static ppmc104_result_t sort(ppmc312_t *dev, const block_t *block)
 {
     const bool stopped = block->code == PPMC312_REPORT_STOPPED;
@@ -368,7 +368,7 @@ static ppmc104_result_t parse_frame(const ppmc312_t *dev, unsigned gives, uint8_
     return PPMC104_BAD_REPLY;
 }
 
-/* After a damaged reply the station may still send. */
+/* After a damaged reply the station may still be sending. */
 static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint8_t *kind, uint8_t *data)
 {
     ppmc104_result_t result = parse_frame(dev, gives, kind, data);

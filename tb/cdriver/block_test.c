@@ -53,7 +53,7 @@ static void report(const char *name)
     }
 }
 
-/* A falling edge, low until its report has come: DATASHEET needs 25 ms. */
+/* A falling edge, low until its report is there: DATASHEET needs 25 ms. */
 static void edge(const char *name, block_pin_t pin)
 {
     unsigned n;
@@ -322,7 +322,7 @@ static void line_faults(void)
     show("L station", ppmc312_setup_line(&other, &line, 16));
     (void)ppmc312_setup_line(&other, &line, 6);
     other.reply_ms = 5;
-    printf("%s L nobody result=%d\n", way, (int)ppmc312_open(&other, &version));
+    printf("%s L absent result=%d\n", way, (int)ppmc312_open(&other, &version));
     show("L curve", ppmc312_ask(&dev, 0x41, NULL, 0, NULL, NULL));
 }
 

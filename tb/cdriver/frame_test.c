@@ -189,7 +189,7 @@ static void faults(void)
     where("F where");
     (void)pmc006_setup(&other, &LINE, 55);
     other.reply_ms = 5;
-    show("F nobody", pmc006_open(&other));
+    show("F absent", pmc006_open(&other));
 }
 
 static void unconfirmed(void)

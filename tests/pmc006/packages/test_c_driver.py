@@ -48,7 +48,7 @@ def test_move(lines, name, steps, at):
 
 
 def test_positions(lines):
-    """A position is unknown until it is set (P006-CMD-69)."""
+    """A position is unknown until it is set (P006-CMD-30)."""
     assert position(lines, "unknown")[0] == result(lines, "unknown to")[0] == UNKNOWN_POSITION
     assert position(lines, "after back") == (OK, 450)
     assert result(lines, "there")[0] == BAD_ARGUMENT
@@ -56,7 +56,7 @@ def test_positions(lines):
 
 
 def test_speed_mode_and_stops(lines):
-    """A run ends with its ramp or at once; a move has no decelerating stop (P006-CMD-4E, P006-CMD-49)."""
+    """A run ends with its ramp or at once; a move has no decelerating stop (P006-CMD-06, P006-CMD-11)."""
     for name in ("open", "speed", "zero", "run", "faster", "slowly", "stop"):
         assert result(lines, name)[0] == OK, name
     slowly, stop = end(lines, "slowly"), end(lines, "stop")
@@ -102,15 +102,15 @@ def test_outputs_version_release(lines):
 
 
 def test_memory(lines):
-    """Address and current outlast a reset after a save; a missing EEPROM is an error (P006-EEP-01)."""
-    for name in ("M address", "M current", "M save", "M save again", "M open", "M program", "M burn", "M run", "M halt"):
-        assert result(lines, name)[0] == OK, name
+    """Address and current outlast a reset after a save; a missing EEPROM is an error (P006-CMD-41)."""
+    for name in ("address", "current", "save", "save again", "open", "program", "burn", "run", "halt"):
+        assert result(lines, f"M {name}")[0] == OK, name
     assert lines["M kept"][0]["value"] == "1200"
     assert result(lines, "M missing")[0] == EEPROM
 
 
 def test_program(lines):
-    """A loaded program runs; loading while it runs is refused; a halt keeps the motion (P006-PRG-01)."""
+    """A loaded program runs; loading while it runs is refused; a halt keeps the motion (P006-CMD-47)."""
     assert result(lines, "M while")[0] == REFUSED
     assert sum(pulses(lines, "M run")[:2]) == 200
     assert lines["M pins"][0]["gpo"] == "02"
@@ -126,11 +126,11 @@ def test_lost_reply_to_a_start(lines):
     """A start whose reply is damaged is not repeated: the motor makes the steps once."""
     assert result(lines, "F lost")[0] == BAD_REPLY
     assert position(lines, "F where") == (OK, 137)
-    assert result(lines, "F nobody")[0] == TIMEOUT
+    assert result(lines, "F absent")[0] == TIMEOUT
 
 
 def test_reset(lines):
-    """A reset in a motion is an unconfirmed end; the position is unknown, also after a reset at standstill."""
+    """A reset in a motion is an unconfirmed end; after any reset the position is unknown."""
     assert end(lines, "U move")["wait"] == UNCONFIRMED
     assert position(lines, "U where")[0] == UNKNOWN_POSITION
     assert position(lines, "U set") == (OK, 500)

@@ -52,7 +52,7 @@ def position(lines: Lines, name: str) -> tuple[int, int]:
     ],
 )
 def test_motion_makes_the_pulses_of_the_model(lines, name, cw, ccw, rate, raw):
-    """Count, direction and every interval of a motion are those of the model (P2104-PUL-01)."""
+    """Count, direction and every interval of a motion are those of the model (P2104-RMP-01)."""
     want = predict_move(INIT, cw + ccw, rate, part="ppmc2104").intervals
     assert pulses(lines, name) == (cw, ccw, want)
     assert (ending(lines, name)["raw"], ending(lines, name)["left"]) == (raw, 0)
@@ -74,7 +74,7 @@ def test_interrupt(lines):
 
 
 def test_both_axes_start_on_one_edge(lines):
-    """Two motions that wait for RUN make their first pulses on the same clock edge (P2104-RUN-01)."""
+    """Two motions that wait for RUN make their first pulses on the same clock edge (P2104-OPR-02)."""
     assert result(lines, "both")[0] == OK
     begins = [next(line for line in lines[name] if "cw" in line) for name in ("first", "second")]
     assert len({line["at"].split()[0] for line in begins}) == 1
@@ -93,7 +93,7 @@ def test_no_axis_starts_if_one_is_rejected(lines):
     [("fl", 0x10, 0xC7), ("bl", 0x10, 0xCD), ("alm", 0x20, 0x8F), ("fhl", 0x08, 0xCB)],
 )
 def test_switch_ends_the_move(lines, name, bit, inputs):
-    """A switch in a move of 100 pulses: cause, remainder and pulses agree (P2104-LIM-03, -04, -05)."""
+    """A switch in a move of 100 pulses: cause, remainder and pulses agree (P2104-LIM-03, P2104-LIM-04, P2104-LIM-05)."""
     end, (cw, ccw, _) = ending(lines, name), pulses(lines, name)
     assert end["raw"] == 0x83 | bit and cw + ccw + end["left"] == 100 and cw + ccw >= 20
     assert next(line["inputs"] for line in lines[name] if "inputs" in line) == f"{inputs:02x}"

@@ -60,7 +60,7 @@ def test_open(lines, way):
     [("move", 3000, 0, 3100), ("constant", 0, 40, 3060), ("to", 0, 2060, 1000), ("step", 1, 0, 1001)],
 )
 def test_motion(lines, way, name, cw, ccw, at):
-    """A motion makes the ordered pulses in the ordered direction, and its end is confirmed (P312-MOT-01)."""
+    """A motion makes the ordered pulses in the ordered direction, and its end is confirmed (P312-CMD-82)."""
     assert result(lines, f"{way} {name}")[0] == OK
     assert pulses(lines, f"{way} {name}")[:2] == (cw, ccw)
     assert end(lines, f"{way} {name}") == (OK, NORMAL, 1, at)
@@ -93,7 +93,7 @@ def test_tables(lines, way):
 
 @both
 def test_changes_and_stops(lines, way):
-    """A running motion changes its rate and stops, now or at a position (P312-CMD-80, -87, -88)."""
+    """A running motion changes its rate and stops, now or at a position (P312-CMD-80, P312-CMD-87)."""
     for name in ("run", "change", "faster", "at stop", "run to", "jog"):
         assert result(lines, f"{way} {name}")[0] == OK, name
     assert end(lines, f"{way} slowly")[:3] == (OK, SLOWLY, 0)
@@ -121,14 +121,14 @@ def test_events(lines, way):
 @both
 @pytest.mark.parametrize(("name", "cause"), [("fl", SWITCH), ("search", ORIGIN), ("alarm", ALARM)])
 def test_switches(lines, way, name, cause):
-    """A switch or the alarm ends a motion; the cause is reported, the position agrees (P312-RSP-E0)."""
+    """A switch or the alarm ends a motion; the cause is reported, the position agrees (P312-INP-12)."""
     value, got, complete, _ = end(lines, f"{way} {name}")
     assert (value, got, complete) == (OK, cause, int(cause == ORIGIN))
 
 
 @both
 def test_limit_alarm_and_run(lines, way):
-    """A limit refuses a start, the alarm state needs its clearing, RUN holds a motion (P312-INP-01)."""
+    """A limit refuses a start, the alarm state needs its clearing, RUN holds a motion (P312-INP-11, P312-INP-20, P312-INP-33)."""
     assert result(lines, f"{way} fl ahead")[0] == LIMIT
     assert result(lines, f"{way} in alarm")[0] == STATE
     assert (0x23, 0xF4, 0) in reports(lines, f"{way} alarm report")
@@ -170,7 +170,7 @@ def test_only_on_the_bus(lines):
 
 @both
 def test_reset_in_a_motion(lines, way):
-    """A reset in a motion is an unconfirmed end, and the position is unknown (P312-RST-01)."""
+    """A reset in a motion is an unconfirmed end, and the position is unknown (P312-CMD-42)."""
     assert end(lines, f"{way} U move")[0] == UNCONFIRMED
     assert position(lines, f"{way} U where")[0] == UNKNOWN_POSITION
     assert position(lines, f"{way} U rest")[0] == UNKNOWN_POSITION
@@ -186,11 +186,11 @@ def test_no_part(lines):
 
 
 def test_damaged_replies(lines):
-    """A damaged reply is never taken for a value, even if its checksum is right (P312-SER-12)."""
+    """A damaged reply is never taken for a value, even if its checksum is right (P312-SER-13)."""
     for name in ("digit", "blind"):
         assert result(lines, f"line L {name}")[0] == OK
         assert lines[f"line L {name}"][1]["position"] == "1234"
     assert result(lines, "line L address")[0] == BAD_REPLY
     assert result(lines, "line L errors")[0] == OK
     assert result(lines, "line L station")[0] == BAD_ARGUMENT
-    assert lines["line L nobody"][0]["result"] == "16"
+    assert lines["line L absent"][0]["result"] == "16"
