@@ -120,7 +120,7 @@ typedef struct {
 #define PPMC312_FROM_EVENT 0x0Bu    /**< `code` is that of the executed instruction */
 #define PPMC312_FROM_OVERRIDE 0x1Bu /**< likewise */
 
-#define PPMC312_DATA_MAX 28u   /**< data bytes of an answer */
+#define PPMC312_DATA_MAX 29u   /**< data bytes of an answer */
 #define PPMC312_REPORTS_MAX 8u /**< reports that the driver stores */
 
 /** A report. Longer data are cut. */

@@ -115,12 +115,12 @@ static void changes(void)
     show("run", start(PPMC312_RUN_CONSTANT, PPMC312_CW, 200, 0, PPMC312_NOW));
     block_run_pulses(10);
     show("change", ppmc312_change(&dev, true, 100, PPMC312_NOW, 0));
-    block_run_pulses(250);
+    block_run_pulses(400);
     show("faster", ppmc312_change(&dev, false, 60, PPMC312_NOW, 0));
     block_run_pulses(700);
     show("slowly", ppmc312_stop(&dev, true, PPMC312_NOW, 0));
     ending("slowly");
-    show("at stop", ppmc312_stop(&dev, false, PPMC312_AT_POSITION, 8000));
+    show("stop there", ppmc312_stop(&dev, false, PPMC312_AT_POSITION, 8000));
     show("run to", start(PPMC312_RUN, PPMC312_CW, 0, 0, PPMC312_NOW));
     ending("run to");
     report("override");
@@ -196,7 +196,7 @@ static void others(void)
     show("O in position", ppmc312_in_position(&dev, 0));
     show("O encoder", ppmc312_encoder(&dev, 5000));
     show("O encoder off", ppmc312_encoder(&dev, 0));
-    show("O interlock at", ppmc312_interlock_at(&dev, 77));
+    show("O interlock", ppmc312_interlock_at(&dev, 77));
     show("O excitation", ppmc312_driver(&dev, PPMC312_EXCITATION_ON));
     show("O encoder zero", ppmc312_set_position(&dev, true, -5));
     {

@@ -93,7 +93,10 @@ def test_no_axis_starts_if_one_is_rejected(lines):
     [("fl", 0x10, 0xC7), ("bl", 0x10, 0xCD), ("alm", 0x20, 0x8F), ("fhl", 0x08, 0xCB)],
 )
 def test_switch_ends_the_move(lines, name, bit, inputs):
-    """A switch in a move of 100 pulses: cause, remainder and pulses agree (P2104-LIM-03, P2104-LIM-04, P2104-LIM-05)."""
+    """A switch in a move of 100 pulses: cause, remainder and pulses agree.
+
+    P2104-LIM-03, P2104-LIM-04, P2104-LIM-05.
+    """
     end, (cw, ccw, _) = ending(lines, name), pulses(lines, name)
     assert end["raw"] == 0x83 | bit and cw + ccw + end["left"] == 100 and cw + ccw >= 20
     assert next(line["inputs"] for line in lines[name] if "inputs" in line) == f"{inputs:02x}"

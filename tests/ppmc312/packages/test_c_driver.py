@@ -94,7 +94,7 @@ def test_tables(lines, way):
 @both
 def test_changes_and_stops(lines, way):
     """A running motion changes its rate and stops, now or at a position (P312-CMD-80, P312-CMD-87)."""
-    for name in ("run", "change", "faster", "at stop", "run to", "jog"):
+    for name in ("run", "change", "faster", "stop there", "run to", "jog"):
         assert result(lines, f"{way} {name}")[0] == OK, name
     assert end(lines, f"{way} slowly")[:3] == (OK, SLOWLY, 0)
     got = pulses(lines, f"{way} slowly")[2]
@@ -128,7 +128,10 @@ def test_switches(lines, way, name, cause):
 
 @both
 def test_limit_alarm_and_run(lines, way):
-    """A limit refuses a start, the alarm state needs its clearing, RUN holds a motion (P312-INP-11, P312-INP-20, P312-INP-33)."""
+    """A limit refuses a start, the alarm state needs its clearing, RUN holds a motion.
+
+    P312-INP-11, P312-INP-20, P312-INP-33.
+    """
     assert result(lines, f"{way} fl ahead")[0] == LIMIT
     assert result(lines, f"{way} in alarm")[0] == STATE
     assert (0x23, 0xF4, 0) in reports(lines, f"{way} alarm report")
