@@ -128,7 +128,7 @@ ppmc104_result_t ppmc2104_wait(ppmc2104_t *dev, unsigned axis, ppmc104_finish_t 
 /**
  * Position of the axis at standstill: pulses since ppmc2104_set_position(), CW positive, modulo 2^32. The part has no
  * position counter; the driver counts the motions that ppmc2104_wait() has confirmed.
- * @return PPMC104_POSITION_UNKNOWN: not set, or lost at an unconfirmed end; PPMC2104_ERR_BUSY: call ppmc2104_wait() first
+ * @return PPMC104_POSITION_UNKNOWN: not set, or lost at an unconfirmed end; PPMC2104_ERR_BUSY: call ppmc2104_wait()
  */
 ppmc104_result_t ppmc2104_position(ppmc2104_t *dev, unsigned axis, int32_t *position);
 /** State the position of the axis, for example 0 after PPMC2104_HOME. Only at standstill. */

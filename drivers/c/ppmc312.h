@@ -42,7 +42,7 @@ typedef struct {
     bool sigmoid;
     uint16_t rate_start; /**< RS, 0x11 .. 0xFFFF, at least rate_high + 128 */
     uint16_t rate_high;  /**< RH, 2 .. 0xFFEF */
-    uint32_t up;         /**< NA, pulses of the acceleration, 1 .. 0xFFFFFF; too few: PPMC312_ERR_PARAMETER, detail 05 */
+    uint32_t up;         /**< NA, pulses of the acceleration, 1 .. 0xFFFFFF; too few: detail 05 */
     uint16_t rate_stop;  /**< RP, as rate_start; 0: deceleration as the acceleration. Only on the bus */
     uint32_t down;       /**< ND, as `up`, if rate_stop is not 0 */
 } ppmc312_table_t;
@@ -236,7 +236,7 @@ typedef enum {
 ppmc104_result_t ppmc312_driver(ppmc312_t *dev, ppmc312_driver_t what);
 
 ppmc104_result_t ppmc312_inputs(ppmc312_t *dev, uint8_t *levels);          /**< AUXI */
-ppmc104_result_t ppmc312_control_inputs(ppmc312_t *dev, uint16_t *levels); /**< instruction 27: first byte in bits 15..8 */
+ppmc104_result_t ppmc312_control_inputs(ppmc312_t *dev, uint16_t *levels); /**< 27: first byte in bits 15..8 */
 ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< 0 .. 63, 1 = L */
 ppmc104_result_t ppmc312_input_mask(ppmc312_t *dev, uint8_t mask);         /**< watched bits of AUXI; 0: off */
 ppmc104_result_t ppmc312_speed_limit(ppmc312_t *dev, uint16_t rate);       /**< high-speed limit, 2 or more */

@@ -144,8 +144,10 @@ ppmc104_result_t stmc_wait(stmc_t *dev, ppmc104_finish_t *finish)
     /* A wrong code would be another read, so the codes must be known. */
     if (!dev->probed) {
         uint8_t status;
-        ppmc104_result_t result = ppmc104_busy(&dev->bus) ? ppmc104_poll(&dev->bus, PPMC104_STATUS_BUSY, 0u, 0u, &status)
-                                                          : PPMC104_OK;
+        ppmc104_result_t result = PPMC104_OK;
+        if (ppmc104_busy(&dev->bus)) {
+            result = ppmc104_poll(&dev->bus, PPMC104_STATUS_BUSY, 0u, 0u, &status);
+        }
         result = result == PPMC104_OK ? stmc_probe(dev) : result;
         if (result != PPMC104_OK) {
             return result;

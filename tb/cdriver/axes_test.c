@@ -73,7 +73,8 @@ static void moves(ppmc2104_t *dev)
 
 static void together(ppmc2104_t *dev)
 {
-    const ppmc2104_motion_t first = {PPMC2104_MOVE, PPMC104_CW, 0, 25}, second = {PPMC2104_CONSTANT, PPMC104_CCW, 70, 9};
+    const ppmc2104_motion_t first = {PPMC2104_MOVE, PPMC104_CW, 0, 25};
+    const ppmc2104_motion_t second = {PPMC2104_CONSTANT, PPMC104_CCW, 70, 9};
 
     show("both", ppmc2104_start_both(dev, &first, &second));
     show("both busy", ppmc2104_start_both(dev, &first, &second));

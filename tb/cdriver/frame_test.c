@@ -109,7 +109,8 @@ static void settings(void)
         ppmc104_result_t got_too = pmc006_get(&dev, all[n].setting, &high);
         printf("setting of=%c set=%d%d get=%d%d ok=%d below=%d above=%d\n", all[n].setting, (int)first, (int)second,
                (int)got, (int)got_too, low == all[n].low && high == all[n].high,
-               (int)pmc006_set(&dev, all[n].setting, all[n].low - 1), (int)pmc006_set(&dev, all[n].setting, all[n].high + 1));
+               (int)pmc006_set(&dev, all[n].setting, all[n].low - 1),
+               (int)pmc006_set(&dev, all[n].setting, all[n].high + 1));
     }
     show("A microsteps", pmc006_set(&dev, PMC006_MICROSTEPS, 3));
     show("A microsteps 1", pmc006_set(&dev, PMC006_MICROSTEPS, 1));
