@@ -8,7 +8,7 @@ the moves it is known by how much, and that is taken out.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
 from typing import Any
@@ -18,7 +18,7 @@ from .decoding import Decoded
 from .errors import CaptureError
 from .kind import DecodeKind, Train
 from .pulses import moves, unchopped
-from .signals import SECOND, US, Channel, joined, level_at
+from .signals import SECOND, US, Bits, Channel, joined, level_at, numpy
 
 SETTLED = 100 * US
 """ps from the end of an initialisation to the first pattern, at most."""
@@ -93,10 +93,12 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
     """From where on the model can follow, from where on the edges of each axis count, and whether a reset is
     there."""
     reset = decoded.wires.ports.get("rst_n")
-    if reset is not None and any(level for _, level in reset.changes):
-        fall = next((t for t, level in reset.changes if not level), 0) if reset.initial else 0
-        rise = next(t for t, level in reset.changes if level and t > fall)
-        return max(0, fall), {0: rise}, True
+    if reset is not None and len(reset):
+        falls, rises = reset.times[reset.levels == 0], reset.times[reset.levels == 1]
+        fall = int(falls[0]) if reset.initial and len(falls) else 0
+        rise = rises[rises > fall]
+        if len(rise):
+            return max(0, fall), {0: int(rise[0])}, True
     first: dict[int, int] = {}
     for line in decoded.lines:
         if line.initialises:
@@ -142,9 +144,8 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
         feed[1][port] = 1 if port == "rst_n" else level_at(channel, begin)
         if port == "rst_n" and not level_at(channel, begin):
             feed.setdefault(lead, {})[port] = 0
-        for t, level in channel.changes:
-            if t > begin:
-                feed.setdefault(edge(t), {})[port] = level
+        for t, level in zip(*(one.tolist() for one in channel.since(begin + 1)), strict=True):
+            feed.setdefault(edge(t), {})[port] = level
     for t, levels in kind.stimulus(wires):
         if t > begin:
             feed.setdefault(edge(t), {}).update(levels)
@@ -153,12 +154,16 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
     for t in sorted(feed):
         model.pins(t, **feed[t])
     model.run_until(edge(wires.end))
-    outputs = {
-        name: Channel(_model_level(model, name, lead), [], kind.pins.widths[name]) for name in kind.outputs
-    }
+    rows: dict[str, list[tuple[int, int]]] = {name: [] for name in kind.outputs}
+    initial = {name: _model_level(model, name, lead) for name in kind.outputs}
     for one in model.edges:
-        if one.t >= lead and one.signal in outputs:
-            outputs[one.signal].add(begin + round((one.t - lead) / scale), one.value)
+        if one.t >= lead and one.signal in rows:
+            rows[one.signal].append((begin + round((one.t - lead) / scale), one.value))
+    np = numpy()
+    outputs = {}
+    for name, changes in rows.items():
+        table = np.array(changes, np.int64).reshape(-1, 2)
+        outputs[name] = Channel.of(initial[name], table[:, 0], table[:, 1], kind.pins.widths[name])
     return _Played(outputs)
 
 
@@ -168,7 +173,7 @@ def _clk_hz(decoded: Decoded) -> int:
         return int(str(decoded.wires.params["CLK_HZ"]))
     clk = decoded.wires.bits.get("clk", {}).get(0)
     if clk is not None:
-        rises = [t for t, level in clk.changes if level]
+        rises = clk.times[clk.levels == 1].tolist()
         if len(rises) > 100:
             hz = round((len(rises) - 1) * SECOND / (rises[-1] - rises[0]))
             near = round(hz, -4)
@@ -238,15 +243,15 @@ def _middle(rows: list[tuple[float, int]]) -> float:
     return ordered[bisect_left(sums, sums[-1] / 2)][0]
 
 
-def _bits(channel: Channel) -> dict[int, Channel]:
-    return {place: channel.bit(place) for place in range(channel.width)}
+def _bits(channel: Channel) -> Mapping[int, Channel]:
+    return Bits(channel)
 
 
 def _since(trains: Iterable[Train], begin: int) -> list[Train]:
     found = []
     for one in trains:
-        kept = [(t, way) for t, way in zip(one.times, one.ways, strict=True) if t >= begin]
-        found.append(Train(one.axis, [t for t, _ in kept], [way for _, way in kept]))
+        at = int(one.times.searchsorted(begin))
+        found.append(Train(one.axis, one.times[at:], None if one.ways is None else one.ways[at:]))
     return found
 
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from ... import parts
 from .errors import CaptureError
 from .kind import DecodeKind, Line, Train, Wires
 from .pinmap import PinMap, wired
 from .pulses import Move, moves
-from .signals import US, Capture, Channel, joined, without_glitches
+from .signals import US, Bits, Capture, Channel, joined, without_glitches
 
 GLITCH = 30_000
 """ps; shorter pulses are none: no strobe, bit or pulse of these chips is that short."""
@@ -19,7 +19,8 @@ GLITCH = 30_000
 @dataclass
 class Decoded:
     """A capture in words. glitches: pulses that were left out, by pin. missing: pins that were not captured.
-    crystal, timing: what the model gets."""
+    crystal, timing: what the model gets. notes: on the file,
+    each once."""
 
     part: str
     kind: DecodeKind
@@ -32,6 +33,7 @@ class Decoded:
     crystal: int
     timing: str
     capture: str
+    notes: list[str] = field(default_factory=list)
 
     @property
     def pause(self) -> int:
@@ -67,20 +69,27 @@ def decoder(part: str) -> DecodeKind:
 
 
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
-    """ "; it has the pins of …", if the channels' names are those of other parts; else nothing."""
-    if chosen.pins is not None:
+    """ "; it has the pins of …", if a pin that `without` needs is not there and the channels' names are those
+    of other parts; else nothing."""
+    if chosen.pins is not None or _has_pins(capture, chosen, without):
         return ""
-    found = []
-    for row in parts.having("decode"):
-        kind = decoder(row.name)
-        try:
-            bits = wired(capture, chosen, kind.pins)
-        except CaptureError:
-            continue
-        needs = kind.needs(Wires({}, bits, capture.end, capture.sample)).pins
-        if row.name != without and all(len(bits.get(pin, ())) == kind.pins.widths[pin] for pin in needs):
-            found.append(f"--part {row.name}")
+    found = [
+        f"--part {row.name}"
+        for row in parts.having("decode")
+        if row.name != without and _has_pins(capture, chosen, row.name)
+    ]
     return f"; it has the pins of another part: {' or '.join(found)}" if found else ""
+
+
+def _has_pins(capture: Capture, chosen: PinMap, part: str) -> bool:
+    """Whether the channels are called like all pins that this part needs."""
+    kind = decoder(part)
+    try:
+        bits = wired(capture, chosen, kind.pins)
+    except CaptureError:
+        return False
+    needs = kind.needs(Wires({}, bits, capture.end, capture.sample)).pins
+    return all(len(bits.get(pin, ())) == kind.pins.widths[pin] for pin in needs)
 
 
 def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: int = GLITCH) -> Decoded:
@@ -93,11 +102,13 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
         )
     kind = decoder(name)
     try:
-        bits, glitches = _clean(wired(capture, chosen, kind.pins), glitch)
+        bits, glitches, doubtful, blank = _clean(wired(capture, chosen, kind.pins), kind, glitch)
     except CaptureError as error:
         raise CaptureError(f"{error}{fitting(capture, chosen, name)}") from None
     ports = {
-        port: joined([places[bit] for bit in range(kind.pins.widths[port])])
+        port: places.whole
+        if isinstance(places, Bits)
+        else joined([places[bit] for bit in range(kind.pins.widths[port])])
         for port, places in bits.items()
         if len(places) == kind.pins.widths[port]
     }
@@ -109,7 +120,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:
-        _check(kind, wires, capture)
+        _check(kind, wires, capture, blank)
     except CaptureError as error:
         raise CaptureError(f"{error}{fitting(capture, chosen, name)}") from None
     lines = kind.lines(wires)
@@ -139,30 +150,67 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
         crystal,
         timing,
         capture.name,
+        [*capture.notes, *_remarks(doubtful, blank)],
     )
 
 
+def _remarks(doubtful: Sequence[str], blank: Sequence[str]) -> list[str]:
+    """One line on pins with unknown levels."""
+    if not doubtful and not blank:
+        return []
+    return [f"unknown levels (x, z, none), assumed inactive: {', '.join([*blank, *doubtful])}"]
+
+
 def _clean(
-    bits: dict[str, dict[int, Channel]], glitch: int
-) -> tuple[dict[str, dict[int, Channel]], dict[str, int]]:
-    clean: dict[str, dict[int, Channel]] = {}
+    bits: Mapping[str, Mapping[int, Channel]], kind: DecodeKind, glitch: int
+) -> tuple[dict[str, Mapping[int, Channel]], dict[str, int], list[str], list[str]]:
+    """Wires with known levels and without glitches; the number of glitches by port; pins with some unknown
+    levels, pins without a known level."""
+    clean: dict[str, Mapping[int, Channel]] = {}
     glitches: dict[str, int] = {}
+    doubtful: list[str] = []
+    blank: list[str] = []
     for port, places in bits.items():
         # A clock is as fast as it is.
         shortest = 0 if port == "clk" else glitch
-        for bit, channel in places.items():
-            clean.setdefault(port, {})[bit], dropped = without_glitches(channel, shortest)
+        idle = {"rst_n": 1, **kind.rests, **kind.inputs}.get(port, 0)
+        own: dict[int, Channel] = {}
+        touched = not isinstance(places, Bits)
+        for bit in places:
+            channel = places[bit]
+            name = kind.pins.shown(port, bit)
+            if channel.blank:
+                blank.append(name)
+                touched = True
+                continue
+            if channel.doubtful:
+                doubtful.append(name)
+                touched = True
+                channel = channel.settled(idle >> bit & 1, port not in kind.inputs)
+            channel, dropped = without_glitches(channel, shortest)
             if dropped:
                 glitches[port] = glitches.get(port, 0) + dropped
-    return clean, glitches
+                touched = True
+            own[bit] = channel
+        if touched and own:
+            clean[port] = own
+        elif own:
+            clean[port] = places
+    return clean, glitches, doubtful, blank
 
 
-def _check(kind: DecodeKind, wires: Wires, capture: Capture) -> None:
+def _check(kind: DecodeKind, wires: Wires, capture: Capture, blank: Sequence[str]) -> None:
     """CaptureError if what must be there is not, or was sampled too slowly."""
     needs = kind.needs(wires)
     for pin in needs.pins:
         if pin in wires.ports:
             continue
+        lost_levels = next((name for name in blank if name.partition("[")[0] == pin), None)
+        if lost_levels:
+            raise CaptureError(
+                f"{capture.name}: {lost_levels} has no known level (x or z all the time): nothing can be read "
+                "without it; capture it"
+            )
         low = kind.pins.low(pin)
         have = wires.bits.get(pin, {})
         if have:

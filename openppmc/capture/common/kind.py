@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .pinmap import Pins
 from .signals import Channel
+
+if TYPE_CHECKING:
+    from .signals import Column
 
 
 class Access(NamedTuple):
@@ -41,18 +44,18 @@ class Wires:
     bit. end, sample: of the capture, ps."""
 
     ports: dict[str, Channel]
-    bits: dict[str, dict[int, Channel]]
+    bits: Mapping[str, Mapping[int, Channel]]
     end: int
     sample: int
     params: dict[str, object] = field(default_factory=dict)
 
 
 class Train(NamedTuple):
-    """Pulses of an axis: times in ps, with the direction of each (1 = CCW), None where nobody knows."""
+    """Pulses of an axis: times in ps, with the direction of each (1 = CCW); None if it is not known."""
 
     axis: int
-    times: Sequence[int]
-    ways: Sequence[int | None]
+    times: Column
+    ways: Column | None
 
 
 class Needs(NamedTuple):
@@ -72,7 +75,7 @@ class DecodeKind:
     a capture begins in the middle. straps: levels that the model has from the beginning. parameters: of
     the model, that the capture tells. prelude: brings a
     fresh model to where a capture begins. axis_of: to which axis a bit of a port belongs, 0: to all.
-    initialised: without a reset or an initialisation nothing can be compared. pause: ps at a 16 MHz
+    rests: levels of the outputs in a reset. initialised: without a reset or an initialisation nothing can be compared. pause: ps at a 16 MHz
     crystal between two moves (the slowest rate of a byte makes 2.05 ms); more if the pulses are that slow.
     """
 
@@ -93,3 +96,4 @@ class DecodeKind:
     initialised: bool = True
     pause: int = 2_200_000_000
     unnamed: str = "commands"
+    rests: Mapping[str, int] = field(default_factory=dict)

@@ -22,11 +22,14 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import needs
+from ...textfile import read_text
 from .errors import CaptureError
-from .signals import Capture, Channel
+from .signals import Bits, Capture, Channel
 
 WORDS = ("part", "crystal", "timing", "scope", "parameters", "pins")
 _PLACE = re.compile(r"(\w+)\[(\d+)\]")
+_INDEXED = re.compile(r"(.+?)\s*\[(-?\d+)\]")
+_PIECE = re.compile(r"(.+?)\[(-?\d+):(-?\d+)\]")
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,10 @@ class Pins:
             last = self.low(port) + self.widths[port] - 1
             raise ValueError(f"{pin}: {port} has bits {self.low(port)} to {last}")
         return port, bit
+
+    def shown(self, port: str, bit: int) -> str:
+        """A pin as the manual writes it."""
+        return f"{port}[{bit + self.low(port)}]" if self.widths[port] > 1 else port
 
     def low(self, port: str) -> int:
         """Number of the lowest bit, as the data sheet has it."""
@@ -90,10 +97,10 @@ def _yaml(text: str, name: str) -> Any:
 def read_map(path: Path) -> PinMap:
     """CaptureError for a file that is no map."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_text(path)
         values = _toml(text) if path.suffix.lower() == ".toml" else _yaml(text, path.name)
-    except (OSError, UnicodeDecodeError) as error:
-        raise CaptureError(f"{path}: the pin map cannot be read ({error})") from None
+    except OSError as error:
+        raise CaptureError(f"{path}: the pin map cannot be read ({error.strerror})") from None
     except ValueError as error:
         raise CaptureError(f"{path.name}: no pin map ({' '.join(str(error).split())})") from None
     if not isinstance(values, dict) or not isinstance(values.get("pins"), dict) or not values["pins"]:
@@ -126,9 +133,9 @@ def _toml(text: str) -> Any:
     return reader.loads(text)
 
 
-def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, dict[int, Channel]]:
+def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int, Channel]]:
     """Channels by port and bit. CaptureError for a map that does not fit capture or part."""
-    found: dict[str, dict[int, Channel]] = {}
+    found: dict[str, Mapping[int, Channel]] = {}
     used: dict[str, str] = {}
     capture = _scoped(capture, chosen.scope)
     if chosen.pins is None:
@@ -152,7 +159,9 @@ def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, dict[int, C
                 if name in used and name != "":
                     raise ValueError(f"{pin}: channel {name} is {used[name]} already")
                 used[name] = str(pin)
-                found.setdefault(port, {})[bit] = channel
+                own = found.setdefault(port, {})
+                assert isinstance(own, dict)
+                own[bit] = channel
         except ValueError as error:
             raise CaptureError(f"{chosen.name}: {error}") from None
     return found
@@ -182,35 +191,78 @@ def _channel(capture: Capture, what: object) -> tuple[str, Channel]:
             raise ValueError(f"channel {what}: {capture.name} has channels 0 to {len(names) - 1}")
         return names[what], capture.channels[names[what]]
     text = str(what)
-    inverted = text.startswith("!")
-    name = text.lstrip("!").strip()
-    place = _PLACE.fullmatch(name)
-    if name not in capture.channels and place and place[1] in capture.channels:
-        channel = capture.channels[place[1]].bit(int(place[2]))
+    inverted = text.startswith("!") and text not in capture.channels
+    name = text.removeprefix("!").strip() if inverted else text
+    name = name if name in capture.channels else name.strip()
+    place = _INDEXED.fullmatch(name)
+    if name not in capture.channels and place:
+        channel = _indexed(capture, place[1], int(place[2]))
     elif name in capture.channels:
         channel = capture.channels[name]
     else:
         raise ValueError(f"no channel {name!r} in {capture.name} (there are {', '.join(names)})")
+    if name in capture.doubled:
+        raise ValueError(f"two channels of {capture.name} are called {name!r}: name the channel by its place")
     if channel.width > 1:
-        raise ValueError(f"channel {name!r} has {channel.width} bits: name one, as {name}[0]")
-    if inverted:
-        channel = Channel(1 - channel.initial, [(t, 1 - level) for t, level in channel.changes])
-    return text, channel
+        low = channel.indices[0]
+        raise ValueError(f"channel {name!r} has {channel.width} bits: name one, as {name}[{low}]")
+    return text, channel.inverted() if inverted else channel
 
 
-def _by_name(capture: Capture, pins: Pins, found: dict[str, dict[int, Channel]]) -> None:
+def _indexed(capture: Capture, name: str, index: int) -> Channel:
+    """Bit of a vector by its declared index. ValueError."""
+    ranges = []
+    for key, channel in capture.channels.items():
+        piece = _PIECE.fullmatch(key)
+        if (piece[1] if piece else key) != name:
+            continue
+        if channel.width > 1 and index in channel.indices:
+            return channel.bit(channel.indices.index(index))
+        if channel.width == 1 and index == 0:
+            return channel
+        ranges.append(f"{channel.indices[0]} to {channel.indices[-1]}")
+    names = ", ".join(capture.channels)
+    if ranges:
+        raise ValueError(f"channel {name}[{index}]: {capture.name} has its bits {' and '.join(ranges)}")
+    raise ValueError(f"no channel '{name}[{index}]' in {capture.name} (there are {names})")
+
+
+def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel]]) -> None:
     """Channels that are called as the pins are."""
+    used: dict[tuple[str, int], str] = {}
     for name, channel in capture.channels.items():
         plain = name.strip().lower()
         try:
             if channel.width > 1:
-                if pins.widths.get(plain) == channel.width:
-                    found[plain] = {bit: channel.bit(bit) for bit in range(channel.width)}
+                piece = _PIECE.fullmatch(plain)
+                port = piece[1] if piece else plain
+                width = pins.widths.get(port, 0)
+                if channel.width == width and not piece:
+                    # The lowest index is the port's lowest bit: [8:1] of a bus that the manual has as 7 to 0.
+                    found[port] = Bits(channel)
+                elif width and piece:
+                    own = found.setdefault(port, {})
+                    low = min((one.indices[0] for key, one in _pieces(capture, port)), default=0)
+                    assert isinstance(own, dict)
+                    own.update(
+                        (index - low, channel.bit(n))
+                        for n, index in enumerate(channel.indices)
+                        if 0 <= index - low < width
+                    )
                 continue
             port, bit = pins.place(_numbered(plain, pins))
         except ValueError:
             continue
-        found.setdefault(port, {})[bit] = channel
+        if name in capture.doubled or used.get((port, bit), name) != name:
+            other = used.get((port, bit), name)
+            raise CaptureError(
+                f"{capture.name}: two channels are {pins.shown(port, bit)} ({other}, {name}): name the right "
+                "one with --map FILE"
+            )
+        one = found.setdefault(port, {})
+        if isinstance(one, dict):
+            used[port, bit] = name
+            one[bit] = channel
     if not found:
         raise CaptureError(
             f"{capture.name}: no channel is called like a pin of this part ({', '.join(capture.channels)}): "
@@ -218,9 +270,17 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, dict[int, Channel]])
         )
 
 
+def _pieces(capture: Capture, port: str) -> list[tuple[str, Channel]]:
+    """Vectors that are parts of a port."""
+    rows = [(_PIECE.fullmatch(name.strip().lower()), name) for name in capture.channels]
+    return [(name, capture.channels[name]) for piece, name in rows if piece and piece[1] == port]
+
+
 def _numbered(name: str, pins: Pins) -> str:
     """`s1` is `s[1]`, `d0` is `d[0]`, `pout1_n` is `pout_n[1]`."""
     match = re.fullmatch(r"([a-z]+?)_?(\d+)(_n)?", name)
+    if match is None:
+        match = re.fullmatch(r"([a-z]+\d*)\s*\[(\d+)\]()", name) or re.fullmatch(r"([a-z]+) (\d+)(_n)?", name)
     if name in pins.widths or name in pins.aliases or match is None:
         return name
     return f"{match[1]}{match[3] or ''}[{match[2]}]"

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from .kind import Train, Wires
-from .signals import SECOND, Channel, joined, level_at
+from .signals import SECOND, Bits, Channel, joined, numpy
+
+if TYPE_CHECKING:
+    from .signals import Column
 
 CHOPPED = 20 * 10**9
 """ps; off-times of choppers are shorter."""
@@ -25,16 +30,30 @@ class Move:
     last: float
 
 
-def runs(train: Train, pause: int) -> list[tuple[list[int], int | None]]:
+def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
     """Pulses without a pause (ps), one way."""
-    found: list[tuple[list[int], int | None]] = []
-    for t, way in zip(train.times, train.ways, strict=True):
-        last = found[-1][0] if found else []
-        slow = 5 * (last[-1] - last[-2]) // 2 if len(last) > 1 else 0
-        if not last or t - last[-1] > max(pause, slow) or way != found[-1][1]:
-            found.append(([], way))
-        found[-1][0].append(t)
-    return found
+    np = numpy()
+    times = train.times
+    if not len(times):
+        return []
+    gaps = np.diff(times)
+    split = gaps > pause
+    if train.ways is not None:
+        split |= train.ways[1:] != train.ways[:-1]
+    # Slow pulses may be farther apart than a pause: up to 2.5 times the interval before.
+    last_split = -1
+    for place in np.flatnonzero(split).tolist():
+        turned = train.ways is not None and train.ways[place] != train.ways[place + 1]
+        begun = last_split + 1
+        if not turned and place > begun and gaps[place] <= 5 * gaps[place - 1] // 2:
+            split[place] = False
+        else:
+            last_split = place
+    bounds = [0, *(np.flatnonzero(split) + 1).tolist(), len(times)]
+    return [
+        (times[a:b], None if train.ways is None else int(train.ways[a]))
+        for a, b in zip(bounds, bounds[1:], strict=False)
+    ]
 
 
 def moves(trains: list[Train], pause: int) -> list[Move]:
@@ -43,20 +62,25 @@ def moves(trains: list[Train], pause: int) -> list[Move]:
     return sorted(found, key=lambda move: move.begin)
 
 
-def _move(axis: int, times: list[int], way: int | None) -> Move:
-    speeds = [SECOND / (b - a) for a, b in zip(times, times[1:], strict=False)] or [0.0]
+def _move(axis: int, times: Column, way: int | None) -> Move:
+    np = numpy()
     sign = 0 if way is None else -1 if way else 1
+    begin, end = int(times[0]), int(times[-1])
+    gaps = np.diff(times)
+    if not len(gaps):
+        return Move(axis, begin, end, sign, len(times), 0.0, 0.0, 0.0)
     # One interval alone may be short by a sample: the median of three says how fast it was.
-    smooth = [
-        sorted(speeds[max(0, n - 1) : n + 2])[len(speeds[max(0, n - 1) : n + 2]) // 2]
-        for n in range(len(speeds))
-    ]
-    return Move(axis, times[0], times[-1], sign, len(times), speeds[0], max(smooth), speeds[-1])
+    least = min(gaps[:2].min(), gaps[-2:].min())
+    if len(gaps) > 2:
+        a, b, c = gaps[:-2], gaps[1:-1], gaps[2:]
+        least = min(least, np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c)).min())
+    first, highest, last = (SECOND / int(gap) for gap in (gaps[0], least, gaps[-1]))
+    return Move(axis, begin, end, sign, len(times), first, highest, last)
 
 
-def edges_of(channel: Channel, level: int) -> list[int]:
+def edges_of(channel: Channel, level: int) -> Column:
     """Times at which a wire takes this level."""
-    return [t for t, now in channel.changes if now == level]
+    return channel.times[channel.levels == level]
 
 
 def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) -> Train | None:
@@ -66,8 +90,7 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
         return None
     direction = wires.bits.get(way, {}).get(bit)
     times = edges_of(pulses, level)
-    ways = [None if direction is None else level_at(direction, t) for t in times]
-    return Train(axis, times, ways)
+    return Train(axis, times, None if direction is None else direction.at_all(times))
 
 
 def phase_train(wires: Wires, axis: int, port: str) -> Train | None:
@@ -76,23 +99,19 @@ def phase_train(wires: Wires, axis: int, port: str) -> Train | None:
     phases = wires.ports.get(port)
     if phases is None:
         return None
-    times: list[int] = []
-    last: int | None = None
+    np = numpy()
     full = (1 << phases.width) - 1
     settle = max(10**6, 3 * wires.sample)
-    changes = phases.changes
-    for number, (t, level) in enumerate(changes):
-        if number + 1 < len(changes) and changes[number + 1][0] - t < settle:
-            continue
-        if level in (0, full) or level == last:
-            continue
-        if last is not None and (level ^ last) != full:
-            times.append(t)
-        last = level
-    return Train(axis, times, [None] * len(times))
+    steady = np.ones(len(phases), bool)
+    steady[:-1] = np.diff(phases.times) >= settle
+    steady &= (phases.levels != 0) & (phases.levels != full)
+    times, levels = phases.times[steady], phases.levels[steady]
+    moved = np.zeros(len(times), bool)
+    moved[1:] = (levels[1:] != levels[:-1]) & ((levels[1:] ^ levels[:-1]) != full)
+    return Train(axis, times[moved], None)
 
 
-def unchopped(bits: dict[int, Channel], width: int, window: int) -> dict[int, Channel]:
+def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[int, Channel]:
     """Phases without the off-times of a chopper: all off for a while, then the pattern of before. Wires
     change one after the other within `window` ps. Without all wires: as they are."""
     if len(bits) < width:
@@ -104,12 +123,13 @@ def unchopped(bits: dict[int, Channel], width: int, window: int) -> dict[int, Ch
             settled[-1] = (settled[-1][0], level)
         else:
             settled.append((t, level))
-    kept = Channel(whole.initial, [], width)
+    kept: list[tuple[int, int]] = []
     off = (0, (1 << width) - 1)
     for number, (t, level) in enumerate(settled):
-        pattern = kept.changes[-1][1] if kept.changes else kept.initial
+        pattern = kept[-1][1] if kept else whole.initial
         back = settled[number + 1] if number + 1 < len(settled) else (t, pattern)
         if level in off and back[1] == pattern and back[0] - t < CHOPPED:
             continue
-        kept.add(t, level)
-    return {bit: kept.bit(bit) for bit in range(width)}
+        if level != pattern:
+            kept.append((t, level))
+    return Bits(Channel(whole.initial, kept, width))

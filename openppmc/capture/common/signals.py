@@ -1,51 +1,180 @@
-"""What a logic analyser has seen: channels with their changes. Times are whole picoseconds from its start."""
+"""Channels of a logic analyser with their changes, in columns. Times are whole ps from the first sample."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import gcd
+from typing import TYPE_CHECKING, Any
 
-from ...check import records
+from ...errors import needs
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Column = NDArray[Any]
 
 US = 1_000_000
 """Picoseconds of a microsecond."""
 SECOND = 10**12
-Changes = list[tuple[int, int]]
+X = 2
+"""Level of a single wire that the file states as unknown (x, z, no cell)."""
 
 
-@dataclass
+def numpy(what: str = "a capture") -> Any:
+    """Return the numpy module. Raises MissingExtraError."""
+    needs("decode", what, "numpy")
+    import numpy as np
+
+    return np
+
+
+def level_type(width: int) -> str:
+    """Return the numpy type of a level of `width` bits."""
+    return "u1" if width <= 8 else "u2" if width <= 16 else "u4" if width <= 32 else "u8"
+
+
 class Channel:
-    """A wire, or several that a file has as one number. initial: level before the first change (ps, level).
-    width: bits."""
+    """A wire, or several of up to 64 as one number, in columns.
 
-    initial: int = 0
-    changes: Changes = field(default_factory=list)
-    width: int = 1
+    times: ps, int64, rising. levels: from each of these times on. initial: level before the first change.
+    width: bits. unknown: per change the bits that are unknown, or None; unknown_first: those of `initial`.
+    indices: declared indices of the bits, lowest bit first.
+    """
 
-    def add(self, t: int, level: int) -> None:
-        """A level from `t` on; the same level again is no change."""
-        before = self.changes[-1][1] if self.changes else self.initial
-        if level == before:
-            return
-        if self.changes and self.changes[-1][0] == t:
-            self.changes.pop()
-            self.add(t, level)
-        else:
-            self.changes.append((t, level))
+    __slots__ = ("indices", "initial", "levels", "times", "unknown", "unknown_first", "width")
+
+    def __init__(
+        self,
+        initial: int = 0,
+        changes: Sequence[tuple[int, int]] = (),
+        width: int = 1,
+        indices: range | None = None,
+    ) -> None:
+        np = numpy()
+        self.initial, self.width = initial, width
+        self.times: Column = np.array([t for t, _ in changes], np.int64)
+        self.levels: Column = np.array([level for _, level in changes], level_type(width))
+        self.unknown: Column | None = None
+        self.unknown_first = 0
+        self.indices = indices or range(width)
+
+    @classmethod
+    def of(
+        cls,
+        initial: int,
+        times: Column,
+        levels: Column,
+        width: int = 1,
+        unknown: Column | None = None,
+        unknown_first: int = 0,
+        indices: range | None = None,
+    ) -> Channel:
+        """Return a channel of columns in which levels may repeat and of equal times the last counts."""
+        np = numpy()
+        one = cls(initial, (), width, indices)
+        levels = levels.astype(level_type(width), copy=False)
+        keep = np.ones(len(times), bool)
+        if len(times) > 1:
+            keep[:-1] = times[1:] != times[:-1]
+            if not keep.all():
+                times, levels = times[keep], levels[keep]
+                unknown = None if unknown is None else unknown[keep]
+        if len(times):
+            keep = np.ones(len(times), bool)
+            keep[1:] = levels[1:] != levels[:-1]
+            keep[0] = int(levels[0]) != initial
+            if unknown is not None:
+                keep[1:] |= unknown[1:] != unknown[:-1]
+                keep[0] |= int(unknown[0]) != unknown_first
+            if not keep.all():
+                times, levels = times[keep], levels[keep]
+                unknown = None if unknown is None else unknown[keep]
+        one.times, one.levels, one.unknown_first = times, levels, unknown_first
+        one.unknown = unknown if unknown is not None and unknown.any() else None
+        return one
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    @property
+    def changes(self) -> list[tuple[int, int]]:
+        """Changes as (ps, level), for channels with few of them."""
+        return list(zip(self.times.tolist(), self.levels.tolist(), strict=True))
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether any level is unknown."""
+        return bool(self.unknown_first) or self.unknown is not None
+
+    @property
+    def blank(self) -> bool:
+        """Whether no level of it is known at all."""
+        full = (1 << self.width) - 1
+        return self.unknown_first == full and (
+            not len(self) or (self.unknown is not None and bool((self.unknown == full).all()))
+        )
 
     def bit(self, place: int) -> Channel:
-        """One bit of it."""
-        one = Channel(self.initial >> place & 1)
-        for t, level in self.changes:
-            one.add(t, level >> place & 1)
-        return one
+        """Return one bit, 0 the lowest."""
+        if self.width == 1 and place == 0:
+            return self
+        levels = (self.levels >> self.levels.dtype.type(place)) & self.levels.dtype.type(1)
+        unknown = self.unknown
+        if unknown is not None:
+            unknown = (unknown >> unknown.dtype.type(place)) & unknown.dtype.type(1)
+        first = self.unknown_first >> place & 1
+        if unknown is None and first:
+            unknown = levels & 0
+        return Channel.of(self.initial >> place & 1, self.times, levels, 1, unknown, first)
+
+    def inverted(self) -> Channel:
+        """Return the wire at the other side of an inverter."""
+        flip = self.levels ^ 1
+        return Channel.of(1 - self.initial, self.times, flip, 1, self.unknown, self.unknown_first)
+
+    def settled(self, idle: int, hold: bool) -> Channel:
+        """Return a channel whose unknown levels are `idle`; with hold, after a known level this one."""
+        if not self.doubtful:
+            return self
+        np = numpy()
+        unknown = self.unknown if self.unknown is not None else self.levels & 0
+        one = self.levels.dtype.type
+        levels, last = self.levels.copy(), idle if self.unknown_first else self.initial
+        first = last
+        if hold and self.width == 1:
+            place = np.where(unknown == 0, np.arange(len(levels)), -1)
+            place = np.maximum.accumulate(place) if len(place) else place
+            levels = np.where(place >= 0, levels[place], one(last)) if len(place) else levels
+        else:
+            levels = (levels & ~unknown) | (one(idle) & unknown)
+        return Channel.of(first, self.times, levels, self.width)
+
+    def at(self, t: int) -> int:
+        """Return the level at a time, changes at that time included."""
+        place = int(self.times.searchsorted(t, "right"))
+        return int(self.levels[place - 1]) if place else self.initial
+
+    def at_all(self, times: Column) -> Column:
+        """Return the levels at many times."""
+        np = numpy()
+        if not len(self):
+            return np.full(len(times), self.initial, self.levels.dtype)
+        place = self.times.searchsorted(times, "right")
+        found = self.levels[np.maximum(place - 1, 0)]
+        found[place == 0] = self.initial
+        return found
+
+    def since(self, t: int) -> tuple[Column, Column]:
+        """Return times and levels of the changes from `t` on."""
+        place = int(self.times.searchsorted(t, "left"))
+        return self.times[place:], self.levels[place:]
 
 
 @dataclass
 class Capture:
     """A whole capture. name: of the file. end: time of the last sample. sample: distance of two samples if
-    the file tells it, else 0. part, parameters: of the core, where the file tells them (ours do)."""
+    the file states it, else 0. part, parameters: of the core, where the file states them (ours do).
+    doubled: names that several channels have; notes: remarks on the file for the user."""
 
     name: str
     channels: dict[str, Channel]
@@ -53,46 +182,96 @@ class Capture:
     sample: int = 0
     part: str = ""
     parameters: dict[str, object] = field(default_factory=dict)
+    doubled: frozenset[str] = frozenset()
+    notes: list[str] = field(default_factory=list)
 
     @property
     def finest(self) -> int:
-        """Distance of two samples, as the file tells it or as all changes are multiples of it, ps; 0: no
+        """Distance of two samples, as the file states it or as all changes are multiples of it, ps; 0: no
         changes."""
-        return self.sample or gcd(*(t for one in self.channels.values() for t, _ in one.changes))
+        if self.sample:
+            return self.sample
+        np = numpy()
+        step = 0
+        for one in self.channels.values():
+            if len(one) and step != 1:
+                step = int(np.gcd(step, np.gcd.reduce(one.times)))
+        return step
 
 
 def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
-    """The channel without pulses shorter than `shortest` ps, and how many there were.
+    """Return a single wire without pulses shorter than `shortest` ps, and the number of these.
 
-    >>> without_glitches(Channel(1, [(100, 0), (103, 1), (200, 0)]), 10)
-    (Channel(initial=1, changes=[(200, 0)], width=1), 1)
+    >>> wire, count = without_glitches(Channel(1, [(100, 0), (103, 1), (200, 0)]), 10)
+    >>> wire.initial, wire.changes, count
+    (1, [(200, 0)], 1)
     """
-    kept: Changes = []
-    dropped = 0
-    for t, level in channel.changes:
-        if (
-            kept
-            and t - kept[-1][0] < shortest
-            and (kept[-2][1] if len(kept) > 1 else channel.initial) == level
-        ):
-            kept.pop()
-            dropped += 1
-        else:
-            kept.append((t, level))
-    return Channel(channel.initial, kept, channel.width), dropped
-
-
-def level_at(channel: Channel, t: int) -> int:
-    """Level at a time, changes at that time included."""
-    return records.level_at(channel.changes, t, channel.initial)
+    np = numpy()
+    if len(channel) < 2 or not (short := np.diff(channel.times) < shortest).any():
+        return channel, 0
+    # A run of short intervals is walked through; all other changes stay.
+    keep = np.ones(len(channel), bool)
+    times, dropped = channel.times, 0
+    for place in np.flatnonzero(short & ~np.concatenate(([False], short[:-1]))).tolist():
+        stack = [place]
+        after = place + 1
+        while after < len(times) and (after == place + 1 or short[after - 1]):
+            if stack and times[after] - times[stack[-1]] < shortest:
+                keep[stack.pop()] = keep[after] = False
+                dropped += 1
+            else:
+                stack.append(after)
+            after += 1
+    kept = Channel(channel.initial)
+    kept.times, kept.levels = times[keep], channel.levels[keep]
+    return kept, dropped
 
 
 def joined(bits: Sequence[Channel]) -> Channel:
-    """Wires as one number, bit 0 first."""
-    level = sum(bit.initial << place for place, bit in enumerate(bits))
-    whole = Channel(level, [], len(bits))
-    events = sorted((t, place, one) for place, bit in enumerate(bits) for t, one in bit.changes)
-    for t, place, one in events:
-        level = level & ~(1 << place) | one << place
-        whole.add(t, level)
+    """Return wires as one number, bit 0 first."""
+    np = numpy()
+    width = len(bits)
+    if width == 1:
+        return bits[0]
+    times = np.unique(np.concatenate([bit.times for bit in bits]))
+    levels = np.zeros(len(times), level_type(width))
+    for place, bit in enumerate(bits):
+        levels |= bit.at_all(times).astype(levels.dtype) << levels.dtype.type(place)
+    whole = Channel(sum(bit.initial << place for place, bit in enumerate(bits)), (), width)
+    whole.times, whole.levels = times, levels
     return whole
+
+
+class Bits(Mapping[int, Channel]):
+    """Single wires of a port that the file has as one number; each is made when it is used."""
+
+    def __init__(self, whole: Channel) -> None:
+        self.whole = whole
+
+    def __getitem__(self, place: int) -> Channel:
+        if not 0 <= place < self.whole.width:
+            raise KeyError(place)
+        return self.whole.bit(place)
+
+    def __iter__(self) -> Any:
+        return iter(range(self.whole.width))
+
+    def __len__(self) -> int:
+        return self.whole.width
+
+
+def level_at(channel: Channel, t: int) -> int:
+    """Return the level at a time, changes at that time included."""
+    return channel.at(t)
+
+
+def merged(parts: Iterable[tuple[str, Channel]]) -> tuple[Column, Column, list[str]]:
+    """Return times of all changes in order, the number of the channel of each, and the channels' names."""
+    np = numpy()
+    rows = list(parts)
+    times = np.concatenate([one.times for _, one in rows] or [np.zeros(0, np.int64)])
+    owners = np.concatenate(
+        [np.full(len(one), n, np.int16) for n, (_, one) in enumerate(rows)] or [np.zeros(0, np.int16)]
+    )
+    order = np.argsort(times, kind="stable")
+    return times[order], owners[order], [name for name, _ in rows]

@@ -1,34 +1,47 @@
 """Captures in VCD: of sigrok, PulseView, GTKWave, our own simulations.
 
-Ours say in a comment which core made them, so that the model beside them gets the same clock and parameters:
+Ours state in a comment which core made them, so that the golden model gets the same clock and parameters:
 
     $comment openppmc {"part": "pmc006", "parameters": {"CLK_HZ": 8000000, "TIMING": "FAST"}} $end
+
+The value changes are read in pieces of bounded size, all tokens of a piece at once.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from ...errors import needs
+from ...textfile import NotTextError, chunks
 from .errors import CaptureError
-from .signals import Capture, Channel
+from .signals import SECOND, Capture, Channel, level_type
 
-_UNITS = {"s": 10**12, "ms": 10**9, "us": 10**6, "ns": 10**3, "ps": 1, "fs": 0}
-
-
+_UNITS = {"s": SECOND, "ms": 10**9, "us": 10**6, "µs": 10**6, "ns": 10**3, "ps": 1}
+_UNITS_OF: dict[str, Fraction] = {name: Fraction(ps) for name, ps in _UNITS.items()} | {
+    "fs": Fraction(1, 1000),
+    "as": Fraction(1, 10**6),
+}
 _MARK = "openppmc "
+_END = re.compile(rb"\$enddefinitions\s+\$end\s")
+_SECTION = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s.*?\$end(?=\s)", re.DOTALL)
+_OPEN = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s")
+_RANGE = re.compile(r"\[\s*(-?\d+)\s*(?::\s*(-?\d+)\s*)?\]$")
+_WIDEST = 64
+_MOST_PS = 1 << 62
 
 
 def core_comment(part: str, parameters: Mapping[str, object]) -> str:
-    """Comment of a VCD that tells which core made it: part and parameters of its top module."""
+    """Comment of a VCD that states which core made it: part and parameters of its top module."""
     return _MARK + json.dumps({"part": part, "parameters": dict(parameters)})
 
 
 def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
-    """What `core_comment` has written; nothing for anybody else's comment. CaptureError."""
+    """Content of `core_comment`; empty for any other comment. CaptureError."""
     text = comment.strip()
     if not text.startswith(_MARK):
         return "", {}
@@ -46,86 +59,481 @@ def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
     return part, parameters
 
 
-def read_vcd(path: Path) -> Capture:
-    """All variables; one that stands in several scopes by its name in the outermost, and if there are more as
-    deep by the first one's and each as `scope.name`. CaptureError."""
-    needs("decode", f"{path.name}: a capture in VCD", "vcd")
-    from vcd.reader import TokenKind, VCDParseError, tokenize
+class _Variable:
+    """A declared variable: its changes so far, in pieces."""
 
-    names: dict[str, list[str]] = {}
-    channels: dict[str, Channel] = {}
-    depths: dict[str, int] = {}
-    homes: dict[str, tuple[str, str]] = {}
-    scopes: list[str] = []
-    part, parameters = "", dict[str, object]()
-    scale, now, started, whole = 1.0, 0, set[str](), False
-    try:
-        with path.open("rb") as file:
-            for token in tokenize(file):
-                kind = token.kind
-                if kind is TokenKind.CHANGE_SCALAR or kind is TokenKind.CHANGE_VECTOR:
-                    change: Any = token.data
-                    _take(channels, names, change.id_code, change.value, now, started)
-                elif kind is TokenKind.CHANGE_TIME:
-                    now = round(token.time_change * scale)
-                elif kind is TokenKind.SCOPE:
-                    scopes.append(str(token.scope.ident))
-                elif kind is TokenKind.UPSCOPE:
+    def __init__(self, width: int, indices: range) -> None:
+        self.width, self.indices = width, indices
+        self.pieces: list[tuple[Any, Any, Any]] = []
+
+    def channel(self, start: int) -> Channel:
+        """The channel, its times from `start` on. Takes the pieces."""
+        import numpy as np
+
+        full = (1 << self.width) - 1
+        kind = level_type(self.width)
+        pieces, self.pieces = self.pieces, []
+        times = np.concatenate([np.zeros(0, np.int64), *(one[0] for one in pieces)])
+        levels = np.concatenate([np.zeros(0, kind), *(one[1] for one in pieces)])
+        unknown = None
+        if any(one[2] is not None for one in pieces):
+            unknown = np.concatenate([one[1] & 0 if one[2] is None else one[2] for one in pieces])
+        times -= start
+        # Levels at the first time stamp are those that the capture begins with.
+        first = int(times.searchsorted(0, "right"))
+        initial, hidden = (0, full) if not first else (int(levels[first - 1]), 0)
+        if first and unknown is not None:
+            hidden = int(unknown[first - 1])
+        if unknown is None and hidden:
+            unknown = levels & 0
+        return Channel.of(
+            initial,
+            times[first:],
+            levels[first:],
+            self.width,
+            None if unknown is None else unknown[first:],
+            hidden,
+            range(min(self.indices), max(self.indices) + 1),
+        )
+
+
+class _Head:
+    """Declarations of a file."""
+
+    def __init__(self, text: str, name: str) -> None:
+        self.name = name
+        self.part, self.parameters = "", dict[str, object]()
+        self.scale = Fraction(0)
+        self.notes: list[str] = []
+        self.variables: dict[str, _Variable] = {}
+        self.named: dict[str, str] = {}
+        """Code of the variable by name, as the user may write it."""
+        self.doubled: set[str] = set()
+        self._depths: dict[str, tuple[int, str, str]] = {}
+        declared = self._sections(text)
+        if not self.scale:
+            self.scale = Fraction(1000)
+            self.notes.append("no $timescale in it, 1 ns is assumed")
+        self._name(declared)
+
+    def _sections(self, text: str) -> list[tuple[tuple[str, ...], str, int, list[str]]]:
+        """Read all sections: variables as (scopes, code, width, words of the name)."""
+        scopes: list[str] = []
+        declared = []
+        tokens = [(one[0], one.start()) for one in re.finditer(r"\S+", text)]
+        place = 0
+        while place < len(tokens):
+            word, at = tokens[place]
+            line = text.count("\n", 0, at) + 1
+            after = place + 1
+            while after < len(tokens) and tokens[after][0] != "$end":
+                after += 1
+            inside = [one for one, _ in tokens[place + 1 : after]]
+            if not word.startswith("$") or after == len(tokens):
+                raise CaptureError(f"{self.name}: no VCD at line {line}: export it again")
+            if word == "$scope":
+                scopes.append(inside[-1] if inside else "")
+            elif word == "$upscope":
+                if scopes:
                     scopes.pop()
-                elif kind is TokenKind.COMMENT:
-                    part, parameters = _core(token.comment, path.name) if not part else (part, parameters)
-                elif kind is TokenKind.TIMESCALE:
-                    unit = str(token.timescale.unit.value)
-                    scale = int(token.timescale.magnitude) * (_UNITS[unit] or 1e-3)
-                elif kind is TokenKind.VAR:
-                    var = token.var
-                    name = str(var.reference)
-                    if var.size == 1 and var.bit_index is not None:
-                        name = f"{name}[{var.bit_index}]"
-                    depth, home = len(scopes), ".".join(scopes)
-                    if name not in depths or depth < depths[name]:
-                        depths[name], homes[name] = depth, (home, var.id_code)
-                        channels[name] = Channel(width=var.size)
-                        for known in names.values():
-                            if name in known:
-                                known.remove(name)
-                        names.setdefault(var.id_code, []).append(name)
-                    elif depth == depths[name]:
-                        for where, code in (homes[name], (home, var.id_code)):
-                            full = f"{where}.{name}"
-                            if full not in channels:
-                                channels[full] = Channel(width=var.size)
-                                names.setdefault(code, []).append(full)
-                elif kind is TokenKind.ENDDEFINITIONS:
-                    whole = True
-    except VCDParseError as error:
-        where = f" at line {error.loc.line}" if hasattr(error, "loc") else ""
-        what = f"cut off or damaged{where}: export it again" if whole else f"no VCD{where}"
-        raise CaptureError(f"{path.name}: {what}") from None
-    except (OSError, ValueError, KeyError, AttributeError, IndexError) as error:
-        raise CaptureError(f"{path.name}: cannot be read as VCD ({error})") from None
-    if not whole:
-        raise CaptureError(f"{path.name}: cut off in its head: export it again")
-    return Capture(path.name, channels, now, part=part, parameters=parameters)
+            elif word == "$comment" and not self.part:
+                until = tokens[after][1]
+                self.part, self.parameters = _core(text[at + len(word) : until], self.name)
+            elif word == "$timescale":
+                self._timescale("".join(inside), line)
+            elif word == "$var":
+                try:
+                    kind, width, code, *words = inside
+                    size = int(width)
+                    if size < 1 or not words:
+                        raise ValueError
+                except ValueError:
+                    raise CaptureError(
+                        f"{self.name}: line {line}: `$var {' '.join(inside)}` is damaged: export it again"
+                    ) from None
+                if kind in ("real", "realtime", "string", "parameter") or size > _WIDEST:
+                    self.variables.setdefault(code, _Variable(0, range(0)))
+                    self.notes += (
+                        [f"{' '.join(words)}: a number, not a level, left out"] if kind == "real" else []
+                    )
+                else:
+                    declared.append((tuple(scopes), code, size, words))
+            place = after + 1
+        return declared
+
+    def _timescale(self, text: str, line: int) -> None:
+        match = re.fullmatch(r"(\d+(?:\.\d+)?(?:e-?\d+)?)?([munpfaµ]?s)", text)
+        if match is None or not Fraction(match[1] or 1):
+            raise CaptureError(
+                f"{self.name}: line {line}: $timescale {text}: expected a number and s, ms, us, ns, ps or fs; "
+                "correct it by hand"
+            )
+        self.scale = Fraction(match[1] or 1) * _UNITS_OF[match[2]]
+
+    def _name(self, declared: list[tuple[tuple[str, ...], str, int, list[str]]]) -> None:
+        ranges: dict[tuple[tuple[str, ...], str], set[str]] = {}
+        rows = []
+        for scopes, code, size, words in declared:
+            text = " ".join(words)
+            match = _RANGE.search(text)
+            base = text[: match.start()].strip() if match else text
+            base = base.removeprefix("\\")
+            left = int(match[1]) if match else size - 1
+            right = int(match[2]) if match and match[2] else (left if match else 0)
+            if match and abs(left - right) + 1 != size:
+                if size == 1 and match[2] is None:
+                    right = left
+                else:
+                    raise CaptureError(
+                        f"{self.name}: {text}: {size} bits, but the range has {abs(left - right) + 1}: "
+                        "export it again"
+                    )
+            indices = range(right, left + 1) if left >= right else range(right, left - 1, -1)
+            rows.append((scopes, code, size, base, indices, bool(match)))
+            ranges.setdefault((scopes, base), set()).add(str(list(indices)))
+        for scopes, code, size, base, indices, ranged in rows:
+            name = base
+            alone = len(ranges[scopes, base]) == 1
+            if ranged and size == 1 and (indices[0] or not alone):
+                name = f"{base}[{indices[0]}]"
+            elif not alone and size > 1:
+                name = f"{base}[{indices[-1]}:{indices[0]}]"
+            if size > 1 and indices[0] > indices[-1]:
+                self.notes.append(
+                    f"{base} is declared [{indices[-1]}:{indices[0]}]: its bits are taken by these indices, "
+                    "the lowest is bit 0"
+                )
+            known = self.variables.get(code)
+            if known is None or not known.width:
+                self.variables[code] = _Variable(size, indices)
+            elif known.width != size:
+                raise CaptureError(f"{self.name}: {base}: {size} and {known.width} bits: export it again")
+            self._add(scopes, name, code)
+
+    def _add(self, scopes: tuple[str, ...], name: str, code: str) -> None:
+        """A name counts in its outermost scope; if several are as deep, the first one's, and each as
+        `scope.name`."""
+        depth, home = len(scopes), ".".join(scopes)
+        known = self._depths.get(name)
+        if known is None or depth < known[0]:
+            self.named[name] = code
+            self._depths[name] = (depth, home, code)
+            if known is None:
+                return
+            self.named[f"{known[1]}.{name}"] = known[2]
+        elif depth == known[0] and home == known[1]:
+            if code != known[2]:
+                self.doubled.add(name)
+        elif depth == known[0]:
+            self.named[f"{known[1]}.{name}"] = known[2]
+            full = f"{home}.{name}"
+            if self.named.get(full, code) != code:
+                self.doubled.add(full)
+            self.named[full] = code
 
 
-def _take(
-    channels: dict[str, Channel],
-    names: dict[str, list[str]],
-    code: str,
-    value: int | str,
-    t: int,
-    started: set[str],
-) -> None:
-    """A change; unknown and floating levels are as before."""
-    if isinstance(value, str):
-        if not value.strip("01"):
-            value = int(value, 2)
+def read_vcd(path: Path) -> Capture:
+    """All variables; one that is in several scopes by its name in the outermost, and if there are more as
+    deep by the first one's and each as `scope.name`. CaptureError."""
+    needs("decode", f"{path.name}: a capture in VCD", "numpy")
+    try:
+        pieces = chunks(path)
+        head = b""
+        for piece in pieces:
+            head += piece
+            if (match := _END.search(head + b"\n")) is not None:
+                break
         else:
+            what = "cut off in its head: export it again"
+            raise CaptureError(f"{path.name}: {what if b'$' in head[:4096] else 'no VCD: export it again'}")
+        text = _text(head[: match.start()])
+        declared = _Head(text, path.name)
+        return _Body(declared, head[: match.end()].count(b"\n") + 1).read(head[match.end() :], pieces)
+    except OSError as error:
+        raise CaptureError(f"{path.name}: cannot be read ({error.strerror})") from None
+    except NotTextError as error:
+        raise CaptureError(f"{path.name}: {error}") from None
+
+
+def _text(data: bytes) -> str:
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+class _Body:
+    """Value changes of a file, read in pieces."""
+
+    def __init__(self, head: _Head, line: int) -> None:
+        import numpy as np
+
+        self.np, self.head, self.line = np, head, line
+        self.codes = list(head.variables)
+        raw = [self._code_bytes(code) for code in self.codes]
+        if len(self.codes) > 30_000 or any(len(one) > 8 for one in raw):
+            raise CaptureError(
+                f"{head.name}: {len(self.codes)} variables or very long identifier codes: export only the pins"
+            )
+        keys = np.array([int.from_bytes(one, "little") for one in raw], np.uint64)
+        self.order = np.argsort(keys)
+        self.keys = keys[self.order]
+        self.widest = max((len(one) for one in raw), default=1)
+        self.small = None
+        if self.widest <= 2:
+            self.small = np.full(65536, -1, np.int32)
+            self.small[keys] = np.arange(len(keys))
+        self.kinds = np.array([head.variables[code].width for code in self.codes], np.int64)
+        self.now, self.start, self.last = 0, None, 0
+        self.level = np.full(256, 255, np.uint8)
+        for text, value in (("0Ll", 0), ("1Hh", 1), ("xXzZuUwW-", 2)):
+            for one in text:
+                self.level[ord(one)] = value
+
+    @staticmethod
+    def _code_bytes(code: str) -> bytes:
+        try:
+            return code.encode("latin-1")
+        except UnicodeEncodeError:
+            return code.encode()
+
+    def read(self, first: bytes, pieces: Iterator[bytes]) -> Capture:
+        """All of it. CaptureError."""
+        rest = self._piece(first, False) if first else b""
+        for piece in pieces:
+            rest = self._piece(rest + piece, False)
+        rest = self._piece(rest + b"\n", True)
+        head = self.head
+        if self.start is None:
+            raise CaptureError(f"{head.name}: no time stamp in it: capture again")
+        made = {
+            code: variable.channel(self.start)
+            for code, variable in head.variables.items()
+            if variable.width
+        }
+        channels = {name: made[code] for name, code in head.named.items()}
+        return Capture(
+            head.name,
+            channels,
+            self.now - self.start,
+            part=head.part,
+            parameters=head.parameters,
+            doubled=frozenset(head.doubled),
+            notes=head.notes,
+        )
+
+    def _fail(self, data: bytes, at: int, what: str) -> CaptureError:
+        line = self.line + data.count(b"\n", 0, at)
+        return CaptureError(f"{self.head.name}: cut off or damaged at line {line}: {what}; export it again")
+
+    def _piece(self, data: bytes, final: bool) -> bytes:
+        """Read all whole tokens; the rest, for the next piece."""
+        np = self.np
+        if b"$" in data:
+            data = _SECTION.sub(lambda match: b"\n" * match[0].count(b"\n") + b" ", data)
+            opened = _OPEN.search(data)
+            if opened is not None:
+                if final:
+                    raise self._fail(data, opened.start(), "a comment without $end")
+                if len(data) > 1 << 26:
+                    raise self._fail(data, opened.start(), "a comment without $end")
+                rest = self._piece(data[: opened.start()], False)
+                return rest + data[opened.start() :]
+        buf = np.frombuffer(data, np.uint8)
+        space = buf <= 32
+        edge = np.flatnonzero(space[1:] != space[:-1]) + 1
+        if len(buf) and not space[0]:
+            edge = np.concatenate(([0], edge))
+        if len(edge) % 2:
+            # The last token may go on in the next piece.
+            cut = int(edge[-1])
+            edge = edge[:-1]
+        else:
+            cut = len(buf)
+        starts, ends = edge[0::2], edge[1::2]
+        first = buf[starts]
+        size = ends - starts
+        pair = self._pairs(first, size)
+        if len(pair) and pair[-1]:
+            if final:
+                raise self._fail(data, int(starts[-1]), "a level without a variable")
+            cut = int(starts[-1])
+            starts, ends, first, size, pair = starts[:-1], ends[:-1], first[:-1], size[:-1], pair[:-1]
+        if not len(starts):
+            self.line += data.count(b"\n", 0, cut)
+            return data[cut:]
+        code_of = np.zeros(len(pair), bool)
+        code_of[1:] = pair[:-1]
+        stamp = (first == 35) & ~code_of & ~pair
+        plain = (self.level[first] != 255) & (size > 1) & ~code_of & ~pair & ~stamp
+        other = ~(stamp | plain | code_of | pair)
+        self._words(data, starts[other], ends[other])
+        times = self._times(data, buf, starts[stamp], ends[stamp])
+        # Number of time stamps so far, for each token.
+        at = np.cumsum(stamp, dtype=np.int32)
+        if self.start is None and (len(times) or plain.any() or pair.any()):
+            early = plain | pair
+            self.start = int(times[0]) if len(times) and not (early & (at == 0)).any() else 0
+            if len(times) and int(times[0]) < 0:
+                self.start = int(times[0])
+            self.now = self.start
+        stamps = np.concatenate((np.array([self.now], np.int64), times))
+        if len(stamps) > 1:
+            back = np.flatnonzero(np.diff(stamps) < 0)
+            if len(back):
+                raise self._fail(data, int(starts[stamp][back[0]]), "time goes back")
+            self.now = int(stamps[-1])
+        self._scalars(data, buf, starts[plain], ends[plain], stamps, at[plain])
+        if pair.any():
+            which = np.flatnonzero(pair)
+            self._vectors(data, buf, starts, ends, which, stamps, at)
+        self.line += data.count(b"\n", 0, cut)
+        return data[cut:]
+
+    def _pairs(self, first: Any, size: Any) -> Any:
+        """Tokens whose variable is the next token: vectors, numbers, texts, a level that is alone."""
+        np = self.np
+        pair = np.isin(first, np.frombuffer(b"bBrRsS", np.uint8)) & (size > 1)
+        pair |= (self.level[first] != 255) & (size == 1)
+        if not pair.any():
+            return pair
+        # The code after a value may look like a value: in a row of them every second one is.
+        which = np.flatnonzero(pair)
+        begins = np.concatenate(([True], np.diff(which) > 1))
+        origin = np.maximum.accumulate(np.where(begins, np.arange(len(which)), 0))
+        pair[which[(np.arange(len(which)) - origin) % 2 == 1]] = False
+        return pair
+
+    def _words(self, data: bytes, starts: Any, ends: Any) -> None:
+        for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
+            word = data[a:b]
+            if word not in (b"$dumpvars", b"$dumpall", b"$dumpon", b"$dumpoff", b"$end", b"$dumpports"):
+                shown = _text(word[:20])
+                raise self._fail(data, a, f"{shown!r} is neither a time nor a level")
+
+    def _times(self, data: bytes, buf: Any, starts: Any, ends: Any) -> Any:
+        """Time stamps in ps."""
+        np = self.np
+        if not len(starts):
+            return np.zeros(0, np.int64)
+        size = ends - starts - 1
+        odd = size > 18
+        found = np.zeros(len(starts), np.int64)
+        for place in range(min(18, int(size.max()))):
+            live = place < size
+            digit = buf[np.where(live, starts + 1 + place, 0)].astype(np.int64) - 48
+            bad = live & ((digit < 0) | (digit > 9))
+            odd |= bad
+            found = np.where(live & ~bad, found * 10 + digit, found)
+        odd |= size < 1
+        up, down = self.head.scale.numerator, self.head.scale.denominator
+        if not odd.any() and int(found.max()) < _MOST_PS // up:
+            return (found * up + down // 2) // down
+        exact = found.tolist()
+        for place in np.flatnonzero(odd).tolist():
+            text = data[starts[place] + 1 : ends[place]]
+            if not re.fullmatch(rb"-?\d+(\.\d+)?", text):
+                raise self._fail(data, int(starts[place]), f"#{_text(text[:20])} is no time")
+            exact[place] = Fraction(text.decode())
+        rounded = [round(one * self.head.scale) for one in exact]
+        if max(map(abs, rounded)) >= _MOST_PS:
+            place = next(n for n, one in enumerate(rounded) if abs(one) >= _MOST_PS)
+            raise self._fail(data, int(starts[place]), "more than 50 days")
+        return np.array(rounded, np.int64)
+
+    def _lookup(self, data: bytes, buf: Any, starts: Any, ends: Any) -> Any:
+        """Numbers of the variables whose codes are these."""
+        np = self.np
+        size = ends - starts
+        long = size > self.widest
+        keys = np.zeros(len(starts), np.uint64 if self.small is None else np.uint16)
+        for place in range(self.widest):
+            live = place < size
+            byte = buf[np.where(live, starts + place, 0)].astype(keys.dtype)
+            keys |= np.where(live, byte << keys.dtype.type(8 * place), keys.dtype.type(0))
+        if self.small is not None:
+            found = self.small[keys]
+        elif len(self.keys):
+            place = np.minimum(self.keys.searchsorted(keys), len(self.keys) - 1)
+            found = np.where(self.keys[place] == keys, self.order[place], -1)
+        else:
+            found = np.full(len(keys), -1)
+        found = np.where(long, -1, found)
+        lost = np.flatnonzero(found < 0)
+        if len(lost):
+            code = _text(data[starts[lost[0]] : ends[lost[0]]][:20])
+            raise self._fail(data, int(starts[lost[0]]), f"no variable has the code {code}")
+        return found
+
+    def _scalars(self, data: bytes, buf: Any, starts: Any, ends: Any, stamps: Any, at: Any) -> None:
+        np = self.np
+        if not len(starts):
             return
-    for name in names.get(code, ()):
-        if name in started:
-            channels[name].add(t, value)
-        else:
-            channels[name].initial = value
-            started.add(name)
+        which = self._lookup(data, buf, starts + 1, ends).astype(np.int16)
+        levels = self.level[buf[starts]]
+        self._give(which, stamps[at], levels & 1, levels >> 1)
+
+    def _give(self, which: Any, times: Any, levels: Any, unknown: Any) -> None:
+        """Add changes of single wires to their variables."""
+        np = self.np
+        order = np.argsort(which, kind="stable")
+        which, times, levels, unknown = which[order], times[order], levels[order], unknown[order]
+        bounds = np.flatnonzero(np.diff(which)) + 1
+        for begin, end in zip([0, *bounds.tolist()], [*bounds.tolist(), len(which)], strict=True):
+            variable = self.head.variables[self.codes[int(which[begin])]]
+            if not variable.width:
+                continue
+            level, doubt = levels[begin:end], unknown[begin:end]
+            if variable.width > 1:
+                # A single x for all bits of a vector.
+                full = (1 << variable.width) - 1
+                kind = np.dtype(level_type(variable.width)).type
+                level, doubt = level.astype(kind), doubt.astype(kind) * kind(full)
+            variable.pieces.append((times[begin:end].copy(), level.copy(), doubt.copy() if doubt.any() else None))
+
+    def _vectors(self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any) -> None:
+        """Changes of vectors: extended to the left as the format wants it."""
+        np = self.np
+        variables = self._lookup(data, buf, starts[which + 1], ends[which + 1])
+        first = buf[starts[which]]
+        number = np.isin(first, np.frombuffer(b"rRsS", np.uint8))
+        alone = ends[which] - starts[which] == 1
+        low = np.where(alone, starts[which], starts[which] + 1)
+        for variable in np.unique(variables).tolist():
+            one = self.head.variables[self.codes[variable]]
+            if not one.width:
+                continue
+            rows = np.flatnonzero((variables == variable) & ~number)
+            if not len(rows):
+                continue
+            begin, end = low[rows], ends[which[rows]]
+            size = end - begin
+            wide = size > one.width
+            if wide.any() and (buf[begin[wide]] != 48).any():
+                raise self._fail(data, int(begin[wide][0]), f"more than {one.width} bits")
+            kind = np.dtype(level_type(one.width)).type
+            levels = np.zeros(len(rows), kind)
+            unknown = np.zeros(len(rows), kind)
+            left = self.level[buf[begin]]
+            for place in range(one.width):
+                live = place < size
+                value = self.level[buf[np.where(live, end - 1 - place, 0)]]
+                # Bits that are not written are 0, or unknown if the leftmost one is.
+                value = np.where(live, value, left & 2)
+                if (value == 255).any():
+                    bad = int(begin[np.flatnonzero(value == 255)[0]])
+                    raise self._fail(data, bad, "a digit that is no level")
+                levels |= (value & 1).astype(kind) << kind(place)
+                unknown |= (value >> 1).astype(kind) << kind(place)
+            if one.indices[0] > one.indices[-1]:
+                levels, unknown = self._turned(levels, one.width), self._turned(unknown, one.width)
+            times = stamps[at[which[rows]]]
+            one.pieces.append((times, levels, unknown if unknown.any() else None))
+
+    def _turned(self, values: Any, width: int) -> Any:
+        """Numbers with their bits in the other order."""
+        kind = values.dtype.type
+        turned = values & kind(0)
+        for place in range(width):
+            turned |= ((values >> kind(place)) & kind(1)) << kind(width - 1 - place)
+        return turned

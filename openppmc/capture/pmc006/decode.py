@@ -11,7 +11,6 @@ from ...model.pmc006.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.characters import Character, characters, rate_of
 from ..common.kind import DecodeKind, Line, Needs, Train, Wires
 from ..common.pinmap import Pins
-from ..common.signals import level_at
 from .words import MEANINGS
 
 RATES = (9600.0, 19_200.0, 38_400.0, 57_600.0, 115_200.0, 4800.0, 2400.0, 1200.0)
@@ -80,8 +79,8 @@ def _trains(wires: Wires) -> list[Train]:
     if step is None:
         return []
     way = wires.bits.get("mon_dir", {}).get(0)
-    times = [t for t, level in step.changes if level]
-    return [Train(1, times, [None if way is None else 1 - level_at(way, t) for t in times])]
+    times = step.times[step.levels == 1]
+    return [Train(1, times, None if way is None else 1 - way.at_all(times))]
 
 
 def _named(model: Pmc006, wires: Wires) -> None:
@@ -126,4 +125,5 @@ DECODER = DecodeKind(
     initialised=False,
     pause=30 * 10**9,
     unnamed="frames",
+    rests=OUTPUTS,
 )

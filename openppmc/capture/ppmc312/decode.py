@@ -76,4 +76,5 @@ DECODER = DecodeKind(
     frozenset((*STROBES, "rs", "d_i")),
     tuple(name for name in OUTPUTS if name not in ("d_o", "d_oe", *SERIAL, "out_oe")),
     unnamed="instructions",
+    rests=OUTPUTS,
 )

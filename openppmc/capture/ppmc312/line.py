@@ -130,4 +130,5 @@ DECODER = DecodeKind(
     tuple(name for name in OUTPUTS if name not in ("d_o", "d_oe", "wrq_n", "irq_n", "out_oe")),
     straps=_straps,
     unnamed="frames",
+    rests=OUTPUTS,
 )

@@ -92,6 +92,8 @@ def _show(found: Decoded) -> None:
         )
     if found.missing:
         output.note(f"not captured, taken as at rest: {', '.join(found.missing)}")
+    for note in found.notes:
+        output.note(note)
     for line in found.lines:
         mark = " !" if line.strange else "  "
         output.say(f"{line.t / SECOND:12.6f}{mark} {line.data:<24}  {line.text}")
@@ -151,6 +153,7 @@ def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
         "seconds": found.wires.end / SECOND,
         "missing": list(found.missing),
         "glitches": dict(found.glitches),
+        "notes": list(found.notes),
         "lines": [
             {"t": line.t / SECOND, "data": line.data, "text": line.text, "strange": line.strange}
             for line in found.lines
