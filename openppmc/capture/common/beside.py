@@ -7,38 +7,48 @@ the moves it is known by how much, and that is taken out.
 
 from __future__ import annotations
 
+from array import array
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import accumulate
-from typing import Any
+from itertools import accumulate, groupby
+from typing import TYPE_CHECKING, Any
 
 from ...check.replay import new_model
 from .decoding import Decoded
 from .errors import CaptureError
 from .kind import DecodeKind, Train
 from .pulses import moves, unchopped
-from .signals import SECOND, US, Bits, Channel, joined, level_at, numpy
+from .signals import SECOND, US, Bits, Channel, joined, level_at, merged, numpy
+
+if TYPE_CHECKING:
+    from .signals import Column
 
 SETTLED = 100 * US
 """ps from the end of an initialisation to the first pattern, at most."""
 LEAD_S = 0.2
 """The model has been on for so long before the capture begins."""
 MOST_PPM = 1000
+SLICE = 20_000
+"""Input changes that the model gets at a time."""
 CLK_HZ = 16_000_000
 
 
 @dataclass(frozen=True)
 class Difference:
-    """An edge that only one side has, or that comes too late or too early. t: ps of the capture."""
+    """An edge that only one side has, or that comes too late or too early. t: ps of the capture.
+    steady: not an edge but a level of the chip, which the model does not have there."""
 
     pin: str
     t: int
     level: int
     chip: bool
+    steady: bool = False
 
     def text(self) -> str:
         """One line."""
+        if self.steady:
+            return f"{self.t / SECOND:.6f} s: {self.pin} is {self.level}: the model has {1 - self.level}"
         who = (
             "the chip has this edge, the model has not"
             if self.chip
@@ -139,32 +149,83 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
     def edge(t: int) -> int:
         return lead + round((t - begin) * scale)
 
-    feed: dict[int, dict[str, int]] = {1: {}}
-    for port, channel in _inputs(decoded).items():
-        feed[1][port] = 1 if port == "rst_n" else level_at(channel, begin)
-        if port == "rst_n" and not level_at(channel, begin):
-            feed.setdefault(lead, {})[port] = 0
-        for t, level in zip(*(one.tolist() for one in channel.since(begin + 1)), strict=True):
-            feed.setdefault(edge(t), {})[port] = level
-    for t, levels in kind.stimulus(wires):
-        if t > begin:
-            feed.setdefault(edge(t), {}).update(levels)
-    model.pins(1, **feed.pop(1))
+    inputs = _inputs(decoded)
+    first = {port: 1 if port == "rst_n" else level_at(one, begin) for port, one in inputs.items()}
+    model.pins(1, **first)
     kind.prelude(model, wires)
-    for t in sorted(feed):
-        model.pins(t, **feed[t])
+    if "rst_n" in inputs and not level_at(inputs["rst_n"], begin):
+        model.pins(lead, rst_n=0)
+    seen = _Outputs(model, kind, lead, lambda t: begin + round((t - lead) / scale))
+    times, owners, names = merged([(port, one) for port, one in inputs.items()])
+    levels = [one.levels for one in inputs.values()]
+    used = [0] * len(names)
+    stimulus = [one for one in kind.stimulus(wires) if one[0] > begin]
+    stimulus.sort(key=lambda one: one[0])
+    place = 0
+    for at in range(0, len(times), SLICE):
+        piece = times[at : at + SLICE]
+        rows: list[tuple[int, str, int]] = []
+        for t, owner in zip(piece.tolist(), owners[at : at + SLICE].tolist(), strict=True):
+            rows.append((t, names[owner], int(levels[owner][used[owner]])))
+            used[owner] += 1
+        until = rows[-1][0] if at + SLICE < len(times) else wires.end + 1
+        while place < len(stimulus) and stimulus[place][0] <= until:
+            t, own = stimulus[place]
+            rows += [(t, pin, level) for pin, level in own.items()]
+            place += 1
+        _play(model, sorted(((t, n, pin, one) for n, (t, pin, one) in enumerate(rows) if t > begin)), edge)
+        seen.take()
+    for n in range(place, len(stimulus), SLICE):
+        rows = [(t, pin, level) for t, own in stimulus[n : n + SLICE] for pin, level in own.items()]
+        _play(model, [(t, k, pin, one) for k, (t, pin, one) in enumerate(rows)], edge)
+        seen.take()
     model.run_until(edge(wires.end))
-    rows: dict[str, list[tuple[int, int]]] = {name: [] for name in kind.outputs}
-    initial = {name: _model_level(model, name, lead) for name in kind.outputs}
-    for one in model.edges:
-        if one.t >= lead and one.signal in rows:
-            rows[one.signal].append((begin + round((one.t - lead) / scale), one.value))
-    np = numpy()
-    outputs = {}
-    for name, changes in rows.items():
-        table = np.array(changes, np.int64).reshape(-1, 2)
-        outputs[name] = Channel.of(initial[name], table[:, 0], table[:, 1], kind.pins.widths[name])
-    return _Played(outputs)
+    return _Played(seen.channels())
+
+
+def _play(model: Any, rows: list[tuple[int, int, str, int]], edge: Callable[[int], int]) -> None:
+    """Set pins at their times; those of one edge at once."""
+    for t, group in groupby(rows, key=lambda row: edge(row[0])):
+        model.pins(t, **{pin: level for _, _, pin, level in group})
+
+
+class _Outputs:
+    """Outputs of a model in columns; the model's own list is emptied as they are taken."""
+
+    def __init__(self, model: Any, kind: DecodeKind, lead: int, stamp: Callable[[int], int]) -> None:
+        self.model, self.kind, self.lead, self.stamp = model, kind, lead, stamp
+        self.initial = dict(model.log.initial)
+        self.times = {name: array("q") for name in kind.outputs}
+        self.levels = {name: array("Q") for name in kind.outputs}
+
+    def take(self, rest: int = 1000) -> None:
+        """Take all edges but the last ones, which the model may still change."""
+        log = self.model.log
+        ready = log.edges[: max(0, len(log.edges) - rest)]
+        for one in ready:
+            log.initial[one.signal] = one.value
+            if one.signal not in self.times:
+                continue
+            if one.t < self.lead:
+                self.initial[one.signal] = one.value
+            else:
+                self.times[one.signal].append(self.stamp(one.t))
+                self.levels[one.signal].append(one.value)
+        del log.edges[: len(ready)]
+
+    def channels(self) -> dict[str, Channel]:
+        """All outputs."""
+        np = numpy()
+        self.take(0)
+        return {
+            name: Channel.of(
+                self.initial[name],
+                np.array(self.times[name], np.int64),
+                np.array(self.levels[name], np.uint64),
+                self.kind.pins.widths[name],
+            )
+            for name in self.kind.outputs
+        }
 
 
 def _clk_hz(decoded: Decoded) -> int:
@@ -194,16 +255,6 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
             whole = joined([places.get(bit, Channel(idle >> bit & 1)) for bit in range(width)])
         found[port] = whole
     return found
-
-
-def _model_level(model: Any, name: str, t: int) -> int:
-    level: int = model.log.initial[name]
-    for one in model.edges:
-        if one.t >= t:
-            break
-        if one.signal == name:
-            level = one.value
-    return level
 
 
 def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
@@ -277,14 +328,19 @@ def _judge(
         for bit, channel in sorted(places.items()):
             name = f"{port}[{bit + kind.pins.low(port)}]" if kind.pins.widths[port] > 1 else port
             start = starts.get(kind.axis_of(port, bit), starts[0])
-            pairs, wrong = _match(name, channel, theirs[bit], start, wires.end, tolerance, reset)
+            apart, wrong = _match(name, channel, theirs[bit], start, wires.end, tolerance, reset)
+            if not wrong:
+                axis = kind.axis_of(port, bit)
+                begins = [one.begin for one in decoded.moves if axis in (0, one.axis) and one.begin > start]
+                points = [*([start + 2 * tolerance] if reset else []), *begins]
+                wrong = _constant(name, channel, theirs[bit], points, tolerance)
             result.pins.append(name)
-            result.compared += len(pairs)
+            result.compared += len(apart)
             result.differences += wrong
-            for mine, other in pairs:
-                total += abs(mine - other)
-                if abs(mine - other) > result.worst:
-                    result.worst, result.worst_pin = abs(mine - other), name
+            if len(apart):
+                total += int(apart.sum())
+                if int(apart.max()) > result.worst:
+                    result.worst, result.worst_pin = int(apart.max()), name
     if not result.pins:
         raise CaptureError(
             f"{decoded.capture}: no output of {kind.called} is in the map: there is nothing to compare"
@@ -311,31 +367,67 @@ def _same_place(
 
 def _match(
     name: str, chip: Channel, model: Channel, start: int, end: int, tolerance: int, known: bool
-) -> tuple[list[tuple[int, int]], list[Difference]]:
-    """Pairs of edges, and edges without a partner. known: both sides began alike; else they count from where
-    they agree first."""
-    mine = [change for change in chip.changes if start <= change[0]]
-    other = [change for change in model.changes if start <= change[0]]
+) -> tuple[Column, list[Difference]]:
+    """ps between the edges of each pair, as (chip's time, distance), and edges without a partner. known: both
+    sides began alike; else they count from where they agree first."""
+    np = numpy()
+    mine, levels = chip.since(start)
+    other, theirs = model.since(start)
     if not known and level_at(chip, start) != level_at(model, start):
-        # Whoever changes first comes to agree with the other.
-        mine_first = mine[0][0] if mine else end + 1
-        other_first = other[0][0] if other else end + 1
-        (mine if mine_first < other_first else other)[:1] = []
-    pairs: list[tuple[int, int]] = []
+        # The side that changes first agrees with the other from then on.
+        if int(mine[0] if len(mine) else end + 1) < int(other[0] if len(other) else end + 1):
+            mine, levels = mine[1:], levels[1:]
+        else:
+            other, theirs = other[1:], theirs[1:]
+    # Most edges have their partner at the same place of both lists.
+    least = min(len(mine), len(other))
+    same = (np.abs(mine[:least] - other[:least]) <= tolerance) & (levels[:least] == theirs[:least])
+    head = least if same.all() else int(np.argmin(same))
+    apart = [np.abs(mine[:head] - other[:head])]
+    rest = (mine[head:].tolist(), levels[head:].tolist(), other[head:].tolist(), theirs[head:].tolist())
+    pairs, wrong = _unlike(name, rest, end, tolerance)
+    apart.append(np.array(pairs, np.int64))
+    return np.concatenate(apart), wrong
+
+
+def _unlike(
+    name: str, sides: tuple[list[int], list[int], list[int], list[int]], end: int, tolerance: int
+) -> tuple[list[int], list[Difference]]:
+    """Distances of pairs, and edges without a partner, from where the sides are not alike."""
+    mine, levels, other, theirs = sides
+    pairs: list[int] = []
     wrong: list[Difference] = []
+    never = end + 2 * tolerance + 1
     i = j = 0
     while i < len(mine) or j < len(other):
-        a = mine[i] if i < len(mine) else (end + 2 * tolerance + 1, -1)
-        b = other[j] if j < len(other) else (end + 2 * tolerance + 1, -1)
-        if a[1] == b[1] and abs(a[0] - b[0]) <= tolerance:
-            pairs.append((a[0], b[0]))
+        a, x = (mine[i], levels[i]) if i < len(mine) else (never, -1)
+        b, y = (other[j], theirs[j]) if j < len(other) else (never, -1)
+        if x == y and abs(a - b) <= tolerance:
+            pairs.append(abs(a - b))
             i, j = i + 1, j + 1
-        elif a[0] <= b[0]:
-            if a[0] < end - tolerance:
-                wrong.append(Difference(name, a[0], a[1], True))
+        elif a <= b:
+            if a < end - tolerance:
+                wrong.append(Difference(name, a, x, True))
             i += 1
         else:
-            if b[0] < end - tolerance:
-                wrong.append(Difference(name, b[0], b[1], False))
+            if b < end - tolerance:
+                wrong.append(Difference(name, b, y, False))
             j += 1
     return pairs, wrong
+
+
+def _constant(
+    name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int
+) -> list[Difference]:
+    """The first of these times at which both sides are steady at different levels."""
+    np = numpy()
+    at = np.array(points, np.int64)
+    steady = np.ones(len(at), bool)
+    for side in (chip, model):
+        before = side.times.searchsorted(at - tolerance, "left")
+        steady &= before == side.times.searchsorted(at + tolerance, "right")
+    wrong = np.flatnonzero(steady & (chip.at_all(at) != model.at_all(at)))
+    if not len(wrong):
+        return []
+    t = points[int(wrong[0])]
+    return [Difference(name, t, level_at(chip, t), True, True)]
