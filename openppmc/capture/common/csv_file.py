@@ -87,7 +87,8 @@ class _Table:
         self.name, self.lines = name, lines
         self.rate: Fraction | None = None
         self.told: list[str] = []
-        self.sigrok = False
+        self.separator, self.unit = ",", None
+        self.timed = self.counted = False
         self.line = 0
         """Number of the line that was read last."""
 
@@ -129,8 +130,8 @@ class _Table:
             raise CaptureError(f"{self.name}: there is nothing in it: capture again")
         self._blame(before)
         raise CaptureError(
-            f"{self.name}: neither a column of times nor a sample rate: export it from Saleae Logic with times, "
-            "or from sigrok with its head"
+            f"{self.name}: neither a column of times nor a sample rate: export it from Saleae Logic with "
+            "times, or from sigrok with its head"
         )
 
     def _blame(self, before: list[tuple[str, int]]) -> None:
@@ -151,7 +152,6 @@ class _Table:
     def _comment(self, line: str) -> None:
         text = line.strip().lstrip(";#/ ").strip()
         self.rate = rate_in(text) or self.rate
-        self.sigrok |= "sigrok" in text.lower()
         match = re.match(r"Channels \(\d+/\d+\):\s*(.+)", text)
         if match:
             self.told = [name.strip() for name in match[1].split(",")]
@@ -167,7 +167,7 @@ class _Table:
             self.separator = separator
             self.timed = _is_time(heads[0]) or _is_samples(heads[0])
             self.counted = _is_samples(heads[0])
-            self.unit = _unit_of(heads[0])
+            self.unit = None if self.counted else _unit_of(heads[0])
             levels = cells[1:] if self.timed else cells
             if any(_level(cell) is None for cell in levels):
                 continue
@@ -183,7 +183,7 @@ class _Table:
                 continue
             heads = [one.strip() for one in heads]
             own = heads[1:] if self.timed else heads
-            if own and set(own) <= {"logic"} and len(own) > 1 or own == ["logic"]:
+            if own[0] == "logic" and set(own) <= {"logic", "Trigger"}:
                 own = self._names(len(own))
             own = [one or f"column {place + 1 + self.timed}" for place, one in enumerate(own)]
             return [heads[0], *own] if self.timed else own
@@ -202,6 +202,7 @@ class _Table:
             if len(cells) < 2 and separator != ",":
                 continue
             levels = [_level(cell) for cell in cells]
+            self.separator = separator
             timed = bool(self.told) and len(cells) == len(self.told) + 1
             if self.rate and None not in levels and not timed and "" not in cells:
                 self.timed = self.counted = False
@@ -268,7 +269,8 @@ class _Table:
             found = [_level(cell) for cell in (cells[1:] if self.timed else cells)]
             if len(cells) != count or None in found or cut:
                 raise self.fail(
-                    f"{line.strip()[:40]!r} is cut off or no row of levels: export it again, digital channels only"
+                    f"{line.strip()[:40]!r} is cut off or no row of levels: export it again, digital channels "
+                    "only"
                 )
             if self.timed:
                 stamps.append(self._checked(cells[0]))
@@ -342,7 +344,8 @@ class _Table:
         if (np.diff(found) < 0).any():
             back = int(np.flatnonzero(np.diff(found) < 0)[0]) + 1
             raise CaptureError(
-                f"{self.name}: row {rows[back] + 1} of the table is earlier than the one before: export it again"
+                f"{self.name}: row {rows[back] + 1} of the table is earlier than the one before: export it "
+                "again"
             )
         return found, sample
 
@@ -360,7 +363,9 @@ class _Table:
             return [Fraction(round(one)) for one in steps], period
         return values, unit_ps
 
-    def _capture(self, names: list[str], places: list[Any], levels: list[bytearray], times: Any, sample: int) -> Capture:
+    def _capture(
+        self, names: list[str], places: list[Any], levels: list[bytearray], times: Any, sample: int
+    ) -> Capture:
         import numpy as np
 
         channels = {}
@@ -368,7 +373,12 @@ class _Table:
             at, found = np.array(place, np.int64), np.frombuffer(bytes(level), np.uint8)
             hidden, known = found >> 1, found & 1
             channels[name] = Channel.of(
-                int(known[0]), times[at[1:]], known[1:], 1, hidden[1:] if hidden.any() else None, int(hidden[0])
+                int(known[0]),
+                times[at[1:]],
+                known[1:],
+                1,
+                hidden[1:] if hidden.any() else None,
+                int(hidden[0]),
             )
         return Capture(self.name, channels, int(times[-1]), sample)
 

@@ -208,8 +208,8 @@ def _check(kind: DecodeKind, wires: Wires, capture: Capture, blank: Sequence[str
         lost_levels = next((name for name in blank if name.partition("[")[0] == pin), None)
         if lost_levels:
             raise CaptureError(
-                f"{capture.name}: {lost_levels} has no known level (x or z all the time): nothing can be read "
-                "without it; capture it"
+                f"{capture.name}: {lost_levels} has no known level (x or z all the time): nothing can be "
+                "read without it; capture it"
             )
         low = kind.pins.low(pin)
         have = wires.bits.get(pin, {})

@@ -165,8 +165,8 @@ class _Head:
         match = re.fullmatch(r"(\d+(?:\.\d+)?(?:e-?\d+)?)?([munpfaµ]?s)", text)
         if match is None or not Fraction(match[1] or 1):
             raise CaptureError(
-                f"{self.name}: line {line}: $timescale {text}: expected a number and s, ms, us, ns, ps or fs; "
-                "correct it by hand"
+                f"{self.name}: line {line}: $timescale {text}: expected a number and s, ms, us, ns, ps or "
+                "fs; correct it by hand"
             )
         self.scale = Fraction(match[1] or 1) * _UNITS_OF[match[2]]
 
@@ -273,7 +273,8 @@ class _Body:
         raw = [self._code_bytes(code) for code in self.codes]
         if len(self.codes) > 30_000 or any(len(one) > 8 for one in raw):
             raise CaptureError(
-                f"{head.name}: {len(self.codes)} variables or very long identifier codes: export only the pins"
+                f"{head.name}: {len(self.codes)} variables, or very long identifier codes: export only the "
+                "pins"
             )
         keys = np.array([int.from_bytes(one, "little") for one in raw], np.uint64)
         self.order = np.argsort(keys)
@@ -307,9 +308,7 @@ class _Body:
         if self.start is None:
             raise CaptureError(f"{head.name}: no time stamp in it: capture again")
         made = {
-            code: variable.channel(self.start)
-            for code, variable in head.variables.items()
-            if variable.width
+            code: variable.channel(self.start) for code, variable in head.variables.items() if variable.width
         }
         channels = {name: made[code] for name, code in head.named.items()}
         return Capture(
@@ -489,9 +488,13 @@ class _Body:
                 full = (1 << variable.width) - 1
                 kind = np.dtype(level_type(variable.width)).type
                 level, doubt = level.astype(kind), doubt.astype(kind) * kind(full)
-            variable.pieces.append((times[begin:end].copy(), level.copy(), doubt.copy() if doubt.any() else None))
+            variable.pieces.append(
+                (times[begin:end].copy(), level.copy(), doubt.copy() if doubt.any() else None)
+            )
 
-    def _vectors(self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any) -> None:
+    def _vectors(
+        self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any
+    ) -> None:
         """Changes of vectors: extended to the left as the format wants it."""
         np = self.np
         variables = self._lookup(data, buf, starts[which + 1], ends[which + 1])
