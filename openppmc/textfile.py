@@ -36,6 +36,8 @@ def encoding_of(head: bytes) -> str:
 def decode_text(data: bytes) -> str:
     """Return the text in `data`. Bytes that are not UTF-8 are read as Latin-1. Raises NotTextError."""
     encoding = encoding_of(data[:64])
+    if encoding in ("utf-16", "utf-32") and len(data) <= 4:
+        raise NotTextError("line 1: a byte order mark and no text; save it as UTF-8")
     try:
         text = data.decode(encoding)
     except UnicodeDecodeError as error:

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from .kind import Access, Wires
-from .signals import Channel, numpy
+from .signals import Channel, numpy, slices
+
+if TYPE_CHECKING:
+    from .signals import Column
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
 """Whether these levels are a write strobe, a read strobe."""
@@ -19,30 +23,39 @@ def accesses(
     np = numpy()
     data, where = _bus(wires, bus), wires.ports.get(address)
     channels = {pin: wires.ports[pin] for pin in pins if pin in wires.ports}
-    moments = np.unique(np.concatenate([np.zeros(0, np.int64), *(one.times for one in channels.values())]))
     # Each combination of levels is decoded once: it is a number with the levels of one pin after the other.
-    number = np.zeros(len(moments), np.int64)
-    start = 0
-    bases = {}
-    base = 1
+    places: dict[str, int] = {}
+    width = start = 0
     for pin, channel in channels.items():
-        number += channel.at_all(moments).astype(np.int64) * base
-        start += channel.initial * base
-        bases[pin] = base
-        base <<= channel.width
+        places[pin] = width
+        start |= channel.initial << width
+        width += channel.width
 
     def kind(value: int) -> int:
-        levels = {pin: value // bases[pin] & (1 << one.width) - 1 for pin, one in channels.items()}
+        levels = {pin: value >> places[pin] & (1 << one.width) - 1 for pin, one in channels.items()}
         write, read = strobes({**idle, **levels})
         return int(write) | int(read) << 1
 
-    values, back = np.unique(number, return_inverse=True)
-    kinds = np.array([kind(value) for value in values.tolist()], np.int8)[back.reshape(-1)]
-    before = np.concatenate((np.array([kind(start)], np.int8), kinds[:-1])) if len(kinds) else kinds
-    turns = np.flatnonzero(kinds != before)
-    times, kinds = moments[turns], kinds[turns]
-    whole = np.flatnonzero(kinds[:-1] != 0)
-    begin, end, write = times[whole], times[whole + 1], kinds[whole] & 1
+    known: dict[int, int] = {}
+    table = np.zeros(1 << width, np.int8)
+    last = kind(start)
+    turns: list[Column] = []
+    for times in slices([one.times for one in channels.values()] or [np.zeros(0, np.int64)]):
+        number = np.zeros(len(times), np.uint16)
+        for pin, channel in channels.items():
+            number |= channel.at_all(times).astype(np.uint16) << np.uint16(places[pin])
+        for value in np.flatnonzero(np.bincount(number)).tolist():
+            if value not in known:
+                known[value] = table[value] = kind(value)
+        kinds = table[number]
+        turn = np.empty(len(kinds), bool)
+        turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
+        last = int(kinds[-1]) if len(kinds) else last
+        # The strobe in the lowest bits of the time.
+        turns.append(times[turn] << 2 | kinds[turn])
+    turned = np.concatenate([np.zeros(0, np.int64), *turns])
+    whole = np.flatnonzero(turned[:-1] & 3)
+    begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1
     # What the bus had while the strobe was still there. Sampled wires that change together may be a sample
     # apart: before the last sample of the strobe, or in its middle if it is that short.
     seen = np.maximum((begin + end) // 2, end - wires.sample - 1)

@@ -269,8 +269,8 @@ class _Table:
             found = [_level(cell) for cell in (cells[1:] if self.timed else cells)]
             if len(cells) != count or None in found or cut:
                 raise self.fail(
-                    f"{line.strip()[:40]!r} is cut off or no row of levels: export it again, digital channels "
-                    "only"
+                    f"{line.strip()[:40]!r} is cut off or no row of levels: export it again, digital "
+                    "channels only"
                 )
             if self.timed:
                 stamps.append(self._checked(cells[0]))

@@ -112,6 +112,9 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
         for port, places in bits.items()
         if len(places) == kind.pins.widths[port]
     }
+    for port, whole in ports.items():
+        if whole.width > 1:
+            bits[port] = Bits(whole)
     told = dict(capture.parameters) if name == capture.part else {}
     timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
     crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))

@@ -75,8 +75,9 @@ class DecodeKind:
     a capture begins in the middle. straps: levels that the model has from the beginning. parameters: of
     the model, that the capture tells. prelude: brings a
     fresh model to where a capture begins. axis_of: to which axis a bit of a port belongs, 0: to all.
-    rests: levels of the outputs in a reset. initialised: without a reset or an initialisation nothing can be compared. pause: ps at a 16 MHz
-    crystal between two moves (the slowest rate of a byte makes 2.05 ms); more if the pulses are that slow.
+    rests: levels of the outputs in a reset. initialised: without a reset or an initialisation nothing can
+    be compared. pause: ps at a 16 MHz crystal between two moves (the slowest rate of a byte makes 2.05 ms);
+    more if the pulses are that slow.
     """
 
     called: str

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from array import array
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
 US = 1_000_000
 """Picoseconds of a microsecond."""
 SECOND = 10**12
-X = 2
-"""Level of a single wire that the file states as unknown (x, z, no cell)."""
+BLOCK = 1 << 16
+"""Rows of a column that are worked on at a time, so that temporary columns are short."""
 
 
 def numpy(what: str = "a capture") -> Any:
@@ -159,9 +160,12 @@ class Channel:
         np = numpy()
         if not len(self):
             return np.full(len(times), self.initial, self.levels.dtype)
-        place = self.times.searchsorted(times, "right")
-        found = self.levels[np.maximum(place - 1, 0)]
-        found[place == 0] = self.initial
+        found = np.empty(len(times), self.levels.dtype)
+        for at in range(0, len(times), BLOCK):
+            place = self.times.searchsorted(times[at : at + BLOCK], "right")
+            piece = self.levels[np.maximum(place - 1, 0)]
+            piece[place == 0] = self.initial
+            found[at : at + BLOCK] = piece
         return found
 
     def since(self, t: int) -> tuple[Column, Column]:
@@ -194,8 +198,13 @@ class Capture:
         np = numpy()
         step = 0
         for one in self.channels.values():
-            if len(one) and step != 1:
-                step = int(np.gcd(step, np.gcd.reduce(one.times)))
+            if not len(one) or step == 1:
+                continue
+            step = int(np.gcd(step, np.gcd.reduce(one.times[:1000])))
+            for at in range(0, len(one), BLOCK):
+                piece = one.times[at : at + BLOCK]
+                if (piece % step).any():
+                    step = int(np.gcd(step, np.gcd.reduce(piece)))
         return step
 
 
@@ -233,13 +242,41 @@ def joined(bits: Sequence[Channel]) -> Channel:
     width = len(bits)
     if width == 1:
         return bits[0]
-    times = np.unique(np.concatenate([bit.times for bit in bits]))
-    levels = np.zeros(len(times), level_type(width))
-    for place, bit in enumerate(bits):
-        levels |= bit.at_all(times).astype(levels.dtype) << levels.dtype.type(place)
-    whole = Channel(sum(bit.initial << place for place, bit in enumerate(bits)), (), width)
-    whole.times, whole.levels = times, levels
+    kind = np.dtype(level_type(width)).type
+    level = sum(bit.initial << place for place, bit in enumerate(bits))
+    times, levels = array("q"), bytearray()
+    for piece in slices([bit.times for bit in bits]):
+        now = np.zeros(len(piece), kind)
+        for place, bit in enumerate(bits):
+            now |= bit.at_all(piece).astype(kind, copy=False) << kind(place)
+        times.frombytes(piece.tobytes())
+        levels += now.tobytes()
+    whole = Channel(level, (), width)
+    whole.times, whole.levels = np.frombuffer(times, np.int64), np.frombuffer(levels, kind)
     return whole
+
+
+def slices(columns: Sequence[Column]) -> Iterator[Column]:
+    """Yield all times of these columns, each once, in order, in short pieces."""
+    longest = max(columns, key=len)
+    places = [0] * len(columns)
+    for at in range(BLOCK, len(longest) + BLOCK, BLOCK):
+        ends = [len(one) for one in columns]
+        if at < len(longest):
+            ends = [int(one.searchsorted(longest[at], "left")) for one in columns]
+        parts = [one[a:b] for one, a, b in zip(columns, places, ends, strict=True)]
+        places = ends
+        yield moments(parts)
+
+
+def moments(columns: Sequence[Column]) -> Column:
+    """Return all times of these columns, each once, in order."""
+    np = numpy()
+    times = np.concatenate([np.zeros(0, np.int64), *columns])
+    times.sort(kind="stable")
+    keep = np.ones(len(times), bool)
+    np.not_equal(times[1:], times[:-1], out=keep[1:])
+    return times[keep]
 
 
 class Bits(Mapping[int, Channel]):

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import re
+from array import array
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -30,6 +31,7 @@ _MARK = "openppmc "
 _END = re.compile(rb"\$enddefinitions\s+\$end\s")
 _SECTION = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s.*?\$end(?=\s)", re.DOTALL)
 _OPEN = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s")
+_TEXTS = (b"$comment", b"$date", b"$version", b"$vcdclose")
 _RANGE = re.compile(r"\[\s*(-?\d+)\s*(?::\s*(-?\d+)\s*)?\]$")
 _WIDEST = 64
 _MOST_PS = 1 << 62
@@ -60,32 +62,43 @@ def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
 
 
 class _Variable:
-    """A declared variable: its changes so far, in pieces."""
+    """A declared variable with its changes so far, in columns that grow."""
 
     def __init__(self, width: int, indices: range) -> None:
         self.width, self.indices = width, indices
-        self.pieces: list[tuple[Any, Any, Any]] = []
+        self.code = {"u1": "B", "u2": "H", "u4": "I", "u8": "Q"}[level_type(width)]
+        self.times, self.levels, self.unknown = array("q"), array(self.code), array(self.code)
+
+    def add(self, times: Any, levels: Any, unknown: Any) -> None:
+        """More changes. unknown: None if all levels are known."""
+        if unknown is not None:
+            missing = len(self.levels) - len(self.unknown)
+            self.unknown.frombytes(bytes(missing * self.unknown.itemsize))
+            self.unknown.frombytes(unknown.tobytes())
+        self.times.frombytes(times.tobytes())
+        self.levels.frombytes(levels.tobytes())
 
     def channel(self, start: int) -> Channel:
-        """The channel, its times from `start` on. Takes the pieces."""
+        """The channel, its times from `start` on. Takes the columns."""
         import numpy as np
 
-        full = (1 << self.width) - 1
-        kind = level_type(self.width)
-        pieces, self.pieces = self.pieces, []
-        times = np.concatenate([np.zeros(0, np.int64), *(one[0] for one in pieces)])
-        levels = np.concatenate([np.zeros(0, kind), *(one[1] for one in pieces)])
+        full, kind = (1 << self.width) - 1, level_type(self.width)
+        times = np.frombuffer(self.times, np.int64)
+        levels = np.frombuffer(self.levels, kind)
         unknown = None
-        if any(one[2] is not None for one in pieces):
-            unknown = np.concatenate([one[1] & 0 if one[2] is None else one[2] for one in pieces])
-        times -= start
+        if len(self.unknown):
+            self.unknown.frombytes(bytes((len(levels) - len(self.unknown)) * self.unknown.itemsize))
+            unknown = np.frombuffer(self.unknown, kind)
+        self.times = self.levels = self.unknown = array("q")
+        if start:
+            times = times - start
         # Levels at the first time stamp are those that the capture begins with.
         first = int(times.searchsorted(0, "right"))
         initial, hidden = (0, full) if not first else (int(levels[first - 1]), 0)
         if first and unknown is not None:
             hidden = int(unknown[first - 1])
         if unknown is None and hidden:
-            unknown = levels & 0
+            unknown = np.zeros_like(levels)
         return Channel.of(
             initial,
             times[first:],
@@ -328,7 +341,7 @@ class _Body:
     def _piece(self, data: bytes, final: bool) -> bytes:
         """Read all whole tokens; the rest, for the next piece."""
         np = self.np
-        if b"$" in data:
+        if any(word in data for word in _TEXTS):
             data = _SECTION.sub(lambda match: b"\n" * match[0].count(b"\n") + b" ", data)
             opened = _OPEN.search(data)
             if opened is not None:
@@ -488,9 +501,7 @@ class _Body:
                 full = (1 << variable.width) - 1
                 kind = np.dtype(level_type(variable.width)).type
                 level, doubt = level.astype(kind), doubt.astype(kind) * kind(full)
-            variable.pieces.append(
-                (times[begin:end].copy(), level.copy(), doubt.copy() if doubt.any() else None)
-            )
+            variable.add(times[begin:end], level, doubt if doubt.any() else None)
 
     def _vectors(
         self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any
@@ -502,7 +513,7 @@ class _Body:
         number = np.isin(first, np.frombuffer(b"rRsS", np.uint8))
         alone = ends[which] - starts[which] == 1
         low = np.where(alone, starts[which], starts[which] + 1)
-        for variable in np.unique(variables).tolist():
+        for variable in np.flatnonzero(np.bincount(variables)).tolist():
             one = self.head.variables[self.codes[variable]]
             if not one.width:
                 continue
@@ -531,7 +542,7 @@ class _Body:
             if one.indices[0] > one.indices[-1]:
                 levels, unknown = self._turned(levels, one.width), self._turned(unknown, one.width)
             times = stamps[at[which[rows]]]
-            one.pieces.append((times, levels, unknown if unknown.any() else None))
+            one.add(times, levels, unknown if unknown.any() else None)
 
     def _turned(self, values: Any, width: int) -> Any:
         """Numbers with their bits in the other order."""

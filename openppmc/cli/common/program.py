@@ -10,6 +10,7 @@ from typing import Any
 import typer
 
 from ...host import PpmcError
+from ...textfile import NotTextError, read_text
 from .reading import AXES, READERS, Numbered, Reader, none_left, read_axis, read_repeat
 from .words import own_words
 
@@ -41,12 +42,14 @@ def read_file(file: Path) -> tuple[str, str]:
     """Name and text of a script file; - is standard input. PpmcError."""
     name = "stdin" if str(file) == "-" else str(file)
     try:
-        text = typer.get_text_stream("stdin").read() if name == "stdin" else file.read_text(encoding="utf-8")
+        text = typer.get_text_stream("stdin").read() if name == "stdin" else read_text(file)
     except OSError as error:
         raise PpmcError(f"{file}: cannot be read ({error.strerror})") from error
+    except NotTextError as error:
+        raise PpmcError(f"{file}: not a text file in UTF-8 or UTF-16: {error}") from error
     except UnicodeDecodeError as error:
         raise PpmcError(f"{file}: not a text file in UTF-8") from error
-    return name, text
+    return name, text.removeprefix("\ufeff")
 
 
 def read_program(

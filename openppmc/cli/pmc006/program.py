@@ -9,6 +9,7 @@ import typer
 
 from ...errors import PpmcError
 from ...model.pmc006.program import BadImage, Program, assemble, disassemble
+from ...textfile import NotTextError, read_text
 from ..common import output
 from .session import Address, opened
 
@@ -23,11 +24,11 @@ def _read(path: Path) -> Program:
     try:
         if path.suffix == ".bin":
             return Program.from_image(path.read_bytes())
-        return assemble(path.read_text(encoding="utf-8"), str(path))
+        return assemble(read_text(path), str(path))
     except BadImage as error:
         raise PpmcError(f"{path}: {error}") from None
-    except UnicodeDecodeError:
-        raise PpmcError(f"{path}: not a text; images end in .bin") from None
+    except NotTextError as error:
+        raise PpmcError(f"{path}: not a text; images end in .bin ({error})") from None
     except OSError as error:
         raise PpmcError(f"{path}: {error.strerror}") from error
 

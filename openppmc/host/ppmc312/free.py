@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Sequence
+from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
 from ...model.ppmc312.stages import curve
 from ...model.ppmc312.stages.tables import STAGES, SettingError
+from ...textfile import NotTextError, read_text
 from ..basis import units
 from ..basis.errors import OutOfRange
 from .errors import refused
@@ -109,7 +111,7 @@ def read_stages(path: Path) -> list[Stage]:
     and lines that begin with # are passed over. OutOfRange with file and line."""
     stages: list[Stage] = []
     try:
-        with path.open(newline="", encoding="utf-8") as file:
+        with StringIO(read_text(path)) as file:
             for place, row in enumerate(csv.reader(file), 1):
                 cells = [cell.strip() for cell in row]
                 if not any(cells) or cells[0].startswith("#") or (not stages and _is_names(cells)):
@@ -128,8 +130,8 @@ def read_stages(path: Path) -> list[Stage]:
                 stages.append(Stage(pps, up, down))
     except OSError as error:
         raise OutOfRange(f"{path}: cannot be read ({error.strerror})") from error
-    except UnicodeDecodeError as error:
-        raise OutOfRange(f"{path}: not a text file in UTF-8") from error
+    except NotTextError as error:
+        raise OutOfRange(f"{path}: not a text file in UTF-8 or UTF-16: {error}") from error
     return stages
 
 

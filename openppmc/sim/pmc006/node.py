@@ -13,6 +13,7 @@ from ...model.pmc006.part import Pmc006
 from ...model.pmc006.pins import Shared
 from ...model.pmc006.program import assemble
 from ...model.pmc006.settings import Settings, page_of
+from ...textfile import read_text
 from ..common.char_line import LineStation
 from .eeprom import Eeprom, QuickBus
 from .line_spec import FACTORY, UNIT, Carriage, LineSpec
@@ -33,7 +34,7 @@ def first_content(address: int, carriage: Carriage) -> bytes:
         return b""
     content = page_of(Settings(addr=address, offline=int(carriage.program is not None)))
     if carriage.program is not None:
-        text = carriage.program.read_text(encoding="utf-8")
+        text = read_text(carriage.program)
         content = content.ljust(PROGRAM, bytes([BLANK])) + assemble(text, str(carriage.program)).image()
     return content
 
