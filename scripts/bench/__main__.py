@@ -17,7 +17,7 @@ from cocotb_tests.harness.build import SimError
 from cocotb_tests.harness.project import console
 from openppmc.host import PpmcError
 from openppmc.sim import SimError as BoardError
-from scripts.bench import board, costs
+from scripts.bench import board, captures, costs
 from scripts.bench.sides import LABELS, PLAIN, Times, turns
 from scripts.demo.demos import Demo
 from scripts.flow.machine import machine
@@ -102,6 +102,7 @@ def bench(name: str, demo: Demo) -> None:
             costs.HEADS,
             costs.rows(costs.measure()),
         )
+        captures.bench()
     tell(name, f"run of `make demo PART={name}`, median of {RUNS} turns", text, HEADS, rows)
     console.print("written: docs/benchmarks.md")
 
