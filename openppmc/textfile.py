@@ -45,8 +45,8 @@ def decode_text(data: bytes) -> str:
             line = data[: error.start].count(b"\n") + 1
             raise NotTextError(f"line {line}: cut off or damaged; save it as UTF-8") from None
         text = data.decode("latin-1")
-    for number, line in enumerate(text.split("\n"), 1):
-        bad = next((one for one in line if ord(one) in _CONTROL), None)
+    for number, row in enumerate(text.split("\n"), 1):
+        bad = next((one for one in row if ord(one) in _CONTROL), None)
         if bad is not None:
             raise NotTextError(f"line {number}: byte {ord(bad):02X} is no text; save it as UTF-8")
     return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -234,9 +234,9 @@ def _clk_hz(decoded: Decoded) -> int:
         return int(str(decoded.wires.params["CLK_HZ"]))
     clk = decoded.wires.bits.get("clk", {}).get(0)
     if clk is not None:
-        rises = clk.times[clk.levels == 1].tolist()
+        rises = clk.times[clk.levels == 1]
         if len(rises) > 100:
-            hz = round((len(rises) - 1) * SECOND / (rises[-1] - rises[0]))
+            hz = round((len(rises) - 1) * SECOND / int(rises[-1] - rises[0]))
             near = round(hz, -4)
             return near if abs(near - hz) <= hz // 50_000 else hz
     return CLK_HZ
@@ -355,7 +355,7 @@ def _judge(
 
 
 def _same_place(
-    port: str, places: dict[int, Channel], played: _Played, starts: dict[int, int], kind: DecodeKind
+    port: str, places: Mapping[int, Channel], played: _Played, starts: dict[int, int], kind: DecodeKind
 ) -> bool:
     """Whether chip and model show the same phases when the comparison begins."""
     start = starts.get(kind.axis_of(port, 0), starts[0]) + SETTLED

@@ -38,7 +38,7 @@ _LONGEST = 1 << 62
 PREAMBLE = 100
 """Lines before the table, at most."""
 _SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
-"""ps (as 10**n) of the unit in which sigrok writes a sample rate up to so many Hz."""
+"""ps (as 10**n) of the unit in which sigrok writes a sample rate up to that number of Hz."""
 
 
 def read_csv(path: Path) -> Capture:
@@ -87,7 +87,8 @@ class _Table:
         self.name, self.lines = name, lines
         self.rate: Fraction | None = None
         self.told: list[str] = []
-        self.separator, self.unit = ",", None
+        self.separator = ","
+        self.unit: Fraction | None = None
         self.timed = self.counted = False
         self.line = 0
         """Number of the line that was read last."""
@@ -359,7 +360,7 @@ class _Table:
             return [one / cut for one in values], period
         first = values[0]
         steps = [(one - first) * unit_ps / period for one in values]
-        if all(abs(one - round(one)) * period <= max(unit_ps, 1000) for one in steps):
+        if all(abs(one - round(one)) * period <= max(unit_ps, Fraction(1000)) for one in steps):
             return [Fraction(round(one)) for one in steps], period
         return values, unit_ps
 

@@ -80,7 +80,8 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
 
 def edges_of(channel: Channel, level: int) -> Column:
     """Times at which a wire takes this level."""
-    return channel.times[channel.levels == level]
+    times: Column = channel.times[channel.levels == level]
+    return times
 
 
 def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) -> Train | None:

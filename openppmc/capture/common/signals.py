@@ -159,8 +159,9 @@ class Channel:
         """Return the levels at many times."""
         np = numpy()
         if not len(self):
-            return np.full(len(times), self.initial, self.levels.dtype)
-        found = np.empty(len(times), self.levels.dtype)
+            one: Column = np.full(len(times), self.initial, self.levels.dtype)
+            return one
+        found: Column = np.empty(len(times), self.levels.dtype)
         for at in range(0, len(times), BLOCK):
             place = self.times.searchsorted(times[at : at + BLOCK], "right")
             piece = self.levels[np.maximum(place - 1, 0)]
@@ -272,11 +273,12 @@ def slices(columns: Sequence[Column]) -> Iterator[Column]:
 def moments(columns: Sequence[Column]) -> Column:
     """Return all times of these columns, each once, in order."""
     np = numpy()
-    times = np.concatenate([np.zeros(0, np.int64), *columns])
+    times: Column = np.concatenate([np.zeros(0, np.int64), *columns])
     times.sort(kind="stable")
     keep = np.ones(len(times), bool)
     np.not_equal(times[1:], times[:-1], out=keep[1:])
-    return times[keep]
+    times = times[keep]
+    return times
 
 
 class Bits(Mapping[int, Channel]):

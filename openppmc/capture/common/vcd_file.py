@@ -298,7 +298,8 @@ class _Body:
             self.small = np.full(65536, -1, np.int32)
             self.small[keys] = np.arange(len(keys))
         self.kinds = np.array([head.variables[code].width for code in self.codes], np.int64)
-        self.now, self.start, self.last = 0, None, 0
+        self.now = 0
+        self.start: int | None = None
         self.level = np.full(256, 255, np.uint8)
         for text, value in (("0Ll", 0), ("1Hh", 1), ("xXzZuUwW-", 2)):
             for one in text:

@@ -185,7 +185,7 @@ def _plot(found: Decoded, path: Path) -> None:
         raise typer.BadParameter(f"--plot {path}: pictures end in {', '.join(FORMATS)}")
     if not found.moves:
         raise CaptureError(f"{found.capture}: no pulses in it: there is no speed to be drawn")
-    drawn = [(one.axis, [run for run, _ in runs(one, found.pause)]) for one in found.trains]
+    drawn = [(one.axis, [run.tolist() for run, _ in runs(one, found.pause)]) for one in found.trains]
     try:
         draw_capture(drawn, f"{found.kind.called}: {found.capture}", path)
     except OSError as error:

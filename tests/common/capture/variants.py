@@ -72,7 +72,7 @@ def saleae(
     separator: str = ",",
     level: Callable[[int], str] = str,
 ) -> Path:
-    """A row a change, each time shifted by so many s."""
+    """A row a change, each time shifted by a number of s."""
     write_saleae(seen, path)
     text = path.read_text().splitlines()
     rows = [f"{head}{separator}" + separator.join(text[0].split(",")[1:])]
