@@ -33,6 +33,7 @@ _SECTION = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s.*?\$
 _OPEN = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s")
 _TEXTS = (b"$comment", b"$date", b"$version", b"$vcdclose")
 _RANGE = re.compile(r"\[\s*(-?\d+)\s*(?::\s*(-?\d+)\s*)?\]$")
+_LEFT_OUT = ": a number, not a level, left out"
 _WIDEST = 64
 _MOST_PS = 1 << 62
 
@@ -127,6 +128,9 @@ class _Head:
         if not self.scale:
             self.scale = Fraction(1000)
             self.notes.append("no $timescale in it, 1 ns is assumed")
+        if self.part:
+            # Our own files have curves of the speed for a viewer.
+            self.notes = [note for note in self.notes if not note.endswith(_LEFT_OUT)]
         self._name(declared)
 
     def _sections(self, text: str) -> list[tuple[tuple[str, ...], str, int, list[str]]]:
@@ -166,9 +170,7 @@ class _Head:
                     ) from None
                 if kind in ("real", "realtime", "string", "parameter") or size > _WIDEST:
                     self.variables.setdefault(code, _Variable(0, range(0)))
-                    self.notes += (
-                        [f"{' '.join(words)}: a number, not a level, left out"] if kind == "real" else []
-                    )
+                    self.notes += [f"{' '.join(words)}{_LEFT_OUT}"] if kind == "real" else []
                 else:
                     declared.append((tuple(scopes), code, size, words))
             place = after + 1
