@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ram: block RAM with one write and one read port.
-// Timing: rdata_o stands two clk after raddr_i: block RAMs answer slowly, so their output has a register.
-//         Nobody reads the address that is being written (it may give either word).
+// Timing: latency: two cycles from raddr_i to rdata_o. Block RAMs are slow, so their output has a register.
+// Assumes: no block reads an address in the cycle in which it is written (the read may return either word).
 // Note:   contents are not reset; they start as zeros, and every user writes before it reads.
 `default_nettype none
 
@@ -14,7 +14,7 @@ module ppmc_ram #(
     input  wire logic [AddrBits-1:0] waddr_i,  // where
     input  wire logic [   Width-1:0] wdata_i,  // what
     input  wire logic [AddrBits-1:0] raddr_i,  // where to read
-    output logic      [   Width-1:0] rdata_o   // what stands there, one clk later
+    output logic      [   Width-1:0] rdata_o   // word at raddr_i, valid two cycles later
 );
 
   (* ram_style = "block", no_rw_check *)
