@@ -14,7 +14,7 @@ module stmc
     parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
     parameter string       TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
-    parameter string       READ_MAP    = "SHEET",     // or "FAMILY": read codes of the sister parts
+    parameter string       READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
     parameter bit          PHASE_IDLE  = 1'b0,        // level of s until the first initialisation
     parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
     parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper, crystal periods

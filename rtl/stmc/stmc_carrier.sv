@@ -10,7 +10,7 @@ module stmc_carrier #(
     parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter string       TIMING     = "FAST",
-    parameter string       READ_MAP   = "SHEET",     // or "FAMILY"
+    parameter string       READ_MAP   = "FAMILY",    // or "SHEET"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
     parameter string       HOST       = "UART",      // or "BUS"

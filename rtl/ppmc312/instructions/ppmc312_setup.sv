@@ -25,7 +25,7 @@ module ppmc312_setup
     output entry_t                  entry_o,      // a word of a free curve
     output logic                    close_o,      // strobe: that is complete
     input  wire logic               unit_busy_i,  // the table cannot be used yet
-    input  wire logic               thin_i        // a stage has two pulses or less: no table
+    input  wire logic               thin_i        // a stage has at most 1 pulse: no table
 );
 
   typedef enum logic [1:0] {

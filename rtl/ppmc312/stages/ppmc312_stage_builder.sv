@@ -17,7 +17,7 @@ module ppmc312_stage_builder
     input wire logic start_i,  // strobe
     input wire curve_t curve_i,  // steady while busy
     output logic busy_o,  // from the clk after start_i until all is written
-    output logic thin_o,  // a stage has two pulses or less; stands until the next start
+    output logic thin_o,  // a stage has at most 1 pulse; valid until the next start
     output entry_t entry_o,  // into the table
     output logic [1:0] begins_o,  // strobes: with its stage the sides begin, unless there is a later one
     input wire logic [6:0] first_acc_i,  // the last one of those, 0 .. 126
@@ -231,7 +231,7 @@ module ppmc312_stage_builder
         StShare: if (done) state_q <= StPulses;
         StPulses: if (done) state_q <= StWrite;
         StWrite: begin
-          if (open_q[side_q] && lo_i[23:2] == '0 && lo_i[1:0] != 2'd3) thin_o <= 1'b1;
+          if (open_q[side_q] && lo_i[23:1] == '0) thin_o <= 1'b1;
           side_q  <= !last_side;
           state_q <= last_side ? StNext : open_q[1] ? StShare : StNext;
           if (!last_side && !open_q[1]) side_q <= 1'b0;

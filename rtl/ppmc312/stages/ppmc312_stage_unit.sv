@@ -17,7 +17,7 @@ module ppmc312_stage_unit
     input  wire logic              build_i,      // strobe: from curve_i, steady while busy
     input  wire curve_t            curve_i,      // the ramp
     output logic                   busy_o,       // the table cannot be used yet
-    output logic                   thin_o,       // a stage has two pulses or less: no table
+    output logic                   thin_o,       // a stage has at most 1 pulse: no table
     // free curve
     input  wire logic              open_i,       // strobe: a transfer begins: sides and base clock
     input  wire logic        [6:0] open_acc_i,   // their first stages
