@@ -27,6 +27,7 @@ LEAST: dict[str, int] = {
     "pulses": 5_000,
     "pulses in table": 1_200,
     "equal neighbours in table": 200,
+    "computed stages of 2": 100,
     "searched pulses": 20,
     "87 dropped at the point": 1,
     "start finite table": 80,
@@ -146,6 +147,8 @@ def counting() -> Iterator[Counter[str]]:
         if step.stage is not None:
             around = self.plan.table.rates[max(step.stage - 1, self.plan.table.first) : step.stage + 2]
             counts["equal neighbours in table"] += around.count(step.rate) > 1
+            side = self.plan.table.pd if step.planned else self.plan.table.pa
+            counts["computed stages of 2"] += self.plan.table.first == 0 and side[step.stage] == 2
         return step
 
     def counted_final(self: Sequence) -> None:

@@ -28,8 +28,8 @@ DURING = (0x80, 0x81, 0x89, 0x8A, 0x8A, 0x42, 0x4D, 0x40, 0x25, 0x26, 0x41)
 SETTINGS = (0x02, 0x03, 0x04, 0x05, 0x06, 0x20, 0x21, 0x22, 0x23, 0x24, 0x28, 0x43, 0x44, 0x45, 0x63)
 BLOCKS = ("0120", "0121", "022615", "022600", "028000", "028100", "028400", "0125", "0146", "0486000190")
 BLOCKS += ("08830001900000000A", "048800012C", "0487000190", "01FF", "0144", "022A00", "0404000000")
-TABLE = "00 00 01F4 00C8 000320"
-"""8 MHz, linear, 500 to 200, 800 pulses."""
+TABLE = "00 00 01F4 00C8 0001BD"
+"""8 MHz, linear, 500 to 200, 445 pulses: the least number, with stages of 2 pulses."""
 
 
 async def play(dut: Any, seed: int) -> None:
@@ -213,7 +213,7 @@ class Talker(Aware):
 
     async def table(self) -> None:
         """00, good or bad."""
-        bad = self.rng.choice(("00 00 01F4 00C8 000200", "00 00 01F4 0001 000320", "00 06 01F4 00C8 000320"))
+        bad = self.rng.choice(("00 00 01F4 00C8 0001BC", "00 00 01F4 0001 000320", "00 06 01F4 00C8 000320"))
         await self.instruct(bad if self.rng.random() < 0.4 else TABLE)
         if self.state is State.INI:
             await self.instruct(TABLE)

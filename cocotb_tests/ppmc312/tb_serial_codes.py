@@ -22,8 +22,8 @@ async def p312_serial_initial_setting(dut: Any) -> None:
     assert await host.ask(TS) == "90" and await host.state() == 0x02
     for bad in ("00 00 01F4 0001 000320", "00 00 0064 0096 000320", "00 00 00C8 0096 000320"):
         assert await host.ask(bad) == PARAMETER and await host.state() == 0x01
-    # A stage with two pulses or fewer is found while the table is built.
-    assert await host.ask("00 00 01F4 00C8 000200") == PARAMETER and await host.state() == 0x01
+    # A stage with only one pulse is found while the table is built.
+    assert await host.ask("00 00 01F4 00C8 0001BC") == PARAMETER and await host.state() == 0x01
     assert await host.ask("00 F8 01F4 00C8 000320") == "90" and await host.state() == 0x02
     assert await host.asks("85 01F4", TS) == ["90", STATE]
     assert await host.ask("80") == "90" and await host.settle() == [STOPPED]

@@ -30,6 +30,7 @@ MODULES = (
     "tb_bus",
     "tb_resets",
     "tb_settings",
+    "tb_least_tables",
     "tb_curves",
     "tb_motion_starts",
     "tb_motion_walks",

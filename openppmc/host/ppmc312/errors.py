@@ -85,7 +85,7 @@ _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
     0x02: (TableRefused, "start (or stop) and high speed are too close: more than 127 rate steps between"),
     0x03: (TableRefused, "the high speed must be above start and stop speed"),
     0x04: (TableRefused, "one of start and stop speed is too close to the high speed: 127 rate steps"),
-    0x05: (TableRefused, "the ramp is too short: each of its stages needs 3 pulses"),
+    0x05: (TableRefused, "the ramp is too short: each of its stages needs 2 pulses"),
     0x10: (CurveRefused, "a free curve begins with its number of stages"),
     0x11: (CurveRefused, "a free curve has 2 to 127 stages a side"),
     0x15: (CurveRefused, "a block of the free curve is too long"),

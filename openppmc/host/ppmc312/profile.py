@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import accumulate, pairwise
-from math import lcm
+from math import ceil
 
 from ...model.ppmc312.stages import tables
 from ...model.ppmc312.stages.tables import DIVIDERS, LEAST_PULSES, STAGES, SettingError, Table
@@ -139,10 +138,10 @@ def plan_setup(
     >>> setup = plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 2000)
     >>> setup.blocks[0].hex(" ")
     '03 09 00 01 03 e8 00 c8 00 07 d0'
-    >>> plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 1142)
+    >>> plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 761)
     Traceback (most recent call last):
-    openppmc.host.basis.errors.OutOfRange: 1142 pulses: the ramp is too short: each of its stages needs 3 \
-pulses: 1143 or more
+    openppmc.host.basis.errors.OutOfRange: 761 pulses: the ramp is too short: each of its stages needs 2 \
+pulses: 762 or more
     """
     separate = stop_pps is not None or down is not None
     start, high = clock.choose(start_pps, "start speed"), clock.choose(high_pps, "high speed")
@@ -166,25 +165,12 @@ pulses: 1143 or more
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:
-    """Fewest pulses of acceleration and deceleration that give each stage enough."""
+    """Return the fewest pulses of acceleration and deceleration; 127 * (1 + Rs / RH) for all 127 stages.
+
+    The slowest stage of a side has the smallest share, so it alone decides (P312-TBL-04, P312-TBL-05).
+    """
     start, stop, high = numbers
     speeds = tables.speeds(max(start, stop), high, sigmoid)
     rates = [int(1 / speed + Fraction(1, 2)) for speed in speeds]
-    firsts = [max(i for i, rate in enumerate(rates) if rate >= slow) for slow in (start, stop)]
-    unit = lcm(*(speed.denominator for speed in speeds))
-    return [_least_of([int(speed * unit) for speed in speeds[first:]]) for first in firsts]
-
-
-def _least_of(shares: Sequence[int]) -> int:
-    sums = list(accumulate(shares))
-
-    def fits(pulses: int) -> bool:
-        ends = [pulses * part // sums[-1] for part in sums]
-        return all(b - a > LEAST_PULSES for a, b in pairwise([0, *ends]))
-
-    low, enough = 0, 4 * sums[-1] // sums[0]
-    while enough - low > 1:
-        middle = (low + enough) // 2
-        low, enough = (low, middle) if fits(middle) else (middle, enough)
-    # Rounding makes the border uneven; one stage's worth above it everything fits.
-    return max((n for n in range(enough, enough + 2 * len(sums)) if not fits(n)), default=enough - 1) + 1
+    firsts = (tables.first_stage(rates, slow) for slow in (start, stop))
+    return [ceil(LEAST_PULSES * sum(speeds[first:]) / speeds[first]) for first in firsts]

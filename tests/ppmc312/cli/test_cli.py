@@ -189,7 +189,7 @@ def test_words_that_other_parts_do_not_know(run: Run, tmp_path: Path, line: str)
     [
         (("move", "10", "--pulse-only"), "pulse only: a PPMC-312 does not have that", 1),
         (("move", "10", "--phases", "5"), "phase outputs: a PPMC-312 does not have that", 1),
-        (("move", "10", "--ramp", "300"), "each of its stages needs 3 pulses: 1143 or more", 1),
+        (("move", "10", "--ramp", "300"), "each of its stages needs 2 pulses: 762 or more", 1),
         (("move", "10", "--speed", "20000"), "outside 1000 to 5000 pps, the speeds of the table", 1),
         (("move", "10", "--at", "5"), "--at '5' is not POSITION:stop", 2),
         (("move", "10", "--at", "5:-4"), "--at '5:-4' is not POSITION:stop", 2),

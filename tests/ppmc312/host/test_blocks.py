@@ -28,6 +28,7 @@ from openppmc.host.ppmc312.registers import EventBuffer, Inputs, Status
 from openppmc.model import Timebase, predict_move
 from openppmc.model.ppmc312.codes import Cause, State
 from openppmc.model.ppmc312.predict import TableMove
+from openppmc.model.ppmc312.stages import tables
 
 XTAL = 16_000_000
 MEGAHERTZ = base_clocks(XTAL)[1]
@@ -285,6 +286,32 @@ def test_initial_settings() -> None:
 
 
 @pytest.mark.parametrize(
+    ("start", "high", "stop", "sigmoid", "least"),
+    [
+        (1000, 200, None, False, [762]),
+        (0xFFFF, 0xFF7F, None, True, [255]),
+        (132, 4, None, False, [4318]),
+        (300, 100, None, True, [508]),  # R[0] = R[1] = R[2]
+        (1000, 200, 500, False, [762, 338]),  # sd = 31
+        (500, 200, 1000, True, [325, 762]),
+    ],
+)
+def test_fewest_pulses_of_a_ramp(
+    start: int, high: int, stop: int | None, sigmoid: bool, least: list[int]
+) -> None:
+    """The driver names the least number of pulses; one less is error 05 (P312-TBL-05)."""
+    rates = (start, start if stop is None else stop, high)
+    assert profile._least(rates, sigmoid)[: len(least)] == least
+    least = (2 * least)[:2]
+    tables.build(*rates, *least, sigmoid=sigmoid, separate=stop is not None)
+    for side in range(len(least) if stop else 1):
+        short = [pulses - (at == side) for at, pulses in enumerate(least)]
+        with pytest.raises(tables.SettingError) as refused:
+            tables.build(*rates, *short, sigmoid=sigmoid, separate=stop is not None)
+        assert refused.value.number == 0x05
+
+
+@pytest.mark.parametrize(
     ("arguments", "text"),
     [
         ({"start_pps": 0.2}, "start speed 0.2 pps is outside 0.238422 to 7812.5 pps"),
@@ -292,12 +319,12 @@ def test_initial_settings() -> None:
         ({"start_pps": 4990, "ramp_pulses": 9000}, "too close"),
         ({"stop_pps": 4990, "ramp_pulses": 9000}, "one of start and stop speed is too close"),
         (
-            {"ramp_pulses": 1142},
-            "1142 pulses: the ramp is too short: each of its stages needs 3 pulses: 1143 or more",
+            {"ramp_pulses": 761},
+            "761 pulses: the ramp is too short: each of its stages needs 2 pulses: 762 or more",
         ),
         ({"ramp_pulses": 0}, "outside 1 to 16777215"),
         ({"down_pulses": 1 << 24}, "outside 1 to 16777215"),
-        ({"down_pulses": 500}, "1143 up and 1143 down or more"),
+        ({"down_pulses": 500}, "762 up and 762 down or more"),
         ({"base_clock": 3_000_000}, "this part has 8e.06, 1e.06, 500000, 250000, 62500, 15625 Hz"),
         ({"external_clock": 3_000_000}, "outside 0 to 2000000 Hz"),
         ({"phases": 5}, "phase outputs: a PPMC-312 does not have that"),

@@ -215,7 +215,7 @@ def test_what_the_part_itself_refuses(part: Ppmc312) -> None:
     """Blocks that the driver's own checks would never let out."""
     for block, kind, text in (
         (blocks.initial_setting(1, 1000, 1, 2000), RateRefused, "high rate 2 to 65519"),
-        (blocks.initial_setting(1, 1000, 200, 1142), TableRefused, "3 pulses"),
+        (blocks.initial_setting(1, 1000, 200, 761), TableRefused, "2 pulses"),
         (blocks.initial_setting(1, 1000, 873, 2000), TableRefused, "too close"),
         (blocks.free_curve(1, [100, 200], [5, 4])[0][:3] + b"\x09\x00", CurveRefused, "2 to 127 stages"),
         (blocks.block(0x46), UnknownCode, "does not know"),

@@ -88,9 +88,11 @@ def test_equal_first_rates_belong_to_the_slower_side() -> None:
 @verifies("P312-TBL-05", "P312-CHK-07", "P312-CHK-08")
 def test_error_boundaries() -> None:
     for sigmoid in (False, True):
-        assert error(1000, 1000, 200, 1142, 0, sigmoid=sigmoid, separate=False) == 0x05
-        table = build(1000, 1000, 200, 1143, 0, sigmoid=sigmoid, separate=False)
-        assert min(table.pa) == 3
+        for start, high, least in ((1000, 200, 762), (0xFFFF, 0xFF7F, 255)):
+            assert error(start, start, high, least - 1, 0, sigmoid=sigmoid, separate=False) == 0x05
+            for pulses in (least, least + 1):
+                table = build(start, start, high, pulses, 0, sigmoid=sigmoid, separate=False)
+                assert min(table.pa) == 2 and table.na == pulses
     assert error(1000, 1000, 873, 2000, 0, separate=False) == 0x02
     assert error(1000, 1000, 872, 2000, 0, separate=False) is None
     assert error(1000, 1000, 1000, 2000, 0, separate=False) == 0x03

@@ -179,7 +179,7 @@ def build(
     sa, sd = (first_stage(rates, slow) for slow in (start, stop))
     pa, pd = side(na, speed, sa), side(nd, speed, sd)
     table = Table(rates, pa, pd, sa, sd, clk, separate)
-    if min(*pa[sa:], *pd[sd:]) <= LEAST_PULSES:
+    if min(*pa[sa:], *pd[sd:]) < LEAST_PULSES:
         raise SettingError(0x05, table)
     return table
 
