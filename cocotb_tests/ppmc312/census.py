@@ -27,7 +27,7 @@ LEAST: dict[str, int] = {
     "pulses": 5_000,
     "pulses in table": 1_200,
     "equal neighbours in table": 200,
-    "computed stages of 2": 100,
+    "computed stages of 2": 60,
     "searched pulses": 20,
     "87 dropped at the point": 1,
     "start finite table": 80,

@@ -157,7 +157,7 @@ class Player(Aware):
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
         if rng.random() < 0.08 and not self.slow:
-            # With the last two R[1] = R[0] if the curve is a sigmoid. The fifth has stages of 2 pulses.
+            # With the last two R[1] = R[0] if the curve is a sigmoid. These two have stages of 2 pulses.
             self.rates, tail = rng.choice(
                 (
                     ([40, 120, 400], "09 00 {} 0190 0028 000480"),
@@ -165,7 +165,7 @@ class Player(Aware):
                     ([40, 120, 400], "09 00 {} 0190 0190 000480"),
                     ([40, 120, 400], "09 00 {} 0FA0 0005 001000"),
                     ([100, 200, 300], "09 00 {} 012C 0064 000200"),
-                    ([100, 250, 300], "0E 00 1{} 012C 00FA 0064 000480 000500"),
+                    ([100, 250, 300], "0E 00 1{} 012C 00FA 0064 000200 000500"),
                 )
             )
             flags = rng.choice("08")

@@ -79,8 +79,15 @@ class Scenes(Player):
         await self.attend(10)
 
     async def curve(self) -> None:
-        """A short free curve on a fast base clock, so that whole operations are short."""
+        """A short free curve on a fast base clock, so that whole operations are short; at times a computed table."""
         host, rng = self.host, self.rng
+        if rng.random() < 0.12 and not self.slow:
+            # RS 300, RH 100; most of them begin with stages of 2 pulses, the fewest that are legal.
+            self.rates = [100, 200, 300]
+            pulses = rng.choice((508, 509, 560, 700, 1200))
+            await self.tell(f"03 09 00 0{rng.choice('08')} 012C 0064 {pulses:06X}")
+            self.background.external(host.t + 2, False, rng)
+            return
         clk = rng.choice((0, 0, 0, 0, 0, 0, 0, 1, 2, 6, 7)) if not self.slow else rng.choice((0, 1))
         count = rng.choice((2, 3, 3, 4, 4, 5, 7))
         least, most = {0: (22, 130), 1: (12, 60), 2: (8, 30)}.get(clk, (3, 14))
