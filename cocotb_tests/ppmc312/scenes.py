@@ -79,7 +79,7 @@ class Scenes(Player):
         await self.attend(10)
 
     async def curve(self) -> None:
-        """A short free curve on a fast base clock, so that whole operations are short; at times a computed table."""
+        """A short free curve, sometimes a computed table, on a fast base clock: operations are short."""
         host, rng = self.host, self.rng
         if rng.random() < 0.12 and not self.slow:
             # RS 300, RH 100; most of them begin with stages of 2 pulses, the fewest that are legal.

@@ -26,7 +26,7 @@ OTHER = Config(
     extra=(
         ("BASE_ADDR", 0x2A2),
         ("EXT_HZ", 1_000_000),
-        ("READ_MAP", "FAMILY"),
+        ("READ_MAP", "SHEET"),
         ("HOLD_XT", 2_500),
         ("CHOP_ON_XT", 401),
         ("CHOP_OFF_XT", 611),

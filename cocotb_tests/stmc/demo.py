@@ -35,7 +35,7 @@ async def results(host: IsaHost) -> None:
     await bench.clocks(INTERRUPT_LATENCY)
     await host.status()
     await host.fetch(0x80)
-    await host.fetch(0x84, 3)
+    await host.fetch(0x83, 3)
 
 
 async def step(bench: Bench, n: int, since: int) -> int:
@@ -55,12 +55,12 @@ async def demo_board(dut: Any) -> None:
     story = Story(bench)
     with story.chapter("reset", "after reset"):
         await host.status()
-        await host.fetch(0x82)
+        await host.fetch(0x81)
     with story.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
         # The table build keeps this one in the buffer: IBF tells when the board is ready.
-        await host.fetch(0x83)
+        await host.fetch(0x82)
         await bench.clocks(8000)
     with story.chapter("move", f"{STEPS} steps with ramps"):
         await host.move(MOVE, STEPS)
@@ -75,7 +75,7 @@ async def demo_board(dut: Any) -> None:
         last = await step(bench, STEPS_TO_LIMIT, start)
         bench.at(last + 2500, l1_n=0)
         await results(host)
-        await host.fetch(0x82)
+        await host.fetch(0x81)
     with story.chapter("pause2", "rest"):
         await bench.clocks(64_000)
     with story.chapter("reference", "back to the reference point"):

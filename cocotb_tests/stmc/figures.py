@@ -29,7 +29,7 @@ F10 = Config("f10m", clk_hz=10_000_000)
 F12 = Config("f12m", clk_hz=12_345_678)
 F8X20 = Config("f8x20", clk_hz=8_000_000, xtal_hz=20_000_000)
 F200 = Config("f200m", clk_hz=200_000_000)
-FAMILY = Config("family", extra=(("READ_MAP", "FAMILY"), ("PHASE_IDLE", 1), ("HOLD_XT", 1_600)))
+SHEET = Config("sheet", extra=(("READ_MAP", "SHEET"), ("PHASE_IDLE", 1), ("HOLD_XT", 1_600)))
 ODD = Config(
     "odd25m",
     clk_hz=25_000_000,

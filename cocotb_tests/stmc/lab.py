@@ -42,7 +42,7 @@ class Lab(Drive):
         limit = max(TIMEOUT, bench.config.cyc(LONGEST))
         super().__init__(bench, host or HostBus(bench, timeout=limit), pout="s", clock=clock)
         self.period = 0
-        self.family = dict(self.cfg.extra).get("READ_MAP") == "FAMILY"
+        self.sheet = dict(self.cfg.extra).get("READ_MAP") == "SHEET"
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = STANDARD, clock: int = EXT, **pins: int) -> Lab:
@@ -67,17 +67,17 @@ class Lab(Drive):
     @property
     def inputs_code(self) -> int:
         """Read inputs."""
-        return 0x81 if self.family else 0x82
+        return 0x82 if self.sheet else 0x81
 
     @property
     def outputs_code(self) -> int:
         """Read outputs."""
-        return 0x82 if self.family else 0x83
+        return 0x83 if self.sheet else 0x82
 
     @property
     def remaining_code(self) -> int:
         """Read remaining steps."""
-        return 0x83 if self.family else 0x84
+        return 0x84 if self.sheet else 0x83
 
     async def init(self, code: int, d1: int, d2: int, pa: int) -> None:
         """Initialise and wait until the ramp table is ready."""

@@ -10,11 +10,11 @@ from cocotb_tests.harness.config import D16, D25X8, F16, Config
 from cocotb_tests.harness.host_writer import HostWriter
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 
-from .figures import F8X20, F12, F200, FAMILY, ODD, SWITCHES
+from .figures import F8X20, F12, F200, SHEET, ODD, SWITCHES
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
 WEIGHTS: list[tuple[Config, int]] = [
-    (F16, 34), (F12, 14), (F8X20, 14), (ODD, 14), (FAMILY, 16), (F200, 4),
+    (F16, 34), (F12, 14), (F8X20, 14), (ODD, 14), (SHEET, 16), (F200, 4),
 ]  # fmt: skip
 DATASHEET_WEIGHTS: list[tuple[Config, int]] = [(D16, 8), (D25X8, 4)]
 

@@ -35,7 +35,7 @@ async def stmc_ac_01_reset_values(dut: Any) -> None:
     lab.check("AC-01", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
     lab.check("AC-01", "d_oe, d_o", (lab.bench.level("d_oe"), lab.bench.level("d_o")), (0, 0))
     lab.check("AC-01", "status", await lab.host.status(), 0x00)
-    reads = await lab.host.run("c 80 r c 83 r c 82 r c 84 rrr")
+    reads = await lab.host.run("c 80 r c 82 r c 81 r c 83 rrr")
     lab.check("AC-01", "registers", reads, [0x80, 0x04, 0xCF, 0, 0, 0])
 
 

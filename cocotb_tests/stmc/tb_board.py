@@ -187,7 +187,7 @@ async def j105_02_short_cycles(dut: Any) -> None:
         if length >= 3 * clk_ns:
             lab.check("J105-02", f"status after a write of {length:.0f} ns", status, 0x40)
         done, missed = done + (status == 0x40), missed + (status == 0x80)
-        await lab.host.command(0x82)
+        await lab.host.command(0x81)
         await Timer(rng.randrange(0, bench.period, 2), "ps")
         await master.read(lab.base, command=length)
         await bench.clocks(12)

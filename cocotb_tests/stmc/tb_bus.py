@@ -33,7 +33,7 @@ async def stmc_bus_01_access_table(dut: Any) -> None:
     lab.check("STMC-BUS-04", "a0 = 0 writes data: error 3", await host.data(0x43), 0xB0)
     lab.check("STMC-BUS-05", "a0 = 1 writes a command", await host.command(0x0A), 0x40)
     lab.check("STMC-BUS-04", "a0 = 0 is its data", await host.data(0x14), 0x30)
-    await host.command(0x82)
+    await host.command(0x81)
     lab.check("STMC-BUS-03", "a0 = 1 reads status", await host.read(STATUS), OBF)
     lab.check("STMC-BUS-02", "a0 = 0 reads data", await host.read(DATA), 0xCF)
     before = bench.edges("d_oe")
@@ -123,7 +123,7 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
     """Given writes, when IBF falls, then the status shows every effect of the byte; pins follow soon."""
     lab = await Lab.start(dut)
     bench, host = lab.bench, lab.host
-    script = ((1, 0x43, 0x30), (0, 9, 0x20), (0, 0, 0x10), (0, 0, BUSY), (1, 0x40, 0x00), (1, 0x82, OBF))
+    script = ((1, 0x43, 0x30), (0, 9, 0x20), (0, 0, 0x10), (0, 0, BUSY), (1, 0x40, 0x00), (1, 0x81, OBF))
     for delay in range(1, 16):
         for reg, byte, after in script:
             since = bench.now
@@ -138,7 +138,7 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
             if after == BUSY:
                 await bench.until(max(bench.now, edge0 + PINS_LATEST))
                 lab.check("STMC-BUS-13", "hold", bench.level("hold"), 0)
-            if byte == 0x82:
+            if byte == 0x81:
                 lab.check("STMC-INP-01", "inputs", await host.read(DATA), 0xCF)
             if byte == 0x40:
                 await lab.idle()
@@ -193,7 +193,7 @@ async def stmc_bus_21_answers(dut: Any) -> None:
     await lab.in_gap(2)
     await lab.halt()
     left = 0x030201 - 3 - 1
-    await host.command(0x84)
+    await host.command(0x83)
     for n in range(3):
         for _ in range(3):
             lab.check("STMC-BUS-21", "OBF after status reads", await host.status() & OBF, OBF)
@@ -230,6 +230,6 @@ async def stmc_bad_13_short_strobes(dut: Any) -> None:
 async def stmc_bus_13_datasheet(dut: Any) -> None:
     """Given DATASHEET timing, when reads and errors come at rest, then they are as fast as in FAST."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
-    for byte, after in ((0x82, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x84, OBF), (0x40, 0x80 | OBF)):
+    for byte, after in ((0x81, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x83, OBF), (0x40, 0x80 | OBF)):
         await lab.host.write(COMMAND, byte, gap=C_EVENT_LATEST)
         lab.check("STMC-BUS-13", f"status of {byte:#x}", await lab.host.status(), after)

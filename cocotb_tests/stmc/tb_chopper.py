@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.directed import directed
 
-from .figures import F12, FAMILY, INTERNAL, ODD, T0
+from .figures import F12, SHEET, INTERNAL, ODD, T0
 from .lab import Lab
 
 CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
@@ -116,9 +116,9 @@ async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
     lab.check("STMC-HLD-01", "hold", lab.bench.level("hold"), 0)
 
 
-@directed("STMC-OUT-02", "STMC-OUT-01", builds=(FAMILY,))
+@directed("STMC-OUT-02", "STMC-OUT-01", builds=(SHEET,))
 async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
-    """Given chopping, when 83 is read at many moments, then the pattern is there, and HOLD by its pin."""
+    """Given chopping, when the outputs are read at many moments, then the pattern is there, and HOLD by its pin."""
     lab = await Lab.start(dut, CHOP, clock=0)
     for wait in (1, 300, 500, 700, 900, 1_100):
         await lab.bench.clocks(wait)
@@ -130,7 +130,7 @@ async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
     lab.check("STMC-OUT-01", "outputs after hold", await lab.out(), 0x96)
 
 
-@directed("STMC-HLD-01", "STMC-HLD-02", builds=(FAMILY, ODD))
+@directed("STMC-HLD-01", "STMC-HLD-02", builds=(SHEET, ODD))
 async def stmc_hld_01_hold(dut: Any) -> None:
     """Given HOLD_XT, when motions end, restart, do nothing, then hold rises so long after the last end."""
     lab = await Lab.start(dut, INTERNAL, clock=0)

@@ -8,7 +8,7 @@ from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
 from cocotb_tests.harness.config import D16, F16
 from cocotb_tests.harness.directed import directed
 
-from .figures import FAMILY, STANDARD, STEPS, gaps, steps
+from .figures import SHEET, STANDARD, STEPS, gaps, steps
 from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab
 
 WRONG = ((0, 0, 8), (0, 5, 8), (20, 0, 8), (5, 20, 8), (19, 20, 0), (254, 255, 65535))
@@ -118,7 +118,7 @@ async def stmc_ini_07_reset_in_the_build(dut: Any) -> None:
         await lab.outcome("STMC-INI-07", 12, 0x83, 0, gaps(12))
 
 
-@directed("STMC-INI-06", "STMC-INI-08", builds=(F16, FAMILY, D16))
+@directed("STMC-INI-06", "STMC-INI-08", builds=(F16, SHEET, D16))
 async def stmc_ini_06_first_pattern(dut: Any) -> None:
     """Given the idle level, when the first initialisation goes in, then position 0 appears, BUSY stays 0."""
     lab = await Lab.start(dut, None, clock=0)
@@ -170,7 +170,7 @@ async def stmc_exc_01_all_tables(dut: Any) -> None:
 
 @directed("STMC-MOT-04", "STMC-OUT-01", "STMC-INI-06")
 async def stmc_out_01_direction_bit(dut: Any) -> None:
-    """Given motions both ways and refused ones, when 83 is read, then the last executed one counts."""
+    """Given motions both ways and refused ones, when the outputs are read, then the last executed one counts."""
     lab = await Lab.start(dut)
     for script, bit in (
         ("c 4A", 1),
@@ -184,6 +184,6 @@ async def stmc_out_01_direction_bit(dut: Any) -> None:
     ):
         await lab.host.run(script)
         await lab.idle()
-        status = await lab.host.command(0x83)
+        status = await lab.host.command(lab.outputs_code)
         lab.check("STMC-RD-01", "status", status, OBF)
         lab.check("STMC-OUT-01", f"direction after {script}", await lab.host.read_data() & 2, bit << 1)

@@ -54,7 +54,7 @@ void stmc_setup(stmc_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
                 void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx)
 {
     ppmc104_setup(&dev->bus, read, write, ctx);
-    dev->map = STMC_MAP_SHEET;
+    dev->map = STMC_MAP_FAMILY;
     dev->probed = false;
 }
 

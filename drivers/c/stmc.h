@@ -25,7 +25,7 @@ extern "C" {
 /** Lowest divisor that stmc_divisor() gives: the part's sheet advises against lower ones. The part takes 1 .. 255. */
 #define STMC_DIVISOR_MIN 5u
 
-/** Codes of the part's read commands: parameter READ_MAP. */
+/** Codes of the part's read commands: parameter READ_MAP, FAMILY by default. */
 typedef enum {
     STMC_MAP_SHEET, /**< 80h, 82h, 83h, 84h */
     STMC_MAP_FAMILY /**< 80h .. 83h, as the sister parts */

@@ -11,7 +11,7 @@ from openppmc.model.stmc.part import Stmc
 CLK_HZ = 16_000_000
 TICK = 1280  # clk of a tick of the internal 12.5 kHz
 IBF, OBF = 2, 1
-FINISH, REMAINING = 0x80, 0x84
+FINISH, REMAINING = 0x80, 0x83
 
 
 @dataclass(frozen=True)

@@ -128,7 +128,7 @@ def write() -> Drawing:
 def read() -> Drawing:
     """A data read that takes the byte."""
     bench = ready()
-    bench.send(0x83)
+    bench.send(0x82)
     bench.t += 20
     host = (
         Row("cs_n, rd_n", "rd_n", host=True, nodes={2: "A", 7: "B"}),

@@ -31,7 +31,7 @@ static void moves(stmc_t *dev)
     uint8_t outputs = 0, inputs = 0;
 
     show("probe", stmc_probe(dev));
-    printf("sheet map=%d\n", (int)dev->map);
+    printf("default map=%d\n", (int)dev->map);
     show("init", stmc_init(dev, &CONFIG));
     show("outputs", stmc_outputs(dev, &outputs));
     show("inputs", stmc_inputs(dev, &inputs));
@@ -127,7 +127,7 @@ static void errors(stmc_t *dev)
 
     isa_reset(false);
     show("E uninitialised", stmc_move(dev, PPMC104_CW, 10));
-    show("E unknown", ppmc104_command(&dev->bus, 0x81, &byte, 0));
+    show("E unknown", ppmc104_command(&dev->bus, 0x84, &byte, 0));
     show("E nothing to stop", stmc_stop(dev));
     show("E data", ppmc104_data(&dev->bus, 0x55));
     show("E swapped", ppmc104_command(&dev->bus, 0x1A, swapped, 4));
@@ -199,11 +199,11 @@ typedef struct {
     uint8_t status, answer;
     unsigned left;
     bool busy;
-} family_t;
+} sheet_t;
 
-static uint8_t family_read(void *ctx, unsigned reg)
+static uint8_t sheet_read(void *ctx, unsigned reg)
 {
-    family_t *part = (family_t *)ctx;
+    sheet_t *part = (sheet_t *)ctx;
     if (reg == PPMC104_REG_STATUS) {
         return (uint8_t)(part->status | (part->left != 0u ? PPMC104_STATUS_OBF : 0u));
     }
@@ -211,39 +211,39 @@ static uint8_t family_read(void *ctx, unsigned reg)
     return part->answer;
 }
 
-static void family_write(void *ctx, unsigned reg, uint8_t value)
+static void sheet_write(void *ctx, unsigned reg, uint8_t value)
 {
-    family_t *part = (family_t *)ctx;
+    sheet_t *part = (sheet_t *)ctx;
     const uint8_t busy = part->busy ? PPMC104_STATUS_BUSY : 0u;
-    if (reg != PPMC104_REG_STATUS || value < 0x80u || value > 0x83u) {
+    if (reg != PPMC104_REG_STATUS || (value != 0x80u && (value < 0x82u || value > 0x84u))) {
         part->status = 0x80u | busy;
     } else if (part->busy) {
         part->status = 0x94u;
     } else {
         part->status = 0u;
         part->answer = value & 0x0Fu;
-        part->left = value == 0x83u ? 3u : 1u;
+        part->left = value == 0x84u ? 3u : 1u;
     }
 }
 
-static void family(void)
+static void sheet(void)
 {
     const ppmc104_finish_t complete = {true, false, false, false, false, 3, 0x83};
-    family_t part = {0, 0, 0, false};
+    sheet_t part = {0, 0, 0, false};
     stmc_t dev;
     uint8_t inputs = 0, outputs = 0;
     uint32_t left = 0;
 
-    stmc_setup(&dev, family_read, family_write, &part);
-    show("family probe", stmc_probe(&dev));
-    show("family", stmc_inputs(&dev, &inputs));
-    show("family", stmc_outputs(&dev, &outputs));
-    show("family", stmc_remaining(&dev, &complete, &left));
-    printf("family map=%d inputs=%02x outputs=%02x left=%lx\n", (int)dev.map, inputs, outputs, (unsigned long)left);
+    stmc_setup(&dev, sheet_read, sheet_write, &part);
+    show("sheet probe", stmc_probe(&dev));
+    show("sheet", stmc_inputs(&dev, &inputs));
+    show("sheet", stmc_outputs(&dev, &outputs));
+    show("sheet", stmc_remaining(&dev, &complete, &left));
+    printf("sheet map=%d inputs=%02x outputs=%02x left=%lx\n", (int)dev.map, inputs, outputs, (unsigned long)left);
     part.busy = true;
-    dev.map = STMC_MAP_SHEET;
-    show("family busy", stmc_probe(&dev));
-    printf("family busy map=%d\n", (int)dev.map);
+    dev.map = STMC_MAP_FAMILY;
+    show("sheet busy", stmc_probe(&dev));
+    printf("sheet busy map=%d\n", (int)dev.map);
 }
 
 static void speeds(void)
@@ -273,7 +273,7 @@ int main(void)
     errors(&dev);
     unconfirmed(&dev);
     dead(&dev);
-    family();
+    sheet();
     speeds();
     printf("done steps=%u\n", isa_steps());
     return 0;

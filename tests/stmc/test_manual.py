@@ -167,7 +167,7 @@ def test_examples_without_motion(board):
     """Given examples 7, 8 and 9, then every byte is the printed one."""
     board.play(EXAMPLES.blocks(7)[0], "example 7")
     Board().play(EXAMPLES.blocks(8)[0], "example 8")
-    Board(read_map="FAMILY").play(EXAMPLES.blocks(9)[0], "example 9")
+    Board(read_map="SHEET").play(EXAMPLES.blocks(9)[0], "example 9")
 
 
 def code(kind: str) -> str:

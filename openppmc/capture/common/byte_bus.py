@@ -26,7 +26,7 @@ def byte_part(
     model: tuple[Mapping[str, int], Mapping[str, int], Mapping[str, int]],
     strobe_pins: tuple[str, ...],
     strobes: Strobe,
-    words: Words,
+    words: Words | Callable[[Wires], Words],
     code: Callable[[int, Wires], Command],
     levels: Callable[[Access, Wires], dict[str, int]],
     trains: Callable[[Wires], list[Train]],
@@ -38,7 +38,7 @@ def byte_part(
     aliases: Mapping[str, str] | None = None,
 ) -> DecodeKind:
     """model: inputs, outputs, widths of the golden model. strobe_pins: those of which a strobe is made.
-    code: a command byte decoded. levels: of these pins and the address during an access. address: the port
+    words: the meaning of bytes, of this capture if it is a function. code: a command byte decoded. levels: of these pins and the address during an access. address: the port
     whose bit 0 chooses the register. bus: name of the data. aliases: other names of pins."""
     inputs, outputs, widths = model
 
@@ -55,7 +55,7 @@ def byte_part(
             first = whole and command.kind is Kind.INITIALISE
             return Judged(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
 
-        return spoken(seen(wires), words, _said, judge)
+        return spoken(seen(wires), words(wires) if callable(words) else words, _said, judge)
 
     def stimulus(wires: Wires) -> list[tuple[int, dict[str, int]]]:
         rows: list[tuple[int, dict[str, int]]] = []

@@ -8,7 +8,7 @@ from ...model.stmc.codes import decode
 from ...model.stmc.pc104_board import INPUTS, OUTPUTS, WIDTHS
 from ..common.byte_bus import byte_part
 from ..common.kind import Access, Wires
-from .decode import trains
+from .decode import read_map, trains
 from .words import WordsStmc
 
 BASE = 0x3B0
@@ -29,8 +29,8 @@ DECODER = byte_part(
     (INPUTS, OUTPUTS, WIDTHS),
     ("sa", "aen", "ior_n", "iow_n"),
     _strobes,
-    WordsStmc(),
-    lambda code, wires: decode(code, str(wires.params.get("READ_MAP", "SHEET"))),
+    lambda wires: WordsStmc(read_map(wires)),
+    lambda code, wires: decode(code, read_map(wires)),
     _levels,
     trains,
     {"s": 1, "drv": 1},

@@ -15,6 +15,11 @@ def _levels(access: Access, wires: Wires) -> dict[str, int]:
     return {"cs_n": 0, "wr_n" if access.write else "rd_n": 0, "a0": access.reg}
 
 
+def read_map(wires: Wires) -> str:
+    """READ_MAP of the part, as the pin map says."""
+    return str(wires.params.get("READ_MAP", "FAMILY"))
+
+
 def trains(wires: Wires) -> list[Train]:
     """Steps of the phases."""
     one = phase_train(wires, 1, "s")
@@ -26,8 +31,8 @@ DECODER = byte_part(
     (INPUTS, OUTPUTS, WIDTHS),
     ("cs_n", "rd_n", "wr_n"),
     strobes,
-    WordsStmc(),
-    lambda code, wires: decode(code, str(wires.params.get("READ_MAP", "SHEET"))),
+    lambda wires: WordsStmc(read_map(wires)),
+    lambda code, wires: decode(code, read_map(wires)),
     _levels,
     trains,
     {"s": 1},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...model.stmc import codes
 from ..common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisWords
 
 ERRORS = (
@@ -19,7 +20,7 @@ ERRORS = (
 
 
 class WordsStmc(OneAxisWords):
-    """One axis with divisors, the read codes of READ_MAP = "SHEET", error numbers in the status."""
+    """One axis with divisors, the read codes of `read_map`, error numbers in the status."""
 
     errors = ERRORS
     operations = {
@@ -36,17 +37,23 @@ class WordsStmc(OneAxisWords):
         (0x10, "the limit"),
         (0x08, "the deceleration limit"),
     )
-    reads = {
-        0x80: ("read finish status", 1),
-        0x82: ("read inputs", 1),
-        0x83: ("read outputs", 1),
-        0x84: ("read remaining steps", 3),
-    }
-    read_codes = {0x80: END_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING}
     switches = ((0x80, "CNP"), (8, "L1"), (4, "L2"), (2, "L3"), (1, "L4"))
     setting_names = ("D1", "D2", "PA")
     unit, speed, rate = "step", "thousand steps/s", "divisor"
     clock = "external clock"
+
+    def __init__(self, read_map: str) -> None:
+        kinds = {
+            codes.FINISH_STATUS: END_STATUS,
+            codes.INPUTS: INPUTS,
+            codes.OUTPUTS: OUTPUTS,
+            codes.REMAINING: REMAINING,
+        }
+        registers = codes.READ_MAPS[read_map]
+        self.reads = {
+            code: (f"read {name}", 3 if name == codes.REMAINING else 1) for code, name in registers.items()
+        }
+        self.read_codes = {code: kinds[name] for code, name in registers.items()}
 
     def ramp(self, data: Sequence[int]) -> str:
         """The divisors and the length of the ramp, if they are complete."""

@@ -24,7 +24,7 @@ class ModelPort:
 
     text: words of the machine (`openppmc.sim.common.machine`) and `speed` (1: real time, 10: ten times as
     fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (stmc)
-    SHEET or FAMILY, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
+    FAMILY or SHEET, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
     anything else.
     """
 

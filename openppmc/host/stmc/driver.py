@@ -11,8 +11,8 @@ from .errors import refused
 from .kind import KIND
 from .registers import Inputs
 
-READ_MAPS = {"SHEET": ReadCodes(outputs=0x83, remaining=0x84), "FAMILY": FAMILY}
-"""What the codes of its read commands may be (ruling R-01)."""
+READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
+"""What the codes of its read commands may be, the default first (ruling R-01)."""
 
 
 class Stmc(OneAxis):
@@ -39,13 +39,13 @@ class Stmc(OneAxis):
     def read_map(self) -> str:
         """Which read codes the part knows, a key of READ_MAPS. It is asked the first time, in any state."""
         if not self._read_map:
-            # 84h reads the remaining steps or is not known; during a motion its refusal tells the same.
-            answer = self.link.attempt(Script().call(READ_MAPS["SHEET"].remaining).get(3))
+            # 81h reads the inputs or is undefined: error 0. Any other error is that of a defined command.
+            answer = self.link.attempt(Script().call(0x81).get(1))
             if answer.result is Result.REFUSED:
-                self._read_map = "SHEET" if answer.last >> 4 & 7 else "FAMILY"
+                self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"
             else:
                 self.link.judge(answer)
-                self._read_map = "SHEET"
+                self._read_map = "FAMILY"
         return self._read_map
 
     @property

@@ -29,7 +29,7 @@ class Carrier(carrier.Carrier[Stmc]):
         xtal_hz: int = 16_000_000,
         timing: str = "FAST",
         on_interrupt: Callable[[], None] = lambda: None,
-        read_map: str = "SHEET",
+        read_map: str = "FAMILY",
     ) -> None:
         self._phases = 0
         self._tick = 0

@@ -14,14 +14,14 @@ TICK_XT = 1280
 BOARD_CLOCK_HZ = 48_675
 FINISH_STATUS, INPUTS, OUTPUTS, REMAINING = "finish status", "inputs", "outputs", "remaining steps"
 
-# What each read code returns, by READ_MAP (ruling R-01).
+# What each read code returns, by READ_MAP, the default first (ruling R-01).
 READ_MAPS: dict[str, dict[int, str]] = {
-    "SHEET": {0x80: FINISH_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING},
     "FAMILY": {0x80: FINISH_STATUS, 0x81: INPUTS, 0x82: OUTPUTS, 0x83: REMAINING},
+    "SHEET": {0x80: FINISH_STATUS, 0x82: INPUTS, 0x83: OUTPUTS, 0x84: REMAINING},
 }
 
 
-def decode(code: int, read_map: str = "SHEET") -> Command:
+def decode(code: int, read_map: str = "FAMILY") -> Command:
     """Decode one of the 256 command bytes. Raises ValueError outside 0..255."""
     if not 0 <= code <= 255:
         raise ValueError(f"command byte {code}")

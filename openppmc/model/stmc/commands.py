@@ -26,7 +26,7 @@ def profile(d1: int, d2: int, pa: int) -> Ramp:
 
 
 class CommandUnit(ByteUnit):
-    """Commands of the STMC. read_map: "SHEET" or "FAMILY"."""
+    """Commands of the STMC. read_map: "FAMILY" or "SHEET"."""
 
     def __init__(
         self,

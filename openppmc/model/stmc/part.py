@@ -41,7 +41,7 @@ class FixedSwitching:
 class Stmc(SingleAxis):
     """One STMC core.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..20e6, timing "FAST" or "DATASHEET", read_map "SHEET" or "FAMILY",
+    clk_hz 8e6..200e6, xtal_hz 1e6..20e6, timing "FAST" or "DATASHEET", read_map "FAMILY" or "SHEET",
     phase_idle 0 or 1, hold_xt, chop_on_xt and chop_off_xt in crystal periods, at least 1; ValueError for
     anything else. The model starts just released from reset, before edge 0.
     """
@@ -55,7 +55,7 @@ class Stmc(SingleAxis):
         clk_hz: int = 16_000_000,
         xtal_hz: int = 16_000_000,
         timing: str = "FAST",
-        read_map: str = "SHEET",
+        read_map: str = "FAMILY",
         phase_idle: int = 0,
         hold_xt: int = 544_000,
         chop_on_xt: int = 1_040,
@@ -63,7 +63,7 @@ class Stmc(SingleAxis):
         latency: Latency | None = None,
     ) -> None:
         if read_map not in READ_MAPS:
-            raise ValueError(f"read_map {read_map!r} is neither SHEET nor FAMILY")
+            raise ValueError(f"read_map {read_map!r} is neither FAMILY nor SHEET")
         if min(hold_xt, chop_on_xt, chop_off_xt) < 1:
             raise ValueError(f"hold {hold_xt}, chopper {chop_on_xt} and {chop_off_xt} crystal periods")
         self._read_map = read_map

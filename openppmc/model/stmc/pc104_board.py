@@ -39,7 +39,7 @@ class J105Stmc:
         clk_hz: int = 16_000_000,
         xtal_hz: int = 16_000_000,
         timing: str = "FAST",
-        read_map: str = "SHEET",
+        read_map: str = "FAMILY",
         hold_xt: int = 544_000,
         chop_on_xt: int = 1_040,
         chop_off_xt: int = 1_740,

@@ -62,7 +62,7 @@ def test_switches(start_board: StartBoard) -> None:
     """Reference point, limits and MON reach the part; the bridge knows it."""
     board = start_board(part="stmc", speed="max", start=500, ccw=-400, alarm="700..800")
     with Stmc.open(board.port) as axis:
-        assert (axis.link.identity.part, axis.link.identity.counter, axis.read_map) == (105, True, "SHEET")
+        assert (axis.link.identity.part, axis.link.identity.counter, axis.read_map) == (105, True, "FAMILY")
         axis.initialise(**FAST)
         for how in ({}, {"fast": True}, {"to_limit": True}):
             assert axis.home(CCW, **how).cause is Cause.ORIGIN
@@ -96,7 +96,7 @@ def test_sim_port(openppmc: CommandLine) -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("part=stmc,read_map=other", "read_map=other: neither SHEET nor FAMILY"),
+        ("part=stmc,read_map=other", "read_map=other: neither FAMILY nor SHEET"),
         ("read_map=FAMILY", "read_map=FAMILY: only an stmc has it"),
         ("part=stmc,xtal=20000001", "xtal=20000001: expected 1e\\+06 to 2e\\+07 Hz"),
     ],

@@ -92,7 +92,7 @@ def test_bad_lines_are_found_before_anything_moves(
             ("--port", PORT + ",alarm=4100..4200", "move", "1000"),
             "MON input ended the motion at position 100",
         ),
-        (("--port", PORT + ",read_map=X", "info"), "read_map=X: neither SHEET nor FAMILY"),
+        (("--port", PORT + ",read_map=X", "info"), "read_map=X: neither FAMILY nor SHEET"),
         (("--port", "model:read_map=SHEET", "info"), "read_map=SHEET: only an stmc has it"),
         (("--port", PORT + ",xtal=21000000", "info"), "xtal_hz 21000000"),
         (("--port", PORT + ",cw2=5", "info"), "cw2=5: an stmc has one axis"),

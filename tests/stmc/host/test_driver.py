@@ -230,7 +230,7 @@ def test_read_codes_are_found_out(read_map: str, moving: bool) -> None:
 
 
 def test_other_read_codes_are_not_sent(axis: Stmc, monkeypatch: pytest.MonkeyPatch) -> None:
-    """81h and 85h.. are unknown to a part with the sheet's codes, and 84h is asked for once only."""
+    """84h and above are undefined in the default map; 81h, which finds the map out, is sent only once."""
     sent: list[int] = []
     real = model(axis).write
     monkeypatch.setattr(
@@ -239,7 +239,7 @@ def test_other_read_codes_are_not_sent(axis: Stmc, monkeypatch: pytest.MonkeyPat
     for _ in range(2):
         axis.move(3)
         axis.outputs()
-    assert [code for code in sent if code >= 0x80] == [0x80, 0x84, 0x80, 0x84, 0x83, 0x80, 0x80, 0x84, 0x83]
+    assert [code for code in sent if code >= 0x80] == [0x80, 0x81, 0x80, 0x83, 0x82, 0x80, 0x80, 0x83, 0x82]
 
 
 # ---------------------------------------------------------------------- motions
@@ -362,7 +362,7 @@ def test_every_error_number_is_raised_as_its_own_exception(axis: Stmc) -> None:
     ]
     busy: list[tuple[type[CommandRefused], int, Script]] = [
         (NotWhileBusy, 0x94, Script().call(0x42)),
-        (NotWhileBusy, 0x94, Script().call(0x84)),
+        (NotWhileBusy, 0x94, Script().call(0x83)),
         (UnexpectedDataBusy, 0xE4, Script().call(0x41, 0x00)),
         (AlreadyDecelerating, 0xF4, Script().call(0x41)),
     ]

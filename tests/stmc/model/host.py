@@ -95,7 +95,7 @@ class Host(ModelHost):
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")
-        low, mid, high = self.run("c 84 rrr")
+        low, mid, high = self.run("c 83 rrr")
         self.mark = mark
         return status, low | mid << 8 | high << 16
 

@@ -37,7 +37,7 @@ def test_inputs_one_by_one():
     for pin, bit in zip(SWITCHES, (3, 2, 1, 0, 7, 6), strict=True):
         host.pins(**{pin: 0})
         host.pause(4)
-        assert host.run("c 82 r") == [0xCF & ~(1 << bit)]
+        assert host.run("c 81 r") == [0xCF & ~(1 << bit)]
         host.pins(**{pin: 1})
 
 

@@ -71,14 +71,14 @@ def test_ports(lines):
 
 
 def test_read_codes_are_found_out(lines):
-    """Given a part with the sheet's codes or with those of its sisters, then probing tells which."""
-    assert lines["sheet"][0]["map"] == "0"
-    assert result(lines, "family probe") == (0, "ok")
-    found = lines["family"][3]
-    assert [line.get("result", "0") for line in lines["family"]] == ["0"] * 4
-    assert [found[key] for key in ("map", "inputs", "outputs", "left")] == ["1", "01", "02", "30304"]
-    assert result(lines, "family busy")[0] == Error.NOT_WHILE_BUSY + 1
-    assert lines["family busy"][1]["map"] == "1"
+    """Probing finds the codes of the default map, and those of READ_MAP = "SHEET" (R-01)."""
+    assert lines["default"][0]["map"] == "1"
+    assert result(lines, "sheet probe") == (0, "ok")
+    found = lines["sheet"][3]
+    assert [line.get("result", "0") for line in lines["sheet"]] == ["0"] * 4
+    assert [found[key] for key in ("map", "inputs", "outputs", "left")] == ["0", "02", "03", "40405"]
+    assert result(lines, "sheet busy")[0] == Error.NOT_WHILE_BUSY + 1
+    assert lines["sheet busy"][1]["map"] == "0"
 
 
 def test_interrupt(lines):
