@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import ceil
+
 from cocotb_tests.harness.bus import IBF
 
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
@@ -13,6 +15,19 @@ PIN = 2
 READ = 12
 # Default ON phase in units of 2 quanta.
 ON = 0x53
+
+REGULAR, SETTING, CONSTANT = 35, 71_000, 38
+"""us: regular polling cycle, processing of an initial setting, of a pulse at constant speed."""
+
+
+def detection(processing: int, first: int, second: int, period: int = 0) -> int:
+    """Return T_max of the data sheet (2.6), the longest time to detect a limit, in us.
+
+    processing: Ti; first, second: T1, T2 of the axes in us; period: of the pulses in us, 0: no pulses.
+    """
+    cycle = REGULAR + processing
+    interrupts = ceil(cycle / (period - (first + second))) if period else 0
+    return interrupts * (first + second) + cycle
 
 
 def after(lab: Lab, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:

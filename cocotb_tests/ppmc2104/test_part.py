@@ -34,6 +34,7 @@ ITEMS = cocotb_items(
     "tb_bad_input",
     "tb_datasheet",
     "tb_datasheet_rates",
+    "tb_polling",
     part=PPMC2104,
 )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.ppmc2104.sheet import CONSTANT, SETTING, detection
 from openppmc.model import Latency
 from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
@@ -183,6 +184,15 @@ def test_ac_75_polled_limit():
             assert not host.model.busy(1) and falls[-1] - low <= 568
             assert host.end()[0] == 0x95
     assert 1 <= sum(ended) <= 3
+
+
+@verifies("P2104-DS-23")
+def test_polling_examples_of_the_data_sheet():
+    """The formula of 2.6 returns the four printed results."""
+    assert detection(SETTING, 0, 0) == 71_035
+    assert detection(0, CONSTANT, 0, 100) == 73
+    assert detection(0, CONSTANT, CONSTANT, 100) == 187
+    assert detection(SETTING, CONSTANT, 0, 50) == 295_995
 
 
 @verifies("P2104-DS-20")
