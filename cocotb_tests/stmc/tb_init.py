@@ -122,7 +122,7 @@ async def stmc_ini_07_reset_in_the_build(dut: Any) -> None:
 async def stmc_ini_06_first_pattern(dut: Any) -> None:
     """Given the idle level, when the first initialisation goes in, then position 0 appears, BUSY stays 0."""
     lab = await Lab.start(dut, None, clock=0)
-    idle = 0x1F if lab.family else 0
+    idle = 0x1F if lab.sheet else 0
     lab.check("STMC-INI-06", "s before", lab.bench.level("s"), idle)
     lab.check("STMC-OUT-02", "outputs before", await lab.out(), 0xFC if idle else 0x04)
     for code in range(0x01, 0x10):
