@@ -22,7 +22,7 @@ OFFSETS = (0, 9, 18, 27, 34)
 async def limit(lab: Lab, axis: Axis, longest: int, own: int) -> int:
     """Hold the CW limit low until the operation ends; return the time in cycles.
 
-    The end comes within `longest` us, the bound of the data sheet, and within `own` us, that of P2104-DS-20.
+    It ends within `longest` us, the bound of the data sheet, and within `own` us, that of P2104-DS-20.
     """
     us = lab.cfg.us
     stamp = axis.set(fl_n=0)

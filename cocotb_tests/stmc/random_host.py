@@ -10,7 +10,7 @@ from cocotb_tests.harness.config import D16, D25X8, F16, Config
 from cocotb_tests.harness.host_writer import HostWriter
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 
-from .figures import F8X20, F12, F200, SHEET, ODD, SWITCHES
+from .figures import F8X20, F12, F200, ODD, SHEET, SWITCHES
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
 WEIGHTS: list[tuple[Config, int]] = [

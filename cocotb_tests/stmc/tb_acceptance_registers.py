@@ -8,7 +8,7 @@ from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
 from cocotb_tests.harness.config import D16
 from cocotb_tests.harness.directed import directed
 
-from .figures import SHEET, INTERNAL, MOST, STANDARD
+from .figures import INTERNAL, MOST, SHEET, STANDARD
 from .lab import WRITE_EVENT, Lab
 
 
@@ -142,7 +142,7 @@ async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
 
 @directed("AC-44", "STMC-RD-01", "STMC-BAD-01")
 async def stmc_ac_44_family_codes(dut: Any) -> None:
-    """Given the default READ_MAP "FAMILY", when 81, 82, 83, 84 come, then inputs, outputs, three bytes, error 0."""
+    """By default 81, 82, 83 return inputs, outputs and three bytes; 84 is error 0 (R-01)."""
     lab = await Lab.start(dut)
     got = await lab.host.run("c 81 r c 82 r c 83 rrr c 84 s")
     lab.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])

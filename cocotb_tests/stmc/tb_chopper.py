@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.directed import directed
 
-from .figures import F12, SHEET, INTERNAL, ODD, T0
+from .figures import F12, INTERNAL, ODD, SHEET, T0
 from .lab import Lab
 
 CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
@@ -118,7 +118,7 @@ async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
 
 @directed("STMC-OUT-02", "STMC-OUT-01", builds=(SHEET,))
 async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
-    """Given chopping, when the outputs are read at many moments, then the pattern is there, and HOLD by its pin."""
+    """While chopping, each read of the outputs returns the pattern, and HOLD by its pin."""
     lab = await Lab.start(dut, CHOP, clock=0)
     for wait in (1, 300, 500, 700, 900, 1_100):
         await lab.bench.clocks(wait)

@@ -170,7 +170,7 @@ async def stmc_exc_01_all_tables(dut: Any) -> None:
 
 @directed("STMC-MOT-04", "STMC-OUT-01", "STMC-INI-06")
 async def stmc_out_01_direction_bit(dut: Any) -> None:
-    """Given motions both ways and refused ones, when the outputs are read, then the last executed one counts."""
+    """The direction bit of the outputs is that of the last executed motion."""
     lab = await Lab.start(dut)
     for script, bit in (
         ("c 4A", 1),

@@ -38,8 +38,9 @@ def byte_part(
     aliases: Mapping[str, str] | None = None,
 ) -> DecodeKind:
     """model: inputs, outputs, widths of the golden model. strobe_pins: those of which a strobe is made.
-    words: the meaning of bytes, of this capture if it is a function. code: a command byte decoded. levels: of these pins and the address during an access. address: the port
-    whose bit 0 chooses the register. bus: name of the data. aliases: other names of pins."""
+    words: the meaning of bytes, of this capture if it is a function. code: a command byte decoded.
+    levels: of these pins and the address during an access. address: the port whose bit 0 chooses the
+    register. bus: name of the data. aliases: other names of pins."""
     inputs, outputs, widths = model
 
     def seen(wires: Wires) -> list[Access]:

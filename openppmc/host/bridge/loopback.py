@@ -24,8 +24,8 @@ class ModelPort:
 
     text: words of the machine (`openppmc.sim.common.machine`) and `speed` (1: real time, 10: ten times as
     fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (stmc)
-    FAMILY or SHEET, `unplug` (the port goes away after so many seconds of its time). Raises PortError for
-    anything else.
+    FAMILY or SHEET, `unplug` (the port goes away after this number of seconds of its time). Raises PortError
+    for anything else.
     """
 
     def __init__(self, text: str = "", baud: int = 115_200) -> None:
