@@ -109,7 +109,7 @@ def test_bytes_of_the_104_in_words():
 )
 def test_bytes_of_the_stmc_in_words(script, meaning, reply):
     """Given one exchange of a host with the read codes of the sheet, then it reads as the manual says."""
-    (row,) = exchanges(WordsStmc("FAMILY"), accesses(script))
+    (row,) = exchanges(WordsStmc("SHEET"), accesses(script))
     assert row.meaning == meaning
     assert row.reply.startswith(reply)
 
