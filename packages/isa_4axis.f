@@ -1,5 +1,6 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/isa_4axis.f --top-module isa_4axis
+// verilator -F packages/isa_4axis.f; a --top-module after it selects a top of your own.
+--top-module isa_4axis
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
 ../rtl/common/ppmc_lfsr_pkg.sv

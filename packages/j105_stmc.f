@@ -1,5 +1,6 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/j105_stmc.f --top-module j105_stmc
+// verilator -F packages/j105_stmc.f; a --top-module after it selects a top of your own.
+--top-module j105_stmc
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
 ../rtl/common/ppmc_lfsr_pkg.sv

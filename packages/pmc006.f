@@ -1,5 +1,6 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/pmc006.f --top-module pmc006
+// verilator -F packages/pmc006.f; a --top-module after it selects a top of your own.
+--top-module pmc006
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
 ../rtl/common/ppmc_lfsr_pkg.sv

@@ -1,5 +1,6 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/ppmc2104.f --top-module ppmc2104
+// verilator -F packages/ppmc2104.f; a --top-module after it selects a top of your own.
+--top-module ppmc2104
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
 ../rtl/common/ppmc_lfsr_pkg.sv

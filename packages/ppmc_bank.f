@@ -1,5 +1,6 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/ppmc_bank.f --top-module ppmc_bank
+// verilator -F packages/ppmc_bank.f; a --top-module after it selects a top of your own.
+--top-module ppmc_bank
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv
 ../rtl/common/ppmc_lfsr_pkg.sv

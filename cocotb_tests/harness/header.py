@@ -8,7 +8,8 @@ from pathlib import Path
 
 _HEADER = re.compile(r"^module (\w+)\b(.*?)\)\s*\(", re.S | re.M)
 _LINE = re.compile(
-    r"^ *parameter +(?P<type>[\w ]+?) +(?P<name>\w+) *= *(?P<value>[^,/\n]+?) *,? *(?://+ *(?P<about>.*))?$",
+    r"^ *parameter +(?:(?P<type>\w[\w ]*?) +)?(?P<name>\w+) *= *(?P<value>[^,/\n]+?) *,? *"
+    r"(?://+ *(?P<about>.*))?$",
     re.M,
 )
 _NUMBER = re.compile(r"(?:\d*'(?P<base>[hdb]))?(?P<digits>[0-9A-Fa-f]+)")
@@ -17,7 +18,7 @@ RADIX = {"h": 16, "d": 10, "b": 2, None: 10}
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter: type and default as the header has them, and the comment beside it ("": none)."""
+    """One parameter: type ("": none, a text), default, and the comment on its line ("": none)."""
 
     name: str
     type: str
@@ -27,7 +28,7 @@ class Parameter:
     @property
     def is_text(self) -> bool:
         """A string, not a number."""
-        return self.type == "string"
+        return self.value.startswith('"')
 
     @property
     def default(self) -> int | str:
@@ -47,6 +48,6 @@ def parameters(path: Path) -> dict[str, Parameter]:
         return {}
     rows = _LINE.finditer(match[2])
     return {
-        row["name"]: Parameter(row["name"], row["type"], row["value"], (row["about"] or "").strip())
+        row["name"]: Parameter(row["name"], row["type"] or "", row["value"], (row["about"] or "").strip())
         for row in rows
     }

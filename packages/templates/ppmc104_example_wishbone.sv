@@ -6,7 +6,7 @@
 module ppmc104_example_wishbone #(
     parameter int unsigned CLK_HZ  = 16_000_000,  // frequency of clk, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ = 16_000_000,  // all speeds of the part follow it
-    parameter string       TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
+    parameter              TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
 ) (
     input  wire logic        clk,
     input  wire logic        rst_n,     // may assert at any time

@@ -11,7 +11,7 @@ module ppmc_bank_carrier #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
     parameter bit          PHASE_IDLE = 1'b1,         // level of s before the first initialisation
-    parameter string       HOST       = "UART",       // or "SPI"
+    parameter              HOST       = "UART",       // or "SPI"
     parameter int unsigned BAUD       = 115_200,      // of the bridge after reset
     parameter int unsigned RECORD     = 0             // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
@@ -45,7 +45,7 @@ module ppmc_bank_carrier #(
     output logic                   led_switch   // a limit or an alarm is active
 );
 
-  if (HOST != "UART" && HOST != "SPI") begin : g_check
+  if (128'(HOST) != "UART" && 128'(HOST) != "SPI") begin : g_check
     $fatal(1, "ppmc_bank_carrier: HOST must be UART or SPI");
   end
 
@@ -92,7 +92,7 @@ module ppmc_bank_carrier #(
       .dir
   );
 
-  if (HOST == "SPI") begin : g_spi
+  if (128'(HOST) == "SPI") begin : g_spi
     ppmc_reset u_reset (
         .clk_i (clk),
         .rst_ni(rst_n),

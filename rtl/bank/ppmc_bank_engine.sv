@@ -47,7 +47,10 @@ module ppmc_bank_engine
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
   // Small FPGAs have few block RAMs, and these are the fewest bits that fill one.
+  // Simulation does not read an attribute.
+  // verilator lint_off UNUSEDPARAM
   localparam string PaceStyle = (Round > 8) ? "block" : "logic";
+  // verilator lint_on UNUSEDPARAM
 
   typedef logic [RoundBits-1:0] axis_t;
 

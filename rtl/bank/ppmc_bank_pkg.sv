@@ -5,6 +5,9 @@
 
 package ppmc_bank_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 
@@ -202,6 +205,8 @@ package ppmc_bank_pkg;
     if (refused) d = '{kind: KindUndefined, params: 3'd0};
     return d;
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

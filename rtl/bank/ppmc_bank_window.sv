@@ -43,8 +43,11 @@ module ppmc_bank_window
 
   localparam int unsigned Slots = 1 << RoundBits;
   // With few axes only positions, for small FPGAs have few block RAMs; a status has few bits, the tool sees that.
+  // Simulation does not read an attribute.
+  // verilator lint_off UNUSEDPARAM
   localparam string AnswerStyle = (Slots > 8) ? "block" : "logic";
   localparam string StatusStyle = (Slots > 8) ? "block" : "auto";
+  // verilator lint_on UNUSEDPARAM
 
   // ---- bus -----------------------------------------------------------------------------------------
 

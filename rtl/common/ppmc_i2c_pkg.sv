@@ -5,6 +5,9 @@
 
 package ppmc_i2c_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   typedef enum logic [2:0] {
     CmdNone,
     CmdStart,
@@ -12,6 +15,8 @@ package ppmc_i2c_pkg;
     CmdByte,
     CmdFree    // clock pulses until SDA is high, at most nine
   } i2c_cmd_e;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

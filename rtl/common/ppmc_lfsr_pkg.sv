@@ -8,6 +8,9 @@
 
 package ppmc_lfsr_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // Primitive polynomials of degree 31 .. 2 without their highest power, x**0 in the low bit.
   localparam logic [31:2][7:0] TAPS = {
     8'h09,  // 31
@@ -68,6 +71,8 @@ package ppmc_lfsr_pkg;
     end
     return power[30:0];
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

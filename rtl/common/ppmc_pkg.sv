@@ -5,6 +5,9 @@
 
 package ppmc_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // clk periods that `xtal_cycles` crystal cycles last, rounded up: CYC(n) of the specifications.
   function automatic int unsigned cyc(int unsigned xtal_cycles, int unsigned clk_hz, int unsigned xtal_hz);
     longint unsigned product;
@@ -57,6 +60,8 @@ package ppmc_pkg;
     end
     return x;
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -5,6 +5,9 @@
 
 package ppmc_bridge_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   localparam logic [7:0] Flag = 8'h7E;
   localparam logic [7:0] Escape = 8'h7D;
   localparam int unsigned EscapeBit = 5;  // which an escaped byte has inverted
@@ -151,6 +154,8 @@ package ppmc_bridge_pkg;
     mix = mix ^ (mix >> 4);
     return {crc[7:0], 8'd0} ^ {mix[3:0], 12'd0} ^ {3'd0, mix, 5'd0} ^ {8'd0, mix};
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -6,11 +6,16 @@
 
 package ppmc_build_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
 `ifndef PPMC_BUILD
   `define PPMC_BUILD 128'h0
 `endif
 
   localparam logic [127:0] Build = `PPMC_BUILD;  // first byte of the answer in the low bits
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -5,12 +5,17 @@
 
 package ppmc_recorder_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   localparam int unsigned LeastTime = 14;  // bits of a record that count time, at least
 
   // Bytes of a record of so many levels.
   function automatic int unsigned record_bytes(int unsigned width);
     return (width + LeastTime + 7) / 8;
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -4,6 +4,9 @@
 
 package ppmc_motion_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // Number of motor phases, coded as in the family's initialisation byte (P104-INI-01).
   typedef enum logic [1:0] {
     MotorNone = 2'b00,
@@ -111,6 +114,8 @@ package ppmc_motion_pkg;
     if (half) t = (pair == (motor == Motor5)) ? pattern | t : pattern & t;
     return t;
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

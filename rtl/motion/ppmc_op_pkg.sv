@@ -5,6 +5,9 @@
 
 package ppmc_op_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   localparam logic [2:0] OP_SINGLE = 3'b010;
   localparam logic [2:0] OP_ACC_DEC = 3'b011;
   localparam logic [2:0] OP_CONSTANT = 3'b100;
@@ -34,6 +37,8 @@ package ppmc_op_pkg;
       default:                     return 3'd0;
     endcase
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

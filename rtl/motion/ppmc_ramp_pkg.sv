@@ -4,6 +4,9 @@
 
 package ppmc_ramp_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   typedef enum logic [2:0] {
     PassInit,    // n = PA, v = 0
     PassMulBit,  // v = 2v + bit * n: one multiplier bit, the highest first
@@ -14,6 +17,8 @@ package ppmc_ramp_pkg;
     PassShare,   // v = v / (a - b) / (a + b)
     PassTell     // v + 1 goes out; v is lost
   } pass_e;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -10,8 +10,8 @@ module pmc006
 #(
     parameter int unsigned CLK_HZ     = 16_000_000,    // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,    // without effect
-    parameter string       TIMING     = "FAST",        // or "DATASHEET", which behaves alike
-    parameter string       STEP_ACK   = "MANUAL",      // what s answers: 3, or with "ECHO" its data
+    parameter              TIMING     = "FAST",        // or "DATASHEET", which behaves alike
+    parameter              STEP_ACK   = "MANUAL",      // what s answers: 3, or with "ECHO" its data
     parameter int unsigned BAUD       = 9600,          // serial rate, 1200 .. 115 200
     parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3
     parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 0 .. 127
@@ -65,10 +65,10 @@ module pmc006
     output logic            mon_busy
 );
 
-  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+  if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
     $fatal(1, "pmc006: TIMING must be FAST or DATASHEET");
   end
-  if (STEP_ACK != "MANUAL" && STEP_ACK != "ECHO") begin : g_check_ack
+  if (128'(STEP_ACK) != "MANUAL" && 128'(STEP_ACK) != "ECHO") begin : g_check_ack
     $fatal(1, "pmc006: STEP_ACK must be MANUAL or ECHO");
   end
   if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
@@ -162,7 +162,7 @@ module pmc006
       .ClkHz  (CLK_HZ),
       .I2cHz  (I2C_HZ),
       .Device (7'(EE_DEV)),
-      .Echo   (STEP_ACK == "ECHO"),
+      .Echo   (128'(STEP_ACK) == "ECHO"),
       .Version(FW_VERSION)
   ) u_control (
       .clk_i     (clk),

@@ -8,7 +8,7 @@
 
 module pmc006_carrier #(
     parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
-    parameter string       STEP_ACK   = "MANUAL",    // or "ECHO"
+    parameter              STEP_ACK   = "MANUAL",    // or "ECHO"
     parameter int unsigned BAUD       = 9600,
     parameter int unsigned I2C_HZ     = 400_000,
     parameter int unsigned T_OFF_NS   = 20_000,

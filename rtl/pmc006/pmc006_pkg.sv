@@ -5,6 +5,9 @@
 
 package pmc006_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // ---- instructions: codes of the frames, and with bit 7 those of the user program that no frame has -----------------
 
   localparam logic [7:0] I_NONE = 8'h00;
@@ -233,6 +236,8 @@ package pmc006_pkg;
       stcfg: 3'b000,
       stlvl: 9'd0
   };
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

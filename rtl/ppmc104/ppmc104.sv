@@ -13,7 +13,7 @@ module ppmc104
 #(
     parameter int unsigned CLK_HZ     = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter string       TIMING     = "FAST",      // or "DATASHEET": with the old chip's processing times
+    parameter              TIMING     = "FAST",      // or "DATASHEET": with the old chip's processing times
     parameter bit          PHASE_IDLE = 1'b1         // level of s until the first initialisation
 ) (
     input  wire logic       clk,
@@ -49,7 +49,7 @@ module ppmc104
     output logic            dir      // 0 = CW
 );
 
-  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+  if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
     $fatal(1, "ppmc104: TIMING must be FAST or DATASHEET");
   end
   if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
@@ -122,7 +122,7 @@ module ppmc104
   ppmc_single #(
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ),
-      .Datasheet(TIMING == "DATASHEET"),
+      .Datasheet(128'(TIMING) == "DATASHEET"),
       .PhaseIdle(PHASE_IDLE),
       .Traits   (TRAITS)
   ) u_single (
@@ -177,7 +177,7 @@ module ppmc104
   );
 
   ppmc104_pace #(
-      .Datasheet(TIMING == "DATASHEET"),
+      .Datasheet(128'(TIMING) == "DATASHEET"),
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ)
   ) u_own_pace (

@@ -8,9 +8,9 @@
 module ppmc104_carrier #(
     parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter string       TIMING     = "FAST",
+    parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b1,        // level of s before the first initialisation
-    parameter string       HOST       = "UART",      // or "BUS"
+    parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
@@ -117,7 +117,7 @@ module ppmc104_carrier #(
   ppmc_board_host #(
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ),
-      .Datasheet(TIMING == "DATASHEET"),
+      .Datasheet(128'(TIMING) == "DATASHEET"),
       .Host     (HOST),
       .Baud     (BAUD),
       .Part     (104),
@@ -152,7 +152,7 @@ module ppmc104_carrier #(
 
   assign part_csel     = in_csel && straps[0];
   assign part_vsel     = in_vsel && straps[1];
-  assign d_oe          = HOST == "BUS" && part_oe;
+  assign d_oe          = 128'(HOST) == "BUS" && part_oe;
   assign led_moving    = !hold;
   assign led_switch    = !(l1_n && l2_n && l3_n && l4_n && alm_n);
   assign unused_straps = ^straps[7:2];

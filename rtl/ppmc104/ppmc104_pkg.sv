@@ -5,6 +5,9 @@
 
 package ppmc104_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc_code_pkg::*;
   import ppmc_op_pkg::*;
   import ppmc_single_pkg::*;
@@ -86,6 +89,8 @@ package ppmc104_pkg;
       return ErrRates;
     return ErrUndefined;
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -10,7 +10,7 @@ module ppmc2104
 #(
     parameter int unsigned CLK_HZ  = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
     parameter int unsigned XTAL_HZ = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter string       TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
+    parameter              TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -48,7 +48,7 @@ module ppmc2104
     output logic            clk_o      // a quarter of the crystal
 );
 
-  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+  if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
     $fatal(1, "ppmc2104: TIMING must be FAST or DATASHEET");
   end
   if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
@@ -58,7 +58,7 @@ module ppmc2104
     $fatal(1, "ppmc2104: XTAL_HZ must be 1e6 .. 16e6");
   end
 
-  localparam bit Datasheet = TIMING == "DATASHEET";
+  localparam bit Datasheet = 128'(TIMING) == "DATASHEET";
 
   logic rst;
 

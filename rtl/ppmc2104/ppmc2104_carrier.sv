@@ -9,9 +9,9 @@
 module ppmc2104_carrier #(
     parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
     parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter string       TIMING   = "FAST",
+    parameter              TIMING   = "FAST",
     parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0 as on the old chip
-    parameter string       HOST     = "UART",      // or "BUS"
+    parameter              HOST     = "UART",      // or "BUS"
     parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
@@ -129,7 +129,7 @@ module ppmc2104_carrier #(
   ppmc_board_host #(
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ),
-      .Datasheet(TIMING == "DATASHEET"),
+      .Datasheet(128'(TIMING) == "DATASHEET"),
       .Host     (HOST),
       .Baud     (BAUD),
       .Part     (2104),
@@ -166,11 +166,11 @@ module ppmc2104_carrier #(
       .link_o(led_link)
   );
 
-  assign part_busc     = HOST == "BUS" && busc;  // the bridge drives read and write strobes
+  assign part_busc     = 128'(HOST) == "BUS" && busc;  // the bridge drives read and write strobes
   assign part_csel     = in_csel & straps[1:0];
   assign part_run      = in_run & straps[3:2];
   assign part_errint_n = in_errint_n && straps[4];
-  assign d_oe          = HOST == "BUS" && part_oe;
+  assign d_oe          = 128'(HOST) == "BUS" && part_oe;
   assign s1            = PHASE_ON ? ~s1_n : s1_n;
   assign s2            = PHASE_ON ? ~s2_n : s2_n;
   assign led_moving    = hold != '1;

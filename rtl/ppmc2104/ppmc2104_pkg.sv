@@ -6,6 +6,9 @@
 
 package ppmc2104_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc_op_pkg::*;
 
   localparam int unsigned AXES = 2;
@@ -185,6 +188,8 @@ package ppmc2104_pkg;
     logic   decel_ok;  // a deceleration stop would be taken
     setup_t setup;
   } state_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

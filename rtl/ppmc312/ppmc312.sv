@@ -13,9 +13,9 @@ module ppmc312
 #(
     parameter int unsigned CLK_HZ   = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
     parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter string       TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
+    parameter              TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
     parameter int unsigned VERSION  = 'h12,        // what the version instruction answers, 0 .. 255
-    parameter string       SUM_MODE = "BINARY",    // or "CHARS": checksum of the serial mode
+    parameter              SUM_MODE = "BINARY",    // or "CHARS": checksum of the serial mode
     parameter int unsigned SND_LEAD = 1,           // bits from the rise of snd to the start bit, 1 .. 16
     parameter int unsigned SND_WAIT = 0            // bits that snd waits beyond half a bit, 0 .. 8
 ) (
@@ -70,10 +70,10 @@ module ppmc312
     output logic            out_oe
 );
 
-  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+  if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
     $fatal(1, "ppmc312: TIMING must be FAST or DATASHEET");
   end
-  if (SUM_MODE != "BINARY" && SUM_MODE != "CHARS") begin : g_check_sum
+  if (128'(SUM_MODE) != "BINARY" && 128'(SUM_MODE) != "CHARS") begin : g_check_sum
     $fatal(1, "ppmc312: SUM_MODE must be BINARY or CHARS");
   end
   if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000 || CLK_HZ < XTAL_HZ / 2) begin : g_check_clk
@@ -93,7 +93,7 @@ module ppmc312
     $fatal(1, "ppmc312: SND_WAIT must be 0 .. 8");
   end
 
-  localparam bit Datasheet = TIMING == "DATASHEET";
+  localparam bit Datasheet = 128'(TIMING) == "DATASHEET";
   // 9.5 crystal cycles
   localparam int unsigned WaitClk = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
   // ---- reset -----------------------------------------------------------------------------------------------------
@@ -206,7 +206,7 @@ module ppmc312
   ppmc312_serial #(
       .ClkHz   (CLK_HZ),
       .XtalHz  (XTAL_HZ),
-      .CharsSum(SUM_MODE == "CHARS"),
+      .CharsSum(128'(SUM_MODE) == "CHARS"),
       .SndLead (SND_LEAD),
       .SndWait (SND_WAIT)
   ) u_serial (

@@ -10,11 +10,11 @@
 module ppmc312_carrier #(
     parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
     parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter string       TIMING   = "FAST",
-    parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter              TIMING   = "FAST",
+    parameter              SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
     parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
     parameter int unsigned SND_WAIT = 0,           // bits that rs485_de waits beyond half a bit, 0 .. 8
-    parameter string       HOST     = "UART",      // or "BUS", "SERIAL"
+    parameter              HOST     = "UART",      // or "BUS", "SERIAL"
     parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
@@ -109,7 +109,7 @@ module ppmc312_carrier #(
   ) u_part (
       .clk,
       .rst_n  (part_rst_n),
-      .mode   (HOST != "SERIAL"),
+      .mode   (128'(HOST) != "SERIAL"),
       .d_i    (part_d),
       .d_o,
       .d_oe   (part_oe),
@@ -163,11 +163,11 @@ module ppmc312_carrier #(
   assign part_evt1_n = in_evt1_n && straps[2];
 
   assign hold        = !moved_q || !cd_n;
-  assign d_oe        = HOST == "BUS" && part_oe;
+  assign d_oe        = 128'(HOST) == "BUS" && part_oe;
   assign led_moving  = !hold;
   assign led_switch  = !(fl_n && bl_n && fhl_n && bhl_n && alm_n);
 
-  if (HOST == "SERIAL") begin : g_serial
+  if (128'(HOST) == "SERIAL") begin : g_serial
     // Both lines rest at 1.
     assign rxd = uart_rxd && rs485_rxd;
     assign uart_txd = rs485_txd;
@@ -198,7 +198,7 @@ module ppmc312_carrier #(
     ppmc_board_host #(
         .ClkHz    (CLK_HZ),
         .XtalHz   (XTAL_HZ),
-        .Datasheet(TIMING == "DATASHEET"),
+        .Datasheet(128'(TIMING) == "DATASHEET"),
         .Host     (HOST),
         .Baud     (BAUD),
         .Part     (312),

@@ -7,6 +7,9 @@
 
 package ppmc312_link_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 
@@ -170,6 +173,8 @@ package ppmc312_link_pkg;
     logic [7:0] code;   // what it has come to; one clk later
     logic [2:0] first;  // low bits of the first byte behind the code; one clk later
   } answered_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

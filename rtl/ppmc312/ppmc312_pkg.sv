@@ -6,6 +6,9 @@
 
 package ppmc312_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // ---- sizes -----------------------------------------------------------------------------------------------------
 
   localparam int unsigned RATE_BITS = 16;
@@ -204,6 +207,8 @@ package ppmc312_pkg;
 
   // Why a motion ended; bit order of the byte in E0 (section 10.3). Exactly one is set.
   typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} cause_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -29,7 +29,11 @@ module ppmc312_reset #(
 
   localparam int unsigned StartXtal = 25_600;
 
-  logic rst_pin, rst_q, rst_host_q, started;
+  // It resets flip-flops and is data of the restart of the delay.
+  // verilator lint_off SYNCASYNCNET
+  logic rst_pin;
+  // verilator lint_on SYNCASYNCNET
+  logic rst_q, rst_host_q, started;
   logic [1:0] boot_q;
   logic [7:0] pins, unused_meta;
 

@@ -6,6 +6,9 @@
 
 package ppmc_code_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // Error numbers as shown in status bits 6..4 (P104-ERR-00).
   typedef enum logic [2:0] {
     ErrUndefined  = 3'd0,  // also: a stop with no motion
@@ -94,6 +97,8 @@ package ppmc_code_pkg;
     logic       half;      // half step
     logic [1:0] motor;     // phases of the motor, as motor_e
   } setup_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

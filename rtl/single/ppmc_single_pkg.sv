@@ -8,6 +8,9 @@
 
 package ppmc_single_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 
@@ -65,6 +68,8 @@ package ppmc_single_pkg;
     logic       pout_n;  // pulse, L = active
     logic       dir;     // 0 = CW
   } motor_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

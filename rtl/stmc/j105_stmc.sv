@@ -8,8 +8,8 @@
 module j105_stmc #(
     parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
-    parameter string       TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
-    parameter string       READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
+    parameter              TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
+    parameter              READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
     parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
     parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper, crystal periods
     parameter int unsigned CHOP_OFF_XT = 1_740,       // off time of the chopper, crystal periods

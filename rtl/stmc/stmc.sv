@@ -13,8 +13,8 @@ module stmc
 #(
     parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
-    parameter string       TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
-    parameter string       READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
+    parameter              TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
+    parameter              READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
     parameter bit          PHASE_IDLE  = 1'b0,        // level of s until the first initialisation
     parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
     parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper, crystal periods
@@ -44,10 +44,10 @@ module stmc
     output logic            hold
 );
 
-  if (TIMING != "FAST" && TIMING != "DATASHEET") begin : g_check_timing
+  if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
     $fatal(1, "stmc: TIMING must be FAST or DATASHEET");
   end
-  if (READ_MAP != "SHEET" && READ_MAP != "FAMILY") begin : g_check_map
+  if (128'(READ_MAP) != "SHEET" && 128'(READ_MAP) != "FAMILY") begin : g_check_map
     $fatal(1, "stmc: READ_MAP must be SHEET or FAMILY");
   end
   if (CLK_HZ < 8_000_000 || CLK_HZ > 200_000_000) begin : g_check_clk
@@ -60,7 +60,7 @@ module stmc
     $fatal(1, "stmc: HOLD_XT, CHOP_ON_XT and CHOP_OFF_XT must be at least 1");
   end
 
-  localparam bit Sheet = READ_MAP == "SHEET";
+  localparam bit Sheet = 128'(READ_MAP) == "SHEET";
   // A quantum lasts at least two clk. Times of the chopper that are no multiple of it are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
@@ -159,7 +159,7 @@ module stmc
   ppmc_single #(
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ),
-      .Datasheet(TIMING == "DATASHEET"),
+      .Datasheet(128'(TIMING) == "DATASHEET"),
       .PhaseIdle(PHASE_IDLE),
       .Traits   (Traits)
   ) u_single (

@@ -9,11 +9,11 @@
 module stmc_carrier #(
     parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter string       TIMING     = "FAST",
-    parameter string       READ_MAP   = "FAMILY",    // or "SHEET"
+    parameter              TIMING     = "FAST",
+    parameter              READ_MAP   = "FAMILY",    // or "SHEET"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
-    parameter string       HOST       = "UART",      // or "BUS"
+    parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (
@@ -133,7 +133,7 @@ module stmc_carrier #(
   ppmc_board_host #(
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ),
-      .Datasheet(TIMING == "DATASHEET"),
+      .Datasheet(128'(TIMING) == "DATASHEET"),
       .Host     (HOST),
       .Baud     (BAUD),
       .Part     (105),
@@ -166,7 +166,7 @@ module stmc_carrier #(
       .link_o     (led_link)
   );
 
-  assign d_oe          = HOST == "BUS" && part_oe;
+  assign d_oe          = 128'(HOST) == "BUS" && part_oe;
   assign led_moving    = !hold;
   assign led_switch    = !(l1_n && l2_n && l3_n && l4_n && mon);
   assign unused_straps = ^straps;

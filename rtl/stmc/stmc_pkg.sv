@@ -7,6 +7,9 @@
 
 package stmc_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc_code_pkg::*;
   import ppmc_op_pkg::*;
 
@@ -68,6 +71,8 @@ package stmc_pkg;
     if (data[15:8] == data[7:0]) out[31:16] = '0;
     return out;
   endfunction
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

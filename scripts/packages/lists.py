@@ -48,7 +48,8 @@ def dot_f(part: Row) -> str:
     """Command file of a part; `-F` takes its paths relative to the file."""
     lines = [
         f"// {FROM}",
-        f"// verilator -F packages/{part.rtl}.f --top-module {part.top}",
+        f"// verilator -F packages/{part.rtl}.f; a --top-module after it selects a top of your own.",
+        f"--top-module {part.top}",
         "+incdir+../rtl/common",
     ]
     return "\n".join([*lines, *(f"../{relative(path)}" for path in part_files(part)), ""])

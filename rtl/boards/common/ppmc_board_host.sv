@@ -8,7 +8,7 @@ module ppmc_board_host #(
     parameter int unsigned ClkHz     = 24_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0,
-    parameter string       Host      = "UART",      // or "BUS"
+    parameter              Host      = "UART",      // or "BUS"
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits
@@ -47,7 +47,7 @@ module ppmc_board_host #(
     output logic                     link_o        // 1: a script is running or an answer is on its way
 );
 
-  if (Host != "UART" && Host != "BUS") begin : g_check_host
+  if (128'(Host) != "UART" && 128'(Host) != "BUS") begin : g_check_host
     $fatal(1, "ppmc_board_host: HOST must be UART or BUS");
   end
 
@@ -55,7 +55,7 @@ module ppmc_board_host #(
     $fatal(1, "ppmc_board_host: AddrBits must be 1 .. 4");
   end
 
-  if (Host == "UART") begin : g_uart
+  if (128'(Host) == "UART") begin : g_uart
     logic [3:0] a;
 
     assign part_a_o = a[AddrBits-1:0];

@@ -10,7 +10,7 @@
 
 module board_icebreaker_ppmc104_bus #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter string       TIMING     = "FAST",
+    parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b0         // level of s before the first initialisation
 ) (
     input  wire logic       clk_12m,     // 12 MHz

@@ -10,7 +10,7 @@
 
 module board_icebreaker_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter string       TIMING   = "FAST",
+    parameter              TIMING   = "FAST",
     parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
     parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none

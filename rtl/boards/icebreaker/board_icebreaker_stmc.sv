@@ -8,8 +8,8 @@
 
 module board_icebreaker_stmc #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter string       TIMING     = "FAST",
-    parameter string       READ_MAP   = "FAMILY",    // or "SHEET"
+    parameter              TIMING     = "FAST",
+    parameter              READ_MAP   = "FAMILY",    // or "SHEET"
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none

@@ -5,7 +5,7 @@
 `default_nettype none
 
 module ppmc_clock_tangnano #(
-    parameter string Device = "GW1NR-9C",
+    parameter Device = "GW1NR-9C",
     parameter int    OutDiv = 8
 ) (
     input  wire logic clk_27m_i,

@@ -9,7 +9,7 @@
 
 module board_tangnano20k_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
-    parameter string       TIMING  = "FAST",
+    parameter              TIMING  = "FAST",
     parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (

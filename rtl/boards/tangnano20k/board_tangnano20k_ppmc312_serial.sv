@@ -11,8 +11,8 @@
 
 module board_tangnano20k_ppmc312_serial #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter string       TIMING   = "FAST",
-    parameter string       SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter              TIMING   = "FAST",
+    parameter              SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
     parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
     parameter int unsigned SND_WAIT = 0            // bits that rs485_de waits beyond half a bit, 0 .. 8
 ) (

@@ -10,7 +10,7 @@
 
 module board_tangnano9k_bank #(
     parameter bit          PHASE_IDLE = 1'b0,     // level of s before the first initialisation
-    parameter string       HOST       = "UART",   // or "SPI"
+    parameter              HOST       = "UART",   // or "SPI"
     parameter int unsigned BAUD       = 115_200,  // of the bridge after reset
     parameter int unsigned RECORD     = 0         // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (

@@ -11,7 +11,7 @@
 module board_ulx3s_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter string       HOST       = "UART",      // or "SPI"
+    parameter              HOST       = "UART",      // or "SPI"
     parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (

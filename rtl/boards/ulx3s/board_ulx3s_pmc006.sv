@@ -7,7 +7,7 @@
 `default_nettype none
 
 module board_ulx3s_pmc006 #(
-    parameter string       STEP_ACK   = "MANUAL",  // or "ECHO"
+    parameter              STEP_ACK   = "MANUAL",  // or "ECHO"
     parameter int unsigned BAUD       = 9600,
     parameter int unsigned I2C_HZ     = 400_000,
     parameter int unsigned T_OFF_NS   = 20_000,

@@ -8,9 +8,9 @@
 
 module board_ulx3s_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter string       TIMING     = "FAST",
+    parameter              TIMING     = "FAST",
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter string       HOST       = "UART",      // or "BUS"
+    parameter              HOST       = "UART",      // or "BUS"
     parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (

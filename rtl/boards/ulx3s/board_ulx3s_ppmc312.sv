@@ -8,8 +8,8 @@
 
 module board_ulx3s_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
-    parameter string       TIMING  = "FAST",
-    parameter string       HOST    = "UART",      // or "BUS", "SERIAL"
+    parameter              TIMING  = "FAST",
+    parameter              HOST    = "UART",      // or "BUS", "SERIAL"
     parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
     parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
 ) (

@@ -7,6 +7,9 @@
 
 package pmc006_calc_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   typedef enum logic [3:0] {
     OpHalt,
     OpLoad,   // hi = operand
@@ -135,6 +138,8 @@ package pmc006_calc_pkg;
   localparam int unsigned ProgramWords = 272;
 
   // ---- end of what is written --------------------------------------------------------------------------------
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

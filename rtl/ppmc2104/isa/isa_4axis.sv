@@ -8,7 +8,7 @@
 module isa_4axis #(
     parameter int unsigned CLK_HZ    = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ   = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter string       TIMING    = "FAST",      // or "DATASHEET": with the old chip's processing times
+    parameter              TIMING    = "FAST",      // or "DATASHEET": with the old chip's processing times
     parameter int unsigned BASE_ADDR = 'h300        // first register, 000h .. 3F8h, a multiple of 8
 ) (
     input  wire logic       clk,

@@ -5,6 +5,9 @@
 
 package ppmc312_serial_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // ---- an instruction code of the serial mode --------------------------------------------------------------------
 
   typedef struct packed {
@@ -68,6 +71,8 @@ package ppmc312_serial_pkg;
     logic            stored;  // they stand in the store of answers
     logic [2:0][7:0] data;    // else these, data[0] first
   } reply_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

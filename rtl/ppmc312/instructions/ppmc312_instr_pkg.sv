@@ -7,6 +7,9 @@
 
 package ppmc312_instr_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   import ppmc312_pkg::*;
 
   // ---- judgement and answer --------------------------------------------------------------------------------------
@@ -133,6 +136,8 @@ package ppmc312_instr_pkg;
     logic       refused;  // with done: no longer at rest
     logic [7:0] kind;     // with done: status byte of the answer
   } move_state_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -5,6 +5,9 @@
 
 package ppmc312_stage_pkg;
 
+  // A design uses only some of these constants.
+  // verilator lint_off UNUSEDPARAM
+
   // A constant rate and what the look-up in the table has found for it.
   typedef struct packed {
     logic [15:0] rate;   // base clocks of an interval
@@ -85,6 +88,8 @@ package ppmc312_stage_pkg;
     walk_t from;           // where it begins
     target_t     to;       // constant rate
   } plan_t;
+
+  // verilator lint_on UNUSEDPARAM
 
 endpackage
 

@@ -7,7 +7,7 @@ module ppmc_board_host #(
     parameter int unsigned ClkHz     = 24_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0,
-    parameter string       Host      = "UART",      // or "BUS"
+    parameter              Host      = "UART",      // or "BUS"
     parameter int unsigned Baud      = 115_200,
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits

@@ -8,7 +8,7 @@
 
 module line_node #(
     parameter int unsigned CLK_HZ   = 8_000_000,
-    parameter string       STEP_ACK = "MANUAL",
+    parameter              STEP_ACK = "MANUAL",
     parameter int unsigned BAUD     = 9600
 ) (
     input  wire logic       clk,

@@ -8,8 +8,8 @@
 module line_node #(
     parameter int unsigned CLK_HZ   = 8_000_000,
     parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter string       TIMING   = "FAST",
-    parameter string       SUM_MODE = "BINARY"
+    parameter              TIMING   = "FAST",
+    parameter              SUM_MODE = "BINARY"
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -76,7 +76,7 @@ module line_node #(
       .org_n,
       .index_n,
       .alm_n,
-      .end_n    (1'b0),  // the drive says at once that it is where it shall be
+      .end_n    (1'b0),      // the drive says at once that it is where it shall be
       .epin,
       .epdir,
       .run      (1'b1),

@@ -7,8 +7,8 @@
 module line_station #(
     parameter int unsigned CLK_HZ   = 8_000_000,
     parameter int unsigned XTAL_HZ  = 16_000_000,
-    parameter string       TIMING   = "FAST",
-    parameter string       SUM_MODE = "BINARY"
+    parameter              TIMING   = "FAST",
+    parameter              SUM_MODE = "BINARY"
 ) (
     input  wire logic        clk,
     input  wire logic        rst_n,
