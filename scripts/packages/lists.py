@@ -1,4 +1,4 @@
-"""Bender.yml and the file lists: one a part for Verilator, one of all for Vivado, Quartus, Gowin EDA."""
+"""Bender.yml and the file lists: one a part for Verilator; plain Verilog for Vivado, Quartus, Gowin EDA."""
 
 from __future__ import annotations
 
@@ -22,11 +22,6 @@ def carrier_groups() -> list[Group]:
 def part_files(part: Row) -> list[Path]:
     """RTL of a part and of its carrier, in compile order."""
     return files(f"{part.rtl}_carrier" if part.carrier else part.rtl)
-
-
-def library_files() -> list[Path]:
-    """RTL of all parts with their carriers, in compile order."""
-    return [path for group in listed().values() if group.name != "boards" for path in group.files]
 
 
 def bender() -> str:
@@ -55,42 +50,44 @@ def dot_f(part: Row) -> str:
     return "\n".join([*lines, *(f"../{relative(path)}" for path in part_files(part)), ""])
 
 
-def vivado() -> str:
-    """Tcl for a Vivado project or a non-project script."""
-    lines = "".join(f"  $root/{relative(path)} \\\n" for path in library_files())
+WRITE = "make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>"
+
+
+def plain_tcl(use: str, add: str) -> str:
+    """Tcl that adds the plain Verilog of one top, and stops with one line if it is not written yet."""
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
-        "# Vivado, in a project: source .../packages/vivado.tcl\n"
-        "set root [file normalize [file join [file dirname [info script]] ..]]\n"
-        f"set files [list \\\n{lines}]\n"
-        "add_files -norecurse $files\n"
-        "set_property file_type SystemVerilog [get_files $files]\n"
-        "set dirs [get_property include_dirs [current_fileset]]\n"
-        "lappend dirs $root/rtl/common\n"
-        "set_property include_dirs $dirs [current_fileset]\n"
+        "# Plain Verilog-2005 of one part, bridge or board, written before by\n"
+        f"#   {WRITE}\n"
+        f"# {use}\n"
+        "if {![info exists root]} {set root [file normalize [file join [file dirname [info script]] ..]]}\n"
+        "if {![info exists top]} {set top ppmc104}\n"
+        "set plain $root/build/verilog/$top.v\n"
+        'if {![file exists $plain]} {error "${plain}: not written; run `make verilog TOP=$top` in $root"}\n'
+        f"{add}\n"
+    )
+
+
+def vivado() -> str:
+    """Tcl for a Vivado project or a non-project script."""
+    return plain_tcl(
+        "Vivado, in a project: set top ppmc104; source .../packages/vivado.tcl", "add_files -norecurse $plain"
     )
 
 
 def quartus() -> str:
     """Lines of a Quartus settings file."""
-    lines = "".join(
-        f"set_global_assignment -name SYSTEMVERILOG_FILE $root/{relative(path)}\n" for path in library_files()
-    )
-    return (
-        f"# {FROM}\n# {NOT_RUN}\n"
-        "# Quartus, in the .qsf: set root /where/openppmc/is, then source $root/packages/quartus.qsf\n"
-        "set_global_assignment -name SEARCH_PATH $root/rtl/common\n" + lines
+    return plain_tcl(
+        "Quartus, in the .qsf: set root <checkout>; set top ppmc104; source $root/packages/quartus.qsf",
+        "set_global_assignment -name VERILOG_FILE $plain",
     )
 
 
 def gowin() -> str:
     """Tcl for gw_sh or the console of Gowin EDA."""
-    lines = "".join(f"add_file -type verilog $root/{relative(path)}\n" for path in library_files())
-    return (
-        f"# {FROM}\n# {NOT_RUN}\n# Gowin EDA, with a project open: source .../packages/gowin.tcl\n"
-        "set root [file normalize [file join [file dirname [info script]] ..]]\n"
-        "set_option -verilog_std sysv2017\n"
-        "set_option -include_path $root/rtl/common\n" + lines
+    return plain_tcl(
+        "Gowin EDA, with a project open: set top ppmc104; source .../packages/gowin.tcl",
+        "add_file -type verilog $plain",
     )
 
 

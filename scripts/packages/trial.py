@@ -18,6 +18,8 @@ from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, console, inc
 from openppmc.parts import part, tops
 from openppmc.sim.common import verilator
 from scripts.flow.boards import sources as board_sources
+from scripts.flow.plain_file import FOLDER as PLAIN
+from scripts.flow.plain_file import write
 from scripts.packages.cores import SMOKE_PART, WAIVERS, vendor_boards
 from scripts.packages.lists import FOLDER, part_files
 
@@ -173,6 +175,7 @@ def try_all() -> None:
     for name in TEMPLATES:
         try_template(name)
     console.print(f"[green]ok[/]   read_slang: templates {', '.join(TEMPLATES)}")
-    for target in vendor_boards():
+    for target, board in vendor_boards().items():
+        write(board.top, PLAIN)
         fusesoc(tool, target, BOARDS, "--setup")
     console.print(f"[green]ok[/]   fusesoc: set-up of {', '.join(vendor_boards())}")

@@ -42,14 +42,7 @@ def listed(name: str) -> list[str]:
     """RTL files that a list names, which must name the include folder as well."""
     text = (ROOT / "packages" / name).read_text(encoding="utf-8")
     assert "rtl/common\n" in text, "no include folder"
-    assert name.endswith(".f") or "Not run by this project" in text
     return re.findall(r"(?:\.\.|\$root)/(rtl/\S+\.sv)\b", text)
-
-
-@pytest.mark.parametrize("name", ["vivado.tcl", "quartus.qsf", "gowin.tcl"])
-def test_list_is_complete_and_in_order(name):
-    """Given a vendor's list, then it names every RTL file once, in compile order, and the board modules."""
-    assert listed(name) == [*RTL, *chain(*BOARDS)]
 
 
 @pytest.mark.parametrize("part", tops(), ids=lambda row: row.name)
