@@ -18,6 +18,7 @@ from .run import Findings, Outcome
 BOARDS = {
     "ICEB": "iCEBreaker",
     "ULX3": "ULX3S",
+    "UX31": "ULX3S v3.1",
     "TN20": "Tang Nano 20K",
     "TN09": "Tang Nano 9K",
     "VIRT": "virtual board",

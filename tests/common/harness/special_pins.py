@@ -84,6 +84,24 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
         ),
         Special(pins("D13 E13"), Kind.NEAR_5V, "near 5 V", ULX3S + "gpio.sch"),
     ),
+    "ulx3s_v31": (
+        Special(
+            pins("R2 U3 W2 V2 W1 Y2"),
+            Kind.NEVER,
+            "configuration flash",
+            ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf",
+        ),
+        Special(pins("T5 R5 U5 V4"), Kind.NEVER, "JTAG", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"),
+        Special(pins("F1"), Kind.LOADED, "ESP32 GPIO0", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"),
+        Special(pins("G3 F3 H4 G5"), Kind.DRIVEN, "ESP32", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"),
+        Special(
+            pins("B11 C11 A10 A11 A9 B10 B9 C10 A7 A8 C8 B8 C6 C7 A6 B6 A4 A5 A2 B1 C4 B4"),
+            Kind.LOADED,
+            "bank voltage of J5",
+            ULX3S + "gpio.sch",
+        ),
+        Special(pins("D13 E13"), Kind.NEAR_5V, "near 5 V", ULX3S + "gpio.sch"),
+    ),
     "tangnano20k": (
         Special(pins("25 26"), Kind.NEVER, "HDMI CEC and hot plug; LCD", LITEX + "sipeed_tang_nano_20k.py"),
         Special(pins("57 59-63"), Kind.NEVER, "configuration flash", MISTERY + "atarist.cst"),

@@ -19,6 +19,7 @@ TOPS = project.RTL / "boards"
 OSCILLATORS = {
     "icebreaker": ("clk_12m", 12),
     "ulx3s": ("clk_25m", 25),
+    "ulx3s_v31": ("clk_25m", 25),
     "tangnano9k": ("clk_27m", 27),
     "tangnano20k": ("clk_27m", 27),
     "arty_a7": ("clk", 100),

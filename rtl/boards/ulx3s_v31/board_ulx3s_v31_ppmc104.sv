@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by `make boards` from constraints/ulx3s_v31/board.yml and ppmc104_carrier.sv; change those, not this.
+// board_ulx3s_v31_ppmc104: PPMC-104 with UART or bus host on ULX3S v3.1.6 … v3.1.8 (LFE5U-25F, -85F, CABGA381), clk
+//         100 MHz from the 25 MHz oscillator.
+// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s_v31/ppmc104/pins.lpf.
+// Timing: of ppmc104_carrier.
+`default_nettype none
+
+module board_ulx3s_v31_ppmc104 #(
+    parameter int unsigned XTAL_HZ    = 16_000_000,
+    parameter              TIMING     = "FAST",
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter              HOST       = "UART",      // or "BUS"
+    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+) (
+    input  wire logic       clk_25m,     // 25 MHz
+    input  wire logic       btn_f1,      // 1: reset
+    input  wire logic       host_rst_n,  // 0: reset, from the host
+    // UART host
+    input  wire logic       uart_rxd,    // from the PC
+    output logic            uart_txd,    // to the PC
+    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    input  wire logic       a0,
+    input  wire logic       cs_n,
+    input  wire logic       rd_n,
+    input  wire logic       wr_n,
+    inout  wire logic [7:0] d,
+    output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
+    output logic            int_n,
+    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    input  wire logic       csel,
+    input  wire logic       vsel,
+    input  wire logic       clock,
+    // switches, 0 = active
+    input  wire logic       l1_n,
+    input  wire logic       l2_n,
+    input  wire logic       l3_n,
+    input  wire logic       l4_n,
+    input  wire logic       cnp_n,
+    input  wire logic       alm_n,
+    // auxiliary
+    input  wire logic [3:0] auxi,
+    output logic      [3:0] auxo,
+    output logic            aux_n,
+    // motor
+    output logic      [5:1] s,
+    output logic            hold,
+    output logic            pout_n,
+    output logic            dir,
+    // lamps, 1 = on
+    output logic      [3:0] led,
+    // constant
+    output logic            wifi_gpio0   // boot pin of the ESP32
+);
+
+  localparam int unsigned ClkHz = 100_000_000;
+
+  logic clk, lock, rst_n, led_link, led_moving, led_switch;
+  logic [3:0] lamps;
+  logic [7:0] part_d;
+
+  ppmc_clock_ulx3s u_clock (
+      .clk_25m_i(clk_25m),
+      .clk_o    (clk),
+      .lock_o   (lock)
+  );
+
+  ppmc_board_panel #(
+      .ClkHz(ClkHz)
+  ) u_panel (
+      .clk_i   (clk),
+      .lock_i  (lock),
+      .req_ni  (!btn_f1 && host_rst_n),
+      .rst_no  (rst_n),
+      .link_i  (led_link),
+      .moving_i(led_moving),
+      .switch_i(led_switch),
+      .lamps_o (lamps)
+  );
+
+  ppmc104_carrier #(
+      .CLK_HZ    (ClkHz),
+      .XTAL_HZ   (XTAL_HZ),
+      .TIMING    (TIMING),
+      .PHASE_IDLE(PHASE_IDLE),
+      .HOST      (HOST),
+      .BAUD      (BAUD),
+      .RECORD    (RECORD)
+  ) u_carrier (
+      .clk,
+      .rst_n,
+      .uart_rxd,
+      .uart_txd,
+      .a0,
+      .cs_n,
+      .rd_n,
+      .wr_n,
+      .d_i(d),
+      .d_o(part_d),
+      .d_oe,
+      .int_n,
+      .csel,
+      .vsel,
+      .clock,
+      .l1_n,
+      .l2_n,
+      .l3_n,
+      .l4_n,
+      .cnp_n,
+      .alm_n,
+      .auxi,
+      .auxo,
+      .aux_n,
+      .s,
+      .hold,
+      .pout_n,
+      .dir,
+      .led_link,
+      .led_moving,
+      .led_switch
+  );
+
+  assign d          = d_oe ? part_d : 'z;
+  assign led        = lamps;
+
+  // Low would put the ESP32 into its boot loader at its next reset.
+  assign wifi_gpio0 = 1'b1;
+
+endmodule
+
+`default_nettype wire
