@@ -47,7 +47,7 @@ def flash(on: Board, host: str, sram: bool) -> None:
         part = "" if on.part == "ppmc104" else f" PART={on.part}"
         raise ProjectError(f"{file} is not there: run `make bitstream BOARD={on.name} HOST={host}{part}`")
     load = command(on, host, sram)
-    with console.status(f"{on.title}: {file}"):
+    with console.status(f"{on.title}, {on.revisions}: {file}"):
         done = subprocess.run(
             load,
             cwd=project.ROOT,
@@ -61,7 +61,7 @@ def flash(on: Board, host: str, sram: bool) -> None:
     if done.returncode:
         said = complaint(done.stdout) or f"exit code {done.returncode}"
         raise ProjectError(f"{LOADER} could not load {on.title} (is it plugged in?): {said}")
-    console.print(f"{on.title}: {file} loaded{' until power-off' if sram else ''}")
+    console.print(f"{on.title}: {file} loaded{' until power-off' if sram else ''}; for {on.revisions}")
 
 
 def main() -> int:

@@ -29,7 +29,7 @@ LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cy
 KEYS = {
     "board": (
         "title place chip family clock reset lamps uart pads headers parts",
-        "code devices vendor suffix loader port ties defaults statements",
+        "revisions code devices vendor suffix loader port ties defaults statements",
     ),
     "device": ("title device route", "chip"),
     "vendor": ("tool target device", "family"),
@@ -93,6 +93,7 @@ class Description:
     name: str
     path: Path
     title: str
+    revisions: str  # of the board, that the pins were compared for
     code: str
     place: int
     chip: str
@@ -218,7 +219,14 @@ def load(path: Path) -> Description:
     keys["parts"] = tuple(
         carried(f"{where}: parts: {part}", part, found) for part, found in keys["parts"].items()
     )
-    optional: dict[str, Any] = {"code": "", "suffix": "", "loader": "", "port": "", "defaults": {}}
+    optional: dict[str, Any] = {
+        "revisions": "",
+        "code": "",
+        "suffix": "",
+        "loader": "",
+        "port": "",
+        "defaults": {},
+    }
     return Description(name=name, path=path, devices=tuple(devices), **{**optional, **keys})
 
 

@@ -17,11 +17,13 @@ class Board:
 
     `clk_hz` is the frequency of `clk` that the top gives to the part, `goal_mhz` the least that the project
     wants of this board, `oscillator` the clock input with its frequency in MHz, `loader` its name in
-    openFPGALoader, `part` what it carries.
+    openFPGALoader, `part` what it carries,
+    `revisions` those of the board that the pins are for.
     """
 
     name: str
     title: str
+    revisions: str
     device: str
     family: str
     top: dict[str, str]
@@ -57,6 +59,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
     return Board(
         name=device.name,
         title=device.title,
+        revisions=of.revisions,
         device=device.device,
         family=of.family,
         top={host: of.top(one) for one in same for host in one.hosts},

@@ -16,6 +16,8 @@ FOLDER = DOCS / "boards"
 HEAD = """\
 # Wiring of the {title}
 
+For {revisions}: [revisions](../boards.md#revisions).
+
 Written by `make docs` from `constraints/{name}/board.yml` and `scripts/wiring`; change those, not this. A
 drawing, the levels and an order list for each part that the board carries. Why it is so, other drivers and
 switches: [boards.md](../boards.md#4-power-and-levels); before a winding is connected: [Before the motor
@@ -52,7 +54,9 @@ def _page(fitted: list[Fitted]) -> str:
     names = [one.on.name for one in fitted]
     resistor = uses(fitted[0])[0].resistor
     contents = " · ".join(f"[{_title(one)}](#{one.on.name})" for one in fitted)
-    head = HEAD.format(title=board.title, name=board.name, resistor=resistor, contents=contents)
+    head = HEAD.format(
+        title=board.title, revisions=board.revisions, name=board.name, resistor=resistor, contents=contents
+    )
     assert len(set(names)) == len(names)
     return "\n".join([head, *(_section(one) for one in fitted)])
 

@@ -93,7 +93,9 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
         ),
         Special(pins("T5 R5 U5 V4"), Kind.NEVER, "JTAG", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"),
         Special(pins("F1"), Kind.LOADED, "ESP32 GPIO0", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"),
-        Special(pins("G3 F3 H4 G5"), Kind.DRIVEN, "ESP32", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"),
+        Special(
+            pins("G3 F3 H4 G5"), Kind.DRIVEN, "ESP32", ULX3S + "doc/constraints/prototype/ulx3s_v316.lpf"
+        ),
         Special(
             pins("B11 C11 A10 A11 A9 B10 B9 C10 A7 A8 C8 B8 C6 C7 A6 B6 A4 A5 A2 B1 C4 B4"),
             Kind.LOADED,
