@@ -7,6 +7,7 @@ import re
 import pytest
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.paths import ROOT
 from tests.common.harness.special_pins import SPECIAL, Kind, Special
 from tests.common.harness.test_boards import ALL, CONSTRAINTS, pins, ports
 
@@ -74,3 +75,12 @@ def test_sources_are_named() -> None:
 @pytest.mark.parametrize("port", ["l1_n", "fl_n", "fl_n[2]", "bl_n", "fhl_n", "bhl_n[1]", "alm_n", "mon"])
 def test_stops_are_known(port: str) -> None:
     assert STOPS.fullmatch(port)
+
+
+def test_boot_pin_of_the_esp32_follows_the_revision():
+    """`wifi_gpio0` is F1 on the ULX3S v3.1.6 and newer, L2 before; a file uses no other of both pins."""
+    for board, pin, other in (("ulx3s", "L2", "F1"), ("ulx3s_v31", "F1", "L2")):
+        for path in sorted((ROOT / "constraints" / board).rglob("*.lpf")):
+            text = path.read_text(encoding="utf-8")
+            assert f'LOCATE COMP "wifi_gpio0" SITE "{pin}"' in text, path
+            assert f'SITE "{other}"' not in text, path

@@ -80,7 +80,7 @@ def test_list_adds_one_plain_file(name, tmp_path):
 
 @pytest.mark.parametrize("name", LISTS)
 def test_list_names_no_system_verilog(name):
-    """A vendor's list names no SystemVerilog source and tells how the plain file is written."""
+    """A vendor's list names no SystemVerilog source and states the command that writes the plain file."""
     text = (ROOT / "packages" / name).read_text()
     assert ".sv" not in text and "make verilog TOP=" in text
 
