@@ -105,8 +105,10 @@ def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> st
 
 
 def try_verilator(tool: Verilator) -> None:
-    """Every list packages/<part>.f and each template without a warning or waiver; then FuseSoC's lint and simulation,
-    which must print its own verdict, whatever FuseSoC's exit code."""
+    """Every list packages/<part>.f and each template without a warning or waiver.
+
+    Then FuseSoC's lint and simulation, which must print its own result, whatever FuseSoC's exit code.
+    """
     includes = [f"-I{relative(path)}" for path in include_dirs()]
     for row in tops():
         files = ("-F", relative(FOLDER / f"{row.rtl}.f"))
