@@ -25,7 +25,7 @@ namespace {
 
 struct Row {
     double t;
-    uint32_t pin;  // word of an output; kInput + word of an input
+    uint32_t pin;  // word of an output; kInput + word of an input; kStep + axis: a step, value 1 if CCW
     uint32_t value;
 };
 struct Later {
@@ -33,6 +33,7 @@ struct Later {
     uint32_t pin, value;
 };
 constexpr uint32_t kInput = 1 << 16;
+constexpr uint32_t kStep = 1 << 17;
 constexpr uint32_t kRows = 1 << 15;
 constexpr uint32_t kResetClk = 8;
 constexpr uint32_t kQueue = 1 << 16;
@@ -110,6 +111,7 @@ void follow(uint32_t pin, uint32_t before) {
         ++moved_by[axis];
         if (drive.encoder_dir.word >= 0) pull(pulled_high, drive.encoder_dir, plant_on && ccw);
         motors[axis].plant.pulse(ccw);
+        note(kStep + axis, ccw);
         if (plant_on) pull_switches(axis);
     }
 }
@@ -259,8 +261,8 @@ EXPORT(take) uint32_t take() {
 EXPORT(run) double run(double n, uint32_t until) {
     const int64_t end = now + static_cast<int64_t>(n), begin = now;
     const uint32_t before = moved;
-    // An edge leaves at most so many rows: each output, and each input twice.
-    constexpr uint32_t room = kRows - kOutputs - 2 * kInputs - 16;
+    // Rows that one edge can add: each output, each input twice, a step of each motor.
+    constexpr uint32_t room = kRows - kOutputs - 2 * kInputs - kAxes - 16;
     while (now < end && count < room) {
         while (queue_at != queue_end && queue[queue_at].t <= static_cast<double>(now) && count < room) {
             put(queue[queue_at].pin, queue[queue_at].value);

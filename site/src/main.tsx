@@ -3,7 +3,7 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { App } from "./ui/app";
 import { setBase } from "./ui/load";
-import { open } from "./ui/state";
+import { arrive } from "./ui/state";
 
 setBase((document.currentScript as HTMLScriptElement | null)?.src ?? "");
 
@@ -25,8 +25,9 @@ function begin(): void {
   if (!root) return;
   root.replaceChildren();
   render(<App />, root);
-  void open(location.hash);
-  addEventListener("hashchange", () => location.hash.includes("part=") && void open(location.hash));
+  arrive(true);
+  // A link to this page, back and forward. (hashchange misses a link that is followed twice.)
+  addEventListener("popstate", () => arrive());
 }
 
 if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", begin);

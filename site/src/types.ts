@@ -79,14 +79,16 @@ export interface LogEntry {
 
 export type ToWorker =
   | { kind: "load"; part: PartData; wasm: ArrayBuffer }
-  | { kind: "start"; text: string; speed: number }
+  | { kind: "start"; text: string; speed: number; label: string }
   | { kind: "send"; text: string }
   | { kind: "press"; pin: string; level: number }
   | { kind: "machine"; words: string[] }
   | { kind: "speed"; speed: number }
   | { kind: "pause" }
   | { kind: "go" }
-  | { kind: "step" };
+  | { kind: "step" }
+  /** The page has drawn the last frame. */
+  | { kind: "shown" };
 
 export interface Frame {
   kind: "frame";
@@ -110,6 +112,6 @@ export interface Frame {
 export type FromWorker =
   | Frame
   | { kind: "ready" }
-  | { kind: "began" }
+  | { kind: "began"; label: string }
   | { kind: "journal"; line: string }
   | { kind: "error"; text: string };

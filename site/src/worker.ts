@@ -6,8 +6,10 @@ import { Player } from "./engine/player";
 import { words } from "./engine/side";
 import { TextError } from "./engine/text";
 
-const SLICE = 14; // ms of work between two looks at the page
-const CHUNK = 200_000; // clk between two looks at the clock on the wall
+const SLICE = 14; // ms of work between two messages of the page
+const CHUNK_MS = 3; // ms of work between two looks at the clock on the wall
+const MOST_CHUNK = 200_000; // clk
+const MOST_ROWS = 16_384; // that wait for the page; then the part waits, too
 
 let part: PartData;
 let core: Core;
@@ -20,20 +22,37 @@ let credit = 0; // clk that may pass
 let last = 0;
 let timer = 0;
 let why = "";
+let chunk = 2_000; // clk that take about CHUNK_MS
+let shown = true; // the page has drawn the last frame
+let waiting: Uint8Array[] = []; // rows for the next one
+let bytesWaiting = 0;
 let done = 0; // clk and ms of work, for the figure
 let spent = 0;
 
 const post = (message: FromWorker, transfer: Transferable[] = []): void =>
   (self as unknown as Worker).postMessage(message, transfer);
 
-function frame(blocks: Uint8Array[]): void {
-  const rows = new Uint8Array(blocks.reduce((sum, block) => sum + block.length, 0));
+function keep(rows: Uint8Array): void {
+  if (rows.length) waiting.push(rows);
+  bytesWaiting += rows.length;
+}
+
+function drop(): void {
+  waiting = [];
+  bytesWaiting = 0;
+}
+
+function frame(): void {
+  if (!player) return;
+  keep(core.rows());
+  const rows = new Uint8Array(bytesWaiting);
   let at = 0;
-  for (const block of blocks) {
+  for (const block of waiting) {
     rows.set(block, at);
     at += block.length;
   }
-  if (!player) return;
+  drop();
+  shown = false;
   const { side } = player;
   const message: Frame = {
     kind: "frame",
@@ -74,21 +93,23 @@ function slice(): void {
   timer = 0;
   if (!running || !player) return;
   const begin = performance.now();
-  const blocks: Uint8Array[] = [];
   credit = speed
     ? Math.min(credit + ((begin - last) / 1e3) * speed * part.clkHz, 0.1 * speed * part.clkHz + 1)
-    : CHUNK;
+    : Infinity;
   last = begin;
   try {
-    let bytes = 0;
-    while (credit >= 1 && performance.now() - begin < SLICE && bytes < 65_536 * ROW) {
+    let time = begin;
+    while (credit >= 1 && time - begin < SLICE && bytesWaiting < MOST_ROWS * ROW) {
       const before = core.now;
-      const ran = player.advance(Math.min(Math.floor(credit), CHUNK), stepping);
+      const ran = player.advance(Math.min(Math.floor(credit), chunk), stepping);
+      const took = performance.now() - time;
+      time += took;
+      if (took > CHUNK_MS) chunk = Math.max(500, chunk >> 1);
+      else if (ran === chunk && 2 * took < CHUNK_MS) chunk = Math.min(MOST_CHUNK, 2 * chunk);
       done += ran;
       if (speed) credit -= ran;
       const rows = core.rows();
-      bytes += rows.length;
-      if (rows.length) blocks.push(rows);
+      keep(rows);
       if (stepping && moved(rows)) {
         pause("a motor has stepped");
         break;
@@ -100,18 +121,18 @@ function slice(): void {
       if (ran === 0 && core.now === before && player.over) break;
     }
   } catch (error) {
-    blocks.push(core.rows());
-    frame(blocks);
+    frame();
     tell(error);
     return;
   }
   spent += performance.now() - begin;
-  frame(blocks);
+  if (shown || !running) frame();
   if (spent > 500) {
     done *= 0.5;
     spent *= 0.5;
   }
-  if (running)
+  // With as many rows as may wait, the page's message goes on (shown).
+  if (running && bytesWaiting < MOST_ROWS * ROW)
     timer = setTimeout(slice, speed ? Math.max(0, 16 - (performance.now() - begin)) : 0) as unknown as number;
 }
 
@@ -157,7 +178,7 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
         core = new Core(bytes);
         player = new Player(core, part);
         post({ kind: "ready" });
-        frame([]);
+        frame();
         break;
       case "start":
         if (!player) {
@@ -169,7 +190,9 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
         running = false;
         done = spent = 0;
         player.start(data.text);
-        post({ kind: "began" });
+        core.rows();
+        drop();
+        post({ kind: "began", label: data.label });
         go(false);
         break;
       case "send":
@@ -180,25 +203,29 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
       case "press":
         player?.press(`set ${data.pin}=${data.level}`);
         pressed(`set ${data.pin}=${data.level}`);
-        if (!running) frame([core.rows()]);
+        if (!running) frame();
         break;
       case "machine":
         player?.press(data.words.join(" "));
         pressed(data.words.join(" "));
-        if (!running) frame([core.rows()]);
+        if (!running) frame();
         break;
       case "speed":
         speed = data.speed;
         break;
       case "pause":
         pause("paused");
-        frame([core.rows()]);
+        frame();
         break;
       case "go":
         go(false);
         break;
       case "step":
         go(true);
+        break;
+      case "shown":
+        shown = true;
+        if (running && !timer) slice();
         break;
     }
   } catch (error) {

@@ -27,6 +27,13 @@ export class Player {
   ) {
     this.side = new Side(core, part);
     this.host = makeHost(this.side);
+    this.powerUp();
+  }
+
+  private powerUp(): void {
+    this.core.plant(false);
+    this.side.machine = false;
+    this.side.part.motors.forEach((_, axis) => this.core.place(axis, [0, ...MACHINE.slice(1)]));
     this.side.powerUp();
   }
 
@@ -39,10 +46,7 @@ export class Player {
     const pressed = (one: Statement): boolean => one.at >= 0 && ["set", "machine"].includes(one.words[0]!);
     this.todo = all.filter((one) => !pressed(one));
     this.timed = all.filter(pressed).sort((a, b) => a.at - b.at);
-    this.core.plant(false);
-    this.side.machine = false;
-    this.side.part.motors.forEach((_, axis) => this.core.place(axis, [0, ...MACHINE.slice(1)]));
-    this.side.powerUp();
+    this.powerUp();
     this.doing = this.host.begin();
     this.waits = undefined;
     this.line = 0;

@@ -8,7 +8,7 @@ import { Machine } from "./machine";
 import { Pins } from "./pins";
 import { Registers } from "./registers";
 import { Speed } from "./speed";
-import { ask, running, trouble } from "./state";
+import { clock, running, trouble } from "./state";
 import { Waves } from "./waves";
 
 function keys(event: KeyboardEvent): void {
@@ -17,7 +17,7 @@ function keys(event: KeyboardEvent): void {
     return;
   if (event.key === " " && at.closest(".pg")) {
     event.preventDefault();
-    ask({ kind: running.value ? "pause" : "go" });
+    clock(running.value ? "pause" : "go");
   }
 }
 

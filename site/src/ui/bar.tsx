@@ -3,21 +3,23 @@
 import { useState } from "preact/hooks";
 import { parts } from "./load";
 import {
-  ask,
   chapter,
   choose,
-  link,
+  chosen,
+  clock,
   mclk,
   over,
   part,
+  pick,
+  remember,
   running,
   seconds,
   setSpeed,
+  share,
   speed,
   SPEEDS,
   start,
   store,
-  take,
   why,
 } from "./state";
 import { vcd } from "./vcd";
@@ -39,9 +41,8 @@ function download(): void {
 export function Bar() {
   const [copied, setCopied] = useState("");
   const data = part.value;
-  const share = async (): Promise<void> => {
-    const address = new URL(link(), location.href).href;
-    history.replaceState(null, "", address);
+  const copy = async (): Promise<void> => {
+    const address = share();
     try {
       await navigator.clipboard.writeText(address);
       setCopied("link copied");
@@ -56,8 +57,11 @@ export function Bar() {
         <span>Part</span>
         <select
           class="pg-part"
-          value={data?.name ?? ""}
-          onChange={(event) => void choose(event.currentTarget.value)}
+          value={chosen.value}
+          onChange={(event) => {
+            void choose(event.currentTarget.value);
+            remember();
+          }}
         >
           {parts().map((one) => (
             <option value={one.name}>{one.title}</option>
@@ -70,8 +74,7 @@ export function Bar() {
           class="pg-session"
           value={chapter.value}
           onChange={(event) => {
-            take(event.currentTarget.value);
-            start();
+            pick(event.currentTarget.value);
           }}
         >
           {chapter.value === "" && <option value="">own text</option>}
@@ -80,18 +83,18 @@ export function Bar() {
           ))}
         </select>
       </label>
-      <button type="button" class="pg-run" onClick={start} title="power the part up and play the text">
+      <button type="button" class="pg-run" onClick={() => start()} title="power the part up and play the text">
         ▶ Run
       </button>
       <button
         type="button"
-        onClick={() => ask({ kind: running.value ? "pause" : "go" })}
+        onClick={() => clock(running.value ? "pause" : "go")}
         title="Space, where nothing is typed"
         aria-pressed={!running.value}
       >
         {running.value ? "❚❚ Pause" : "▶ Go on"}
       </button>
-      <button type="button" onClick={() => ask({ kind: "step" })} title="on to the next pulse">
+      <button type="button" onClick={() => clock("step")} title="on to the next pulse">
         ▶❚ Next pulse
       </button>
       <label>
@@ -99,7 +102,10 @@ export function Bar() {
         <select
           class="pg-pace"
           value={String(speed.value)}
-          onChange={(event) => setSpeed(Number(event.currentTarget.value))}
+          onChange={(event) => {
+            setSpeed(Number(event.currentTarget.value));
+            remember();
+          }}
         >
           {SPEEDS.map(([value, name]) => (
             <option value={String(value)}>{name}</option>
@@ -109,7 +115,7 @@ export function Bar() {
       <button type="button" onClick={download} title="all pins since power-up, for GTKWave or Surfer">
         VCD
       </button>
-      <button type="button" onClick={() => void share()} title="a link that plays this session again">
+      <button type="button" onClick={() => void copy()} title="a link that plays this session again">
         Link
       </button>
       <output

@@ -20,10 +20,11 @@ export function draw(
   view: View,
   end: number,
   clkHz: number,
+  scrolled: number,
 ): void {
   const ratio = window.devicePixelRatio || 1;
   const width = canvas.clientWidth;
-  const height = TOP + rows.length * HEIGHT + 4;
+  const height = canvas.clientHeight;
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
@@ -39,10 +40,17 @@ export function draw(
   const scale = width / (view.to - view.from);
   const x = (t: number): number => (t - view.from) * scale;
   grid(paper, view, width, height, scale, clkHz, ink("--pg-line"), ink("--pg-soft"));
+  paper.save();
+  paper.beginPath();
+  paper.rect(0, TOP - 4, width, height);
+  paper.clip();
   rows.forEach((row, n) => {
+    const top = TOP + n * HEIGHT - scrolled;
+    if (top + HEIGHT < 0 || top > height) return;
     paper.strokeStyle = paper.fillStyle = ink(row.input ? "--pg-one" : "--pg-two");
-    trace(paper, row, TOP + n * HEIGHT, x, view, width, end);
+    trace(paper, row, top, x, view, width, end);
   });
+  paper.restore();
   for (const [name, t] of [
     ["A", view.a],
     ["B", view.b],
@@ -102,17 +110,19 @@ function trace(
   const low = top + HEIGHT - 4;
   const stop = Math.min(width, x(Math.min(end, view.to)));
   let index = Math.max(0, track.at(view.from));
-  const value = (n: number): number => ((track.values[n]! >>> row.shift) & row.mask) >>> 0;
+  const value = (n: number): number => track.values[n]!;
   const level = (n: number): number => (value(n) ? high : low);
   const bus = row.width > 1;
+  let [band, bandWidth] = [-2, 0];
+  const fill = (): void => {
+    if (bandWidth) paper.fillRect(band, high, bandWidth, low - high);
+  };
   let at = Math.max(0, x(track.times[index]!));
   if (at >= stop) return;
   paper.beginPath();
   if (!bus) paper.moveTo(at, level(index));
   while (at < stop) {
-    let next = index + 1;
-    // Bits of other rows share the word.
-    while (next < track.count && value(next) === value(index) && x(track.times[next]!) < stop) next++;
+    const next = index + 1;
     const to = next < track.count ? Math.min(stop, x(track.times[next]!)) : stop;
     if (bus) box(paper, at, to, high, low, value(index), row.width);
     else paper.lineTo(to, level(index));
@@ -123,9 +133,11 @@ function trace(
     if (edge > next + 1) {
       last = edge;
       if (!bus) {
-        paper.stroke();
-        paper.fillRect(to, high, 1, low - high);
-        paper.beginPath();
+        if (band + bandWidth >= to) bandWidth = to + 1 - band;
+        else {
+          fill();
+          [band, bandWidth] = [to, 1];
+        }
         paper.moveTo(to + 1, level(last));
       }
       at = to + 1;
@@ -136,6 +148,7 @@ function trace(
     index = last;
   }
   if (!bus) paper.stroke();
+  fill();
 }
 
 function box(

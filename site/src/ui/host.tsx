@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import type { Meant } from "../engine/explain";
 import { meaning } from "../engine/meaning";
 import { statements } from "../engine/text";
-import { ask, chapter, line, part, running, start, text, trouble } from "./state";
+import { ask, chapter, line, now, part, remember, running, start, text, trouble } from "./state";
 
 function Meaning({ rows }: { rows: Meant[] }) {
   return (
@@ -20,15 +20,15 @@ function Meaning({ rows }: { rows: Meant[] }) {
 
 export function HostPane() {
   const [caret, setCaret] = useState(0);
-  const [now, setNow] = useState("");
   const [wrong, setWrong] = useState("");
   const data = part.value;
   const send = (event: Event): void => {
     event.preventDefault();
     try {
-      if (!statements(now).length) return;
-      ask({ kind: "send", text: now });
-      setNow("");
+      if (!statements(now.value).length) return;
+      ask({ kind: "send", text: now.value });
+      now.value = "";
+      remember();
       setWrong("");
       trouble.value = "";
     } catch (error) {
@@ -50,9 +50,11 @@ export function HostPane() {
         spellcheck={false}
         autocomplete="off"
         value={text.value}
+        disabled={!data}
         onInput={(event) => {
           text.value = event.currentTarget.value;
           chapter.value = "";
+          remember();
           at(event);
         }}
         onKeyUp={at}
@@ -69,12 +71,13 @@ export function HostPane() {
         <div class="pg-send">
           <input
             id="pg-now"
-            value={now}
+            value={now.value}
             spellcheck={false}
             autocomplete="off"
             placeholder={part.value?.style.hint as string | undefined}
             onInput={(event) => {
-              setNow(event.currentTarget.value);
+              now.value = event.currentTarget.value;
+              remember();
               setWrong("");
             }}
             aria-invalid={wrong !== ""}
@@ -82,7 +85,7 @@ export function HostPane() {
           <button type="submit">Send</button>
         </div>
         <Meaning
-          rows={data ? meaning(data, `${text.value}\n${now}`, text.value.length + 1 + now.length) : []}
+          rows={data ? meaning(data, `${text.value}\n${now.value}`, text.value.length + 1 + now.value.length) : []}
         />
         {wrong && (
           <p class="pg-bad" role="alert">

@@ -21,21 +21,42 @@ export function write(state: Linked): string {
   return `#${words.toString()}`;
 }
 
-/** Throws an Error with a message for the reader. */
-export function read(hash: string): Linked | undefined {
+/** Whether an address has a session, and is not just a place on the page. */
+export function isLink(hash: string): boolean {
+  return /^#(.*&)?(v|part|run|text|speed|go)=/.test(hash);
+}
+
+export interface Read {
+  linked?: Linked;
+  /** What is wrong with the link, for the reader. */
+  wrong: string[];
+}
+
+export function read(hash: string, speeds: readonly number[]): Read {
+  if (!isLink(hash)) return { wrong: [] };
   const words = new URLSearchParams(hash.replace(/^#/, ""));
-  if (![...words.keys()].length || !words.has("part")) return undefined;
+  const wrong: string[] = [];
   const version = words.get("v") ?? VERSION;
   if (version !== VERSION)
-    throw new Error(
-      `this link is of version ${version}, the page reads version ${VERSION}: it shows the first session instead`,
-    );
-  const speed = Number(words.get("speed") ?? "NaN");
-  return {
-    part: words.get("part")!,
+    return {
+      wrong: [
+        `this link is of version ${version}, the page reads version ${VERSION}: it shows the first session instead`,
+      ],
+    };
+  if (!words.has("part")) wrong.push("this link names no part");
+  const given = words.get("speed");
+  const speed = given === null || given.trim() === "" ? NaN : Number(given);
+  const known = speeds.includes(speed);
+  if (given !== null && !known)
+    wrong.push(`speed=${given}: there is no such speed; the page has ${speeds.join(", ")}`);
+  const go = words.get("go");
+  if (go !== null && go !== "1" && go !== "0") wrong.push(`go=${go}: it is 0 or 1`);
+  const linked = {
+    part: words.get("part") ?? "",
     ...(words.has("run") ? { run: words.get("run")! } : {}),
     ...(words.has("text") ? { text: words.get("text")! } : {}),
-    ...(speed >= 0 ? { speed } : {}),
-    go: words.get("go") === "1",
+    ...(known ? { speed } : {}),
+    go: go === "1",
   };
+  return { linked, wrong };
 }

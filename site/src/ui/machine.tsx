@@ -1,18 +1,18 @@
 // The motor and its machine: phases, shaft, carriage between its switches.
 
 import { useState } from "preact/hooks";
-import { ask, frames, machineOn, outputs, part, places, positions, store } from "./state";
+import { ask, frames, machineOn, outputs, part, places, positions, remember, store } from "./state";
+import { level } from "./store";
 
 const NAMES = ["start", "CCW limit", "slow CCW", "origin", "slow CW", "CW limit"];
 const TURN = 200; // full steps of a turn
 
 /** How much current a winding has, 0 to 1: a phase that is on, or the reference of a chopper. */
 function lit(pin: string, on: number): number {
-  const row = store?.rows.find((one) => !one.input && one.name === pin);
+  const row = store?.find(pin, false);
   if (!row) return 0;
-  const index = store!.tracks.indexOf(row.track);
-  const level = ((outputs.value[index] ?? 0) >>> row.shift) & row.mask;
-  return row.width > 1 ? Math.min(1, (2 * level) / row.mask) : Number(level === on);
+  const found = level(row, outputs.value);
+  return row.width > 1 ? Math.min(1, (2 * found) / row.mask) : Number(found === on);
 }
 
 function Motor({ axis }: { axis: number }) {
@@ -136,6 +136,7 @@ export function Machine() {
                   const value = Number(event.currentTarget.value);
                   if (!Number.isSafeInteger(value)) return;
                   places.value = places.value.map((old, place) => (place === n ? value : old));
+                  remember();
                   if (machineOn.value) change(true);
                 }}
               />

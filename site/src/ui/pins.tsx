@@ -1,13 +1,13 @@
 // Input pins to press: switches, alarms, straps. Low is closed.
 
 import { ask, frames, inputs, part, store } from "./state";
+import { level } from "./store";
 
-function level(pin: string): number {
-  const row = store?.rows.find((one) => one.input && one.name === pin);
-  if (!row || !part.value) return 1;
-  const index = store!.inputs.indexOf(row.track);
-  const idle = part.value.inputs.flatMap((port) => port.idle); // until the part tells its own
-  return ((inputs.value[index] ?? idle[index] ?? 0) >>> row.shift) & row.mask;
+function high(pin: string): number {
+  const row = store?.find(pin, true);
+  if (!row) return 1;
+  const idle = part.value!.inputs.flatMap((port) => port.idle); // until the part reports its levels
+  return level(row, inputs.value.length ? inputs.value : idle);
 }
 
 export function Pins() {
@@ -20,16 +20,16 @@ export function Pins() {
       <h2 id="pg-pins">Switches, straps, alarms</h2>
       <div class="pg-pins">
         {names.map((pin) => {
-          const high = level(pin);
+          const is = high(pin);
           return (
             <button
               type="button"
-              class={high ? "" : "pg-low"}
-              aria-pressed={!high}
-              aria-label={`${pin}, ${high ? "high" : "low"}`}
-              onClick={() => ask({ kind: "press", pin, level: high ? 0 : 1 })}
+              class={is ? "" : "pg-low"}
+              aria-pressed={!is}
+              aria-label={`${pin}, ${is ? "high" : "low"}`}
+              onClick={() => ask({ kind: "press", pin, level: is ? 0 : 1 })}
             >
-              {pin} <b>{high ? "H" : "L"}</b>
+              {pin} <b>{is ? "H" : "L"}</b>
             </button>
           );
         })}

@@ -2,6 +2,8 @@
 
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
+import { columns } from "../engine/speeds";
+import { paced } from "./paced";
 import { frames, part, store } from "./state";
 
 const INKS = ["--pg-one", "--pg-two", "--pg-three", "--pg-four"];
@@ -18,7 +20,6 @@ export function Speed() {
     if (!element || !part.value) return;
     const axes = part.value.motors.length;
     let plot: uPlot | undefined;
-    let pending = 0;
     const make = (): void => {
       plot?.destroy();
       const line = ink(element, "--pg-line");
@@ -53,6 +54,7 @@ export function Speed() {
               width: 1.5,
               points: { show: false },
               spanGaps: true,
+              paths: uPlot.paths.stepped!({ align: 1 }),
             })),
           ],
         },
@@ -62,17 +64,13 @@ export function Speed() {
       draw();
     };
     const draw = (): void => {
-      pending = 0;
       if (!plot || !store) return;
-      const tables = store.speeds.map((_, axis) => {
-        const { t, v } = store!.speed(axis);
-        return [t, v] as uPlot.AlignedData;
-      });
-      if (!tables.length) return;
-      plot.setData(tables.length === 1 ? tables[0]! : uPlot.join(tables));
+      const { speeds, end } = store;
+      if (speeds.length) plot.setData(columns(speeds.map((one) => one.upTo(end))) as uPlot.AlignedData);
     };
+    const soon = paced(draw);
     make();
-    const stop = frames.subscribe(() => (pending ||= requestAnimationFrame(draw)));
+    const stop = frames.subscribe(soon.call);
     const sizes = new ResizeObserver(() => plot?.setSize({ width: element.clientWidth, height: 170 }));
     sizes.observe(element);
     const scheme = new MutationObserver(make);
@@ -81,7 +79,7 @@ export function Speed() {
       stop();
       sizes.disconnect();
       scheme.disconnect();
-      cancelAnimationFrame(pending);
+      soon.stop();
       plot?.destroy();
     };
   }, [name]);

@@ -1,9 +1,9 @@
 // What the page knows, as signals; and what it asks the worker for.
 
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 import type { Frame, FromWorker, LogEntry, PartData, ToWorker } from "../types";
 import { loadPart, loadWasm, makeWorker, parts } from "./load";
-import { read, write } from "./link";
+import { isLink, read, write } from "./link";
 import { Store } from "./store";
 
 export const SPEEDS: readonly (readonly [number, string])[] = [
@@ -15,10 +15,17 @@ export const SPEEDS: readonly (readonly [number, string])[] = [
   [0, "as fast as it goes"],
 ];
 const MOST_LOG = 2_000;
+const LOG_MS = 250; // between two changes of the log while the part runs
+const SHOWN_MS = 100; // after which a frame is drawn also where the browser draws none: in the background
+const KEPT_MS = 150; // between typing and keeping
 
 export const part = signal<PartData | undefined>(undefined);
+/** The part that was chosen last; `part` is empty until its tables are there. */
+export const chosen = signal("");
 export const chapter = signal("");
 export const text = signal("");
+/** The line "Send now". */
+export const now = signal("");
 export const speed = signal(0.1);
 export const running = signal(false);
 /** Part and chapter that log and waves are of. */
@@ -33,51 +40,100 @@ export const inputs = signal<number[]>([]);
 export const outputs = signal<number[]>([]);
 export const log = signal<LogEntry[]>([]);
 export const trouble = signal("");
-export const said = signal("");
-export const now = signal(0);
+export const clk = signal(0);
 export const frames = signal(0); // redraw
 export const journal = signal<string[]>([]);
 export const machineOn = signal(false);
 export const places = signal<number[]>([500, -300, -150, 0, 1850, 2000]);
-export const seconds = computed(() => (part.value ? now.value / part.value.clkHz : 0));
+export const seconds = computed(() => (part.value ? clk.value / part.value.clkHz : 0));
 
 export let store: Store | undefined;
 let worker: Worker | undefined;
-/** Whether the part can run; what shall be done as soon as it can. */
+/** Number of the newest choice of a part. An older one that is still loading must not change anything. */
+let turn = 0;
+/** Whether the part can run, and what was asked of it before: without its tables, and without its module. */
 let loaded = false;
-let wanted: (() => void) | undefined;
+let early: (() => void)[] = [];
+let later: ToWorker[] = [];
+/** Loading has failed: Run tries again. */
+let failed = false;
+/** What was wrong with the link; it stays until the reader does something else. */
+let remark = "";
+/** The address that the page shows. */
+let opened = "";
+/** A frame that is not drawn yet, and log entries that are not shown yet. */
+let frame: Frame | undefined;
+let entries: LogEntry[] = [];
+let logged = 0;
 
-export function ask(message: ToWorker, transfer: Transferable[] = []): void {
-  worker?.postMessage(message, transfer);
+const able = (): boolean => typeof WebAssembly === "object";
+
+export function ask(message: ToWorker): void {
+  if (!part.value) early.push(() => ask(message));
+  else if (!loaded) later.push(message);
+  else worker?.postMessage(message);
 }
 
-function onFrame(frame: Frame): void {
-  store?.take(frame.rows, frame.t);
-  now.value = frame.t;
-  running.value = frame.running;
-  over.value = frame.over;
-  why.value = frame.why;
-  mclk.value = frame.mclk;
-  line.value = frame.line;
-  status.value = frame.status;
-  machineOn.value = frame.machine;
-  if (frame.machine) places.value = frame.places;
-  positions.value = frame.positions;
-  inputs.value = frame.levels.inputs;
-  outputs.value = frame.levels.outputs;
-  if (frame.log.length) log.value = [...log.value, ...frame.log].slice(-MOST_LOG);
-  frames.value++;
+/** Pause, go on, next pulse. */
+export function clock(kind: "pause" | "go" | "step"): void {
+  ask({ kind });
+  if (!loaded && able()) running.value = kind !== "pause";
 }
 
-function onMessage({ data }: MessageEvent<FromWorker>): void {
+function draw(): void {
+  if (!frame) return;
+  const data = frame;
+  frame = undefined;
+  batch(() => {
+    clk.value = data.t;
+    running.value = data.running;
+    over.value = data.over;
+    why.value = data.why;
+    mclk.value = data.mclk;
+    line.value = data.line;
+    status.value = data.status;
+    machineOn.value = data.machine;
+    if (data.machine) places.value = data.places;
+    positions.value = data.positions;
+    inputs.value = data.levels.inputs;
+    outputs.value = data.levels.outputs;
+    if (entries.length && (!data.running || performance.now() - logged > LOG_MS)) {
+      log.value = [...log.value, ...entries].slice(-MOST_LOG);
+      entries = [];
+      logged = performance.now();
+    }
+    frames.value++;
+  });
+}
+
+/** Take what is new; draw it with the next picture of the browser, and only then ask for more. */
+function onFrame(data: Frame, from: Worker): void {
+  store?.take(data.rows, data.t, data.log);
+  entries = [...entries, ...data.log].slice(-MOST_LOG);
+  frame = data;
+  let done = false;
+  const shown = (): void => {
+    if (done) return;
+    done = true;
+    if (from === worker) draw();
+    // The browser paints first.
+    setTimeout(() => from.postMessage({ kind: "shown" } satisfies ToWorker), 0);
+  };
+  requestAnimationFrame(shown);
+  setTimeout(shown, SHOWN_MS);
+}
+
+function onMessage(data: FromWorker, from: Worker): void {
   switch (data.kind) {
     case "frame":
-      onFrame(data);
+      onFrame(data, from);
       break;
     case "began":
       store?.clear();
+      frame = undefined;
+      entries = [];
       log.value = [];
-      shows.value = `${part.value?.name} ${chapter.value}`;
+      shows.value = data.label;
       over.value = false;
       why.value = "";
       break;
@@ -85,72 +141,140 @@ function onMessage({ data }: MessageEvent<FromWorker>): void {
       journal.value = [...journal.value, data.line];
       break;
     case "error":
+      draw();
       running.value = false;
-      trouble.value = data.text;
+      trouble.value = remark ? `${remark}; ${data.text}` : data.text;
+      if (!loaded) fail(data.text);
       break;
     case "ready":
       loaded = true;
-      wanted?.();
-      wanted = undefined;
+      for (const message of later.splice(0)) from.postMessage(message);
       break;
   }
 }
 
-/** Another part: its tables, its module, a session of it. */
-export async function choose(name: string, run?: string, own?: string, go = false): Promise<void> {
-  trouble.value = "";
+function fail(told: string): void {
+  failed = true;
+  running.value = false;
+  later = [];
+  early = [];
+  why.value = "";
+  trouble.value = remark ? `${remark}; ${told}` : told;
+}
+
+/** Nothing is left of the part that was there. */
+function unload(): void {
+  worker?.terminate();
+  worker = undefined;
+  loaded = failed = false;
+  early = [];
+  later = [];
+  frame = undefined;
+  entries = [];
+  store = undefined;
+  part.value = undefined;
+  log.value = [];
+  journal.value = [];
+  positions.value = inputs.value = outputs.value = [];
+  clk.value = mclk.value = line.value = 0;
+  status.value = -1;
+  machineOn.value = running.value = over.value = false;
+}
+
+/** Another part: its tables, its module, a session of it or an own text. With `go` it is run. */
+export async function choose(
+  name: string,
+  { run, own, go = false, wrong = [] }: { run?: string | undefined; own?: string | undefined; go?: boolean | undefined; wrong?: string[] } = {},
+): Promise<void> {
+  const mine = ++turn;
+  const told = [...wrong];
+  const show = (): string => (trouble.value = remark = told.join("; "));
   if (!parts().some((one) => one.name === name)) {
-    trouble.value = `there is no part ${name}: the page shows ${parts()[0]!.title} instead`;
+    if (name) told.push(`there is no part ${name}: the page shows ${parts()[0]!.title} instead`);
     name = parts()[0]!.name;
     run = own = undefined;
   }
-  if (typeof WebAssembly !== "object") {
-    trouble.value = "this browser has no WebAssembly: the text can be read and typed, the part cannot run";
+  batch(() => {
+    unload();
+    show();
+    chosen.value = name;
+    why.value = "the part is being loaded";
+  });
+  try {
+    const data = await loadPart(name);
+    if (mine !== turn) return;
+    const asked = early;
+    batch(() => {
+      part.value = data;
+      store = new Store(data);
+      if (own === undefined && run !== undefined && !data.sessions.some((one) => one.name === run))
+        told.push(`the manual has no session ${run}`);
+      take(run ?? data.sessions.find((one) => one.name === "2")?.name ?? data.sessions[0]?.name ?? "", own);
+      frames.value++;
+    });
+    if (!able()) {
+      told.push("this browser has no WebAssembly: the text can be read and typed, the part cannot run");
+      show();
+      why.value = "";
+      return;
+    }
+    show();
+    if (go) launch();
+    early = [];
+    for (const action of asked) action();
+    const wasm = await loadWasm(data);
+    if (mine !== turn) return;
+    const made = makeWorker();
+    made.onmessage = (event: MessageEvent<FromWorker>) => mine === turn && onMessage(event.data, made);
+    made.onerror = (event) => mine === turn && fail(`the part does not start: ${event.message}`);
+    worker = made;
+    made.postMessage({ kind: "load", part: data, wasm } satisfies ToWorker, [wasm]);
+  } catch (error) {
+    if (mine === turn) fail(`cannot load the part: ${error instanceof Error ? error.message : error}`);
   }
-  loaded = false;
-  wanted = go ? start : undefined;
-  const data = await loadPart(name);
-  part.value = data;
-  store = new Store(data);
-  log.value = [];
-  journal.value = [];
-  now.value = 0;
-  status.value = -1;
-  machineOn.value = false;
-  take(run ?? data.sessions.find((one) => one.name === "2")?.name ?? data.sessions[0]?.name ?? "", own);
-  frames.value++;
-  if (typeof WebAssembly !== "object") return;
-  worker?.terminate();
-  worker = undefined;
-  const wasm = await loadWasm(data);
-  if (part.value !== data) return;
-  worker = makeWorker();
-  worker.onmessage = onMessage;
-  worker.onerror = (event) => (trouble.value = `the part does not start: ${event.message}`);
-  ask({ kind: "load", part: data, wasm }, [wasm]);
 }
 
 /** A session of the manual into the text, or an own text. */
-export function take(name: string, own?: string): void {
+function take(name: string, own?: string): void {
   const session = part.value?.sessions.find((one) => one.name === name);
-  if (own === undefined && name && !session) trouble.value = `the manual has no session ${name}`;
   chapter.value = own === undefined && session ? name : "";
   text.value = own ?? session?.text ?? part.value?.sessions[0]?.text ?? "";
   journal.value = [];
 }
 
+/** A session of the manual that the reader has picked. */
+export function pick(name: string): void {
+  take(name);
+  remember();
+  start();
+}
+
+/** Run, for the reader: whatever was wrong before is read by now. */
 export function start(): void {
-  if (!loaded && typeof WebAssembly === "object") {
-    wanted = start;
-    if (!trouble.value) why.value = "the part is being loaded";
+  remark = "";
+  if (able()) trouble.value = "";
+  if (!part.value) {
+    early.push(start);
+    if (able() && !failed) running.value = true;
     return;
   }
-  trouble.value = "";
-  why.value = "";
+  if (failed) {
+    const own = chapter.value ? {} : { own: text.value };
+    void choose(part.value.name, { ...own, run: chapter.value || undefined, go: true });
+    return;
+  }
+  launch();
+}
+
+function launch(): void {
+  if (!able()) return;
   over.value = false;
   journal.value = [];
   machineOn.value = false;
-  ask({ kind: "start", text: text.value, speed: speed.value });
+  if (loaded) why.value = "";
+  else running.value = true;
+  const label = `${part.value?.name} ${chapter.value}`;
+  ask({ kind: "start", text: text.value, speed: speed.value, label });
 }
 
 export function setSpeed(value: number): void {
@@ -159,10 +283,10 @@ export function setSpeed(value: number): void {
 }
 
 /** The link that makes this session again: what was typed and pressed, with the clk of each. */
-export function link(): string {
+function link(): string {
   const own = journal.value.length > 0 || !chapter.value || text.value !== session()?.text;
   const whole = [text.value, ...journal.value].join("\n");
-  const state = { part: part.value?.name ?? "", speed: speed.value, go: true };
+  const state = { part: chosen.value, speed: speed.value, go: true };
   return write(own ? { ...state, text: whole } : { ...state, run: chapter.value });
 }
 
@@ -170,20 +294,66 @@ function session(): { text: string } | undefined {
   return part.value?.sessions.find((one) => one.name === chapter.value);
 }
 
-/** What the address says, or the first part. */
-export async function open(hash: string): Promise<void> {
-  let linked;
-  let wrong = "";
+/** The link as the page's address, which it returns. */
+export function share(): string {
+  const address = new URL(link(), location.href);
+  history.replaceState(null, "", address);
+  opened = address.hash;
+  return address.href;
+}
+
+/** What the reader has made of the page; it is kept with the entry of the browser's history, also over a reload. */
+interface Kept {
+  part: string;
+  chapter: string;
+  text: string;
+  now: string;
+  speed: number;
+  places: number[];
+}
+let due = 0;
+
+function keep(): void {
+  clearTimeout(due);
+  due = 0;
+  // A part whose tables are not there yet has no text.
+  const whole = part.value ? { chapter: chapter.value, text: text.value } : { chapter: "", text: "" };
+  const kept: Kept = { part: chosen.value, ...whole, now: now.value, speed: speed.value, places: places.value };
   try {
-    linked = read(hash);
-  } catch (error) {
-    wrong = error instanceof Error ? error.message : String(error);
+    history.replaceState({ openppmc: kept }, "");
+  } catch {
+    // More than the browser keeps.
   }
+}
+
+/** The reader has changed something. */
+export function remember(): void {
+  if (!due) due = window.setTimeout(keep, KEPT_MS);
+}
+
+addEventListener("beforeunload", () => due && keep());
+
+/** The page has another address, or is new: what was kept there, or what the address says. */
+export function arrive(first = false): void {
+  const kept = (history.state as { openppmc?: Kept } | null)?.openppmc;
+  clearTimeout(due);
+  due = 0;
+  const { hash } = location;
+  if (kept && typeof kept.text === "string" && Array.isArray(kept.places)) {
+    opened = hash;
+    speed.value = kept.speed;
+    now.value = kept.now;
+    places.value = kept.places;
+    const own = kept.chapter || !kept.text ? undefined : kept.text;
+    void choose(kept.part, { run: kept.chapter || undefined, own });
+    return;
+  }
+  if (!first && !isLink(hash) && (hash !== "" || opened === "")) {
+    keep(); // a place on this page: the text stays
+    return;
+  }
+  opened = hash;
+  const { linked, wrong } = read(hash, SPEEDS.map(([value]) => value));
   if (linked?.speed !== undefined) speed.value = linked.speed;
-  try {
-    await choose(linked?.part ?? parts()[0]!.name, linked?.run, linked?.text, linked?.go);
-  } catch (error) {
-    trouble.value = `cannot load the part: ${error instanceof Error ? error.message : error}`;
-  }
-  if (wrong) trouble.value = wrong;
+  void choose(linked?.part || parts()[0]!.name, { run: linked?.run, own: linked?.text, go: linked?.go, wrong });
 }

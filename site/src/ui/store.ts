@@ -1,10 +1,15 @@
-// All changes of all pins since power-up, by word of 32 bits: what waves, speed and VCD are made of.
+// All changes of all pins since power-up: what waves, speed and VCD are made of.
 
-import type { PartData, Port } from "../types";
+import type { LogEntry, PartData, Port } from "../types";
 import { ROW } from "../engine/core";
+import { Speed } from "../engine/speeds";
 
 const INPUT = 1 << 16;
-const MOST = 2_000_000; // changes that a word keeps; the older half goes then
+const STEP = 1 << 17;
+const MOST = 2_000_000; // changes that a pin keeps; the older half goes then
+const MOST_OF_ALL = 8_000_000; // of all pins together
+/** Log entries that only read: no reason for a motor to begin or end a move. */
+const READS = new Set(["st", "r", "<", "get", "axis", "count"]);
 
 export class Track {
   times = new Float64Array(256);
@@ -25,11 +30,7 @@ export class Track {
 
   private grow(): void {
     if (this.count >= MOST) {
-      const half = this.count >> 1;
-      this.times.copyWithin(0, half);
-      this.values.copyWithin(0, half);
-      this.count -= half;
-      this.cut = true;
+      this.halve();
       return;
     }
     const times = new Float64Array(2 * this.times.length);
@@ -38,6 +39,15 @@ export class Track {
     values.set(this.values);
     this.times = times;
     this.values = values;
+  }
+
+  /** The older half goes. */
+  halve(): void {
+    const half = this.count >> 1;
+    this.times.copyWithin(0, half);
+    this.values.copyWithin(0, half);
+    this.count -= half;
+    this.cut = true;
   }
 
   /** Number of the last change at or before t; -1 before the first one. */
@@ -53,28 +63,30 @@ export class Track {
   }
 }
 
-/** Rows of the waves: some bits of a word. */
+/** A row of the waves: a bit, or all bits of a narrow port. */
 export interface Row {
   name: string;
   track: Track;
+  /** Where its bits are in the words of a frame. */
+  word: number;
   shift: number;
   mask: number;
   width: number;
   input: boolean;
 }
 
-export interface Speeds {
-  t: number[];
-  v: number[];
+/** A word of the module, and the rows that have its bits. */
+interface Word {
+  value: number;
+  whole: Row | undefined;
+  bits: Row[];
 }
 
-const MOST_SPEEDS = 20_000;
-
 export class Store {
-  readonly tracks: Track[] = [];
-  readonly inputs: Track[] = [];
   readonly rows: Row[] = [];
-  readonly speeds: Speeds[] = [];
+  readonly speeds: Speed[] = [];
+  private readonly words: { inputs: Word[]; outputs: Word[] } = { inputs: [], outputs: [] };
+  private readonly names = new Map<string, Row>();
   end = 0;
 
   constructor(readonly part: PartData) {
@@ -82,144 +94,84 @@ export class Store {
   }
 
   clear(): void {
-    this.tracks.length = this.inputs.length = this.rows.length = this.speeds.length = 0;
+    this.rows.length = this.speeds.length = this.words.inputs.length = this.words.outputs.length = 0;
+    this.names.clear();
     this.end = 0;
-    this.lay(this.part.inputs, this.inputs);
-    this.lay(this.part.outputs, this.tracks);
-    for (const port of this.part.inputs) this.row(port, true);
-    for (const port of this.part.outputs) this.row(port, false);
-    for (const _ of this.part.motors) this.speeds.push({ t: [], v: [] });
+    for (const port of this.part.inputs) this.lay(port, true);
+    for (const port of this.part.outputs) this.lay(port, false);
+    for (const _ of this.part.motors) this.speeds.push(new Speed(this.part.clkHz));
   }
 
-  private lay(ports: readonly Port[], tracks: Track[]): void {
-    for (const port of ports)
-      for (const level of port.idle) {
-        const track = new Track();
-        track.add(-1, level >>> 0);
-        tracks.push(track);
-      }
-  }
-
-  private row(port: Port, input: boolean): void {
-    const tracks = input ? this.inputs : this.tracks;
+  private lay(port: Port, input: boolean): void {
+    const words = port.idle.map((value): Word => ({ value: value >>> 0, whole: undefined, bits: [] }));
+    this.words[input ? "inputs" : "outputs"].push(...words);
     const bus = /^(d_[io]|sd_[io]|a|sa|rs|phase_._ref|adc_data|bemf_level)$/.test(port.name);
     if (bus || port.width === 1) {
       const mask = port.width >= 32 ? 0xffffffff : 2 ** port.width - 1;
-      this.rows.push({
-        name: port.name,
-        track: tracks[port.word]!,
-        shift: 0,
-        mask,
-        width: port.width,
-        input,
-      });
+      words[0]!.whole = this.row(port, port.name, 0, mask, port.width, input);
       return;
     }
     for (let bit = 0; bit < port.width; bit++)
-      this.rows.push({
-        name: `${port.name}[${bit + port.lowest}]`,
-        track: tracks[port.word + (bit >> 5)]!,
-        shift: bit & 31,
-        mask: 1,
-        width: 1,
-        input,
-      });
+      words[bit >> 5]!.bits.push(this.row(port, `${port.name}[${bit + port.lowest}]`, bit, 1, 1, input));
   }
 
-  /** Rows of a frame; see core.cpp. */
-  take(block: ArrayBuffer, end: number): void {
+  private row(port: Port, name: string, bit: number, mask: number, width: number, input: boolean): Row {
+    const shift = bit & 31;
+    const track = new Track();
+    track.add(-1, ((port.idle[bit >> 5]! >>> shift) & mask) >>> 0);
+    const row = { name, track, word: port.word + (bit >> 5), shift, mask, width, input };
+    this.rows.push(row);
+    this.names.set(`${input ? "i" : "o"} ${name}`, row);
+    return row;
+  }
+
+  /** Rows of a frame (core.cpp), and what the host did during it. */
+  take(block: ArrayBuffer, end: number, log: readonly LogEntry[]): void {
     const view = new DataView(block);
+    const writes = log.filter((one) => !READS.has(one.kind) && !(one.kind === "f" && one.text[0] === "j"));
+    let written = 0;
     for (let at = 0; at + ROW <= block.byteLength; at += ROW) {
       const t = view.getFloat64(at, true);
       const pin = view.getUint32(at + 8, true);
       const value = view.getUint32(at + 12, true);
-      const track = pin >= INPUT ? this.inputs[pin - INPUT] : this.tracks[pin];
-      track?.add(t, value);
+      if (pin < STEP) {
+        change(pin < INPUT ? this.words.outputs[pin] : this.words.inputs[pin - INPUT], t, value);
+        continue;
+      }
+      while (written < writes.length && writes[written]!.t <= t) {
+        written++;
+        for (const speed of this.speeds) speed.write();
+      }
+      this.speeds[pin - STEP]?.step(t, value);
     }
+    if (written < writes.length) for (const speed of this.speeds) speed.write();
     this.end = end;
-    this.part.motors.forEach((motor, axis) => this.measure(motor.step, axis));
+    this.bound();
   }
 
-  private readonly seen: { at: number; level: number; pulse: number; gap: number; dir: number }[] = [];
-
-  /** Speed over time from the pulses (or steps of phases) that have come. */
-  private measure(pin: string, axis: number): void {
-    const row = this.find(pin);
-    const speed = this.speeds[axis]!;
-    if (!row) return;
-    if (!speed.t.length) {
-      this.seen[axis] = {
-        at: 0,
-        level: (row.track.values[0]! >>> row.shift) & row.mask,
-        pulse: -1,
-        gap: 0,
-        dir: -1,
-      };
-      speed.t.push(0);
-      speed.v.push(0);
-    }
-    const seen = this.seen[axis]!;
-    const turn = this.find(this.part.motors[axis]!.dir);
-    const { edge } = this.part.motors[axis]!;
-    for (; seen.at < row.track.count; seen.at++) {
-      const level = (row.track.values[seen.at]! >>> row.shift) & row.mask;
-      if (level === seen.level) continue;
-      const stepped = row.mask > 1 ? level !== 0 && level !== row.mask : level === edge;
-      seen.level = level;
-      if (!stepped) continue;
-      const t = row.track.times[seen.at]!;
-      const gap = t - seen.pulse;
-      const way = turn ? this.level(turn, t) : -1;
-      // Between two ways there is no interval.
-      if (seen.pulse >= 0) {
-        if (gap < 0.1 * this.part.clkHz && way === seen.dir) {
-          speed.t.push(seen.pulse / this.part.clkHz, t / this.part.clkHz);
-          speed.v.push(this.part.clkHz / gap, this.part.clkHz / gap);
-        } else this.stand(speed, seen.pulse, t);
-      } else this.stand(speed, t, t);
-      seen.pulse = t;
-      seen.gap = gap;
-      seen.dir = way;
-    }
-    if (speed.t.length > MOST_SPEEDS) {
-      // Every second interval goes; the shape stays.
-      const keep = (_: number, n: number): boolean => n % 4 < 2;
-      speed.t = speed.t.filter(keep);
-      speed.v = speed.v.filter(keep);
-    }
+  private bound(): void {
+    const all = this.rows.reduce((sum, row) => sum + row.track.count, 0);
+    if (all < MOST_OF_ALL) return;
+    const tracks = this.rows.map((row) => row.track);
+    tracks.reduce((most, one) => (one.count > most.count ? one : most)).halve();
   }
 
-  private stand(speed: Speeds, from: number, to: number): void {
-    speed.t.push(from / this.part.clkHz, to / this.part.clkHz);
-    speed.v.push(0, 0);
+  find(name: string, input: boolean): Row | undefined {
+    return this.names.get(`${input ? "i" : "o"} ${name}`);
   }
+}
 
-  /** Speed of an axis up to now: at rest behind its last pulse. */
-  speed(axis: number): Speeds {
-    const { t, v } = this.speeds[axis]!;
-    const seen = this.seen[axis];
-    if (!seen || seen.pulse < 0 || this.end - seen.pulse < 3 * Math.max(seen.gap, 1)) return { t, v };
-    const rest = seen.pulse / this.part.clkHz;
-    return { t: [...t, rest, this.end / this.part.clkHz], v: [...v, 0, 0] };
+function change(word: Word | undefined, t: number, value: number): void {
+  if (!word) return;
+  if (word.whole) word.whole.track.add(t, (value & word.whole.mask) >>> 0);
+  for (let left = word.bits.length ? word.value ^ value : 0; left; left &= left - 1) {
+    const bit = 31 - Math.clz32(left & -left);
+    word.bits[bit]?.track.add(t, (value >>> bit) & 1);
   }
+  word.value = value;
+}
 
-  find(name: string): Row | undefined {
-    const exact = this.rows.find((row) => row.name === name);
-    if (exact) return exact;
-    const port = this.part.outputs.find((one) => one.name === name);
-    if (!port || port.width === 1) return undefined;
-    return {
-      name,
-      track: this.tracks[port.word]!,
-      shift: 0,
-      mask: 2 ** Math.min(port.width, 31) - 1,
-      width: port.width,
-      input: false,
-    };
-  }
-
-  level(row: Row, t: number): number {
-    const index = row.track.at(t);
-    return index < 0 ? 0 : ((row.track.values[index]! >>> row.shift) & row.mask) >>> 0;
-  }
+/** The level of a row in the words of a frame. */
+export function level(row: Row, words: readonly number[]): number {
+  return (((words[row.word] ?? 0) >>> row.shift) & row.mask) >>> 0;
 }

@@ -1,28 +1,33 @@
 // The waves as a VCD file: ports as the RTL has them, times in ns of clk edges.
 
 import type { Port } from "../types";
-import { joined } from "../engine/side";
-import type { Store, Track } from "./store";
+import type { Row, Store } from "./store";
 
 interface Signal {
   id: string;
   port: Port;
-  tracks: Track[];
+  rows: Row[];
+  value: bigint;
 }
 
 export function vcd(store: Store): string {
   const { part } = store;
   const signals: Signal[] = [];
-  const add = (ports: readonly Port[], tracks: readonly Track[]): void => {
-    for (const port of ports)
+  let row = 0;
+  for (const [ports, input] of [
+    [part.inputs, true],
+    [part.outputs, false],
+  ] as const)
+    for (const port of ports) {
+      const count = store.find(port.name, input) ? 1 : port.width;
       signals.push({
         id: name(signals.length),
         port,
-        tracks: port.idle.map((_, n) => tracks[port.word + n]!),
+        rows: store.rows.slice(row, row + count),
+        value: 0n,
       });
-  };
-  add(part.inputs, store.inputs);
-  add(part.outputs, store.tracks);
+      row += count;
+    }
   const ps = 1e12 / part.clkHz;
   const lines = [
     "$timescale 1ps $end",
@@ -34,18 +39,25 @@ export function vcd(store: Store): string {
     lines.push(`$var wire ${port.width} ${id} ${port.name}${range} $end`);
   }
   lines.push("$upscope $end", "$enddefinitions $end");
-  const changes: { t: number; signal: Signal }[] = [];
+  const changes: { t: number; signal: Signal; bit: number; value: number }[] = [];
   for (const signal of signals)
-    for (const track of signal.tracks)
-      for (let n = 0; n < track.count; n++) changes.push({ t: track.times[n]!, signal });
+    signal.rows.forEach(({ track }, bit) => {
+      for (let n = 0; n < track.count; n++)
+        changes.push({ t: track.times[n]!, signal, bit, value: track.values[n]! });
+    });
   changes.sort((a, b) => a.t - b.t);
-  let now = NaN;
-  for (const { t, signal } of changes) {
-    if (t !== now) lines.push(`#${Math.max(0, Math.round((t + 1) * ps))}`);
-    now = t;
-    const value = joined(signal.tracks.map((track) => track.values[track.at(t)]!));
-    lines.push(signal.port.width > 1 ? `b${value.toString(2)} ${signal.id}` : `${value}${signal.id}`);
-  }
+  const changed = new Set<Signal>();
+  changes.forEach(({ t, signal, bit, value }, n) => {
+    const old = signal.value;
+    const whole = signal.rows.length === 1 ? 0xffffffffn : 1n;
+    signal.value = (old & ~(whole << BigInt(bit))) | (BigInt(value) << BigInt(bit));
+    changed.add(signal);
+    if (changes[n + 1]?.t === t) return;
+    lines.push(`#${Math.max(0, Math.round((t + 1) * ps))}`);
+    for (const { id, port, value: now } of changed)
+      lines.push(port.width > 1 ? `b${now.toString(2)} ${id}` : `${now}${id}`);
+    changed.clear();
+  });
   lines.push(`#${Math.round((store.end + 1) * ps)}`);
   return lines.join("\n") + "\n";
 }

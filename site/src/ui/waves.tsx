@@ -4,6 +4,9 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { frames, part, running, store } from "./state";
 import type { Row } from "./store";
 import { draw, HEIGHT, type View } from "./draw";
+import { paced } from "./paced";
+
+const TALLEST = 640; // as .pg-waves in style.css
 
 function nice(s: number): string {
   const size = Math.abs(s);
@@ -31,28 +34,27 @@ export function Waves() {
   useEffect(() => {
     const element = canvas.current;
     if (!element) return;
-    let pending = 0;
     let count = -1;
     const paint = (): void => {
-      pending = 0;
       if (!store) return;
       const look = view.current;
       if (follow.current) {
         look.from = -0.02 * store.end;
         look.to = Math.max(1000, store.end * 1.02);
       }
-      draw(element, shown.current, look, store.end, clk);
+      draw(element, shown.current, look, store.end, clk, element.parentElement!.scrollTop);
       const now = store.rows.filter(interesting).length;
       if (now !== count) {
         count = now;
         redraw((n) => n + 1);
       }
     };
-    const soon = (): void => void (pending ||= requestAnimationFrame(paint));
-    const stop = frames.subscribe(soon);
-    const sizes = new ResizeObserver(soon);
+    const soon = paced(paint);
+    const stop = frames.subscribe(soon.call);
+    const sizes = new ResizeObserver(soon.call);
     sizes.observe(element.parentElement!);
-    const scheme = new MutationObserver(soon);
+    element.parentElement!.addEventListener("scroll", soon.call);
+    const scheme = new MutationObserver(soon.call);
     scheme.observe(document.body, { attributes: true, attributeFilter: ["data-md-color-scheme"] });
     const wheel = (event: WheelEvent): void => {
       if (
@@ -74,7 +76,8 @@ export function Waves() {
       stop();
       sizes.disconnect();
       scheme.disconnect();
-      cancelAnimationFrame(pending);
+      soon.stop();
+      element.parentElement?.removeEventListener("scroll", soon.call);
       element.removeEventListener("wheel", wheel);
     };
   }, [name]);
@@ -113,7 +116,7 @@ export function Waves() {
     const element = canvas.current!;
     const look = view.current;
     const t = look.from + (x / element.clientWidth) * (look.to - look.from);
-    const row = shown.current[Math.floor((y - 20) / HEIGHT)];
+    const row = shown.current[Math.floor((y - 20 + element.parentElement!.scrollTop) / HEIGHT)];
     if (!row) return Math.round(t);
     const near = ((look.to - look.from) / element.clientWidth) * 8;
     const at = row.track.at(t);
@@ -208,7 +211,7 @@ export function Waves() {
           tabIndex={0}
           role="img"
           aria-label="waves; arrows move, plus and minus zoom, a and b set the cursors, f shows all"
-          style={{ height: `${20 + rows.length * HEIGHT + 4}px` }}
+          style={{ height: `${Math.min(20 + rows.length * HEIGHT + 4, TALLEST)}px` }}
           onPointerDown={down}
           onPointerMove={over}
           onPointerUp={up}
