@@ -40,10 +40,18 @@ API = {
                            ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")),
     "Predictions": tuple(f"openppmc.model.{part}.predict" for part in
                          ("ppmc104", "ppmc2104", "stmc", "ppmc312")),
-    "Virtual board": ("openppmc.sim.common.board", "openppmc.sim.common.spec"),
+    "Virtual board (Python)": ("openppmc.sim.common.board", "openppmc.sim.common.spec"),
     "Parts and errors": ("openppmc.parts", "openppmc.errors"),
 }  # fmt: skip
 """Pages of the API reference: titles and modules."""
+SHIM = """(() => { const Own = window.Worker;
+SHIM
+if (window.Worker !== Own) window.Worker = function (url, options) {
+  return new (/^blob:/.test(url) ? Own : window.IFrameWorker)(url, options);
+};
+})();
+"""
+"""A page from a file may start a worker from a blob (the playground), but none from another file (the search)."""
 APP = """---
 hide: [navigation, toc, footer]
 title: Playground
@@ -84,7 +92,8 @@ def stage() -> None:
     shutil.copytree(playground(), PAGES / "playground", ignore=shutil.ignore_patterns("index.html"))
     shutil.copy(SITE / "site.css", PAGES)
     # Search in pages that are files; MkDocs Material would fetch this one from elsewhere.
-    shutil.copy(SITE / "node_modules/iframe-worker/shim/index.js", PAGES / "iframe-worker.js")
+    shim = (SITE / "node_modules/iframe-worker/shim/index.js").read_text(encoding="utf-8")
+    (PAGES / "iframe-worker.js").write_text(SHIM.replace("SHIM", shim), encoding="utf-8")
     folder = PAGES / "api"
     folder.mkdir()
     rows = []
@@ -107,11 +116,12 @@ def browser() -> bool:
     return True
 
 
-def build() -> Path:
-    """The whole site; ProjectError names what MkDocs warns of first."""
+def build(with_pdf: bool = True, out: Path = HTML) -> Path:
+    """Build the whole site in `out`; ProjectError names the first warning of MkDocs."""
     stage()
-    pdf = browser()
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--clean", "-f", str(SITE / "mkdocs.yml")]
+    pdf = with_pdf and browser()
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--clean"]
+    command += ["-f", str(SITE / "mkdocs.yml"), "-d", str(out)]
     env = {**os.environ, **({PDF: "1"} if pdf else {})}
     done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False)
     log = wasm.OUT / "mkdocs.log"
@@ -120,10 +130,10 @@ def build() -> Path:
         wrong = [line for line in done.stderr.splitlines() if line.startswith(("WARNING", "ERROR"))]
         raise ProjectError(f"{wrong[0] if wrong else 'MkDocs failed'} (the whole log: {relative(log)})")
     if pdf:
-        (HTML / "pdf").mkdir()
+        (out / "pdf").mkdir()
         jobs = [f"docs/{part}/index.html={data_sheet(part)}" for part in PARTS]
-        node("node", "pdf.mjs", str(HTML), *jobs, folder=SITE / "browser")
-    return HTML
+        node("node", "pdf.mjs", str(out), *jobs, folder=SITE / "browser")
+    return out
 
 
 def main() -> int:

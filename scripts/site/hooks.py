@@ -11,6 +11,7 @@ CHAPTER = re.compile(r"^## (\d+) ", re.M)
 PDF = "OPENPPMC_PDF"
 """Tells MkDocs that there will be PDFs."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
+BASE = '<base href="/"><script>if(location.protocol==="file:")document.currentScript.previousSibling.href="."</script>'
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
@@ -52,8 +53,32 @@ def run_links(source: str, markdown: str) -> str:
 
 
 def on_post_page(output: str, page: Any, **_: Any) -> str:
-    """Called by MkDocs for each page that is ready: nothing of it comes from another server."""
+    """Load the shim of the search from this site instead of another host; called by MkDocs for each page."""
     return output.replace(SHIM, os.path.relpath("iframe-worker.js", os.path.dirname(page.file.src_uri)))
+
+
+def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
+    """Make 404.html work for an address at any depth and from a file; called by MkDocs for each template.
+
+    Its links are relative to the base: the root of the host, or the folder of the file."""
+    if template_name != "404.html":
+        return output_content
+    local = output_content.replace(SHIM, "iframe-worker.js")
+    local = re.sub(r'\b(href|src)="/(?!/)', r'\1="', local).replace('href=""', 'href="index.html"')
+    local = local.replace("<title>", "<title>Not found - ", 1)
+    local = re.sub(r'"base": "/"|"base": ""', '"base": "."', local)
+    return local.replace("<head>", f"<head>{BASE}", 1)
+
+
+def on_page_context(context: Any, page: Any, nav: Any, **_: Any) -> Any:
+    """Name the device in the titles of pages that share a name in the navigation; called by MkDocs."""
+    names: dict[str, int] = {}
+    for other in nav.pages:
+        names[str(other.title)] = names.get(str(other.title), 0) + 1
+    if names.get(str(page.title), 0) > 1:
+        above = [str(section.title) for section in page.ancestors[:1]]
+        page.meta.setdefault("title", " - ".join([*above, str(page.title)]))
+    return context
 
 
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:

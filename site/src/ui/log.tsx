@@ -43,7 +43,7 @@ export function BusLog() {
         role="log"
         aria-label="accesses on the bus"
       >
-        <table>
+        <table class="pg-table">
           <thead>
             <tr>
               <th>ms</th>
