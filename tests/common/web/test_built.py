@@ -1,0 +1,78 @@
+"""The site as readers get it: titles, hosts, and the playground's page in Chromium, over http and from a file."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.project import ProjectError
+from scripts.site import wasm
+from scripts.site.__main__ import build
+from scripts.site.pages import SITE, packages
+from tests.common.web.tally import told
+
+HERE = ROOT / "tests/common/web"
+pytestmark = [
+    pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed"),
+    pytest.mark.xdist_group("page"),
+]
+NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "built.mjs").read_text(encoding="utf-8"), re.M)
+LOADS = re.compile(
+    r"<(?:script|img|iframe|source|embed)\b[^>]*?\bsrc=[\"']?(?:https?:)?//[^\"' >]*"
+    r"|<link\b(?=[^>]*\brel=[\"']?(?:stylesheet|icon|preload|preconnect|manifest))[^>]*\bhref=[\"']?(?:https?:)?//[^>]*"
+)
+
+
+@cache
+def site() -> Path:
+    """Build the pages without PDFs, in a folder with a space and letters outside ASCII."""
+    return build(with_pdf=False, out=wasm.OUT / "tested/a site ü")
+
+
+@cache
+def checked() -> dict[str, dict[str, str]]:
+    """Return the result of each check in the browser."""
+    try:
+        packages(SITE / "browser")
+    except ProjectError as error:
+        pytest.skip(f"no browser: {error}")
+    command = ["node", str(HERE / "built.mjs"), str(site()), str(ROOT / "build/site/shots"), str(SITE / "browser")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode == 3:
+        pytest.skip(done.stderr.strip().splitlines()[-1])
+    assert done.returncode == 0, done.stderr
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    for line in lines:
+        if line.get("told"):
+            told(f"site: {line['told']}")
+    return {line["name"]: line for line in lines}
+
+
+def pages() -> dict[str, str]:
+    """Return the text of each page by its path."""
+    return {str(path.relative_to(site())): path.read_text(encoding="utf-8") for path in site().rglob("*.html")}
+
+
+def test_titles():
+    """Each page has a title that no other page has."""
+    titles = Counter(re.findall(r"<title>(.*?)</title>", text, re.S)[0] for text in pages().values())
+    assert [title for title, count in titles.items() if count > 1] == []
+
+
+def test_no_other_host():
+    """No page loads a script, style sheet or picture from another host."""
+    assert {name: found for name, text in pages().items() if (found := LOADS.findall(text))} == {}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_built(name):
+    """The page does this in a browser, without an error in the console."""
+    assert checked()[name].get("error") is None, checked()[name]["error"]
