@@ -24,7 +24,7 @@ const view = await launch();
 const base = `http://127.0.0.1:${server.address().port}/`;
 const fromFile = pathToFileURL(`${html}/`).href;
 fs.mkdirSync(shots, { recursive: true });
-const PATIENCE = 120_000;
+const PATIENCE = 30_000;
 const MOST_FRAME = 120; // ms, middle one; 33 are required of a machine that does nothing else
 const MOST_PAUSE = 600; // ms; 200 are required there
 const equal = (got, wanted, what) => {
