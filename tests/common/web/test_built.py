@@ -44,7 +44,13 @@ def checked() -> dict[str, dict[str, str]]:
         packages(SITE / "browser")
     except ProjectError as error:
         pytest.skip(f"no browser: {error}")
-    command = ["node", str(HERE / "built.mjs"), str(site()), str(ROOT / "build/site/shots"), str(SITE / "browser")]
+    command = [
+        "node",
+        str(HERE / "built.mjs"),
+        str(site()),
+        str(ROOT / "build/site/shots"),
+        str(SITE / "browser"),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 3:
         pytest.skip(done.stderr.strip().splitlines()[-1])
@@ -58,7 +64,9 @@ def checked() -> dict[str, dict[str, str]]:
 
 def pages() -> dict[str, str]:
     """Return the text of each page by its path."""
-    return {str(path.relative_to(site())): path.read_text(encoding="utf-8") for path in site().rglob("*.html")}
+    return {
+        str(path.relative_to(site())): path.read_text(encoding="utf-8") for path in site().rglob("*.html")
+    }
 
 
 def test_titles():
