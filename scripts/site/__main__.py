@@ -51,7 +51,7 @@ if (window.Worker !== Own) window.Worker = function (url, options) {
 };
 })();
 """
-"""A page from a file may start a worker from a blob (the playground), but none from another file (the search)."""
+"""The shim for the search worker. A page from a file can start a worker from a blob (the playground)."""
 APP = """---
 hide: [navigation, toc, footer]
 title: Playground

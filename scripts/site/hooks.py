@@ -11,7 +11,10 @@ CHAPTER = re.compile(r"^## (\d+) ", re.M)
 PDF = "OPENPPMC_PDF"
 """Tells MkDocs that there will be PDFs."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
-BASE = '<base href="/"><script>if(location.protocol==="file:")document.currentScript.previousSibling.href="."</script>'
+BASE = (
+    '<script>document.write(\'<base href="\'+(location.protocol==="file:"?".":"/")+\'">\')</script>'
+    '<noscript><base href="/"></noscript>'
+)
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")

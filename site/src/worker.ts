@@ -7,7 +7,7 @@ import { words } from "./engine/side";
 import { TextError } from "./engine/text";
 
 const SLICE = 14; // ms of work between two messages of the page
-const CHUNK_MS = 3; // ms of work between two looks at the clock on the wall
+const CHUNK_MS = 3; // ms of work between two readings of the time
 const MOST_CHUNK = 200_000; // clk
 const MOST_ROWS = 16_384; // that wait for the page; then the part waits, too
 
@@ -131,7 +131,7 @@ function slice(): void {
     done *= 0.5;
     spent *= 0.5;
   }
-  // With as many rows as may wait, the page's message goes on (shown).
+  // If the buffer of rows is full, the message "shown" continues the run.
   if (running && bytesWaiting < MOST_ROWS * ROW)
     timer = setTimeout(slice, speed ? Math.max(0, 16 - (performance.now() - begin)) : 0) as unknown as number;
 }

@@ -249,7 +249,7 @@ export function pick(name: string): void {
   start();
 }
 
-/** Run, for the reader: whatever was wrong before is read by now. */
+/** Run, for the reader; messages about the link are removed. */
 export function start(): void {
   remark = "";
   if (able()) trouble.value = "";
