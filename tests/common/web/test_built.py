@@ -1,4 +1,4 @@
-"""The site as readers get it: titles, hosts, and the playground's page in Chromium, over http and from a file."""
+"""The site as readers get it: titles, hosts, and its pages in Chromium, over http and from a file."""
 
 from __future__ import annotations
 
