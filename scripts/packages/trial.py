@@ -107,7 +107,7 @@ def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> st
 def try_verilator(tool: Verilator) -> None:
     """Every list packages/<part>.f and each template without a warning or waiver.
 
-    Then FuseSoC's lint and simulation, which must print its own result, whatever FuseSoC's exit code.
+    Then FuseSoC's lint and simulation, which must print its own result; its exit code is ignored.
     """
     includes = [f"-I{relative(path)}" for path in include_dirs()]
     for row in tops():
