@@ -15,6 +15,11 @@ BASE = (
     '<script>document.write(\'<base href="\'+(location.protocol==="file:"?".":"/")+\'">\')</script>'
     '<noscript><base href="/"></noscript>'
 )
+CONFIG = (
+    '<script>if(location.protocol==="file:"){const c=document.getElementById("__config");'
+    'c.textContent=c.textContent.replace(\'"base": "/"\',\'"base": "."\')'
+    '.replaceAll(\'": "/\',\'": "\')}</script>'
+)
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
@@ -69,7 +74,9 @@ def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
     local = output_content.replace(SHIM, "iframe-worker.js")
     local = re.sub(r'\b(href|src)="/(?!/)', r'\1="', local).replace('href=""', 'href="index.html"')
     local = local.replace("<title>", "<title>Not found - ", 1)
-    local = re.sub(r'"base": "/"|"base": ""', '"base": "."', local)
+    local = local.replace(
+        '<script src="assets/javascripts/bundle', CONFIG + '<script src="assets/javascripts/bundle', 1
+    )
     return local.replace("<head>", f"<head>{BASE}", 1)
 
 
