@@ -18,7 +18,7 @@ BASE = (
 CONFIG = (
     '<script>if(location.protocol==="file:"){const c=document.getElementById("__config");'
     'c.textContent=c.textContent.replace(\'"base": "/"\',\'"base": "."\')'
-    '.replaceAll(\'": "/\',\'": "\')}</script>'
+    ".replaceAll('\": \"/','\": \"')}</script>"
 )
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
