@@ -96,7 +96,7 @@ def synthesize_board(
 ) -> Path:
     """Mapped netlist of a board's top with `params` as its parameters; ProjectError with yosys' errors.
 
-    known: it tells what it was built from; sizes must not depend on that.
+    known: the bitstream returns its build ID (UB-VER-01); sizes must not depend on it.
     """
     job = board_job(on, host, params)
     job["defines"] = [sources_of.build_define(build_id(on))] if known else []

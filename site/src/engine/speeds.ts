@@ -35,7 +35,7 @@ export class Speed {
     this.written = true;
   }
 
-  /** A step at this clk; way 1: CCW. */
+  /** Record a step in cycle `clk`; way 1: CCW. */
   step(t: number, way: number): void {
     if (this.last >= 0) {
       const next: Interval = {
@@ -57,7 +57,7 @@ export class Speed {
     if (this.stairs.t.length > MOST) this.halve();
   }
 
-  /** Up to this clk. */
+  /** Draw up to cycle `clk`. */
   upTo(end: number): Speeds {
     const found = { t: [...this.stairs.t], v: [...this.stairs.v] };
     if (this.open) {
