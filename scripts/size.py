@@ -71,8 +71,9 @@ def measure(wanted: list[Design], rates: bool) -> None:
     known = {design.key for design in designs.all_designs()}
     held = {key: entry for key, entry in held.items() if key in known or key.startswith(figures.PEER)}
     changed = [design for design in wanted if held.get(design.key, {}).get("of") != design.digest()]
-    held |= sizes(changed)
-    figures.write(held)
+    for at in range(0, len(changed), 8):
+        held |= sizes(changed[at : at + 8])
+        figures.write(held)
     todo = []
     for design in wanted if rates else []:
         entry = held[design.key]
