@@ -20,7 +20,16 @@ from .axis.part import Part as AnyPart
 from .bank.axis import BankAxis
 from .bank.driver import PpmcBank
 from .bank.errors import GroupRefused
-from .basis.ending import AlarmStop, Cause, End, LimitReached, MotionError, OriginNotFound, StoppedEarly
+from .basis.ending import (
+    AlarmStop,
+    Cause,
+    End,
+    EndUnknown,
+    LimitReached,
+    MotionError,
+    OriginNotFound,
+    StoppedEarly,
+)
 from .basis.errors import (
     Disconnected,
     LinkError,
@@ -83,6 +92,7 @@ __all__ = [
     "CutCommand",
     "Disconnected",
     "End",
+    "EndUnknown",
     "FORWARD",
     "GroupRefused",
     "LimitReached",

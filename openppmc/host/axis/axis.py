@@ -115,7 +115,7 @@ class Axis(Moves, AxisCore):
 
     def _stop(self, now: bool, wait: bool) -> End | None:
         motion = self._motion
-        if motion is None or motion.end is not None:
+        if motion is None or motion.over:
             # Perhaps one that another program started.
             motion = Motion(self, Order(CONTINUOUS, CW), 0, ours=False)
             self.order_stop(now)

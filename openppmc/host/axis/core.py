@@ -21,13 +21,14 @@ EXCITATION_OFF = 0xC0
 
 class AxisCore(Checked):
     """See `axis.Axis`. `setup`: the initialisation this object made, if any. number: of the axis; bit: what
-    its command codes have set; busy: its bit in the status register.
+    its command codes have set; busy: its bit in the status register; unused: bits of that which read as 0.
     """
 
     kind: RateKind
     number = 1
     bit = 0
     busy = 0x04
+    unused = 0x08
 
     def __init__(self, link: Talk) -> None:
         self.link = link
@@ -152,7 +153,11 @@ class AxisCore(Checked):
         return self.link.execute(self.where(Script())).number(0, signed=True)
 
     def zero(self) -> None:
-        """Here is position 0."""
+        """Make the present position 0. Raises NotWhileBusy while a motion of this object is running: its end
+        is compared with the pulse counter."""
+        motion = self._motion
+        if motion is not None and not motion.over and motion.poll() is not None:
+            raise NotWhileBusy(self.busy)
         self.link.execute(Script().zero(self.number))
 
     def excitation_off(self) -> None:

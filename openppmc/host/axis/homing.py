@@ -81,7 +81,19 @@ class Homing:
                 "switch",
                 end,
             )
-        return end if end.cause is Cause.ORIGIN else end.check()
+        return self.found(end)
+
+    @staticmethod
+    def found(end: End) -> End:
+        """Return the end of a search that the origin ended. Raises OriginNotFound for a search that made all
+        its pulses, and as `End.check`."""
+        if end.cause is Cause.ORIGIN:
+            return end
+        raise OriginNotFound(
+            f"{end.who}the search ended after {abs(end.check().pulses or 0)} pulses without the origin; check "
+            "the switch",
+            end,
+        )
 
     def _approach(self, to_limit: bool) -> None:
         """High speed up to the slow-down limit, or on to the hard limit."""
@@ -91,7 +103,11 @@ class Homing:
         if to_limit and end.cause & Cause.LIMIT and not end.cause & (Cause.ALARM | Cause.STOP):
             return
         if end.cause != Cause.SLOW_LIMIT:
-            end.check()
+            raise OriginNotFound(
+                f"{end.who}no limit switch ended the approach after {abs(end.check().pulses or 0)} pulses; check "
+                "the switches",
+                end,
+            )
 
     def _leave(self) -> None:
         """Away from the switch in small moves until it is released."""

@@ -9,8 +9,8 @@ from typing import Protocol
 from ...model.motion.codes import ENDLESS, RAMP_OPERATIONS
 from ..basis import units
 from ..basis.arguments import Checked, side
-from ..basis.ending import End, decode_end
-from ..basis.errors import Timeout
+from ..basis.ending import COUNTS, End, EndUnknown, decode_end
+from ..basis.errors import ProtocolError, Timeout
 from ..basis.refusals import NotWhileBusy
 from ..bridge.link import Talk
 from ..bridge.script import Script
@@ -63,6 +63,8 @@ class AnyMotion(Protocol):
     @property
     def end(self) -> End | None: ...
     @property
+    def over(self) -> bool: ...
+    @property
     def asked(self) -> int | None: ...
     def poll(self) -> Progress | None: ...
     def wait(
@@ -76,7 +78,10 @@ class Moving(Protocol):
     link: Talk
     bit: int
     busy: int
+    unused: int
 
+    @property
+    def who(self) -> str: ...
     @property
     def codes(self) -> ReadCodes: ...
     def look(self, status: int) -> None: ...
@@ -99,15 +104,29 @@ class Motion(Checked):
         self.asked = order.asked
         self.direction = order.direction
         self.ramped = order.ramped
+        self.operation = order.operation
         self.begin = begin
         self.end: End | None = None
+        self._unknown: EndUnknown | None = None
         self._started = self._link.clock()
 
+    @property
+    def over(self) -> bool:
+        """The motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
+        return self.end is not None or self._unknown is not None
+
     def poll(self) -> Progress | None:
-        """Where the motor is now; None when it has come to rest (then `end` is set)."""
+        """Return where the motor is now; None when it has stopped (then `end` is set).
+
+        Raises EndUnknown if it has stopped, and the part does not confirm how.
+        """
+        if self._unknown is not None:
+            raise self._unknown
         answer = self._link.execute(self._axis.where(Script().read(1)))
         self.look(answer.byte(0))
         self._axis.look(answer.byte(0))
+        if self._unknown is not None:
+            raise self._unknown
         if self.end is not None:
             return None
         count = answer.number(1, signed=True)
@@ -115,16 +134,26 @@ class Motion(Checked):
         return Progress(self._axis.counted(count) or 0, made, self.asked, self._link.clock() - self._started)
 
     def look(self, status: int) -> None:
-        """The status register was read: fetch the end if there is one."""
-        if self.end is None and not status & self._axis.busy:
+        """The status register was read: fetch the end if there is one. EndUnknown is raised by `poll` and
+        `wait` only, so that a look at one axis does not raise the error of another. Raises ProtocolError for a
+        status that does not exist."""
+        if status & self._axis.unused:
+            raise ProtocolError(
+                f"{self._link.name}: {self._axis.who}status 0x{status:02X} does not exist; the bus to the part "
+                "is not connected, or another part is there: check the wiring"
+            )
+        if not self.over and not status & self._axis.busy:
             self._finish()
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """Wait for the end, without judging it.
+        """Wait for the end, without judging its cause.
 
         timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
-        second; what it raises ends the wait, and the motion goes on.
+        second; what it raises ends the wait, and the motion goes on. Raises EndUnknown if the part does not
+        confirm how the motion ended.
         """
+        if self._unknown is not None:
+            raise self._unknown
         limit = None if timeout is None else self._link.clock() + timeout
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         while self.end is None:
@@ -152,12 +181,23 @@ class Motion(Checked):
             answer = self._link.execute(self._axis.where(script))
         except NotWhileBusy:
             return  # a part with DATASHEET timing was about to begin
-        total = self.asked or ENDLESS
-        end = decode_end(
-            answer.byte(1),
-            answer.number(3),
-            total if self._ours else None,
-            self.direction,
-            self._axis.counted(answer.number(4, signed=True)),
-        )
-        self.end = self._axis.told(end)
+        count = answer.number(4, signed=True)
+        position = self._axis.counted(count)
+        moved = None
+        if self._ours and position is not None:
+            moved = (count - self.begin + COUNTS // 2) % COUNTS - COUNTS // 2
+        try:
+            end = decode_end(
+                answer.byte(1),
+                answer.number(3),
+                (self.asked or ENDLESS) if self._ours else None,
+                self.direction,
+                position,
+                self.operation if self._ours else None,
+                moved,
+                f"{self._link.name}: {self._axis.who}",
+            )
+        except EndUnknown as error:
+            self._unknown = error
+        else:
+            self.end = self._axis.told(end)

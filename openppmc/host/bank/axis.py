@@ -44,7 +44,7 @@ class BankMotion(Motion):
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
         """As `Motion.wait`. Misused while the group that holds the motion is open: it would never end."""
-        if self.end is None and self._of.held:
+        if not self.over and self._of.held:
             raise Misused(
                 f"{self._of.who}its group holds it until the end of the with block: start it there with "
                 "start_move, start_constant, jog or search, and wait behind the block"
@@ -92,10 +92,10 @@ class BankAxis(Chopping, Axis):
         """The end of a motion of another program, whose interrupt is pending."""
         motion = Motion(self, Order(CONTINUOUS, CW), 0, ours=False)
         motion.look(0)
-        if motion.end is None:
+        if not motion.over:
             raise ProtocolError(f"{self.link.name}: {self.who}its interrupt is pending while it moves")
         self._motion = motion
-        return motion.end
+        return motion.wait()
 
     def look(self, status: int) -> None:
         # The end of another axis's motion would keep int_n low, and this one's would send no message.

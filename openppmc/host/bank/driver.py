@@ -164,12 +164,11 @@ class PpmcBank(Part):
         numbers_of(self.kind, moves)
         motions = self.start_together(moving, pps, pulse_only) if moving else {}
         first = self._wait(motions, progress)
-        if first is not None and first.end is not None:
-            first.end.check(first.asked)
+        if first is not None:
+            first.wait().check(first.asked)
         ends = {number: self.axis[number].nothing_to_move() for number in still}
         for number, motion in motions.items():
-            assert motion.end is not None
-            ends[number] = motion.end
+            ends[number] = motion.wait()
         return dict(sorted(ends.items()))
 
     def _orders(
@@ -192,15 +191,15 @@ class PpmcBank(Part):
         """Until all have ended. The early end of one stops the others; returns that one."""
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
-        while running := {number: motion for number, motion in motions.items() if motion.end is None}:
+        while running := {number: motion for number, motion in motions.items() if not motion.over}:
             self.link.wait_event(pause)
             seen = visit(self.link, [(number, Script().read(STATUS)) for number in running])
             for motion, (status,) in zip(running.values(), seen, strict=True):
                 motion.look(status[0])
-            running = {number: motion for number, motion in running.items() if motion.end is None}
+            running = {number: motion for number, motion in running.items() if not motion.over}
             if first is None:
                 first = next(
-                    (motion for motion in motions.values() if motion.end and not motion.end.complete), None
+                    (one for one in motions.values() if one.over and not (one.end and one.end.complete)), None
                 )
                 for number in running if first is not None else ():
                     self.axis[number].brake()
@@ -218,16 +217,17 @@ class PpmcBank(Part):
         wait. That nothing moves is fine."""
         visit(self.link, [(1, Script().write(STOP, 0))])
         ends: dict[int, End] = {}
+        ours: dict[int, Motion] = {}
         if not wait:
             return ends
         for axis in self.axes:
-            if axis.motion is not None and axis.motion.end is None:
+            if axis.motion is not None and not axis.motion.over:
                 self.link.execute(Script().write(SELECT, axis.number - 1).wait(STATUS, axis.busy, 0))
                 axis.motion.look(0)
-                if axis.motion.end is not None:
-                    ends[axis.number] = axis.motion.end
+                ours[axis.number] = axis.motion
         for number in self.pending():
             ends[number] = self.axis[number].foreign_end()
+        ends |= {number: motion.wait() for number, motion in ours.items()}
         return dict(sorted(ends.items()))
 
     def reset(self) -> None:
@@ -259,13 +259,13 @@ class PpmcBank(Part):
     def settle(self, number: int) -> None:
         """This axis was looked at: take the ends of others, too, because int_n stays low until then."""
         motions = (axis.motion for axis in self.axes if axis.number != number)
-        if not any(motion is not None and motion.end is None for motion in motions):
+        if not any(motion is not None and not motion.over for motion in motions):
             return
         for other in self.pending():
             if other == number:
                 continue
             motion = self.axis[other].motion
-            if motion is not None and motion.end is None:
+            if motion is not None and not motion.over:
                 motion.look(0)  # an interrupt is pending, so it rests
             else:
                 self._take_end(other)

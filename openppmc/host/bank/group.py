@@ -118,12 +118,12 @@ class Group(Checked):
             raise GroupRefused(refusals)
 
     def _ended(self, number: int, status: int) -> bool:
-        """A switch or a stop ended the motion of this axis while it was held."""
+        """A switch, a stop or a reset ended the motion of this axis while it was held."""
         motion = self._bank.axes[number - 1].motion
         if motion is None:
             return False
         motion.look(status)
-        return motion.end is not None and not motion.end.complete
+        return motion.over and not (motion.end and motion.end.complete)
 
     def _call_off(self) -> None:
         """Nothing of this group may start any more. All of its axes were at rest before."""

@@ -7,9 +7,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Flag
 
-from ...model.motion.codes import FINISH_ALARM, FINISH_LIMIT, FINISH_SLOW, FINISH_STOP, ORIGIN
-from .errors import PpmcError
+from ...model.motion.codes import (
+    ENDLESS,
+    FINISH_ALARM,
+    FINISH_LIMIT,
+    FINISH_NEW,
+    FINISH_SLOW,
+    FINISH_STOP,
+    ORIGIN,
+    SINGLE_STEP,
+)
+from .errors import PpmcError, ProtocolError
 
+COUNTS = 1 << 32
+"""Values of a pulse counter."""
 ALARM_INPUT = ("alarm input", "clear the drive's alarm")
 """What that input is called where it is one, and what to do about it."""
 
@@ -36,6 +47,37 @@ class StoppedEarly(MotionError):
 
 class OriginNotFound(MotionError):
     """Homing ended without the origin switch."""
+
+
+class EndUnknown(ProtocolError):
+    """A motion is over, but the part does not confirm how it ended: it was reset, replaced, or moved by
+    something else. The position is not reliable until the next homing.
+
+    `finish`: the finish status that was read, None if the part has none or did not report one. `pulses`:
+    counted since the start of the motion, CW positive, None if unknown. `asked`: pulses of the move, None for
+    endless motions and for those of another program. `position`: the pulse counter now, None without one.
+    """
+
+    def __init__(
+        self,
+        where: str,
+        reason: str,
+        finish: int | None = None,
+        pulses: int | None = None,
+        asked: int | None = None,
+        position: int | None = None,
+    ) -> None:
+        self.finish, self.pulses, self.asked, self.position = finish, pulses, asked, position
+        known = [reason]
+        if pulses is not None:
+            of = "" if asked is None else f" of {asked}"
+            known.append(f"{abs(pulses)}{of} pulses counted")
+        if position is not None:
+            known.append(f"position {position}")
+        super().__init__(
+            f"{where}the end of the motion is not confirmed ({', '.join(known)}); the part was reset, "
+            "replaced or moved by something else: initialise it and home again"
+        )
 
 
 class Cause(Flag):
@@ -93,12 +135,20 @@ class End:
 
     @property
     def complete(self) -> bool:
-        """All pulses were made."""
-        return self.cause is Cause.COMPLETE
+        """All pulses were made: no other cause, and no pulse is left."""
+        return self.cause is Cause.COMPLETE and self.left == 0
 
     def check(self, asked: int | None = None) -> End:
-        """Itself if it is complete; otherwise raises LimitReached, AlarmStop or StoppedEarly."""
-        if self.complete:
+        """Return the end itself if it is complete. Raises LimitReached, AlarmStop or StoppedEarly otherwise,
+        and EndUnknown if nothing ended the motion, but the pulses are not those of the move.
+
+        asked: pulses of the move, without a sign.
+        """
+        if self.cause is Cause.COMPLETE:
+            wrong = asked is not None and self.pulses is not None and abs(self.pulses) != asked
+            if self.left or wrong:
+                reason = f"no cause, {self.left} {self.unit} left"
+                raise EndUnknown(self.who, reason, self.finish, self.pulses, asked, self.position)
             return self
         where = "" if self.position is None else f" at position {self.position}"
         of = "" if asked is None else f" of {asked}"
@@ -115,15 +165,42 @@ class End:
         return StoppedEarly, "start again with the pulses that are left"
 
 
-def decode_end(finish: int, remaining: int, total: int | None, direction: int, position: int | None) -> End:
-    """From finish status and remaining pulses (P104-END-04..06, STMC-FIN-01, -REM-01).
+def decode_end(
+    finish: int,
+    remaining: int,
+    total: int | None,
+    direction: int,
+    position: int | None,
+    operation: int | None = None,
+    moved: int | None = None,
+    where: str = "",
+) -> End:
+    """Decode finish status and remaining pulses (P104-RD-03, P104-END-04..06, P2104-END-04..06, STMC-FIN-01,
+    -REM-01), if they confirm each other.
 
-    total: pulses asked for, 2^24 for endless operations, None if nobody knows. direction: 0 CW, 1 CCW.
+    total: pulses ordered, 2^24 for endless operations, None for a motion of another program. direction: 0 CW,
+    1 CCW. operation: low three bits of the command code, None if unknown. moved: difference of the pulse
+    counter since the start, None without a counter. where: begins the message of an error. Raises EndUnknown
+    if bit 7 is 0, if the operation is none or another one, or if remaining pulses or pulse counter contradict
+    the status.
     """
+
+    def unknown(reason: str) -> EndUnknown:
+        asked = None if total == ENDLESS else total
+        return EndUnknown(where, reason, finish, moved, asked, position)
+
+    number = finish & 7
+    if not finish & FINISH_NEW or number < SINGLE_STEP or number != (number if operation is None else operation):
+        raise unknown(f"finish status 0x{finish:02X}")
     cause = Cause(finish & _CAUSE_BITS)
+    if not cause and number == ORIGIN:
+        # The origin switch sets no bit; a search through all 2^24 pulses reads the same as one pulse less.
+        searched_all = remaining == 0 and moved is not None and abs(moved) == total
+        cause = Cause.COMPLETE if searched_all else Cause.ORIGIN
     left = remaining + 1 if cause else 0
-    if not cause and finish & 7 == ORIGIN:
-        # The origin switch sets no bit; only a search through all 2^24 pulses would read the same.
-        cause, left = Cause.ORIGIN, remaining + 1
+    if (not cause and remaining) or (total is not None and left > total):
+        raise unknown(f"finish status 0x{finish:02X} with {remaining} remaining pulses")
     made = None if total is None else (left - total if direction else total - left)
+    if made is not None and moved is not None and (made - moved) % COUNTS:
+        raise unknown(f"finish status 0x{finish:02X} says {abs(made)} pulses")
     return End(cause, made, left, position, finish)

@@ -64,6 +64,7 @@ class Axis2104(Axis):
         self.number = self.kind.check_axis(number)
         self.bit = (number - 1) * AXIS_BIT
         self.busy = BUSY[number - 1]
+        self.unused = 0x40
 
     def apply(self, setup: units.Setup) -> units.Setup:
         """Initialise with a setup that was planned before for this axis; waits until its ramp is ready."""
@@ -92,7 +93,7 @@ class Axis2104(Axis):
 
     def settle(self, status: int) -> None:
         """The status register was read: fetch the end of a motion that is over."""
-        if self._motion is not None and self._motion.end is None:
+        if self._motion is not None and not self._motion.over:
             self._motion.look(status)
         elif not status & self.busy:
             self.part.settle_foreign(self.number)

@@ -12,7 +12,7 @@ from ..axis.moves import OnProgress
 from ..axis.part import Part
 from ..basis import units
 from ..basis.arguments import whole, within
-from ..basis.ending import End
+from ..basis.ending import End, EndUnknown
 from ..basis.errors import PpmcError, ProtocolError
 from ..basis.refusals import AlreadyDecelerating, CommandRefused
 from ..bridge.answer import Answer
@@ -95,10 +95,9 @@ class Ppmc2104(Part):
             return ends[0], ends[1]
         motions = self.start_together(x, y, x_pps, y_pps, pulse_only)
         first = self._wait(motions, progress)
-        if first is not None and first.end is not None:
-            first.end.check(first.asked)
-        assert motions[0].end is not None and motions[1].end is not None
-        return motions[0].end, motions[1].end
+        if first is not None:
+            first.wait().check(first.asked)
+        return motions[0].wait(), motions[1].wait()
 
     def start_together(
         self,
@@ -155,17 +154,25 @@ class Ppmc2104(Part):
         """Until both have ended. The early end of one stops the other; returns that one."""
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
-        while running := [motion for motion in motions if motion.end is None]:
+        while running := [motion for motion in motions if not motion.over]:
             self.link.wait_event(pause)
-            seen: list[Progress] = [now for motion in running if (now := motion.poll()) is not None]
+            seen = [now for motion in running if (now := self._look(motion)) is not None]
             if first is None:
-                first = next((motion for motion in motions if motion.end and not motion.end.complete), None)
+                first = next((one for one in motions if one.over and not (one.end and one.end.complete)), None)
                 for axis in self.axis.values() if first is not None else ():
-                    if axis.motion is not None and axis.motion.end is None:
+                    if axis.motion is not None and not axis.motion.over:
                         axis.brake()
             if progress and seen:
                 progress(seen[-1])
         return first
+
+    @staticmethod
+    def _look(motion: Motion) -> Progress | None:
+        """As `Motion.poll`; an end that the part does not confirm raises later, when both have stopped."""
+        try:
+            return motion.poll()
+        except EndUnknown:
+            return None
 
     # ------------------------------------------------------------------ straps
 

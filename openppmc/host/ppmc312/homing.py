@@ -46,7 +46,7 @@ class Homing(homing.Homing):
                 + ": home in the other direction, or check the switch",
                 end,
             )
-        return end if end.cause is Cause.ORIGIN else end.check()
+        return self.found(end)
 
     def _approach(self, to_limit: bool) -> None:
         if to_limit:

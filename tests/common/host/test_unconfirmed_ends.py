@@ -1,0 +1,379 @@
+"""An end of a motion is reported only if the part confirms it: its status names this motion, and the count of
+pulses agrees. Everything else raises EndUnknown (P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+from openppmc.host import (
+    CCW,
+    CW,
+    Cause,
+    End,
+    EndUnknown,
+    MotionError,
+    NothingToStop,
+    NotInitialised,
+    NotWhileBusy,
+    Ppmc104,
+    Ppmc2104,
+    PpmcBank,
+    ProtocolError,
+    Stmc,
+)
+from openppmc.host.basis.ending import decode_end
+from openppmc.host.bridge.loopback import ModelPort
+from openppmc.host.bridge.script import Script
+
+SLOW = 115_200
+"""The rate of a bridge that was reset: with a higher one a replaced board does not answer at all."""
+ENDLESS = 1 << 24
+KINDS: dict[str, tuple[Any, str, Callable[[Any], Any]]] = {
+    "ppmc104": (Ppmc104, "part=ppmc104", lambda part: part),
+    "ppmc104-datasheet": (Ppmc104, "part=ppmc104,timing=DATASHEET", lambda part: part),
+    "ppmc2104-x": (Ppmc2104, "part=ppmc2104", lambda part: part.x),
+    "ppmc2104-y": (Ppmc2104, "part=ppmc2104", lambda part: part.y),
+    "stmc": (Stmc, "part=stmc", lambda part: part),
+    "stmc-family": (Stmc, "part=stmc,read_map=FAMILY", lambda part: part),
+    "bank": (PpmcBank, "part=bank,axes=4", lambda part: part.axis[3]),
+}
+
+
+@contextmanager
+def opened(kind: str, words: str = "") -> Iterator[Any]:
+    """An initialised axis at 1000 to 5000 pulses/s."""
+    driver, text, chosen = KINDS[kind]
+    with driver.open(f"model:speed=max,{text},{words}", SLOW) as part:
+        axis = chosen(part)
+        axis.initialise(1000, 5000, 100)
+        yield axis
+
+
+@pytest.fixture(params=KINDS)
+def axis(request: pytest.FixtureRequest) -> Iterator[Any]:
+    with opened(request.param) as ready:
+        yield ready
+
+
+def port_of(axis: Any) -> ModelPort:
+    """The modelled board's port."""
+    link = getattr(axis.link, "_link", axis.link)
+    assert isinstance(link.port, ModelPort)
+    return link.port
+
+
+def reset_part(axis: Any) -> None:
+    """The part is reset; the bridge and its pulse counter are not."""
+    port_of(axis).board.reset()
+
+
+def replace_board(axis: Any) -> None:
+    """A fresh board of the same kind is at the port."""
+    port = port_of(axis)
+    fresh = ModelPort(port.name.removeprefix("model:"))
+    fresh.board.t = port.board.t
+    fresh.board.part.run_until(port.board.t)
+    port.board, port.bridge = fresh.board, fresh.bridge
+
+
+def jump(axis: Any) -> None:
+    """The pulse counter loses 40 pulses, as by a glitch; that of a bank is the part's own."""
+    if hasattr(axis, "held"):
+        axis.begin_shift = 40
+        axis.motion.begin += 40
+    else:
+        port_of(axis).board.counts[axis.number - 1] -= 40
+
+
+def another_program(axis: Any) -> None:
+    """Another program resets the part and makes a shorter move of the same kind."""
+    reset_part(axis)
+    axis.apply(axis.setup)
+    order = axis.move_order(30)
+    axis.link.execute(Script().call(order.code | axis.bit, *order.data))
+    axis.link.pause(1)
+
+
+FAULTS = [reset_part, replace_board, another_program]
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("seconds", [0.1, 0.0, 0.2])
+def test_a_reset_during_a_move_is_no_end(axis: Any, fault: Callable[[Any], None], seconds: float) -> None:
+    motion = axis.start_move(1000)
+    axis.link.pause(seconds)
+    fault(axis)
+    for _ in range(2):
+        with pytest.raises(EndUnknown, match="the end of the motion is not confirmed") as caught:
+            motion.wait(5)
+    assert isinstance(caught.value, ProtocolError)
+    assert caught.value.asked == 1000 and "\n" not in str(caught.value)
+    assert motion.over and motion.end is None
+    with pytest.raises(EndUnknown):
+        motion.poll()
+
+
+@pytest.mark.parametrize("fault", FAULTS[:2])
+def test_a_reset_during_a_waited_call(axis: Any, fault: Callable[[Any], None]) -> None:
+    """The calls that wait raise the error, whichever motion it is."""
+    calls: list[Callable[[Callable[[Any], None]], Any]] = [
+        lambda look: axis.move(-3000, progress=look),
+        lambda look: axis.move_to(axis.position + 3000, progress=look),
+        lambda look: axis.move_constant(2000, 1500, progress=look),
+        lambda look: axis.home(CCW, progress=look),
+        lambda look: axis.home(CCW, fast=True, progress=look),
+        lambda look: axis.home(CCW, to_limit=True, progress=look),
+    ]
+    for call in calls:
+        axis.initialise(1000, 5000, 100)
+        done = []
+
+        def look(now: Any, done: list[int] = done) -> None:
+            if not done and now.made > 20:
+                done.append(1)
+                fault(axis)
+
+        with pytest.raises(EndUnknown):
+            call(look)
+        assert done
+
+
+@pytest.mark.parametrize("pulses", [1, 2, 1000, -700])
+def test_a_reset_after_the_last_pulse_is_no_end_although_the_count_agrees(axis: Any, pulses: int) -> None:
+    motion = axis.start_move(pulses)
+    axis.link.pause(2)
+    reset_part(axis)
+    with pytest.raises(EndUnknown):
+        motion.wait(5)
+
+
+@pytest.mark.parametrize("way", ["jog", "search", "constant"])
+def test_a_reset_of_other_motions(axis: Any, way: str) -> None:
+    motion = {
+        "jog": lambda: axis.jog(CW, high=True),
+        "search": lambda: axis.search(CCW),
+        "constant": lambda: axis.start_constant(500, 1200),
+    }[way]()
+    axis.link.pause(0.1)
+    reset_part(axis)
+    with pytest.raises(EndUnknown) as caught:
+        motion.wait(5)
+    assert caught.value.asked == (500 if way == "constant" else None)
+
+
+def test_a_stop_of_a_motion_that_a_reset_ended(axis: Any) -> None:
+    axis.jog(CW)
+    axis.link.pause(0.1)
+    reset_part(axis)
+    with pytest.raises(EndUnknown):
+        axis.stop()
+    with pytest.raises((NothingToStop, NotInitialised)):
+        axis.stop()
+    axis.initialise(1000, 5000, 100)
+    assert axis.move(50).complete
+
+
+def test_a_reset_between_two_moves_is_refused_by_the_part(axis: Any) -> None:
+    assert axis.move(300).complete
+    reset_part(axis)
+    with pytest.raises(NotInitialised):
+        axis.move_to(600)
+
+
+def test_a_counter_that_jumped_contradicts_the_status(axis: Any) -> None:
+    motion = axis.start_move(1000)
+    axis.link.pause(0.1)
+    jump(axis)
+    with pytest.raises(EndUnknown, match=r"finish status 0x83 says 1000 pulses, 960 of 1000 pulses counted"):
+        motion.wait(5)
+
+
+def test_a_stop_with_a_wrong_count_is_not_confirmed_either(axis: Any) -> None:
+    motion = axis.start_move(1000)
+    axis.link.pause(0.1)
+    jump(axis)
+    with pytest.raises(EndUnknown, match="finish status 0xC3 says"):
+        axis.stop()
+    assert motion.over
+
+
+def test_the_counter_is_not_cleared_during_a_motion(axis: Any) -> None:
+    """Its value at the end is compared; a bank keeps the offset in the program, so there it is allowed."""
+    motion = axis.start_move(1000)
+    axis.link.pause(0.1)
+    if hasattr(axis, "held"):
+        axis.zero()
+    else:
+        with pytest.raises(NotWhileBusy):
+            axis.zero()
+    axis.link.pause(2)
+    axis.zero()
+    assert motion.wait().complete and axis.position == 0
+
+
+@pytest.mark.parametrize("value", [0xFF, 0x7F, 0x4C, 0xF8])
+def test_a_floating_bus_is_no_motion_without_end(
+    axis: Any, value: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bits that always read as 0 are 1: no part drives the bus (P104-STA-05, P2104-STA-07)."""
+    motion = axis.start_move(1000)
+    monkeypatch.setattr(port_of(axis).board, "read", lambda a: value)
+    with pytest.raises(ProtocolError, match=f"status 0x{value:02X} does not exist"):
+        motion.wait(5)
+    assert not motion.over
+    monkeypatch.undo()
+    assert motion.wait(5).complete
+
+
+def test_a_dead_bus_is_no_end(axis: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    motion = axis.start_move(1000)
+    monkeypatch.setattr(port_of(axis).board, "read", lambda a: 0)
+    with pytest.raises(Exception) as caught:  # noqa: PT011 - which one depends on the part
+        motion.wait(5)
+    assert not isinstance(caught.value, AssertionError) and motion.end is None
+
+
+# ---------------------------------------------------------------------- several axes
+
+
+@pytest.mark.parametrize("fault", [reset_part, replace_board])
+def test_axes_that_move_together(fault: Callable[[Any], None]) -> None:
+    with opened("ppmc2104-x") as x:
+        part = x.part
+        part.y.initialise(1000, 5000, 100)
+        motions = part.start_together(3000, -2000)
+        x.link.pause(0.1)
+        fault(x)
+        for motion in motions:
+            with pytest.raises(EndUnknown, match=r"axis [12]: the end"):
+                motion.wait(5)
+        part.x.initialise(1000, 5000, 100)
+        part.y.initialise(1000, 5000, 100)
+        with pytest.raises(EndUnknown):
+            part.together(3000, -2000, progress=lambda now: fault(x))
+
+
+@pytest.mark.parametrize("fault", [reset_part, replace_board])
+def test_a_group_of_a_bank(fault: Callable[[Any], None]) -> None:
+    with opened("bank") as third:
+        bank = third._bank
+        for one in bank.axes:
+            one.initialise(1000, 5000, 100)
+        motions = bank.start_together({1: 1000, 2: -500, 4: 30})
+        third.link.pause(0.1)
+        fault(third)
+        for motion in motions.values():
+            with pytest.raises(EndUnknown, match=r"axis [124]: the end"):
+                motion.wait(5)
+        for one in bank.axes:
+            one.initialise(1000, 5000, 100)
+        with pytest.raises(EndUnknown):
+            bank.together({1: 3000, 2: -500}, progress=lambda now: fault(third))
+
+
+def test_one_axis_of_a_group_without_a_confirmed_end_stops_the_others() -> None:
+    with opened("bank") as third:
+        bank = third._bank
+        for one in bank.axes:
+            one.initialise(1000, 5000, 100)
+        changed = []
+
+        def look(now: Any) -> None:
+            if not changed:
+                changed.append(1)
+                bank.axis[1].motion.begin += 7
+
+        with pytest.raises(EndUnknown, match="axis 1: "):
+            bank.together({1: 600, 2: 90_000}, progress=look)
+        assert bank.axis[2].motion.end.cause is Cause.STOP
+        assert not bank.status().busy
+
+
+def test_a_bank_that_was_reset_while_a_group_was_held() -> None:
+    with opened("bank") as third:
+        bank = third._bank
+        with bank.group((3,)):
+            motion = third.start_move(100)
+            reset_part(third)
+        with pytest.raises(EndUnknown):
+            motion.wait(5)
+
+
+def test_one_axis_of_a_ppmc2104_without_a_confirmed_end_stops_the_other() -> None:
+    with opened("ppmc2104-x") as x:
+        part = x.part
+        part.y.initialise(1000, 5000, 100)
+
+        def look(now: Any) -> None:
+            x.motion.begin = 7
+
+        with pytest.raises(EndUnknown, match="axis 1: "):
+            part.together(600, 90_000, progress=look)
+        assert part.y.motion.end.cause is Cause.STOP
+
+
+def test_stop_all_of_a_bank_that_was_reset() -> None:
+    with opened("bank") as third:
+        third.jog(CW)
+        reset_part(third)
+        with pytest.raises(EndUnknown):
+            third._bank.stop_all()
+
+
+# ---------------------------------------------------------------------- values
+
+
+@pytest.mark.parametrize("operation", range(8))
+@pytest.mark.parametrize("finish", range(256))
+def test_each_finish_status(finish: int, operation: int) -> None:
+    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); with a cause, pulses are left."""
+    good = finish & 0x80 and finish & 7 == operation >= 2
+    for remaining, moved in ((0, 10), (0, 9), (3, 6), (9, 0), (10, -1), (3, 7), (0, 0), (0xFFFFFF, 10)):
+        cause = finish & 0x78
+        if not cause and operation == 7 and moved != 10:
+            fits = remaining + 1 == 10 - moved
+        elif cause:
+            fits = remaining < 10 and remaining + 1 == 10 - moved
+        else:
+            fits = remaining == 0 and moved == 10
+        if good and fits:
+            end = decode_end(finish, remaining, 10, 0, 77, operation, moved)
+            assert end.pulses == moved and end.left == 10 - moved
+            assert end.complete is (moved == 10) and bool(end.cause) is not end.complete
+        else:
+            with pytest.raises(EndUnknown):
+                decode_end(finish, remaining, 10, 0, 77, operation, moved)
+
+
+@pytest.mark.parametrize("finish", [0x00, 0x03, 0x80, 0x81, 0xFF & ~0x80])
+def test_a_status_of_no_motion(finish: int) -> None:
+    """Also for a motion of another program, and without a pulse counter."""
+    with pytest.raises(EndUnknown, match="finish status 0x"):
+        decode_end(finish, 0, None, CW, None)
+    with pytest.raises(EndUnknown):
+        decode_end(finish, 0, 1000, CW, 247)
+
+
+def test_a_search_through_all_pulses_is_no_origin() -> None:
+    """Its status and remaining pulses read like those of an origin one pulse before the end."""
+    assert decode_end(0x87, 0, ENDLESS, CW, None, 7).cause is Cause.ORIGIN
+    assert decode_end(0x87, 0, ENDLESS, CCW, -5, 7, 1 - ENDLESS).cause is Cause.ORIGIN
+    assert decode_end(0x87, 0, ENDLESS, CCW, -5, 7, -ENDLESS).complete
+
+
+def test_the_counter_wraps() -> None:
+    assert decode_end(0x83, 0, ENDLESS, CW, -1, 3, ENDLESS).complete
+    assert decode_end(0x83, 0, 10, CW, -1, 3, 10 - (1 << 32)).complete
+
+
+def test_an_end_that_contradicts_itself_is_not_complete() -> None:
+    assert End(Cause.COMPLETE, 5, 0, 5, 0x83).check(5).complete
+    for end, asked in ((End(Cause.COMPLETE, 3, 2, 3, 0), 5), (End(Cause.COMPLETE, 3, 0, 3, 0), 5)):
+        with pytest.raises(EndUnknown, match="3 of 5 pulses counted, position 3"):
+            end.check(asked)
+    assert not End(Cause.COMPLETE, 3, 2, 3, 0).complete
+    assert not issubclass(EndUnknown, MotionError)
