@@ -93,8 +93,7 @@ class Player:
         elif step.word == "jog":
             motion = axis.jog(values["side"], values["speed"], values["ramped"])
             self._guard.pause(self._part, values["seconds"])
-            if motion.end is None:
-                axis.stop()
+            motion.wait() if motion.over else axis.stop()
         elif step.word == "home":
             fast, limit = values["approach"] == "fast", values["approach"] == "to-limit"
             axis.home(values["side"], values["speed"], fast, limit, progress=progress)

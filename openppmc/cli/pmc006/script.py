@@ -150,8 +150,7 @@ class Player:
         elif step.word == "jog":
             motion = part.jog(values["way"], values["speed"])
             guard.pause(bus, values["seconds"])
-            if motion.end is None:
-                part.stop()
+            motion.wait() if motion.over else part.stop()
         elif step.word == "home":
             speeds = values["speed"], values["slow"]
             part.home(values["switch"], values["way"], *speeds, values["off"], guard.progress)

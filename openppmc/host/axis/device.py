@@ -66,7 +66,7 @@ class Device(Checked):
     ) -> None:
         if error is not None and not isinstance(error, Disconnected):
             for axis in self.axes:
-                if axis.motion is not None and axis.motion.end is None:
+                if axis.motion is not None and not axis.motion.over:
                     try:
                         axis.brake()
                     except PpmcError:

@@ -90,8 +90,8 @@ class Homing:
         if end.cause is Cause.ORIGIN:
             return end
         raise OriginNotFound(
-            f"{end.who}the search ended after {abs(end.check().pulses or 0)} pulses without the origin; check "
-            "the switch",
+            f"{end.who}the search ended after {abs(end.check().pulses or 0)} pulses without the origin; "
+            "check the switch",
             end,
         )
 
@@ -104,8 +104,8 @@ class Homing:
             return
         if end.cause != Cause.SLOW_LIMIT:
             raise OriginNotFound(
-                f"{end.who}no limit switch ended the approach after {abs(end.check().pulses or 0)} pulses; check "
-                "the switches",
+                f"{end.who}no limit switch ended the approach after {abs(end.check().pulses or 0)} pulses; "
+                "check the switches",
                 end,
             )
 

@@ -90,7 +90,26 @@ class Moving(Protocol):
     def told(self, end: End) -> End: ...
 
 
-class Motion(Checked):
+class Handle(Checked):
+    """What all motions have: `end` is the End that the part has confirmed; `unknown` is the error of a motion
+    that is over without that."""
+
+    end: End | None = None
+    unknown: EndUnknown | None = None
+
+    @property
+    def over(self) -> bool:
+        """The motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
+        return self.end is not None or self.unknown is not None
+
+    def _confirmed(self) -> End | None:
+        """The end, None while it moves. Raises EndUnknown."""
+        if self.unknown is not None:
+            raise self.unknown
+        return self.end
+
+
+class Motion(Handle):
     """Handle of an operation that was started; `end` is its End once it is known.
 
     asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. ramped: it has ramps. `begin`: pulse
@@ -106,28 +125,18 @@ class Motion(Checked):
         self.ramped = order.ramped
         self.operation = order.operation
         self.begin = begin
-        self.end: End | None = None
-        self._unknown: EndUnknown | None = None
         self._started = self._link.clock()
-
-    @property
-    def over(self) -> bool:
-        """The motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
-        return self.end is not None or self._unknown is not None
 
     def poll(self) -> Progress | None:
         """Return where the motor is now; None when it has stopped (then `end` is set).
 
         Raises EndUnknown if it has stopped, and the part does not confirm how.
         """
-        if self._unknown is not None:
-            raise self._unknown
+        self._confirmed()
         answer = self._link.execute(self._axis.where(Script().read(1)))
         self.look(answer.byte(0))
         self._axis.look(answer.byte(0))
-        if self._unknown is not None:
-            raise self._unknown
-        if self.end is not None:
+        if self._confirmed() is not None:
             return None
         count = answer.number(1, signed=True)
         made = abs(count - self.begin)
@@ -135,12 +144,12 @@ class Motion(Checked):
 
     def look(self, status: int) -> None:
         """The status register was read: fetch the end if there is one. EndUnknown is raised by `poll` and
-        `wait` only, so that a look at one axis does not raise the error of another. Raises ProtocolError for a
-        status that does not exist."""
+        `wait` only, so that a look at one axis does not raise the error of another. Raises ProtocolError for
+        a status that does not exist."""
         if status & self._axis.unused:
             raise ProtocolError(
-                f"{self._link.name}: {self._axis.who}status 0x{status:02X} does not exist; the bus to the part "
-                "is not connected, or another part is there: check the wiring"
+                f"{self._link.name}: {self._axis.who}status 0x{status:02X} does not exist; the bus to the "
+                "part is not connected, or another part is there: check the wiring"
             )
         if not self.over and not status & self._axis.busy:
             self._finish()
@@ -152,8 +161,7 @@ class Motion(Checked):
         second; what it raises ends the wait, and the motion goes on. Raises EndUnknown if the part does not
         confirm how the motion ended.
         """
-        if self._unknown is not None:
-            raise self._unknown
+        self._confirmed()
         limit = None if timeout is None else self._link.clock() + timeout
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         while self.end is None:
@@ -198,6 +206,6 @@ class Motion(Checked):
                 f"{self._link.name}: {self._axis.who}",
             )
         except EndUnknown as error:
-            self._unknown = error
+            self.unknown = error
         else:
             self.end = self._axis.told(end)

@@ -18,6 +18,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 from functools import update_wrapper
 from math import inf
+from numbers import Real
 from operator import index
 from types import FunctionType
 from typing import Any, NamedTuple, TypeAlias
@@ -121,7 +122,7 @@ def _kind(annotation: Any) -> Kind | None:
 
 
 class Entry:
-    """A method that checks its arguments. Without parentheses it is an error instead of something true."""
+    """A method that checks its arguments. Arithmetic with it, without parentheses, raises Misused."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
@@ -144,8 +145,13 @@ class Entry:
         return value if kind is None or (value is None and kind.optional) else kind.check(value, name)
 
 
+def _value(bound: Bound, *others: object) -> Any:
+    raise bound._misused()
+
+
 class Bound:
-    # A method of an object; it can be called, and nothing else. Help and names are those of the function.
+    # A method of an object, as true, equal and hashable as those of Python. Arithmetic with it is an error,
+    # and so is a comparison with a number. Help and names are those of the function.
 
     def __init__(self, entry: Entry, instance: object) -> None:
         self._entry, self.__self__ = entry, instance
@@ -167,15 +173,12 @@ class Bound:
         name = self.__name__
         return Misused(f"'{name}' is a method: write {name}{inspect.signature(self)}")
 
-    def __bool__(self) -> bool:
-        raise self._misused()
-
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Bound):
             return self._entry is other._entry and self.__self__ is other.__self__
-        if other is None or callable(other):  # who keeps callbacks may compare them
-            return False
-        raise self._misused()
+        if isinstance(other, Real) and not isinstance(other, bool):
+            raise self._misused()
+        return NotImplemented
 
     def __hash__(self) -> int:
         return hash((id(self._entry), id(self.__self__)))
@@ -184,6 +187,9 @@ class Bound:
         if name.startswith("_"):
             return getattr(vars(self).get("_entry"), name)
         raise self._misused()
+
+    for _name in "lt le gt ge neg abs add sub mul truediv floordiv mod and or".split():
+        vars()[f"__{_name}__"] = vars()[f"__r{_name}__"] = _value
 
     def __repr__(self) -> str:
         return f"<method {self.__qualname__}{inspect.signature(self)}>"

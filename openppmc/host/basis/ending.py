@@ -66,12 +66,13 @@ class EndUnknown(ProtocolError):
         pulses: int | None = None,
         asked: int | None = None,
         position: int | None = None,
+        unit: str = "pulses",
     ) -> None:
         self.finish, self.pulses, self.asked, self.position = finish, pulses, asked, position
         known = [reason]
         if pulses is not None:
             of = "" if asked is None else f" of {asked}"
-            known.append(f"{abs(pulses)}{of} pulses counted")
+            known.append(f"{abs(pulses)}{of} {unit} counted")
         if position is not None:
             known.append(f"position {position}")
         super().__init__(
@@ -148,7 +149,7 @@ class End:
             wrong = asked is not None and self.pulses is not None and abs(self.pulses) != asked
             if self.left or wrong:
                 reason = f"no cause, {self.left} {self.unit} left"
-                raise EndUnknown(self.who, reason, self.finish, self.pulses, asked, self.position)
+                raise EndUnknown(self.who, reason, self.finish, self.pulses, asked, self.position, self.unit)
             return self
         where = "" if self.position is None else f" at position {self.position}"
         of = "" if asked is None else f" of {asked}"
@@ -190,7 +191,11 @@ def decode_end(
         return EndUnknown(where, reason, finish, moved, asked, position)
 
     number = finish & 7
-    if not finish & FINISH_NEW or number < SINGLE_STEP or number != (number if operation is None else operation):
+    if (
+        not finish & FINISH_NEW
+        or number < SINGLE_STEP
+        or number != (number if operation is None else operation)
+    ):
         raise unknown(f"finish status 0x{finish:02X}")
     cause = Cause(finish & _CAUSE_BITS)
     if not cause and number == ORIGIN:

@@ -20,7 +20,7 @@ class NoSuchName(PpmcError, AttributeError):
 
 
 class Misused(PpmcError, TypeError, AttributeError):
-    """A method without its parentheses was used as a value."""
+    """A method without its parentheses was used as a number, or as the object that it returns."""
 
 
 class Timeout(PpmcError, TimeoutError):

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from ..axis.motion import PROGRESS_POLL, AnyMotion, Progress
-from ..basis.ending import End
-from ..basis.errors import ProtocolError, Timeout
+from ..basis.ending import End, EndUnknown
+from ..basis.errors import Timeout
 from .master import Master
 
 POLL_EVERY = 0.02
@@ -15,9 +15,11 @@ POLL_EVERY = 0.02
 
 
 class LineMotion(AnyMotion, Protocol):
-    """A motion under way. damaged: what is wrong with it although it is complete, empty if nothing is."""
+    """A motion under way."""
 
-    damaged: str
+    @property
+    def unknown(self) -> EndUnknown | None:
+        """Why the part does not confirm its end, None if it does or the motion is not over."""
 
     @property
     def line(self) -> Master[Any]:
@@ -28,7 +30,7 @@ class LineMotion(AnyMotion, Protocol):
         """Its number."""
 
     def look(self) -> None:
-        """Ask the station; sets `end` when the motion is over."""
+        """Ask the station; sets `end`, or `unknown`, when the motion is over."""
 
     def now(self) -> Progress:
         """Where the motor is, or where the motion has ended."""
@@ -42,7 +44,8 @@ def wait_all(
     """Ask the stations until their motions are over; ends in the same order, not judged.
 
     timeout: s for all of them, None for ever; Timeout leaves the rest running. progress: called about ten
-    times a second, with pulses summed up if there are several motions.
+    times a second, with pulses summed up if there are several motions. Raises EndUnknown as soon as one
+    motion is over without a confirmed end; the rest run on.
     """
     if not motions:
         return []
@@ -51,12 +54,12 @@ def wait_all(
     due = line.clock() + PROGRESS_POLL
     while True:
         for motion in motions:
-            if motion.end is None:
+            if not motion.over:
                 motion.look()
-        running = [motion for motion in motions if motion.end is None]
+        running = [motion for motion in motions if not motion.over]
         for motion in motions:
-            if motion.damaged:
-                raise ProtocolError(motion.damaged)
+            if motion.unknown is not None:
+                raise motion.unknown
         if not running:
             return [motion.end for motion in motions if motion.end is not None]
         if limit is not None and line.clock() >= limit:

@@ -76,7 +76,7 @@ class Axis(Settings):
         """Stop a motion that this object started, without waiting for its end: a free run with its ramp,
         a move at once."""
         motion = self._motion
-        if motion is None or motion.end is not None:
+        if motion is None or motion.over:
             return
         motion.stop_ordered = True
         if now or motion.asked is not None:
@@ -127,6 +127,8 @@ class Axis(Settings):
             self.max_speed = speed
         self.direction = int(direction == FORWARD)
         begin = self.position
+        if begin < 0 < direction:
+            self.remember("max_speed")  # a reset on the way to 0 shows only there
         motion = Motion(self, data if code is Code.STEP else None, direction, begin)
         got = self.ask(
             code,
@@ -175,7 +177,7 @@ class Axis(Settings):
 
     def _stop(self, now: bool, wait: bool) -> End | None:
         motion = self._motion
-        if motion is None or motion.end is not None:
+        if motion is None or motion.over:
             motion = self._strange()
         motion.stop_ordered = True
         if now:

@@ -62,7 +62,7 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
 
     def look_at(self, axis: Pmc006) -> None:
         """They report nothing by themselves, but a move that is being stopped needs care."""
-        if axis.motion is not None and axis.motion.end is None:
+        if axis.motion is not None and not axis.motion.over:
             axis.motion.look()
 
     def scan(

@@ -55,7 +55,7 @@ class Homing:
             axis.zero()
             return end.at(0)
         finally:
-            if axis.motion is None or axis.motion.end is not None:
+            if axis.motion is None or axis.motion.over:
                 for name, value in before.items():
                     setattr(axis, name, value)
 

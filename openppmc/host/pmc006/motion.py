@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..axis.motion import Progress
+from ..axis.motion import Handle, Progress
 from ..basis import ending
-from ..basis.arguments import Checked
-from ..basis.ending import AlarmStop, Cause, LimitReached, MotionError, StoppedEarly
+from ..basis.ending import AlarmStop, Cause, EndUnknown, LimitReached, MotionError, StoppedEarly
 from ..line.motion import wait_all
 from .codes import Code, Flags
 from .line import Line
@@ -40,20 +39,19 @@ class End(ending.End):
         return StoppedEarly, "start again with the steps that are left"
 
 
-class Motion(Checked):
+class Motion(Handle):
     """Handle of a motion that was started; `end` is its End once it is known.
 
     asked: steps, None for free runs. direction: 1 forward, -1 backward. begin: position before. stop_ordered:
     a stop was sent.
     """
 
-    damaged = ""
+    end: End | None = None
 
     def __init__(self, part: Settings, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self.asked, self.direction, self.begin = asked, direction, begin
         self.stop_ordered = False
-        self.end: End | None = None
         self._started = part.line.clock()
         self._abort: tuple[float, int] | None = None
 
@@ -72,7 +70,7 @@ class Motion(Checked):
         self._abort = self.line.clock() + seconds, top
 
     def look(self) -> None:
-        """Ask the controller; sets `end` when the motion is over."""
+        """Ask the controller; sets `end`, or `unknown`, when the motion is over."""
         flags = self._part.flags()
         if flags.busy and self._abort is not None and self.line.clock() >= self._abort[0]:
             self._part.ask(Code.ABORT, good=lambda value: value == 0)
@@ -86,16 +84,25 @@ class Motion(Checked):
             self._abort = None
         position = self._part.position
         made = None if self.begin is None else _signed(position - self.begin)
-        whole = self.asked is not None and made == _signed(self.direction * self.asked)
+        left = 0 if self.asked is None or made is None else self.asked - self.direction * made
+        whole = self.asked is not None and made is not None and left == 0
         cause = Cause.COMPLETE if whole else self._cause(flags)
-        left = 0 if self.asked is None or made is None else self.asked - abs(made)
         raw = flags.ext1 << 1 | flags.ext2 << 2 | flags.auto_decay << 3 | flags.stall << 4
-        self.end = End(cause, made, left, position, raw, self._part.who)
+        possible = self.asked is None or made is None or 0 <= left <= self.asked
+        if cause is None or not possible or (position == 0 and self._part.was_reset()):
+            reason = f"status 1 is 0x{raw:02X}"
+            where = f"{self._part.line.name}: {self._part.who}"
+            self.unknown = EndUnknown(where, reason, raw, made, self.asked, position, End.unit)
+        else:
+            self.end = End(cause, made, left, position, raw, self._part.who)
 
-    def _cause(self, flags: Flags) -> Cause:
+    def _cause(self, flags: Flags) -> Cause | None:
+        """What has ended it early, None if nothing that is known has."""
         if flags.stops:
             return Cause.LIMIT
-        return Cause.ALARM if flags.stall and not self.stop_ordered else Cause.STOP
+        if flags.stall and not self.stop_ordered:
+            return Cause.ALARM
+        return Cause.STOP if self.stop_ordered else None
 
     def now(self) -> Progress:
         """Where the motor is, or where the motion has ended."""
@@ -104,12 +111,14 @@ class Motion(Checked):
         return Progress(position, made, self.asked, self.line.clock() - self._started)
 
     def poll(self) -> Progress | None:
-        """Where the motor is now; None when it has come to rest (then `end` is set)."""
-        self.look()
-        return self.now() if self.end is None else None
+        """Return where the motor is now; None when it has stopped (then `end` is set). Raises EndUnknown if
+        it has stopped, and the controller does not confirm how."""
+        if not self.over:
+            self.look()
+        return self.now() if self._confirmed() is None else None
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """Wait for the end, without judging it; see `host.line.motion.wait_all`."""
+        """Wait for the end, without judging its cause; see `host.line.motion.wait_all`."""
         wait_all([self], timeout, progress)
         assert self.end is not None
         return self.end

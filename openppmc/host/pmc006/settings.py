@@ -88,6 +88,8 @@ class Setting:
         got = node.ask(self.write, data, good=lambda reply: reply == data, sure=False)
         if got != data:
             raise SettingRefused(got, f"{node.who}{self.name} {value} was refused: it is {self.known(got)}")
+        if self.name in _SHOW_A_RESET:
+            node.unsaved[self.name] = value
 
     def _plausible(self, data: int) -> bool:
         """Whether a reply can be this setting, or the word that it is part of."""
@@ -117,11 +119,23 @@ class FullSteps(Setting):
 _InStatus1 = partial(Setting, word=STATUS_1_BITS, bits=1)
 _InStatus2 = partial(Setting, word=STATUS_2_BITS, saved=False)
 _SPEED = (range(65, 3001), "65 to 3000")
+_SHOW_A_RESET = ("direction", "stops", "max_speed")
+"""Settings that no `save` keeps and that one short instruction reads."""
 
 
 class Settings(Talk):
     """Each assignment is checked against the reply. Values that are out of range raise OutOfRange before they
     are sent; what the part refuses raises SettingRefused."""
+
+    def remember(self, name: str) -> None:
+        """Read one of the settings by which `was_reset` knows, unless it was written before."""
+        if name not in self.unsaved:
+            self.unsaved[name] = getattr(self, name)
+
+    def was_reset(self) -> bool:
+        """Whether a setting that no reset keeps is another one than was written. A part whose settings were
+        those of the factory shows nothing."""
+        return any(getattr(self, name) != value for name, value in self.unsaved.items())
 
     microsteps = FullSteps(
         Code.MICROSTEPS,

@@ -158,7 +158,9 @@ class Ppmc2104(Part):
             self.link.wait_event(pause)
             seen = [now for motion in running if (now := self._look(motion)) is not None]
             if first is None:
-                first = next((one for one in motions if one.over and not (one.end and one.end.complete)), None)
+                first = next(
+                    (one for one in motions if one.over and not (one.end and one.end.complete)), None
+                )
                 for axis in self.axis.values() if first is not None else ():
                     if axis.motion is not None and not axis.motion.over:
                         axis.brake()

@@ -108,7 +108,7 @@ class Axis(Moves, Overrides[MotionT]):
             self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())
         except NothingToStop:
             self.window.collect()
-            if self._motion is None or self._motion.end is None:
+            if self._motion is None or not self._motion.over:
                 raise
         else:
             if self._motion is not None:
@@ -118,7 +118,7 @@ class Axis(Moves, Overrides[MotionT]):
 
     def _stop(self, now: bool, wait: bool) -> End | None:
         motion = self._motion
-        if motion is None or motion.end is not None:
+        if motion is None or motion.over:
             # Perhaps one that another program, an override or an event started.
             self._mark = self.window.answers
             self._motion, before = self._make_motion(None, CW, None), motion

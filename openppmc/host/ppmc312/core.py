@@ -113,7 +113,7 @@ class Core(Checked, Generic[MotionT]):
         """Give a report to the motion that it ends, or keep it."""
         motion = self._motion
         younger = self.window.answers > self._mark
-        if isinstance(report, Stopped) and motion is not None and motion.end is None and younger:
+        if isinstance(report, Stopped) and motion is not None and not motion.over and younger:
             motion.stopped(report)
         else:
             if isinstance(report, Executed) and report.code == Code.SLOW_STOP and motion is not None:

@@ -7,10 +7,9 @@ from typing import Protocol
 
 from ...model.ppmc312.codes import Cause as Bit
 from ..axis import device
-from ..axis.motion import PROGRESS_POLL, SAFETY_POLL, Progress
-from ..basis.arguments import Checked
-from ..basis.ending import Cause, End
-from ..basis.errors import ProtocolError, Timeout
+from ..axis.motion import PROGRESS_POLL, SAFETY_POLL, Handle, Progress
+from ..basis.ending import COUNTS, Cause, End, EndUnknown
+from ..basis.errors import Timeout
 from ..bridge.answer import Identity
 from .answers import Stopped, signed
 from .registers import Status
@@ -47,6 +46,8 @@ class Moving(Protocol):
     """What a motion needs of its part, which is a `core.Core`."""
 
     @property
+    def who(self) -> str: ...
+    @property
     def link(self) -> Way: ...
     @property
     def window(self) -> Collecting: ...
@@ -56,7 +57,7 @@ class Moving(Protocol):
     def told(self, end: End) -> End: ...
 
 
-class Motion(Checked):
+class Motion(Handle):
     """Handle of an operation that was started; `end` is its End once it is known.
 
     asked: pulses, None for endless ones. direction: 0 CW, 1 CCW. begin: position before, None if another
@@ -73,7 +74,6 @@ class Motion(Checked):
         self.held = False
         self.shape = ""
         self.stop_ordered = False
-        self.end: End | None = None
         self._started = self._link.clock()
 
     def accepted(self, status: int | None) -> None:
@@ -82,52 +82,72 @@ class Motion(Checked):
             self.held, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
 
     def stopped(self, report: Stopped) -> None:
-        """The part says that the pulses have ended."""
+        """The part says that the pulses have ended: an end if they are those of the order."""
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
             cause = Cause.SLOW_LIMIT
-        made = None if self.begin is None else signed((report.position - self.begin) % (1 << 32))
-        if made is not None and self.asked and cause is Cause.COMPLETE:
-            made = -self.asked if self.direction else self.asked  # it may be more than half the counter
-        left = 0 if made is None or self.asked is None else self.asked - abs(made)
-        end = End(cause, made, left, report.position, int(report.cause))
-        self.end = self._part.told(end)
+        made, left = None, 0
+        if self.begin is not None:
+            made = signed((report.position - self.begin) % COUNTS)
+        if made is not None and self.asked:
+            ahead = (-made if self.direction else made) % COUNTS  # it may be more than half the counter
+            left = self.asked - ahead
+            if left < 0 or (left and cause is Cause.COMPLETE):
+                self._not_confirmed(
+                    f"the part reports '{self._part.told(End(cause, 0, 0, 0, 0)).why}'", report
+                )
+                return
+            made = -ahead if self.direction else ahead
+        elif self.begin is not None and cause is Cause.COMPLETE:
+            self._not_confirmed("the part reports 'complete' for a motion without end", report)
+            return
+        self.end = self._part.told(End(cause, made, left, report.position, int(report.cause)))
+
+    def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
+        """It is over, and what the part says of it is wrong or missing."""
+        position = self._part.position if report is None else report.position
+        made = None if self.begin is None else signed((position - self.begin) % COUNTS)
+        where = f"{self._link.name}: {self._part.who}"
+        finish = None if report is None else int(report.cause)
+        self.unknown = EndUnknown(where, reason, finish, made, self.asked, position)
+
+    def look(self) -> None:
+        """Ask the part; sets `end`, or `unknown`, when the motion is over."""
+        if self.over:
+            return
+        busy = self._part.status().busy
+        if not busy and not self.over:
+            self._part.window.collect()
+            if not self.over:
+                self._not_confirmed("the part is at standstill and reported no end")
 
     def poll(self) -> Progress | None:
-        """Where the motor is now; None when it has come to rest (then `end` is set)."""
+        """Return where the motor is now; None when it has stopped (then `end` is set). Raises EndUnknown if
+        it has stopped, and the part does not confirm how."""
+        self.look()
         position = self._part.position
-        if self.end is not None:
+        if self._confirmed() is not None:
             return None
-        made = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
+        made = 0 if self.begin is None else abs(signed((position - self.begin) % COUNTS))
         return Progress(position, made, self.asked, self._link.clock() - self._started)
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """Wait for the end, without judging it.
+        """Wait for the end, without judging its cause.
 
         timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
-        second; what it raises ends the wait, and the motion goes on.
+        second; what it raises ends the wait, and the motion goes on. Raises EndUnknown if the part does not
+        confirm how the motion ended.
         """
         limit = None if timeout is None else self._link.clock() + timeout
         pause = PROGRESS_POLL if progress else SAFETY_POLL
-        while self.end is None:
+        while (end := self._confirmed()) is None:
             left = pause if limit is None else min(pause, limit - self._link.clock())
-            if self._link.wait_event(max(0.0, left)) is None:
-                self._look(progress)
-            else:
+            if self._link.wait_event(max(0.0, left)) is not None:
                 self._part.window.collect()
-            if self.end is None and limit is not None and self._link.clock() >= limit:
-                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
-        return self.end
-
-    def _look(self, progress: Callable[[Progress], None] | None) -> None:
-        """Nothing has come for a while."""
-        if progress is not None:
-            now = self.poll()
-            if now is not None:
+            elif progress is None:
+                self.look()
+            elif (now := self.poll()) is not None:
                 progress(now)
-        elif not self._part.status().busy:
-            self._part.window.collect()
-            if self.end is None:
-                raise ProtocolError(
-                    f"{self._link.name}: the motion is over, but the part did not say how: was it reset?"
-                )
+            if not self.over and limit is not None and self._link.clock() >= limit:
+                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+        return end

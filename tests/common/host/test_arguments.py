@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import pydoc
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sized
 from fractions import Fraction
 from typing import Any
 
@@ -213,14 +213,48 @@ def test_a_mistyped_name_is_refused(axis: Any) -> None:
             axis.curent = 1500
 
 
-def test_a_method_without_parentheses_is_never_a_value(axis: Any) -> None:
+USES: list[Callable[[Any], object]] = [
+    lambda method: method == 0,
+    lambda method: method != 1.5,
+    lambda method: Fraction(1, 2) == method,
+    lambda method: method < 3,
+    lambda method: 3 >= method,
+    lambda method: method + 1,
+    lambda method: 1.5 - method,
+    lambda method: method * 2,
+    lambda method: method & 1,
+    lambda method: -method,
+    abs,
+]
+
+
+def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
+    """Programs that look for a method, keep it, or choose between two, need not call it."""
+    motion = axis.start_move(40)
+    for thing in (axis, motion):
+        names = [name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), arguments.Entry)]
+        assert names
+        for name in names:
+            method = getattr(thing, name)
+            assert method and bool(method) is True and not (not method)
+            assert (getattr(thing, name, None) or print) == method and (method and 5) == 5
+            assert hasattr(thing, name) and callable(method) and method == getattr(thing, name)
+            assert method in [None, "text", True, False, print, method]
+            for other in (None, "text", True, False, print, object(), [], {}, (), axis):
+                assert method != other and other != method
+            assert all([method]) and any([method]) and {method: 1}[method] == 1
+            assert not isinstance(method, Iterable | Sized) and not hasattr(method, "__index__")
+            assert f"{method}" and [1 if method else 0] == [1]
+    motion.wait()
+
+
+def test_a_method_used_as_a_value_is_reported(axis: Any) -> None:
     names = [name for name in dir(type(axis)) if isinstance(getattr(type(axis), name), arguments.Entry)]
     assert {"inputs", "status"} & {*names} or {"flags", "ports", "program_runs", "on_switch"} <= {*names}
     for name in names:
-        with pytest.raises(TypeError, match=rf"'{name}' is a method: write {name}\("):
-            bool(getattr(axis, name))
-        with pytest.raises(TypeError):
-            assert getattr(axis, name) == 0
+        for use in USES:
+            with pytest.raises(TypeError, match=rf"'{name}' is a method: write {name}\("):
+                use(getattr(axis, name))
         with pytest.raises(PpmcError, match=rf"'{name}' is a method: write {name}\("):
             _ = getattr(axis, name).busy
     if isinstance(axis, Pmc006):
@@ -230,7 +264,7 @@ def test_a_method_without_parentheses_is_never_a_value(axis: Any) -> None:
 def test_motions_are_alike(axis: Any) -> None:
     motion = axis.start_move(40)
     with pytest.raises(TypeError, match=r"'poll' is a method: write poll\("):
-        bool(motion.poll)
+        assert motion.poll > 0
     with pytest.raises(OutOfRange, match="timeout 'soon' is not a number"):
         motion.wait(timeout="soon")
     assert motion.wait(timeout=5).complete

@@ -52,7 +52,7 @@ class Doubt:
         self._block = block
         self.repeated = False
         motion = station.motion
-        self._motion = motion if motion is not None and motion.end is None else None
+        self._motion = motion if motion is not None and not motion.over else None
         self._was_busy = station.window.busy
         self._before: Status | None = None
         if block[2] in _TOGGLES or block[2] == Code.EVENT_SET or self._is_override:
@@ -96,7 +96,7 @@ class Doubt:
             return True
         station.window.answers += 1  # the end of this motion may be reported now
         station.window.collect()
-        return motion.end is not None or station.position != motion.begin
+        return motion.over or station.position != motion.begin
 
     def _registered(self, now: Status) -> bool:
         assert self._before is not None

@@ -8,7 +8,6 @@ from typing import NamedTuple
 from ....model.ppmc312.codes import Cause, Code, Source, State
 from ...axis.motion import Progress
 from ...basis.ending import End
-from ...basis.errors import ProtocolError
 from ...line.errors import StationSilent
 from ...line.faults import Counters
 from ...line.motion import POLL_EVERY, wait_all
@@ -37,10 +36,9 @@ class ErrorCounts(NamedTuple):
 
 
 class SerialMotion(Motion):
-    """A motion whose end shows when its station is polled. damaged: what is wrong with a complete one."""
+    """A motion whose end shows when its station is polled."""
 
     _part: Station312
-    damaged = ""
 
     @property
     def line(self) -> Line:
@@ -52,10 +50,6 @@ class SerialMotion(Motion):
         """Its number."""
         return self._part.number
 
-    def poll(self) -> Progress | None:
-        self.look()
-        return super().poll() if self.end is None else None
-
     def now(self) -> Progress:
         """Where the motor is, or where the motion has ended."""
         position = self._part.position if self.end is None else self.end.position or 0
@@ -63,32 +57,24 @@ class SerialMotion(Motion):
         return Progress(position, made, self.asked, self._link.clock() - self._started)
 
     def stopped(self, report: Stopped) -> None:
-        """The end, compared with what was ordered: a damaged order may look good, or a position."""
-        if self._short(report) and self._short(again := Stopped(report.cause, self._part.position)):
-            report = again
-            self.damaged = (
-                f"{self._part.who}the motor stands {self._short(report)} pulses from where this move should "
-                "have ended: the instruction was damaged on the line, or something else moved it"
-            )
+        """The end, compared with what was ordered: a damaged order may look good, or a position, which is
+        read again."""
         super().stopped(report)
-
-    def _short(self, report: Stopped) -> int:
-        """Pulses between the end that was ordered and the real one, of a complete move."""
-        if report.cause is not Cause.NORMAL or self.asked is None or self.begin is None:
-            return 0
-        wanted = self.begin + (-self.asked if self.direction else self.asked)
-        return signed((report.position - wanted) % (1 << 32))
+        if self.unknown is not None:
+            self.unknown = None
+            super().stopped(Stopped(report.cause, self._part.position))
 
     def look(self) -> None:
-        """Poll the station; sets `end` when the motion is over."""
+        """Poll the station; sets `end`, or `unknown`, when the motion is over."""
         window = self._part.window
         window.collect()
-        if self.end is None and not window.busy:
+        if not self.over and not window.busy:
             # At rest, but the report was lost on the line.
             cause = window.end_status()
             if cause is None:
-                raise ProtocolError(f"{self._part.who}the motion is gone: the station was reset")
-            self.stopped(window.stopped(cause))
+                self._not_confirmed("the station is at standstill and knows of no motion")
+            else:
+                self.stopped(window.stopped(cause))
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
         return wait_all([self], timeout, progress)[0]

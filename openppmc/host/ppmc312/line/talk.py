@@ -117,7 +117,7 @@ class Talk:
         """Whether the motion of this object is over."""
         self.collect()
         motion = self._station.motion
-        return motion is not None and motion.end is not None
+        return motion is not None and motion.over
 
     def request(
         self,
