@@ -1,6 +1,4 @@
-"""The command line `openppmc`.
-
-Exit status: 0 done, 1 error, 2 wrong usage, 130 Ctrl-C, 141 the reader of stdout has gone.
+"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 130 Ctrl-C.
 
 `common` has the commands that parts share, and knows no part. What differs stands in the folder of a part,
 and `openppmc.parts` says where. view: what it shows and forecasts, and what only it can do; without one it is
@@ -15,7 +13,6 @@ import sys
 
 import typer
 
-from .. import streams
 from ..errors import PpmcError
 
 _USAGE_ERROR = typer.BadParameter.__bases__[0]  # UsageError of the click that typer brings along
@@ -24,23 +21,20 @@ _CLICK_ERROR = _USAGE_ERROR.__bases__[0]
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command line. Errors become one line on stderr; OPENPPMC_DEBUG=1 adds the traceback."""
-    return streams.guarded(lambda: _run(arguments))
-
-
-def _run(arguments: list[str] | None) -> int:
-    """Run a command line with streams that accept any text."""
     from .common.app import app
 
     try:
         result = app(arguments, prog_name="openppmc", standalone_mode=False)
+        sys.stdout.flush()
         return result if isinstance(result, int) else 0
     except typer.Exit as done:
         return done.exit_code
     except (KeyboardInterrupt, typer.Abort):
         print("interrupted", file=sys.stderr)
         return 130
-    except (BrokenPipeError, streams.OutputError):
-        raise
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except Exception as error:
         if os.environ.get("OPENPPMC_DEBUG"):
             raise

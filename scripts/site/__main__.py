@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative, run
+from cocotb_tests.harness.project import ProjectError, relative
 from scripts.site import wasm
 from scripts.site.hooks import PARTS, PDF, data_sheet
 from scripts.site.pages import SITE, node, packages, playground
@@ -150,4 +150,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(run(main))
+    sys.exit(main())

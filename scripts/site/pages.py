@@ -13,7 +13,7 @@ from pathlib import Path
 
 from cocotb_tests.harness.build import locked
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative, run
+from cocotb_tests.harness.project import ProjectError, relative
 from scripts.site import export, wasm
 
 SITE = ROOT / "site"
@@ -74,4 +74,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(run(main))
+    sys.exit(main())

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich import box
+from rich.table import Table
 
 from ... import parts
 from ...capture.common.beside import Result, compare, other_timing
@@ -99,9 +101,10 @@ def _show(found: Decoded) -> None:
         output.console.print(_table(found))
 
 
-def _table(found: Decoded) -> output.Grid:
-    heads = ("axis", "from / s", "to / s", "way", "pulses", "first / pps", "highest", "last")
-    grid = output.Grid(heads, left=("way",), framed=True)
+def _table(found: Decoded) -> Table:
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for head in ("axis", "from / s", "to / s", "way", "pulses", "first / pps", "highest", "last"):
+        grid.add_column(head, justify="left" if head == "way" else "right")
     for one in found.moves:
         grid.add_row(
             str(one.axis),

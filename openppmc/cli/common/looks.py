@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import RenderableType
+from rich.table import Table
 
 from ...host import PpmcError
 from . import output
@@ -31,7 +31,7 @@ def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
     }
 
 
-def _table(session: Session, looks: dict[str, dict[str, Any]]) -> RenderableType:
+def _table(session: Session, looks: dict[str, dict[str, Any]]) -> Table:
     """For people on a terminal."""
     if not session.view.wide or len(looks) == 1:
         return output.table(_rows(session, looks))

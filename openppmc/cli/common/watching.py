@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from typing import Annotated
 
 import typer
-from rich.console import RenderableType
 from rich.live import Live
+from rich.table import Table
 
 from . import output
 
@@ -19,7 +19,7 @@ def watch(
     count: int | None,
     pause: Callable[[], None],
     lines: Callable[[], Iterable[str]],
-    table: Callable[[], RenderableType],
+    table: Callable[[], Table],
 ) -> None:
     """A table that changes on a terminal, else `lines` of each look; `pause` comes between two looks."""
     turns = count or 10**9

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Annotated
 
 import typer
+from rich.table import Table
 
 from ...host import OutOfRange, Pmc006, PpmcError
 from ...host.pmc006.settings import setting
@@ -77,7 +78,7 @@ def _row(part: Pmc006) -> dict[str, str]:
     return show.status_rows(show.status_values(part))
 
 
-def _table(parts: Iterable[Pmc006]) -> output.Grid:
+def _table(parts: Iterable[Pmc006]) -> Table:
     return output.grid({f"controller {part.address}": _row(part) for part in parts})
 
 
@@ -106,7 +107,8 @@ def set_values(
 
 
 def _settings(values: dict[str, int]) -> None:
-    output.console.print(show.settings_table(values))
+    for line in show.settings_lines(values):
+        output.say(line)
 
 
 def _assignment(text: str) -> tuple[str, int | None]:

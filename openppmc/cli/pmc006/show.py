@@ -6,11 +6,12 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
+from rich.table import Table
+
 from ...host import End, Pmc006
 from ...host.pmc006.bus import Found
 from ...host.pmc006.codes import Flags, Modes
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
-from ..common import output
 
 _HEADS = ("address", "version", "state", "position", "line faults")
 
@@ -26,9 +27,11 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
     return ", ".join(words) or "at rest"
 
 
-def found_table(found: Iterable[Found]) -> output.Grid:
+def found_table(found: Iterable[Found]) -> Table:
     """A line a controller."""
-    grid = output.Grid(_HEADS, left=("state",))
+    grid = Table(box=None, pad_edge=False)
+    for head in _HEADS:
+        grid.add_column(head, justify="left" if head == "state" else "right")
     for one in found:
         grid.add_row(
             str(one.address),
@@ -114,15 +117,19 @@ def settings_values(part: Pmc006, names: Iterable[str] = tuple(SETTINGS)) -> dic
     return {name: getattr(part, name) for name in names}
 
 
-def settings_table(values: dict[str, int]) -> output.Grid:
+def settings_lines(values: dict[str, int]) -> list[str]:
     """Values with units, ranges and what they mean; those with a star are kept by `save`."""
-    heads = ("setting", "value", "unit", "", "range", "meaning")
-    grid = output.Grid(heads, left=[head for head in heads if head != "value"])
+    rows = [("setting", "value", "unit", "", "range", "meaning")]
     for name, value in values.items():
         one: Setting = SETTINGS[name]
         star = "*" if one.saved else ""
-        grid.add_row(name, str(value), one.unit, star, one.span, _meaning(name, value, one.text))
-    return grid
+        rows.append((name, str(value), one.unit, star, one.span, _meaning(name, value, one.text)))
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    sides = "<><<<<"
+    return [
+        " ".join(f"{cell:{side}{width}}" for cell, side, width in zip(row, sides, wide, strict=True)).rstrip()
+        for row in rows
+    ]
 
 
 def _meaning(name: str, value: int, text: str) -> str:

@@ -6,6 +6,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from typing import Any
 
+from rich import box
+from rich.table import Table
+
 from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
 from ....host.ppmc312.line.bus import Found
@@ -15,9 +18,11 @@ from .. import show as part_show
 _HEADS = ("station", "version", "state", "position", "framing", "overrun", "checksum", "line faults")
 
 
-def found_table(found: Iterable[Found]) -> output.Grid:
+def found_table(found: Iterable[Found]) -> Table:
     """Stations with their own error counters and those of the master."""
-    grid = output.Grid(_HEADS)
+    grid = Table(box=None, pad_edge=False)
+    for head in _HEADS:
+        grid.add_column(head, justify="right")
     for one in found:
         counts = ("-", "-", "-") if one.errors is None else tuple(map(str, one.errors))
         grid.add_row(
@@ -52,10 +57,11 @@ def status_values(axis: Station312) -> dict[str, Any]:
     return {**part_show.status_values(axis), "line": asdict(axis.counters)}
 
 
-def status_table(axes: Iterable[Station312]) -> output.Grid:
+def status_table(axes: Iterable[Station312]) -> Table:
     """A line a station."""
-    heads = ("station", "state", "position", "encoder", "overrides", "switches", "line faults")
-    grid = output.Grid(heads, left=("state", "switches"), framed=True)
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for head in ("station", "state", "position", "encoder", "overrides", "switches", "line faults"):
+        grid.add_column(head, justify="left" if head in ("state", "switches") else "right")
     for axis in axes:
         values = part_show.status_values(axis)
         active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
