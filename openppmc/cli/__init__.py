@@ -1,4 +1,4 @@
-"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 130 Ctrl-C.
+"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 128 + n after signal n.
 
 `common` has the commands that parts share, and knows no part. What differs stands in the folder of a part,
 and `openppmc.parts` says where. view: what it shows and forecasts, and what only it can do; without one it is
@@ -11,24 +11,36 @@ from __future__ import annotations
 import os
 import sys
 
-import typer
-
 from ..errors import PpmcError
-
-_USAGE_ERROR = typer.BadParameter.__bases__[0]  # UsageError of the click that typer brings along
-_CLICK_ERROR = _USAGE_ERROR.__bases__[0]
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command line. Errors become one line on stderr; OPENPPMC_DEBUG=1 adds the traceback."""
-    from .common.app import app
-
     try:
-        result = app(arguments, prog_name="openppmc", standalone_mode=False)
-        sys.stdout.flush()
+        # Here, so that a signal while these are read is one line, too.
+        import typer
+
+        from ..host.stopping import Signalled, arrived, handled, name_of, say
+        from .common.app import app
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+
+    def end(number: int, frame: object) -> None:
+        arrived.append(number)
+        raise Signalled(number)
+
+    arrived.clear()
+    try:
+        with handled(end):
+            result = app(arguments, prog_name="openppmc", standalone_mode=False)
+            sys.stdout.flush()
         return result if isinstance(result, int) else 0
     except typer.Exit as done:
         return done.exit_code
+    except Signalled as stop:
+        say(name_of(stop.number))
+        return 128 + stop.number
     except (KeyboardInterrupt, typer.Abort):
         print("interrupted", file=sys.stderr)
         return 130
@@ -43,7 +55,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _complain(error: Exception) -> int:
     """Print one line; returns the exit status."""
-    if isinstance(error, _CLICK_ERROR):
+    from typer import BadParameter
+
+    usage_error = BadParameter.__bases__[0]  # UsageError of the click that typer brings along
+    if isinstance(error, usage_error.__bases__[0]):
         context = getattr(error, "ctx", None)
         where = context.command_path if context is not None else "openppmc"
         text = " ".join(error.format_message().split())  # type: ignore[attr-defined]

@@ -73,8 +73,11 @@ from .ppmc2104.driver import Ppmc2104
 from .ppmc2104.errors import BadSwitching, CutCommand, TooFast
 from .stmc.driver import Stmc
 from .stmc.kind import BOARD_CLOCK
+from .stopping import Signalled, stop_on_signals
 
 __all__ = [
+    "Signalled",
+    "stop_on_signals",
     "BACKWARD",
     "BOARD_CLOCK",
     "CCW",

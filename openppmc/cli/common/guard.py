@@ -1,54 +1,57 @@
-"""Ctrl-C and progress bars. The first Ctrl-C decelerates, the second one stops at once."""
+"""Signals and progress bars. The first signal decelerates, the second one stops at once, the third exits."""
 
 from __future__ import annotations
 
-import signal
+import os
 import sys
-import threading
+from contextlib import suppress
 from types import FrameType, TracebackType
 
 from rich.console import Console
 from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bars
 
-from ...host import PpmcError
 from ...host.axis.device import Device
 from ...host.axis.motion import Progress
+from ...host.stopping import arrived, bring_to_rest, handled, name_of
 
 BAR_AFTER = 0.6
 """Seconds that a motion runs before it gets a bar."""
 
 
 class Interrupted(Exception):  # noqa: N818 - the user did it
-    """Ctrl-C came; raised where the program looks for it, never in the middle of a frame."""
+    """A signal came; raised where the program looks for it, never in the middle of a frame."""
 
 
 class Guard:
-    """Context manager: counts Ctrl-C instead of letting it break the dialogue with the board."""
+    """Context manager: counts signals instead of letting them break the dialogue with the board. number: of
+    the first signal."""
 
     def __init__(self) -> None:
-        self.count = 0
-        self._before: object = None
+        self.count = self.number = 0
         self._bars: Bars | None = None
-        self._ours = threading.current_thread() is threading.main_thread()
+        self._handled = handled(self._note)
 
     def __enter__(self) -> Guard:
-        if self._ours:
-            self._before = signal.signal(signal.SIGINT, self._note)
+        self._handled.__enter__()
+        if arrived:
+            self.count, self.number = 1, arrived[0]
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.bar_off()
-        if self._ours:
-            signal.signal(signal.SIGINT, self._before)  # type: ignore[arg-type]
+        self._handled.__exit__(None, None, None)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
         self.count += 1
+        self.number = self.number or number
+        if self.count > 2:
+            os._exit(128 + number)
 
     def check(self) -> None:
-        """Raises Interrupted if Ctrl-C came."""
+        """Raises Interrupted if a signal came."""
         if self.count:
             raise Interrupted
 
@@ -101,38 +104,18 @@ class Guard:
     def bar_off(self) -> None:
         """The motion is over."""
         if self._bars is not None:
-            self._bars.stop()
+            with suppress(OSError):  # the terminal was closed
+                self._bars.stop()
             self._bars = None
 
-    # ------------------------------------------------------------------ what Ctrl-C does
+    # ------------------------------------------------------------------ what a signal does
+
+    @property
+    def status(self) -> int:
+        """Exit status after a signal."""
+        return 128 + self.number
 
     def bring_to_rest(self, part: Device) -> str:
-        """Decelerate all axes, wait; at once on the next Ctrl-C. Returns where they stand, for the user."""
+        """Decelerate all axes, wait; at once on the next signal. Returns one line for the user."""
         self.bar_off()
-        how = "nothing was moving"
-        seen = self.count
-        moving = [
-            axis
-            for axis in part.axes
-            if axis.motion is not None and axis.motion.end is None and axis.motion.poll() is not None
-        ]
-
-        def look(now: Progress) -> None:
-            nonlocal seen, how
-            if self.count > seen:
-                seen = self.count
-                how = "stopped at once"
-                for axis in moving:
-                    axis.halt(wait=False)
-
-        for axis in moving:
-            how = "stopped"
-            axis.stop(wait=False)
-        for axis in moving:
-            assert axis.motion is not None
-            axis.motion.wait(progress=look)
-        try:
-            at = [f"{axis.who}position {axis.position}" for axis in part.axes]
-        except PpmcError:
-            at = []
-        return ", ".join([f"interrupted: {how}", *at])
+        return f"{name_of(self.number)}: {bring_to_rest([part], hurry=lambda: self.count > 1)}"

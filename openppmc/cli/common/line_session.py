@@ -12,9 +12,8 @@ import typer
 from ...host.axis.device import Turning
 from ...host.axis.motion import Progress
 from ...host.line.bus import LineBus
-from . import output
+from ...host.stopping import say
 from .guard import Guard, Interrupted
-from .session import INTERRUPTED
 
 Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
@@ -90,14 +89,14 @@ def ending_after(
 
 @contextmanager
 def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
-    """A line that `make` opens, and Ctrl-C under control: it brings the motors to rest and ends with status
-    130."""
-    with Guard() as guard, make() as bus:
+    """A line that `make` opens, and signals under control: they bring the motors to rest and end with
+    status 128 + n."""
+    with make() as bus, Guard() as guard:
         try:
             guard.check()
             yield bus, guard
         except Interrupted:
-            output.note(guard.bring_to_rest(bus))
-            raise typer.Exit(INTERRUPTED) from None
+            say(guard.bring_to_rest(bus))
+            raise typer.Exit(guard.status) from None
         finally:
             guard.bar_off()

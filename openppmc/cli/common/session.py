@@ -16,14 +16,13 @@ from ...host.axis.part import AnyAxis, Part
 from ...host.basis.kind import Kind, kind_of
 from ...host.bridge.link import DEFAULT_BAUD
 from ...host.ports.transport import MODEL, SIM
+from ...host.stopping import say
 from . import output
 from .guard import Guard, Interrupted
 from .options import USUAL, SetupValues
 from .state import recall
 from .version import misfit
 from .view import AnyView, view_of
-
-INTERRUPTED = 130
 
 
 class PartName(str, Enum):
@@ -110,17 +109,17 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """The board, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
+    """The board, and signals under control: they bring the motors to rest and end with status 128 + n."""
     number = None if BOARD.part is None else parts.part(BOARD.part).number
-    with Guard() as guard, open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part:
+    with open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part, Guard() as guard:
         try:
             guard.check()
             if line := misfit(part.link.build(), part.link.identity.part):
                 output.note(f"note: {line}")
             yield Session(part, guard)
         except Interrupted:
-            output.note(guard.bring_to_rest(part))
-            raise typer.Exit(INTERRUPTED) from None
+            say(guard.bring_to_rest(part))
+            raise typer.Exit(guard.status) from None
         finally:
             guard.bar_off()
 

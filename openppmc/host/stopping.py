@@ -1,0 +1,166 @@
+"""Signals that end a program: motors come to rest first."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import Any
+
+from .axis.device import Device, Turning
+from .axis.motion import Progress
+from .basis.arguments import exact
+from .basis.errors import OutOfRange, PpmcError, Timeout
+from .basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised
+
+LONGEST_WAIT = 10.0
+"""Seconds that motors may take to decelerate; what moves then is stopped at once."""
+SIGNALS = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
+)
+"""Those of this system that `stop_on_signals` handles."""
+arrived: list[int] = []
+"""Signals of the command line before it has a board; an exception that a handler raises can get lost."""
+
+
+class Signalled(SystemExit):
+    """A signal ends the program. number: of the signal; the exit status is 128 + number."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(128 + number)
+        self.number = number
+
+
+def name_of(number: int) -> str:
+    """What users call a signal.
+
+    >>> name_of(2), name_of(15)
+    ('interrupted', 'SIGTERM')
+    """
+    return "interrupted" if number == signal.SIGINT else signal.Signals(number).name
+
+
+@contextmanager
+def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
+    """Let a function handle SIGNALS inside the block, except SIGTERM and SIGHUP if they are ignored (nohup).
+    Without effect outside the main thread."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {}
+    try:
+        for number in SIGNALS:
+            if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN:
+                before[number] = signal.signal(number, handler)
+        yield
+    finally:
+        for number, old in before.items():
+            signal.signal(number, signal.SIG_DFL if old is None else old)
+
+
+def bring_to_rest(
+    devices: Sequence[Device],
+    seconds: float = LONGEST_WAIT,
+    hurry: Callable[[], bool] = lambda: False,
+    every: bool = False,
+) -> str:
+    """Decelerate the motors of devices and wait until they stop. Returns one line for the user.
+
+    seconds: longest wait, then they are stopped at once. hurry: asked about ten times a second; True stops
+    them at once. every: also motions that these objects do not know of. Errors are in the line.
+    """
+    axes: list[Turning] = [axis for device in devices for axis in device.axes]
+    moving: list[tuple[Device, Turning]] = []
+    how, errors, halted = "nothing was moving", [], False
+
+    def halt() -> None:
+        nonlocal halted, how
+        if not halted:
+            halted, how = True, "stopped at once"
+            for _, axis in moving:
+                with suppress(PpmcError):
+                    axis.halt(wait=False)
+
+    def look(now: Progress) -> None:
+        if hurry():
+            halt()
+
+    for device in devices:
+        for axis in device.axes:
+            try:
+                motion = axis.motion
+                if not every and (motion is None or motion.over or motion.poll() is None):
+                    continue
+                with suppress(AlreadyDecelerating):
+                    axis.stop(wait=False)
+                moving.append((device, axis))
+                how = "stopped"
+            except (NothingToStop, NotInitialised):
+                pass
+            except PpmcError as error:
+                errors.append(str(error))
+    ends = {id(device): device.link.clock() + seconds for device in devices}
+    for device, axis in moving:
+        if axis.motion is None:
+            continue
+        try:
+            axis.motion.wait(max(0.1, ends[id(device)] - device.link.clock()), look)
+        except Timeout:
+            halt()
+            how = f"stopped at once after {seconds:g} s"
+        except PpmcError as error:
+            errors.append(str(error))
+    with suppress(PpmcError):
+        errors[:0] = [f"{axis.who}position {axis.position}" for axis in axes]
+    return ", ".join([how, *errors])
+
+
+def say(line: str) -> None:
+    """One line on stderr, if there is still somewhere to write: a closed terminal is none."""
+    try:
+        print(line, file=sys.stderr, flush=True)
+    except OSError:
+        with suppress(OSError):
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            for number in (1, 2):
+                os.dup2(nowhere, number)
+
+
+@contextmanager
+def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator[None]:
+    """Bring motors to rest when a signal ends the program inside the block: SIGINT, SIGTERM, SIGHUP.
+
+    devices: opened parts, banks or lines, all their axes. The first signal raises Signalled, a SystemExit,
+    where the program is; at the end of the block the motors decelerate, and what still moves after `seconds`
+    (more than 0) is stopped at once. One line goes to stderr, and the program exits with 128 + the signal's
+    number. The second signal stops at once, the third one exits without waiting. A signal that was ignored
+    (nohup) stays ignored. Only in the main thread: OutOfRange elsewhere.
+
+        with Ppmc104.open("/dev/ttyUSB0") as axis, stop_on_signals(axis):
+            axis.move(100_000)
+    """
+    if exact(seconds, "seconds") <= 0:
+        raise OutOfRange(f"seconds {seconds} is not more than 0")
+    if threading.current_thread() is not threading.main_thread():
+        raise OutOfRange("signals reach the main thread only: use stop_on_signals there")
+    resting, later = False, 0
+
+    def handler(number: int, frame: FrameType | None) -> None:
+        nonlocal later
+        if not resting:
+            raise Signalled(number)
+        later += 1
+        if later > 1:
+            os._exit(128 + number)
+
+    with handled(handler):
+        try:
+            yield
+        except Signalled as stop:
+            resting = True
+            say(f"{name_of(stop.number)}: {bring_to_rest(devices, seconds, lambda: later > 0, every=True)}")
+            raise

@@ -1,0 +1,178 @@
+"""Signals while a motor moves, sent to real processes: it decelerates, the exit status is 128 + n."""
+
+from __future__ import annotations
+
+import os
+import pty
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from openppmc.host import OutOfRange, stop_on_signals
+
+LIBRARY = """
+import sys, time
+from openppmc.host import Ppmc104, stop_on_signals
+with Ppmc104.open("model:speed=1,part=ppmc104") as axis:
+    axis.initialise(1000, {high}, {ramp})
+    with stop_on_signals(axis, seconds={seconds}):
+        motion = axis.jog(0, high=True)
+        print("moving", flush=True)
+        {body}
+print("not reached")
+"""
+
+
+def started(
+    command: list[str], ready: str, before: Callable[[], object] | None = None
+) -> subprocess.Popen[str]:
+    """A process that has printed a word, or that has had time to begin."""
+
+    def prepare() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_DFL)
+        if before is not None:
+            before()
+
+    process = subprocess.Popen(
+        [sys.executable, *command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=prepare,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    )
+    assert process.stdout is not None
+    if ready:
+        assert process.stdout.readline().strip() == ready
+    return process
+
+
+def library(body: str, high: int = 5000, ramp: int = 100, seconds: float = 10) -> list[str]:
+    text = LIBRARY.format(body=textwrap.indent(body, " " * 8).strip(), high=high, ramp=ramp, seconds=seconds)
+    return ["-c", text]
+
+
+LOOPS = ["motion.wait()", "while True: time.sleep(0.01)", "while True: axis.position"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("body", LOOPS)
+def test_a_signal_in_a_program(number: signal.Signals, body: str) -> None:
+    process = started(library(body), "moving")
+    time.sleep(0.3)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 128 + number and out == ""
+    word = "interrupted" if number == signal.SIGINT else number.name
+    assert err.startswith(f"{word}: stopped, position ") and err.count("\n") == 1
+
+
+def test_what_decelerates_for_too_long_is_stopped_at_once() -> None:
+    process = started(library("motion.wait()", 1100, 4000, seconds=0.5), "moving")
+    time.sleep(1)
+    process.send_signal(signal.SIGTERM)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 143 and err.startswith("SIGTERM: stopped at once after 0.5 s, position ")
+
+
+def test_the_second_signal_stops_at_once() -> None:
+    process = started(library("motion.wait()", 1100, 4000), "moving")
+    time.sleep(1)
+    begin = time.monotonic()
+    process.send_signal(signal.SIGTERM)
+    time.sleep(0.2)
+    process.send_signal(signal.SIGTERM)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 143 and err.startswith("SIGTERM: stopped at once, position ")
+    assert time.monotonic() - begin < 3
+
+
+def test_nohup_stays_in_force() -> None:
+    ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)  # noqa: E731
+    process = started(library("axis.stop(); print('end', flush=True); time.sleep(1)"), "moving", ignore)
+    process.send_signal(signal.SIGHUP)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 0 and out == "end\nnot reached\n" and err == ""
+
+
+def test_a_block_that_ends_restores_the_handlers() -> None:
+    before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+    with stop_on_signals():
+        assert signal.getsignal(signal.SIGTERM) not in before
+    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)] == before
+    with pytest.raises(OutOfRange, match="seconds 0 is not more than 0"), stop_on_signals(seconds=0):
+        pass
+
+
+COMMANDS = {
+    "ppmc104": ["--part", "ppmc104", "jog", "cw", "--ramped"],
+    "ppmc2104": ["--part", "ppmc2104", "move", "400000", "-300000"],
+    "stmc": ["--part", "stmc", "move", "400000"],
+    "ppmc312": ["--part", "ppmc312", "jog", "cw"],
+    "bank": ["--part", "bank", "move", "400000", "-300000"],
+    "pmc006": ["--part", "pmc006", "move", "400000"],
+    "script": ["script", "moves.txt"],
+    "home": ["home", "--direction", "cw"],
+}
+
+
+FREE = dict.fromkeys(COMMANDS, ",ccw=-900000,slow_ccw=-800000,cw=900000,slow_cw=800000") | {
+    "pmc006": ",start=0"
+}
+"""Switches that no motor comes to."""
+for _name, _axes in (("ppmc2104", [2]), ("bank", [1, 2])):
+    for _axis in _axes:
+        FREE[_name] += f",ccw{_axis}=-900000,slow_ccw{_axis}=-800000,cw{_axis}=900000,slow_cw{_axis}=800000"
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+def test_a_signal_in_a_command(name: str, number: signal.Signals, tmp_path: Path) -> None:
+    words = COMMANDS[name]
+    if name == "script":
+        file = tmp_path / "moves.txt"
+        file.write_text("init\nmove 400000\n")
+        words = ["script", str(file)]
+    process = started(["-m", "openppmc.cli", "--port", f"model:speed=1{FREE[name]}", *words], "")
+    time.sleep(4)
+    process.send_signal(number)
+    _, err = process.communicate(timeout=40)
+    word = "interrupted" if number == signal.SIGINT else number.name
+    assert process.returncode == 128 + number, err
+    last = err.splitlines()[-1]
+    assert last.startswith(f"{word}: stopped, ") and "position " in last
+
+
+@pytest.mark.parametrize("delay", [0.1, 0.2, 0.4, 0.7])
+def test_an_interrupt_during_the_start_is_one_line(delay: float) -> None:
+    """Before the first statement of the package only Python itself could print less."""
+    code = (
+        "import openppmc.cli as c, sys; print('on', flush=True); "
+        "sys.exit(c.main(['--port', 'model:speed=1', 'jog', 'cw']))"
+    )
+    process = started(["-c", code], "on")
+    time.sleep(delay)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 130 and err.startswith("interrupted") and err.count("\n") == 1, err
+
+
+def test_a_closed_terminal() -> None:
+    """SIGHUP comes, and nothing can be printed any more."""
+    child, master = pty.fork()
+    if child == 0:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+        os.execv(
+            sys.executable, [sys.executable, "-m", "openppmc.cli", "--port", "model:speed=1", "jog", "cw"]
+        )
+    time.sleep(4)
+    os.close(master)
+    _, status = os.waitpid(child, 0)
+    assert os.waitstatus_to_exitcode(status) == 129
