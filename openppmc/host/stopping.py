@@ -1,4 +1,4 @@
-"""Signals that end a program: motors come to rest first."""
+"""Signals that end a program: motors stop first."""
 
 from __future__ import annotations
 

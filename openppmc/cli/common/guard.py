@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from contextlib import suppress
 from types import FrameType, TracebackType
@@ -20,7 +21,7 @@ BAR_AFTER = 0.6
 
 
 class Interrupted(Exception):  # noqa: N818 - the user did it
-    """A signal came; raised where the program looks for it, never in the middle of a frame."""
+    """A signal has arrived; raised where the program looks for it, never in the middle of a frame."""
 
 
 class Guard:
@@ -28,7 +29,8 @@ class Guard:
     the first signal."""
 
     def __init__(self) -> None:
-        self.count = self.number = 0
+        self.count = 0
+        self.number = int(signal.SIGINT)
         self._bars: Bars | None = None
         self._handled = handled(self._note)
 
@@ -45,13 +47,14 @@ class Guard:
         self._handled.__exit__(None, None, None)
 
     def _note(self, number: int, frame: FrameType | None) -> None:
+        if not self.count:
+            self.number = number
         self.count += 1
-        self.number = self.number or number
         if self.count > 2:
             os._exit(128 + number)
 
     def check(self) -> None:
-        """Raises Interrupted if a signal came."""
+        """Raise Interrupted if a signal has arrived."""
         if self.count:
             raise Interrupted
 

@@ -144,7 +144,7 @@ class Motion(Handle):
 
     def look(self, status: int) -> None:
         """The status register was read: fetch the end if there is one. EndUnknown is raised by `poll` and
-        `wait` only, so that a look at one axis does not raise the error of another. Raises ProtocolError for
+        `wait` only, so that polling one axis does not raise the error of another. Raises ProtocolError for
         a status that does not exist."""
         if status & self._axis.unused:
             raise ProtocolError(

@@ -128,7 +128,7 @@ class Axis(Settings):
         self.direction = int(direction == FORWARD)
         begin = self.position
         if begin < 0 < direction:
-            self.remember("max_speed")  # a reset on the way to 0 shows only there
+            self.remember("max_speed")  # shows a reset in a motion that ends at 0
         motion = Motion(self, data if code is Code.STEP else None, direction, begin)
         got = self.ask(
             code,

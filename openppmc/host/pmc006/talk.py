@@ -19,7 +19,7 @@ _OTHERS = "noise, another baud rate, or two controllers with this address"
 
 class Talk(Checked):
     """See `pmc006.Pmc006`. address: 1 to 120, or 255. alone: the only controller that this program uses, so
-    that messages need not name it. unsaved: settings that a reset changes, as they were written or read."""
+    that messages need not name it. unsaved: last known values of settings that a reset changes."""
 
     def __init__(self, line: Line, address: int = FACTORY, alone: bool = True) -> None:
         self.line = self.link = line

@@ -127,7 +127,7 @@ FREE = dict.fromkeys(COMMANDS, ",ccw=-900000,slow_ccw=-800000,cw=900000,slow_cw=
     "pmc006": ",start=0"
 }
 """Switches that no motor comes to."""
-for _name, _axes in (("ppmc2104", [2]), ("bank", [1, 2])):
+for _name, _axes in (("ppmc2104", [2]), ("bank", [2])):
     for _axis in _axes:
         FREE[_name] += f",ccw{_axis}=-900000,slow_ccw{_axis}=-800000,cw{_axis}=900000,slow_cw{_axis}=800000"
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from openppmc.cli import main
 from openppmc.host import (
     CCW,
     CW,
@@ -403,6 +404,25 @@ def test_a_move_forward_to_0_that_a_reset_ended() -> None:
         motor.start_speed = motor.stop_speed = motor.max_speed = 2000
         motor.set_position(-4000)
         assert motor.move(4000).complete and motor.position == 0
+
+
+@pytest.mark.parametrize("part", ["ppmc104", "ppmc2104", "stmc", "bank", "ppmc312"])
+@pytest.mark.parametrize("words", [["move", "3000"], ["move", "--speed", "2000", "3000"], ["jog", "cw"]])
+def test_a_command_whose_motion_a_reset_ends(
+    part: str, words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write, done = ModelPort.write, []
+
+    def and_reset(port: ModelPort, data: bytes) -> None:
+        if not done and port.board.positions[0] > 4200:
+            done.append(1)
+            port.board.reset()
+        write(port, data)
+
+    monkeypatch.setattr(ModelPort, "write", and_reset)
+    assert main(["--part", part, "--port", "model:speed=max", *words]) == 1 and done
+    told = capsys.readouterr().err
+    assert told.startswith("error: ") and "is not confirmed" in told and told.count("\n") == 1
 
 
 # ---------------------------------------------------------------------- values

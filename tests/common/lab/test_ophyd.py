@@ -13,6 +13,7 @@ from ophyd.utils import LimitError
 
 from openppmc.host import (
     Disconnected,
+    EndUnknown,
     LimitReached,
     NotInitialised,
     NotWhileBusy,
@@ -56,6 +57,18 @@ def test_scan(part):
         assert described["units"] == "deg" and f"axis {len(device.axes)}" in described["source"]
         assert isinstance(ends(motor, -100_000), LimitReached) and not motor.moving
         assert ends(motor, -20) is None and motor.position == -20
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_a_reset_during_a_move(part):
+    """Given a part that is reset in a move, then its Status fails: the part does not confirm the end."""
+    with started(part) as device:
+        motor = PpmcPositioner(device, 1, name="theta", pulses_per_unit=100)
+        with motor._lock:
+            status = motor.set(50)
+            device.link.pause(0.1)
+            device.link.port.board.reset()
+        assert isinstance(status.exception(PATIENCE), EndUnknown) and not motor.moving
 
 
 def test_station_of_a_line():
