@@ -135,7 +135,7 @@ class Motion(Handle):
         """Wait for the end, without judging its cause.
 
         timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
-        second; what it raises ends the wait, and the motion goes on. Raises EndUnknown if the part does not
+        second; what it raises ends the wait, and the motion continues. Raises EndUnknown if the part does not
         confirm how the motion ended.
         """
         limit = None if timeout is None else self._link.clock() + timeout
