@@ -3,7 +3,7 @@
 `default_nettype none
 
 module bus_bench #(
-    parameter string HOST = "BUS"
+    parameter        HOST = "BUS"
 ) (
     input  wire logic       clk,
     input  wire logic       key_n,

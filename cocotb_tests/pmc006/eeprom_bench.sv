@@ -6,8 +6,8 @@
 module pmc006_eeprom_bench #(
     parameter int unsigned CLK_HZ     = 16_000_000,
     parameter int unsigned XTAL_HZ    = 16_000_000,
-    parameter string       TIMING     = "FAST",
-    parameter string       STEP_ACK   = "MANUAL",
+    parameter              TIMING     = "FAST",
+    parameter              STEP_ACK   = "MANUAL",
     parameter int unsigned BAUD       = 9600,
     parameter int unsigned I2C_HZ     = 400_000,
     parameter int unsigned EE_DEV     = 'h50,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
+from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PARAMETERS, PartTests
 
 from . import test_part, test_random
 
@@ -21,6 +21,7 @@ PART = PartTests(
     frozenset({"f16"}),
     COSTLY_BUILDS,
     not_applicable={
+        "test_ppmc312_driver_times_in_range": PARAMETERS,
         "test_scenarios_are_reproducible_and_varied": GENERATOR,
         "test_hosts_are_rich": GENERATOR,
         "test_hosts_on_the_line_are_rich": GENERATOR,

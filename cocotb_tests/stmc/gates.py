@@ -12,7 +12,7 @@ PART = PartTests(
     frozenset({"test_stmc", "test_random", "test_chaos"}),
     test_random,
     {test_random.random_item: (1, 3, 4, 5, 7, 8, 10, 13, 65), test_random.chaos_item: (1, 4)},
-    frozenset({"f16", "family", "d25x8"}),
+    frozenset({"f16", "sheet", "d25x8"}),
     not_applicable={
         "test_stmc_parameter_ranges": PARAMETERS,
         "test_scenarios_are_reproducible_and_varied": GENERATOR,

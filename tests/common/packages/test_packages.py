@@ -75,6 +75,8 @@ def test_cores():
             assert set(fileset.get("depend", [])) <= names, path.name
             for entry in fileset.get("files", []):
                 file = path.parent / (entry if isinstance(entry, str) else next(iter(entry)))
+                if file.is_relative_to(ROOT / "build"):
+                    continue  # plain Verilog of `make verilog`
                 assert file.is_file(), f"{path.name}: {file.name}"
                 found.append(file.relative_to(ROOT).as_posix())
         for target in core["targets"].values():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,14 @@ def test_rejected_construct_is_counted(code):
     assert rejected(code)
 
 
+needs_yosys = pytest.mark.skipif(
+    find_spec("pyosys") is None, reason="pyosys is not installed; run make setup"
+)
+needs_fusesoc = pytest.mark.skipif(
+    find_spec("fusesoc") is None, reason="FuseSoC is not installed; run make setup"
+)
+
+
 def passed(name: str, folder: Path, top: str) -> list[str]:
     """Files that a vendor's list adds for a top; the Tcl error if it stops."""
     tkinter = pytest.importorskip("tkinter")
@@ -85,6 +94,7 @@ def test_list_names_no_system_verilog(name):
     assert ".sv" not in text and "make verilog TOP=" in text
 
 
+@needs_yosys
 @pytest.mark.parametrize("target", vendor_boards())
 def test_target_has_no_rejected_construct(target):
     """A vendor's FuseSoC target passes one file of plain Verilog with 0 rejected constructs."""
@@ -99,6 +109,7 @@ def test_target_has_no_rejected_construct(target):
     assert rejected(write(top, BUILD / "verilog").read_text()) == []
 
 
+@needs_yosys
 @pytest.mark.parametrize("row", tops(), ids=lambda row: row.name)
 def test_part_has_no_rejected_construct(row):
     """The plain Verilog of each part has 0 rejected constructs."""
@@ -191,6 +202,7 @@ endmodule
 """
 
 
+@needs_fusesoc
 def test_depending_core_is_free_of_lint(tmp_path):
     """A FuseSoC core that depends on ours is linted with -Wall without one warning."""
     head = (ROOT / "rtl/ppmc104/ppmc104.sv").read_text().partition(") (")[2].partition(");")[0]

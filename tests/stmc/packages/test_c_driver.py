@@ -37,7 +37,7 @@ def lines(request) -> Lines:
     sources = [DRIVER / "ppmc104.c", DRIVER / "stmc.c", BENCH / "stmc_test.c", BENCH / "isa_bus.cpp"]
     # A fast "external" clock, because every clk is computed.
     design = part_design("j105_stmc", F16)
-    params = ("-GEXT_HZ=1000000", '-GREAD_MAP="SHEET"', timed(request.param))
+    params = ("-GEXT_HZ=1000000", timed(request.param))
     return simulate(f"cdriver_stmc_{request.param.lower()}", "j105_stmc", design, sources, params)
 
 
