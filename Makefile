@@ -25,6 +25,14 @@ GIVEN_PART = $(if $(filter-out undefined default file,$(origin PART)),$(PART))
 BOARDS := $(shell awk 'FNR == 1 { on = 0 } /^[^ ]/ { on = /^devices:/; next } on && /^  [^ ]/ { sub(":.*", ""); print $$1 }' /dev/null $(wildcard constraints/*/board.yml))
 BOARD ?= icebreaker
 HOST  ?= uart
+# Hosts of PART on BOARD, from `hosts:` in the description that has the board below `devices:`.
+HOSTS = $(shell awk -v board=$(call quote,$(BOARD)) -v part=$(call quote,$(PART)) '\
+          FNR == 1 { here = 0 } /^[^ \#]/ { section = $$1 } \
+          section == "devices:" && $$1 == board ":" { here = 1 } \
+          section == "parts:" && /^  [^ ]/ { carried = $$1; sub(":.*", "", carried) } \
+          section == "parts:" && $$1 == "of:" { carried = $$2 } \
+          section == "parts:" && here && carried == part && $$1 == "hosts:" { gsub(/^[^[]*\[|\].*|,/, ""); print }\
+          ' /dev/null $(wildcard constraints/*/board.yml))
 J     ?= 2
 
 # --- variables that may be set on the command line, per target -----------------------------------------------------
@@ -77,7 +85,7 @@ TARGETS  += lint format trace docs site packages boards rom board bitstream flas
 TARGETS  += report size bench release clean distclean
 NEED_ENV := $(filter-out help waves flash clean distclean,$(TARGETS))
 CHECKED  := $(foreach v,T BREAK PART BOARD HOST SEED COUNT CLK_HZ J WAVES INSIDE MODEL SIM_MAIN SCHEDULER FRESH QUICK $(GIVEN_TOP),$(if $(filter $v,$(SETTABLE)),$(if $(filter-out undefined,$(origin $v)),$(call quote,$v=$($v)))))
-PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
+PROBLEM  := $(shell ./scripts/preflight.sh parts=$(call comma,$(PARTS)) boards=$(call comma,$(BOARDS)) hosts=$(if $(filter HOST,$(SETTABLE)),$(call comma,$(HOSTS))) python=$(call quote,$(PYTHON)) $(CHECKED) $(if $(filter $(NEED_ENV),$(GOALS)),env))
 ifneq ($(PROBLEM),)
 $(error $(PROBLEM))
 endif

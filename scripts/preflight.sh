@@ -1,6 +1,7 @@
 #!/bin/sh
 # Checks make variables and the machine before anything runs. Arguments are NAME=VALUE pairs and the words `env`
-# (a goal needs the environment), `parts=a,b` and `boards=a,b`. Prints the first problem on one line, or nothing.
+# (a goal needs the environment), `parts=a,b`, `boards=a,b` and `hosts=a,b` (of PART on BOARD). Prints the first
+# problem on one line, or nothing.
 here=$(dirname "$0")
 
 problem() { printf '%s\n' "$*"; exit 0; }
@@ -17,6 +18,7 @@ need_env=''
 python=''
 parts=''
 boards=''
+hosts=''
 most_xtal=16000000
 most_baud=3000000
 
@@ -33,6 +35,7 @@ for word in "$@"; do
         env) need_env=1 ;;
         parts=*) parts=${value%,} ;;
         boards=*) boards=${value%,} ;;
+        hosts=*) hosts=${value%,} ;;
         python=*) python=$value ;;
         PART=*)
             # Without a Python there is no list, and that is the problem to tell.
@@ -40,8 +43,12 @@ for word in "$@"; do
             part=${value%%-*} # its RTL; what follows is a mode of it
             most_xtal=$(limit XTAL_HZ $most_xtal)
             most_baud=$(limit BAUD $most_baud) ;;
-        BOARD=*) case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
-        HOST=*) case $value in uart | bus) ;; *) problem "HOST=$value: expected uart or bus" ;; esac ;;
+        BOARD=*)
+            board=$value
+            case ",$boards," in *",$value,"*) ;; *) problem "BOARD=$value: no such board (known: $boards)" ;; esac ;;
+        HOST=*)
+            # A board that does not carry the part has no hosts; the build reports that.
+            case ",$hosts," in ,,) ;; *",$value,"*) ;; *) problem "HOST=$value: $board with $part has only $hosts; choose one of these" ;; esac ;;
         SIM_MAIN=*) case $value in own | cocotb) ;; *) problem "SIM_MAIN=$value: expected own or cocotb" ;; esac ;;
         TIMING=*) case $value in FAST | DATASHEET) ;; *) problem "TIMING=$value: expected FAST or DATASHEET" ;; esac ;;
         READ_MAP=*) case $value in SHEET | FAMILY) ;; *) problem "READ_MAP=$value: expected SHEET or FAMILY" ;; esac ;;

@@ -1,0 +1,165 @@
+"""Every command that a page prints is accepted: by make, by the parser of `openppmc`, by that of a script."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import importlib.util
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+
+from cocotb_tests.harness.paths import ROOT
+from openppmc.cli.common.app import app
+
+PAGES = [
+    path
+    for below in (".", "docs", "drivers", "examples", "openppmc")
+    for path in sorted((ROOT / below).glob("*.md" if below == "." else "**/*.md"))
+    if path.name not in ("CHANGELOG.md", "decisions.md")  # they name commands of earlier versions
+]
+COMMAND = re.compile(
+    r"(?:\$ )?(?:[A-Z_]+=\S+ )*(?P<what>make|(?:\.venv/bin/)?openppmc|(?:\.venv/bin/)?python3? -m)"
+    r"(?= |$)(?P<rest>.*)"
+)
+PLACEHOLDERS = {
+    "make": {
+        "…": "",
+        "BOARD=…": "BOARD=icebreaker",
+        "PART=…": "PART=ppmc104",
+        "RECORD=…": "RECORD=12",
+        "COUNT=…": "COUNT=1",
+        "COUNT=n": "COUNT=1",
+        "SEED=n": "SEED=1",
+        "SEED=first": "SEED=1",
+        "SEED=<seed>": "SEED=1",
+        "T=<name>": "T=name",
+        "TOP=…": "TOP=ppmc104",
+        "PARAMS=…": "PARAMS=CLK_HZ=50000000",
+        "PARAMS=CLK_HZ=…": "PARAMS=CLK_HZ=50000000",
+    },
+    "openppmc": {},
+    "python -m": {"[WORD…]": "word"},
+}
+"""Words of a page that the reader replaces, each with what it becomes here."""
+SYNTAX = ("openppmc COMMAND --help", "openppmc [--port PORT]")
+"""Beginnings of texts that describe commands."""
+
+
+def _blocks(text: str) -> Iterator[tuple[str, bool]]:
+    """Lines of code blocks (True) and pieces of inline code (False) of a page."""
+    fenced = False
+    for line in text.replace("\\\n", " ").splitlines():
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+        elif fenced or line.startswith("    "):
+            yield line.strip(), True
+        else:
+            yield from ((piece, False) for piece in re.findall(r"`([^`]+)`", line))
+
+
+def printed() -> dict[tuple[str, str, bool], str]:
+    """Kind of command, its arguments, whether it is a whole line -> the page that has it first."""
+    found: dict[tuple[str, str, bool], str] = {}
+    for page in PAGES:
+        for text, whole in _blocks(page.read_text(encoding="utf-8")):
+            match = COMMAND.fullmatch(re.sub(r"(^|\s+)#(\s.*|$)", "", text))
+            if match and not text.startswith(SYNTAX):
+                what = match["what"].removeprefix(".venv/bin/").replace("python3", "python")
+                rest = re.split(r"\s(?:&&|\||>|;)(?=\s|$)", match["rest"].strip())[0]
+                found.setdefault((what, rest.strip(), whole), page.relative_to(ROOT).as_posix())
+    return found
+
+
+PRINTED = printed()
+
+
+def of(what: str) -> list[Any]:
+    """Arguments of the commands of a kind, as words, and whether they are whole lines."""
+    known = PLACEHOLDERS[what]
+    rows = {}
+    for kind, rest, whole in PRINTED:
+        if kind == what:
+            words = tuple(filter(None, (known.get(word, word) for word in shlex.split(rest))))
+            rows[words, whole] = (PRINTED[kind, rest, whole], f"{what} {rest}")
+    return [
+        pytest.param(list(words), whole, page, id=f"{page}: {text}")
+        for (words, whole), (page, text) in rows.items()
+    ]
+
+
+def test_the_pages_have_commands() -> None:
+    """The tests below find the commands of the pages."""
+    assert [len(of(what)) > least for what, least in (("make", 60), ("openppmc", 60), ("python -m", 5))] == [
+        True
+    ] * 3
+    assert ("make", "bitstream BOARD=ulx3s-25f PART=bank HOST=spi", True) in PRINTED
+
+
+@pytest.mark.parametrize("words, whole, page", of("make"))
+def test_make(words: list[str], whole: bool, page: str) -> None:
+    """`make -n` accepts the targets and variables; those of cocotb's makefiles are in that of the example."""
+    own = (ROOT / page).parent / "Makefile"
+    if own.parent != ROOT and own.exists() and all("=" in word for word in words):
+        assert all(word.split("=")[0] in own.read_text(encoding="utf-8") for word in words)
+        return
+    done = subprocess.run(["make", "-n", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def parse(command: Any, words: list[str], parent: Any = None, name: str = "openppmc") -> None:
+    """The contexts of a command line, without calling the command. Raises what the parser does."""
+    context = command.make_context(name, list(words), parent=parent)
+    if hasattr(command, "commands"):
+        rest = [*getattr(context, "_protected_args", getattr(context, "protected_args", [])), *context.args]
+        if not rest:
+            raise typer.BadParameter("Missing command", context)
+        name, below, rest = command.resolve_command(context, rest)
+        parse(below, rest, context, name)
+
+
+@pytest.mark.parametrize("words, whole, page", of("openppmc"))
+def test_openppmc(words: list[str], whole: bool, page: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The parser accepts the options and arguments; a name in a sentence may come without its arguments."""
+    usage_error: Any = typer.BadParameter.__bases__[0]
+    try:
+        parse(typer.main.get_command(app), words)
+    except usage_error as error:
+        missing = type(error).__name__ in ("MissingParameter", "NoArgsIsHelpError")
+        alone = not whole and (missing or "Missing command" in str(error))
+        assert alone, error.format_message()
+
+
+class AcceptedError(Exception):
+    """The arguments are accepted."""
+
+
+@pytest.mark.parametrize("words, whole, page", of("python -m"))
+def test_python(words: list[str], whole: bool, page: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The module is there, and its parser accepts the arguments."""
+    module, *arguments = words
+    spec = importlib.util.find_spec(module)
+    assert spec is not None, module
+    if spec.submodule_search_locations is not None:
+        spec = importlib.util.find_spec(f"{module}.__main__")
+        assert spec is not None, f"{module} is a package without __main__"
+    assert spec.origin is not None
+    if "ArgumentParser" not in Path(spec.origin).read_text(encoding="utf-8"):
+        return
+    real = argparse.ArgumentParser.parse_args
+
+    def accept(parser: argparse.ArgumentParser, *given: Any) -> Any:
+        real(parser, *given)
+        raise AcceptedError
+
+    monkeypatch.setattr(argparse.ArgumentParser, "parse_args", accept)
+    monkeypatch.setattr(sys, "argv", [module, *arguments])
+    with pytest.raises(AcceptedError):
+        importlib.import_module(spec.name).main()
