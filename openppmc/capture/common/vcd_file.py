@@ -408,7 +408,9 @@ class _Body:
     def _pairs(self, first: Any, size: Any) -> Any:
         """Tokens whose variable is the next token: vectors, numbers, texts, a level that is alone."""
         np = self.np
-        pair = np.isin(first, np.frombuffer(b"bBrRsS", np.uint8)) & (size > 1)
+        pair = np.isin(first, np.frombuffer(b"bBrR", np.uint8)) & (size > 1)
+        # A text may be empty, as in our own recordings.
+        pair |= np.isin(first, np.frombuffer(b"sS", np.uint8))
         pair |= (self.level[first] != 255) & (size == 1)
         if not pair.any():
             return pair
