@@ -268,6 +268,8 @@ EXPORT(run) double run(double n, uint32_t until) {
             put(queue[queue_at].pin, queue[queue_at].value);
             ++queue_at;
         }
+        // Inputs that have no room now belong to this edge: they must not follow it.
+        if (count >= room) break;
         if (now == wave_next) {
             wave_next = INT64_MAX;
             for (Wave& one : waves) {
