@@ -26,6 +26,7 @@ OTHERS = (
     "LICENSE",
     "drivers/c/README.md",
     "examples/cocotb/README.md",
+    "examples/systemverilog/README.md",
 )
 LINK = re.compile(r"\]\(([^)#?\s:]+)(?:#[^)]*)?\)")
 API = {
