@@ -218,7 +218,7 @@ bitstream: $(ENVDEV) ## bitstream of BOARD=… (docs/boards.md: which carries wh
 	@$(PY) -m scripts.bitstream $(BOARD) --host $(HOST) --part $(PART) $(if $(SEED),--seed $(SEED)) \
 	  $(foreach v,$(GIVEN_TOP),-G $v=$($v))
 
-release: $(ENVDEV) $(ENVSITE) $(ENVREL) ## everything of this version into dist/, the same bytes from the same commit; trials: SKIP=bitstreams,site ONLY=icebreaker,ulx3s-25f-stmc
+release: $(ENVDEV) $(ENVSITE) $(ENVREL) ## everything of this version into dist/, the same bytes from the same commit; trials, also of an unreleased tree: SKIP=bitstreams,site ONLY=icebreaker,ulx3s-25f-stmc
 	@$(PY) -m scripts.release $(if $(SKIP),--skip $(call quote,$(SKIP))) $(if $(ONLY),--only $(call quote,$(ONLY)))
 
 flash: ## load that bitstream into the board with openFPGALoader

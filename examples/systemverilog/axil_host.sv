@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// axil_host: an AXI4-Lite manager and a PPMC-104 behind ppmc_axil.
+// axil_host: an AXI4-Lite manager that drives a PPMC-104 through ppmc_axil.
 `default_nettype none
 
 module axil_host (

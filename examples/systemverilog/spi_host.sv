@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// spi_host: an SPI master in mode 0 and a PPMC-104 behind ppmc_spi; sck has an eighth of the frequency of clk.
+// spi_host: an SPI master in mode 0 that drives a PPMC-104 through ppmc_spi; 8 cycles for a period of sck.
 `default_nettype none
 
 module spi_host (
@@ -8,7 +8,7 @@ module spi_host (
     output logic      done    // the session has passed
 );
 
-  localparam int HalfCycles = 4;  // cycles of clk in half a period of sck; sck low needs more than 3
+  localparam int HalfCycles = 4;  // half a period of sck in cycles; sck low needs more than 3
 
   logic sck = 1'b0, mosi = 1'b0, ss_n = 1'b1;
   logic miso, irq, hold, pout_n, dir;
@@ -112,7 +112,7 @@ module spi_host (
     end_frame();
   endtask
 
-  // FF requests one read; its value is returned with the next byte, 00, which requests none.
+  // FF requests one read; its value is returned with the next byte, 00, which requests no read.
   task automatic read_reg(input logic register, output logic [7:0] value);
     logic [7:0] unused;
     header(1'b0, register);

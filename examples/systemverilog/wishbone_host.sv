@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// wishbone_host: a Wishbone master and a PPMC-104 behind ppmc_wishbone.
+// wishbone_host: a Wishbone master that drives a PPMC-104 through ppmc_wishbone.
 `default_nettype none
 
 module wishbone_host (

@@ -36,7 +36,7 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
         "rtl": sources.make,
         "verilog": verilog.make,
         "sbom": sbom.make,
-        "site": site.make,
+        "site": lambda release, out, scratch: site.make(release, out, scratch, say),
         "bitstreams": lambda release, out, scratch: bitstreams.make(release, out, scratch, say),
         "notes": notes.make,
     }
@@ -83,12 +83,15 @@ def main() -> int:
         raise ProjectError(f"SKIP={strange[0]}: expected {' or '.join(SLOW)}")
     only = tuple(args.only.replace(",", " ").split())
     bitstreams.wanted(only)
-    release = present(only)
+    trial = bool(skip or only)
+    release = present(only, trial)
     if "site" not in skip:
         site.check()
     build(release, skip)
     for path in sorted(DIST.iterdir()):
         console.print(f"{path.stat().st_size:>12,}  {relative(path)}")
+    if trial:
+        console.print(f"This is a trial (SKIP or ONLY), version {release.version}: do not publish it.")
     return 0
 
 

@@ -24,15 +24,18 @@ WHAT = (
 def notes(release: Release, names: list[str]) -> str:
     """The text for a release of these files."""
     rows = [(name, next((text for word, text in WHAT if word in name), "")) for name in names]
-    lines = [f"# OpenPPMC {release.version}", "", release.notes, ""]
+    lines = [f"# OpenPPMC {release.version}", ""]
+    if release.trial:
+        lines += ["**Trial, not a release.** Do not publish it.", ""]
+    lines += [release.notes, ""]
     if release.missing:
         lines += ["## Not in this release", "", *(f"- {text}" for text in release.missing), ""]
     lines += ["## Files", "", *(f"- `{name}`: {text}" for name, text in rows), ""]
-    lines += [
-        f"Made from commit {release.commit}. The same commit gives the same bytes: `make release`, then "
-        f"compare with `{SUMS}` (`sha256sum -c {SUMS}`).",
-        "",
-    ]
+    how = (
+        "The same commit gives the same bytes: `make release`, then "
+        f"compare with `{SUMS}` (`sha256sum -c {SUMS}`)."
+    )
+    lines += [f"Made from commit {release.commit}." + ("" if release.trial else f" {how}"), ""]
     return "\n".join(lines)
 
 

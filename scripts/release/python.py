@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT, ProjectError
+from openppmc import __version__
 
 from .archive import again
 from .state import Release, tracked
@@ -24,6 +25,14 @@ def _run(*words: str, folder: Path) -> None:
         raise ProjectError("\n".join([f"{words[0]} failed:", *lines[-5:]]))
 
 
+def set_version(tree: Path, version: str) -> None:
+    """Write a version into a copy of the package: that of a trial is not the checkout's."""
+    path = tree / "openppmc" / "__init__.py"
+    line = f'__version__ = "{__version__}"'
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace(line, f'__version__ = "{version}"'), encoding="utf-8")
+
+
 def make(release: Release, out: Path, scratch: Path) -> None:
     """Both into `out`."""
     tree = scratch / "python"
@@ -32,6 +41,7 @@ def make(release: Release, out: Path, scratch: Path) -> None:
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_bytes((ROOT / path).read_bytes())
         copy.chmod(0o644)
+    set_version(tree, release.version)
     made = scratch / "made"
     _run("build", "--no-isolation", "--outdir", str(made), str(tree), folder=scratch)
     _run("twine", "check", "--strict", *sorted(str(path) for path in made.iterdir()), folder=scratch)

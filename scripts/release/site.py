@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT, ProjectError, console
@@ -16,6 +17,7 @@ from .state import Release
 
 HTML = ROOT / "build" / "site" / "html"
 _DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:(\d{14})")
+COMMAND = [sys.executable, "-m", "scripts.site"]
 NO_PDF = "No data sheets as PDF: there was no browser."
 
 
@@ -33,15 +35,34 @@ def check() -> None:
         )
 
 
-def make(release: Release, out: Path, scratch: Path) -> None:
-    """Archive and PDFs into `out`; one line if there is no browser."""
+def run(say: Callable[[str], None], scratch: Path) -> None:
+    """Build the site and pass each line to `say` when it is printed.
+
+    ProjectError with the last line of its errors if it fails.
+    """
+    errors = scratch / "errors.txt"
+    with errors.open("w", encoding="utf-8") as sink:
+        with subprocess.Popen(
+            COMMAND,
+            cwd=ROOT,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=sink,
+            encoding="utf-8",
+            errors="replace",
+        ) as running:
+            assert running.stdout is not None
+            for line in running.stdout:
+                say(line.rstrip())
+    if running.returncode:
+        last = errors.read_text(encoding="utf-8", errors="replace").strip().splitlines() or ["failed"]
+        raise ProjectError(f"make site: {last[-1]}")
+
+
+def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None]) -> None:
+    """Archive and PDFs into `out`; one line if there is no browser. `say` gets the progress."""
     check()
-    command = [sys.executable, "-m", "scripts.site"]
-    done = subprocess.run(
-        command, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
-    )
-    if done.returncode:
-        raise ProjectError(f"make site: {(done.stderr.strip().splitlines() or ['failed'])[-1]}")
+    run(say, scratch)
     sheets = sorted((HTML / "pdf").glob("*.pdf"))
     for path in sheets:
         path.write_bytes(dated(path.read_bytes(), release.epoch))

@@ -19,7 +19,7 @@ class Release:
     """version without v; commit in hex; epoch: its time in s, which is that of every file.
 
     missing: what this release has not, one sentence each, for its notes. only: names of the bitstreams that
-    are made; empty: all.
+    are made; empty: all. trial: it is not to be published, and its version ends in +trial.
     """
 
     version: str
@@ -28,6 +28,7 @@ class Release:
     notes: str
     only: tuple[str, ...] = ()
     missing: list[str] = field(default_factory=list)
+    trial: bool = False
 
     def name(self, what: str, suffix: str) -> str:
         """File name of a piece, such as openppmc-site-1.2.3.tar.gz."""
@@ -45,17 +46,22 @@ def git(*words: str) -> str:
     return done.stdout.strip()
 
 
-def section(changelog: str, version: str) -> str:
-    """The text below the newest heading of a changelog; ProjectError unless that is of this version.
+def section(changelog: str, version: str, trial: bool = False) -> str:
+    """Return the text below the newest heading of a changelog; ProjectError unless that is of this version.
 
-    [Unreleased] may stand above it, with nothing below.
+    [Unreleased] may be above it, without text. In a trial its text is returned if there is any.
     """
     found = list(_HEADING.finditer(changelog))
     ends = [match.start() for match in found[1:]] + [len(changelog)] * bool(found)
     parts = [(match[1], changelog[match.end() : end].strip()) for match, end in zip(found, ends, strict=True)]
     if parts and parts[0][0] == "Unreleased":
         if parts[0][1]:
-            raise ProjectError(f"CHANGELOG.md: give what is below [Unreleased] the heading [{version}]")
+            if trial:
+                return parts[0][1]
+            raise ProjectError(
+                f"CHANGELOG.md: give what is below [Unreleased] the heading [{version}]; "
+                "a trial needs SKIP= or ONLY="
+            )
         del parts[0]
     newest = parts[0][0] if parts else "none"
     if newest != version:
@@ -71,18 +77,23 @@ def check_tag(version: str, commit: str, tagged: str) -> None:
         raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")
 
 
-def present(only: tuple[str, ...] = ()) -> Release:
-    """The release that this checkout makes; ProjectError says in a line why it cannot."""
+def present(only: tuple[str, ...] = (), trial: bool = False) -> Release:
+    """Return the release that this checkout makes; ProjectError says in a line why it cannot.
+
+    A trial needs a commit only: there may be text below [Unreleased], and a tag of the version elsewhere.
+    """
     changed = git("status", "--porcelain").splitlines()
     if changed:
         raise ProjectError(f"{changed[0][2:].strip()} is not committed: a release is of a commit")
     commit = git("rev-parse", "HEAD")
     name = f"refs/tags/v{__version__}"
-    check_tag(
-        __version__, commit, git("rev-parse", f"{name}^{{commit}}") if git("tag", "-l", name[10:]) else ""
-    )
-    notes = section(CHANGELOG.read_text(encoding="utf-8"), __version__)
-    return Release(__version__, commit, int(git("log", "-1", "--format=%ct")), notes, only)
+    if not trial:
+        tagged = git("rev-parse", f"{name}^{{commit}}") if git("tag", "-l", name[10:]) else ""
+        check_tag(__version__, commit, tagged)
+    notes = section(CHANGELOG.read_text(encoding="utf-8"), __version__, trial)
+    # A local version (PEP 440): PyPI rejects it.
+    version = f"{__version__}+trial" if trial else __version__
+    return Release(version, commit, int(git("log", "-1", "--format=%ct")), notes, only, trial=trial)
 
 
 def tracked(*below: str) -> list[Path]:

@@ -15,6 +15,7 @@ from cocotb_tests.harness.project import ProjectError, relative
 from scripts.site import wasm
 from scripts.site.hooks import PARTS, PDF, data_sheet
 from scripts.site.pages import SITE, node, packages, playground
+from scripts.site.progress import say
 
 PAGES = wasm.OUT / "pages"
 HTML = wasm.OUT / "html"
@@ -120,7 +121,10 @@ def browser() -> bool:
 def build(with_pdf: bool = True, out: Path = HTML) -> Path:
     """Build the whole site in `out`; ProjectError names the first warning of MkDocs."""
     stage()
+    if with_pdf:
+        say("browser for the data sheets as PDF")
     pdf = with_pdf and browser()
+    say("all pages, with MkDocs")
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--clean"]
     command += ["-f", str(SITE / "mkdocs.yml"), "-d", str(out)]
     env = {**os.environ, **({PDF: "1"} if pdf else {})}
@@ -131,6 +135,7 @@ def build(with_pdf: bool = True, out: Path = HTML) -> Path:
         wrong = [line for line in done.stderr.splitlines() if line.startswith(("WARNING", "ERROR"))]
         raise ProjectError(f"{wrong[0] if wrong else 'MkDocs failed'} (the whole log: {relative(log)})")
     if pdf:
+        say("data sheets as PDF")
         (out / "pdf").mkdir()
         jobs = [f"docs/{part}/index.html={data_sheet(part)}" for part in PARTS]
         node("node", "pdf.mjs", str(out), *jobs, folder=SITE / "browser")

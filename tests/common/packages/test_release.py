@@ -12,7 +12,7 @@ import pytest
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
 from scripts.release import __main__ as command
-from scripts.release import archive, bitstreams, notes, site, state
+from scripts.release import archive, bitstreams, notes, python, site, state
 from scripts.release.__main__ import build
 
 TEXT = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-01-02\n\n- this\n\n## [1.1.0]\n\n- that\n"
@@ -44,6 +44,119 @@ def test_version_and_changelog_that_do_not_fit(text, version, message):
     """Given another version than the newest heading, or nothing to say, then one line tells so."""
     with pytest.raises(ProjectError, match=message):
         state.section(text, version)
+
+
+UNRELEASED = TEXT.replace("Unreleased]\n", "Unreleased]\n\n- new\n")
+
+
+def test_a_trial_takes_what_is_unreleased():
+    """Given text below [Unreleased], then those are a trial's notes, with any version in the next heading."""
+    assert state.section(UNRELEASED, "1.2.0", trial=True) == "- new"
+    assert state.section(UNRELEASED, "1.3.0", trial=True) == "- new"
+    assert state.section("# Changelog\n\n## [Unreleased]\n\n- new\n", "0.1.0", trial=True) == "- new"
+    assert state.section(TEXT, "1.2.0", trial=True) == "- this"
+
+
+@pytest.mark.parametrize("trial", [False, True])
+def test_a_heading_that_does_not_fit_is_no_trial(trial):
+    """Given nothing below [Unreleased], then the newest heading must be the version's, in a trial as well."""
+    with pytest.raises(ProjectError, match=r"version 1.3.0, but the newest heading"):
+        state.section(TEXT, "1.3.0", trial=trial)
+
+
+def git_of(tagged: str, changed: str = ""):
+    """Git of a checkout at commit c…c whose version has its tag on `tagged`."""
+
+    def git(*words: str) -> str:
+        if words[0] == "status":
+            return changed
+        if words[0] == "log":
+            return "1700000000"
+        if words[0] == "tag":
+            return "v" + state.__version__ if tagged else ""
+        return tagged if words[1].startswith("refs/tags/") else "c" * 40
+
+    return git
+
+
+def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
+    """Given commits after the newest release, then a trial of them is possible, and its version ends in +trial."""
+    changelog = tmp_path / "CHANGELOG.md"
+    changelog.write_text(UNRELEASED.replace("1.2.0", state.__version__))
+    monkeypatch.setattr(state, "CHANGELOG", changelog)
+    monkeypatch.setattr(state, "git", git_of("a" * 40))
+    made = state.present((), trial=True)
+    assert made.trial and made.version == f"{state.__version__}+trial" and made.notes == "- new"
+    assert made.name("site", ".tar.gz") == f"openppmc-site-{state.__version__}+trial.tar.gz"
+    with pytest.raises(ProjectError, match="exists already, on aaaaaaaaaa"):
+        state.present()
+    monkeypatch.setattr(state, "git", git_of(""))
+    with pytest.raises(
+        ProjectError, match=r"below \[Unreleased\] the heading .*; a trial needs SKIP= or ONLY="
+    ):
+        state.present()
+    monkeypatch.setattr(state, "git", git_of("", " M README.md"))
+    with pytest.raises(ProjectError, match="^README.md is not committed"):
+        state.present((), trial=True)
+
+
+@pytest.mark.parametrize(
+    "arguments, trial",
+    [
+        ([], False),
+        (["--skip", "", "--only", ""], False),
+        (["--skip", "site"], True),
+        (["--only", "icebreaker"], True),
+    ],
+)
+def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
+    """Given SKIP or ONLY, then a trial is made and the last line says so; without them a release."""
+    asked = []
+
+    def present(only, trial):
+        asked.append(trial)
+        return release(trial=trial)
+
+    monkeypatch.setattr(command, "present", present)
+    monkeypatch.setattr(command, "build", lambda of, skip: None)
+    monkeypatch.setattr(command.site, "check", lambda: None)
+    monkeypatch.setattr(command, "DIST", project.BUILD / "test" / "no_dist")
+    (project.BUILD / "test" / "no_dist").mkdir(parents=True, exist_ok=True)
+    monkeypatch.setattr(sys, "argv", ["release", *arguments])
+    assert command.main() == 0 and asked == [trial]
+    assert ("This is a trial" in capsys.readouterr().out) is trial
+
+
+def test_notes_of_a_trial_say_so():
+    """Given a trial, then its notes say in the first lines that it is not to be published; else not."""
+    text = notes.notes(release(version="1.2.0+trial", trial=True), [])
+    assert text.startswith("# OpenPPMC 1.2.0+trial\n\n**Trial, not a release.**")
+    assert "rial" not in notes.notes(release(), [])
+
+
+def test_the_python_package_of_a_trial(tmp_path):
+    """Given a copy of the package, then its version becomes that of the trial; that of a release stays."""
+    file = tmp_path / "openppmc" / "__init__.py"
+    file.parent.mkdir()
+    text = f'__version__ = "{python.__version__}"\n'
+    for version in (python.__version__, f"{python.__version__}+trial"):
+        file.write_text(text)
+        python.set_version(tmp_path, version)
+        assert file.read_text() == f'__version__ = "{version}"\n'
+
+
+def test_the_site_reports_its_stages(tmp_path, monkeypatch):
+    """Given lines of `make site`, then a release passes them on while it waits; a failure is one line."""
+    told = []
+    program = (
+        "import sys; print('site: pages', flush=True); print('first\\nlast', file=sys.stderr); sys.exit({})"
+    )
+    monkeypatch.setattr(site, "COMMAND", [sys.executable, "-c", program.format(0)])
+    site.run(told.append, tmp_path)
+    assert told == ["site: pages"]
+    monkeypatch.setattr(site, "COMMAND", [sys.executable, "-c", program.format(1)])
+    with pytest.raises(ProjectError, match="^make site: last$"):
+        site.run(told.append, tmp_path)
 
 
 def test_a_tag_elsewhere_is_another_release():
@@ -106,7 +219,7 @@ def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
     """Given no npm, then one line says what to install, at once; without the site nobody asks for it."""
     made = []
     monkeypatch.setattr(site.shutil, "which", lambda name: None)
-    monkeypatch.setattr(command, "present", lambda only: release())
+    monkeypatch.setattr(command, "present", lambda only, trial: release())
     monkeypatch.setattr(command, "build", lambda of, skip: made.append(skip))
     monkeypatch.setattr(command, "DIST", project.BUILD / "test" / "no_dist")
     (project.BUILD / "test" / "no_dist").mkdir(parents=True, exist_ok=True)

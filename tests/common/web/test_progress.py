@@ -1,0 +1,62 @@
+"""`make site` prints a line for each stage and for each WebAssembly module, as soon as it begins."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from scripts.site import __main__ as site
+from scripts.site import export, pages
+from scripts.site.webparts import WEB_PARTS
+
+
+@pytest.fixture
+def quick(monkeypatch, tmp_path):
+    """Replace all that takes long; PDFs can be made."""
+    monkeypatch.setattr(pages, "node", lambda *words, folder=None: None)
+    monkeypatch.setattr(pages, "packages", lambda folder: None)
+    monkeypatch.setattr(pages.shutil, "copy", lambda source, to: None)
+    monkeypatch.setattr(export, "export", lambda name: None)
+    monkeypatch.setattr(export, "PLAYGROUND", tmp_path)
+    monkeypatch.setattr(site, "node", lambda *words, folder=None: None)
+    monkeypatch.setattr(site, "stage", pages._made)
+    monkeypatch.setattr(site, "browser", lambda: True)
+    monkeypatch.setattr(site.wasm, "OUT", tmp_path)
+    done = subprocess.CompletedProcess([], 0, "", "")
+    monkeypatch.setattr(site.subprocess, "run", lambda *words, **options: done)
+    (tmp_path / "html").mkdir()
+    return tmp_path
+
+
+def test_each_stage_has_a_line(quick, capsys):
+    """Given a build of the site, then each stage and each module is announced, in order."""
+    site.build(out=quick / "html")
+    lines = capsys.readouterr().out.splitlines()
+    modules = [f"site: WebAssembly of {name}, {n} of {len(WEB_PARTS)}" for n, name in enumerate(WEB_PARTS, 1)]
+    first = lines.index(modules[0])
+    assert lines[first : first + len(modules)] == modules
+    words = ["packages", "script", "WebAssembly", "browser for", "MkDocs", "site: data sheets"]
+    at = [next((n for n, line in enumerate(lines) if word in line), -1) for word in words]
+    assert -1 not in at and at == sorted(at), lines
+    assert all(line.startswith("site: ") for line in lines)
+
+
+def test_without_a_browser_there_is_no_line_for_pdfs(quick, capsys, monkeypatch):
+    """Given no browser, then no line announces data sheets."""
+    monkeypatch.setattr(site, "browser", lambda: False)
+    site.build(out=quick / "html")
+    assert "site: data sheets" not in capsys.readouterr().out
+
+
+def test_lines_arrive_through_a_pipe():
+    """Given a pipe, then a line is there before the program ends: it is not held in a buffer."""
+    program = "from scripts.site.progress import say; say('one'); input()"
+    with subprocess.Popen(
+        [sys.executable, "-c", program], cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as running:
+        assert running.stdout is not None and running.stdout.readline() == "site: one\n"
+        assert running.poll() is None
+        running.communicate("\n")
