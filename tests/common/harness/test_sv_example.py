@@ -90,7 +90,7 @@ def test_a_wrong_move_fails(name: str) -> None:
 def options(command: str) -> set[str]:
     """Options of a command line of Verilator, without folder and files."""
     words = re.sub(r"--Mdir \S+", "", command.replace("\\\n", " ")).split()[1:]
-    return {word.rpartition("/")[2] for word in words}
+    return {text.rpartition("/")[2] for text in words}
 
 
 def test_the_manual_has_the_command_line_of_the_makefile() -> None:

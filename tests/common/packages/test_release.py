@@ -80,7 +80,7 @@ def git_of(tagged: str, changed: str = ""):
 
 
 def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
-    """Given commits after the newest release, then a trial of them is possible, and its version ends in +trial."""
+    """Given commits after the newest release, then a trial of them has a version that ends in +trial."""
     changelog = tmp_path / "CHANGELOG.md"
     changelog.write_text(UNRELEASED.replace("1.2.0", state.__version__))
     monkeypatch.setattr(state, "CHANGELOG", changelog)
