@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -51,12 +52,14 @@ def test_without_a_browser_there_is_no_line_for_pdfs(quick, capsys, monkeypatch)
     assert "site: data sheets" not in capsys.readouterr().out
 
 
-def test_lines_arrive_through_a_pipe():
+def test_lines_arrive_through_a_pipe(tmp_path):
     """Given a pipe, then a line is there before the program ends: it is not held in a buffer."""
-    program = "from scripts.site.progress import say; say('one'); input()"
-    with subprocess.Popen(
-        [sys.executable, "-c", program], cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as running:
+    ended = tmp_path / "ended"
+    program = "import pathlib, sys, time; from scripts.site.progress import say; say('one'); time.sleep(5); "
+    program += "pathlib.Path(sys.argv[1]).touch()"
+    env = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    command = [sys.executable, "-c", program, str(ended)]
+    with subprocess.Popen(command, cwd=ROOT, env=env, stdout=subprocess.PIPE, text=True) as running:
         assert running.stdout is not None and running.stdout.readline() == "site: one\n"
-        assert running.poll() is None
-        running.communicate("\n")
+        assert not ended.exists()
+        running.kill()
