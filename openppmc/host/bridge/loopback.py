@@ -13,7 +13,7 @@ from ...parts import part
 from ...sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
 from ...sources import build_id
 from ..basis.errors import Disconnected, PortError
-from ..ports.pacer import Pacer
+from ..ports.pacer import Pacer, whole
 
 BITS_PER_BYTE = 10
 OPTIONS = ("part", "speed", "clk", "xtal", "timing")
@@ -72,13 +72,7 @@ class ModelPort:
     def write(self, data: bytes) -> None:
         self._check()
         self._catch_up()
-        self._line_time(len(data))
-        for start, byte in enumerate(data):
-            if self._baud == RATES[self.bridge.rate]:
-                self._arrives(self.bridge.receive(data[start:]))
-                return
-            slower = self._baud < RATES[self.bridge.rate]
-            self._arrives(self.bridge.receive_bad(0 if slower and byte == 0 else 0xFF))
+        whole(lambda: self._send(data))
 
     def set_baud(self, baud: int) -> None:
         self._baud = baud
@@ -99,11 +93,23 @@ class ModelPort:
 
     def _pass_time(self, seconds: float) -> None:
         """Silence on the line; ends early when a message comes."""
+        whole(lambda: self._idle(seconds))
+
+    def _idle(self, seconds: float) -> None:
         begin = self.board.seconds
         self.board.run_until(
             self.board.t + max(1, round(seconds * self.board.clk_hz)), stop=lambda: bool(self._waiting)
         )
         self._arrives(self.bridge.idle(1000 * (self.board.seconds - begin)))
+
+    def _send(self, data: bytes) -> None:
+        self._line_time(len(data))
+        for start, byte in enumerate(data):
+            if self._baud == RATES[self.bridge.rate]:
+                self._arrives(self.bridge.receive(data[start:]))
+                return
+            slower = self._baud < RATES[self.bridge.rate]
+            self._arrives(self.bridge.receive_bad(0 if slower and byte == 0 else 0xFF))
 
     def _line_time(self, count: int) -> None:
         clk = count * BITS_PER_BYTE * self.board.clk_hz // self._baud

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...sim.common.lines import line_kind
 from ..basis.errors import Disconnected, PortError
-from ..ports.pacer import Pacer
+from ..ports.pacer import Pacer, whole
 
 
 class ModelLine:
@@ -29,7 +29,7 @@ class ModelLine:
         end = self.line.seconds + timeout
         data = self.line.read()
         while not data and (left := end - self.line.seconds) > 0:
-            self.line.run_seconds(self._pacer.step(left))
+            self._run(self._pacer.step(left))
             self._pacer.wait(self.line.seconds)
             self._check()
             data = self.line.read()
@@ -38,7 +38,7 @@ class ModelLine:
     def write(self, data: bytes) -> None:
         self._check()
         self._catch_up()
-        self.line.write(data if self._fits else bytes(len(data)))
+        whole(lambda: self.line.write(data if self._fits else bytes(len(data))))
 
     def set_baud(self, baud: int) -> None:
         self._fits = abs(baud / self.spec.rate - 1) < 0.03
@@ -56,4 +56,7 @@ class ModelLine:
     def _catch_up(self) -> None:
         """The line went on while the program did something else."""
         if behind := self._pacer.behind(self.line.seconds):
-            self.line.run_seconds(behind)
+            self._run(behind)
+
+    def _run(self, seconds: float) -> None:
+        whole(lambda: self.line.run_seconds(seconds))

@@ -1,8 +1,15 @@
-"""Keeps the virtual time of a model beside the clock on the wall."""
+"""Keeps the virtual time of a model beside the clock on the wall, and its calls whole."""
 
 from __future__ import annotations
 
+import os
 import time
+from _thread import get_ident, start_new_thread
+from collections.abc import Callable
+from queue import SimpleQueue
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 SLICE = 0.01
 """Seconds of wall time between two looks."""
@@ -36,3 +43,37 @@ class Pacer:
             return 0.0
         behind = (time.monotonic() - self._origin) * self.speed - seconds
         return behind if behind > SLICE else 0.0
+
+
+_Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
+_worker: tuple[int, int, _Jobs] | None = None
+"""The process that has the thread, the thread, and its queue."""
+
+
+def whole(call: Callable[[], T]) -> T:
+    """Call into a model. The call ends even if a signal handler raises meanwhile; the next one waits for it.
+
+    A model that stops in the middle of an edge is broken. Handlers raise in the main thread only, so one
+    other thread makes all calls. Queues of C, because locks of Python can stay locked where a handler raises.
+    """
+    global _worker
+    if _worker is None or _worker[0] != os.getpid():
+        jobs: _Jobs = SimpleQueue()
+        _worker = os.getpid(), start_new_thread(_serve, (jobs,)), jobs
+    if get_ident() == _worker[1]:
+        return call()
+    answer: SimpleQueue[tuple[T, BaseException | None]] = SimpleQueue()
+    _worker[2].put((call, answer))
+    value, error = answer.get()
+    if error is not None:
+        raise error
+    return value
+
+
+def _serve(jobs: _Jobs) -> None:
+    while True:
+        call, answer = jobs.get()
+        try:
+            answer.put((call(), None))
+        except BaseException as error:  # noqa: BLE001 - raised by `whole`
+            answer.put((None, error))

@@ -10,11 +10,14 @@ import sys
 import textwrap
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from random import Random
+from types import FrameType
 
 import pytest
 
-from openppmc.host import OutOfRange, stop_on_signals
+from openppmc.host import OutOfRange, Pmc006, Ppmc104, stop_on_signals
 
 LIBRARY = """
 import sys, time
@@ -32,7 +35,7 @@ print("not reached")
 def started(
     command: list[str], ready: str, before: Callable[[], object] | None = None
 ) -> subprocess.Popen[str]:
-    """A process that has printed a word, or that has had time to begin."""
+    """A process that has printed a line."""
 
     def prepare() -> None:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -49,9 +52,10 @@ def started(
         env={**os.environ, "PYTHONUNBUFFERED": "1"},
     )
     assert process.stdout is not None
-    if ready:
-        assert process.stdout.readline().strip() == ready
-    return process
+    for line in process.stdout:
+        if line.strip() == ready:
+            return process
+    raise AssertionError(f"{process.communicate()} without {ready}")
 
 
 def library(body: str, high: int = 5000, ramp: int = 100, seconds: float = 10) -> list[str]:
@@ -72,6 +76,36 @@ def test_a_signal_in_a_program(number: signal.Signals, body: str) -> None:
     assert process.returncode == 128 + number and out == ""
     word = "interrupted" if number == signal.SIGINT else number.name
     assert err.startswith(f"{word}: stopped, position ") and err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "kind, switches", [(Ppmc104, ",cw=9000000,slow_cw=8000000"), (Pmc006, ",high=9000000")]
+)
+def test_handlers_that_raise_at_any_time_leave_the_model_whole(
+    kind: type[Ppmc104] | type[Pmc006], switches: str
+) -> None:
+    random = Random(1)
+
+    def raises(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    with kind.open(f"model:speed=max{switches}") as axis:
+        if isinstance(axis, Ppmc104):
+            axis.initialise(1000, 5000, 100)
+        motion = axis.jog(1 if isinstance(axis, Pmc006) else 0)
+        before = signal.signal(signal.SIGALRM, raises)
+        try:
+            for _ in range(200):
+                with suppress(KeyboardInterrupt):
+                    signal.setitimer(signal.ITIMER_REAL, random.uniform(0.0002, 0.004))
+                    while True:
+                        axis.position  # noqa: B018
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        axis.stop(wait=False)
+        end = motion.wait(10)
+        assert end.position == axis.position > 0
 
 
 def test_what_decelerates_for_too_long_is_stopped_at_once() -> None:
@@ -111,6 +145,19 @@ def test_a_block_that_ends_restores_the_handlers() -> None:
         pass
 
 
+COMMAND = """
+import sys
+from openppmc.cli import main
+from openppmc.cli.common.guard import Guard
+progress, said = Guard.progress, []
+def moving(self, now):
+    if now.made and not said:
+        said.append(print("moving", flush=True))
+    progress(self, now)
+Guard.progress = moving
+sys.exit(main(sys.argv[1:]))
+"""
+"""The command line, but it prints a line when it would show progress first."""
 COMMANDS = {
     "ppmc104": ["--part", "ppmc104", "jog", "cw", "--ramped"],
     "ppmc2104": ["--part", "ppmc2104", "move", "400000", "-300000"],
@@ -140,8 +187,7 @@ def test_a_signal_in_a_command(name: str, number: signal.Signals, tmp_path: Path
         file = tmp_path / "moves.txt"
         file.write_text("init\nmove 400000\n")
         words = ["script", str(file)]
-    process = started(["-m", "openppmc.cli", "--port", f"model:speed=1{FREE[name]}", *words], "")
-    time.sleep(4)
+    process = started(["-c", COMMAND, "--port", f"model:speed=1{FREE[name]}", *words], "moving")
     process.send_signal(number)
     _, err = process.communicate(timeout=40)
     word = "interrupted" if number == signal.SIGINT else number.name
@@ -169,10 +215,10 @@ def test_a_closed_terminal() -> None:
     child, master = pty.fork()
     if child == 0:
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
-        os.execv(
-            sys.executable, [sys.executable, "-m", "openppmc.cli", "--port", "model:speed=1", "jog", "cw"]
-        )
-    time.sleep(4)
+        os.execv(sys.executable, [sys.executable, "-c", COMMAND, "--port", "model:speed=1", "jog", "cw"])
+    heard = b""
+    while b"moving" not in heard:
+        heard += os.read(master, 1000)
     os.close(master)
     _, status = os.waitpid(child, 0)
     assert os.waitstatus_to_exitcode(status) == 129
