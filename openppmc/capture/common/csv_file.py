@@ -6,11 +6,9 @@ of samples; without one a sample rate in the head gives them. Times count from t
 
 from __future__ import annotations
 
-import csv
 import re
 from array import array
 from collections.abc import Iterator
-from datetime import datetime, timezone
 from fractions import Fraction
 from itertools import chain
 from pathlib import Path
@@ -18,27 +16,14 @@ from typing import Any
 
 from ...errors import needs
 from ...textfile import NotTextError, chunks
+from .csv_cells import LEVELS, cells_of, is_samples, is_time, level_of, sigrok_unit, time_of, unit_of
 from .errors import CaptureError
-from .rates import rate_in, unit
+from .rates import rate_in
 from .signals import SECOND, Capture, Channel
 
-_LEVELS = {"0": 0, "1": 1, "L": 0, "l": 0, "H": 1, "h": 1, "low": 0, "high": 1, "false": 0, "true": 1}
-_LEVELS |= dict.fromkeys(("", "x", "X", "z", "Z", "u", "U", "w", "W", "-", "?", "n/a", "nan", "NaN"), 2)
-_TIME = re.compile(
-    r"(time|zeit|temps|tiempo|tempo|timestamp|time ?stamp|t"
-    r"|(?:milli|micro|nano|pico|femto|atto)?seconds?|[munpfµμ]?s)?"
-    r"[\s_/]*(?:[\[(]?\s*([^\W\d]+)\s*[\])]?)?",
-    re.I,
-)
-_SAMPLES = re.compile(r"samples?|sample[ _]?(number|index|no\.?)|index|nr\.?|no\.?", re.I)
-_ISO = re.compile(r"(\d{4}-\d\d-\d\d)[T ](\d\d:\d\d:\d\d)(?:[.,](\d+))?\s*(Z|[+-]\d\d:?\d\d)?")
-_CLOCK = re.compile(r"(\d+):(\d\d):(\d\d)(?:[.,](\d+))?")
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\W\d]*)", re.I)
 _LONGEST = 1 << 62
 PREAMBLE = 100
 """Lines before the table, at most."""
-_SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
-"""ps (as 10**n) of the unit in which sigrok writes a sample rate up to that number of Hz."""
 
 
 def read_csv(path: Path) -> Capture:
@@ -74,10 +59,6 @@ def _text(data: bytes) -> str:
         return data.decode()
     except UnicodeDecodeError:
         return data.decode("latin-1")
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
 
 
 class _Table:
@@ -139,8 +120,8 @@ class _Table:
         """CaptureError that says why there is no table, if that is known."""
         for (head, _), (row, number) in zip(before, [*before[1:], ("", 0)], strict=True):
             for separator in "\t;,":
-                heads = _cells(head, separator)
-                if len(heads) < 2 or not (_is_time(heads[0]) or _is_samples(heads[0])):
+                heads = cells_of(head, separator)
+                if len(heads) < 2 or not (is_time(heads[0]) or is_samples(heads[0])):
                     continue
                 if not row:
                     raise CaptureError(f"{self.name}: there are no samples in it: capture again")
@@ -160,20 +141,20 @@ class _Table:
     def _shape(self, head: str, row: str) -> list[str] | None:
         """Names if these two lines are the head and the first row of a table."""
         for separator in "\t;,":
-            heads, cells = _cells(head, separator), _cells(row, separator)
+            heads, cells = cells_of(head, separator), cells_of(row, separator)
             if len(heads) < 2 and not self.rate:
                 continue
-            if len(cells) != len(heads) or all(one in _LEVELS for one in heads if one):
+            if len(cells) != len(heads) or all(one in LEVELS for one in heads if one):
                 continue
             self.separator = separator
-            self.timed = _is_time(heads[0]) or _is_samples(heads[0])
-            self.counted = _is_samples(heads[0])
-            self.unit = None if self.counted else _unit_of(heads[0])
+            self.timed = is_time(heads[0]) or is_samples(heads[0])
+            self.counted = is_samples(heads[0])
+            self.unit = None if self.counted else unit_of(heads[0])
             levels = cells[1:] if self.timed else cells
-            if any(_level(cell) is None for cell in levels):
+            if any(level_of(cell) is None for cell in levels):
                 continue
             if self.timed:
-                if self._time(cells[0]) is None:
+                if time_of(cells[0], self.separator) is None:
                     continue
                 if self.unit == 0:
                     self.line -= 1
@@ -199,47 +180,24 @@ class _Table:
     def _headless(self, row: str) -> list[str] | None:
         """Names if this is a row of a table of sigrok without a line of names."""
         for separator in "\t;,":
-            cells = _cells(row, separator)
+            cells = cells_of(row, separator)
             if len(cells) < 2 and separator != ",":
                 continue
-            levels = [_level(cell) for cell in cells]
+            levels = [level_of(cell) for cell in cells]
             self.separator = separator
             timed = bool(self.told) and len(cells) == len(self.told) + 1
             if self.rate and None not in levels and not timed and "" not in cells:
                 self.timed = self.counted = False
                 self.separator, self.unit = separator, None
                 return self.told if len(self.told) == len(cells) else [f"D{n}" for n in range(len(cells))]
-            if self.rate and timed and None not in levels[1:] and self._time(cells[0]) is not None:
+            if (
+                self.rate
+                and timed
+                and None not in levels[1:]
+                and time_of(cells[0], self.separator) is not None
+            ):
                 self.timed, self.counted, self.separator, self.unit = True, False, separator, None
                 return ["Time", *self.told]
-        return None
-
-    def _time(self, text: str) -> tuple[Fraction, bool] | None:
-        """A time or number of a sample, and whether it is in ps; None if it is neither."""
-        text = text.strip().strip('"')
-        if self.separator != ",":
-            text = text.replace(",", ".")
-        match = _NUMBER.fullmatch(text)
-        if match:
-            exponent = match[1].lower().partition("e")[2]
-            if len(text) > 60 or abs(int(exponent or 0)) > 40:
-                return None
-            value = Fraction(match[1])
-            if match[2]:
-                ps = unit(match[2])
-                return None if ps is None else (value * ps, True)
-            return value, False
-        if match := _ISO.fullmatch(text):
-            zone = (match[4] or "+0000").replace("Z", "+0000").replace(":", "")
-            try:
-                day = datetime.strptime(f"{match[1]} {match[2]} {zone}", "%Y-%m-%d %H:%M:%S %z")
-            except ValueError:
-                return None
-            whole = int((day - datetime(2000, 1, 1, tzinfo=timezone.utc)).total_seconds())
-            return (whole + Fraction(f"0.{match[3] or 0}")) * SECOND, True
-        if match := _CLOCK.fullmatch(text):
-            whole = (int(match[1]) * 60 + int(match[2])) * 60 + int(match[3])
-            return (whole + Fraction(f"0.{match[4] or 0}")) * SECOND, True
         return None
 
     def _rows(self, names: list[str], rest: Iterator[str]) -> Capture:
@@ -263,11 +221,11 @@ class _Table:
                 continue
             cells = line.rstrip("\n").split(self.separator)
             if '"' in line:
-                cells = _cells(line, self.separator)
+                cells = cells_of(line, self.separator)
             if len(cells) == count + 1 and not cells[-1].strip():
                 cells.pop()
             cut = not line.endswith("\n") and not cells[-1].strip()
-            found = [_level(cell) for cell in (cells[1:] if self.timed else cells)]
+            found = [level_of(cell) for cell in (cells[1:] if self.timed else cells)]
             if len(cells) != count or None in found or cut:
                 raise self.fail(
                     f"{line.strip()[:40]!r} is cut off or no row of levels: export it again, digital "
@@ -294,7 +252,7 @@ class _Table:
         return self._capture(names, places, levels, times, sample)
 
     def _checked(self, text: str) -> tuple[Fraction, bool]:
-        found = self._time(text)
+        found = time_of(text, self.separator)
         if found is None:
             raise self.fail(f"{text.strip()[:30]!r} is no time: export it again")
         return found
@@ -327,7 +285,7 @@ class _Table:
         elif self.unit is not None:
             unit_ps = self.unit
         elif whole and self.rate is not None:
-            unit_ps = Fraction(10 ** _sigrok_unit(self.rate))
+            unit_ps = Fraction(10 ** sigrok_unit(self.rate))
         elif whole and values[-1] - values[0] > 1:
             raise CaptureError(
                 f"{self.name}: times are whole numbers without a unit: write it into the first head, "
@@ -392,41 +350,3 @@ def _spread(rows: Any, period: Fraction) -> Any:
     import numpy as np
 
     return np.array([round(int(one) * period) for one in rows], np.int64)
-
-
-def _level(text: str) -> int | None:
-    """0, 1, 2 for an unknown level; None if it is no level."""
-    text = text.strip().strip('"')
-    found = _LEVELS.get(text)
-    if found is None and (found := _LEVELS.get(text.lower())) is None:
-        match = re.fullmatch(r"([01])[.,]0*", text)
-        found = int(match[1]) if match else None
-    return found
-
-
-def _is_time(head: str) -> bool:
-    text = head.strip().strip('"')
-    match = _TIME.fullmatch(text)
-    if match is None:
-        return False
-    return bool(match[1]) and (not match[2] or match[1].lower() != "t" or unit(match[2]) is not None)
-
-
-def _is_samples(head: str) -> bool:
-    return bool(_SAMPLES.fullmatch(head.strip().strip('"')))
-
-
-def _unit_of(head: str) -> Fraction | None:
-    """ps of the unit in `Time [s]`, `Time (ms)`, `nanoseconds`; None if it names none, 0 if it is unknown."""
-    match = _TIME.fullmatch(head.strip().strip('"'))
-    if match is None:
-        return None
-    if match[2]:
-        found = unit(match[2])
-        return Fraction(0) if found is None else found
-    return unit(match[1]) if match[1] else None
-
-
-def _sigrok_unit(rate: Fraction) -> int:
-    """ps (as 10**n) of the unit in which sigrok writes times at this rate; whole times of others, too."""
-    return next((ps for hz, ps in _SIGROK.items() if rate <= hz), 0)

@@ -1,0 +1,100 @@
+"""Single cells of a capture in CSV: times, levels, heads of columns."""
+
+from __future__ import annotations
+
+import csv
+import re
+from datetime import datetime, timezone
+from fractions import Fraction
+
+from .rates import unit
+from .signals import SECOND
+
+LEVELS = {"0": 0, "1": 1, "L": 0, "l": 0, "H": 1, "h": 1, "low": 0, "high": 1, "false": 0, "true": 1}
+LEVELS |= dict.fromkeys(("", "x", "X", "z", "Z", "u", "U", "w", "W", "-", "?", "n/a", "nan", "NaN"), 2)
+_TIME = re.compile(
+    r"(time|zeit|temps|tiempo|tempo|timestamp|time ?stamp|t"
+    r"|(?:milli|micro|nano|pico|femto|atto)?seconds?|[munpfµμ]?s)?"
+    r"[\s_/]*(?:[\[(]?\s*([^\W\d]+)\s*[\])]?)?",
+    re.I,
+)
+_SAMPLES = re.compile(r"samples?|sample[ _]?(number|index|no\.?)|index|nr\.?|no\.?", re.I)
+_ISO = re.compile(r"(\d{4}-\d\d-\d\d)[T ](\d\d:\d\d:\d\d)(?:[.,](\d+))?\s*(Z|[+-]\d\d:?\d\d)?")
+_CLOCK = re.compile(r"(\d+):(\d\d):(\d\d)(?:[.,](\d+))?")
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\W\d]*)", re.I)
+_SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
+"""ps (as 10**n) of the unit in which sigrok writes a sample rate up to that number of Hz."""
+
+
+def cells_of(line: str, separator: str) -> list[str]:
+    """Return the cells of a line."""
+    return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
+
+
+def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
+    """A time or number of a sample, and whether it is in ps; None if it is neither."""
+    text = text.strip().strip('"')
+    if separator != ",":
+        text = text.replace(",", ".")
+    match = _NUMBER.fullmatch(text)
+    if match:
+        exponent = match[1].lower().partition("e")[2]
+        if len(text) > 60 or abs(int(exponent or 0)) > 40:
+            return None
+        value = Fraction(match[1])
+        if match[2]:
+            ps = unit(match[2])
+            return None if ps is None else (value * ps, True)
+        return value, False
+    if match := _ISO.fullmatch(text):
+        zone = (match[4] or "+0000").replace("Z", "+0000").replace(":", "")
+        try:
+            day = datetime.strptime(f"{match[1]} {match[2]} {zone}", "%Y-%m-%d %H:%M:%S %z")
+        except ValueError:
+            return None
+        whole = int((day - datetime(2000, 1, 1, tzinfo=timezone.utc)).total_seconds())
+        return (whole + Fraction(f"0.{match[3] or 0}")) * SECOND, True
+    if match := _CLOCK.fullmatch(text):
+        whole = (int(match[1]) * 60 + int(match[2])) * 60 + int(match[3])
+        return (whole + Fraction(f"0.{match[4] or 0}")) * SECOND, True
+    return None
+
+
+def level_of(text: str) -> int | None:
+    """0, 1, 2 for an unknown level; None if it is no level."""
+    text = text.strip().strip('"')
+    found = LEVELS.get(text)
+    if found is None and (found := LEVELS.get(text.lower())) is None:
+        match = re.fullmatch(r"([01])[.,]0*", text)
+        found = int(match[1]) if match else None
+    return found
+
+
+def is_time(head: str) -> bool:
+    """Return whether this is the head of a column of times."""
+    text = head.strip().strip('"')
+    match = _TIME.fullmatch(text)
+    if match is None:
+        return False
+    return bool(match[1]) and (not match[2] or match[1].lower() != "t" or unit(match[2]) is not None)
+
+
+def is_samples(head: str) -> bool:
+    """Return whether this is the head of a column of numbers of samples."""
+    return bool(_SAMPLES.fullmatch(head.strip().strip('"')))
+
+
+def unit_of(head: str) -> Fraction | None:
+    """ps of the unit in `Time [s]`, `Time (ms)`, `nanoseconds`; None if it names none, 0 if it is unknown."""
+    match = _TIME.fullmatch(head.strip().strip('"'))
+    if match is None:
+        return None
+    if match[2]:
+        found = unit(match[2])
+        return Fraction(0) if found is None else found
+    return unit(match[1]) if match[1] else None
+
+
+def sigrok_unit(rate: Fraction) -> int:
+    """ps (as 10**n) of the unit in which sigrok writes times at this rate; whole times of others, too."""
+    return next((ps for hz, ps in _SIGROK.items() if rate <= hz), 0)
