@@ -6,6 +6,7 @@ import csv
 import re
 from datetime import datetime, timezone
 from fractions import Fraction
+from functools import lru_cache
 
 from .rates import unit
 from .signals import SECOND
@@ -19,11 +20,22 @@ _TIME = re.compile(
     re.I,
 )
 _SAMPLES = re.compile(r"samples?|sample[ _]?(number|index|no\.?)|index|nr\.?|no\.?", re.I)
-_ISO = re.compile(r"(\d{4}-\d\d-\d\d)[T ](\d\d:\d\d:\d\d)(?:[.,](\d+))?\s*(Z|[+-]\d\d:?\d\d)?")
-_CLOCK = re.compile(r"(\d+):(\d\d):(\d\d)(?:[.,](\d+))?")
+_ISO = re.compile(
+    r"(?P<day>\d{4}-\d\d-\d\d)[T ](?P<second>\d\d:\d\d:\d\d)(?:[.,](?P<part>\d+))?\s*"
+    r"(?P<zone>Z|[+-]\d\d:?\d\d)?"
+)
+_CLOCK = re.compile(r"(?P<second>\d+:\d\d:\d\d)(?:[.,](?P<part>\d+))?(?P<zone>)")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\W\d]*)", re.I)
 _SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
 """ps (as 10**n) of the unit in which sigrok writes a sample rate up to that number of Hz."""
+
+
+def text_of(data: bytes) -> str:
+    """Return text in UTF-8, or in Latin-1 if it is not."""
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
 
 
 def cells_of(line: str, separator: str) -> list[str]:
@@ -36,28 +48,38 @@ def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
     text = text.strip().strip('"')
     if separator != ",":
         text = text.replace(",", ".")
+    if len(text) > 60:
+        return None
     match = _NUMBER.fullmatch(text)
     if match:
         exponent = match[1].lower().partition("e")[2]
-        if len(text) > 60 or abs(int(exponent or 0)) > 40:
+        if abs(int(exponent or 0)) > 40:
             return None
         value = Fraction(match[1])
         if match[2]:
             ps = unit(match[2])
             return None if ps is None else (value * ps, True)
         return value, False
-    if match := _ISO.fullmatch(text):
-        zone = (match[4] or "+0000").replace("Z", "+0000").replace(":", "")
-        try:
-            day = datetime.strptime(f"{match[1]} {match[2]} {zone}", "%Y-%m-%d %H:%M:%S %z")
-        except ValueError:
-            return None
-        whole = int((day - datetime(2000, 1, 1, tzinfo=timezone.utc)).total_seconds())
-        return (whole + Fraction(f"0.{match[3] or 0}")) * SECOND, True
-    if match := _CLOCK.fullmatch(text):
-        whole = (int(match[1]) * 60 + int(match[2])) * 60 + int(match[3])
-        return (whole + Fraction(f"0.{match[4] or 0}")) * SECOND, True
+    if match := _ISO.fullmatch(text) or _CLOCK.fullmatch(text):
+        whole = _second(text[: match.end("second")] + (match["zone"] or ""))
+        part = match["part"] or "0"
+        return None if whole is None else ((whole + Fraction(int(part), 10 ** len(part))) * SECOND, True)
     return None
+
+
+@lru_cache(maxsize=1000)
+def _second(text: str) -> int | None:
+    """Seconds of a time stamp without its decimals; None for a date or time that does not exist."""
+    match = _ISO.fullmatch(text)
+    if match is None:
+        hours, minutes, seconds = map(int, text.split(":"))
+        return (hours * 60 + minutes) * 60 + seconds
+    zone = (match["zone"] or "+0000").replace("Z", "+0000").replace(":", "")
+    try:
+        day = datetime.strptime(f"{match['day']} {match['second']} {zone}", "%Y-%m-%d %H:%M:%S %z")
+    except ValueError:
+        return None
+    return int((day - datetime(2000, 1, 1, tzinfo=timezone.utc)).total_seconds())
 
 
 def level_of(text: str) -> int | None:

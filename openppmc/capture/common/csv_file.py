@@ -10,18 +10,20 @@ import re
 from array import array
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ...errors import needs
 from ...textfile import NotTextError, chunks
-from .csv_cells import LEVELS, cells_of, is_samples, is_time, level_of, sigrok_unit, time_of, unit_of
+from .csv_cells import LEVELS, cells_of, is_samples, is_time, level_of, sigrok_unit, text_of, time_of, unit_of
+from .csv_rows import LONGEST, Layout, Rows, too_long
 from .errors import CaptureError
 from .rates import rate_in
-from .signals import SECOND, Capture, Channel
+from .signals import BLOCK, SECOND, Capture, Channel, numpy
 
-_LONGEST = 1 << 62
+if TYPE_CHECKING:
+    from .signals import Column
+
 PREAMBLE = 100
 """Lines before the table, at most."""
 
@@ -30,15 +32,39 @@ def read_csv(path: Path) -> Capture:
     """CaptureError for a file that is none of these, or cut."""
     needs("decode", f"{path.name}: a capture in CSV", "numpy")
     try:
-        return _Table(path.name, _lines(path)).read()
+        return _Table(path.name, _Lines(path)).read()
     except OSError as error:
         raise CaptureError(f"{path.name}: cannot be read ({error.strerror})") from None
     except NotTextError as error:
         raise CaptureError(f"{path.name}: {error}") from None
 
 
-def _lines(path: Path) -> Iterator[str]:
-    """Lines with their ends; a line without one is the last."""
+class _Lines:
+    """Lines of a file, one after the other; then the rest in blocks of whole lines."""
+
+    def __init__(self, path: Path) -> None:
+        self._blocks = _blocks(path)
+        self._block, self._place, self._next = b"", 0, 0
+
+    def __iter__(self) -> Iterator[str]:
+        while True:
+            if self._next == len(self._block):
+                self._block, self._next = next(self._blocks, b""), 0
+                if not self._block:
+                    return
+            self._place = self._next
+            self._next = self._block.find(b"\n", self._place) + 1 or len(self._block)
+            yield text_of(self._block[self._place : self._next])
+
+    def rest(self) -> Iterator[bytes]:
+        """Yield all from the line that was read last."""
+        yield self._block[self._place :]
+        self._block = b""
+        yield from self._blocks
+
+
+def _blocks(path: Path) -> Iterator[bytes]:
+    """Whole lines that end in a line feed; only the last one of a file may have none."""
     rest = b""
     for piece in chunks(path):
         if b"\0" in piece:
@@ -46,25 +72,19 @@ def _lines(path: Path) -> Iterator[str]:
         rest += piece
         cut = max(rest.rfind(b"\n"), rest[:-1].rfind(b"\r")) + 1
         if cut:
-            yield from _text(rest[:cut]).replace("\r\n", "\n").replace("\r", "\n").splitlines(keepends=True)
+            block = rest[:cut]
+            yield block.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in block else block
             rest = rest[cut:]
         if len(rest) > 1 << 24:
             raise CaptureError(f"{path.name}: a line of {len(rest)} bytes: export the capture as CSV")
     if rest:
-        yield _text(rest).replace("\r", "\n")
-
-
-def _text(data: bytes) -> str:
-    try:
-        return data.decode()
-    except UnicodeDecodeError:
-        return data.decode("latin-1")
+        yield rest.replace(b"\r", b"\n")
 
 
 class _Table:
     """A file while it is read."""
 
-    def __init__(self, name: str, lines: Iterator[str]) -> None:
+    def __init__(self, name: str, lines: _Lines) -> None:
         self.name, self.lines = name, lines
         self.rate: Fraction | None = None
         self.told: list[str] = []
@@ -80,7 +100,7 @@ class _Table:
 
     def read(self) -> Capture:
         """All of it. CaptureError."""
-        heads, rest = self._head()
+        heads = self._head()
         names = heads[1:] if self.timed else heads
         if len(set(names)) < len(names):
             twice = next(name for name in names if names.count(name) > 1)
@@ -89,10 +109,10 @@ class _Table:
             )
         if not names:
             raise CaptureError(f"{self.name}: a column of times and no channel: export digital channels")
-        return self._rows(names, rest)
+        return self._rows(names)
 
-    def _head(self) -> tuple[list[str], Iterator[str]]:
-        """Names of all columns, and the rows."""
+    def _head(self) -> list[str]:
+        """Names of all columns. The line that was read last is the first row."""
         before: list[tuple[str, int]] = []
         for line in self.lines:
             self.line += 1
@@ -102,10 +122,10 @@ class _Table:
             if before and (found := self._shape(before[-1][0], line)) is not None:
                 for text, _ in before[:-1]:
                     self._comment(text)
-                return found, chain([line], self.lines)
+                return found
             before.append((line, self.line))
             if (found := self._headless(line)) is not None:
-                return found, chain([line], self.lines)
+                return found
             if len(before) > PREAMBLE:
                 break
         if not before:
@@ -200,153 +220,114 @@ class _Table:
                 return ["Time", *self.told]
         return None
 
-    def _rows(self, names: list[str], rest: Iterator[str]) -> Capture:
-        """Channels from all rows."""
-        places = [array("q") for _ in names]
-        levels = [bytearray() for _ in names]
-        stamps: list[tuple[Fraction, bool]] = []
-        """Times of the rows in which something changed; as written."""
-        rows = array("q")
-        before, numbers, tail, last = [-1] * len(names), -1, None, ""
-        count, self.line = len(names) + self.timed, self.line - 1
-        for line in rest:
-            self.line += 1
-            if not line.strip() or line[0] in ";#" and self.separator != ";":
-                continue
-            numbers += 1
-            at = line.find(self.separator) if self.timed else -1
-            now = line[at + 1 :]
-            if now == tail:
-                last = line
-                continue
-            cells = line.rstrip("\n").split(self.separator)
-            if '"' in line:
-                cells = cells_of(line, self.separator)
-            if len(cells) == count + 1 and not cells[-1].strip():
-                cells.pop()
-            cut = not line.endswith("\n") and not cells[-1].strip()
-            found = [level_of(cell) for cell in (cells[1:] if self.timed else cells)]
-            if len(cells) != count or None in found or cut:
-                raise self.fail(
-                    f"{line.strip()[:40]!r} is cut off or no row of levels: export it again, digital "
-                    "channels only"
-                )
-            if self.timed:
-                stamps.append(self._checked(cells[0]))
-            rows.append(numbers)
-            place = len(rows) - 1
-            for n, level in enumerate(found):
-                assert level is not None
-                if level != before[n]:
-                    places[n].append(place)
-                    levels[n].append(level)
-                    before[n] = level
-            tail, last = now, ""
-        if last:
-            if self.timed:
-                stamps.append(self._checked(last.split(self.separator)[0]))
-            rows.append(numbers)
-        if numbers < 1:
+    def _rows(self, names: list[str]) -> Capture:
+        """Channels from all rows. CaptureError."""
+        layout = Layout(
+            self.name,
+            self.line,
+            len(names),
+            self.separator,
+            self.timed,
+            self.counted,
+            None if self.counted else self.unit,
+        )
+        rows = Rows(layout)
+        for block in self.lines.rest():
+            rows.add(block)
+        end = rows.end
+        if rows.count < 2:
             raise CaptureError(f"{self.name}: there are no samples in it: capture again")
-        times, sample = self._times(rows, stamps)
-        return self._capture(names, places, levels, times, sample)
-
-    def _checked(self, text: str) -> tuple[Fraction, bool]:
-        found = time_of(text, self.separator)
-        if found is None:
-            raise self.fail(f"{text.strip()[:30]!r} is no time: export it again")
-        return found
-
-    def _times(self, rows: Any, stamps: list[tuple[Fraction, bool]]) -> tuple[Any, int]:
-        """ps of each row that was kept, from the first, and the distance of two samples."""
-        import numpy as np
-
-        period = None if self.rate is None else SECOND / self.rate
-        sample = 0 if period is None else round(period)
-        if not self.timed:
-            assert period is not None
-            return _spread(np.array(rows, np.int64), period), sample
-        absolute = stamps[0][1]
-        if any(one[1] != absolute for one in stamps):
-            raise CaptureError(f"{self.name}: times with and without a unit: write all of them alike")
-        values = [one[0] for one in stamps]
-        whole = all(one.denominator == 1 for one in values)
-        if self.counted:
-            if not whole:
-                raise CaptureError(f"{self.name}: numbers of samples that are not whole: export it again")
-            if period is None:
-                raise CaptureError(
-                    f"{self.name}: numbers of samples without a sample rate: add a first line "
-                    "`; Samplerate: 24 MHz`"
-                )
-            unit_ps: Fraction = period
-        elif absolute:
-            unit_ps = Fraction(1)
-        elif self.unit is not None:
-            unit_ps = self.unit
-        elif whole and self.rate is not None:
-            unit_ps = Fraction(10 ** sigrok_unit(self.rate))
-        elif whole and values[-1] - values[0] > 1:
-            raise CaptureError(
-                f"{self.name}: times are whole numbers without a unit: write it into the first head, "
-                "as `Time [ns]`"
-            )
-        else:
-            unit_ps = Fraction(SECOND)
-        if period is not None and not self.counted:
-            values, unit_ps = self._sampled(values, unit_ps, whole, period)
-        first = values[0]
-        times = [round((one - first) * unit_ps) for one in values]
-        if max(times) > _LONGEST:
-            raise CaptureError(f"{self.name}: longer than 50 days: is the unit of the times right?")
-        found = np.array(times, np.int64)
-        if (np.diff(found) < 0).any():
-            back = int(np.flatnonzero(np.diff(found) < 0)[0]) + 1
-            raise CaptureError(
-                f"{self.name}: row {rows[back] + 1} of the table is earlier than the one before: export it "
-                "again"
-            )
-        return found, sample
-
-    def _sampled(
-        self, values: list[Fraction], unit_ps: Fraction, whole: bool, period: Fraction
-    ) -> tuple[list[Fraction], Fraction]:
-        """Numbers of samples instead of rounded times, where the head states the sample rate."""
-        # sigrok counts in periods that are cut to a whole number of units.
-        cut = int(period / unit_ps)
-        if whole and cut and period != cut * unit_ps and all(one % cut == 0 for one in values):
-            return [one / cut for one in values], period
-        first = values[0]
-        steps = [(one - first) * unit_ps / period for one in values]
-        if all(abs(one - round(one)) * period <= max(unit_ps, Fraction(1000)) for one in steps):
-            return [Fraction(round(one)) for one in steps], period
-        return values, unit_ps
-
-    def _capture(
-        self, names: list[str], places: list[Any], levels: list[bytearray], times: Any, sample: int
-    ) -> Capture:
-        import numpy as np
-
+        unit, first = self._unit_of_times(rows), rows.times[0][0]
+        if (end - first) * unit >= LONGEST:
+            raise too_long(self.name)
+        scale = self._sampled(rows, _Scale(first, unit))
+        np = numpy()
+        end = int(scale.of(np.array([end]))[0])
         channels = {}
-        for name, place, level in zip(names, places, levels, strict=True):
-            at, found = np.array(place, np.int64), np.frombuffer(bytes(level), np.uint8)
+        for name, times, levels in zip(names, rows.times, rows.levels, strict=True):
+            found = np.frombuffer(levels, np.uint8)
             hidden, known = found >> 1, found & 1
             channels[name] = Channel.of(
                 int(known[0]),
-                times[at[1:]],
+                scale.column(times)[1:],
                 known[1:],
                 1,
                 hidden[1:] if hidden.any() else None,
                 int(hidden[0]),
             )
-        return Capture(self.name, channels, int(times[-1]), sample)
+        return Capture(self.name, channels, end, 0 if self.rate is None else round(SECOND / self.rate))
+
+    def _unit_of_times(self, rows: Rows) -> Fraction:
+        """ps of 1 in the columns. CaptureError if it is not known."""
+        if not self.timed or self.counted:
+            if not rows.whole:
+                raise CaptureError(f"{self.name}: numbers of samples that are not whole: export it again")
+            if self.rate is None:
+                raise CaptureError(
+                    f"{self.name}: numbers of samples without a sample rate: add a first line "
+                    "`; Samplerate: 24 MHz`"
+                )
+            return SECOND / self.rate
+        if rows.absolute:
+            unit = Fraction(1)
+        elif self.unit is not None:
+            unit = self.unit
+        elif rows.whole and self.rate is not None:
+            unit = Fraction(10 ** sigrok_unit(self.rate))
+        elif rows.whole and rows.end - rows.times[0][0] > 1:
+            raise CaptureError(
+                f"{self.name}: times are whole numbers without a unit: write it into the first head, "
+                "as `Time [ns]`"
+            )
+        else:
+            unit = Fraction(SECOND)
+        return unit / Fraction(10**rows.decimals)
+
+    def _sampled(self, rows: Rows, scale: _Scale) -> _Scale:
+        """Times by the numbers of samples, if the head states the sample rate and the times are rounded."""
+        if self.rate is None or not self.timed or self.counted:
+            return scale
+        period, part = SECOND / self.rate, 10**rows.decimals
+        unit = scale.unit * part
+        # sigrok counts in periods that are cut to a whole number of units.
+        cut = int(period / unit)
+        if rows.whole and cut and period != cut * unit:
+            offset = (rows.base or 0) % cut * part
+            if all(((piece + offset) % (cut * part) == 0).all() for piece in rows.pieces()):
+                return _Scale(scale.first, period / (cut * part))
+        near, most = _Scale(scale.first, scale.unit, period), int(max(unit, Fraction(1000)))
+        if all((abs(near.of(piece) - scale.of(piece)) <= most).all() for piece in rows.pieces()):
+            return near
+        return scale
 
 
-def _spread(rows: Any, period: Fraction) -> Any:
-    """ps of samples by their numbers, without an error that adds up."""
-    up, down = period.numerator, period.denominator
-    if int(rows[-1]) < _LONGEST // up:
-        return (rows * up + down // 2) // down
-    import numpy as np
+class _Scale:
+    """Turns times of a table into ps from the first row. unit: ps of 1. period: ps of a sample if the times
+    are rounded times of samples."""
 
-    return np.array([round(int(one) * period) for one in rows], np.int64)
+    def __init__(self, first: int, unit: Fraction, period: Fraction | None = None) -> None:
+        self.first, self.unit, self.period = first, unit, period
+
+    def of(self, times: Column) -> Column:
+        """Return the times in ps."""
+        found = _multiplied(times - self.first, self.unit)
+        if self.period is not None:
+            found = _multiplied(_multiplied(found, 1 / self.period), self.period)
+        return found
+
+    def column(self, times: array[int]) -> Column:
+        """Return a whole column in ps; it takes the place of `times`."""
+        found: Column = numpy().frombuffer(times, "i8")
+        for at in range(0, len(found), BLOCK):
+            found[at : at + BLOCK] = self.of(found[at : at + BLOCK])
+        return found
+
+
+def _multiplied(values: Column, factor: Fraction) -> Column:
+    """Return rounded products. values: rising."""
+    up, down = factor.numerator, factor.denominator
+    if not len(values) or max(abs(int(values[0])), abs(int(values[-1]))) < LONGEST // up:
+        found: Column = (values * up + down // 2) // down
+    else:
+        found = numpy().array([round(one * factor) for one in values.tolist()], "i8")
+    return found
