@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from .kind import Access, Wires
+from .kind import Accesses, Wires
 from .signals import Channel, numpy, slices
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
 
 def accesses(
     wires: Wires, pins: Sequence[str], address: str, idle: Mapping[str, int], strobes: Strobe, bus: str = "d"
-) -> list[Access]:
+) -> Accesses:
     """All strobes of a capture, in order. pins: those that make a strobe. idle: levels of pins that were not
     captured. bus: name of the data. A strobe that the capture begins or ends in is left out."""
     np = numpy()
@@ -61,8 +61,7 @@ def accesses(
     seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
     place = where.at_all(seen) if where else seen & 0
     byte = np.where(write == 1, data[True].at_all(seen), data[False].at_all(seen))
-    columns = (begin.tolist(), end.tolist(), (write == 1).tolist(), place.tolist(), byte.tolist())
-    return [Access(*row) for row in zip(*columns, strict=True)]
+    return Accesses(begin, end, write == 1, place, byte)
 
 
 def _bus(wires: Wires, bus: str) -> dict[bool, Channel]:

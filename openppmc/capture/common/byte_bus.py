@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from ...model.motion.codes import Command, Kind
 from .bus import Strobe, accesses
-from .kind import Access, DecodeKind, Line, Needs, Train, Wires
+from .kind import Access, Accesses, DecodeKind, Line, Needs, Train, Wires
 from .pinmap import Pins
-from .registers import Judged, Said, cycle, spoken
+from .registers import Judged, cycle, spoken_bytes
 from .words import Exchange, Words
 
 SHORTEST = 250_000
 """ps; the shortest strobe that an old host may make and an analyser must see."""
 STEADY = ("busc", "aen")
 """Pins of strobes that may be left out of a capture: they stand still."""
-
-
-def _said(access: Access) -> Said:
-    return Said(access.begin, "write" if access.write else "read", access.reg, access.byte)
 
 
 def byte_part(
@@ -43,9 +39,10 @@ def byte_part(
     register. bus: name of the data. aliases: other names of pins."""
     inputs, outputs, widths = model
 
-    def seen(wires: Wires) -> list[Access]:
+    def seen(wires: Wires) -> Accesses:
         found = accesses(wires, strobe_pins, address, inputs, strobes, bus)
-        return [one._replace(reg=one.reg & 1) for one in found]
+        found.reg &= 1
+        return found
 
     def lines(wires: Wires) -> list[Line]:
         def judge(row: Exchange) -> Judged:
@@ -56,14 +53,11 @@ def byte_part(
             first = whole and command.kind is Kind.INITIALISE
             return Judged(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
 
-        return spoken(seen(wires), words(wires) if callable(words) else words, _said, judge)
+        return spoken_bytes(seen(wires), words(wires) if callable(words) else words, judge)
 
-    def stimulus(wires: Wires) -> list[tuple[int, dict[str, int]]]:
-        rows: list[tuple[int, dict[str, int]]] = []
+    def stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
         for access in seen(wires):
-            own = levels(access, wires)
-            rows += cycle(access, own, f"{bus}_i")
-        return rows
+            yield from cycle(access, levels(access, wires), f"{bus}_i")
 
     def needs(wires: Wires) -> Needs:
         data = bus if bus in wires.bits else f"{bus}_i"

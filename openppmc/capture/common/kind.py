@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .pinmap import Pins
-from .signals import Channel
+from .signals import BLOCK, Channel
 
 if TYPE_CHECKING:
     from .signals import Column
@@ -23,8 +23,34 @@ class Access(NamedTuple):
     byte: int
 
 
-@dataclass(frozen=True)
-class Line:
+class Accesses:
+    """Strobes in order, a column for each field of `Access`. mask: as of numpy."""
+
+    __slots__ = ("begin", "byte", "end", "reg", "write")
+
+    def __init__(self, begin: Column, end: Column, write: Column, reg: Column, byte: Column) -> None:
+        self.begin, self.end, self.write, self.reg, self.byte = begin, end, write, reg, byte
+
+    def __len__(self) -> int:
+        return len(self.begin)
+
+    def __getitem__(self, mask: Column) -> Accesses:
+        return Accesses(*(getattr(self, name)[mask] for name in Access._fields))
+
+    def __iter__(self) -> Iterator[Access]:
+        for at in range(0, len(self), BLOCK):
+            piece = (getattr(self, name)[at : at + BLOCK].tolist() for name in Access._fields)
+            yield from map(Access._make, zip(*piece, strict=True))
+
+    def without_polls(self, register: int) -> Accesses:
+        """Return them without reads of this register that repeat the read before."""
+        polls = ~self.write & (self.reg == register)
+        polls[1:] &= polls[:-1] & (self.byte[1:] == self.byte[:-1])
+        polls[:1] = False
+        return self[~polls]
+
+
+class Line(NamedTuple):
     """What was said, in words. t: ps of its beginning. data: the bytes, as they were on the bus or line.
     strange: this makes no sense for the part; initialises: from its end on the state of the part is known, or
     of this axis. end: ps at which the last of its bytes was over."""
@@ -85,7 +111,7 @@ class DecodeKind:
     inputs: Mapping[str, int]
     needs: Callable[[Wires], Needs]
     lines: Callable[[Wires], list[Line]]
-    stimulus: Callable[[Wires], list[tuple[int, dict[str, int]]]]
+    stimulus: Callable[[Wires], Iterable[tuple[int, dict[str, int]]]]
     trains: Callable[[Wires], list[Train]]
     host_pins: frozenset[str]
     outputs: tuple[str, ...]

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from .kind import Access, Line
-from .words import Words
+from .kind import Access, Accesses, Line
+from .signals import numpy
+from .words import END_STATUS, Exchange, Words
+
+KNOWN = 1000
+"""Rows whose texts are kept."""
 
 
 class Said(NamedTuple):
@@ -27,23 +31,61 @@ class Judged(NamedTuple):
 
 
 def spoken(
-    accesses: Sequence[Access],
+    accesses: Accesses,
     words: Words,
     said: Callable[[Access], Said],
     judge: Callable[[Any], Judged],
 ) -> list[Line]:
     """All accesses, a row a command with its answer. A row that the part's words cannot tell is strange."""
-    rows = list(words.exchanges([said(one) for one in accesses]))
+    rows = words.exchanges(map(said, accesses))
+    begin, end = accesses.begin[accesses.write], accesses.end[accesses.write]
     found = []
     place = 0
     for number, row in enumerate(rows):
-        until = rows[number + 1].t if number + 1 < len(rows) else None
-        end = row.t
-        while place < len(accesses) and (until is None or accesses[place].begin < until):
-            one = accesses[place]
-            end = one.end if one.write else end
-            place += 1
-        found.append(_line(row, end, judge))
+        after = len(begin)
+        if number + 1 < len(rows):
+            after = max(place, int(begin.searchsorted(rows[number + 1].t)))
+        found.append(_line(row, int(end[after - 1]) if after > place else row.t, judge))
+        place = after
+    return found
+
+
+def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged]) -> list[Line]:
+    """The same for parts with commands and status in register 1, data in register 0; all rows at once.
+
+    What `exchanges` does with one access after the other is done with columns here.
+    """
+    np = numpy()
+    accesses = accesses.without_polls(1)
+    if not len(accesses):
+        return []
+    row = np.cumsum(accesses.write & (accesses.reg == 1))
+    row -= row[0]
+    # The bytes of each row: what was sent, status, answers.
+    sort = 3 * row + np.where(accesses.write, 0, 2 - accesses.reg)
+    content = accesses.byte.astype(np.uint8)[np.argsort(sort, kind="stable")].tobytes()
+    bounds = [0, *np.cumsum(np.bincount(sort, minlength=3 * int(row[-1]) + 3)).tolist()]
+    begin = accesses.begin[np.flatnonzero(np.diff(row, prepend=-1))]
+    end = begin.copy()
+    end[row[accesses.write]] = accesses.end[accesses.write]
+    stopped: dict[int, bool] = {}
+    known: dict[Any, Line] = {}
+    found = []
+    for number, (t, over) in enumerate(zip(begin.tolist(), end.tolist(), strict=True)):
+        sent, polls, answer = (
+            content[bounds[place] : bounds[place + 1]] for place in range(3 * number, 3 * number + 3)
+        )
+        axis = words.axis(sent[0]) if sent else 0
+        key = (sent, polls, answer, stopped.get(axis, False))
+        line = known.get(key)
+        if line is None:
+            one = Exchange(words, t, list(sent), list(answer), list(polls), key[3])
+            line = _line(one, over, judge)
+            if len(known) < KNOWN:
+                known[key] = line
+        if answer and sent and sent[0] & ~axis == END_STATUS:
+            stopped[axis] = bool(answer[-1] & 0x78)
+        found.append(Line(t, *line[1:5], over, line.axis))
     return found
 
 

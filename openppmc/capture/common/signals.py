@@ -97,10 +97,16 @@ class Channel:
     def __len__(self) -> int:
         return len(self.times)
 
+    def __iter__(self) -> Iterator[tuple[int, int]]:
+        """Yield the changes as (ps, level)."""
+        for at in range(0, len(self), BLOCK):
+            piece = self.times[at : at + BLOCK].tolist(), self.levels[at : at + BLOCK].tolist()
+            yield from zip(*piece, strict=True)
+
     @property
     def changes(self) -> list[tuple[int, int]]:
         """Changes as (ps, level), for channels with few of them."""
-        return list(zip(self.times.tolist(), self.levels.tolist(), strict=True))
+        return list(self)
 
     @property
     def doubtful(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -34,7 +34,7 @@ class Words:
         """A number of pulses or steps."""
         return f"{pulses} {self.unit}{'s' if pulses != 1 else ''}"
 
-    def exchanges(self, accesses: Sequence[Any]) -> Sequence[Any]:
+    def exchanges(self, accesses: Iterable[Any]) -> Sequence[Any]:
         """The accesses of a host as rows of the table: see `Exchange` for what a row has."""
         return exchanges(self, accesses)
 
@@ -178,7 +178,7 @@ class Exchange:
         return [byte for index, byte in enumerate(taken) if index == 0 or byte != taken[index - 1]]
 
 
-def exchanges(words: Words, accesses: Sequence[Any]) -> list[Exchange]:
+def exchanges(words: Words, accesses: Iterable[Any]) -> list[Exchange]:
     """Fold the accesses of a host (t, kind, reg, byte) into exchanges: each begins with a command byte."""
     rows: list[Exchange] = []
     stopped: dict[int, bool] = {}

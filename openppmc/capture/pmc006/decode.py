@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 
 from ...model.pmc006.codes import LETTERS
 from ...model.pmc006.front.frames import ANSWER, HEAD, SIZE, command
@@ -70,8 +71,8 @@ def _frame(run: list[Character]) -> Line:
     return Line(run[0].begin, shown, f"to controller {data[1]}: {text}", not known, end=run[-1].end)
 
 
-def _stimulus(wires: Wires) -> list[tuple[int, dict[str, int]]]:
-    return [(t, {"rxd": level}) for t, level in wires.ports["rxd"].changes]
+def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
+    return ((t, {"rxd": level}) for t, level in wires.ports["rxd"])
 
 
 def _trains(wires: Wires) -> list[Train]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -113,7 +113,7 @@ class Words006(Words):
 
     unit, speed, rate = "step", "thousand pps", "pps"
 
-    def exchanges(self, accesses: Sequence[Any]) -> list[Exchange006]:
+    def exchanges(self, accesses: Iterable[Any]) -> list[Exchange006]:
         """Frames and replies as the script host notes them, a row each; polls of a moving motor, and words
         of a program, are one row."""
         rows: list[Exchange006] = []

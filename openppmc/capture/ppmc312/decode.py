@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from ...model.ppmc312.codes import Code
 from ...model.ppmc312.front.mailbox import ADDRESS, CSR, READ, WRITE
 from ...model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.bus import accesses
-from ..common.kind import Access, DecodeKind, Line, Needs, Train, Wires
+from ..common.kind import Access, Accesses, DecodeKind, Line, Needs, Train, Wires
 from ..common.pinmap import Pins
 from ..common.pulses import train
 from ..common.registers import Judged, Said, cycle, spoken
@@ -24,7 +24,7 @@ def _strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
     return bool(chosen and not pins["we_n"]), bool(chosen and not pins["oe_n"])
 
 
-def _seen(wires: Wires) -> list[Access]:
+def _seen(wires: Wires) -> Accesses:
     return accesses(wires, STROBES, "rs", INPUTS, _strobes)
 
 
@@ -47,15 +47,12 @@ def _judge(row: Row) -> Judged:
 
 
 def _lines(wires: Wires) -> list[Line]:
-    return spoken(_seen(wires), Words312(), _said, _judge)
+    return spoken(_seen(wires).without_polls(CSR), Words312(), _said, _judge)
 
 
-def _stimulus(wires: Wires) -> list[tuple[int, dict[str, int]]]:
-    rows: list[tuple[int, dict[str, int]]] = []
+def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
     for one in _seen(wires):
-        levels = {"cs_n": 0, "we_n" if one.write else "oe_n": 0, "rs": one.reg}
-        rows += cycle(one, levels)
-    return rows
+        yield from cycle(one, {"cs_n": 0, "we_n" if one.write else "oe_n": 0, "rs": one.reg})
 
 
 def trains(wires: Wires) -> list[Train]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 
 from ...model.ppmc312.front import frames
 from ...model.ppmc312.front.serial import FORMS, LENGTHS, Local, Note, block_of
@@ -114,8 +115,8 @@ def _straps(wires: Wires) -> dict[str, int]:
     return {"mode": 0, "mod": SPEEDS[mod], "adr": _station(wires)}
 
 
-def _stimulus(wires: Wires) -> list[tuple[int, dict[str, int]]]:
-    return [(t, {"rxd": level}) for t, level in wires.ports["rxd"].changes]
+def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
+    return ((t, {"rxd": level}) for t, level in wires.ports["rxd"])
 
 
 DECODER = DecodeKind(

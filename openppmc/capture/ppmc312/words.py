@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -176,9 +176,11 @@ class Row:
 class Words312(Words):
     """Blocks in place of single bytes."""
 
-    def exchanges(self, accesses: Sequence[Any]) -> list[Row]:
+    def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
         """Fold register accesses into instructions and reports."""
         rows: list[Row] = []
+        waiting: list[Row] = []
+        """Instructions that have no answer yet."""
         data: list[int] = []
         wanted, polls, begin = 0, [], 0
         for access in accesses:
@@ -189,22 +191,18 @@ class Words312(Words):
                 polls.append(access.byte)
             elif access.kind == "WAR :=":
                 wanted, data, begin = 0x20 - access.byte, [], access.t
-            elif name == "DWR" or name == "DRR":
+            elif name in ("DWR", "DRR") and len(data) < wanted:
                 data.insert(0, access.byte)
                 if len(data) == wanted and name == "DWR":
-                    rows.append(Row(begin, data, [], polls, block_words(bytes(data))))
+                    rows.append(row := Row(begin, data, [], polls, block_words(bytes(data))))
+                    waiting += [row] if len(data) > 1 else []
                     polls = []
                 elif len(data) == wanted:
-                    row = self._asked(rows) if data[0] & REPORT_BITS == 0 else None
-                    if row is None:
+                    if data[0] & REPORT_BITS == 0 and waiting:
+                        row = waiting.pop()
+                    else:
                         rows.append(row := Row(begin, meaning="interrupt"))
                     row.answer, row.polls, polls = data, [*row.polls, *polls], []
             elif name == "RAR":
                 wanted, data, begin = 0x40 - access.byte, [], access.t
         return rows
-
-    @staticmethod
-    def _asked(rows: Sequence[Row]) -> Row | None:
-        """The instruction that still has no answer."""
-        waiting = [row for row in rows if len(row.sent) > 1 and not row.answer]
-        return waiting[-1] if waiting else None
