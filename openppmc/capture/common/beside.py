@@ -9,17 +9,19 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import accumulate, groupby
-from typing import TYPE_CHECKING, Any
+from heapq import merge
+from itertools import accumulate, dropwhile, groupby
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any, overload
 
 from ...check.replay import new_model
 from .decoding import Decoded
 from .errors import CaptureError
 from .kind import DecodeKind, Train
 from .pulses import moves, unchopped
-from .signals import SECOND, US, Bits, Channel, joined, level_at, merged, numpy
+from .signals import BLOCK, SECOND, US, Bits, Channel, joined, level_at, level_code, level_type, merged, numpy
 
 if TYPE_CHECKING:
     from .signals import Column
@@ -29,9 +31,13 @@ SETTLED = 100 * US
 LEAD_S = 0.2
 """The model has been on for so long before the capture begins."""
 MOST_PPM = 1000
-SLICE = 20_000
-"""Input changes that the model gets at a time."""
+MOST_EDGES = 10_000
+"""Edges of the model that are kept as objects."""
+STEP = 1_000_000
+"""Cycles that the model runs at a time."""
 CLK_HZ = 16_000_000
+WINDOW = 256
+"""Edges that are matched one by one after a difference."""
 
 
 @dataclass(frozen=True)
@@ -57,21 +63,70 @@ class Difference:
         return f"{self.t / SECOND:.6f} s: {self.pin} → {self.level}: {who}"
 
 
+class Differences(Sequence[Difference]):
+    """Differences in columns, in the order of their times once they are sorted."""
+
+    def __init__(self) -> None:
+        self._times, self._forms = array("q"), array("q")
+        self._pins: list[str] = []
+
+    def add(self, one: Difference) -> None:
+        """Append one."""
+        if self._pins[-1:] != [one.pin]:
+            self._pins.append(one.pin)
+        self._times.append(one.t)
+        self._forms.append(len(self._pins) - 1 << 3 | one.level << 2 | one.chip << 1 | one.steady)
+
+    def sort(self) -> None:
+        """Sort by time."""
+        np = numpy()
+        times, forms = np.frombuffer(self._times, np.int64), np.frombuffer(self._forms, np.int64)
+        order = np.argsort(times, kind="stable")
+        times[:], forms[:] = times[order], forms[order]
+
+    def __len__(self) -> int:
+        return len(self._times)
+
+    @overload
+    def __getitem__(self, place: int) -> Difference: ...
+
+    @overload
+    def __getitem__(self, place: slice) -> Sequence[Difference]: ...
+
+    def __getitem__(self, place: int | slice) -> Difference | Sequence[Difference]:
+        if isinstance(place, slice):
+            return [self[n] for n in range(*place.indices(len(self)))]
+        t, form = self._times[place], self._forms[place]
+        return Difference(self._pins[form >> 3], t, form >> 2 & 1, bool(form & 2), bool(form & 1))
+
+
 @dataclass
 class Result:
-    """compared: pairs of edges; worst: ps between two of a pair, on this pin; mean: of all. begin: ps from
+    """compared: pairs of edges; worst: ps between two of a pair, on this pin; total: of all. begin: ps from
     which edges count. ppm: how much faster the chip's crystal ran by the analyser's clock. skipped: outputs
     that could not be compared, with the reason. pins: those that were."""
 
     compared: int = 0
-    differences: list[Difference] = field(default_factory=list)
+    differences: Differences = field(default_factory=Differences)
     worst: int = 0
     worst_pin: str = ""
     begin: int = 0
     ppm: float = 0.0
     skipped: dict[str, str] = field(default_factory=dict)
     pins: list[str] = field(default_factory=list)
-    mean: float = 0.0
+    total: int = 0
+
+    @property
+    def mean(self) -> float:
+        """ps between two of a pair on average."""
+        return self.total / max(1, self.compared)
+
+    def add_pairs(self, pin: str, apart: Column) -> None:
+        """Count pairs. apart: ps between the two of each."""
+        self.compared += len(apart)
+        self.total += int(apart.sum())
+        if (worst := int(apart.max(initial=0))) > self.worst:
+            self.worst, self.worst_pin = worst, pin
 
 
 def compare(decoded: Decoded, tolerance: int) -> Result:
@@ -156,37 +211,23 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
     if "rst_n" in inputs and not level_at(inputs["rst_n"], begin):
         model.pins(lead, rst_n=0)
     seen = _Outputs(model, kind, lead, lambda t: begin + round((t - lead) / scale))
-    times, owners, names = merged([(port, one) for port, one in inputs.items()])
-    levels = [one.levels for one in inputs.values()]
-    used = [0] * len(names)
-    stimulus = [one for one in kind.stimulus(wires) if one[0] > begin]
-    stimulus.sort(key=lambda one: one[0])
-    place = 0
-    for at in range(0, len(times), SLICE):
-        piece = times[at : at + SLICE]
-        rows: list[tuple[int, str, int]] = []
-        for t, owner in zip(piece.tolist(), owners[at : at + SLICE].tolist(), strict=True):
-            rows.append((t, names[owner], int(levels[owner][used[owner]])))
-            used[owner] += 1
-        until = rows[-1][0] if at + SLICE < len(times) else wires.end + 1
-        while place < len(stimulus) and stimulus[place][0] <= until:
-            t, own = stimulus[place]
-            rows += [(t, pin, level) for pin, level in own.items()]
-            place += 1
-        _play(model, sorted(((t, n, pin, one) for n, (t, pin, one) in enumerate(rows) if t > begin)), edge)
-        seen.take()
-    for n in range(place, len(stimulus), SLICE):
-        rows = [(t, pin, level) for t, own in stimulus[n : n + SLICE] for pin, level in own.items()]
-        _play(model, [(t, k, pin, one) for k, (t, pin, one) in enumerate(rows)], edge)
-        seen.take()
-    model.run_until(edge(wires.end))
+    events = merge(_events(inputs), kind.stimulus(wires), key=itemgetter(0))
+    after = dropwhile(lambda event: event[0] <= begin, events)
+    for t, group in groupby(after, key=lambda event: edge(event[0])):
+        seen.run(t - 1)
+        model.pins(t, **{pin: level for _, levels in group for pin, level in levels.items()})
+    seen.run(edge(wires.end))
     return _Played(seen.channels())
 
 
-def _play(model: Any, rows: list[tuple[int, int, str, int]], edge: Callable[[int], int]) -> None:
-    """Set pins at their times; those of one edge at once."""
-    for t, group in groupby(rows, key=lambda row: edge(row[0])):
-        model.pins(t, **{pin: level for _, _, pin, level in group})
+def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]]]:
+    """Yield changes of all inputs in order."""
+    times, owners, names = merged(inputs.items())
+    levels = [iter(one) for one in inputs.values()]
+    for at in range(0, len(times), BLOCK):
+        for owner in owners[at : at + BLOCK].tolist():
+            t, level = next(levels[owner])
+            yield t, {names[owner]: level}
 
 
 class _Outputs:
@@ -196,7 +237,14 @@ class _Outputs:
         self.model, self.kind, self.lead, self.stamp = model, kind, lead, stamp
         self.initial = dict(model.log.initial)
         self.times = {name: array("q") for name in kind.outputs}
-        self.levels = {name: array("Q") for name in kind.outputs}
+        self.levels = {name: array(level_code(kind.pins.widths[name])) for name in kind.outputs}
+
+    def run(self, until: int) -> None:
+        """Run the model, and take its edges before they are many."""
+        while self.model.now < until:
+            self.model.run_until(min(until, self.model.now + STEP))
+            if len(self.model.log.edges) > MOST_EDGES:
+                self.take()
 
     def take(self, rest: int = 1000) -> None:
         """Take all edges but the last ones, which the model may still change."""
@@ -220,8 +268,8 @@ class _Outputs:
         return {
             name: Channel.of(
                 self.initial[name],
-                np.array(self.times[name], np.int64),
-                np.array(self.levels[name], np.uint64),
+                np.frombuffer(self.times[name], np.int64),
+                np.frombuffer(self.levels[name], level_type(self.kind.pins.widths[name])),
                 self.kind.pins.widths[name],
             )
             for name in self.kind.outputs
@@ -311,7 +359,6 @@ def _judge(
 ) -> Result:
     kind, wires = decoded.kind, decoded.wires
     result = Result(begin=starts[0])
-    total = 0
     for port in kind.outputs:
         places = wires.bits.get(port)
         if places is None:
@@ -328,19 +375,14 @@ def _judge(
         for bit, channel in sorted(places.items()):
             name = f"{port}[{bit + kind.pins.low(port)}]" if kind.pins.widths[port] > 1 else port
             start = starts.get(kind.axis_of(port, bit), starts[0])
-            apart, wrong = _match(name, channel, theirs[bit], start, wires.end, tolerance, reset)
-            if not wrong:
+            known = len(result.differences)
+            _match(name, channel, theirs[bit], start, wires.end, tolerance, reset, result)
+            if len(result.differences) == known:
                 axis = kind.axis_of(port, bit)
                 begins = [one.begin for one in decoded.moves if axis in (0, one.axis) and one.begin > start]
                 points = [*([start + 2 * tolerance] if reset else []), *begins]
-                wrong = _constant(name, channel, theirs[bit], points, tolerance)
+                _constant(name, channel, theirs[bit], points, tolerance, result)
             result.pins.append(name)
-            result.compared += len(apart)
-            result.differences += wrong
-            if len(apart):
-                total += int(apart.sum())
-                if int(apart.max()) > result.worst:
-                    result.worst, result.worst_pin = int(apart.max()), name
     if not result.pins:
         raise CaptureError(
             f"{decoded.capture}: no output of {kind.called} is in the map: there is nothing to compare"
@@ -349,8 +391,7 @@ def _judge(
         raise CaptureError(
             f"{decoded.capture}: no output changes in it, neither the chip's nor the model's: capture a move"
         )
-    result.mean = total / max(1, result.compared)
-    result.differences.sort(key=lambda one: one.t)
+    result.differences.sort()
     return result
 
 
@@ -366,10 +407,17 @@ def _same_place(
 
 
 def _match(
-    name: str, chip: Channel, model: Channel, start: int, end: int, tolerance: int, known: bool
-) -> tuple[Column, list[Difference]]:
-    """ps between the edges of each pair, as (chip's time, distance), and edges without a partner. known: both
-    sides began alike; else they count from where they agree first."""
+    name: str,
+    chip: Channel,
+    model: Channel,
+    start: int,
+    end: int,
+    tolerance: int,
+    known: bool,
+    result: Result,
+) -> None:
+    """Add pairs of edges, and edges without a partner. known: both sides began alike; else they count from
+    where they agree first."""
     np = numpy()
     mine, levels = chip.since(start)
     other, theirs = model.since(start)
@@ -379,27 +427,39 @@ def _match(
             mine, levels = mine[1:], levels[1:]
         else:
             other, theirs = other[1:], theirs[1:]
-    # Most edges have their partner at the same place of both lists.
-    least = min(len(mine), len(other))
-    same = (np.abs(mine[:least] - other[:least]) <= tolerance) & (levels[:least] == theirs[:least])
-    head = least if same.all() else int(np.argmin(same))
-    apart = [np.abs(mine[:head] - other[:head])]
-    rest = (mine[head:].tolist(), levels[head:].tolist(), other[head:].tolist(), theirs[head:].tolist())
-    pairs, wrong = _unlike(name, rest, end, tolerance)
-    apart.append(np.array(pairs, np.int64))
-    return np.concatenate(apart), wrong
+    while len(mine) or len(other):
+        # Most edges have their partner at the same place of both columns.
+        least = min(len(mine), len(other), BLOCK)
+        apart = np.abs(mine[:least] - other[:least])
+        same = (apart <= tolerance) & (levels[:least] == theirs[:least])
+        head = least if same.all() else int(np.argmin(same))
+        result.add_pairs(name, apart[:head])
+        mine, levels, other, theirs = mine[head:], levels[head:], other[head:], theirs[head:]
+        if head < BLOCK:
+            part = (mine[:WINDOW].tolist(), levels[:WINDOW].tolist())
+            parts = (*part, other[:WINDOW].tolist(), theirs[:WINDOW].tolist())
+            last = len(mine) <= WINDOW and len(other) <= WINDOW
+            i, j = _unlike(name, parts, last, end, tolerance, result)
+            mine, levels, other, theirs = mine[i:], levels[i:], other[j:], theirs[j:]
 
 
 def _unlike(
-    name: str, sides: tuple[list[int], list[int], list[int], list[int]], end: int, tolerance: int
-) -> tuple[list[int], list[Difference]]:
-    """Distances of pairs, and edges without a partner, from where the sides are not alike."""
+    name: str,
+    sides: tuple[list[int], list[int], list[int], list[int]],
+    last: bool,
+    end: int,
+    tolerance: int,
+    result: Result,
+) -> tuple[int, int]:
+    """Match edges where the sides are not alike, one by one; return how many of each side. last: no more
+    follow."""
     mine, levels, other, theirs = sides
     pairs: list[int] = []
-    wrong: list[Difference] = []
     never = end + 2 * tolerance + 1
     i = j = 0
     while i < len(mine) or j < len(other):
+        if not last and (i == len(mine) or j == len(other)):
+            break
         a, x = (mine[i], levels[i]) if i < len(mine) else (never, -1)
         b, y = (other[j], theirs[j]) if j < len(other) else (never, -1)
         if x == y and abs(a - b) <= tolerance:
@@ -407,19 +467,20 @@ def _unlike(
             i, j = i + 1, j + 1
         elif a <= b:
             if a < end - tolerance:
-                wrong.append(Difference(name, a, x, True))
+                result.differences.add(Difference(name, a, x, True))
             i += 1
         else:
             if b < end - tolerance:
-                wrong.append(Difference(name, b, y, False))
+                result.differences.add(Difference(name, b, y, False))
             j += 1
-    return pairs, wrong
+    result.add_pairs(name, numpy().array(pairs, "i8"))
+    return i, j
 
 
 def _constant(
-    name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int
-) -> list[Difference]:
-    """The first of these times at which both sides are steady at different levels."""
+    name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int, result: Result
+) -> None:
+    """Add the first of these times at which both sides are steady at different levels."""
     np = numpy()
     at = np.array(points, np.int64)
     steady = np.ones(len(at), bool)
@@ -427,7 +488,6 @@ def _constant(
         before = side.times.searchsorted(at - tolerance, "left")
         steady &= before == side.times.searchsorted(at + tolerance, "right")
     wrong = np.flatnonzero(steady & (chip.at_all(at) != model.at_all(at)))
-    if not len(wrong):
-        return []
-    t = points[int(wrong[0])]
-    return [Difference(name, t, level_at(chip, t), True, True)]
+    if len(wrong):
+        t = points[int(wrong[0])]
+        result.differences.add(Difference(name, t, level_at(chip, t), True, True))

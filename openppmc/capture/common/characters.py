@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from .errors import CaptureError
-from .signals import SECOND, Channel, level_at
+from .signals import SECOND, Channel, numpy
+
+if TYPE_CHECKING:
+    from .signals import Column
 
 GAP = 2.0
 """Characters that are farther apart belong to different frames, in characters."""
@@ -22,21 +25,29 @@ class Character(NamedTuple):
 
 def characters(channel: Channel, rate: float) -> list[Character]:
     """All characters; a start bit shorter than half a bit is none."""
+    np = numpy()
     bit = SECOND / rate
+
+    def sampled(begin: Column, bits: float) -> Column:
+        return channel.at_all(np.rint(begin + bits * bit).astype(np.int64))
+
+    falls = channel.times[channel.levels == 0]
+    falls = falls[sampled(falls, 0.5) == 0]
+    byte = falls & 0
+    for place in range(8):
+        byte |= sampled(falls, 1.5 + place).astype(np.int64) << place
     found: list[Character] = []
     free = 0
-    for t, level in channel.changes:
-        if level or t < free or level_at(channel, round(t + bit / 2)):
-            continue
-        byte = sum(level_at(channel, round(t + (1.5 + place) * bit)) << place for place in range(8))
-        stop = level_at(channel, round(t + 9.5 * bit))
-        found.append(Character(t, round(t + 10 * bit), byte if stop else None))
-        free = round(t + 9.5 * bit)
+    for t, value, stop in zip(falls.tolist(), byte.tolist(), sampled(falls, 9.5).tolist(), strict=True):
+        if t >= free:
+            found.append(Character(t, round(t + 10 * bit), value if stop else None))
+            free = round(t + 9.5 * bit)
     return found
 
 
 def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
     """The rate whose characters fit best: start and stop bits where they must be. CaptureError if none."""
+    np = numpy()
     best, most = 0.0, 0.0
     for rate in rates:
         found = characters(channel, rate)
@@ -44,18 +55,12 @@ def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
             continue
         bit = SECOND / rate
         # Every change lies near a border of a bit; at a wrong rate few do.
-        near = edges = 0
-        place = 0
-        for one in found:
-            while place < len(channel.changes) and channel.changes[place][0] < one.begin:
-                place += 1
-            at = place
-            while at < len(channel.changes) and channel.changes[at][0] < one.end - bit / 2:
-                bits = (channel.changes[at][0] - one.begin) / bit
-                near += abs(bits - round(bits)) < 0.25
-                edges += 1
-                at += 1
-        good = sum(one.byte is not None for one in found) / len(found) * near / max(1, edges)
+        begin, end = (np.array([one[side] for one in found]) for side in (0, 1))
+        place = begin.searchsorted(channel.times, "right") - 1
+        inside = (place >= 0) & (channel.times < end[place] - bit / 2)
+        bits = (channel.times[inside] - begin[place[inside]]) / bit
+        near = (np.abs(bits - np.rint(bits)) < 0.25).mean() if len(bits) else 0.0
+        good = sum(one.byte is not None for one in found) / len(found) * near
         # Slower rates swallow whole characters: the number of characters decides between those that fit.
         score = good if good > 0.95 else 0.0
         if score and (score > most + 0.02 or (score > most - 0.02 and rate < best)):

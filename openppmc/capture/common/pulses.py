@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from array import array
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 from .kind import Train, Wires
-from .signals import SECOND, Bits, Channel, joined, numpy
+from .signals import SECOND, Bits, Channel, joined, level_code, level_type, numpy
 
 if TYPE_CHECKING:
     from .signals import Column
@@ -118,19 +120,30 @@ def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[i
     if len(bits) < width:
         return bits
     whole = joined([bits[bit] for bit in range(width)])
-    settled: list[tuple[int, int]] = []
-    for t, level in whole.changes:
-        if settled and t - settled[-1][0] <= window:
-            settled[-1] = (settled[-1][0], level)
-        else:
-            settled.append((t, level))
-    kept: list[tuple[int, int]] = []
-    off = (0, (1 << width) - 1)
-    for number, (t, level) in enumerate(settled):
-        pattern = kept[-1][1] if kept else whole.initial
-        back = settled[number + 1] if number + 1 < len(settled) else (t, pattern)
-        if level in off and back[1] == pattern and back[0] - t < CHOPPED:
+    times, levels = array("q"), array(level_code(width))
+    pattern, off = whole.initial, (0, (1 << width) - 1)
+    for one, after in pairwise(chain(_settled(whole, window), [None])):
+        t, level = one or (0, 0)
+        back, next_level = after or (t, pattern)
+        if level in off and next_level == pattern and back - t < CHOPPED:
             continue
         if level != pattern:
-            kept.append((t, level))
-    return Bits(Channel(whole.initial, kept, width))
+            times.append(t)
+            levels.append(level)
+            pattern = level
+    kept = Channel(whole.initial, width=width)
+    np = numpy()
+    kept.times, kept.levels = np.frombuffer(times, np.int64), np.frombuffer(levels, level_type(width))
+    return Bits(kept)
+
+
+def _settled(whole: Channel, window: int) -> Iterator[tuple[int, int]]:
+    """Yield changes; those within `window` ps from the first of them are one."""
+    begin, last = None, 0
+    for t, level in whole:
+        if begin is not None and t - begin > window:
+            yield begin, last
+            begin = None
+        begin, last = t if begin is None else begin, level
+    if begin is not None:
+        yield begin, last

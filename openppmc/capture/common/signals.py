@@ -34,6 +34,11 @@ def level_type(width: int) -> str:
     return "u1" if width <= 8 else "u2" if width <= 16 else "u4" if width <= 32 else "u8"
 
 
+def level_code(width: int) -> str:
+    """Return the same type for an array."""
+    return {"u1": "B", "u2": "H", "u4": "I", "u8": "Q"}[level_type(width)]
+
+
 class Channel:
     """A wire, or several of up to 64 as one number, in columns.
 

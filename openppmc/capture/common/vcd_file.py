@@ -20,7 +20,7 @@ from typing import Any
 from ...errors import needs
 from ...textfile import NotTextError, chunks
 from .errors import CaptureError
-from .signals import SECOND, Capture, Channel, level_type
+from .signals import SECOND, Capture, Channel, level_code, level_type
 
 _UNITS = {"s": SECOND, "ms": 10**9, "us": 10**6, "µs": 10**6, "ns": 10**3, "ps": 1}
 _UNITS_OF: dict[str, Fraction] = {name: Fraction(ps) for name, ps in _UNITS.items()} | {
@@ -67,8 +67,8 @@ class _Variable:
 
     def __init__(self, width: int, indices: range) -> None:
         self.width, self.indices = width, indices
-        self.code = {"u1": "B", "u2": "H", "u4": "I", "u8": "Q"}[level_type(width)]
-        self.times, self.levels, self.unknown = array("q"), array(self.code), array(self.code)
+        code = level_code(width)
+        self.times, self.levels, self.unknown = array("q"), array(code), array(code)
 
     def add(self, times: Any, levels: Any, unknown: Any) -> None:
         """More changes. unknown: None if all levels are known."""
