@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from .kind import Accesses, Wires
 from .signals import Channel, numpy, slices
-
-if TYPE_CHECKING:
-    from .signals import Column
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
 """Whether these levels are a write strobe, a read strobe."""
@@ -39,7 +36,8 @@ def accesses(
     known: dict[int, int] = {}
     table = np.zeros(1 << width, np.int8)
     last = kind(start)
-    turns: list[Column] = []
+    found = [array(code) for code in "qqBBB"]
+    before = np.zeros(0, np.int64)
     for times in slices([one.times for one in channels.values()] or [np.zeros(0, np.int64)]):
         number = np.zeros(len(times), np.uint16)
         for pin, channel in channels.items():
@@ -52,16 +50,20 @@ def accesses(
         turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
         last = int(kinds[-1]) if len(kinds) else last
         # The strobe in the lowest bits of the time.
-        turns.append(times[turn] << 2 | kinds[turn])
-    turned = np.concatenate([np.zeros(0, np.int64), *turns])
-    whole = np.flatnonzero(turned[:-1] & 3)
-    begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1
-    # What the bus had while the strobe was still there. Sampled wires that change together may be a sample
-    # apart: before the last sample of the strobe, or in its middle if it is that short.
-    seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
-    place = where.at_all(seen) if where else seen & 0
-    byte = np.where(write == 1, data[True].at_all(seen), data[False].at_all(seen))
-    return Accesses(begin, end, write == 1, place, byte)
+        turned = np.concatenate((before, times[turn] << 2 | kinds[turn]))
+        before = turned[-1:]
+        whole = np.flatnonzero(turned[:-1] & 3)
+        begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1 == 1
+        # What the bus had while the strobe was still there. Sampled wires that change together may be a
+        # sample apart: before the last sample of the strobe, or in its middle if it is that short.
+        seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
+        place = where.at_all(seen) if where else seen & 0
+        byte = np.where(write, data[True].at_all(seen), data[False].at_all(seen))
+        parts = begin, end, write, place.astype(np.uint8), byte.astype(np.uint8)
+        for column, part in zip(found, parts, strict=True):
+            column.frombytes(part.tobytes())
+    kinds = ("i8", "i8", "?", "u1", "u1")
+    return Accesses(*map(np.frombuffer, found, kinds))
 
 
 def _bus(wires: Wires, bus: str) -> dict[bool, Channel]:
