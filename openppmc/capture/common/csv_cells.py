@@ -39,8 +39,11 @@ def text_of(data: bytes) -> str:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """Return the cells of a line."""
-    return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
+    """Return the cells of a line; a cell that is very long makes it one."""
+    try:
+        return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
+    except csv.Error:
+        return [line.strip()]
 
 
 def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:

@@ -26,6 +26,8 @@ from ...textfile import read_text
 from .errors import CaptureError
 from .signals import Bits, Capture, Channel
 
+NUMBERS = frozenset(("CLK_HZ", "XTAL_HZ", "BAUD", "ADR"))
+"""Parameters that are numbers."""
 WORDS = ("part", "crystal", "timing", "scope", "parameters", "pins")
 _PLACE = re.compile(r"(\w+)\[(\d+)\]")
 _INDEXED = re.compile(r"(.+?)\s*\[(-?\d+)\]")
@@ -113,10 +115,19 @@ def read_map(path: Path) -> PinMap:
         raise CaptureError(f"{path.name}: crystal: {crystal}: expected 1000000 to 20000000 Hz")
     if timing not in (None, "FAST", "DATASHEET"):
         raise CaptureError(f"{path.name}: timing: {timing}: neither FAST nor DATASHEET")
-    parameters = {str(name).upper(): value for name, value in (values.get("parameters") or {}).items()}
+    part, parameters = values.get("part"), values.get("parameters") or {}
+    if part is not None and not isinstance(part, str):
+        raise CaptureError(f"{path.name}: part: {part}: expected a name, as ppmc104")
+    if not isinstance(parameters, dict):
+        raise CaptureError(f"{path.name}: parameters: {parameters}: expected a name and a value for each")
+    parameters = {str(name).upper(): value for name, value in parameters.items()}
+    for name in NUMBERS & set(parameters):
+        value = parameters[name]
+        if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= 10**10:
+            raise CaptureError(f"{path.name}: {name}: {value}: expected a whole number")
     return PinMap(
         path.name,
-        values.get("part"),
+        part,
         crystal,
         timing,
         parameters,

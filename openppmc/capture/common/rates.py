@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-_RATE = re.compile(
-    r"sample\s*_?rate\W*?([\d.,]+(?:e[+-]?\d+)?)\s*([kKMG]?)\s*(?:Hz|S/s|Sa/s|sps)?\s*(?:[;,\t\"]|$)", re.I
-)
+_NUMBER = r"([\d.,]{1,40}(?:e[+-]?\d{1,2})?)\s*([kKmMgG]?)\s*(?:Hz|S/s|Sa/s|sps)?\s*"
+_RATE = re.compile(rf"sample\s*_?rate\W*?{_NUMBER}(?:[;,\t\"]|$)", re.I)
 _PREFIX = {"": 1, "k": 10**3, "K": 10**3, "M": 10**6, "m": 10**6, "G": 10**9, "g": 10**9}
 UNITS = {
     **{"s": 10**12, "sec": 10**12, "secs": 10**12, "second": 10**12, "seconds": 10**12},
@@ -39,8 +38,8 @@ def rate_in(line: str) -> Fraction | None:
 
 
 def hertz(text: str) -> Fraction | None:
-    """Return the Hz of `24 MHz`, `24000000` or `1.5k`; None if it is no rate."""
-    match = re.fullmatch(r"\s*([\d.,]+(?:e[+-]?\d+)?)\s*([kKmMgG]?)\s*(?:Hz|S/s|Sa/s|sps)?\s*", text, re.I)
+    """Return the Hz of `24 MHz`, `24000000` or `1.5k`; None if it is no rate from 1 mHz to 1 THz."""
+    match = re.fullmatch(rf"\s*{_NUMBER}", text, re.I)
     if match is None:
         return None
     digits = match[1].replace(",", ".") if match[1].count(",") == 1 and "." not in match[1] else match[1]
@@ -48,4 +47,4 @@ def hertz(text: str) -> Fraction | None:
         found = Fraction(digits.replace(",", "")) * _PREFIX[match[2]]
     except ValueError:
         return None
-    return found if found > 0 else None
+    return found if Fraction(1, 1000) <= found <= 10**12 else None

@@ -27,7 +27,7 @@ def read_sr(path: Path) -> Capture:
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError) as error:
         raise CaptureError(f"{path.name}: cut off or no sigrok file ({error}): save it again") from None
     except (KeyError, configparser.Error, ValueError, StopIteration) as error:
-        what = " ".join(str(error).split())
+        what = " ".join(str(error).split())[:100]
         raise CaptureError(
             f"{path.name}: no sigrok capture of logic channels ({what}): save it again from PulseView"
         ) from None

@@ -32,7 +32,7 @@ _END = re.compile(rb"\$enddefinitions\s+\$end\s")
 _SECTION = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s.*?\$end(?=\s)", re.DOTALL)
 _OPEN = re.compile(rb"(?:^|(?<=\s))\$(?:comment|date|version|vcdclose)\s")
 _TEXTS = (b"$comment", b"$date", b"$version", b"$vcdclose")
-_RANGE = re.compile(r"\[\s*(-?\d+)\s*(?::\s*(-?\d+)\s*)?\]$")
+_RANGE = re.compile(r"\[\s*(-?\d{1,9})\s*(?::\s*(-?\d{1,9})\s*)?\]$")
 _LEFT_OUT = ": a number, not a level, left out"
 _WIDEST = 64
 _MOST_PS = 1 << 62
@@ -55,7 +55,7 @@ def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
             raise ValueError
         if parameters.get("TIMING", "FAST") not in ("FAST", "DATASHEET"):
             raise ValueError
-    except (ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise CaptureError(
             f"{name}: its comment `openppmc …` is damaged: take it out, and name part and clock in a map"
         ) from None
@@ -165,9 +165,8 @@ class _Head:
                     if size < 1 or not words:
                         raise ValueError
                 except ValueError:
-                    raise CaptureError(
-                        f"{self.name}: line {line}: `$var {' '.join(inside)}` is damaged: export it again"
-                    ) from None
+                    what = f"`$var {' '.join(inside)[:60]}` is damaged: export it again"
+                    raise CaptureError(f"{self.name}: line {line}: {what}") from None
                 if kind in ("real", "realtime", "string", "parameter") or size > _WIDEST:
                     self.variables.setdefault(code, _Variable(0, range(0)))
                     self.notes += [f"{' '.join(words)}{_LEFT_OUT}"] if kind == "real" else []
@@ -177,11 +176,11 @@ class _Head:
         return declared
 
     def _timescale(self, text: str, line: int) -> None:
-        match = re.fullmatch(r"(\d+(?:\.\d+)?(?:e-?\d+)?)?([munpfaµ]?s)", text)
+        match = re.fullmatch(r"(\d{1,20}(?:\.\d{1,20})?(?:e-?\d{1,2})?)?([munpfaµ]?s)", text)
         if match is None or not Fraction(match[1] or 1):
             raise CaptureError(
-                f"{self.name}: line {line}: $timescale {text}: expected a number and s, ms, us, ns, ps or "
-                "fs; correct it by hand"
+                f"{self.name}: line {line}: $timescale {text[:40]}: expected a number and s, ms, us, ns, ps "
+                "or fs; correct it by hand"
             )
         self.scale = Fraction(match[1] or 1) * _UNITS_OF[match[2]]
 
@@ -449,7 +448,7 @@ class _Body:
         exact = found.tolist()
         for place in np.flatnonzero(odd).tolist():
             text = data[starts[place] + 1 : ends[place]]
-            if not re.fullmatch(rb"-?\d+(\.\d+)?", text):
+            if not re.fullmatch(rb"-?\d{1,40}(\.\d{1,40})?", text):
                 raise self._fail(data, int(starts[place]), f"#{_text(text[:20])} is no time")
             exact[place] = Fraction(text.decode())
         rounded = [round(one * self.head.scale) for one in exact]

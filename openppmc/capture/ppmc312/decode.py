@@ -12,7 +12,7 @@ from ..common.kind import Access, Accesses, DecodeKind, Line, Needs, Train, Wire
 from ..common.pinmap import Pins
 from ..common.pulses import train
 from ..common.registers import Judged, Said, cycle, spoken
-from .words import Row, Words312
+from .words import CUT, Row, Words312
 
 SHORTEST = 200_000
 STROBES = ("cs_n", "we_n", "oe_n")
@@ -36,8 +36,8 @@ def _said(one: Access) -> Said:
 
 def _judge(row: Row) -> Judged:
     block = row.sent
-    if len(block) < 3:
-        return Judged()
+    if len(block) < 3 or row.meaning == CUT:
+        return Judged(row.meaning == CUT)
     good = block[1] == len(block) - 2
     data = block[0] in (0, 1)
     return Judged(

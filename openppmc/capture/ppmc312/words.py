@@ -51,6 +51,7 @@ REFUSALS = {
 }
 STATES = {1: "INI", 2: "NOR", 4: "ACC", 8: "FIX", 16: "ABN", 32: "WRN"}
 REPORT_BITS = 0x38  # of a header: not the answer to an instruction of the host
+CUT = "cut short"
 FROM = {0x0B: "by the event: ", 0x1B: "by override: "}
 
 
@@ -121,10 +122,13 @@ def block_words(block: bytes) -> str:
     """An instruction or data block."""
     if block[0] < 2:
         return "free curve: data" + (", the last" if block[0] else "")
-    code, par = block[2], block[3:]
-    if code in INSTRUCTIONS:
-        return INSTRUCTIONS[code](par)
-    return SIMPLE.get(code, f"instruction {code:02X}")
+    try:
+        code, par = block[2], block[3:]
+        return (
+            INSTRUCTIONS[code](par) if code in INSTRUCTIONS else SIMPLE.get(code, f"instruction {code:02X}")
+        )
+    except IndexError:
+        return CUT
 
 
 def answer_words(block: bytes) -> str:
