@@ -15,11 +15,11 @@ LEVELS = {"0": 0, "1": 1, "L": 0, "l": 0, "H": 1, "h": 1, "low": 0, "high": 1, "
 LEVELS |= dict.fromkeys(("", "x", "X", "z", "Z", "u", "U", "w", "W", "-", "?", "n/a", "nan", "NaN"), 2)
 _TIME = re.compile(
     r"(time|zeit|temps|tiempo|tempo|timestamp|time ?stamp|t"
-    r"|(?:milli|micro|nano|pico|femto|atto)?seconds?|[munpfµμ]?s)?"
-    r"[\s_/]*(?:[\[(]?\s*([^\W\d]+)\s*[\])]?)?",
+    r"|(?:milli|micro|nano|pico|femto|atto)?seconds?|[munpfµμ]?s)"
+    r"(?:(?:[\s_/]+|(?=[\[(]))[\[(]?\s*([^\W\d]+)\s*[\])]?)?",
     re.I,
 )
-_SAMPLES = re.compile(r"samples?|sample[ _]?(number|index|no\.?)|index|nr\.?|no\.?", re.I)
+_SAMPLES = re.compile(r"samples?|sample[ _]?(number|index|no\.?)|index|nr\.?|no\.?|ticks?", re.I)
 _ISO = re.compile(
     r"(?P<day>\d{4}-\d\d-\d\d)[T ](?P<second>\d\d:\d\d:\d\d)(?:[.,](?P<part>\d+))?\s*"
     r"(?P<zone>Z|[+-]\d\d:?\d\d)?"
@@ -101,7 +101,7 @@ def is_time(head: str) -> bool:
     match = _TIME.fullmatch(text)
     if match is None:
         return False
-    return bool(match[1]) and (not match[2] or match[1].lower() != "t" or unit(match[2]) is not None)
+    return not match[2] or match[1].lower() != "t" or unit(match[2]) is not None
 
 
 def is_samples(head: str) -> bool:
@@ -117,7 +117,7 @@ def unit_of(head: str) -> Fraction | None:
     if match[2]:
         found = unit(match[2])
         return Fraction(0) if found is None else found
-    return unit(match[1]) if match[1] else None
+    return unit(match[1])
 
 
 def sigrok_unit(rate: Fraction) -> int:

@@ -148,7 +148,7 @@ class _Table:
                 self.line = number
                 raise self.fail(
                     f"{row.strip()[:40]!r} is cut off or no row of levels: export it again, digital channels "
-                    "only"
+                    "only, a column for each"
                 )
 
     def _comment(self, line: str) -> None:
@@ -162,7 +162,8 @@ class _Table:
         """Names if these two lines are the head and the first row of a table."""
         for separator in "\t;,":
             heads, cells = cells_of(head, separator), cells_of(row, separator)
-            if len(heads) < 2 and not self.rate:
+            # A row with a comma is not a level with a decimal comma.
+            if len(heads) < 2 and (not self.rate or separator != ","):
                 continue
             if len(cells) != len(heads) or all(one in LEVELS for one in heads if one):
                 continue

@@ -237,7 +237,7 @@ class Rows:
             raise self.fail(
                 line,
                 f"{text.strip()[:40]!r} is cut off or no row of levels: export it again, digital channels "
-                "only",
+                "only, a column for each",
             )
         return levels, self._time(line, cells[0]) if timed else Fraction(0)
 

@@ -14,13 +14,28 @@ from .vcd_file import read_vcd
 READERS: dict[str, Callable[[Path], Capture]] = {".vcd": read_vcd, ".csv": read_csv, ".sr": read_sr}
 
 
+_LOGIC_2 = "in Logic 2: File, Export Raw Data, CSV"
+MENUS = {
+    ".sal": _LOGIC_2,
+    ".bin": _LOGIC_2,
+    ".dsl": "in DSView: File, Export, CSV or VCD",
+    ".kvdat": "in KingstVIS: File, Export, CSV",
+    ".dwf3logic": "in WaveForms: File, Export, Acquisition, CSV",
+}
+"""Where the programs that write other files export a CSV."""
+
+
 def read_capture(path: Path) -> Capture:
     """A VCD, a CSV of Saleae or sigrok, a .sr. CaptureError."""
     if not path.is_file():
         raise CaptureError(f"{path}: there is no such file")
     reader = READERS.get(path.suffix.lower())
     if reader is None:
-        raise CaptureError(f"{path.name}: captures end in {', '.join(READERS)}: export it as one of these")
+        menu = MENUS.get(path.suffix.lower(), "")
+        raise CaptureError(
+            f"{path.name}: captures end in {', '.join(READERS)}: export it as one of these"
+            f"{f' ({menu})' if menu else ''}"
+        )
     capture = reader(path)
     if not any(channel.changes for channel in capture.channels.values()):
         raise CaptureError(f"{path.name}: no level ever changes: is the analyser wired, was it triggered?")
