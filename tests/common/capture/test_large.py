@@ -2,18 +2,52 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from pathlib import Path
 
-from scripts.bench.captures import EDGES, measure
+import pytest
 
-RATE = 1_500_000
-"""edges/s of processor time, half of the goal: the machine of a test has other work."""
+from openppmc.capture.common.beside import Result, _match
+from openppmc.capture.common.signals import Channel, numpy
+from scripts.bench.captures import COMPARED, EDGES, measure
+
 BYTES = 24
+PLAIN = {"moves.vcd": 40.0, "bus.vcd": 60.0, "moves.csv": 17.0}
+"""Most that a file may take, with a numpy pass over its bytes as 1: twice what it takes."""
 
 
-def test_four_million_edges(tmp_path: Path) -> None:
-    """A capture of 4 million edges is decoded at 3 million edges/s in 24 bytes for each edge."""
-    count, rate, size = measure(tmp_path, runs=2)
-    assert count >= EDGES
-    assert size <= BYTES
-    assert rate >= RATE
+@pytest.mark.parametrize("name", PLAIN)
+def test_four_million_edges(name: str, tmp_path: Path) -> None:
+    """A capture of 4 million edges needs 24 bytes for each edge, and a bounded multiple of a numpy pass."""
+    found = measure(tmp_path, name, runs=3)
+    assert found.edges >= EDGES
+    assert found.size <= BYTES
+    assert found.plain <= PLAIN[name]
+
+
+def test_compare_needs_columns(tmp_path: Path) -> None:
+    """A comparison needs two columns of times and levels for each edge more, and no objects."""
+    small, large = (measure(tmp_path, COMPARED, edges, runs=1) for edges in (50_000, 250_000))
+    assert (large.size * large.edges - small.size * small.edges) / (large.edges - small.edges) <= 2 * BYTES
+
+
+def test_differences_need_columns() -> None:
+    """Edges without a partner need two columns, too."""
+    np = numpy()
+    count = 40_000
+    times = np.arange(count) * 1_000_000
+    levels = (np.arange(count) & 1).astype(np.uint8)
+    chip, model = Channel.of(1, times, levels), Channel.of(1, times + 400_000, levels)
+    result = Result()
+    tracemalloc.start()
+    _match("pout_n", chip, model, 0, int(times[-1]) + 10_000_000, 1000, True, result)
+    result.differences.sort()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(result.differences) == 2 * count and result.compared == 0
+    assert peak <= 2 * count * BYTES * 2
+    assert [(one.t, one.chip) for one in result.differences[:3]] == [
+        (0, True),
+        (400_000, False),
+        (10**6, True),
+    ]
