@@ -1,0 +1,66 @@
+"""The clock that the 65 ns write strobes of the PPMC-312's data sheet need (R-07)."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from cocotb_tests.harness import project
+from openppmc.model.ppmc312.part import Ppmc312
+
+STROBE, SET_UP = 65, 35
+"""ns; write strobe, and data valid before its end."""
+LEAST = math.ceil(Fraction(2 * 10**9, SET_UP))
+"""Hz; from here on two samples fit between the change of the data and the end of the strobe."""
+CSR, ENABLES = 0, 0x70
+
+
+def written(clk_hz: int, phase: Fraction) -> int:
+    """Write ENABLES to CSR with the shortest strobe of the data sheet; return what CSR has then.
+
+    phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late, as a
+    synchroniser may do.
+    """
+    period = Fraction(10**9, clk_hz)
+    model = Ppmc312(clk_hz)
+    start = model.timebase.clk_hz // 100
+    data = start * period + phase
+
+    def edge(t: Fraction) -> int:
+        return math.ceil(t / period)
+
+    begin, end = edge(data + SET_UP - STROBE), edge(data + SET_UP)
+    model.pins(start - 100, rst_n=1)
+    changes = {begin: {"cs_n": 0, "we_n": 0, "rs": CSR, "d_i": 0}, end: {"cs_n": 1, "we_n": 1}}
+    changes.setdefault(edge(data) + 1, {})["d_i"] = ENABLES
+    for t in sorted(changes):
+        model.pins(t, **changes[t])
+    # Other data follow immediately after the strobe.
+    model.pins(end, d_i=0)
+    model.pins(end + 10, cs_n=0, oe_n=0, rs=CSR)
+    model.run_until(end + 20)
+    return int(model.outputs["d_o"]) & ENABLES
+
+
+def phases(clk_hz: int) -> list[Fraction]:
+    """Places of the data's change between two edges; the second one is the worst."""
+    period = Fraction(10**9, clk_hz)
+    return [Fraction(0), Fraction(1, 10**9), *(period * n / 8 for n in range(1, 8))]
+
+
+@pytest.mark.parametrize(("offset", "taken"), [(-1, False), (0, True), (1, True)])
+def test_least_clock(offset: int, taken: bool) -> None:
+    """At 57.2 MHz the written byte is right at each phase of the clock, one Hz below the bound it is not."""
+    clk_hz = LEAST + offset
+    found = [written(clk_hz, phase) for phase in phases(clk_hz)]
+    assert (set(found) == {ENABLES}) == taken, found
+
+
+def test_the_figure_is_printed() -> None:
+    """The ruling and the replacement guide print this bound."""
+    figure = f"{math.ceil(LEAST / 10**5) / 10:.1f} MHz"
+    for name in ("rulings.md", "replace.md"):
+        text = (project.ROOT / "docs" / "ppmc312" / name).read_text(encoding="utf-8")
+        assert f"max(3 / {STROBE} ns, 2 / {SET_UP} ns)" in text and figure in text
