@@ -438,27 +438,27 @@ def _match(
         if head < BLOCK:
             part = (mine[:WINDOW].tolist(), levels[:WINDOW].tolist())
             parts = (*part, other[:WINDOW].tolist(), theirs[:WINDOW].tolist())
-            last = len(mine) <= WINDOW and len(other) <= WINDOW
-            i, j = _unlike(name, parts, last, end, tolerance, result)
+            more = (len(mine) > WINDOW, len(other) > WINDOW)
+            i, j = _unlike(name, parts, more, end, tolerance, result)
             mine, levels, other, theirs = mine[i:], levels[i:], other[j:], theirs[j:]
 
 
 def _unlike(
     name: str,
     sides: tuple[list[int], list[int], list[int], list[int]],
-    last: bool,
+    more: tuple[bool, bool],
     end: int,
     tolerance: int,
     result: Result,
 ) -> tuple[int, int]:
-    """Match edges where the sides are not alike, one by one; return how many of each side. last: no more
-    follow."""
+    """Match edges where the sides are not alike, one by one; return how many of each side. more: whether a
+    side has edges after these."""
     mine, levels, other, theirs = sides
     pairs: list[int] = []
     never = end + 2 * tolerance + 1
     i = j = 0
     while i < len(mine) or j < len(other):
-        if not last and (i == len(mine) or j == len(other)):
+        if (more[0] and i == len(mine)) or (more[1] and j == len(other)):
             break
         a, x = (mine[i], levels[i]) if i < len(mine) else (never, -1)
         b, y = (other[j], theirs[j]) if j < len(other) else (never, -1)

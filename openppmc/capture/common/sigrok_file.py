@@ -25,12 +25,18 @@ def read_sr(path: Path) -> Capture:
         with zipfile.ZipFile(path) as archive:
             return _read(path.name, archive)
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError) as error:
-        raise CaptureError(f"{path.name}: cut off or no sigrok file ({error}): save it again") from None
-    except (KeyError, configparser.Error, ValueError, StopIteration) as error:
-        what = " ".join(str(error).split())[:100]
         raise CaptureError(
-            f"{path.name}: no sigrok capture of logic channels ({what}): save it again from PulseView"
+            f"{path.name}: cut off or no sigrok file ({_short(error)}): save it again"
         ) from None
+    except (KeyError, configparser.Error, ValueError, StopIteration) as error:
+        raise CaptureError(
+            f"{path.name}: no sigrok capture of logic channels ({_short(error)}): save it again from "
+            "PulseView"
+        ) from None
+
+
+def _short(error: Exception) -> str:
+    return " ".join(str(error).split())[:100]
 
 
 def _read(name: str, archive: zipfile.ZipFile) -> Capture:

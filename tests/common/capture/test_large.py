@@ -31,6 +31,16 @@ def test_compare_needs_columns(tmp_path: Path) -> None:
     assert (large.size * large.edges - small.size * small.edges) / (large.edges - small.edges) <= 2 * BYTES
 
 
+@pytest.mark.parametrize(("mine", "other"), [(1000, 0), (0, 1000), (1000, 1), (257, 256)])
+def test_a_side_without_edges(mine: int, other: int) -> None:
+    """All edges that only one side has are differences."""
+    np = numpy()
+    sides = [Channel.of(1, np.arange(n) * 10**6, (np.arange(n) & 1).astype(np.uint8)) for n in (mine, other)]
+    result = Result()
+    _match("dir", *sides, 0, 10**10, 1000, True, result)
+    assert result.compared == min(mine, other) and len(result.differences) == abs(mine - other)
+
+
 def test_differences_need_columns() -> None:
     """Edges without a partner need two columns, too."""
     np = numpy()
