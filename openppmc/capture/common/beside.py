@@ -376,7 +376,7 @@ def _judge(
             name = f"{port}[{bit + kind.pins.low(port)}]" if kind.pins.widths[port] > 1 else port
             start = starts.get(kind.axis_of(port, bit), starts[0])
             known = len(result.differences)
-            _match(name, channel, theirs[bit], start, wires.end, tolerance, reset, result)
+            match_edges(name, channel, theirs[bit], start, wires.end, tolerance, reset, result)
             if len(result.differences) == known:
                 axis = kind.axis_of(port, bit)
                 begins = [one.begin for one in decoded.moves if axis in (0, one.axis) and one.begin > start]
@@ -406,7 +406,7 @@ def _same_place(
     )
 
 
-def _match(
+def match_edges(
     name: str,
     chip: Channel,
     model: Channel,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.capture.common.beside import Result, _match
+from openppmc.capture.common.beside import Result, match_edges
 from openppmc.capture.common.signals import Channel, numpy
 from scripts.bench.captures import COMPARED, EDGES, measure
 
@@ -37,7 +37,7 @@ def test_a_side_without_edges(mine: int, other: int) -> None:
     np = numpy()
     sides = [Channel.of(1, np.arange(n) * 10**6, (np.arange(n) & 1).astype(np.uint8)) for n in (mine, other)]
     result = Result()
-    _match("dir", *sides, 0, 10**10, 1000, True, result)
+    match_edges("dir", *sides, 0, 10**10, 1000, True, result)
     assert result.compared == min(mine, other) and len(result.differences) == abs(mine - other)
 
 
@@ -50,7 +50,7 @@ def test_differences_need_columns() -> None:
     chip, model = Channel.of(1, times, levels), Channel.of(1, times + 400_000, levels)
     result = Result()
     tracemalloc.start()
-    _match("pout_n", chip, model, 0, int(times[-1]) + 10_000_000, 1000, True, result)
+    match_edges("pout_n", chip, model, 0, int(times[-1]) + 10_000_000, 1000, True, result)
     result.differences.sort()
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
