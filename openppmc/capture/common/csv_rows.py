@@ -181,8 +181,8 @@ class Rows:
         kept = np.flatnonzero(block.changed | block.odd)
         levels = np.empty((len(kept), self.layout.channels), np.uint8)
         levels[~block.odd[kept]] = block.levels
+        # Times of lines that are read one by one.
         exact: dict[int, Fraction] = {}
-        """Times of lines that are read one by one."""
         skipped = np.zeros(len(block.odd), bool)
         for place in np.flatnonzero(block.odd[kept]).tolist():
             row = int(kept[place])

@@ -183,8 +183,8 @@ class Words312(Words):
     def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
         """Fold register accesses into instructions and reports."""
         rows: list[Row] = []
+        # Instructions that have no answer yet.
         waiting: list[Row] = []
-        """Instructions that have no answer yet."""
         data: list[int] = []
         wanted, polls, begin = 0, [], 0
         for access in accesses:
