@@ -1,0 +1,70 @@
+"""Accesses in columns: the same lines as one access after the other."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from openppmc.capture.common.kind import Access, Accesses
+from openppmc.capture.common.registers import Judged, Said, spoken, spoken_bytes
+from openppmc.capture.common.signals import numpy
+from openppmc.capture.common.words import Exchange, Words
+from openppmc.capture.ppmc104.words import Words104
+from openppmc.capture.ppmc2104.words import Words2104
+from openppmc.capture.stmc.words import WordsStmc
+
+CODES = (0x2A, 0x43, 0x63, 0x4D, 0x42, 0x80, 0xA0, 0x83, 0xA3, 0xC3, 0x81, 0x40, 0x00, 0xFF)
+
+
+def session(source: random.Random, count: int) -> Accesses:
+    """Commands, data, answers and polls in any order."""
+    np = numpy()
+    rows = []
+    t = 0
+    for _ in range(count):
+        kind = source.choices(("command", "data", "answer", "poll"), (2, 4, 3, 6))[0]
+        byte = source.choice(CODES) if kind == "command" else source.choice((0, 4, 4, 2, 0x78, 99, 0x90))
+        rows.append(Access(t, t + 500, kind in ("command", "data"), int(kind in ("command", "poll")), byte))
+        t += source.choice((500, 1000, 9000))
+    kinds = (np.int64, np.int64, bool, np.uint8, np.uint8)
+    return Accesses(
+        *(np.array(column, kind) for column, kind in zip(zip(*rows, strict=True), kinds, strict=True))
+    )
+
+
+def judge(row: Exchange) -> Judged:
+    """Depends on the bytes and on no status."""
+    return Judged(len(row.sent) > 3, row.sent[:1] == [0x2A], len(row.answer))
+
+
+@pytest.mark.parametrize("words", [Words104(), Words2104(), WordsStmc("SHEET")], ids=["104", "2104", "stmc"])
+@pytest.mark.parametrize("seed", range(5))
+def test_rows_at_once(words: Words, seed: int) -> None:
+    """`spoken_bytes` returns the lines of `exchanges` for accesses in any order."""
+    accesses = session(random.Random(f"accesses {seed}"), 3000)
+    one_by_one = spoken(
+        accesses,
+        words,
+        lambda one: Said(one.begin, "write" if one.write else "read", one.reg, one.byte),
+        judge,
+    )
+    assert spoken_bytes(accesses, words, judge) == one_by_one
+    assert len(one_by_one) > 300 and len({line.text for line in one_by_one}) > 30
+
+
+def test_polls_are_left_out() -> None:
+    """Only reads of the status that repeat the read before are left out."""
+    np = numpy()
+    rows = [
+        (True, 1, 4),
+        (False, 1, 4),
+        (False, 1, 4),
+        (False, 0, 4),
+        (False, 1, 4),
+        (False, 1, 0),
+        (False, 1, 0),
+    ]
+    columns = [np.array(column) for column in zip(*((n, n, *row) for n, row in enumerate(rows)), strict=True)]
+    kept = Accesses(*columns).without_polls(1)
+    assert kept.begin.tolist() == [0, 1, 3, 4, 5]
