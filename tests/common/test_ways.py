@@ -1,0 +1,111 @@
+"""How much a command or an import loads, and how many files and calls it passes: bounds, one process each.
+
+A bound that is passed says that something is loaded which this command does not use, or that a layer has come
+between. docs/architecture.md describes the way of a byte. Lower a bound when a change allows it.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import subprocess
+import sys
+from functools import cache
+
+import pytest
+
+from cocotb_tests.harness.paths import ROOT
+from openppmc.host import Ppmc104
+
+HELP = "from openppmc.cli import main; main(['--help'])"
+MOVE = ("--port", "model:speed=max", "move", "3000")
+SIMULATION = "import cocotb_tests.ppmc104.tb_ext_clock"
+"""What a simulator imports for a file of directed tests."""
+
+
+@cache
+def measured(way: str, *words: str) -> list[str]:
+    """The answer of `ways`, from a process of its own."""
+    command = [sys.executable, "-m", "tests.common.ways", way, *words]
+    done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def below(names: list[str], *folders: str) -> list[str]:
+    """Those modules or files that are in these packages or folders."""
+    return [name for name in names if name.startswith(folders)]
+
+
+def few(names: list[str], bound: int) -> None:
+    """Fails with the list of names if there are more than the bound."""
+    assert 0 < len(names) <= bound, f"{len(names)}, not {bound}: {', '.join(names)}"
+
+
+@pytest.mark.parametrize(
+    ("code", "package", "bound"),
+    [
+        (HELP, "openppmc", 340),
+        (f"from openppmc.cli import main; main({[*MOVE]})", "openppmc", 345),
+        ("from openppmc.host import Ppmc104", "openppmc", 226),
+        (SIMULATION, "openppmc.model", 113),
+        (SIMULATION, "cocotb_tests.harness", 27),
+    ],
+    ids=["help", "move", "driver", "models-in-simulation", "harness-in-simulation"],
+)
+def test_loads_few_modules(code: str, package: str, bound: int) -> None:
+    """A command, an import of a driver and a simulation load only the modules that they use."""
+    few(below(measured("modules", code), package), bound)
+
+
+@pytest.mark.parametrize(
+    ("folders", "bound"),
+    [(("openppmc/cli/", "openppmc/host/"), 35), (("openppmc/model/",), 27)],
+    ids=["cli-and-host", "model"],
+)
+def test_a_move_enters_few_files(folders: tuple[str, ...], bound: int) -> None:
+    """A reader who follows a move from the command to the golden model opens few files."""
+    few(below(measured("files", *MOVE), *folders), bound)
+
+
+def test_a_move_makes_few_calls() -> None:
+    """Few frames are between `main` and the link; few of them check arguments."""
+    frames = measured("frames", *MOVE)
+    assert [frames[0][1], frames[-1][1]] == ["main", "_run"]
+    assert len(frames) <= 19, frames
+    checks = [frame for frame in frames if frame[0].endswith(("/arguments.py", "/check.py"))]
+    assert 0 < len(checks) <= 8, frames
+
+
+def _cpu(*words: str) -> float:
+    """CPU seconds of a Python process."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([sys.executable, *words], cwd=ROOT, check=True, stdout=subprocess.DEVNULL, timeout=120)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def test_help_costs_little_more_than_typer() -> None:
+    """`openppmc --help` takes few times the CPU time of `import typer`, each the least of five runs."""
+    pairs = [(_cpu("-m", "openppmc.cli", "--help"), _cpu("-c", "import typer")) for _ in range(5)]
+    help_seconds, typer_seconds = map(min, zip(*pairs, strict=True))
+    assert help_seconds <= 15 * typer_seconds, f"{help_seconds:.3f} s, {typer_seconds:.3f} s"
+
+
+def test_a_part_has_few_bases_and_names() -> None:
+    """A `Ppmc104` is read in few classes, and has few public names."""
+    few([base.__name__ for base in Ppmc104.__mro__[1:-1]], 8)
+    few([name for name in dir(Ppmc104) if not name.startswith("_")], 53)
+
+
+@pytest.mark.parametrize(
+    ("folder", "longest", "bound"),
+    [("openppmc/host", 0, 118), ("cocotb_tests/harness", 0, 79), ("openppmc", 0, 404), ("openppmc", 60, 152)],
+)
+def test_few_files(folder: str, longest: int, bound: int) -> None:
+    """A folder has few files, and few of them are short. longest: lines of those that count, 0 counts all."""
+    found = sorted((ROOT / folder).rglob("*.py"))
+    lines = {
+        str(path.relative_to(ROOT)): len(path.read_text(encoding="utf-8").splitlines()) for path in found
+    }
+    few([name for name, count in lines.items() if not longest or count <= longest], bound)
