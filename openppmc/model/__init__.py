@@ -11,15 +11,35 @@ each other:
     single      parts with one axis on a byte bus: host port, commands, prediction
 """
 
-from .common.edges import Edge
-from .common.timebase import Latency, Timebase
-from .pmc006.part import Pmc006
-from .ppmc104.part import Ppmc104
-from .ppmc312.part import Ppmc312
-from .ppmc2104.part import Ppmc2104
-from .single.predict import Move, predict_move
-from .stmc.part import Stmc
-from .stmc.pc104_board import J105Stmc
+from typing import TYPE_CHECKING
+
+from ..lazy import lazy
+
+if TYPE_CHECKING:
+    from .common.edges import Edge
+    from .common.timebase import Latency, Timebase
+    from .pmc006.part import Pmc006
+    from .ppmc104.part import Ppmc104
+    from .ppmc312.part import Ppmc312
+    from .ppmc2104.part import Ppmc2104
+    from .single.predict import Move, predict_move
+    from .stmc.part import Stmc
+    from .stmc.pc104_board import J105Stmc
+else:
+    __getattr__, __dir__ = lazy(
+        __name__,
+        """
+        .common.edges Edge
+        .common.timebase Latency Timebase
+        .pmc006.part Pmc006
+        .ppmc104.part Ppmc104
+        .ppmc312.part Ppmc312
+        .ppmc2104.part Ppmc2104
+        .single.predict Move predict_move
+        .stmc.part Stmc
+        .stmc.pc104_board J105Stmc
+        """,
+    )
 
 __all__ = [
     "Edge",

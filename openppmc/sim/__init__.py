@@ -8,14 +8,29 @@ the board, its build, its text, and lines of modelled stations, which run in Pyt
 `machine`, what is around the part (places of switches, words of its own), and for stations `line`.
 """
 
-from .common.board import AxisStatus, SimBoard, Status, start
-from .common.line_child import LineStatus, SimLine, start_line
-from .common.lines import part_of
-from .common.spec import Spec, SpecError, known_words, parse_spec
-from .common.verilator import SimError
+from typing import TYPE_CHECKING
 
-KNOWN = known_words()
-"""Words of a board's text."""
+from ..lazy import lazy
+
+if TYPE_CHECKING:
+    from .common.board import AxisStatus, SimBoard, Status, start
+    from .common.known import KNOWN
+    from .common.line_child import LineStatus, SimLine, start_line
+    from .common.lines import part_of
+    from .common.spec import Spec, SpecError, parse_spec
+    from .common.verilator import SimError
+else:
+    __getattr__, __dir__ = lazy(
+        __name__,
+        """
+        .common.board AxisStatus SimBoard Status start
+        .common.line_child LineStatus SimLine start_line
+        .common.lines part_of
+        .common.known KNOWN
+        .common.spec Spec SpecError parse_spec
+        .common.verilator SimError
+        """,
+    )
 
 __all__ = [
     "KNOWN",

@@ -39,16 +39,17 @@ def below(names: list[str], *folders: str) -> list[str]:
 
 def few(names: list[str], bound: int) -> None:
     """Fails with the list of names if there are more than the bound."""
-    assert 0 < len(names) <= bound, f"{len(names)}, not {bound}: {', '.join(names)}"
+    if not 0 < len(names) <= bound:
+        pytest.fail(f"{len(names)}, not {bound}: {', '.join(names)}", pytrace=False)
 
 
 @pytest.mark.parametrize(
     ("code", "package", "bound"),
     [
-        (HELP, "openppmc", 340),
-        (f"from openppmc.cli import main; main({[*MOVE]})", "openppmc", 345),
-        ("from openppmc.host import Ppmc104", "openppmc", 226),
-        (SIMULATION, "openppmc.model", 113),
+        (HELP, "openppmc", 342),
+        (f"from openppmc.cli import main; main({[*MOVE]})", "openppmc", 347),
+        ("from openppmc.host import Ppmc104", "openppmc", 42),
+        (SIMULATION, "openppmc.model", 28),
         (SIMULATION, "cocotb_tests.harness", 27),
     ],
     ids=["help", "move", "driver", "models-in-simulation", "harness-in-simulation"],
@@ -100,7 +101,7 @@ def test_a_part_has_few_bases_and_names() -> None:
 
 @pytest.mark.parametrize(
     ("folder", "longest", "bound"),
-    [("openppmc/host", 0, 118), ("cocotb_tests/harness", 0, 79), ("openppmc", 0, 404), ("openppmc", 60, 152)],
+    [("openppmc/host", 0, 118), ("cocotb_tests/harness", 0, 79), ("openppmc", 0, 410), ("openppmc", 60, 156)],
 )
 def test_few_files(folder: str, longest: int, bound: int) -> None:
     """A folder has few files, and few of them are short. longest: lines of those that count, 0 counts all."""
