@@ -11,8 +11,7 @@ an environment:
     python3 openppmc/parts.py show NAME                  one row, a column a line
 
 Places in the columns of LAYER_OF are "module:name" below the part's folder in that layer; `load` imports them
-when they are asked for. commands: a command line of its own; view: what it shows on the shared one; words:
-those of its own in script files.
+when they are asked for. view: what it shows on the command line; words: those of its own in script files.
 """
 
 from __future__ import annotations
@@ -33,7 +32,6 @@ LAYER_OF = {
     "driver": "openppmc.host",
     "kind": "openppmc.host",
     "selftest": "openppmc.host",
-    "commands": "openppmc.cli",
     "view": "openppmc.cli",
     "words": "openppmc.cli",
     "machine": "openppmc.sim",
@@ -54,8 +52,9 @@ class Row:
 
     name: `PART=`, `--part`, `part=` and the folder in every layer. title: in messages, on pages and pictures.
     of: the part whose folder it shares and whose columns it takes over where it has none of its own (but for
-    those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. rules: prefixes of
-    its rule IDs; the first has subjects (P104-CMD-07), another numbers alone (J105-07).
+    those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. axes: how many it has
+    there, at most. rules: prefixes of its rule IDs; the first has subjects (P104-CMD-07), another only
+    numbers (J105-07).
     rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
     docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and
     computed for them. selftest: what `openppmc selftest` makes its board do.
@@ -72,6 +71,7 @@ class Row:
     title: str = ""
     of: str = ""
     number: int = 0
+    axes: int = 1
     rules: tuple[str, ...] = ()
     rtl: str = ""
     top: str = ""
@@ -81,7 +81,6 @@ class Row:
     driver: str = ""
     kind: str = ""
     selftest: str = ""
-    commands: str = ""
     view: str = ""
     words: str = ""
     machine: str = ""
@@ -138,6 +137,7 @@ ROWS = (
         name="ppmc2104",
         title="PPMC-2104",
         number=2104,
+        axes=2,
         rules=("P2104",),
         families=BOTH,
         model="part:Ppmc2104",
@@ -224,7 +224,6 @@ ROWS = (
         of="ppmc312",
         driver="line.bus:Ppmc312Bus",
         kind="line.kind:KIND",
-        commands="line.app:app",
         machine="line:MACHINE",
         decode="line:DECODER",
         line=True,
@@ -236,6 +235,7 @@ ROWS = (
         name="bank",
         title="PPMC bank",
         number=32,
+        axes=64,
         rules=("BANK",),
         rtl="ppmc_bank",
         top="ppmc_bank",
@@ -263,7 +263,6 @@ ROWS = (
         model="part:Pmc006",
         driver="bus:Pmc006Bus",
         kind="kind:KIND",
-        commands="app:app",
         machine="line:MACHINE",
         decode="decode:DECODER",
         docs=("design.md", "rulings.md"),

@@ -1,9 +1,10 @@
 """The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 128 + n after signal n.
 
-`common` has the commands that parts share, and knows no part. What differs stands in the folder of a part,
-and `openppmc.parts` says where. view: what it shows and forecasts, and what only it can do; without one it is
-as a PPMC-104. words: those of its own in script files. commands: a command line of its own, for parts on a
-line. A part behind the bridge with the ramp and the registers of the PPMC-104 needs nothing here.
+`app` has the table of commands; a command is imported when it is called. `common` has the commands that parts
+share, and knows no part. A part's folder has what differs: the commands of parts on a line, and what columns
+of `openppmc.parts` name. view: what it shows and forecasts, and what only it can do; without one it is as a
+PPMC-104. words: those of its own in script files. A part behind the bridge with the ramp and the registers of
+the PPMC-104 needs nothing here.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
         import typer
 
         from ..host.stopping import Signalled, arrived, handled, name_of, say
-        from .common.app import app
+        from .app import app
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130

@@ -9,13 +9,13 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .axis.device import Device, Turning
-from .axis.motion import Progress
-from .basis.arguments import exact
-from .basis.errors import OutOfRange, PpmcError, Timeout
-from .basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised
+if TYPE_CHECKING:
+    from .axis.device import Device, Turning
+    from .axis.motion import Progress
+
+# The command line imports this file first: what the functions need is imported in them.
 
 LONGEST_WAIT = 10.0
 """Seconds that motors may take to decelerate; what moves then is stopped at once."""
@@ -73,6 +73,9 @@ def bring_to_rest(
     seconds: longest wait, then they are stopped at once. hurry: asked about ten times a second; True stops
     them at once. every: also motions that these objects do not know of. Errors are in the line.
     """
+    from .basis.errors import PpmcError, Timeout
+    from .basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised
+
     axes: list[Turning] = [axis for device in devices for axis in device.axes]
     moving: list[tuple[Device, Turning]] = []
     how, errors, halted = "nothing was moving", [], False
@@ -143,6 +146,9 @@ def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator
         with Ppmc104.open("/dev/ttyUSB0") as axis, stop_on_signals(axis):
             axis.move(100_000)
     """
+    from .basis.arguments import exact
+    from .basis.errors import OutOfRange
+
     if exact(seconds, "seconds") <= 0:
         raise OutOfRange(f"seconds {seconds} is not more than 0")
     if threading.current_thread() is not threading.main_thread():

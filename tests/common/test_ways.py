@@ -46,8 +46,8 @@ def few(names: list[str], bound: int) -> None:
 @pytest.mark.parametrize(
     ("code", "package", "bound"),
     [
-        (HELP, "openppmc", 342),
-        (f"from openppmc.cli import main; main({[*MOVE]})", "openppmc", 347),
+        (HELP, "openppmc", 12),
+        (f"from openppmc.cli import main; main({[*MOVE]})", "openppmc", 100),
         ("from openppmc.host import Ppmc104", "openppmc", 42),
         (SIMULATION, "openppmc.model", 28),
         (SIMULATION, "cocotb_tests.harness", 27),
@@ -61,7 +61,7 @@ def test_loads_few_modules(code: str, package: str, bound: int) -> None:
 
 @pytest.mark.parametrize(
     ("folders", "bound"),
-    [(("openppmc/cli/", "openppmc/host/"), 35), (("openppmc/model/",), 27)],
+    [(("openppmc/cli/", "openppmc/host/"), 36), (("openppmc/model/",), 27)],
     ids=["cli-and-host", "model"],
 )
 def test_a_move_enters_few_files(folders: tuple[str, ...], bound: int) -> None:
@@ -90,7 +90,7 @@ def test_help_costs_little_more_than_typer() -> None:
     """`openppmc --help` takes few times the CPU time of `import typer`, each the least of five runs."""
     pairs = [(_cpu("-m", "openppmc.cli", "--help"), _cpu("-c", "import typer")) for _ in range(5)]
     help_seconds, typer_seconds = map(min, zip(*pairs, strict=True))
-    assert help_seconds <= 15 * typer_seconds, f"{help_seconds:.3f} s, {typer_seconds:.3f} s"
+    assert help_seconds <= 2.5 * typer_seconds, f"{help_seconds:.3f} s, {typer_seconds:.3f} s"
 
 
 def test_a_part_has_few_bases_and_names() -> None:

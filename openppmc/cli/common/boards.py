@@ -7,10 +7,10 @@ from typing import Annotated, Any
 import typer
 
 from ...host import serial_ports
-from ...host.selftest.page import built
 from . import output, show
+from .board import BOARD
 from .options import MOST_AXES, Json, with_setup
-from .session import BOARD, initialise, opened, setup_values
+from .session import initialise, opened, setup_values
 from .state import lasting, remember
 
 AxisNumber = Annotated[
@@ -31,6 +31,8 @@ def ports(as_json: Json = False) -> None:
 
 def info(as_json: Json = False) -> None:
     """What board answers at the port."""
+    from ...host.selftest.page import built
+
     with opened() as session:
         link = session.part.link
         build = link.build()

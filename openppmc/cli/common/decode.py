@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich import box
-from rich.table import Table
 
 from ... import parts
 from ...capture.common.beside import Result, compare, other_timing
@@ -20,8 +18,11 @@ from ...capture.common.pulses import runs
 from ...capture.common.signals import SECOND, US
 from ...errors import PpmcError, needs
 from . import output
+from .board import BOARD
 from .options import Json
-from .session import BOARD
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 WAYS = {1: "CW", -1: "CCW", 0: "?"}
 SHOWN = 10
@@ -102,6 +103,9 @@ def _show(found: Decoded) -> None:
 
 
 def _table(found: Decoded) -> Table:
+    from rich import box
+    from rich.table import Table
+
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for head in ("axis", "from / s", "to / s", "way", "pulses", "first / pps", "highest", "last"):
         grid.add_column(head, justify="left" if head == "way" else "right")

@@ -1,55 +1,97 @@
-"""The command that a name means: parts on a line have commands of their own (column `commands`)."""
+"""The command that a name means: rows of a table, of which only the one that is called is imported."""
 
 from __future__ import annotations
 
-from typing import Any
+import sys
+from dataclasses import dataclass
+from importlib import import_module
+from types import ModuleType
+from typing import Any, ClassVar
 
 import typer
-from typer.core import TyperGroup
-
-from ... import parts
+from typer.core import TyperCommand, TyperGroup
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
-LINES = tuple(row.name for row in parts.having("commands"))
-"""Parts with commands of their own. They name the shared ones that they have, too: these open no board."""
+BRIDGE = ""
+"""In place of a part: the parts behind the bridge, which have the same commands."""
+
+
+@dataclass(frozen=True)
+class Command:
+    """A row of the table.
+
+    place: "module:function" below `openppmc.cli`; a Typer is a group of commands. help: the docstring of the
+    function. parts: the parts that have this command. numbers: arguments such as -200 are no options.
+    """
+
+    name: str
+    place: str
+    help: str
+    parts: tuple[str, ...] = (BRIDGE,)
+    numbers: bool = False
+
+    def load(self) -> Any:
+        """The function or the Typer."""
+        module, _, name = self.place.partition(":")
+        return getattr(import_module(f"openppmc.cli.{module}"), name)
+
+    def build(self) -> Any:
+        """The command as the parser needs it."""
+        group, found = typer.Typer(add_completion=False), self.load()
+        if isinstance(found, typer.Typer):
+            group.add_typer(found, name=self.name)
+        else:
+            group.command(self.name, context_settings={"ignore_unknown_options": self.numbers})(found)
+        return typer.main.get_group(group).commands[self.name]
 
 
 class PartGroup(TyperGroup):
-    """With --part the commands are those of that part, if it has commands of its own."""
+    """The commands of all parts. rows: of one name, those of the parts behind the bridge come first."""
+
+    rows: ClassVar[tuple[Command, ...]] = ()
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        # For help and suggestions only: `resolve_command` builds the one that is called.
+        self.commands = {
+            row.name: TyperCommand(row.name, help=row.help, rich_markup_mode="rich")
+            for row in reversed(self.rows)
+        }
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """All, those that only lines have at the end."""
-        names = super().list_commands(ctx)
-        for part in LINES:
-            names += [name for name in _line_commands(part, ctx) if name not in names]
-        return names
-
-    def get_command(self, ctx: Any, name: str) -> Any:
-        """By name, for the part that was named."""
-        own, part = super().get_command(ctx, name), _part(ctx)
-        if part is not None:
-            return _line_commands(part, ctx).get(name) or own
-        lines = (_line_commands(part, ctx).get(name) for part in LINES)
-        return own or next(filter(None, lines), None)
+        """In the order of the rows."""
+        return list(dict.fromkeys(row.name for row in self.rows))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The command of a command line. UsageError for one that belongs to other parts."""
-        name, part = args[0], _part(ctx)
-        own = super().get_command(ctx, name)
-        have = [one for one in LINES if name in _line_commands(one, ctx)]
-        if part is not None and part not in have and (own or have):
+        name, _, rest = super().resolve_command(ctx, args)
+        rows = [row for row in self.rows if row.name == name]
+        others = list(dict.fromkeys(part for row in rows for part in row.parts))
+        part = next(
+            (part for row in self.rows for part in row.parts if part == ctx.params.get("part")), BRIDGE
+        )
+        if part in others:
+            return name, next(row for row in rows if part in row.parts).build(), rest
+        if part != BRIDGE:
             raise _UsageError(f"{name}: not with --part {part}", ctx)
-        if part is None and own is None and have:
-            raise _UsageError(f"{name}: only with --part {' or '.join(have)}", ctx)
-        return super().resolve_command(ctx, args)
+        raise _UsageError(f"{name}: only with --part {' or '.join(others)}", ctx)
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write the help of the whole."""
+        _import_formatter()
+        super().format_help(ctx, formatter)
 
 
-def _part(ctx: Any) -> str | None:
-    """The part that was named, if it has commands of its own."""
-    named = ctx.params.get("part")
-    return next((part for part in LINES if part == named), None)
-
-
-def _line_commands(part: str, ctx: Any) -> dict[str, Any]:
-    group: Any = typer.main.get_command(parts.part(part).load("commands"))
-    return {name: group.get_command(ctx, name) for name in group.list_commands(ctx)}
+def _import_formatter() -> None:
+    """Import typer's formatter without two modules of rich, which take 0.1 s and have no use here: texts in
+    Markdown and coloured tracebacks."""
+    unused = {"rich.markdown": "Markdown", "rich.traceback": "Traceback"}
+    missing = [name for name in unused if name not in sys.modules and "typer.rich_utils" not in sys.modules]
+    for name in missing:
+        sys.modules[name] = ModuleType(name)
+        setattr(sys.modules[name], unused[name], object)
+    try:
+        import_module("typer.rich_utils")
+    finally:
+        for name in missing:
+            del sys.modules[name]

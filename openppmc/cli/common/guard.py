@@ -7,14 +7,14 @@ import signal
 import sys
 from contextlib import suppress
 from types import FrameType, TracebackType
-
-from rich.console import Console
-from rich.progress import BarColumn, TextColumn
-from rich.progress import Progress as Bars
+from typing import TYPE_CHECKING, Any
 
 from ...host.axis.device import Device
 from ...host.axis.motion import Progress
 from ...host.stopping import arrived, bring_to_rest, handled, name_of
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bars
 
 BAR_AFTER = 0.6
 """Seconds that a motion runs before it gets a bar."""
@@ -78,31 +78,23 @@ class Guard:
         """Show or move the bar of the running motion; only on a terminal."""
         if not sys.stderr.isatty() or now.seconds < BAR_AFTER:
             return
-        if self._bars is None:
-            columns = (
-                TextColumn("{task.description}"),
-                BarColumn(),
-                TextColumn("position {task.fields[at]}"),
-            )
-            self._bars = Bars(*columns, console=Console(stderr=True), transient=True)
-            self._task = self._bars.add_task("moving", total=now.asked, at=now.position)
-            self._bars.start()
-        self._bars.update(self._task, total=now.asked, completed=now.made, at=now.position)
+        self._draw("moving", "position {task.fields[at]}", now.asked, now.made, at=now.position)
 
     def count_bar(self, what: str, done: int, of: int) -> None:
         """Show or move a bar that counts; only on a terminal."""
-        if not sys.stderr.isatty():
-            return
+        if sys.stderr.isatty():
+            self._draw(what, "{task.completed}/{task.total}", of, done)
+
+    def _draw(self, what: str, text: str, total: int | None, done: int, **fields: Any) -> None:
         if self._bars is None:
-            columns = (
-                TextColumn("{task.description}"),
-                BarColumn(),
-                TextColumn("{task.completed}/{task.total}"),
-            )
-            self._bars = Bars(*columns, console=Console(stderr=True), transient=True)
-            self._task = self._bars.add_task(what, total=of)
+            from rich.console import Console
+            from rich.progress import BarColumn, Progress, TextColumn
+
+            columns = TextColumn("{task.description}"), BarColumn(), TextColumn(text)
+            self._bars = Progress(*columns, console=Console(stderr=True), transient=True)
+            self._task = self._bars.add_task(what, total=total, **fields)
             self._bars.start()
-        self._bars.update(self._task, total=of, completed=done)
+        self._bars.update(self._task, total=total, completed=done, **fields)
 
     def bar_off(self) -> None:
         """The motion is over."""

@@ -16,8 +16,6 @@ from ...host.stopping import say
 from .guard import Guard, Interrupted
 
 Bus = TypeVar("Bus", bound=LineBus[Any, Any])
-LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
-"""All words of --line; each line takes some of them."""
 
 
 def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.table import Table
 
 from ...host import PpmcError
 from . import output
@@ -14,6 +13,9 @@ from .moves import AxisOrAll
 from .options import Json, with_setup
 from .session import Session, opened, ready
 from .watching import Count, Every, watch
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 
 def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:

@@ -14,14 +14,10 @@ import typer
 
 from ... import parts
 from ...errors import PpmcError
-from ...host.basis.kind import AnySetup, Kind, Wanted, kind_of
+from ...host.basis.kind import AnySetup, Kind, Wanted
 
-USUAL = kind_of("ppmc104")
-"""The part where nobody has named one: of plans, and of virtual boards."""
-MOST_AXES = max(kind_of(row.name).axes for row in parts.having("number", "kind"))
+MOST_AXES = max(row.axes for row in parts.having("number", "kind"))
 """What --axis takes; the part that is there says how many it has."""
-NUMBERS = {"ignore_unknown_options": True}
-"""Settings of a command with signed numbers, so that `move -200` is a number and not an option."""
 Json = Annotated[bool, typer.Option("--json", help="for programs")]
 _PANEL = "Set-up (remembered by init)"
 
@@ -83,7 +79,7 @@ class SetupValues:
         """For the state file."""
         return asdict(self)
 
-    def plan(self, xtal_hz: int, kind: Kind = USUAL, axis: int = 1) -> AnySetup:
+    def plan(self, xtal_hz: int, kind: Kind, axis: int = 1) -> AnySetup:
         """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
         wanted = Wanted(
             self.start,

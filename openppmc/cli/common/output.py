@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import json
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.table import Table
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
 
-console = Console(highlight=False)
+    console: Console
+
+
+def __getattr__(name: str) -> Any:
+    """`console`, made when it is first used: most commands print plain lines and need no rich."""
+    if name != "console":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from rich.console import Console
+
+    console = globals()[name] = Console(highlight=False)
+    return console
 
 
 def say(text: str) -> None:
@@ -24,6 +35,8 @@ def note(text: str) -> None:
 
 def table(rows: dict[str, str]) -> Table:
     """Two columns, no frame."""
+    from rich.table import Table
+
     grid = Table(box=None, show_header=False, pad_edge=False)
     grid.add_column(style="bold")
     grid.add_column()
@@ -34,6 +47,8 @@ def table(rows: dict[str, str]) -> Table:
 
 def grid(rows: dict[str, dict[str, str]]) -> Table:
     """A row each with its name in front, the names of the values above; no frame."""
+    from rich.table import Table
+
     columns = list(next(iter(rows.values())))
     grid = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", *columns):

@@ -10,9 +10,10 @@ import typer
 from ...host import PpmcError
 from ...host.basis import units
 from . import output
+from .board import BOARD
 from .forecast import plot_move
 from .options import Json, with_setup
-from .session import BOARD, setup_values
+from .session import setup_values
 from .view import view_of
 
 XTAL_HZ = 16_000_000

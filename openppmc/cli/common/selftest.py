@@ -16,8 +16,8 @@ from ...host.selftest import page
 from ...host.selftest.plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Plan
 from ...host.selftest.run import SelfTest
 from . import output
+from .board import BOARD
 from .options import Json
-from .session import BOARD
 from .version import misfit
 
 RECORDS = 13

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from enum import Enum
 from typing import Any
 
 import typer
@@ -13,62 +12,16 @@ import typer
 from ... import parts
 from ...host import End, NothingToStop, PpmcError, open_part
 from ...host.axis.part import AnyAxis, Part
-from ...host.basis.kind import Kind, kind_of
+from ...host.basis.kind import Kind
 from ...host.bridge.link import DEFAULT_BAUD
-from ...host.ports.transport import MODEL, SIM
 from ...host.stopping import say
 from . import output
+from .board import BOARD
 from .guard import Guard, Interrupted
-from .options import USUAL, SetupValues
+from .options import SetupValues
 from .state import recall
 from .version import misfit
 from .view import AnyView, view_of
-
-
-class PartName(str, Enum):
-    """The parts of the table that a computer can talk to: behind a bridge, or on a line."""
-
-    _ignore_ = ["members", "row"]
-    members = vars()
-    for row in parts.PARTS.values():
-        if row.number or row.line:
-            members[row.name] = row.name
-
-
-NAMES = frozenset(name.value for name in PartName)
-
-
-@dataclass
-class Board:
-    """Which board, from the options in front of the command. baud: None: what is usual. part: its name in the
-    table, None if the user named none. line: options of a line."""
-
-    port: str = ""
-    baud: int | None = None
-    part: str | None = None
-    line: str = ""
-
-    @property
-    def spec(self) -> str:
-        """The port with its part: a virtual board is built with the one that was named."""
-        if self.part is None or not self.port.startswith((MODEL, SIM)):
-            return self.port
-        comma = "" if self.port.endswith(":") else ","
-        return f"{self.port}{comma}part={self.part}"
-
-    @property
-    def planned(self) -> Kind:
-        """The part for plans, which open no board: the one that was named, in the port's text if need be."""
-        if self.part is not None:
-            return kind_of(self.part)
-        if not self.port.startswith((MODEL, SIM)):
-            return USUAL
-        words = self.port.replace(" ", "").lower().partition(":")[2].split(",")
-        named = [word.removeprefix("part=") for word in words if word.startswith("part=")]
-        return kind_of(named[-1]) if named and named[-1] in NAMES else USUAL
-
-
-BOARD = Board()
 
 
 @dataclass

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from ... import __version__, parts, sources
+from ... import __version__, parts
 from ...errors import PpmcError
 from ...host.bridge.answer import Build
-from ...sim.common.build import find_root
 
 
 def misfit(build: Build | None, number: int) -> str:
@@ -16,11 +15,16 @@ def misfit(build: Build | None, number: int) -> str:
         older = "the package" if _order(build.version) > _order(__version__) else "the bitstream"
         return f"the bitstream is of version {build.version}, this package {__version__}: renew {older}"
     row = parts.by_number(number)
+    if not build.source or row is None:
+        return ""
+    from ... import sources
+    from ...sim.common.build import find_root
+
     try:
-        own = sources.digest(find_root(), f"{row.rtl}_carrier").hex() if row else ""
+        own = sources.digest(find_root(), f"{row.rtl}_carrier").hex()
     except (PpmcError, RuntimeError, OSError):
         return ""  # no checkout here
-    if own and build.source and build.source != own:
+    if own and build.source != own:
         return (
             f"the bitstream was built from other sources ({build.source}) than those of this checkout "
             f"({own}): build and load it anew to test these"

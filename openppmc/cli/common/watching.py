@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.live import Live
-from rich.table import Table
 
 from . import output
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 Count = Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")]
 Every = Annotated[float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")]
@@ -30,6 +31,8 @@ def watch(
             for line in lines():
                 output.say(line)
         return
+    from rich.live import Live
+
     with Live(table(), console=output.console, auto_refresh=False) as live:
         for _ in range(turns - 1):
             pause()

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.table import Table
 
 from ...host import OutOfRange, Pmc006, PpmcError
 from ...host.pmc006.settings import setting
@@ -15,6 +14,9 @@ from ..common.options import Json
 from ..common.watching import Count, Every, watch
 from . import show
 from .session import Address, opened
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 # ---------------------------------------------------------------------- who is there
 

@@ -13,9 +13,9 @@ from ...host import Pmc006, Pmc006Bus
 from ...host.pmc006.bus import Found
 from ...host.pmc006.driver import find
 from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST
+from ..common.board import BOARD
 from ..common.guard import Guard
 from ..common.line_session import guarded, line_options, parse_numbers
-from ..common.session import BOARD
 
 LINE_WORDS = "rs485, rts=high, rts=low, patience=SECONDS"
 Address = Annotated[

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict
-from typing import Any
-
-from rich.table import Table
+from typing import TYPE_CHECKING, Any
 
 from ...host import End, Pmc006
 from ...host.pmc006.bus import Found
 from ...host.pmc006.codes import Flags, Modes
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 _HEADS = ("address", "version", "state", "position", "line faults")
 
@@ -29,6 +30,8 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
 
 def found_table(found: Iterable[Found]) -> Table:
     """A line a controller."""
+    from rich.table import Table
+
     grid = Table(box=None, pad_edge=False)
     for head in _HEADS:
         grid.add_column(head, justify="left" if head == "state" else "right")

@@ -34,7 +34,7 @@ class ModelPort:
         self._waiting = bytearray()
         self._closed = False
         try:
-            machine = parse_machine(text)
+            machine = parse_machine(text, (*OPTIONS, "unplug"))
             options = dict(machine.others)
             self._pacer = Pacer(_speed(options.pop("speed", "1")))
             clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))

@@ -8,7 +8,7 @@ What is special to a part stands in its own `machine.py`, which the table of par
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 
 from ... import parts
@@ -85,8 +85,9 @@ class Machine:
     others: dict[str, str]
 
 
-def parse_machine(text: str) -> Machine:
-    """From `word=value,word=value`; empty text: the defaults. Raises ValueError with the offending word."""
+def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
+    """From `word=value,word=value`; empty text: the defaults. known: words of the caller, which no part has.
+    Raises ValueError with the offending word."""
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}
     part, last, last_item, encoder = "ppmc104", 1, "", ""
@@ -110,7 +111,7 @@ def parse_machine(text: str) -> Machine:
         else:
             others[word] = value
     kind = machine_kind(part)
-    own = _own(kind, others)
+    own = _own(kind, others, known)
     axes = int(own.get("axes", kind.axes))
     if last > axes == 1:
         other, _ = _first(lambda one: one.axes > 1)
@@ -130,9 +131,10 @@ def _first(wanted: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
     return next((part, kind) for part, kind in kinds if wanted(kind))
 
 
-def _own(kind: MachineKind, others: dict[str, str]) -> dict[str, str]:
+def _own(kind: MachineKind, others: dict[str, str], known: Collection[str]) -> dict[str, str]:
     """Takes the part's own words out of the others; ValueError for those of another part."""
-    for its in map(machine_kind, machine_parts()):
+    strange = others.keys() - kind.own.keys() - set(known)
+    for its in map(machine_kind, machine_parts() if strange else ()):
         for word in its.own:
             if word in others and word not in kind.own:
                 raise ValueError(f"{word}={others[word]}: only {its.called} has it")

@@ -85,7 +85,7 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     """Spec from `word=value,word=value`; options have the same names and win. Raises SpecError."""
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
-        machine = parse_machine(",".join(words))
+        machine = parse_machine(",".join(words), (*OPTIONS, *FILES))
     except ValueError as error:
         raise SpecError(f"{error} (there are {known_words()})") from None
     rest = machine.others

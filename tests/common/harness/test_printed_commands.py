@@ -17,7 +17,7 @@ import pytest
 import typer
 
 from cocotb_tests.harness.paths import ROOT
-from openppmc.cli.common.app import app
+from openppmc.cli.app import app
 
 PAGES = [
     path

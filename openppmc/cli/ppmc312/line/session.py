@@ -11,9 +11,9 @@ from ....host import Ppmc312Bus, Station312
 from ....host.ppmc312.line.ascii import STATIONS, SumMode
 from ....host.ppmc312.line.bus import Found
 from ...common import line_session
+from ...common.board import BOARD, LINE_WORDS
 from ...common.guard import Guard
-from ...common.line_session import LINE_WORDS, guarded, parse_numbers
-from ...common.session import BOARD
+from ...common.line_session import guarded, parse_numbers
 
 
 def parse_stations(text: str) -> list[int]:

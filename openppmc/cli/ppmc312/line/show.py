@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
-from typing import Any
-
-from rich import box
-from rich.table import Table
+from typing import TYPE_CHECKING, Any
 
 from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
@@ -15,11 +12,16 @@ from ....host.ppmc312.line.bus import Found
 from ...common import output
 from .. import show as part_show
 
+if TYPE_CHECKING:
+    from rich.table import Table
+
 _HEADS = ("station", "version", "state", "position", "framing", "overrun", "checksum", "line faults")
 
 
 def found_table(found: Iterable[Found]) -> Table:
     """Stations with their own error counters and those of the master."""
+    from rich.table import Table
+
     grid = Table(box=None, pad_edge=False)
     for head in _HEADS:
         grid.add_column(head, justify="right")
@@ -59,6 +61,9 @@ def status_values(axis: Station312) -> dict[str, Any]:
 
 def status_table(axes: Iterable[Station312]) -> Table:
     """A line a station."""
+    from rich import box
+    from rich.table import Table
+
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for head in ("station", "state", "position", "encoder", "overrides", "switches", "line faults"):
         grid.add_column(head, justify="left" if head in ("state", "switches") else "right")

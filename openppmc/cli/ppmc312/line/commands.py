@@ -8,20 +8,15 @@ import typer
 
 from ....host import PpmcError, Station312
 from ...common import output, show
-from ...common.boards import ports
-from ...common.decode import decode_capture
+from ...common.board import BOARD
 from ...common.line_session import ending_after
-from ...common.options import NUMBERS, Json, Side, check_seconds, with_setup
-from ...common.plan import plan
-from ...common.session import BOARD, setup_values
+from ...common.options import Json, Side, check_seconds, with_setup
+from ...common.session import setup_values
 from ...common.state import lasting, remember
 from ..view import VIEW
-from . import looks
 from . import show as show_line
-from .script import script
 from .session import Session, opened
 
-app = typer.Typer(add_completion=False)
 Axis = Annotated[
     str, typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3 or 0,2,5 or 0-7")
 ]
@@ -34,7 +29,6 @@ AnyAxis = Annotated[
 # ---------------------------------------------------------------------- who is there
 
 
-@app.command()
 def scan(as_json: Json = False) -> None:
     """ppmc312-serial, pmc006: who is on the line; clears the error counters of ppmc312."""
     with opened() as session:
@@ -50,7 +44,6 @@ def scan(as_json: Json = False) -> None:
         raise PpmcError(show_line.nobody(session.bus.line.name))
 
 
-@app.command()
 def poll(
     axis: AnyAxis = None,
     count: Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N rounds")] = None,
@@ -74,7 +67,6 @@ def poll(
             output.say(f"station {one.number}: {state}" + (f", {lost} polls garbled" if lost else ""))
 
 
-@app.command()
 def status(axis: AnyAxis = None, as_json: Json = False) -> None:
     """Position, switches, state of stations. Disturbs nothing."""
     with opened() as session:
@@ -85,7 +77,6 @@ def status(axis: AnyAxis = None, as_json: Json = False) -> None:
             output.console.print(show_line.status_table(axes))
 
 
-@app.command()
 def reset(axis: Axis) -> None:
     """ppmc312-serial: reset stations by their instruction: pulses end at once, no table, position 0."""
     with opened() as session:
@@ -108,7 +99,6 @@ def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any])
     return reached
 
 
-@app.command()
 @with_setup
 def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
     """Initialise stations, and remember the set-up for this port."""
@@ -127,7 +117,6 @@ def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
         output.note("(a virtual board is new each time: nothing to remember)")
 
 
-@app.command(context_settings=NUMBERS)
 @with_setup
 def move(
     typed: dict[str, Any],
@@ -165,7 +154,6 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
             end.check(motion.asked)
 
 
-@app.command()
 @with_setup
 def jog(
     typed: dict[str, Any],
@@ -190,7 +178,6 @@ def jog(
         show_line.reports(axes)
 
 
-@app.command()
 @with_setup
 def home(
     typed: dict[str, Any],
@@ -211,7 +198,6 @@ def home(
             output.say(f"{one.who}position {one.position}: origin found")
 
 
-@app.command()
 def stop(
     axis: AnyAxis = None,
     now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
@@ -228,12 +214,3 @@ def stop(
 
 def _list(axes: list[Station312]) -> str:
     return ", ".join(str(one.number) for one in axes)
-
-
-app.command()(looks.info)
-app.command()(looks.monitor)
-app.command()(script)
-# Shared: they open no board.
-app.command()(ports)
-app.command(context_settings=NUMBERS)(plan)
-app.command("decode")(decode_capture)

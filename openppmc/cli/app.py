@@ -1,0 +1,239 @@
+"""The commands of `openppmc`: the options in front of them, and where each command is.
+
+What goes wrong leaves as an exception; `main` in __init__ makes one line of it.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from .. import __version__, parts
+from .common.board import BOARD, LINE_WORDS, PartName
+from .common.group import BRIDGE, Command, PartGroup
+
+SERIAL, PMC = "ppmc312-serial", "pmc006"
+ALL = (BRIDGE, SERIAL, PMC)
+
+
+class Commands(PartGroup):
+    """All commands, in the order of `--help`."""
+
+    rows = (
+        Command("ports", "common.boards:ports", "List the serial ports of this computer.", ALL),
+        Command("info", "common.boards:info", "What board answers at the port."),
+        Command("init", "common.boards:init", "Initialise an axis, and remember the set-up for this port."),
+        Command(
+            "move",
+            "common.moves:move",
+            "Move so many pulses. Several numbers move as many axes of a part, begun at the same moment.",
+            numbers=True,
+        ),
+        Command("jog", "common.moves:jog", "Run until Ctrl-C, a limit switch or the alarm."),
+        Command("home", "common.moves:home", "Find the origin switch and call it position 0."),
+        Command("stop", "common.moves:stop", "Stop a motion that was left running."),
+        Command("status", "common.looks:status", "Position, switches, state. Disturbs nothing."),
+        Command("monitor", "common.looks:monitor", "Watch position and switches until Ctrl-C."),
+        Command(
+            "plan", "common.plan:plan", "Predict a move. Needs no board.", (BRIDGE, SERIAL), numbers=True
+        ),
+        Command(
+            "table",
+            "common.looks:table",
+            "Read the ramps back from a PPMC-312, as the CSV that --curve takes.",
+        ),
+        Command("script", "common.script:script", "Carry out a file of commands."),
+        Command(
+            "selftest",
+            "common.selftest:selftest",
+            "Compare every edge of the board's pins with the golden model; ends with a page for an issue.",
+        ),
+        Command(
+            "decode",
+            "common.decode:decode_capture",
+            "Read what a logic analyser saw of an old chip: bytes in words, moves, "
+            "the golden model beside it.",
+            ALL,
+        ),
+        Command(
+            "scan",
+            "ppmc312.line.commands:scan",
+            "ppmc312-serial, pmc006: who is on the line; clears the error counters of ppmc312.",
+            (SERIAL,),
+        ),
+        Command(
+            "poll",
+            "ppmc312.line.commands:poll",
+            "ppmc312-serial: poll stations and print what they report, until Ctrl-C.",
+            (SERIAL,),
+        ),
+        Command(
+            "status",
+            "ppmc312.line.commands:status",
+            "Position, switches, state of stations. Disturbs nothing.",
+            (SERIAL,),
+        ),
+        Command(
+            "reset",
+            "ppmc312.line.commands:reset",
+            "ppmc312-serial: reset stations by their instruction: pulses end at once, no table, position 0.",
+            (SERIAL,),
+        ),
+        Command(
+            "init",
+            "ppmc312.line.commands:init",
+            "Initialise stations, and remember the set-up for this port.",
+            (SERIAL,),
+        ),
+        Command(
+            "move",
+            "ppmc312.line.commands:move",
+            "Move stations so many pulses, all at the same time.",
+            (SERIAL,),
+            numbers=True,
+        ),
+        Command(
+            "jog",
+            "ppmc312.line.commands:jog",
+            "Run stations until Ctrl-C, a limit switch or the alarm.",
+            (SERIAL,),
+        ),
+        Command(
+            "home",
+            "ppmc312.line.commands:home",
+            "Find the origin switch of stations, one after the other, and call it position 0.",
+            (SERIAL,),
+        ),
+        Command(
+            "stop",
+            "ppmc312.line.commands:stop",
+            "Stop stations that were left running; without --axis all.",
+            (SERIAL,),
+        ),
+        Command(
+            "info",
+            "ppmc312.line.looks:info",
+            "What line is at the port: its speed, the stations that answer, their versions.",
+            (SERIAL,),
+        ),
+        Command(
+            "monitor", "ppmc312.line.looks:monitor", "Watch position and switches until Ctrl-C.", (SERIAL,)
+        ),
+        Command("script", "ppmc312.line.script:script", "Carry out a file of commands.", (SERIAL,)),
+        Command(
+            "move",
+            "pmc006.moves:move",
+            "Move controllers so many steps, all at the same time.",
+            (PMC,),
+            numbers=True,
+        ),
+        Command("jog", "pmc006.moves:jog", "Run until Ctrl-C, an EXT stop or a stall.", (PMC,)),
+        Command(
+            "speed",
+            "pmc006.moves:speed",
+            "Let motors run at this speed, and leave them running; `stop` stops them.",
+            (PMC,),
+            numbers=True,
+        ),
+        Command("stop", "pmc006.moves:stop", "Stop motors that were left running.", (PMC,)),
+        Command(
+            "home",
+            "pmc006.moves:home",
+            "Find a switch, move off it, and call that place position 0; one controller after the other.",
+            (PMC,),
+        ),
+        Command("scan", "pmc006.looks:scan", "Who is on the line: 255, then 1 to 120.", (PMC,)),
+        Command(
+            "info",
+            "pmc006.looks:info",
+            "Firmware and all settings of a controller; a star: kept by `save`.",
+            (PMC,),
+        ),
+        Command(
+            "status",
+            "pmc006.looks:status",
+            "Position, state, stops, inputs, outputs. Disturbs nothing.",
+            (PMC,),
+        ),
+        Command("monitor", "pmc006.looks:monitor", "Watch position, state and stops until Ctrl-C.", (PMC,)),
+        Command("script", "pmc006.script:script", "Carry out a file of commands.", (PMC,)),
+        Command(
+            "set",
+            "pmc006.looks:set_values",
+            "Change settings, or tell them: `set current=1500 microsteps=32`. `save` keeps them.",
+            (PMC,),
+        ),
+        Command("io", "pmc006.looks:io", "Inputs and outputs: `io gpo1=1 gpo3=0` switches outputs.", (PMC,)),
+        Command(
+            "address",
+            "pmc006.looks:address",
+            "Give a controller another address, at once; `save` keeps it.",
+            (PMC,),
+        ),
+        Command(
+            "save",
+            "pmc006.looks:save",
+            "Keep the settings for the next power-up (those with a star in `info`).",
+            (PMC,),
+        ),
+        Command(
+            "reset-flags",
+            "pmc006.looks:reset_flags",
+            "Clear the flags of EXT1, EXT2 and a stall, so that motors may start again. Nothing moves.",
+            (PMC,),
+        ),
+        Command("program", "pmc006.program:program", "pmc006: user programs.", (PMC,)),
+    )
+
+
+app = typer.Typer(
+    name="openppmc",
+    cls=Commands,
+    help="Drive stepper controllers of the PPMC family through their UART bridge.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+    rich_markup_mode="rich",
+)
+_LINES = ", ".join(row.name for row in parts.having("line"))
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"openppmc {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    port: Annotated[
+        str,
+        typer.Option(
+            "--port",
+            "-p",
+            envvar="OPENPPMC_PORT",
+            help="/dev/ttyUSB0, COM3, sim:… (the RTL of any part) or model:… (its golden model)",
+        ),
+    ] = "",
+    baud: Annotated[
+        int | None,
+        typer.Option(
+            help="line rate to work with (1000000; ppmc312-serial: 19200, 38400, 83333; pmc006: 9600)"
+        ),
+    ] = None,
+    part: Annotated[
+        PartName | None,
+        typer.Option(envvar="OPENPPMC_PART", help="the part (what the board has; virtual: ppmc104)"),
+    ] = None,
+    line: Annotated[
+        str,
+        typer.Option(envvar="OPENPPMC_LINE", metavar="WORDS", help=f"{_LINES}: {LINE_WORDS}"),
+    ] = "",
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="print it")
+    ] = False,
+) -> None:
+    """Drive stepper controllers of the PPMC family through their UART bridge."""
+    BOARD.port, BOARD.baud, BOARD.line = port, baud, line
+    BOARD.part = None if part is None else part.value

@@ -1,0 +1,71 @@
+"""The table of commands: what `--help` prints without importing them is what they are."""
+
+from __future__ import annotations
+
+import inspect
+import subprocess
+import sys
+from collections import Counter
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from cocotb_tests.harness.paths import ROOT
+from openppmc import parts
+from openppmc.cli.app import Commands, app
+from openppmc.cli.common.group import BRIDGE, Command
+from openppmc.host.basis.kind import kind_of
+from openppmc.host.bridge.link import DEFAULT_BAUD
+
+ROWS = [pytest.param(row, id=f"{row.name}-{row.parts[0] or 'bridge'}") for row in Commands.rows]
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_a_row_is_true_of_its_command(row: Command) -> None:
+    """The place of a row loads, and its help is that of the command."""
+    found = row.load()
+    text = found.info.help if isinstance(found, typer.Typer) else inspect.getdoc(found)
+    assert row.help == " ".join(text.split())
+    made = row.build()
+    assert made.name == row.name and " ".join(made.help.split()) == row.help
+    ignores = made.context_settings.get("ignore_unknown_options", False)
+    assert ignores == row.numbers
+
+
+def test_every_command_of_a_part_has_a_row() -> None:
+    """A part has one command of a name; each part on a line has commands, and `--help` lists all names."""
+    counts = Counter((part, row.name) for row in Commands.rows for part in row.parts)
+    assert {*counts.values()} == {1}
+    assert {part for part, _ in counts} == {BRIDGE, *(row.name for row in parts.having("line"))}
+    shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
+    for row in Commands.rows:
+        assert f" {row.name} " in shown
+        # A command of several parts has the text of the first.
+        assert row.help in shown or row.name in {one.name for one in Commands.rows if one is not row}
+
+
+def test_options_in_front_state_what_the_library_has() -> None:
+    """The default rate in the help of --baud is that of the link; `axes` in the table is that of the part."""
+    shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
+    assert f"line rate to work with ({DEFAULT_BAUD};" in shown
+    rows = parts.having("number", "kind")
+    assert {row.name: row.axes for row in rows} == {row.name: kind_of(row.name).axes for row in rows}
+
+
+def test_a_misspelt_command_gets_the_nearest() -> None:
+    """Names of commands of all parts are suggested."""
+    for wrong, near in (("mvoe", "move"), ("scna", "scan"), ("reset-flag", "reset-flags")):
+        result = CliRunner().invoke(app, [wrong])
+        assert result.exit_code == 2 and f"Did you mean '{near}'" in " ".join(result.output.split())
+
+
+def test_help_is_that_of_typer() -> None:
+    """The help is the same if typer's formatter has all modules of rich, and these are whole afterwards."""
+    code = "from openppmc.cli import main; main(['--help'])"
+    after = "; import rich.markdown, rich.traceback; rich.markdown.Markdown('x').parsed; rich.traceback.Stack"
+    made = [
+        subprocess.run([sys.executable, "-c", text], cwd=ROOT, capture_output=True, text=True, check=True)
+        for text in (code + after, f"import typer.rich_utils; {code}")
+    ]
+    assert made[0].stdout == made[1].stdout != ""
