@@ -29,10 +29,12 @@ class AxisCore(Checked):
     bit = 0
     busy = 0x04
     unused = 0x08
+    link: Talk
+    setup: units.Setup | None
 
     def __init__(self, link: Talk) -> None:
         self.link = link
-        self.setup: units.Setup | None = None
+        self.setup = None
         self._motion: Motion | None = None
 
     @property

@@ -116,6 +116,12 @@ class Motion(Handle):
     counter before. ours: False for one that another program started.
     """
 
+    asked: int | None
+    direction: int
+    ramped: bool
+    operation: int
+    begin: int
+
     def __init__(self, axis: Moving, order: Order, begin: int, ours: bool = True) -> None:
         self._axis = axis
         self._link = axis.link

@@ -55,14 +55,13 @@ class PpmcBank(Part):
     """
 
     kind: BankKind = KIND
+    axis: Mapping[int, BankAxis]
 
     def __init__(self, link: Link) -> None:
         self.link = link
         self._info = read_info(link)
         self.kind = replace(KIND, axes=self._info.axes)
-        self.axis: Mapping[int, BankAxis] = Axes(
-            self.kind, (BankAxis(self, number) for number in range(1, self._info.axes + 1))
-        )
+        self.axis = Axes(self.kind, (BankAxis(self, number) for number in range(1, self._info.axes + 1)))
         self._group: Group | None = None
         visit(link, write_mask(self.kind, ()))
         for number in self.pending():

@@ -63,10 +63,13 @@ class Group(Checked):
     if axes did not begin; one whose motion a switch has ended meanwhile is none of these: its End tells.
     """
 
+    numbers: tuple[int, ...]
+    started: set[int]
+
     def __init__(self, bank: Grouped, axes: Iterable[int]) -> None:
         self._bank = bank
         self.numbers = numbers_of(bank.kind, axes)
-        self.started: set[int] = set()
+        self.started = set()
 
     def _each(self, numbers: Iterable[int], script: Script) -> list[tuple[bytes, ...]]:
         return visit(self._bank.link, [(number, script) for number in numbers])

@@ -13,10 +13,10 @@ openppmc.host.basis.errors.OutOfRange: pulses 2.5 is not a whole number
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Mapping, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
-from functools import update_wrapper
+from functools import update_wrapper, wraps
 from math import inf
 from numbers import Real
 from operator import index
@@ -122,27 +122,45 @@ def _kind(annotation: Any) -> Kind | None:
 
 
 class Entry:
-    """A method that checks its arguments. Arithmetic with it, without parentheses, raises Misused."""
+    """A method of a class that checks its arguments; objects have it as a `Bound`. kinds: by parameter."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
-        self._function = function
+        self.function = function
         parameters = inspect.signature(function).parameters
-        self._names = tuple(parameters)
+        self._names = tuple(parameters)[1:]
         kinds = {name: _kind(one.annotation) for name, one in parameters.items()}
         self.kinds = {name: kind for name, kind in kinds.items() if kind is not None}
 
     def __get__(self, instance: object, owner: type | None = None) -> Any:
         return self if instance is None else Bound(self, instance)
 
-    def __call__(self, *values: Any, **words: Any) -> Any:
-        known = [self._one(name, value) for name, value in zip(self._names, values, strict=False)]
-        rest = {name: self._one(name, value) for name, value in words.items()}
-        return self._function(*known, *values[len(known) :], **rest)
+    def __call__(self, instance: object, /, *values: Any, **words: Any) -> Any:
+        values, words = self.checked(values, words)
+        return self.function(instance, *values, **words)
+
+    def checked(self, values: Sequence[Any], words: Mapping[str, Any]) -> tuple[Any, Any]:
+        """The arguments as the function gets them. OutOfRange."""
+        if self.kinds:
+            known = [self._one(name, value) for name, value in zip(self._names, values, strict=False)]
+            values = (*known, *values[len(known) :])
+            words = {name: self._one(name, value) for name, value in words.items()}
+        return values, words
 
     def _one(self, name: str, value: Any) -> Any:
         kind = self.kinds.get(name)
         return value if kind is None or (value is None and kind.optional) else kind.check(value, name)
+
+
+def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The checking function of a class method. Python 3.10 binds only functions to the class."""
+    entry = Entry(function)
+
+    @wraps(function)
+    def checking(owner: type, /, *values: Any, **words: Any) -> Any:
+        return entry(owner, *values, **words)
+
+    return checking
 
 
 def _value(bound: Bound, *others: object) -> Any:
@@ -163,8 +181,9 @@ class Bound:
         first, *rest = inspect.signature(self._entry).parameters.values()
         return inspect.Signature(rest)
 
-    def __call__(self, *values: Any, **words: Any) -> Any:
-        return self._entry(self.__self__, *values, **words)
+    def __call__(self, /, *values: Any, **words: Any) -> Any:
+        values, words = self._entry.checked(values, words)
+        return self._entry.function(self.__self__, *values, **words)
 
     def __get__(self, instance: object, owner: type | None = None) -> Bound:
         return self
@@ -198,42 +217,35 @@ class Bound:
 # ---------------------------------------------------------------------- classes
 
 
-class _Sealing(type):
-    """Objects know their names after construction."""
+class Checked:
+    """Base of what users hold. Public methods check their arguments. Names that can be set are those that the
+    class declares (property, class attribute or annotation in its body) and those that begin with _."""
 
-    def __call__(cls, *values: Any, **words: Any) -> Any:
-        made = super().__call__(*values, **words)
-        made._sealed = True
-        return made
-
-
-class Checked(metaclass=_Sealing):
-    """Base of what users hold: arguments are checked, names that it does not have cannot be set."""
-
-    _sealed = False
+    _declared: frozenset[str] = frozenset()
 
     def __init_subclass__(cls, **words: Any) -> None:
         super().__init_subclass__(**words)
+        cls._declared = frozenset(name for one in cls.__mro__ for name in inspect.get_annotations(one))
         for name, member in list(vars(cls).items()):
             if name.startswith("_"):
                 continue
             if isinstance(member, FunctionType):
                 setattr(cls, name, Entry(member))
             elif isinstance(member, classmethod):
-                setattr(cls, name, classmethod(Entry(member.__func__).__call__))
+                setattr(cls, name, classmethod(_of_class(member.__func__)))
 
     def __setattr__(self, name: str, value: object) -> None:
-        if self._sealed and not name.startswith("_"):
+        if not name.startswith("_"):
             known = getattr(type(self), name, None)
             if isinstance(known, Entry) and not callable(value):
                 raise NoSuchName(f"{type(self).__name__}: {name!r} is a method, nothing to set")
-            if not hasattr(type(self), name) and name not in vars(self):
+            if name not in self._declared and not hasattr(type(self), name):
                 raise NoSuchName(f"{type(self).__name__} has no attribute {name!r}{_guess(name, self)}")
         super().__setattr__(name, value)
 
 
-def _guess(name: str, of: object) -> str:
+def _guess(name: str, of: Checked) -> str:
     """The nearest name that exists."""
-    names: Iterable[str] = (one for one in dir(of) if not one.startswith("_"))
+    names = [one for one in {*dir(of), *of._declared} if not one.startswith("_")]
     near = get_close_matches(name, names, 1)
     return f": do you mean {near[0]!r}?" if near else ""

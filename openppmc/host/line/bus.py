@@ -35,6 +35,7 @@ class LineBus(Device, Generic[LineT, StationT]):
     """
 
     link: LineT
+    line: LineT
 
     def __init__(self, line: LineT) -> None:
         self.line = self.link = line

@@ -47,11 +47,14 @@ class Motion(Handle):
     """
 
     end: End | None = None
+    asked: int | None
+    direction: int
+    begin: int | None
+    stop_ordered = False
 
     def __init__(self, part: Settings, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self.asked, self.direction, self.begin = asked, direction, begin
-        self.stop_ordered = False
         self._started = part.line.clock()
         self._abort: tuple[float, int] | None = None
 

@@ -21,12 +21,18 @@ class Talk(Checked):
     """See `pmc006.Pmc006`. address: 1 to 120, or 255. alone: the only controller that this program uses, so
     that messages need not name it. unsaved: last known values of settings that a reset changes."""
 
+    line: Line
+    link: Line
+    address: int
+    alone: bool
+    unsaved: dict[str, int]
+
     def __init__(self, line: Line, address: int = FACTORY, alone: bool = True) -> None:
         self.line = self.link = line
         self.address = address_number(address)
         self.alone = alone
         self._mark = 0
-        self.unsaved: dict[str, int] = {}
+        self.unsaved = {}
 
     @property
     def who(self) -> str:

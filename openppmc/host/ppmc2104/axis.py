@@ -57,6 +57,7 @@ class Axis2104(Axis):
     """
 
     kind = KIND
+    part: Both
 
     def __init__(self, part: Both, number: int) -> None:
         super().__init__(part.link)

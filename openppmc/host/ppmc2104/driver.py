@@ -45,12 +45,15 @@ class Ppmc2104(Part):
     """
 
     kind = KIND
+    x: Axis2104
+    y: Axis2104
+    axis: Mapping[int, Axis2104]
 
     def __init__(self, link: Link) -> None:
         self.link = link
         link.refusal = self._refusal
         self.x, self.y = Axis2104(self, 1), Axis2104(self, 2)
-        self.axis: Mapping[int, Axis2104] = Axes({1: self.x, 2: self.y})
+        self.axis = Axes({1: self.x, 2: self.y})
         self._levels = ALL_HIGH
         self._clear_errors()
         busy = self.status().busy

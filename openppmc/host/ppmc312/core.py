@@ -55,11 +55,13 @@ class Core(Checked, Generic[MotionT]):
     who = ""
     link: Way
     window: Instructions
+    setup: Setup | None
+    reports: deque[Report]
 
     def __init__(self, link: Way) -> None:
         self.link = link
-        self.setup: Setup | None = None
-        self.reports: deque[Report] = deque(maxlen=MOST_KEPT)
+        self.setup = None
+        self.reports = deque(maxlen=MOST_KEPT)
         self._motion: MotionT | None = None
         self._mark = 0
         self.window = self._make_window()

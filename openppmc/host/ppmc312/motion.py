@@ -65,15 +65,19 @@ class Motion(Handle):
     ramps. stop_ordered: a stop was sent, so that an end below the stop speed is its work.
     """
 
+    asked: int | None
+    direction: int
+    begin: int | None
+    held = False
+    shape = ""
+    stop_ordered = False
+
     def __init__(self, part: Moving, asked: int | None, direction: int, begin: int | None) -> None:
         self._part = part
         self._link = part.link
         self.asked = asked
         self.direction = direction
         self.begin = begin
-        self.held = False
-        self.shape = ""
-        self.stop_ordered = False
         self._started = self._link.clock()
 
     def accepted(self, status: int | None) -> None:

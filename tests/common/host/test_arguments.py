@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import pydoc
+import sys
 import threading
+import traceback
 from collections.abc import Callable, Iterable, Iterator, Sized
 from fractions import Fraction
 from typing import Any
@@ -211,6 +213,85 @@ def test_a_mistyped_name_is_refused(axis: Any) -> None:
     if isinstance(axis, Pmc006):
         with pytest.raises(PpmcError, match="has no attribute 'curent': do you mean 'current'"):
             axis.curent = 1500
+
+
+class Lamp(arguments.Checked):
+    """Has one name of each kind."""
+
+    on = False
+    watts: float
+    """Declared by its annotation only."""
+    _spare = 0
+
+    def __init__(self, watts: float) -> None:
+        self.watts = watts
+
+    @property
+    def dimmed(self) -> bool:
+        return self.watts < 5
+
+    @dimmed.setter
+    def dimmed(self, value: bool) -> None:
+        self.watts = 4 if value else 60
+
+    def blink(self, times: int = 1, self_test: bool = False) -> list[str]:
+        """Returns the functions that called it."""
+        return [frame.f_code.co_name for frame, _ in traceback.walk_stack(sys._getframe())]
+
+    @classmethod
+    def large(cls, watts: int) -> Lamp:
+        """Of the class that it was called by."""
+        return cls(watts)
+
+
+class Lantern(Lamp):
+    """Declares one more name."""
+
+    handle: str
+
+
+def test_names_that_a_class_declares_can_be_set() -> None:
+    """Properties, class attributes and annotations, of bases too, are set before and after construction."""
+    lamp = Lantern(3)
+    assert lamp.dimmed
+    lamp.on, lamp.watts, lamp.dimmed, lamp.handle, lamp._spare, lamp._new = True, 9.5, False, "brass", 1, 2
+    assert (lamp.on, lamp.watts, lamp.handle, lamp._new) == (True, 60, "brass", 2)
+    with pytest.raises(AttributeError, match="'Lantern' object has no attribute 'handle'"):
+        _ = Lantern(3).handle
+
+
+def test_names_that_a_class_does_not_declare_are_refused() -> None:
+    """Also in the constructor of a class; the nearest name may be one that has no value yet."""
+    lamp = Lantern(3)
+    for wrong, near in (("handel", "handle"), ("wats", "watts"), ("dimed", "dimmed")):
+        with pytest.raises(PpmcError, match=f"^Lantern has no attribute '{wrong}': do you mean '{near}'\\?$"):
+            setattr(lamp, wrong, 1)
+    with pytest.raises(PpmcError, match="^Lamp has no attribute 'handle'$"):
+        Lamp(3).handle = "brass"  # type: ignore[attr-defined]
+
+    class Bad(Lamp):
+        def __init__(self) -> None:
+            self.shade = 1
+
+    with pytest.raises(PpmcError, match="^Bad has no attribute 'shade'"):
+        Bad()
+
+
+def test_a_checked_call_passes_one_frame() -> None:
+    """Between the caller and the method is the check alone, with arguments by place or by name."""
+    lamp = Lamp(3)
+    here = "test_a_checked_call_passes_one_frame"
+    for called in (lamp.blink(), lamp.blink(2.0), lamp.blink(times=2, self_test=True), Lamp.blink(lamp, 3)):  # type: ignore[arg-type]
+        assert called[:3] == ["blink", "__call__", here]
+
+
+def test_a_class_method_gets_the_class_that_it_was_called_by() -> None:
+    """Class methods check their arguments, too, and keep their help."""
+    assert type(Lantern.large(60.0)) is Lantern and Lamp(1).large(60).watts == 60  # type: ignore[arg-type]
+    with pytest.raises(OutOfRange, match="^watts 'much' is not a whole number$"):
+        Lantern.large("much")  # type: ignore[arg-type]
+    assert "Of the class that it was called by" in pydoc.plain(pydoc.render_doc(Lantern.large))
+    assert "open(spec: 'str | Port', baud: 'int'" in pydoc.plain(pydoc.render_doc(Ppmc104.open))
 
 
 USES: list[Callable[[Any], object]] = [
