@@ -21,12 +21,13 @@ class Command:
     """A row of the table.
 
     place: "module:function" below `openppmc.cli`; a Typer is a group of commands. help: the docstring of the
-    function. parts: the parts that have this command. numbers: arguments such as -200 are no options.
+    function, in the first row of a name, which `--help` lists. parts: those that have this command. numbers:
+    arguments such as -200 are no options.
     """
 
     name: str
     place: str
-    help: str
+    help: str = ""
     parts: tuple[str, ...] = (BRIDGE,)
     numbers: bool = False
 
