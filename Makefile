@@ -246,7 +246,7 @@ clean: ## remove what was built, keep the environment
 distclean: clean ## remove the environment as well
 	@rm -rf $(VENV) site/node_modules site/browser/node_modules
 
-$(ENVSIM): requirements-sim.txt scripts/bootstrap.py
+$(ENVSIM): requirements-sim.txt scripts/env.py
 	@$(call bootstrap,$(notdir $<))
 
 $(ENVDEV): requirements-dev.txt $(ENVSIM)
@@ -267,4 +267,4 @@ $(ENVSITE): requirements-site.txt $(ENVSIM)
 $(ENVREL): requirements-release.txt $(ENVSIM)
 	@$(call bootstrap,$(notdir $<))
 
-bootstrap = python=$(PY); [ -x "$$python" ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); "$$python" scripts/bootstrap.py $1
+bootstrap = python=$(PY); [ -x "$$python" ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); "$$python" scripts/env.py $1

@@ -15,7 +15,7 @@ import pytest
 
 from cocotb_tests.harness.project import ROOT
 from openppmc.sim.common import verilator
-from scripts import bootstrap
+from scripts import env as environment
 
 ODD = "my dir ünï (#1, 100%) it's"
 DESIGN = 'module odd(input wire a, output wire b); `include "half.svh"\nendmodule\n'
@@ -79,7 +79,7 @@ def test_the_command_starts_in_an_odd_folder(tmp_path: Path) -> None:
     folder = tmp_path / ODD / "bin"
     folder.mkdir(parents=True)
     (folder / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
-    (folder / "openppmc").write_text(bootstrap.COMMAND.format(root=ascii(str(ROOT))))
+    (folder / "openppmc").write_text(environment.COMMAND.format(root=ascii(str(ROOT))))
     for path in folder.iterdir():
         path.chmod(0o755)
     (tmp_path / "link").symlink_to(folder / "openppmc")

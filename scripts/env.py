@@ -1,6 +1,6 @@
 """Make the virtual environment .venv from the pinned requirement files, with a progress line.
 
-Started by the Makefile with a Python that is new enough: ``python scripts/bootstrap.py requirements-sim.txt
+Started by the Makefile with a Python that is new enough: ``python scripts/env.py requirements-sim.txt
 …``. Only the standard library is used, because nothing else is there yet.
 """
 
