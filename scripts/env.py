@@ -62,6 +62,10 @@ def missing(groups: Iterable[str]) -> list[str]:
     """
     if VENV.is_symlink():
         return []
+    # A new version of the system's Python leaves .venv without packages.
+    library = VENV / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}"
+    if not (PYTHON.exists() and library.is_dir()):
+        return list(groups)
     now = digest()
     return [
         group for group in groups if not stamp(group).is_file() or stamp(group).read_text().strip() != now
@@ -105,9 +109,7 @@ def locked() -> Iterator[None]:
                     print("environment: another make installs packages; waiting for it", flush=True)
                 time.sleep(1)
         else:
-            raise SetupError(
-                f".venv: another make has installed packages for {WAIT_S} s; end it, then repeat"
-            )
+            raise SetupError(f".venv: another make has been installing for {WAIT_S} s; end it, then repeat")
         yield
 
 
@@ -144,7 +146,7 @@ def make_venv() -> None:
 
 def pip(progress: Progress, *words: str) -> int:
     """Install with pip; return how many packages it looked at. SetupError with pip's reason."""
-    command = [PYTHON, "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    command = [str(PYTHON), "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
     command += [
         "--retries",
         "2",

@@ -1,10 +1,18 @@
 #!/bin/sh
-# Prints the Python to build the environment with: $1 if given, else the first of the usual names that is new enough.
-# Prints nothing when there is none.
-new_enough='import sys; sys.exit(sys.version_info < (3, 10))'
-for name in ${1:-python3 python3.13 python3.12 python3.11 python3.10 python3.14 python}; do
-    if "$name" -c "$new_enough" </dev/null >/dev/null 2>&1; then
-        command -v "$name"
-        exit 0
-    fi
-done
+# Runs Python with $2, $3, …: that of .venv, else the one that $1 names, else the first of the usual names. It has to
+# be 3.10 or newer; without one this prints a line `error: …`.
+asked=$1
+shift
+new_enough() { "$1" -c 'import sys; sys.exit(sys.version_info < (3, 10))' </dev/null >/dev/null 2>&1; }
+if new_enough .venv/bin/python; then exec .venv/bin/python "$@"; fi
+if [ -n "$asked" ]; then
+    if new_enough "$asked"; then exec "$asked" "$@"; fi
+else
+    for name in python3 python3.13 python3.12 python3.11 python3.10 python3.14 python; do
+        if new_enough "$name"; then exec "$name" "$@"; fi
+    done
+fi
+asked=${asked:-python3}
+have=$("$asked" --version 2>&1 </dev/null | head -n 1)
+command -v "$asked" >/dev/null 2>&1 || have='not found'
+echo "error: Python 3.10 or newer is needed ($asked: $have): install one, or name it with PYTHON=/path/to/python3"

@@ -11,7 +11,7 @@ import pytest
 
 from cocotb_tests.harness import project
 from scripts.flow import boards
-from scripts.flow.boards import BOARDS, BY_PART
+from scripts.flow.boards import BOARDS
 
 
 def python(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -117,47 +117,6 @@ def test_a_board_for_another_part_names_it(tmp_path: Path) -> None:
         assert "BOARD=tangnano20k: not with ppmc104, give PART=ppmc312" in line
 
 
-def make(*words: str) -> subprocess.CompletedProcess[str]:
-    """What `make` would do, nothing is done; only its checks run."""
-    return subprocess.run(
-        ["make", "-n", *words],
-        cwd=project.ROOT,
-        env={name: value for name, value in os.environ.items() if not name.startswith("MAKE")},
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        ("TIMING=SLOW", "TIMING=SLOW: expected FAST or DATASHEET"),
-        ("PHASE_IDLE=2", "PHASE_IDLE=2: expected a whole number from 0 to 1"),
-        ("PHASE_ON=", "PHASE_ON=: expected a whole number from 0 to 1"),
-        ("READ_MAP=old", "READ_MAP=old: expected SHEET or FAMILY"),
-        ("XTAL_HZ=999999", "XTAL_HZ=999999: expected a whole number from 1000000 to 16000000"),
-        ("XTAL_HZ=16000001", "XTAL_HZ=16000001: expected a whole number from 1000000 to 16000000"),
-        ("XTAL_HZ=20000001 PART=stmc", "XTAL_HZ=20000001: expected a whole number from 1000000 to 20000000"),
-        ("BAUD=230400 PART=pmc006", "BAUD=230400: expected a whole number from 1200 to 115200"),
-        ("CLK_HZ=24000000", "CLK_HZ: `make bitstream' has no such variable"),
-    ],
-)
-def test_make_refuses_a_parameter_in_one_line(words: str, said: str) -> None:
-    done = make("bitstream", *words.split())
-    assert done.returncode != 0 and done.stdout == ""
-    (line,) = done.stderr.splitlines()
-    assert said in line
-
-
-def test_make_hands_parameters_to_the_top() -> None:
-    done = make("bitstream", "XTAL_HZ=20000000", "PART=stmc", "TIMING=DATASHEET", "PHASE_IDLE=1")
-    assert done.returncode == 0, done.stderr
-    assert "-G XTAL_HZ=20000000 -G TIMING=DATASHEET -G PHASE_IDLE=1" in done.stdout
-
-
 def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Before anything is synthesized, so an older bitstream is still there."""
     monkeypatch.setattr(project, "BUILD", tmp_path)
@@ -168,14 +127,6 @@ def test_a_parameter_of_another_part_is_refused(monkeypatch: pytest.MonkeyPatch,
     with pytest.raises(project.ProjectError, match=said):
         boards.build_board("icebreaker", "uart", params={"PHASE_IDLE": 1}, part="ppmc2104")
     assert old.exists()
-
-
-@pytest.mark.parametrize("goal", ["board", "bitstream", "flash", "demo", "soak"])
-def test_make_lists_the_parts_of_a_target(goal: str) -> None:
-    """A part in a frame of its own is refused by the list of those that the target can do."""
-    (line,) = make(goal, "PART=isa_4axis").stderr.splitlines()
-    assert "PART=isa_4axis: no such part (known: ppmc104,ppmc2104,stmc,ppmc312," in line and ",pmc006" in line
-    assert ("ppmc312-serial" in line) == (goal in ("board", "demo", "soak") or "ppmc312-serial" in BY_PART)
 
 
 def test_tools_are_found_without_path(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

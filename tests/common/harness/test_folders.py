@@ -36,8 +36,13 @@ def test_an_odd_folder_is_not_refused(tmp_path: Path) -> None:
 
 def check(folder: Path) -> subprocess.CompletedProcess[str]:
     """The checks of `make demo` in `folder`; nothing else is there."""
-    (folder / "scripts").mkdir(parents=True)
-    for name in ("Makefile", "scripts/preflight.sh", "scripts/find_python.sh"):
+    for name in (
+        "Makefile",
+        "scripts/find_python.sh",
+        *(f"scripts/{module}.py" for module in ("__init__", "run", "targets", "env")),
+        *(f"openppmc/{module}.py" for module in ("__init__", "parts")),
+    ):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, folder / name)
     env = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
     return subprocess.run(

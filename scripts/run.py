@@ -1,0 +1,137 @@
+"""Print the shell text of a make target: ``python -m scripts.run GOAL GOAL … NAME=VALUE …``.
+
+It is that of the first goal; the words after it are all goals and variables of this `make`. If one of them is
+wrong, the first fault is printed instead, as one line that begins with "error:". Standard library only.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from importlib.util import find_spec
+from shlex import quote
+
+from . import env
+from .targets import CHECKS, OLD, ROOT, TARGETS, VARIABLES, Target
+
+MARK = re.compile(r"\{([A-Z_]+)(/or)?(?::([^}]*))?\}")
+OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
+
+
+class WrongError(Exception):
+    """What is wrong and what to do, in one line."""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Words that name the nearest known name, or no words."""
+    near = get_close_matches(word, list(known), 1, 0.7)
+    return f"; nearest: {OLD.get(near[0], near[0])}" if near else ""
+
+
+class Goal:
+    """A goal with its row of the table and the values of its variables. WrongError if there is no such goal.
+
+    given: variables of the command line. Those of the environment count, too, if the target has them.
+    """
+
+    def __init__(self, word: str, given: Mapping[str, str]) -> None:
+        if word not in TARGETS and word not in OLD:
+            near = nearest(word, [*TARGETS, *OLD])
+            raise WrongError(f"{word}: there is no such target{near} (`make help' lists all)")
+        self.name, self.old = OLD.get(word, word), word in OLD
+        self.switches: set[str] = set()
+        for other in TARGETS:
+            first, _, switch = other.partition(" ")
+            name, _, value = switch.partition("=")
+            if first == word and switch:
+                self.switches.add(name)
+                if given.get(name) and value in ("", given[name]):
+                    self.name = other
+        self.target: Target = TARGETS[self.name]
+        self.known = {"PYTHON", *self.switches, *self.target.defaults}
+        self.given = {name: given.get(name, os.environ.get(name) or None) for name in self.known}
+
+    def check(self) -> None:
+        """WrongError for the first value that is wrong."""
+        given = {name: value for name, value in self.given.items() if value is not None}
+        values = {**self.target.defaults, **given}
+        for name, variable in VARIABLES.items():
+            check = CHECKS.get(self.name, {}).get(name, variable.check)
+            if name in given and (fault := check(values[name], values)):
+                raise WrongError(f"{name}={values[name]}: {fault}")
+
+    def command(self) -> str:
+        """The shell text."""
+
+        def optional(part: re.Match[str]) -> str:
+            marks = MARK.findall(part[0])
+            flags = [name for name, *_ in marks if VARIABLES[name].flag]
+            if not all(self.given[name] == "1" if name in flags else self.given[name] for name, *_ in marks):
+                return ""
+            return MARK.sub("", part[1]) if flags else part[1]
+
+        def value(mark: re.Match[str]) -> str:
+            name, alternatives, default = mark.groups()
+            text = self.given[name] or ""
+            return quote(text.replace(",", " or ") if alternatives else text) if text else default or "''"
+
+        text = re.sub(r"\[([^][]*\{[A-Z][^][]*)\]", optional, self.target.command)
+        text = MARK.sub(value, " ".join(text.split()).replace("{python}", quote(sys.executable)))
+        if todo := env.missing(self.target.groups):
+            text = f"{quote(sys.executable)} -m scripts.env {' '.join(todo)} || exit; {text}"
+        if self.old:
+            note = f"note: use `make {self.name}'; the old name is removed after the next release"
+            text = f"echo {quote(note)} >&2; {text}"
+        return text
+
+
+def check_machine(python: str | None) -> None:
+    """WrongError if the folder, the tools or the Python cannot make the environment."""
+    # Spaces and letters of any language do; these end a name in PATH, or in the scripts that pip writes.
+    if re.search(r"[:\"$`\\\x00-\x1f\x7f]", str(ROOT)):
+        shown = re.sub(r"[\x00-\x1f\x7f]", "?", str(ROOT))
+        raise WrongError(f"the project's folder must not have : \" $ ` or \\ in its path: {shown}")
+    for tool in ("git", "g++", "perl"):
+        if shutil.which(tool) is None:
+            text = f"install it with the package manager (Debian: apt install {tool})"
+            raise WrongError(f"{tool} is not installed: {text}")
+    if sys.prefix == sys.base_prefix and not (find_spec("venv") and find_spec("ensurepip")):
+        text = "install it (Debian: apt install python3-venv)"
+        raise WrongError(f"{sys.executable} has no venv module: {text}")
+    if python and sys.prefix != sys.base_prefix:
+        script = "import sys; print(*sys.version_info[:2], sep='.')"
+        try:
+            asked = subprocess.run([python, "-c", script], capture_output=True, text=True, check=False).stdout
+        except OSError:
+            raise WrongError(f"PYTHON={python}: there is no such program") from None
+        there = f"{sys.version_info.major}.{sys.version_info.minor}"
+        if asked.strip() != there:
+            raise WrongError(f"PYTHON={python}: .venv has Python {there}; `make distclean' removes it")
+
+
+def plan(words: list[str]) -> str:
+    """The shell text of the first word. WrongError for the first fault of any."""
+    given = dict(word.split("=", 1) for word in words if "=" in word)
+    goals = [Goal(word, given) for word in words if "=" not in word]
+    known = set().union(*(goal.known for goal in goals))
+    for name in given:
+        if name not in known and name not in OF_MAKE:
+            near, has = nearest(name, known), " ".join(sorted(known))
+            raise WrongError(f"{name}: `make {goals[0].name}' has no such variable{near} (it has: {has})")
+    for goal in goals:
+        goal.check()
+    if goals[0].target.groups:
+        check_machine(given.get("PYTHON"))
+    return goals[0].command()
+
+
+if __name__ == "__main__":
+    try:
+        print(plan(sys.argv[1:]))
+    except WrongError as error:
+        print("error:", error)

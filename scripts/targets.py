@@ -1,0 +1,334 @@
+r"""The table of make targets and their variables; ``python -m scripts.targets`` prints it (`make help`).
+
+A row of TABLE: name | groups of packages that the target needs | line of help. Below it is the command, shell
+text with these marks, which scripts/run.py replaces:
+
+    {NAME} {NAME:text}   the value of a variable, quoted; `text` if it is not given
+    {NAME/or}            the same with " or " in place of commas
+    [… {NAME} …]         only if the variable is given; of a flag only if it is 1, without the mark
+    {py} and the like    SHORT
+
+A name with a variable (`prove NIGHT=1`) is what the target does with this value; `NAME=`: with any value.
+This module needs the standard library only, because `make` reads it before there is an environment.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from openppmc import parts
+
+ROOT = Path(__file__).resolve().parents[1]
+SHORT = {
+    "py": ".venv/bin/python",
+    "pytest": ".venv/bin/python -m pytest",
+    "on": "-n {J:2} [--scheduler {SCHEDULER}] [--fresh {FRESH}]",
+    "folders": " ".join(row.name for row in parts.folders()),
+    "top": " ".join(
+        f"[-G {name}={{{name}}}]"
+        for name in ("XTAL_HZ", "TIMING", "PHASE_IDLE", "PHASE_ON", "READ_MAP", "BAUD", "RECORD")
+    ),
+    # pytest ends with 5 if it has collected no test.
+    "else": "|| { code=$?; test $code != 5 || echo 'error: no test matches' [T={T}] [CLK_HZ={CLK_HZ}] >&2;"
+    " exit $code; }",
+    "clean": "rm -rf build .pytest_cache .ruff_cache .hypothesis &&"
+    " find . -path ./.venv -prune -o -name __pycache__ -type d -print | xargs rm -rf",
+}
+TABLE = r"""
+use
+help | | Print this list.
+    {python} -m scripts.targets
+setup | dev campaign | Make the whole environment; other targets make what they need.
+    :
+demo | sim | Move a part; show what was sent and answered, plot, waveforms.
+    {py} -m scripts.demo --part {PART:ppmc104}
+waves | | Open the demo's waveforms in GTKWave or Surfer.
+    ./scripts/waves.sh
+test | sim | Run all tests.
+    [SIM_MAIN={SIM_MAIN}] {pytest} -n {J:2} [-k {T/or}] [--seed {SEED}] [--clk-hz {CLK_HZ}]
+    [--waves {WAVES}] [--inside {INSIDE}] [--model {MODEL}] {else}
+board | sim | Start a virtual board on a pseudo-terminal.
+    {py} -m openppmc.sim [part={PART}] [{SIM}]
+bitstream | dev | Build the bitstream of a board with a part.
+    {py} -m scripts.bitstream {BOARD:icebreaker} --host {HOST:uart} --part {PART:ppmc104}
+    [--seed {SEED}] {top}
+flash | sim | Load that bitstream into the board with openFPGALoader.
+    {py} -m scripts.flash {BOARD:icebreaker} --host {HOST:uart} --part {PART:ppmc104}
+verilog | dev | Write parts, bridges and boards as plain Verilog-2005.
+    {py} -m scripts.verilog [--top {TOP}] [--params {PARAMS}]
+site | site | Build all documents and the playground; needs Node.js.
+    {py} -m scripts.site
+
+work
+test WITH=campaign | campaign | Test the runner of campaigns.
+    {pytest} tests/*/campaign [-k {T/or}]
+test WITH=ophyd | ophyd | Test openppmc.ophyd with bluesky.
+    {pytest} tests/*/lab -n {J:2} [-k {T/or}]
+test WITH=litex | litex dev | Test openppmc.litex; needs riscv64-unknown-elf-gcc.
+    {pytest} tests/*/litex [-k {T/or}]
+test WITH=fusesoc | dev | Build the bitstream of a board with FuseSoC and edalize.
+    {pytest} tests/*/fusesoc && {py} -m scripts.packages.plain_boards {BOARD:icebreaker}
+test-board | sim | Test the host package on the virtual board.
+    {pytest} tests/*/board -n {J:2} [-k {T/or}]
+test-gates | dev campaign | Run the part tests on netlists; T=quick: a sample.
+    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.gates {on} [-k {T}] [--seed {SEED}]
+test-verilog | dev campaign | Run the part tests on plain Verilog; T=quick: a sample.
+    [SIM_MAIN={SIM}] {py} -m scripts.gates --plain {on} [-k {T}] [--seed {SEED}]
+test-web | site | Test the playground under node and in Chromium.
+    rm -f build/site/figures.txt; {pytest} tests/*/web -n {J:2} [-k {T/or}]; code=$?;
+    cat build/site/figures.txt 2>/dev/null; exit $code
+lint | dev | Check all sources.
+    {py} -m scripts.lint
+lint VERILATOR= | dev | Check the packages with another Verilator.
+    {py} -m scripts.packages --try --verilator {VERILATOR}
+format | dev | Lay out RTL and Python.
+    {py} -m scripts.lint --fix
+docs | sim | Write pictures and tables of the manuals.
+    {py} -m scripts.docs
+boards | dev | Write tops, constraints and tables of the boards.
+    {py} -m scripts.boards
+packages | dev | Write FuseSoC cores and file lists.
+    {py} -m scripts.packages
+rom | dev | Assemble the planner's program of the PMC006B4.
+    {py} -m scripts.pmc006.calc_rom
+trace | sim | Write each rule with its tests; fails on a gap.
+    { test -d build/trace || {pytest} -n 2; } &&
+    for part in {PART:{folders}}; do {py} -m scripts.trace $part || exit 1; done
+release | dev site release | Write everything of this version into dist/.
+    {py} -m scripts.release [--skip {SKIP}] [--only {ONLY}]
+clean | | Remove what was built.
+    {clean}
+distclean | | Remove the environment, too.
+    {clean} && rm -rf .venv site/node_modules site/browser/node_modules
+
+measure
+prove | dev | Prove properties of the RTL blocks (docs/proofs.md).
+    {py} -m scripts.prove -n {J:2} [--break {BREAK}] [{T}]
+prove NIGHT=1 | dev | Run all proofs, with intact and with broken RTL.
+    {py} -m scripts.prove --night -n {J:2} && {py} -m scripts.prove --night --break -n {J:2}
+report | dev | Measure size and clock rate of changed designs.
+    {py} -m scripts.size [--part {PART}] [--peers {PEERS}]
+size | dev | Compare sizes with docs/sizes.json; 5 % growth fails.
+    {py} -m scripts.size --check [--part {PART}]
+bench | sim | Measure the speed of all simulations.
+    {py} -m scripts.bench --part {PART:ppmc104}
+mutate | dev campaign | Count the small faults of the RTL that a proof or test finds.
+    {py} -m scripts.mutants.made {on} [-k {T}] [--count {COUNT}] [--quick {QUICK}]
+coverage | campaign | Count what tests reach of the RTL and the data sheets.
+    {py} -m scripts.coverage {on} [-k {T}]
+soak | campaign | Compare random hosts with the golden model; PART=all: each part.
+    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.soak {PART:ppmc104} --seed {SEED:1} --count {COUNT:1000} {on}
+fuzz | campaign | Send random characters into each deframer and its model.
+    {py} -m scripts.fuzz [--seed {SEED}] [--count {COUNT}] {on}
+nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates and prove for hours.
+    code=0; for work in 'fuzz --count 100000000' 'soak all --seed {SEED:1000000} --count {COUNT:2000}'
+    coverage mutants.made gates; do echo "== nightly: $work"; {py} -m scripts.$work {on} || code=1; done;
+    echo '== nightly: proofs'; {py} -m scripts.prove --night -n {J:2} || code=1; exit $code
+replay | sim | Repeat a failed random test on RTL and golden model.
+    {py} -m scripts.replay {FILE}
+scheduler | campaign | Start a scheduler for workers of other machines, port 8786.
+    {py} -m scripts.campaign scheduler
+worker | campaign | Start workers of this checkout for a scheduler.
+    {py} -m scripts.campaign worker --scheduler {SCHEDULER} -n {J:2}
+"""
+OLD = {
+    "test-campaign": "test WITH=campaign",
+    "test-lab": "test WITH=ophyd",
+    "test-litex": "test WITH=litex",
+    "test-fusesoc": "test WITH=fusesoc",
+    "prove-night": "prove NIGHT=1",
+}
+"""Old names of targets, which work until the next release."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A row of the table. kind: use, work or measure."""
+
+    kind: str
+    groups: tuple[str, ...]
+    says: str
+    command: str
+
+    @property
+    def defaults(self) -> dict[str, str]:
+        """Each variable of the command with its default, which may be empty."""
+        found: dict[str, str] = {}
+        for name, default in re.findall(r"\{([A-Z_]+)(?:/or|:([^}]*))?\}", self.command):
+            found[name] = found.get(name) or default
+        return found
+
+
+def rows() -> dict[str, Target]:
+    """The targets of TABLE, with the short marks written out."""
+    found = {}
+    for section in TABLE.strip().split("\n\n"):
+        kind, _, text = section.partition("\n")
+        row = r"^(\S.*?) \|(.*)\| (.*)\n((?:    .*(?:\n|$))+)"
+        for name, groups, says, command in re.findall(row, text, re.M):
+            command = " ".join(command.split())
+            for short, full in SHORT.items():
+                command = command.replace(f"{{{short}}}", full)
+            found[name] = Target(kind, tuple(groups.split()), says, command)
+    return found
+
+
+TARGETS = rows()
+Check = Callable[[str, Mapping[str, str]], str]
+"""(value of a variable, values of all variables) -> what is wrong with it, or an empty text."""
+
+
+def boards() -> dict[str, dict[str, list[str]]]:
+    """Board -> part -> hosts, for the names below `devices` of the descriptions; read without PyYAML."""
+    found = {}
+    for path in sorted(ROOT.glob("constraints/*/board.yml")):
+        text = path.read_text(encoding="utf-8")
+        sections = dict(re.findall(r"^(\w+):.*\n((?:(?:[ #].*)?\n)*)", text, re.M))
+        hosts: dict[str, list[str]] = {}
+        for name, body in re.findall(r"^  ([\w-]+):.*\n((?:(?:   .*| *#.*)?\n)*)", sections["parts"], re.M):
+            keys = dict(re.findall(r"^    (of|hosts): \[?([^]\n]*)", body, re.M))
+            hosts.setdefault(keys.get("of", name), []).extend(keys["hosts"].split(", "))
+        for device in re.findall(r"^  ([\w-]+):", sections.get("devices", ""), re.M):
+            found[device] = hosts
+    return found
+
+
+def limits(name: str, part: str, low: int, high: int) -> tuple[int, int]:
+    """The range of a parameter, "1e6 .. 20e6" in the header of the part's top; without it (low, high)."""
+    figure = r"(\d+(?: \d{3})*(?:e\d+)?)"
+    for path in ROOT.glob(f"rtl/*/{parts.PARTS[part].top}.sv"):
+        line = rf"^ *parameter [^/]*\b{name}\b[^/]*//.*?{figure} \.\. {figure}"
+        if found := re.search(line, path.read_text(encoding="utf-8"), re.M):
+            low, high = (int(float(text.replace(" ", ""))) for text in found.groups())
+    return low, high
+
+
+def number(low: int, high: int, name: str = "") -> Check:
+    """A whole number. `name`: a parameter, which the header of the part's top may limit."""
+
+    def check(value: str, values: Mapping[str, str]) -> str:
+        least, most = limits(name, values["PART"], low, high) if name else (low, high)
+        good = re.fullmatch("[0-9]{1,12}", value) and least <= int(value) <= most
+        return "" if good else f"expected a whole number from {least} to {most}"
+
+    return check
+
+
+def choice(*words: str) -> Check:
+    """One of these words."""
+    return lambda value, _: "" if value in words else f"expected {' or '.join(words)}"
+
+
+def matching(pattern: str, expected: str) -> Check:
+    """A text of this form."""
+    return lambda value, _: "" if re.fullmatch(pattern, value) else f"expected {expected}"
+
+
+def named(what: str, *names: str) -> Check:
+    """One of these names."""
+    return lambda value, _: "" if value in names else f"no such {what} (known: {','.join(names)})"
+
+
+def having(*columns: str) -> list[str]:
+    """Names of the parts that have one of these columns in the table of parts."""
+    return [name for name, row in parts.PARTS.items() if any(getattr(row, column) for column in columns)]
+
+
+def host(value: str, values: Mapping[str, str]) -> str:
+    """A host of the part on the board. The build reports a part that the board does not carry."""
+    board, part = values["BOARD"], values["PART"]
+    known = boards()[board].get(part, [value])
+    return "" if value in known else f"{board} with {part} has only {','.join(known)}; choose one of these"
+
+
+def free(value: str, values: Mapping[str, str]) -> str:
+    """Any text; the command checks it."""
+    return ""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the command line. `flag`: 1 switches something on."""
+
+    says: str
+    check: Check = free
+    flag: bool = False
+
+
+def flag(says: str) -> Variable:
+    """A variable that is 0 or 1."""
+    return Variable(says, number(0, 1), flag=True)
+
+
+TEST = r"(?!(?:and|or|not)$)[A-Za-z0-9_.:-]+"
+SOME_TESTS = "(a part of) a test's name, of letters, digits and _ . : -, or some with commas"
+SCHEDULER = matching(r"tcp://[A-Za-z0-9_.:-]+:[0-9]+", "tcp://host:port")
+WITH = choice(*(name.removeprefix("test WITH=") for name in TARGETS if name.startswith("test WITH=")))
+# In the order of the checks: HOST and the parameters depend on PART and BOARD.
+VARIABLES = {
+    "PYTHON": Variable("Python (3.10 or newer) that makes the environment"),
+    "PART": Variable("part", named("part", *(row.name for row in parts.tops()))),
+    "BOARD": Variable("FPGA board", named("board", *boards())),
+    "HOST": Variable("host interface that the board has for the part: uart, bus or spi", host),
+    "T": Variable("parts of test names, separated by commas", matching(rf"{TEST}(,{TEST})*", SOME_TESTS)),
+    "SEED": Variable("(first) random seed; of bitstream: of place and route", number(0, 2**32 - 1)),
+    "COUNT": Variable("number of seeds, characters, or mutants of a folder", number(1, 10**9)),
+    "CLK_HZ": Variable("only tests with this clock rate", number(8_000_000, 200_000_000)),
+    "J": Variable("number of workers", number(1, 64)),
+    "WITH": Variable("tests that need other packages", WITH),
+    "WAVES": flag("1: keep the waveforms of passing tests"),
+    "INSIDE": flag("1: show inner signals in the waveforms"),
+    "MODEL": flag("1: run directed tests on the golden model"),
+    "SIM_MAIN": Variable("main program of simulations", choice("own", "cocotb")),
+    "SCHEDULER": Variable("use the workers of this scheduler, tcp://host:port", SCHEDULER),
+    "FRESH": flag("1: ignore the results of an interrupted run"),
+    "QUICK": flag("1: only the first tests of each mutant"),
+    "BREAK": flag("1: break the RTL of each proof, which must fail"),
+    "NIGHT": flag("1: all proofs, also the long ones"),
+    "FILE": Variable("recording of a failed random test"),
+    "SIM": Variable("of board: its settings (docs/virtual_board.md); of test-verilog: icarus"),
+    "VERILATOR": Variable("another Verilator"),
+    "TOP": Variable("only this top module"),
+    "PARAMS": Variable("parameters of TOP: NAME=VALUE,…"),
+    "PEERS": Variable("folder of other open designs"),
+    "SKIP": Variable("what a trial of a release leaves out"),
+    "ONLY": Variable("bitstreams of a trial of a release"),
+    "XTAL_HZ": Variable("crystal of the replaced chip in Hz", number(1_000_000, 16_000_000, "XTAL_HZ")),
+    "TIMING": Variable("processing times", choice("FAST", "DATASHEET")),
+    "PHASE_IDLE": Variable("level of the phases before the first initialisation", number(0, 1)),
+    "PHASE_ON": Variable("level of a phase that is switched on", number(0, 1)),
+    "READ_MAP": Variable("read codes of the STMC", choice("SHEET", "FAMILY")),
+    "BAUD": Variable("rate of the UART after reset", number(1200, 3_000_000, "BAUD")),
+    "RECORD": Variable("2**RECORD records; 0: no recorder", matching("0|[4-9]|1[0-6]", "0, or 4 to 16")),
+}
+CARRIED, DEMO = ({"PART": named("part", *having(*columns))} for columns in (("carrier", "line"), ("demo",)))
+CHECKS: dict[str, dict[str, Check]] = {
+    **dict.fromkeys(("board", "bitstream", "flash"), CARRIED),
+    **dict.fromkeys(("demo", "bench"), DEMO),
+    "soak": {"PART": named("part", *having("soak"), "all")},
+    "trace": {"PART": named("part", *SHORT["folders"].split())},
+    "test-verilog": {"SIM": choice("icarus", "own", "cocotb")},
+}
+"""Target -> checks in place of those of VARIABLES."""
+
+
+def main() -> None:
+    """Print the targets with their variables."""
+    print("OpenPPMC: make TARGET [VARIABLE=VALUE …]")
+    for kind in ("use", "work", "measure"):
+        print(f"\n{kind}:")
+        for name, target in TARGETS.items():
+            if target.kind == kind:
+                shown = (f"{v}={d}" if d and " " not in d else v for v, d in target.defaults.items())
+                print(f"  {name:18} {target.says:66} {' '.join(shown)}".rstrip())
+    print("\nvariables:")
+    for name, variable in VARIABLES.items():
+        print(f"  {name:18} {variable.says}")
+    print(f"\nParts: {' '.join(parts.PARTS)}\nBoards: {' '.join(boards())}")
+
+
+if __name__ == "__main__":
+    main()
