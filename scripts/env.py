@@ -130,11 +130,10 @@ def make_venv() -> None:
         try:
             shutil.rmtree(VENV)
         except OSError as error:
-            raise SetupError(
-                f".venv: broken, and not removable ({error.strerror}); remove it, then repeat"
-            ) from None
+            text = f".venv: broken and not removable ({error.strerror}); remove it, then repeat"
+            raise SetupError(text) from None
     progress.show("making .venv")
-    # The Python that .venv was made with, if it is that of the broken .venv that runs this.
+    # The Python of a broken .venv may run this; it is a link to the one that .venv was made with.
     python = os.path.realpath(sys.executable)
     made = subprocess.run([python, "-m", "venv", VENV], capture_output=True, text=True, check=False)
     if made.returncode:
@@ -146,16 +145,14 @@ def make_venv() -> None:
 
 def pip(progress: Progress, *words: str) -> int:
     """Install with pip; return how many packages it looked at. SetupError with pip's reason."""
-    command = [str(PYTHON), "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
-    command += [
-        "--retries",
-        "2",
-        "--timeout",
-        "20",
-        "--progress-bar",
-        "off",
-        "--constraint",
-        LOCK.name,
+    options = "--no-input install --progress-bar off --retries 2 --timeout 20 --constraint"
+    command: list[str | Path] = [
+        PYTHON,
+        "-m",
+        "pip",
+        "--disable-pip-version-check",
+        *options.split(),
+        LOCK,
         *words,
     ]
     env = {**os.environ, "PYTHONUNBUFFERED": "1", "PIP_REQUIRE_VIRTUALENV": "0"}
