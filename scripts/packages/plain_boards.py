@@ -1,7 +1,7 @@
 """FuseSoC library of the boards in plain Verilog, which edalize's own flows build (D-89).
 
-`make verilog` and a release write it. `make test-fusesoc BOARD=…` starts this file: it writes one board anew
-and builds its bitstream with the tools of this environment.
+`make verilog` and a release write it. `make test WITH=fusesoc BOARD=…` starts this file: it writes one board
+again and builds its bitstream with the tools of this environment.
 """
 
 from __future__ import annotations

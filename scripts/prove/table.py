@@ -11,7 +11,7 @@ of one RTL file (`file`, `old`, which stands there once, `new`) that makes the p
 `induct`   by induction over so many clk, also without end: for blocks with much memory
 `assumes`  what the wrapper takes for granted: label -> what guards it where the block is driven
 `stubs`    files below tb/formal that stand for blocks inside; other proofs say what those blocks do
-`night`    takes long: `make prove-night`
+`night`    takes long: `make prove NIGHT=1`
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Boards in plain Verilog as yosys makes and reads them: part of `make test-fusesoc`, which has yosys."""
+"""Boards in plain Verilog as yosys makes and reads them; `make test WITH=fusesoc` has yosys."""
 
 from __future__ import annotations
 

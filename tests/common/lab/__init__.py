@@ -1,1 +1,1 @@
-"""openppmc.ophyd on golden models, `make test-lab`."""
+"""openppmc.ophyd on golden models, `make test WITH=ophyd`."""

@@ -1,1 +1,1 @@
-"""openppmc.litex in a SoC with a VexRiscv, `make test-litex`."""
+"""openppmc.litex in a SoC with a VexRiscv, `make test WITH=litex`."""
