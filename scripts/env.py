@@ -78,18 +78,14 @@ class Progress:
     def __init__(self, label: str) -> None:
         self.label, self.begin = label, time.monotonic()
 
-    def show(self, text: str, count: int = 0) -> None:
-        """Show what is being done, with the number of packages so far."""
+    def show(self, text: str, count: int = 0, done: bool = False) -> None:
+        """Show what is being done, with the number of packages so far, or the result."""
         line = f"{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)"
         if sys.stdout.isatty():
-            print("\r\033[K" + line[: shutil.get_terminal_size().columns - 1], end="", flush=True)
-        elif count % 10 == 0:
+            line = line[: shutil.get_terminal_size().columns - 1]
+            print("\r\033[K" + line, end="\n" if done else "", flush=True)
+        elif done or count % 10 == 0:
             print(line, flush=True)
-
-    def finish(self, text: str) -> None:
-        """Replace the line by the result."""
-        start = "\r\033[K" if sys.stdout.isatty() else ""
-        print(f"{start}{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)", flush=True)
 
 
 @contextmanager
@@ -126,7 +122,7 @@ def make_venv() -> None:
     """Create .venv, in place of a broken one."""
     progress = Progress("environment")
     if os.path.lexists(VENV):
-        progress.finish(".venv is broken and is made again")
+        progress.show(".venv is broken and is made again", done=True)
         try:
             shutil.rmtree(VENV)
         except OSError as error:
@@ -140,7 +136,7 @@ def make_venv() -> None:
         shutil.rmtree(VENV, ignore_errors=True)
         lines = (made.stderr or made.stdout).strip().splitlines() or ["no reason given"]
         raise SetupError(f".venv: {python} cannot make it ({lines[0]}); name another one with PYTHON=")
-    progress.finish(f".venv made with Python {sys.version.split()[0]}")
+    progress.show(f".venv made with Python {sys.version.split()[0]}", done=True)
 
 
 def pip(progress: Progress, *words: str) -> int:
@@ -205,7 +201,7 @@ def install(groups: list[str]) -> None:
     add_command()
     for group in {"sim", *groups}:
         stamp(group).write_text(digest() + "\n")
-    progress.finish(f"{found} installed")
+    progress.show(f"{found} installed", done=True)
 
 
 def link_verilator() -> None:

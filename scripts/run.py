@@ -17,7 +17,7 @@ from importlib.util import find_spec
 from shlex import quote
 
 from . import env
-from .targets import CHECKS, OLD, ROOT, TARGETS, VARIABLES, Target
+from .targets import OLD, ROOT, TARGETS, VARIABLES, fault
 
 MARK = re.compile(r"\{([A-Z_]+)(/or)?(?::([^}]*))?\}")
 OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
@@ -52,7 +52,7 @@ class Goal:
                 self.switches.add(name)
                 if given.get(name) and value in ("", given[name]):
                     self.name = other
-        self.target: Target = TARGETS[self.name]
+        self.target = TARGETS[self.name]
         self.known = {"PYTHON", *self.switches, *self.target.defaults}
         self.given = {name: given.get(name, os.environ.get(name) or None) for name in self.known}
 
@@ -60,10 +60,9 @@ class Goal:
         """WrongError for the first value that is wrong."""
         given = {name: value for name, value in self.given.items() if value is not None}
         values = {**self.target.defaults, **given}
-        for name, variable in VARIABLES.items():
-            check = CHECKS.get(self.name, {}).get(name, variable.check)
-            if name in given and (fault := check(values[name], values)):
-                raise WrongError(f"{name}={values[name]}: {fault}")
+        for name in VARIABLES:
+            if name in given and (text := fault(name, values, self.name)):
+                raise WrongError(f"{name}={values[name]}: {text}")
 
     def command(self) -> str:
         """The shell text."""

@@ -9,13 +9,13 @@ text with these marks, which scripts/run.py replaces:
     {py} and the like    SHORT
 
 A name with a variable (`prove NIGHT=1`) is what the target does with this value; `NAME=`: with any value.
-This module needs the standard library only, because `make` reads it before there is an environment.
+`make` reads this before there is an environment, so it needs the standard library only.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -143,6 +143,63 @@ OLD = {
 }
 """Old names of targets, which work until the next release."""
 
+# Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
+VARIABLE_TABLE = """
+PYTHON | any | Python (3.10 or newer) that makes the environment
+PART | part tops | part
+BOARD | board | FPGA board
+HOST | host | host interface that the board has for the part: uart, bus or spi
+T | tests | parts of test names, separated by commas
+SEED | 0..4294967295 | (first) random seed; of bitstream: of place and route
+COUNT | 1..1000000000 | number of seeds, characters, or mutants of a folder
+CLK_HZ | 8000000..200000000 | only tests with this clock rate
+J | 1..64 | number of workers
+WITH | campaign ophyd litex fusesoc | tests that need other packages
+WAVES | 0..1 | 1: keep the waveforms of passing tests
+INSIDE | 0..1 | 1: show inner signals in the waveforms
+MODEL | 0..1 | 1: run directed tests on the golden model
+SIM_MAIN | own cocotb | main program of simulations
+SCHEDULER | scheduler | use the workers of this scheduler, tcp://host:port
+FRESH | 0..1 | 1: ignore the results of an interrupted run
+QUICK | 0..1 | 1: only the first tests of each mutant
+BREAK | 0..1 | 1: break the RTL of each proof, which must fail
+NIGHT | 0..1 | 1: all proofs, also the long ones
+FILE | any | recording of a failed random test
+SIM | any | of board: its settings (docs/virtual_board.md); of test-verilog: icarus
+VERILATOR | any | another Verilator
+TOP | any | only this top module
+PARAMS | any | parameters of TOP: NAME=VALUE,…
+PEERS | any | folder of other open designs
+SKIP | any | what a trial of a release leaves out
+ONLY | any | bitstreams of a trial of a release
+XTAL_HZ | 1000000..16000000 | crystal of the replaced chip in Hz
+TIMING | FAST DATASHEET | processing times
+PHASE_IDLE | 0..1 | level of the phases before the first initialisation
+PHASE_ON | 0..1 | level of a phase that is switched on
+READ_MAP | SHEET FAMILY | read codes of the STMC
+BAUD | 1200..3000000 | rate of the UART after reset
+RECORD | record | 2**RECORD records; 0: no recorder
+"""
+OTHER_VALUES = {
+    **dict.fromkeys(("board", "bitstream", "flash"), ("PART", "part carrier line")),
+    **dict.fromkeys(("demo", "bench"), ("PART", "part demo")),
+    "soak": ("PART", "part soak"),
+    "trace": ("PART", "part folders"),
+    "test-verilog": ("SIM", "icarus own cocotb"),
+}
+"""Target -> a variable and the values that it has there."""
+
+FORMS = {
+    "any": ("(?s:.*)", ""),
+    "scheduler": ("tcp://[A-Za-z0-9_.:-]+:[0-9]+", "tcp://host:port"),
+    "record": ("0|[4-9]|1[0-6]", "0, or 4 to 16"),
+    "tests": (
+        r"(?!(and|or|not)$)[A-Za-z0-9_.:-]+(,[A-Za-z0-9_.:-]+)*",
+        "(a part of) a test's name, of letters, digits and _ . : -, or some with commas",
+    ),
+}
+"""Form of a value -> its pattern, and the words of an error."""
+
 
 @dataclass(frozen=True)
 class Target:
@@ -162,23 +219,35 @@ class Target:
         return found
 
 
-def rows() -> dict[str, Target]:
-    """The targets of TABLE, with the short marks written out."""
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the command line with its values: a range, words, or what `fault` knows."""
+
+    values: str
+    says: str
+
+    @property
+    def flag(self) -> bool:
+        """1 switches something on."""
+        return self.says.startswith("1: ")
+
+
+def _targets() -> dict[str, Target]:
     found = {}
     for section in TABLE.strip().split("\n\n"):
         kind, _, text = section.partition("\n")
         row = r"^(\S.*?) \|(.*)\| (.*)\n((?:    .*(?:\n|$))+)"
         for name, groups, says, command in re.findall(row, text, re.M):
-            command = " ".join(command.split())
             for short, full in SHORT.items():
                 command = command.replace(f"{{{short}}}", full)
-            found[name] = Target(kind, tuple(groups.split()), says, command)
+            found[name] = Target(kind, tuple(groups.split()), says, " ".join(command.split()))
     return found
 
 
-TARGETS = rows()
-Check = Callable[[str, Mapping[str, str]], str]
-"""(value of a variable, values of all variables) -> what is wrong with it, or an empty text."""
+TARGETS = _targets()
+VARIABLES = {
+    name: Variable(*rest) for name, *rest in (row.split(" | ") for row in VARIABLE_TABLE.strip().split("\n"))
+}
 
 
 def boards() -> dict[str, dict[str, list[str]]]:
@@ -196,127 +265,50 @@ def boards() -> dict[str, dict[str, list[str]]]:
     return found
 
 
-def limits(name: str, part: str, low: int, high: int) -> tuple[int, int]:
-    """The range of a parameter, "1e6 .. 20e6" in the header of the part's top; without it (low, high)."""
-    figure = r"(\d+(?: \d{3})*(?:e\d+)?)"
-    for path in ROOT.glob(f"rtl/*/{parts.PARTS[part].top}.sv"):
-        line = rf"^ *parameter [^/]*\b{name}\b[^/]*//.*?{figure} \.\. {figure}"
-        if found := re.search(line, path.read_text(encoding="utf-8"), re.M):
-            low, high = (int(float(text.replace(" ", ""))) for text in found.groups())
-    return low, high
+def limits(name: str, part: str, default: str) -> list[int]:
+    """The range of a variable; of a parameter that of the header of the part's top ("1e6 .. 20e6")."""
+    if part in parts.PARTS:
+        figure = r"(\d+(?: \d{3})*(?:e\d+)?)"
+        for path in ROOT.glob(f"rtl/*/{parts.PARTS[part].top}.sv"):
+            line = rf"^ *parameter [^/]*\b{name}\b[^/]*//.*?{figure} \.\. {figure}"
+            if found := re.search(line, path.read_text(encoding="utf-8"), re.M):
+                return [int(float(text.replace(" ", ""))) for text in found.groups()]
+    return [int(text) for text in default.split("..")]
 
 
-def number(low: int, high: int, name: str = "") -> Check:
-    """A whole number. `name`: a parameter, which the header of the part's top may limit."""
-
-    def check(value: str, values: Mapping[str, str]) -> str:
-        least, most = limits(name, values["PART"], low, high) if name else (low, high)
-        good = re.fullmatch("[0-9]{1,12}", value) and least <= int(value) <= most
-        return "" if good else f"expected a whole number from {least} to {most}"
-
-    return check
+def part_names(columns: list[str]) -> list[str]:
+    """Names of the parts that have one of these columns in their table; or those of its `tops`, `folders`."""
+    if columns in (["tops"], ["folders"]):
+        return [row.name for row in (parts.tops() if columns == ["tops"] else parts.folders())]
+    found = [row.name for row in parts.PARTS.values() if any(getattr(row, column) for column in columns)]
+    return [*found, *(["all"] if columns == ["soak"] else [])]
 
 
-def choice(*words: str) -> Check:
-    """One of these words."""
-    return lambda value, _: "" if value in words else f"expected {' or '.join(words)}"
-
-
-def matching(pattern: str, expected: str) -> Check:
-    """A text of this form."""
-    return lambda value, _: "" if re.fullmatch(pattern, value) else f"expected {expected}"
-
-
-def named(what: str, *names: str) -> Check:
-    """One of these names."""
-    return lambda value, _: "" if value in names else f"no such {what} (known: {','.join(names)})"
-
-
-def having(*columns: str) -> list[str]:
-    """Names of the parts that have one of these columns in the table of parts."""
-    return [name for name, row in parts.PARTS.items() if any(getattr(row, column) for column in columns)]
-
-
-def host(value: str, values: Mapping[str, str]) -> str:
-    """A host of the part on the board. The build reports a part that the board does not carry."""
-    board, part = values["BOARD"], values["PART"]
-    known = boards()[board].get(part, [value])
-    return "" if value in known else f"{board} with {part} has only {','.join(known)}; choose one of these"
-
-
-def free(value: str, values: Mapping[str, str]) -> str:
-    """Any text; the command checks it."""
-    return ""
-
-
-@dataclass(frozen=True)
-class Variable:
-    """A variable of the command line. `flag`: 1 switches something on."""
-
-    says: str
-    check: Check = free
-    flag: bool = False
-
-
-def flag(says: str) -> Variable:
-    """A variable that is 0 or 1."""
-    return Variable(says, number(0, 1), flag=True)
-
-
-TEST = r"(?!(?:and|or|not)$)[A-Za-z0-9_.:-]+"
-SOME_TESTS = "(a part of) a test's name, of letters, digits and _ . : -, or some with commas"
-SCHEDULER = matching(r"tcp://[A-Za-z0-9_.:-]+:[0-9]+", "tcp://host:port")
-WITH = choice(*(name.removeprefix("test WITH=") for name in TARGETS if name.startswith("test WITH=")))
-# In the order of the checks: HOST and the parameters depend on PART and BOARD.
-VARIABLES = {
-    "PYTHON": Variable("Python (3.10 or newer) that makes the environment"),
-    "PART": Variable("part", named("part", *(row.name for row in parts.tops()))),
-    "BOARD": Variable("FPGA board", named("board", *boards())),
-    "HOST": Variable("host interface that the board has for the part: uart, bus or spi", host),
-    "T": Variable("parts of test names, separated by commas", matching(rf"{TEST}(,{TEST})*", SOME_TESTS)),
-    "SEED": Variable("(first) random seed; of bitstream: of place and route", number(0, 2**32 - 1)),
-    "COUNT": Variable("number of seeds, characters, or mutants of a folder", number(1, 10**9)),
-    "CLK_HZ": Variable("only tests with this clock rate", number(8_000_000, 200_000_000)),
-    "J": Variable("number of workers", number(1, 64)),
-    "WITH": Variable("tests that need other packages", WITH),
-    "WAVES": flag("1: keep the waveforms of passing tests"),
-    "INSIDE": flag("1: show inner signals in the waveforms"),
-    "MODEL": flag("1: run directed tests on the golden model"),
-    "SIM_MAIN": Variable("main program of simulations", choice("own", "cocotb")),
-    "SCHEDULER": Variable("use the workers of this scheduler, tcp://host:port", SCHEDULER),
-    "FRESH": flag("1: ignore the results of an interrupted run"),
-    "QUICK": flag("1: only the first tests of each mutant"),
-    "BREAK": flag("1: break the RTL of each proof, which must fail"),
-    "NIGHT": flag("1: all proofs, also the long ones"),
-    "FILE": Variable("recording of a failed random test"),
-    "SIM": Variable("of board: its settings (docs/virtual_board.md); of test-verilog: icarus"),
-    "VERILATOR": Variable("another Verilator"),
-    "TOP": Variable("only this top module"),
-    "PARAMS": Variable("parameters of TOP: NAME=VALUE,…"),
-    "PEERS": Variable("folder of other open designs"),
-    "SKIP": Variable("what a trial of a release leaves out"),
-    "ONLY": Variable("bitstreams of a trial of a release"),
-    "XTAL_HZ": Variable("crystal of the replaced chip in Hz", number(1_000_000, 16_000_000, "XTAL_HZ")),
-    "TIMING": Variable("processing times", choice("FAST", "DATASHEET")),
-    "PHASE_IDLE": Variable("level of the phases before the first initialisation", number(0, 1)),
-    "PHASE_ON": Variable("level of a phase that is switched on", number(0, 1)),
-    "READ_MAP": Variable("read codes of the STMC", choice("SHEET", "FAMILY")),
-    "BAUD": Variable("rate of the UART after reset", number(1200, 3_000_000, "BAUD")),
-    "RECORD": Variable("2**RECORD records; 0: no recorder", matching("0|[4-9]|1[0-6]", "0, or 4 to 16")),
-}
-CARRIED, DEMO = ({"PART": named("part", *having(*columns))} for columns in (("carrier", "line"), ("demo",)))
-CHECKS: dict[str, dict[str, Check]] = {
-    **dict.fromkeys(("board", "bitstream", "flash"), CARRIED),
-    **dict.fromkeys(("demo", "bench"), DEMO),
-    "soak": {"PART": named("part", *having("soak"), "all")},
-    "trace": {"PART": named("part", *SHORT["folders"].split())},
-    "test-verilog": {"SIM": choice("icarus", "own", "cocotb")},
-}
-"""Target -> checks in place of those of VARIABLES."""
+def fault(name: str, values: Mapping[str, str], target: str) -> str:
+    """What is wrong with the value of a variable, or an empty text. values: those of all variables."""
+    value, allowed = values[name], VARIABLES[name].values
+    other, there = OTHER_VALUES.get(target, ("", ""))
+    kind, *words = (there if other == name else allowed).split()
+    if kind in ("part", "board"):
+        names = part_names(words) if kind == "part" else list(boards())
+        return "" if value in names else f"no such {kind} (known: {','.join(names)})"
+    if kind == "host":
+        board, part = values["BOARD"], values["PART"]
+        # The build reports a part that the board does not carry.
+        hosts = boards()[board].get(part, [value])
+        return (
+            "" if value in hosts else f"{board} with {part} has only {','.join(hosts)}; choose one of these"
+        )
+    if ".." in kind:
+        low, high = limits(name, values.get("PART", ""), kind)
+        good = re.fullmatch("[0-9]{1,12}", value) and low <= int(value) <= high
+        return "" if good else f"expected a whole number from {low} to {high}"
+    pattern, expected = FORMS.get(kind, ("|".join([kind, *words]), " or ".join([kind, *words])))
+    return "" if re.fullmatch(pattern, value) else f"expected {expected}"
 
 
 def main() -> None:
-    """Print the targets with their variables."""
+    """Print targets and variables."""
     print("OpenPPMC: make TARGET [VARIABLE=VALUE …]")
     for kind in ("use", "work", "measure"):
         print(f"\n{kind}:")
@@ -324,9 +316,7 @@ def main() -> None:
             if target.kind == kind:
                 shown = (f"{v}={d}" if d and " " not in d else v for v, d in target.defaults.items())
                 print(f"  {name:18} {target.says:66} {' '.join(shown)}".rstrip())
-    print("\nvariables:")
-    for name, variable in VARIABLES.items():
-        print(f"  {name:18} {variable.says}")
+    print("\nvariables:", *(f"  {name:18} {row.says}" for name, row in VARIABLES.items()), sep="\n")
     print(f"\nParts: {' '.join(parts.PARTS)}\nBoards: {' '.join(boards())}")
 
 
