@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -140,25 +141,36 @@ def test_pip_fails(project: Path, says: str, line: str) -> None:
 
 
 def test_a_broken_environment_is_made_again(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without its Python or without pip, stamps or not."""
-    fake(project)
-    install(project, "sim")
-    for name, value in (("ROOT", project), ("VENV", project / ".venv"), ("BIN", project / ".venv" / "bin")):
-        monkeypatch.setattr(env, name, value)
-    monkeypatch.setattr(env, "PYTHON", env.BIN / "python")
+    """One without its Python, without pip or of another version, although it has stamps."""
+    for name, path in (
+        ("ROOT", "."),
+        ("VENV", ".venv"),
+        ("BIN", ".venv/bin"),
+        ("PYTHON", ".venv/bin/python"),
+    ):
+        monkeypatch.setattr(env, name, project / path)
     monkeypatch.setattr(env, "LOCK", project / "requirements.lock")
-    assert env.missing(["sim"]) == []
-    env.PYTHON.unlink()
-    env.PYTHON.symlink_to("/no/python3")
-    assert env.missing(["sim", "dev"]) == ["sim", "dev"] and env.pip_version() == ""
-    env.PYTHON.unlink()
-    env.PYTHON.write_text("#!/bin/sh\nexit 1\n")
-    env.PYTHON.chmod(0o755)
-    assert env.pip_version() == ""
-    env.make_venv()
-    assert env.pip_version() and env.missing(["sim"]) == ["sim"]
-    shutil.rmtree(env.VENV / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}")
-    assert env.missing(["sim"]) == ["sim"]
+    monkeypatch.chdir(project)
+    real = subprocess.run
+
+    def run(command: list[str], **options: Any) -> Any:
+        if command[1:3] == ["-m", "venv"]:
+            assert Path(command[0]).samefile(sys.executable) and not env.VENV.exists()
+            return fake(project) or subprocess.CompletedProcess(command, 0)
+        return real(command, **options)
+
+    monkeypatch.setattr(env.subprocess, "run", run)
+    breaks = (
+        lambda: env.PYTHON.unlink(),
+        lambda: env.PYTHON.unlink() or env.PYTHON.symlink_to("/no/python3"),
+        lambda: env.PYTHON.write_text("#!/bin/sh\nexit 1\n") and env.stamp("sim").unlink(),
+        lambda: (env.VENV / "lib").rename(env.VENV / "old") and env.PYTHON.write_text("#!/bin/sh\nexit 1\n"),
+    )
+    for count, spoil in enumerate(breaks, 2):
+        assert env.main(["sim"]) == 0 and env.missing(["sim"]) == []
+        spoil()
+        assert env.missing(["sim"]) == ["sim"] and env.main(["sim"]) == 0
+        assert len(calls(project)) == count
 
 
 def test_a_broken_environment_that_cannot_be_removed(project: Path) -> None:

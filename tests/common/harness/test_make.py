@@ -128,9 +128,9 @@ def test_make_prints_the_line_and_runs_nothing() -> None:
     assert re.fullmatch(r"Makefile:\d+: \*\*\* T=a b: expected .*\.  Stop\.", line)
 
 
-@pytest.mark.parametrize("value", ["a'b", 'a"b', "a`id`b", "a  b;c", "a#b", "ä\\"])
-def test_a_value_reaches_the_command_unchanged(value: str) -> None:
-    """Shell and make take nothing out of it."""
+def test_a_value_reaches_the_command_unchanged() -> None:
+    """Neither make nor a shell changes it."""
+    value = "a'b\"c`id`  d;e#f|ä\\"
     done = make("replay", f"FILE={value}")
     assert shlex.split(done.stdout)[-1] == value, done.stderr
 
