@@ -369,6 +369,8 @@ def test_help_still_shows_what_a_method_takes() -> None:
     with Ppmc104.open(FAST) as axis:
         assert "pulses: 'int'" in pydoc.plain(pydoc.render_doc(axis.move))
         assert "move" in repr(axis.move)
+    text = pydoc.plain(pydoc.render_doc(Ppmc104.open))
+    assert "open(spec: 'str | Port', baud: 'int'" in text and "and check what is there" in text
 
 
 # ---------------------------------------------------------------------- what a set-up prints
