@@ -10,6 +10,8 @@ from openppmc.model.single.codes import Error
 from openppmc.model.single.predict import predict_move
 from tests.common.packages.c_programs import BENCH, DRIVER, Lines, ending, pulses, result, simulate
 
+pytestmark = pytest.mark.xdist_group("cdriver_bank")  # one worker builds and runs the programs
+
 INIT = bytes([59, 39, 6, 0])
 NO_PART = 17
 

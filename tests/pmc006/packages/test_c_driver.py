@@ -11,6 +11,8 @@ from cocotb_tests.harness.config import F8
 from cocotb_tests.harness.paths import ROOT
 from tests.common.packages.c_programs import BENCH, DRIVER, Lines, pulses, result, simulate
 
+pytestmark = pytest.mark.xdist_group("cdriver_006")  # one worker builds and runs the programs
+
 OK, TIMEOUT, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, BAD_REPLY = 0, 16, 18, 19, 20, 21
 REFUSED, BUSY, EEPROM = 96, 97, 98
 TOP = "pmc006_line"

@@ -19,6 +19,8 @@ from tests.common.packages.c_programs import (
     timed,
 )
 
+pytestmark = pytest.mark.xdist_group("cdriver_2104")  # one worker builds and runs the programs
+
 INIT = bytes([99, 49, 10, 0])
 OK, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, ERROR = 0, 18, 19, 20, 32
 """ERROR: results of the part's error numbers are that much higher."""

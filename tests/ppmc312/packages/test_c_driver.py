@@ -8,6 +8,8 @@ from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.config import F8
 from tests.common.packages.c_programs import BENCH, DRIVER, TIMINGS, Lines, pulses, result, simulate, timed
 
+pytestmark = pytest.mark.xdist_group("cdriver_312")  # one worker builds and runs the programs
+
 OK, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, BAD_REPLY = 0, 18, 19, 20, 21
 PARAMETER, STATE, LIMIT, FULL, BUS_ONLY = 64, 65, 66, 70, 71
 NORMAL, ORIGIN, SLOWLY, STOP, SWITCH, ALARM = 0x40, 0x20, 0x08, 0x04, 0x01, 0x80

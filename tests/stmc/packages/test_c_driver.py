@@ -22,6 +22,8 @@ from tests.common.packages.c_programs import (
     timed,
 )
 
+pytestmark = pytest.mark.xdist_group("cdriver_stmc")  # one worker builds and runs the programs
+
 INIT = bytes([20, 5, 8, 0])
 TICK = 16  # clk of the external clock here
 
