@@ -11,8 +11,8 @@ from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import files
 from cocotb_tests.harness.runner import SimOptions, run_item
 
-VIEW = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS)
-SPI = cocotb_items("cocotb_tests.bank", "tb_spi", part=BLOCKS)
+VIEW = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS, shared=True)
+SPI = cocotb_items("cocotb_tests.bank", "tb_spi", part=BLOCKS, shared=True)
 # Start values 0, as in an FPGA, and one file, as the tests of the UART bridge have them.
 FROM_ZERO = ("--output-split", "0", "--x-initial", "0")
 

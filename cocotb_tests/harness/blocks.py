@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Mapping, Sequence
 
+from .build import Design, locked
 from .collect import Item
 from .part import Part
+from .paths import BUILD, ROOT
+from .project import files
 from .runner import SimOptions, run_item
-from .wrapper import GROUPS, area_design
+from .wrapper import Block, wrapper_text
 
 BLOCKS = Part("blocks", {})
+GROUPS = ("common", "motion", "host", "single")
 
 
 def run_block(item: Item, options: SimOptions) -> None:
@@ -18,3 +23,17 @@ def run_block(item: Item, options: SimOptions) -> None:
     area = getattr(module, "AREA", item.module.rsplit("_", 1)[-1])
     groups = getattr(module, "GROUPS", GROUPS)
     run_item(item, options, design=area_design(area, module.BLOCKS, groups))
+
+
+def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
+    """Design of all instances of one area; writes the top module below build/.
+
+    groups: those of rtl/files.yml that hold what the area needs.
+    """
+    top = f"blocks_{area}"
+    path = BUILD / "blocks" / f"{top}.sv"
+    text = wrapper_text(top, blocks)
+    with locked(path.with_suffix(".lock")):
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+    return Design(top, [*files(*groups), path], [ROOT / "rtl" / "common"], ports="*")

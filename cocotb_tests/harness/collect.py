@@ -30,6 +30,7 @@ class Item:
     `target` is the make target that runs it, for the line that repeats it. `inside`: inner signals that it
     reads. `skipped`: why it does not run.
     `uncompared`: why a directed test is not compared with the golden model ("" if it is), None for others.
+    `shared`: it may share a process with others of its module, though it is no directed test.
     """
 
     module: str
@@ -43,11 +44,12 @@ class Item:
     inside: tuple[str, ...] = ()
     skipped: str = ""
     uncompared: str | None = None
+    shared: bool = False
 
     @property
     def together(self) -> bool:
         """Whether it may share a process with others of its build: directed tests begin with a reset."""
-        return self.uncompared is not None
+        return self.shared or self.uncompared is not None
 
     @property
     def full_name(self) -> str:
@@ -65,9 +67,10 @@ class Item:
         return replace(self, seed=seed)
 
 
-def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
+def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
     """pytest.param list of every cocotb test in `package`'s modules, under the configs each one names.
 
+    shared: tests of a module run in one process for each build. Each must begin with a reset.
     Raises ValueError if a module has no cocotb test or two tests share a name.
     """
     params, seen = [], set()
@@ -85,6 +88,7 @@ def cocotb_items(package: str, *modules: str, part: Part) -> list[Any]:
                         inside=inside_of(test),
                         skipped="skip=True of cocotb.test()" if case.skip else "",
                         uncompared=getattr(test.func, "_openppmc_uncompared", None),
+                        shared=shared,
                     )
                     if item.id in seen:
                         raise ValueError(f"{package}.{name}: second test called {item.id}")

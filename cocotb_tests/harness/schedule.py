@@ -38,11 +38,15 @@ def item_of(test: pytest.Item) -> Item | None:
 
 
 def group_key(test: pytest.Item) -> Hashable:
-    """The same for those that may share a process: one test function, which knows the design, one build."""
+    """The same for those that may share a process: one test function, which knows the design, one build.
+
+    The design of tests that are not directed may depend on their module.
+    """
     item = item_of(test)
     if item is None or not item.together or len(params_of(test)) > 1:
         return None
-    return (test.nodeid.partition("[")[0], item.part, item.config.name, item.seed, item.inside)
+    module = item.module if item.shared else ""
+    return (test.nodeid.partition("[")[0], module, item.part, item.config.name, item.seed, item.inside)
 
 
 class Groups:

@@ -50,13 +50,14 @@ async def _end(test: FrameType, clk: int) -> None:
 class Unit:
     """One instance. `edges` counts the rising clk edges since reset.
 
-    The first one of a simulation limits the whole test, for a block that does not answer would hold it up for
+    The first one of a test limits the whole test, for a block that does not answer would hold it up for
     minutes: to LIMIT clk, or to FREE if it has a clock that runs by itself, which is thirty times as fast.
     """
 
     LIMIT, FREE = 250_000, 1_500_000
     """About twice what the longest tests take, or 30 s."""
-    _limited = False
+    _limited: FrameType | None = None
+    """Frame of the test that has its limit."""
 
     def __init__(
         self, dut: Any, name: str, blocks: Mapping[str, Block], watch: str = "", limit: int = LIMIT
@@ -68,9 +69,9 @@ class Unit:
         self.inputs = [port for port, _, _ in block.ports if is_input(port)]
         self.watch = [self.pins[port] for port in watch.split()]
         self.edges = 0
-        if not Unit._limited:
-            Unit._limited = True
-            cocotb.start_soon(_end(_test_frame(), limit))
+        if Unit._limited is not (test := _test_frame()):
+            Unit._limited = test
+            cocotb.start_soon(_end(test, limit))
 
     def get(self, port: str) -> int:
         """Level of a port now."""

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-
-from cocotb_tests.harness.build import Design, locked
-from cocotb_tests.harness.paths import BUILD, ROOT
-from cocotb_tests.harness.project import files
-
-GROUPS = ("common", "motion", "host", "single")
 
 
 @dataclass(frozen=True)
@@ -53,17 +47,3 @@ def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
         values = ", ".join(f".{key}({value})" for key, value in block.params.items())
         body.append(f"  {block.module} #({values}) u_{name} ({', '.join(links)});")
     return "\n".join([f"module {top} (", ",\n".join(pins), ");", *body, "endmodule", ""])
-
-
-def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
-    """Design of all instances of one area; writes the top module below build/.
-
-    groups: those of rtl/files.yml that hold what the area needs.
-    """
-    top = f"blocks_{area}"
-    path = BUILD / "blocks" / f"{top}.sv"
-    text = wrapper_text(top, blocks)
-    with locked(path.with_suffix(".lock")):
-        if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
-    return Design(top, [*files(*groups), path], [ROOT / "rtl" / "common"], ports="*")

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness.blocks import area_design
 from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import cocotb_items
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.runner import run_item
-from cocotb_tests.harness.wrapper import area_design
 
 from .setting import ISA_4AXIS, design
 from .tb_slave import BLOCKS
 
-ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_bus", "tb_motion", part=ISA_4AXIS)
-SLAVE_ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_slave", part=ISA_4AXIS)
+ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_bus", "tb_motion", part=ISA_4AXIS, shared=True)
+SLAVE_ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_slave", part=ISA_4AXIS, shared=True)
 RANDOM = [item for (item,) in (param.values for param in ITEMS) if item.test == "isa_random_both_parts"]
 RANDOM = [item for item in RANDOM if not item.config.datasheet]  # one seed is enough: its set-up takes long
 SEEDS = range(2, 7)

@@ -8,7 +8,9 @@ from cocotb_tests.harness.blocks import BLOCKS, run_block
 from cocotb_tests.harness.collect import Item, cocotb_items
 from cocotb_tests.harness.runner import SimOptions
 
-ITEMS = cocotb_items("cocotb_tests.ppmc312.stages", "tb_stage", "tb_stage_walk", "tb_interval", part=BLOCKS)
+ITEMS = cocotb_items(
+    "cocotb_tests.ppmc312.stages", "tb_stage", "tb_stage_walk", "tb_interval", part=BLOCKS, shared=True
+)
 
 
 @pytest.mark.parametrize("item", ITEMS)

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import re
 import time
 
 import pytest
 
 from cocotb_tests.common.tb_stalled import BLOCKS
-from cocotb_tests.harness.build import SimError, build
+from cocotb_tests.harness.blocks import area_design
+from cocotb_tests.harness.build import build
 from cocotb_tests.harness.collect import cocotb_items
+from cocotb_tests.harness.outcome import FAILED
 from cocotb_tests.harness.part import Part
-from cocotb_tests.harness.runner import run_sim
-from cocotb_tests.harness.wrapper import area_design
+from cocotb_tests.harness.simulate import Job, tried
 
-ITEMS = [param.values[0] for param in cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}))]
+FOUND = cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}))
+ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
 
 
 @pytest.mark.parametrize(
@@ -27,10 +30,11 @@ ITEMS = [param.values[0] for param in cocotb_items("cocotb_tests.common", "tb_st
     ],
 )
 def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -> None:
-    (item,) = (item for item in ITEMS if item.test == test)
-    design = area_design("stalled", BLOCKS)
-    build(design)
+    """Also as a second test of its process."""
+    items = tuple(ITEMS[name] for name in sorted({"polls", test}))
+    job = Job(area_design("stalled", BLOCKS), items, 1)
+    build(job.design)
     begin = time.monotonic()
-    with pytest.raises(SimError, match=said):
-        run_sim(design, item, item.seed)
+    outcome = tried(job)[items[-1]]
+    assert outcome.kind == FAILED and re.search(said, outcome.text), outcome
     assert time.monotonic() - begin < 120  # 10 s; many minutes without the limit
