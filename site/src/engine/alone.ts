@@ -1,14 +1,18 @@
 // The engine without a page, for node (tests/common/web/play.mjs): a session, and every edge of every output.
 
 import type { PartData } from "../types";
+import { Store } from "../ui/store";
 import { Core, ROW } from "./core";
 import { Player } from "./player";
+import type { Speeds } from "./speeds";
 
 export interface Played {
   end: number;
   /** (t, word of an output, value) */
   edges: [number, number, number][];
   bad: string[];
+  /** What the speed plot of each motor draws. */
+  speeds: Speeds[];
 }
 
 export function play(part: PartData, wasm: Uint8Array, text: string): Played {
@@ -16,6 +20,8 @@ export function play(part: PartData, wasm: Uint8Array, text: string): Played {
   const player = new Player(core, part);
   player.start(text);
   const edges: [number, number, number][] = [];
+  const store = new Store(part);
+  let told = 0;
   const take = (): void => {
     const rows = core.rows();
     const view = new DataView(rows.buffer);
@@ -23,6 +29,8 @@ export function play(part: PartData, wasm: Uint8Array, text: string): Played {
       const pin = view.getUint32(at + 8, true);
       if (pin < 1 << 16) edges.push([view.getFloat64(at, true), pin, view.getUint32(at + 12, true)]);
     }
+    store.take(rows.slice().buffer, core.now, player.side.log.slice(told));
+    told = player.side.log.length;
   };
   for (;;) {
     // No further than the host's last wait: the end is that of the text.
@@ -36,5 +44,6 @@ export function play(part: PartData, wasm: Uint8Array, text: string): Played {
     end: core.now - 1,
     edges,
     bad: player.side.log.filter((one) => one.bad).map((one) => `${one.kind} ${one.text}: ${one.words}`),
+    speeds: store.speeds.map((one) => one.upTo(core.now)),
   };
 }

@@ -5,18 +5,21 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from bisect import bisect_right
+from itertools import pairwise
 from typing import Any
 
 import pytest
 
 from cocotb_tests.harness.comparison import compare_edges
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.stimulus import Edge
+from cocotb_tests.harness.stimulus import Edge, steps
 from scripts.flow.plain_sim import words
 from scripts.site.pages import playground
 from scripts.site.players import player
+from scripts.site.script import Player
 from scripts.site.sessions import sessions
-from scripts.site.webparts import WEB_PARTS, WebPart
+from scripts.site.webparts import WEB_PARTS, Motor, WebPart
 from tests.common.web.tally import left_out, told
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
@@ -66,6 +69,52 @@ def test_sessions(name):
         assert got["end"] == recording.end
         count += sum(map(len, actual.values()))
     told(f"{name}: {len(texts)} sessions by the page's engine, {count} edges as in the golden model{left}")
+
+
+BYTES = "c 0A d C7 d 31 d 64 d 00 c 43 d 63 d 00 d 00"
+"""A move of 100 pulses."""
+MOVES = {
+    "ppmc104": f"{BYTES} idle wait 2ms",
+    "ppmc2104": f"{BYTES.replace('0A', '02').replace('c 43', 'p 00 c 43')} idle wait 2ms",
+    "stmc": f"{BYTES} idle wait 2ms",
+    "ppmc312": sessions("ppmc312")[0].text.split("wait 1540ms")[0] + "wait 200ms",
+    "pmc006": sessions("pmc006")[0].text,
+    "bank": f"axis 0 {BYTES}\naxis 3 {BYTES} idle wait 2ms",
+}
+
+
+def step_times(play: Player, motor: Motor) -> list[int]:
+    """Return the cycles of a motor's steps on the golden model; the phases of a motor at rest are no step."""
+    edges = play.side.edges(play.output(motor))
+    if not motor.phases:
+        return [t for t, level in edges if level == motor.edge]
+    return steps(edges)
+
+
+def speed_at(speeds: dict[str, list[float]], t: float) -> float:
+    """Return the speed that is drawn at t, in seconds."""
+    return speeds["v"][bisect_right(speeds["t"], t) - 1]
+
+
+@pytest.mark.parametrize("name", WEB_PARTS)
+def test_speed_plot(name):
+    """The plot is 0 before the first step, then the frequency of each interval, then 0 again."""
+    part, hz = WEB_PARTS[name], WEB_PARTS[name].config.clk_hz
+    play = player(part)
+    play.play(MOVES[name])
+    (got,) = played((name, MOVES[name]))
+    every = [step_times(play, motor) for motor in part.motors]
+    assert any(every) and "error" not in got
+    for times, speeds in zip(every, got["speeds"], strict=True):
+        assert speed_at(speeds, 0) == 0
+        if not times:
+            assert max(speeds["v"]) == 0
+            continue
+        assert speed_at(speeds, (times[0] - 1) / hz) == 0
+        for before, after in pairwise(times):
+            assert speed_at(speeds, (before + after) / 2 / hz) == pytest.approx(hz / (after - before))
+        if got["end"] - times[-1] > 8 * (times[-1] - times[-2]):
+            assert speeds["v"][-1] == 0
 
 
 WRONG = (
