@@ -10,7 +10,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between
+from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between, run
 from openppmc import parts
 from scripts.flow import figures, size_page
 from scripts.pictures import house, plots, waves
@@ -92,4 +92,4 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main))

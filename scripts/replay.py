@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from cocotb_tests.harness.project import console
+from cocotb_tests.harness.project import console, run
 from cocotb_tests.harness.replaying import REPLAY
 from cocotb_tests.harness.runner import attempt
 from cocotb_tests.harness.shortened import replay_item, replay_line
@@ -36,4 +36,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main))

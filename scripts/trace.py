@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part
+from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part, run
 from cocotb_tests.harness.verifies import manual_rules, part_of_rule
 from openppmc.parts import PARTS
 from scripts.prove.results import by_rule, failed
@@ -201,4 +201,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main))

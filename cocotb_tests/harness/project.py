@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from openppmc import sources as rtl_list
+from openppmc import streams
 from openppmc.parts import PARTS, Row
 from openppmc.sources import Group
 
@@ -20,7 +21,7 @@ BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
 
 # Logs get lines as long as they are; tables in them are not squeezed.
-console = Console(highlight=False, width=None if sys.stdout.isatty() else 160)
+console = Console(highlight=False, width=None if sys.stdout and sys.stdout.isatty() else 160)
 
 
 class ProjectError(Exception):
@@ -95,7 +96,14 @@ def fail(message: str) -> int:
 
 
 def run(main: Callable[[], int]) -> int:
-    """Run a script's `main`: a ProjectError and Ctrl-C become one line and a non-zero exit code."""
+    """Run a script's `main`: a ProjectError and Ctrl-C become one line and a non-zero exit code.
+
+    Its stdout may have any encoding, be closed, or lose its reader (`openppmc.streams`).
+    """
+    return streams.guarded(lambda: _run(main))
+
+
+def _run(main: Callable[[], int]) -> int:
     try:
         return main()
     except ProjectError as error:

@@ -1,4 +1,6 @@
-"""The command line `openppmc`. Exit status: 0 done, 1 error, 2 wrong usage, 128 + n after signal n.
+"""The command line `openppmc`.
+
+Exit status: 0 done, 1 error, 2 wrong usage, 128 + n after signal n, 141 if the reader of stdout has ended.
 
 `app` has the table of commands; a command is imported when it is called. `common` has the commands that parts
 share, and knows no part. A part's folder has what differs: the commands of parts on a line, and what columns
@@ -12,46 +14,46 @@ from __future__ import annotations
 import os
 import sys
 
+from .. import streams
 from ..errors import PpmcError
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command line. Errors become one line on stderr; OPENPPMC_DEBUG=1 adds the traceback."""
-    try:
-        # Here, so that a signal while these are read is one line, too.
-        import typer
+    with streams.wrapped() as ended:
+        try:
+            # Here, so that a signal while these are read is one line, too.
+            import typer
 
-        from ..host.stopping import Signalled, arrived, handled, name_of, say
-        from .app import app
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        return 130
+            from ..host.stopping import Signalled, arrived, handled, name_of, say
+            from .app import app
+        except KeyboardInterrupt:
+            print("interrupted", file=sys.stderr)
+            return 130
 
-    def end(number: int, frame: object) -> None:
-        arrived.append(number)
-        raise Signalled(number)
+        def end(number: int, frame: object) -> None:
+            arrived.append(number)
+            raise Signalled(number)
 
-    arrived.clear()
-    try:
-        with handled(end):
-            result = app(arguments, prog_name="openppmc", standalone_mode=False)
-            sys.stdout.flush()
-        return result if isinstance(result, int) else 0
-    except typer.Exit as done:
-        return done.exit_code
-    except Signalled as stop:
-        say(name_of(stop.number))
-        return 128 + stop.number
-    except (KeyboardInterrupt, typer.Abort):
-        print("interrupted", file=sys.stderr)
-        return 130
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
-    except Exception as error:
-        if os.environ.get("OPENPPMC_DEBUG"):
-            raise
-        return _complain(error)
+        arrived.clear()
+        try:
+            with handled(end):
+                result = app(arguments, prog_name="openppmc", standalone_mode=False)
+                sys.stdout.flush()
+            ended.status = result if isinstance(result, int) else 0
+        except typer.Exit as done:
+            ended.status = done.exit_code
+        except Signalled as stop:
+            say(name_of(stop.number))
+            ended.status = 128 + stop.number
+        except (KeyboardInterrupt, typer.Abort):
+            print("interrupted", file=sys.stderr)
+            ended.status = 130
+        except Exception as error:
+            if os.environ.get("OPENPPMC_DEBUG"):
+                raise
+            ended.status = _complain(error)
+    return ended.status
 
 
 def _complain(error: Exception) -> int:

@@ -23,6 +23,8 @@ SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 )
 """Those of this system that `stop_on_signals` handles."""
+NO_MOTION = "nothing was moving"
+"""First words of `bring_to_rest` in that case."""
 arrived: list[int] = []
 """Signals of the command line before it has a board; an exception that a handler raises can get lost."""
 
@@ -78,7 +80,7 @@ def bring_to_rest(
 
     axes: list[Turning] = [axis for device in devices for axis in device.axes]
     moving: list[tuple[Device, Turning]] = []
-    how, errors, halted = "nothing was moving", [], False
+    how, errors, halted = NO_MOTION, [], False
 
     def halt() -> None:
         nonlocal halted, how

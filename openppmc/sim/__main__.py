@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+from ..streams import guarded
 from .common.board import AxisStatus, SimBoard, Status, start
 from .common.line_child import SimLine, start_line
 from .common.lines import line_kind, line_parts, part_of
@@ -96,4 +97,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(guarded(lambda: main(sys.argv[1:])))

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative
+from cocotb_tests.harness.project import ProjectError, relative, run
 from scripts.site import wasm
 from scripts.site.hooks import PARTS, PDF, data_sheet
 from scripts.site.pages import SITE, node, packages, playground
@@ -156,4 +156,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main))

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.part import BusStyle
-from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.project import ProjectError, run
 from openppmc.capture.common.words import Words
 from openppmc.parts import PARTS
 from openppmc.sim.common.verilator import SimError
@@ -140,4 +140,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run(lambda: main(sys.argv[1:])))

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from cocotb_tests.harness.build import locked
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative
+from cocotb_tests.harness.project import ProjectError, relative, run
 from scripts.site import export, wasm
 from scripts.site.progress import say
 
@@ -77,4 +77,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main))

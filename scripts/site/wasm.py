@@ -20,7 +20,7 @@ from pathlib import Path
 
 from cocotb_tests.harness.build import locked, part_design
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.project import ProjectError, relative
+from cocotb_tests.harness.project import ProjectError, relative, run
 from openppmc.sim.common import verilator
 from scripts.flow.plain_sim import assigned_cpp, word_cpp, words
 from scripts.site.webparts import WEB_PARTS, WebPart
@@ -238,4 +238,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run(lambda: main(sys.argv[1:])))

@@ -11,6 +11,8 @@ from typing import Any, ClassVar
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from ...streams import is_narrow
+
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
 """In place of a part: the parts behind the bridge, which have the same commands."""
@@ -43,7 +45,12 @@ class Command:
             group.add_typer(found, name=self.name)
         else:
             group.command(self.name, context_settings={"ignore_unknown_options": self.numbers})(found)
-        return typer.main.get_group(group).commands[self.name]
+        command = typer.main.get_group(group).commands[self.name]
+        if not is_narrow():
+            return command
+        from .plain_help import fitted
+
+        return fitted(command)
 
 
 class PartGroup(TyperGroup):
@@ -80,7 +87,12 @@ class PartGroup(TyperGroup):
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write the help of the whole."""
         _import_formatter()
-        super().format_help(ctx, formatter)
+        if is_narrow():
+            from .plain_help import write
+
+            write(self, ctx, formatter)
+        else:
+            super().format_help(ctx, formatter)
 
 
 def _import_formatter() -> None:

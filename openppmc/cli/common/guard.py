@@ -5,13 +5,17 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
+import typer
+
 from ...host.axis.device import Device
 from ...host.axis.motion import Progress
-from ...host.stopping import arrived, bring_to_rest, handled, name_of
+from ...host.stopping import NO_MOTION, arrived, bring_to_rest, handled, name_of, say
+from ...streams import StdoutLost
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bars
@@ -54,9 +58,10 @@ class Guard:
             os._exit(128 + number)
 
     def check(self) -> None:
-        """Raise Interrupted if a signal has arrived."""
+        """Raise Interrupted if a signal has arrived, StdoutLost if stdout rejects what was printed."""
         if self.count:
             raise Interrupted
+        sys.stdout.flush()
 
     def progress(self, now: Progress) -> None:
         """Progress callback of motions."""
@@ -103,7 +108,23 @@ class Guard:
                 self._bars.stop()
             self._bars = None
 
-    # ------------------------------------------------------------------ what a signal does
+    # ------------------------------------------------------------------ what a signal or a lost stdout does
+
+    @contextmanager
+    def resting(self, part: Device) -> Iterator[None]:
+        """Bring the motors to rest if the block ends by a signal or because stdout is lost."""
+        try:
+            self.check()
+            yield
+            sys.stdout.flush()
+        except Interrupted:
+            say(self.bring_to_rest(part))
+            raise typer.Exit(self.status) from None
+        except StdoutLost as lost:
+            self.bar_off()
+            motors = bring_to_rest([part], hurry=lambda: self.count > 0)
+            lost.motors = "" if motors.startswith(NO_MOTION) else motors
+            raise
 
     @property
     def status(self) -> int:

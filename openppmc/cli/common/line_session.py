@@ -12,8 +12,7 @@ import typer
 from ...host.axis.device import Turning
 from ...host.axis.motion import Progress
 from ...host.line.bus import LineBus
-from ...host.stopping import say
-from .guard import Guard, Interrupted
+from .guard import Guard
 
 Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 
@@ -88,13 +87,6 @@ def ending_after(
 @contextmanager
 def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
     """A line that `make` opens, and signals under control: they bring the motors to rest and end with
-    status 128 + n."""
-    with make() as bus, Guard() as guard:
-        try:
-            guard.check()
-            yield bus, guard
-        except Interrupted:
-            say(guard.bring_to_rest(bus))
-            raise typer.Exit(guard.status) from None
-        finally:
-            guard.bar_off()
+    status 128 + n. A lost stdout brings the motors to rest, too."""
+    with make() as bus, Guard() as guard, guard.resting(bus):
+        yield bus, guard

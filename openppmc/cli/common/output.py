@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ...streams import is_narrow
+
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.table import Table
+
+    from .narrow import Console
 
     console: Console
 
@@ -17,10 +21,11 @@ def __getattr__(name: str) -> Any:
     """`console`, made when it is first used: most commands print plain lines and need no rich."""
     if name != "console":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from rich.console import Console
+    if name not in globals():
+        from .narrow import Console
 
-    console = globals()[name] = Console(highlight=False)
-    return console
+        globals()[name] = Console(highlight=False)
+    return globals()[name]
 
 
 def say(text: str) -> None:
@@ -35,14 +40,23 @@ def note(text: str) -> None:
 
 def table(rows: dict[str, str]) -> Table:
     """Two columns, no frame."""
-    from rich.table import Table
+    from .narrow import two_columns
 
-    grid = Table(box=None, show_header=False, pad_edge=False)
-    grid.add_column(style="bold")
-    grid.add_column()
-    for name, value in rows.items():
-        grid.add_row(name, value)
-    return grid
+    return two_columns(rows.items())
+
+
+def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
+    """A table whose lines may be longer than those of the terminal. rows: headings first; sides: < or > of
+    each column."""
+    if is_narrow():
+        from .narrow import listed
+
+        __getattr__("console").print(listed(rows[0], rows[1:]))
+        return
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (f"{cell:{side}{width}}" for cell, side, width in zip(row, sides, widths, strict=True))
+        say(" ".join(cells).rstrip())
 
 
 def grid(rows: dict[str, dict[str, str]]) -> Table:

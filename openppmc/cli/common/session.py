@@ -7,17 +7,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-import typer
-
 from ... import parts
 from ...host import End, NothingToStop, PpmcError, open_part
 from ...host.axis.part import AnyAxis, Part
 from ...host.basis.kind import Kind
 from ...host.bridge.link import DEFAULT_BAUD
-from ...host.stopping import say
 from . import output
 from .board import BOARD
-from .guard import Guard, Interrupted
+from .guard import Guard
 from .options import SetupValues
 from .state import recall
 from .version import misfit
@@ -62,19 +59,17 @@ def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """The board, and signals under control: they bring the motors to rest and end with status 128 + n."""
+    """The board, and signals under control: they bring the motors to rest and end with status 128 + n. A lost
+    stdout brings the motors to rest, too."""
     number = None if BOARD.part is None else parts.part(BOARD.part).number
-    with open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part, Guard() as guard:
-        try:
-            guard.check()
-            if line := misfit(part.link.build(), part.link.identity.part):
-                output.note(f"note: {line}")
-            yield Session(part, guard)
-        except Interrupted:
-            say(guard.bring_to_rest(part))
-            raise typer.Exit(guard.status) from None
-        finally:
-            guard.bar_off()
+    with (
+        open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part,
+        Guard() as guard,
+        guard.resting(part),
+    ):
+        if line := misfit(part.link.build(), part.link.identity.part):
+            output.note(f"note: {line}")
+        yield Session(part, guard)
 
 
 @contextmanager

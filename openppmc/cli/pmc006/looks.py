@@ -109,8 +109,7 @@ def set_values(
 
 
 def _settings(values: dict[str, int]) -> None:
-    for line in show.settings_lines(values):
-        output.say(line)
+    output.print_rows(show.settings_rows(values), "<><<<<")
 
 
 def _assignment(text: str) -> tuple[str, int | None]:

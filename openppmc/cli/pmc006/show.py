@@ -120,19 +120,14 @@ def settings_values(part: Pmc006, names: Iterable[str] = tuple(SETTINGS)) -> dic
     return {name: getattr(part, name) for name in names}
 
 
-def settings_lines(values: dict[str, int]) -> list[str]:
-    """Values with units, ranges and what they mean; those with a star are kept by `save`."""
-    rows = [("setting", "value", "unit", "", "range", "meaning")]
+def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
+    """Values with units, ranges and what they mean; those with a star are kept by `save`. Headings first."""
+    rows: list[tuple[str, ...]] = [("setting", "value", "unit", "", "range", "meaning")]
     for name, value in values.items():
         one: Setting = SETTINGS[name]
         star = "*" if one.saved else ""
         rows.append((name, str(value), one.unit, star, one.span, _meaning(name, value, one.text)))
-    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    sides = "<><<<<"
-    return [
-        " ".join(f"{cell:{side}{width}}" for cell, side, width in zip(row, sides, wide, strict=True)).rstrip()
-        for row in rows
-    ]
+    return rows
 
 
 def _meaning(name: str, value: int, text: str) -> str:

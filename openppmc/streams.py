@@ -1,0 +1,196 @@
+"""stdout and stderr of programs: any encoding, closed, full, or with a reader that ends early."""
+
+from __future__ import annotations
+
+import errno
+import io
+import os
+import re
+import sys
+import unicodedata
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from shutil import get_terminal_size
+from typing import TextIO
+
+PIPE_CLOSED = 141
+"""Exit status if the reader of stdout has ended: 128 + SIGPIPE, as shells report it."""
+NARROW = 80
+"""Columns of a terminal below which a table that does not fit is printed as a list, and help as text."""
+
+ASCII = {
+    **{chr(code): "*" for code in range(0x2800, 0x2900)},  # spinners
+    **{chr(code): "#" for code in range(0x2580, 0x25A0)},  # blocks
+    **{chr(code): "+" for code in range(0x2500, 0x2580)},  # corners of boxes; their lines:
+    **dict.fromkeys("─━┄┅┈┉╌╍═╴╶╸╺╼╾‐‑‒–—―−", "-"), **dict.fromkeys("│┃┆┇┊┋╎╏║╵╷╹╻", "|"),
+    **dict.fromkeys("“”„«»", '"'), **dict.fromkeys("‘’‚", "'"), **dict.fromkeys("•·⋅", "*"),
+    "→": "->", "←": "<-", "↔": "<->", "²": "^2", "³": "^3", "µ": "u", "μ": "u", "Ω": "ohm", "°": "deg",
+    "×": "x", "±": "+-", "≤": "<=", "≥": ">=", "≠": "!=", "≈": "~", "½": "1/2", "¼": "1/4", "¹": "^1",
+    "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
+    "%": "\u066a",  # cp864 has only the Arabic one
+}  # fmt: skip
+"""What replaces characters that an encoding lacks. Letters with accents lose them."""
+
+
+class StdoutLost(SystemExit):
+    """stdout cannot be written. The exit status is PIPE_CLOSED if its reader has ended, else 1."""
+
+    def __init__(self, error: OSError) -> None:
+        # Windows reports EINVAL for a pipe without a reader.
+        ended = error.errno == errno.EPIPE or (os.name == "nt" and error.errno == errno.EINVAL)
+        self.status = PIPE_CLOSED if ended else 1
+        super().__init__(self.status)
+        reason = "closed" if error.errno == errno.EBADF else error.strerror or str(error)
+        self.reason = "the reader has ended" if ended else reason
+        self.motors = ""
+        """How moving motors were stopped, empty if none moved."""
+
+    @property
+    def line(self) -> str:
+        """The line for the user, empty if the reader has ended and no motor was moving."""
+        if self.status == PIPE_CLOSED and not self.motors:
+            return ""
+        line = f"error: stdout: cannot be written ({self.reason})"
+        return f"{line}: {self.motors}" if self.motors else f"{line}; send it to a file or another program"
+
+
+def readable(text: str, encoding: str) -> str:
+    """Replace characters that an encoding lacks. Columns stay aligned: the next two or more spaces of the
+    line shrink by what a replacement is longer.
+
+    >>> readable("a → b, 3 m/s², Zürich, 日", "ascii")
+    'a -> b, 3 m/s^2, Zurich, \\\\u65e5'
+    >>> readable("→ 05    position", "cp437")
+    '-> 05   position'
+    """
+    if _has(encoding, text):
+        return text
+    pieces, extra = [], 0
+    for piece in re.split(r"(\n| {2,})", text):
+        if piece.startswith("  "):
+            shorter = min(extra, len(piece) - 1)
+            pieces.append(piece[shorter:])
+            extra -= shorter
+            continue
+        pieces.append("".join(c if _has(encoding, c) else _ascii(c) for c in piece))
+        extra = 0 if piece == "\n" else extra + len(pieces[-1]) - len(piece)
+    return "".join(pieces)
+
+
+def _has(encoding: str, text: str) -> bool:
+    try:
+        text.encode(encoding)
+    except UnicodeError:
+        return False
+    return True
+
+
+def _ascii(character: str) -> str:
+    plain = unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode()
+    return ASCII.get(character) or plain or character.encode("ascii", "backslashreplace").decode()
+
+
+class _Stream(io.TextIOWrapper):
+    """A standard stream in place of `stream`. failed: called once if it cannot be written; what follows is
+    dropped. Its exceptions are not OSError, which rich and click handle in their own ways."""
+
+    def __init__(self, stream: io.TextIOWrapper, failed: Callable[[OSError], None]) -> None:
+        stream.flush()
+        super().__init__(
+            stream.buffer,
+            stream.encoding,
+            "backslashreplace",
+            line_buffering=stream.line_buffering,
+            write_through=stream.write_through,
+        )
+        self._failed = failed
+
+    def write(self, text: str, /) -> int:
+        try:
+            super().write(readable(text, self.encoding))
+        except OSError as error:
+            self._drop(error)
+        return len(text)
+
+    def flush(self) -> None:
+        try:
+            super().flush()
+        except OSError as error:
+            self._drop(error)
+
+    def _drop(self, error: OSError) -> None:
+        """Send the rest nowhere: the interpreter writes at its end what is left, and complains."""
+        with suppress(OSError):
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, self.fileno())
+            os.close(nowhere)
+        self._failed(error)
+
+
+class Ended:
+    """How a block of `wrapped` ends. status: exit status, set by the block."""
+
+    status = 0
+
+
+@contextmanager
+def wrapped() -> Iterator[Ended]:
+    """stdout and stderr accept any text inside the block.
+
+    If stdout cannot be written, StdoutLost leaves the block, and one line on stderr states the reason. A
+    status other than 0 that the block has set remains: that error was reported. stderr drops what it cannot
+    write.
+    """
+    lost: list[StdoutLost] = []
+
+    def fail(error: OSError) -> None:
+        lost.append(StdoutLost(error))
+        raise lost[0]
+
+    before = sys.stdin, sys.stdout, sys.stderr
+    sys.stdin = _opened(sys.stdin, os.O_RDONLY, "r")
+    out, err = _opened(sys.stdout, os.O_RDONLY), _opened(sys.stderr, os.O_WRONLY)
+    sys.stdout, sys.stderr = _wrapped(out, fail), _wrapped(err, lambda error: None)
+    ended = Ended()
+    try:
+        try:
+            yield ended
+        except SystemExit as done:
+            if done.code and not isinstance(done, StdoutLost):
+                raise
+        with suppress(StdoutLost):
+            sys.stdout.flush()
+        if lost and not ended.status:
+            ended.status = lost[0].status
+            if lost[0].line:
+                print(lost[0].line, file=sys.stderr)
+    finally:
+        for stream in (sys.stdout, sys.stderr):
+            if isinstance(stream, _Stream):
+                with suppress(StdoutLost):
+                    stream.detach()
+        sys.stdin, sys.stdout, sys.stderr = before
+
+
+def guarded(run: Callable[[], int]) -> int:
+    """Call `run` inside `wrapped`; returns the exit status."""
+    with wrapped() as ended:
+        ended.status = run()
+    return ended.status
+
+
+def is_narrow() -> bool:
+    """Whether tables that do not fit become lists on this terminal, and help is text."""
+    return get_terminal_size().columns < NARROW
+
+
+def _opened(stream: TextIO | None, flags: int, mode: str = "w") -> TextIO:
+    """A stream, or one in place of a closed one, whose number the next opened port would get otherwise.
+    flags: with O_RDONLY a write fails, with O_WRONLY it is dropped."""
+    if stream is not None:
+        return stream
+    return io.TextIOWrapper(open(os.open(os.devnull, flags), f"{mode}b", closefd=False), "utf-8")
+
+
+def _wrapped(stream: TextIO, failed: Callable[[OSError], None]) -> TextIO:
+    return _Stream(stream, failed) if isinstance(stream, io.TextIOWrapper) else stream
