@@ -4,16 +4,16 @@ import { execFileSync } from "node:child_process";
 import chromium from "@sparticuz/chromium";
 import { chromium as playwright } from "playwright-core";
 
+// The arguments of the package switch web security off; a reader's browser has it on.
 async function found() {
-  const options = { headless: true, env: { ...process.env, LANG: "en_US.UTF-8" } };
+  const options = { headless: true, args: ["--no-sandbox"], env: { ...process.env, LANG: "en_US.UTF-8" } };
   try {
     const own = execFileSync("which", ["chromium"], { encoding: "utf8" }).trim();
-    return await playwright.launch({ ...options, executablePath: own, args: ["--no-sandbox"] });
+    return await playwright.launch({ ...options, executablePath: own });
   } catch {
     // There is none, or it does not start.
   }
-  const args = chromium.args.filter((word) => word !== "--single-process");
-  return playwright.launch({ ...options, executablePath: await chromium.executablePath(), args });
+  return playwright.launch({ ...options, executablePath: await chromium.executablePath() });
 }
 
 export async function launch() {
