@@ -212,8 +212,11 @@ const checks = {
       if (![base, fromFile, "data:", "blob:"].some((own) => request.url().startsWith(own))) others.push(request.url());
     });
     const pages = fs.readdirSync(html, { recursive: true }).filter((name) => name.endsWith(".html"));
-    for (const from of [base, fromFile])
-      for (const name of pages) await page.goto(from + name.split(path.sep).map(encodeURIComponent).join("/"));
+    for (const [from, names] of [
+      [base, pages],
+      [fromFile, ["index.html", "404.html", "playground.html", path.join("docs", "host.html")]],
+    ])
+      for (const name of names) await page.goto(from + name.split(path.sep).map(encodeURIComponent).join("/"));
     equal([...new Set(others)].join(), "", "addresses of other hosts");
     if (pages.length < 50) throw new Error(`only ${pages.length} pages`);
     return [page, `${pages.length} pages load nothing from another host, over http and from a file`];
