@@ -6,8 +6,8 @@ goals := $(or $(MAKECMDGOALS),help)
 given := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)),$(call quote,$v=$($v))))
 plan   = $(shell ./scripts/find_python.sh $(call quote,$(PYTHON)) -B -m scripts.run $(call quote,$@)\
            $(foreach goal,$(goals),$(call quote,$(goal))) $(given))
-# $1 is either the shell text or a line `error: …`.
-run    = $(if $(filter error:,$(firstword $1)),$(error $(subst error: ,,$1)),$1)
+# $1 is the shell text, a line `error: …`, or empty if Python has failed.
+run    = $(if $(filter-out error:,$(firstword $1)),$1,$(error $(or $(subst error: ,,$1),scripts/run.py failed)))
 
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 unexport VERILATOR_ROOT

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -186,11 +187,22 @@ def test_another_python_than_that_of_the_environment(python: str, said: str) -> 
         run.plan(["demo", f"PYTHON={python}"])
 
 
-def test_no_python(tmp_path: Path) -> None:
-    """Without a new enough Python there is one line that names the one that was asked for."""
+@pytest.fixture
+def bare(tmp_path: Path) -> Path:
+    """A folder with the Makefile and find_python.sh alone."""
     (tmp_path / "scripts").mkdir()
     for name in ("Makefile", "scripts/find_python.sh"):
-        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
-        (tmp_path / name).chmod(0o755)
-    (line,) = make("demo", "PYTHON=/no/python3", folder=tmp_path).stderr.splitlines()
+        shutil.copy(ROOT / name, tmp_path / name)
+    return tmp_path
+
+
+def test_no_python(bare: Path) -> None:
+    """Without a new enough Python there is one line that names the one that was asked for."""
+    (line,) = make("demo", "PYTHON=/no/python3", folder=bare).stderr.splitlines()
     assert "Python 3.10 or newer is needed (/no/python3: not found): install one, or name it with" in line
+
+
+def test_a_failure_is_not_success(bare: Path) -> None:
+    """If run.py itself fails, make does, too."""
+    done = make("test", f"PYTHON={sys.executable}", folder=bare)
+    assert done.returncode == 2 and "*** scripts/run.py failed.  Stop." in done.stderr
