@@ -108,6 +108,8 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
                 "COCOTB_LOG_LEVEL": "INFO",
                 "COCOTB_ANSI_OUTPUT": "0",
                 "COCOTB_REWRITE_ASSERTION_FILES": "*.py",
+                # cocotb makes a configuration of pytest for that, which would import every installed plugin.
+                "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
                 # Without it an expected failure looks like a pass.
                 "COCOTB_PREVIEW": "xfail_in_results",
                 **job.env,
