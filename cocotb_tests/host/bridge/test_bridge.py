@@ -25,7 +25,7 @@ FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
 BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)
 BOARDS = ROOT / "rtl" / "boards"
-ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART)
+ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART, shared=True)
 BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
 CARRIER_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_carriers", part=PART)
 STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART)
