@@ -13,7 +13,7 @@ from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.runner import run_item
 
 ITEMS = cocotb_items(
-    "cocotb_tests.host.busses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("busses", {})
+    "cocotb_tests.host.busses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("busses", {}), shared=True
 )
 
 # The wheel's verilated.mk cannot build a design that is split into several C++ files.
