@@ -71,6 +71,8 @@ test WITH=litex | litex dev | Test openppmc.litex; needs riscv64-unknown-elf-gcc
     {pytest} tests/*/litex [-k {T/or}]
 test WITH=fusesoc | dev | Build the bitstream of a board with FuseSoC and edalize.
     {pytest} tests/*/fusesoc && {py} -m scripts.packages.plain_boards {BOARD:icebreaker}
+test WITH=versions | sim | Test with the lowest and newest dependencies; T=quick: a sample.
+    {py} -m scripts.versions [-k {T/or}]
 test-board | sim | Test the host package on the virtual board.
     {pytest} tests/*/board -n {J:2} [-k {T/or}]
 test-gates | dev campaign | Run the part tests on netlists; T=quick: a sample.
@@ -154,7 +156,7 @@ SEED | 0..4294967295 | (first) random seed; of bitstream: of place and route
 COUNT | 1..1000000000 | number of seeds, characters, or mutants of a folder
 CLK_HZ | 8000000..200000000 | only tests with this clock rate
 J | 1..64 | number of workers
-WITH | campaign ophyd litex fusesoc | tests that need other packages
+WITH | campaign ophyd litex fusesoc versions | tests that need other packages
 WAVES | 0..1 | 1: keep the waveforms of passing tests
 INSIDE | 0..1 | 1: show inner signals in the waveforms
 MODEL | 0..1 | 1: run directed tests on the golden model

@@ -1,0 +1,123 @@
+"""`make test WITH=versions`: the package with its oldest and its newest dependencies, in environments of its own.
+
+The lowest version of each dependency of pyproject.toml is tried on the oldest Python that is found (3.10 or
+newer), the newest versions on the newest Python.
+"""
+
+from __future__ import annotations
+
+import argparse
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+WORK = ROOT / "build" / "versions"
+EXTRAS = "[decode,ophyd,plot]"
+TOOLS = re.compile(r"(?:cocotb|find_libpython|hypothesis|pytest[\w-]*)==.*")
+"""Lines of requirements-sim.txt that the tests need, too."""
+TESTS = ("tests/*/host", "tests/*/cli", "tests/common/capture", "tests/common/lab")
+QUICK = (
+    "tests/common/host/test_arguments.py",
+    "tests/ppmc312/cli/test_cli.py",
+    "tests/common/capture/test_formats.py",
+    "-k",
+    "arguments or overrides or refusals or sigrok or vcd or csv or help",
+)
+FOUND = "import sys, venv, ensurepip; print(*sys.version_info[:2], sys.executable)"
+
+
+class VersionsError(Exception):
+    """No Python, or a step that failed, in one line."""
+
+
+def pythons(names: Iterable[str]) -> list[tuple[tuple[int, int], str]]:
+    """Versions and paths of the interpreters that can make an environment, oldest first."""
+    found: dict[tuple[int, int], str] = {}
+    for name in names:
+        try:
+            done = subprocess.run([name, "-c", FOUND], text=True, capture_output=True, check=False)
+        except OSError:
+            continue
+        if done.returncode == 0:
+            major, minor, path = done.stdout.rstrip().split(" ", 2)
+            if (int(major), int(minor)) >= (3, 10):
+                found.setdefault((int(major), int(minor)), path)
+    return sorted(found.items())
+
+
+def candidates() -> list[str]:
+    """Interpreters on PATH and in the folder of pyenv."""
+    pyenv = os.environ.get("PYENV_ROOT") or os.path.expanduser("~/.pyenv")
+    names = ["python3", *(f"python3.{minor}" for minor in range(10, 30))]
+    return [*names, *glob.glob(f"{glob.escape(pyenv)}/versions/*/bin/python")]
+
+
+def lowest(project: str) -> list[str]:
+    """Constraints `name==version`, one for each `name>=version` of a pyproject.toml."""
+    return [f"{name}=={version}" for name, version in re.findall(r'"([\w-]+)>=([\w.]+)"', project)]
+
+
+def step(what: str, words: list[str], folder: Path = ROOT) -> None:
+    """Run a command. VersionsError if it fails."""
+    env = {**os.environ, "PIP_REQUIRE_VIRTUALENV": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    env["OPENPPMC_STATE"] = str(WORK / "state")
+    if subprocess.run(words, cwd=folder, env=env, check=False).returncode:
+        raise VersionsError(f"{what} failed: {' '.join(words[:6])} …")
+
+
+def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> None:
+    """Build the package, install it with these constraints, and run a command and the tests."""
+    folder = WORK / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    limits = folder / "constraints.txt"
+    limits.write_text("\n".join(constraints) + "\n", encoding="utf-8")
+    step(name, [python, "-m", "venv", str(folder / "env")])
+    own = str(folder / "env" / "bin" / "python")
+    pip = [own, "-m", "pip", "install", "--quiet", "--retries", "2", "--upgrade"]
+    step(name, [own, "-m", "pip", "wheel", "--quiet", "--no-deps", "-w", str(folder), str(ROOT)])
+    wheel = next(folder.glob("*.whl"))
+    lines = (ROOT / "requirements-sim.txt").read_text(encoding="utf-8").splitlines()
+    tools = [line for line in lines if TOOLS.fullmatch(line)]
+    step(name, [*pip, "-c", str(limits), f"{wheel}{EXTRAS}", "bluesky", *tools])
+    step(name, [own, "-m", "pip", "list", "--format", "freeze"])
+    # The installed package, not the one of the tree.
+    step(name, [str(folder / "env/bin/openppmc"), "--port", "model:speed=max", "status"], folder)
+    step(name, [own, "-m", "pytest", "-n", "0", "-q", "-W", "ignore", *tests])
+
+
+def main(words: list[str] | None = None) -> int:
+    """Try both; returns the exit status."""
+    parser = argparse.ArgumentParser(prog="make test WITH=versions", description=__doc__)
+    parser.add_argument("-k", default="", help="names of tests; `quick` is the sample that CI runs")
+    asked = parser.parse_args(words).k
+    tests = list(QUICK) if asked == "quick" else [path for one in TESTS for path in glob.glob(one)]
+    if asked not in ("", "quick"):
+        tests += ["-k", asked]
+    found = pythons(candidates())
+    try:
+        if not found:
+            raise VersionsError("no Python 3.10 or newer with venv: install one, or put it on PATH")
+        for name, (version, python), constraints in (
+            ("lowest", found[0], lowest((ROOT / "pyproject.toml").read_text(encoding="utf-8"))),
+            ("newest", found[-1], []),
+        ):
+            print(f"versions: {name} versions, Python {version[0]}.{version[1]} ({python})", flush=True)
+            trial(name, python, constraints, tests)
+    except VersionsError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("\nerror: interrupted", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
