@@ -15,11 +15,12 @@ A name with a variable (`prove NIGHT=1`) is what the target does with this value
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from openppmc import parts
+from openppmc import parts, streams
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {
@@ -309,7 +310,7 @@ def fault(name: str, values: Mapping[str, str], target: str) -> str:
     return "" if re.fullmatch(pattern, value) else f"expected {expected}"
 
 
-def main() -> None:
+def main() -> int:
     """Print targets and variables."""
     print("OpenPPMC: make TARGET [VARIABLE=VALUE …]")
     for kind in ("use", "work", "measure"):
@@ -320,7 +321,8 @@ def main() -> None:
                 print(f"  {name:18} {target.says:66} {' '.join(shown)}".rstrip())
     print("\nvariables:", *(f"  {name:18} {row.says}" for name, row in VARIABLES.items()), sep="\n")
     print(f"\nParts: {' '.join(parts.PARTS)}\nBoards: {' '.join(boards())}")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(streams.guarded(main))
