@@ -27,7 +27,7 @@ QUICK = (
     "tests/ppmc312/cli/test_cli.py",
     "tests/common/capture/test_formats.py",
     "-k",
-    "arguments or overrides or refusals or sigrok or vcd or csv or help",
+    "arguments or overrides or refusals or sigrok or vcd or help",
 )
 FOUND = "import sys, venv, ensurepip; print(*sys.version_info[:2], sys.executable)"
 
