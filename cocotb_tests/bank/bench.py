@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.part import BusStyle, Part
-from openppmc.model.bank import pins
+from openppmc.model.bank import group
 
 WINDOW = BusStyle(
     write_on={"cs_n": 0, "wr_n": 0},
@@ -23,7 +23,7 @@ def shape(params: Mapping[str, object]) -> SimpleNamespace:
     """Pins of a build."""
     axes, phase_idle = int(str(params["AXES"])), int(str(params["PHASE_IDLE"]))
     return SimpleNamespace(
-        INPUTS=pins.inputs(axes), OUTPUTS=pins.outputs(axes, phase_idle), WIDTHS=pins.widths(axes)
+        INPUTS=group.inputs(axes), OUTPUTS=group.outputs(axes, phase_idle), WIDTHS=group.widths(axes)
     )
 
 

@@ -13,7 +13,7 @@ from cocotb_tests.harness.bus import IBF
 from cocotb_tests.harness.moving_pins import MovingPins
 from cocotb_tests.harness.random_host import Builds, RandomHost
 from cocotb_tests.harness.side import Side
-from openppmc.model.bank.pins import SWITCHES
+from openppmc.model.bank.group import SWITCHES
 
 from .bench import B4, B8, B32, B64, F100
 from .lab import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Lab

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.part import BusStyle, Part
-from openppmc.model.ppmc2104 import pins
+from openppmc.model.ppmc2104 import codes
 
 # The same two pins in both styles of the PPMC-2104AFP: WRS*/RDS*, or DS* with R/W*.
 STROBES_WRS_RDS = BusStyle(
@@ -21,13 +21,13 @@ STROBES_DS_RW = BusStyle(
 )
 PPMC2104 = Part.of_model(
     "ppmc2104",
-    pins,
+    codes,
     more={"clk_o": (1, 0)},  # never stops and depends on nothing: no business of the model
     styles=(STROBES_WRS_RDS, STROBES_DS_RW),
     style_pin="busc",
     clock="extck",
     # Per axis, bit 1 for axis 1 and bit 2 for axis 2.
-    lowest=dict.fromkeys((*pins.AXIS_INPUTS, *pins.AXIS_OUTPUTS, "s1_n", "s2_n"), 1),
+    lowest=dict.fromkeys((*codes.AXIS_INPUTS, *codes.AXIS_OUTPUTS, "s1_n", "s2_n"), 1),
     unwatched=frozenset({"clk_o"}),
 )
 PARTS = (PPMC2104,)

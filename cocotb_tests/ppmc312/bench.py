@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.part import BusStyle, Part
-from openppmc.model.ppmc312 import pins
+from openppmc.model.ppmc312 import codes
 
 # Eight registers, chosen by rs.
 STROBES_WE_OE = BusStyle(
@@ -23,5 +23,5 @@ DEFAULTS = {
     "SND_WAIT": 0,
 }
 
-PPMC312 = Part.of_model("ppmc312", pins, styles=(STROBES_WE_OE,), clock="extck", defaults=DEFAULTS)
+PPMC312 = Part.of_model("ppmc312", codes, styles=(STROBES_WE_OE,), clock="extck", defaults=DEFAULTS)
 PARTS = (PPMC312,)

@@ -12,7 +12,7 @@ from typing import Any
 from unittest.mock import patch
 
 from openppmc.model.ppmc312.codes import Source
-from openppmc.model.ppmc312.front.frames import SPECIFIC, Frame
+from openppmc.model.ppmc312.front.serial import SPECIFIC, Frame
 from openppmc.model.ppmc312.front.station import Station
 from openppmc.model.ppmc312.part import Ppmc312
 

@@ -8,7 +8,7 @@ from typing import Any
 from cocotb_tests.harness.crosses import Cross, Crosses, after, before
 from cocotb_tests.harness.family_crosses import Count
 from openppmc.model.ppmc312.codes import Answer, Cause, Code, Source, State
-from openppmc.model.ppmc312.instructions.checks import CODE_LAST, CODE_MORE
+from openppmc.model.ppmc312.instructions.starts import CODE_LAST, CODE_MORE
 from openppmc.model.ppmc312.instructions.unit import Unit
 from openppmc.model.ppmc312.motion.motion import Motion
 from openppmc.model.ppmc312.motion.operation import Operation

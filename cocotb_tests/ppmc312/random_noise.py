@@ -7,8 +7,7 @@ from typing import Any
 
 from cocotb_tests.harness.block_host import CSR, DWR, MREF, MWEF, WAR, WCR
 from cocotb_tests.ppmc312.words import message
-from openppmc.model.ppmc312.codes import Code
-from openppmc.model.ppmc312.pins import HOST_PINS, INPUTS, WIDTHS
+from openppmc.model.ppmc312.codes import HOST_PINS, INPUTS, WIDTHS, Code
 
 from .blocks import TF
 from .host import Host

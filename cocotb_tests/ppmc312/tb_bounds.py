@@ -9,8 +9,7 @@ from cocotb_tests.harness.directed import directed
 from cocotb_tests.ppmc312.blocks import T3, TF
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
-from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
-from openppmc.model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
+from openppmc.model.ppmc312.codes import INPUTS, OUTPUTS, SPONTANEOUS, WIDTHS, Answer, Code, Source
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
 """Rates 4, 400 and 800 at 8 MHz: 8, 800 and 1600 clk."""

@@ -12,8 +12,7 @@ from cocotb_tests.harness.directed import directed
 from cocotb_tests.ppmc312.blocks import RATES, T1, T3, TF
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
-from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
-from openppmc.model.ppmc312.pins import OUTPUTS
+from openppmc.model.ppmc312.codes import OUTPUTS, SPONTANEOUS, Answer, Code
 
 
 @directed("P312-CHK-01", "P312-PAR-01", "P312-PRT-02")

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING
 from ..lazy import lazy
 
 if TYPE_CHECKING:
-    from .common.edges import Edge
-    from .common.timebase import Latency, Timebase
+    from .common.timebase import Edge, Latency, Timebase
     from .pmc006.part import Pmc006
     from .ppmc104.part import Ppmc104
     from .ppmc312.part import Ppmc312

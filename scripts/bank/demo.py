@@ -28,7 +28,7 @@ from cocotb_tests.harness.project import (
     sources,
 )
 from cocotb_tests.harness.stimulus import Recording, bit_changes
-from openppmc.model.bank import pins
+from openppmc.model.bank import group
 from openppmc.model.bank.window import GO
 from scripts.bank import waves
 from scripts.bank.moves import AXES, CLK_HZ, INIT, ORDERS, Order
@@ -40,7 +40,7 @@ from scripts.flow import plain_sim
 NAME = "bank"
 FOLDER = BUILD / "demo"
 REST = 2000  # clk after the last access
-PINS = SimpleNamespace(INPUTS=pins.inputs(AXES), OUTPUTS=pins.outputs(AXES, 1), WIDTHS=pins.widths(AXES))
+PINS = SimpleNamespace(INPUTS=group.inputs(AXES), OUTPUTS=group.outputs(AXES, 1), WIDTHS=group.widths(AXES))
 TABLE = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from cocotb_tests.harness.stimulus import level_at
-from openppmc.model.bank.visits import Visits
+from openppmc.model.bank.chopper import Visits
 from openppmc.model.bank.window import CONFIG, GO
 from scripts.bank.session import Session
 from scripts.pictures.recorded import Levels, Row, Samples, labels, thinned, wave

@@ -12,11 +12,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 
-from openppmc.model.carrier.bridge import SEQ_LIMIT
-from openppmc.model.carrier.bridge_line import NAK_FRAMING, NAK_SEQ, NAK_SILENCE, Receiver, Request
-from openppmc.model.pmc006.front.frames import Assembler
-from openppmc.model.ppmc312.front.frames import Outcome, Parser
-from openppmc.model.ppmc312.front.serial import LENGTHS
+from openppmc.model.carrier.bridge import NAK_FRAMING, NAK_SEQ, NAK_SILENCE, SEQ_LIMIT, Receiver, Request
+from openppmc.model.pmc006.front.line import Assembler
+from openppmc.model.ppmc312.front.serial import LENGTHS, Outcome, Parser
 
 from .words import BROKEN, SILENCE, Frame, digest
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, TypeVar
 
 from cocotb_tests.harness.bench import Bench
-from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL, checksum, frame
+from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL, checksum, frame
 
 from .setting import BIT
 from .wave import Wave, length, wave

@@ -8,7 +8,7 @@ from __future__ import annotations
 import random
 from collections.abc import Awaitable, Callable
 
-from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL
+from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL
 
 from .master import Master, NoFrameError, Reply, understood
 from .setting import ALL, STATIONS

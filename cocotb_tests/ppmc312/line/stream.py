@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 
-from openppmc.model.ppmc312.front.frames import INSTRUCTION
+from openppmc.model.ppmc312.front.serial import INSTRUCTION
 
 from .master import T_INIT, Master, NoFrameError
 from .models import ModelLine

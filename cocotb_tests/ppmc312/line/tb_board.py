@@ -12,7 +12,7 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness.unit import same
 from cocotb_tests.harness.wire import Wire
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
-from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL
+from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL
 
 OPEN = {"mod": 7, "adr": 15}
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "fl_n": 1, "alm_n": 1, "auxi": 0xA5} | OPEN

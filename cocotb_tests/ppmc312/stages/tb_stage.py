@@ -6,9 +6,16 @@ import random
 
 import cocotb
 
-from openppmc.model.ppmc312.stages.curve import curve
-from openppmc.model.ppmc312.stages.plan import ramped
-from openppmc.model.ppmc312.stages.tables import LAST, STAGES, SettingError, Table, build, sigmoid_weights
+from openppmc.model.ppmc312.stages.tables import (
+    LAST,
+    STAGES,
+    SettingError,
+    Table,
+    build,
+    curve,
+    ramped,
+    sigmoid_weights,
+)
 
 from ...harness.unit import Unit, rng, same
 from . import stage_types

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ...model.ppmc104.pins import INPUTS, OUTPUTS, WIDTHS
+from ...model.ppmc104.part import INPUTS, OUTPUTS, WIDTHS
 from ...model.single.codes import decode
-from ...model.single.strobes import strobes
+from ...model.single.hostport import strobes
 from ..common.byte_bus import byte_part
 from ..common.kind import Access, Train, Wires
 from ..common.pulses import train

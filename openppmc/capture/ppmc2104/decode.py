@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ...model.ppmc2104.codes import decode
-from ...model.ppmc2104.pins import AXIS_INPUTS, AXIS_OUTPUTS, INPUTS, OUTPUTS, WIDTHS, strobes
+from ...model.ppmc2104.codes import AXIS_INPUTS, AXIS_OUTPUTS, INPUTS, OUTPUTS, WIDTHS, decode, strobes
 from ..common.byte_bus import byte_part
 from ..common.kind import Access, Train, Wires
 from ..common.pulses import train

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from ...model.ppmc312.codes import Code
+from ...model.ppmc312.codes import INPUTS, OUTPUTS, WIDTHS, Code
 from ...model.ppmc312.front.mailbox import ADDRESS, CSR, READ, WRITE
-from ...model.ppmc312.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.bus import accesses
 from ..common.kind import Access, Accesses, DecodeKind, Line, Needs, Train, Wires
 from ..common.pinmap import Pins

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from ...model.ppmc312.front import frames
+from ...model.ppmc312.codes import INPUTS, OUTPUTS
+from ...model.ppmc312.front import serial
 from ...model.ppmc312.front.serial import FORMS, LENGTHS, Local, Note, block_of
-from ...model.ppmc312.pins import INPUTS, OUTPUTS
 from ..common.characters import Character, characters, rate_of
 from ..common.errors import CaptureError
 from ..common.kind import DecodeKind, Line, Needs, Wires
@@ -17,7 +17,7 @@ from .words import block_words
 
 SPEEDS = {19_200.0: 5, 38_400.0: 6, 16e6 / 192: 7}
 SHORTEST = 12_000_000
-KINDS = {frames.BUSY: "busy", frames.READY: "ready", frames.DATA: "data", frames.SPECIFIC: "report"}
+KINDS = {serial.BUSY: "busy", serial.READY: "ready", serial.DATA: "data", serial.SPECIFIC: "report"}
 
 
 def _rate(wires: Wires) -> float:
@@ -63,19 +63,19 @@ def _frame(run: list[Character], reply: bool, mode: str) -> Line:
         content = bytes.fromhex(data[1:-1].decode("ascii"))
     except ValueError:
         return Line(begin, shown, "no whole frame", True)
-    if data[-1] != frames.checksum(data[0], content, mode):
+    if data[-1] != serial.checksum(data[0], content, mode):
         return Line(begin, shown, f"station {data[0] & 15}: wrong checksum", True)
     kind, text, strange, first = data[0] & 0xF0, "", False, False
     if reply:
         text = KINDS.get(kind, f"kind {kind:02X}")
-        if kind == frames.SPECIFIC and content:
+        if kind == serial.SPECIFIC and content:
             known = content[0] in list(Note)
             text = Note(content[0]).name.lower().replace("_", " ") if known else text
         elif content:
             text += f" {content.hex(' ').upper()}"
-    elif kind == frames.POLL:
+    elif kind == serial.POLL:
         text = "poll"
-    elif kind == frames.INSTRUCTION and content and content[0] in LENGTHS:
+    elif kind == serial.INSTRUCTION and content and content[0] in LENGTHS:
         code = content[0]
         first = code in (0x00, 0xFF)
         strange = len(content) - 1 != LENGTHS[code]

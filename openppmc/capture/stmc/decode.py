@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...model.single.strobes import strobes
+from ...model.single.hostport import strobes
 from ...model.stmc.codes import decode
 from ...model.stmc.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.byte_bus import byte_part

@@ -8,7 +8,7 @@ from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
-from ...model.ppmc312.stages import curve
+from ...model.ppmc312.stages import tables
 from ...model.ppmc312.stages.tables import STAGES, SettingError
 from ...textfile import NotTextError, read_text
 from ..basis import units
@@ -58,7 +58,7 @@ def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | N
     rates = [speed.rate for speed in reversed(speeds)]
     up, down = (list(reversed(side)) for side in counts)
     try:
-        table = curve.curve(rates, up, down if separate else None, clock.clk)
+        table = tables.curve(rates, up, down if separate else None, clock.clk)
     except SettingError as error:
         raise OutOfRange(f"free curve: {refused(0xF0, bytes([error.number]))}") from None
     return Setup(

@@ -5,20 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..common.blocks import Context, Phase
-from ..common.scheduler import Callback, Event, Scheduler
-from ..common.timebase import QuantumCounter
+from ..common.chip import Context, Phase
+from ..common.timebase import Callback, Event, QuantumCounter, Scheduler
 from ..motion.codes import IBF, OBF
 from ..motion.excitation import Excitation
-from ..ppmc104.chopper import Switching
+from ..ppmc104.part import Switching
 from ..single.codes import Error
-from .chopper import Chopper
-from .commands import Builder, CommandUnit
-from .group import Group
-from .mailbox import Mailbox
+from .chopper import CONFIG_LEAD, SWITCH_LEAD, Chopper, Visits
+from .commands import Builder, CommandUnit, Mailbox
+from .group import SWITCHES, Group
 from .motion import Motion
-from .pins import SWITCHES
-from .visits import CONFIG_LEAD, SWITCH_LEAD, Visits
 
 CONFIG_RESET = 0b11
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ..carrier import carrier
-from ..carrier.plant import SWITCHES, Plant
+from ..carrier.carrier import SWITCHES, Plant
 from .part import PpmcBank
 
 SELECT = 0x3

@@ -9,21 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..common.blocks import Context, Phase
-from ..motion.codes import FINISH_SLOW, FINISH_STOP, Command
+from ..common.chip import Context, Phase
+from ..motion.codes import FINISH_SLOW, FINISH_STOP, Command, Seen, inspect
 from ..motion.excitation import Excitation
-from ..motion.guard import Seen, inspect
 from ..motion.motion import Setup
-from ..ppmc104 import motion
-from ..ppmc104.pins import GUARD
-from ..single.hostport import BytePort
-from ..single.strobes import SpeedGate
-from .chopper import Chopper
+from ..ppmc104 import part
+from ..ppmc104.part import GUARD
+from ..single.hostport import BytePort, SpeedGate
+from .chopper import END_LEAD, GROUP_LEAD, Chopper, Visits
 from .group import Group
-from .visits import END_LEAD, GROUP_LEAD, Visits
 
 
-class Motion(motion.Motion):
+class Motion(part.Motion):
     """The motion of axis `axis`. switches: their levels as this edge sees them; those in context.levels are
     what a visit sees. Readable: held (BANK-GRP-01), ended (the visit that ended the last motion, or -1)."""
 

@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..common.blocks import Context
-from ..common.chip import Chip
+from ..common.chip import Chip, Context
 from ..common.timebase import Latency, QuantumCounter
 from ..motion.motion import Interval
 from .axis import Axis
+from .chopper import Visits, round_clk
 from .commands import Builder
-from .group import Group
-from .pins import HOST_PINS, PHASES, SWITCHES, inputs, outputs, widths
-from .visits import Visits, round_clk
+from .group import HOST_PINS, PHASES, SWITCHES, Group, inputs, outputs, widths
 from .window import Window
 
 SIZES = (4, 8, 16, 32, 64)

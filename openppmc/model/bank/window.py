@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..common.blocks import Phase
-from ..common.edges import EdgeLog
-from ..common.scheduler import Event, Scheduler
+from ..common.chip import Phase
+from ..common.timebase import EdgeLog, Event, Scheduler
 from ..motion.codes import IBF
-from ..single.strobes import strobes
+from ..single.hostport import strobes
 from .axis import Axis
+from .chopper import round_clk
 from .group import Group
-from .visits import round_clk
 
 DATA, STATUS, CONFIG, POSITION = 0x0, 0x1, 0x2, 0x4
 MASK, MAP, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC

@@ -8,14 +8,119 @@ events, not with its clk.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from enum import IntEnum
 from types import MappingProxyType
 from typing import ClassVar
 
-from .blocks import Phase
-from .edges import Edge, EdgeLog
-from .scheduler import Scheduler
-from .timebase import Latency, Timebase
+from .timebase import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
+
+# What the blocks of the models share: phases of a clk edge, set-up, input levels, output registers.
+#
+# Within one clk edge the blocks run in the order of `Phase`, so that each sees of the others what a register
+# would show just before the edge.
+
+Put = Callable[[int, str, int], None]
+
+
+class Phase(IntEnum):
+    """Order of events within one clk edge."""
+
+    PINS = 0
+    BUS = 1
+    LEVELS = 2
+    QUEUE = 3
+    CHOPPER = 4
+    BEGIN = 5
+    COMMAND = 6
+    GUARD = 7
+    FLAG = 8
+    RUN = 9
+    PULSE = 10
+    BASE = 11
+    LOW_END = 12
+    STORE = 13
+    END = 14
+    PIN = 15
+
+
+@dataclass
+class Context:
+    """Set-up and services that every block gets.
+
+    levels: synchronised input levels as decisions see them; on a part with several axes those of one axis.
+    """
+
+    timebase: Timebase
+    latency: Latency
+    datasheet: bool
+    queue: Scheduler
+    log: EdgeLog
+    counter: QuantumCounter
+    levels: dict[str, int]
+
+    def drive(self, t: int, signal: str, value: int) -> None:
+        """Host-side output: changes `host_pins` clk after the internal edge t."""
+        self.queue.at(t + self.latency.host_pins, Phase.PIN, lambda at: self.log.set(at, signal, value))
+
+
+class PinRegister:
+    """Output registers that follow internal levels `lag` clk later.
+
+    put(t, signal, value): sets a pin of the part.
+    """
+
+    def __init__(self, queue: Scheduler, lag: int, initial: Mapping[str, int], put: Put) -> None:
+        self._queue = queue
+        self._lag = lag
+        self._put = put
+        self._last = dict(initial)
+
+    def latch(self, t: int, internal: Mapping[str, int]) -> None:
+        """Pass the internal levels after edge t on to the pins."""
+        for signal, value in internal.items():
+            if self._last[signal] != value:
+                self._last[signal] = value
+                self._queue.at(t + self._lag, Phase.PIN, self._setter(signal, value))
+
+    def _setter(self, signal: str, value: int) -> Callback:
+        return lambda now: self._put(now, signal, value)
+
+
+# Square wave of a phase accumulator: adds twice its frequency every clk, toggles on each wrap.
+
+
+class Square:
+    """Toggle n = 1, 2, .. comes ceil(n * clk_hz / (2 * hz)) clk after edge `origin`; low before the first.
+
+    clk_hz and hz in Hz, hz 1..clk_hz/4 (ValueError outside).
+    """
+
+    def __init__(self, clk_hz: int, hz: int, origin: int = 0) -> None:
+        if not 1 <= hz <= clk_hz // 4:
+            raise ValueError(f"a square wave of {hz} Hz from a clk of {clk_hz} Hz")
+        self._clk_hz, self._hz, self.origin = clk_hz, hz, origin
+        self._n = 1
+
+    @property
+    def next_edge(self) -> int:
+        """Edge of the next toggle."""
+        return self.origin - (-self._n * self._clk_hz // (2 * self._hz))
+
+    @property
+    def next_level(self) -> int:
+        """Level from that edge on."""
+        return self._n & 1
+
+    def advance(self) -> None:
+        """The next toggle has been dealt with."""
+        self._n += 1
+
+    def restart(self, origin: int) -> None:
+        """Begin anew, low, at edge `origin`."""
+        self.origin, self._n = origin, 1
+
 
 DATA, STATUS, COMMAND = 0, 1, 1
 

@@ -5,8 +5,10 @@ Rules: P104-GEN-02..04 (CYC, quantum), P104-BCK-03 (tick n of the quantum counte
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import heapq
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 BuildClk = Callable[[int, int, int], int]
 
@@ -138,3 +140,161 @@ class QuantumCounter:
     def last_tick(self, t: int) -> int:
         """Number of the last tick at or before edge t."""
         return self._timebase.ticks_in(t - self.origin)
+
+
+# Event queue of the models: callbacks ordered by clk edge, then by phase within the edge.
+#
+# A phase is a small integer that says which register of the part looks at which other before both change;
+# each part lists its own. Callbacks of one edge and phase run in the order they were asked for.
+
+Callback = Callable[[int], None]
+
+
+class Event:
+    """Handle of a scheduled callback; `cancel()` is allowed at any time."""
+
+    __slots__ = ("action",)
+
+    def __init__(self, action: Callback) -> None:
+        self.action: Callback | None = action
+
+    def cancel(self) -> None:
+        """Forget the callback."""
+        self.action = None
+
+
+class Scheduler:
+    """Heap of events. `now` is the last edge that was worked on completely, -1 before the first."""
+
+    def __init__(self) -> None:
+        self.now = -1
+        self._heap: list[tuple[int, int, int, Event]] = []
+        self._serial = 0
+
+    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
+        """Call `action(t)` at edge t in this phase. Raises ValueError for an edge already worked on."""
+        if t <= self.now:
+            raise ValueError(f"event for edge {t}, but edge {self.now} is done")
+        event = kind(action)
+        self._serial += 1
+        heapq.heappush(self._heap, (t, phase, self._serial, event))
+        return event
+
+    def clear(self) -> None:
+        """Cancel everything (reset)."""
+        for *_, event in self._heap:
+            event.cancel()
+        self._heap.clear()
+
+    def cancel(self, kind: type[Event]) -> None:
+        """Cancel all events of a kind."""
+        for *_, event in self._heap:
+            if isinstance(event, kind):
+                event.cancel()
+
+    def next_edge(self) -> int | None:
+        """Edge of the next event, None if there is none."""
+        while self._heap and self._heap[0][3].action is None:
+            heapq.heappop(self._heap)
+        return self._heap[0][0] if self._heap else None
+
+    def run_edge(self, t: int) -> None:
+        """Run every event of edge t, also those that other events of this edge add."""
+        while self._heap and self._heap[0][0] == t:
+            action = heapq.heappop(self._heap)[3].action
+            if action is not None:
+                action(t)
+
+    def run_until(self, t: int, after: Callback) -> None:
+        """Run every event up to edge t, also those that are added meanwhile; `after` follows the events of
+        each edge and may add some to it."""
+        heap, pop = self._heap, heapq.heappop
+        while heap:
+            edge, _, _, event = heap[0]
+            if edge > t:
+                break
+            if event.action is None:
+                pop(heap)
+                continue
+            self.now = edge - 1
+            while heap and heap[0][0] == edge:
+                action = pop(heap)[3].action
+                if action is not None:
+                    action(edge)
+            after(edge)
+            while heap and heap[0][0] == edge:
+                action = pop(heap)[3].action
+                if action is not None:
+                    action(edge)
+        self.now = t
+
+
+# Output edges: the record, and the log that a model writes and a comparison reads.
+
+
+class Edge(NamedTuple):
+    """Output `signal` takes `value` at rising clk edge `t` (visible just after that edge).
+
+    Only an asynchronous reset changes outputs between edges; it is stamped with the next edge, so its
+    edges may be seen up to one clk earlier on the pins.
+    """
+
+    t: int
+    signal: str
+    value: int
+
+
+class EdgeLog:
+    """Present levels of all outputs and the list of their changes, in time order.
+
+    `initial` and `levels` map each output to its first and its present level; `edges` never holds a
+    change to the same level, and at most one entry per signal and clk edge.
+    """
+
+    def __init__(self, initial: Mapping[str, int]) -> None:
+        self.initial: dict[str, int] = dict(initial)
+        self.levels: dict[str, int] = dict(initial)
+        self.edges: list[Edge] = []
+
+    def set(self, t: int, signal: str, value: int) -> None:
+        """Drive `signal` to `value` at edge t. Raises KeyError for an unknown signal."""
+        before = self.levels[signal]
+        if before == value:
+            return
+        self.levels[signal] = value
+        for place in range(len(self.edges) - 1, -1, -1):
+            edge = self.edges[place]
+            if edge.t != t:
+                break
+            if edge.signal == signal:
+                # An asynchronous reset met a change of the same edge: only the outcome counts.
+                del self.edges[place]
+                if self.level_before(signal, place) == value:
+                    return
+                break
+        self.edges.append(Edge(t, signal, value))
+
+    def level_before(self, signal: str, place: int) -> int:
+        """Level of `signal` before entry `place` of the list."""
+        for edge in reversed(self.edges[:place]):
+            if edge.signal == signal:
+                return edge.value
+        return self.initial[signal]
+
+    def of(self, signal: str, since: int = 0) -> list[tuple[int, int]]:
+        """Changes (t, value) of one signal from edge `since` on."""
+        return [(e.t, e.value) for e in self.edges if e.signal == signal and e.t >= since]
+
+    def falls(self, signal: str, since: int = 0) -> list[int]:
+        """Edges on which a one-bit signal fell."""
+        return [t for t, value in self.of(signal, since) if value == 0]
+
+    def rises(self, signal: str, since: int = 0) -> list[int]:
+        """Edges on which a one-bit signal rose."""
+        return [t for t, value in self.of(signal, since) if value == 1]
+
+
+def low_times(changes: list[tuple[int, int]]) -> list[int]:
+    """Lengths in clk of the complete low phases in a list of (t, value) of an active-low signal."""
+    pairs = zip(changes, changes[1:], strict=False)
+    return [b - a for (a, low), (b, high) in pairs if low == 0 and high == 1]

@@ -8,8 +8,8 @@ from itertools import pairwise
 from math import ceil
 from typing import Protocol
 
-from .blocks import Context, Phase
-from .scheduler import Callback, Event, Scheduler
+from .chip import Context, Phase
+from .timebase import Callback, Event, Scheduler
 
 BITS = 10
 """Start bit, eight data bits, stop bit."""

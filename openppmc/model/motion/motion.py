@@ -12,14 +12,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
-from ..common.blocks import Context, Phase
-from ..common.scheduler import Event
-from .chopper import Chopper
-from .codes import ENDLESS, FINISH_NEW, FINISH_SLOW, FINISH_STOP, RAMP_OPERATIONS, SINGLE_STEP, Command
-from .excitation import Excitation
-from .external import ExternalInterval
-from .guard import GuardPins, Seen, inspect
-from .ramp import BaseClock, Ramp, natural_deceleration, next_index
+from ..common.chip import Context, Phase
+from ..common.timebase import Event
+from .codes import (
+    ENDLESS,
+    FINISH_NEW,
+    FINISH_SLOW,
+    FINISH_STOP,
+    RAMP_OPERATIONS,
+    SINGLE_STEP,
+    Command,
+    GuardPins,
+    Seen,
+    inspect,
+)
+from .excitation import Chopper, Excitation
+from .ramp import BaseClock, ExternalInterval, Ramp, natural_deceleration, next_index
 
 OnEnd = Callable[[int, bool], None]
 

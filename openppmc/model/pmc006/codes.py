@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from .desk import Desk
-from .effects import Deed, Effect, Instruction, Read, Setting, value
+from .desk import Deed, Desk, Effect, Instruction, Read, Setting, value
 from .settings import LEGAL
 
 STEPS = range(1, 0x8000_0000)

@@ -9,21 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ..common.blocks import Phase
-from ..common.chip import Chip
+from ..common.chip import Chip, Phase
 from .drive.drive import Drive
-from .front.frames import Command, reply
-from .front.line import Line
-from .instructions.desk import Desk
-from .instructions.executor import Executor
-from .instructions.keys import KeyFilter
+from .front.line import Command, Line, reply
+from .instructions.executor import Desk, Executor
+from .instructions.operations import KeyFilter
 from .instructions.processor import Processor
 from .memory.boot import Boot
-from .memory.eeprom import Engine
-from .memory.i2c import Bus
+from .memory.eeprom import Bus, Engine
 from .motion.motion import Motion
-from .pace import Pace
-from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Shared, Ticks
+from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Pace, Shared, Ticks
 from .settings import Settings
 
 MS, RESTORE_MS = 1000, 20

@@ -4,18 +4,216 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ..common.blocks import Context, Phase, PinRegister
+from ..common.chip import Context, Phase, PinRegister
 from ..common.timebase import QuantumCounter
-from ..motion.chopper import Chopper
-from ..motion.codes import FINISH_NEW
-from ..motion.excitation import Excitation
-from ..motion.guard import input_register
-from ..motion.motion import Setup
-from .codes import CONTROL_INPUT, END_STATUS, ERROR_CODE, OUTPUT_SIGNAL, Error
-from .interrupt import Cause, Interrupt
-from .motion import Motion
-from .pins import CONTROL_INPUT_BITS, MOTOR_AT_REST, axis_levels
-from .windows import Windows
+from ..motion import motion
+from ..motion.codes import (
+    ACC_DEC,
+    CONSTANT,
+    CONTINUOUS,
+    FINISH_NEW,
+    FINISH_STOP,
+    HIGH_SPEED,
+    ORIGIN,
+    SINGLE_STEP,
+    Command,
+    Kind,
+    Seen,
+    input_register,
+)
+from ..motion.excitation import Chopper, Excitation
+from ..motion.motion import OnEnd, Setup
+from ..single.hostport import HostPort
+from .codes import (
+    CONTROL_INPUT,
+    CONTROL_INPUT_BITS,
+    END_STATUS,
+    ERROR_CODE,
+    GUARD,
+    MOTOR_AT_REST,
+    OUTPUT_SIGNAL,
+    REMAINING,
+    Cause,
+    Error,
+    Interrupt,
+    axis_levels,
+)
+
+# DATASHEET times of the PPMC-2104: processing windows (8.1) and the polling of limits and alarm (8.2).
+
+_KINDS = {
+    Kind.INITIALISE: 71_000,
+    Kind.STOP: 400,
+    Kind.SLOW_STOP: 32,
+    Kind.EXCITATION_OFF: 32,
+    Kind.AUX_OUTPUT: 40,
+    Kind.AUX_INPUT: 40,
+    Kind.SWITCHING: 36,
+    Kind.HOLD_DELAY: 32,
+}
+_READS = {END_STATUS: 40, CONTROL_INPUT: 36, OUTPUT_SIGNAL: 32, REMAINING: 37, ERROR_CODE: 43}
+_OPERATIONS = {SINGLE_STEP: 103, ACC_DEC: 110, CONSTANT: 29, CONTINUOUS: 32, HIGH_SPEED: 118, ORIGIN: 32}
+_TRIANGLE = 340
+_POLL = 35
+
+
+def window_us(command: Command, triangle: bool = False) -> int:
+    """Length of an instruction's processing window in us (P2104-DS-01..13)."""
+    if command.kind is Kind.READ:
+        return _READS[command.code & 7]
+    if command.kind is Kind.OPERATION:
+        return _TRIANGLE if triangle and command.operation == ACC_DEC else _OPERATIONS[command.operation]
+    return _KINDS[command.kind]
+
+
+class Windows:
+    """The open window, if any, and the poll ticks that it holds up. Only used in DATASHEET timing.
+
+    `axis`: 0 or 1 while a window of that axis is open, else None.
+    """
+
+    def __init__(self, context: Context, port: HostPort, released: int) -> None:
+        self._context = context
+        self._port = port
+        self._period = context.timebase.cyc(16 * _POLL)
+        self._origins = (released, released)
+        self._since = -1
+        self.axis: int | None = None
+
+    def open(self, t: int, us: int, axis: int | None) -> int:
+        """Open a window at edge t; returns its last edge. axis None: no axis shows it in CMND."""
+        context = self._context
+        end = t + context.timebase.cyc(16 * us) + context.latency.ds_window
+        self._port.close_until(end)
+        self._origins = (self._origin(t), end)
+        self._since = t
+        self.axis = axis
+        context.queue.at(end, Phase.BEGIN, self._close)
+        return end
+
+    def _close(self, t: int) -> None:
+        self.axis = None
+
+    def _origin(self, t: int) -> int:
+        """Edge from which the poll ticks at edge t count; the one a window opens on is still an old one."""
+        return self._origins[t > self._since]
+
+    def is_tick(self, t: int) -> bool:
+        """Whether limits and alarm are looked at on edge t (P2104-DS-20)."""
+        passed = t - self._origin(t)
+        return passed > 0 and passed % self._period == 0
+
+    def next_tick(self, t: int) -> int:
+        """The first tick after edge t, unless a window opens before."""
+        origin = self._origin(t + 1)
+        return origin + (max(0, t - origin) // self._period + 1) * self._period
+
+
+# What is special in the motion of a PPMC-2104 axis: RUN gate, stop at start-up speed, polled inputs.
+#
+# RUN: P2104-OPR-02, -TIM-02. Stops: P2104-STP-01..05, -FDC-02. Inputs: P2104-LIM-03..09, in DATASHEET
+# P2104-DS-20, -21. The rest is the family's: `motion`.
+
+HOLD_UNIT, HOLD_DEFAULT = 2048, 0x18
+
+
+class Motion(motion.Motion):
+    """One axis of a PPMC-2104. `waiting`: state RUNWAIT."""
+
+    stops_at_start_speed = True
+
+    def __init__(
+        self,
+        context: Context,
+        excitation: Excitation,
+        chopper: Chopper,
+        windows: Windows,
+        on_end: OnEnd,
+    ) -> None:
+        super().__init__(context, excitation, chopper, GUARD, on_end)
+        self._windows = windows
+        self.waiting = False
+        self._look_from = 0
+        self._held_until: int | None = None
+        self._judged_at = -1
+        self.set_hold_delay(HOLD_DEFAULT)
+
+    def set_hold_delay(self, n: int) -> None:
+        """Hold delay of 128 (n + 1) us for timers that start from now on (P2104-AUX-05)."""
+        self.hold_cycles = HOLD_UNIT * (n + 1)
+
+    # ------------------------------------------------------------------ start
+
+    def start(self, t: int, command: Command, data: list[int], setup: Setup, look_from: int) -> None:
+        """C-event of an operation's last byte; RUN counts from edge `look_from` on."""
+        self._load(command, data, setup, self._context.levels["csel"], plain=True)
+        self._begin(t)
+        self._held_until = None
+        self.waiting, self._look_from = True, look_from
+        if look_from > t:
+            self._context.queue.at(look_from, Phase.RUN, self.look_at_run)
+        else:
+            self.look_at_run(t)
+
+    def look_at_run(self, t: int) -> None:
+        """RUNWAIT ends on the first edge that sees RUN = H."""
+        if not self.waiting or self.finishing or t < self._look_from or not self._context.levels["run"]:
+            return
+        self.waiting = False
+        self._arm(t + self._context.timebase.w + self._context.latency.start_extra)
+        self._context.queue.at(t + 1, Phase.GUARD, self.judge)
+
+    # ------------------------------------------------------------------ stops
+
+    @property
+    def can_decelerate(self) -> bool:
+        """Whether a deceleration stop is accepted: START, ACC or HIGH of 011/110 (P2104-STP-02, -03)."""
+        free = self._flag_edge is None and not self._natural
+        return self.busy and self.is_ramp and not self.waiting and not self.finishing and free
+
+    def slow_stop(self, at: int) -> None:
+        """Deceleration stop that acts at edge `at`."""
+        self._request(at, "flag", FINISH_STOP)
+
+    def stop_until(self, t: int, end: int) -> None:
+        """Immediate stop in DATASHEET: cut at edge t, all the rest at edge `end` (P2104-DS-02)."""
+        if not self.finishing:
+            self._held_until = end
+        self.stop(t)
+
+    # ------------------------------------------------------------------ inputs
+
+    def _seen(self, t: int) -> Seen:
+        seen = super()._seen(t)
+        if not self._context.datasheet:
+            return Seen(seen.bits, seen.origin and not self.waiting, seen.slow)
+        if self._windows.is_tick(t):
+            return Seen(seen.bits, False, seen.slow)
+        tick = self._windows.next_tick(t)
+        if (seen.bits or seen.slow) and tick != self._judged_at:
+            self._judged_at = tick
+            self._context.queue.at(tick, Phase.GUARD, self.judge)
+        return Seen()
+
+    def _next_rate(self, t: int) -> int | None:
+        rate = super()._next_rate(t)
+        origin = self.operation == ORIGIN and not self._context.levels[GUARD.origin]
+        return None if self._context.datasheet and origin else rate
+
+    # ------------------------------------------------------------------ end
+
+    def _decided(self, t: int) -> None:
+        if self._held_until is None:
+            super()._decided(t)
+        else:
+            self._context.queue.at(self._held_until, Phase.BEGIN, self._finish)
+
+    def _ends_with_low(self) -> bool:
+        return self._held_until is None
+
+    def _finish(self, t: int) -> None:
+        self.waiting = False
+        super()._finish(t)
 
 
 @dataclass

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ..carrier import carrier
-from ..carrier.plant import SWITCHES, Plant
+from ..carrier.carrier import SWITCHES, Plant
+from ..common.timebase import Timebase
+from ..motion.codes import PA_MAX, PA_MIN
+from ..motion.ramp import BaseClock, Ramp
+from ..single.predict import Limits, RampMove, run
 from .part import Ppmc2104
 
 _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"), strict=True))
@@ -40,3 +44,16 @@ class Carrier(carrier.Carrier[Ppmc2104]):
     def pins(self) -> int:
         self._settle()
         return self.pin_byte(self.part.outputs["hold"] >> self._shown & 1, self._shown)
+
+
+# Prediction of one move of a PPMC-2104 axis (P2104-INI-02, P2104-OPR-07).
+
+_LIMITS = Limits(slower=2, least=1, shortest=PA_MIN, longest=PA_MAX)
+
+
+def predict(
+    init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
+) -> RampMove:
+    """See `single.predict.predict_move`."""
+    ramp = Ramp(*_LIMITS.check(init, n, rate))
+    return run(timebase or Timebase(), BaseClock.of_pins(csel, vsel), ramp, n, rate)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
+from collections.abc import Mapping
+from enum import Enum, IntEnum
 
-from ..motion.codes import RAMP_OPERATIONS, Command, Kind, operation_command
+from ..common.chip import Context, Phase
+from ..motion.codes import ORIGIN, RAMP_OPERATIONS, SINGLE_STEP, Command, GuardPins, Kind, operation_command
+from ..motion.motion import Setup
 
 ERROR = 0x80
 BUSY, CMND = (0x04, 0x08), (0x10, 0x20)
@@ -81,3 +84,128 @@ def decode(code: int) -> Command:
     if code & 7 < 2:
         return Command(STOPS[code & 1], code, axis=axis)
     return operation_command(code, axis)
+
+
+# Rate limits of DATASHEET timing: P2104-DS-30..35.
+
+# (one axis, both axes) by csel; the smallest rates that are accepted.
+_PULSES = {1: (0x0C, 0x19), 0: (0x03, 0x06)}
+_PHASES = {1: (0x12, 0x23), 0: (0x04, 0x08)}
+_ORIGIN = {1: (0x14, 0x25), 0: (0x05, 0x09)}
+
+
+def rate_error(command: Command, rate: int, setup: Setup, csel: int, other_operating: bool) -> Error:
+    """Error.NONE, RATE_ONE_AXIS or RATE_TWO_AXES for the fastest rate of an operation."""
+    if command.operation == SINGLE_STEP or setup.external:
+        return Error.NONE
+    table = _PULSES if command.pulse_only else _ORIGIN if command.operation == ORIGIN else _PHASES
+    alone, together = table[csel]
+    if rate < alone:
+        return Error.RATE_ONE_AXIS
+    return Error.RATE_TWO_AXES if other_operating and rate < together else Error.NONE
+
+
+# Pins of the PPMC-2104 with idle and reset levels (P2104-PORT-01), and how they belong to the axes.
+#
+# A port of both axes is one number, bit 0 = axis 1. `clk_o` is left out: it never stops and depends on
+# nothing.
+
+AXES = (0, 1)
+INPUTS: dict[str, int] = {
+    "rst_n": 1,
+    "cs_n": 1,
+    "a0": 0,
+    "busc": 0,
+    "ds_wrs_n": 1,
+    "rw_rds_n": 1,
+    "d_i": 0,
+    "errint_n": 1,
+    "run": 0b11,
+    "extck": 0,
+    "csel": 0b11,
+    "fl_n": 0b11,
+    "bl_n": 0b11,
+    "fhl_n": 0b11,
+    "bhl_n": 0b11,
+    "org_n": 0b11,
+    "alm_n": 0b11,
+    "auxi": 0,
+}
+OUTPUTS: dict[str, int] = {
+    "d_o": 0,
+    "d_oe": 0,
+    "int_n": 1,
+    "pout_n": 0b11,
+    "dir": 0,
+    "hold": 0b11,
+    "s1_n": 0b11111,
+    "s2_n": 0b11111,
+    "auxo": 0b11,
+}
+HOST_PINS = ("a0", "cs_n", "busc", "ds_wrs_n", "rw_rds_n", "d_i")
+GUARD = GuardPins(limits=("fl_n", "bl_n"), slow_limits=("fhl_n", "bhl_n"), alarm="alm_n", origin="org_n")
+AXIS_INPUTS = ("run", "extck", "csel", *GUARD.all)
+AXIS_OUTPUTS = ("pout_n", "dir", "hold")
+WIDTHS: dict[str, int] = {
+    **{"d_i": 8, "auxi": 2, "d_o": 8, "s1_n": 5, "s2_n": 5, "auxo": 2},
+    **dict.fromkeys((*AXIS_INPUTS, *AXIS_OUTPUTS), 2),
+}
+# Bits of the control input read (P2104-RD-04).
+CONTROL_INPUT_BITS = {7: "org_n", 6: "alm_n", 3: "fl_n", 2: "fhl_n", 1: "bl_n", 0: "bhl_n"}
+MOTOR_AT_REST = {"s": 0b11111, "pout_n": 1, "hold": 1, "dir": 0}
+
+
+def axis_levels(levels: Mapping[str, int], axis: int) -> dict[str, int]:
+    """The inputs of one axis (0 or 1) as single bits."""
+    return {pin: levels[pin] >> axis & 1 for pin in AXIS_INPUTS}
+
+
+def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
+    """Write strobe and read strobe in the bus style that busc selects (P2104-BUS-01, -02)."""
+    if pins["cs_n"]:
+        return False, False
+    first, second = not pins["ds_wrs_n"], bool(pins["rw_rds_n"])
+    if pins["busc"]:
+        return first and not second, first and second
+    return first and second, not first and not second
+
+
+# INT* of the PPMC-2104: four cause latches and the release window (P2104-INT-01..05).
+
+
+class Cause(Enum):
+    """Kinds of causes; each axis has one latch of each."""
+
+    END = "end"
+    ERROR = "error"
+
+
+class Interrupt:
+    """The latches. `level(t)` is what the pin register takes from the state after edge t."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._set: set[tuple[Cause, int]] = set()
+        self._quiet_until = -1
+
+    def raise_(self, cause: Cause, axis: int) -> None:
+        """Set a latch."""
+        self._set.add((cause, axis))
+
+    def release(self, t: int, cause: Cause, axis: int) -> None:
+        """A read clears a latch at edge t; if it was set, INT* is H for W (P2104-INT-03, -04)."""
+        if (cause, axis) not in self._set:
+            return
+        self._set.remove((cause, axis))
+        self._quiet_until = t + self._context.timebase.w
+        # Something must happen on that edge so that the pins are looked at again.
+        self._context.queue.at(self._quiet_until, Phase.END, lambda now: None)
+
+    def level(self, t: int) -> int:
+        """Level of int_n by the latches after edge t."""
+        return 0 if self._set and t >= self._quiet_until else 1
+
+    @property
+    def pending(self) -> frozenset[tuple[Cause, int]]:
+        """Latches that are set."""
+        return frozenset(self._set)

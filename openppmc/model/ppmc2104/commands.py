@@ -8,18 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..common.blocks import Context, Phase
-from ..motion.codes import CONSTANT, CONTINUOUS, ORIGIN, PA_MAX, PA_MIN, Command, Kind
-from ..motion.guard import inspect
+from ..common.chip import Context, Phase
+from ..motion.codes import CONSTANT, CONTINUOUS, ORIGIN, PA_MAX, PA_MIN, Command, Kind, inspect
 from ..motion.motion import Setup
 from ..motion.ramp import Ramp
 from ..single.hostport import HostPort
-from .axis import Axis
-from .codes import BUSY, CMND, ERROR, NEEDS_TABLE, STOPS, SWITCH_MIN, Error, decode, is_error_read
-from .interrupt import Cause, Interrupt
-from .pins import GUARD
-from .rates import rate_error
-from .windows import Windows, window_us
+from .axis import Axis, Windows, window_us
+from .codes import (
+    BUSY,
+    CMND,
+    ERROR,
+    GUARD,
+    NEEDS_TABLE,
+    STOPS,
+    SWITCH_MIN,
+    Cause,
+    Error,
+    Interrupt,
+    decode,
+    is_error_read,
+    rate_error,
+)
 
 
 class CommandUnit:

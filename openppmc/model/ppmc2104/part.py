@@ -10,17 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..common.blocks import Context, PinRegister
-from ..common.chip import Chip
+from ..common.chip import Chip, Context, PinRegister
 from ..common.timebase import Latency, QuantumCounter
 from ..motion.codes import IBF, OBF
 from ..motion.motion import Interval
 from ..single.hostport import HostPort
-from .axis import Axis
+from .axis import Axis, Windows
+from .codes import AXES, HOST_PINS, INPUTS, OUTPUTS, WIDTHS, Interrupt, axis_levels, strobes
 from .commands import CommandUnit
-from .interrupt import Interrupt
-from .pins import AXES, HOST_PINS, INPUTS, OUTPUTS, WIDTHS, axis_levels, strobes
-from .windows import Windows
 
 
 class Ppmc2104(Chip):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import IntEnum, unique
 
+from ..common.timebase import Callback, Event, Scheduler
+
 
 @unique
 class Code(IntEnum):
@@ -193,3 +195,86 @@ def accepts(code: int, state: State, override: bool, end_wait: bool, table: bool
     if code == Code.TABLE_READ and not table:
         return False
     return _ACCEPT[code][override][_STATES.index(state)] == "O"
+
+
+# Pins of the PPMC-312 with idle and reset levels (chapter 1.3).
+
+INPUTS: dict[str, int] = {
+    "rst_n": 1,
+    "mode": 1,
+    "d_i": 0,
+    "rs": 0,
+    "cs_n": 1,
+    "we_n": 1,
+    "oe_n": 1,
+    "rxd": 1,
+    "hsp": 0,
+    "mod": 0,
+    "adr": 0,
+    "evt0_n": 1,
+    "evt1_n": 1,
+    "auxi": 0,
+    "epin": 0,
+    "epdir": 0,
+    "index_n": 1,
+    "org_n": 1,
+    "alm_n": 1,
+    "end_n": 1,
+    "fl_n": 1,
+    "bl_n": 1,
+    "fhl_n": 1,
+    "bhl_n": 1,
+    "extck": 0,
+    "run": 1,
+}
+OUTPUTS: dict[str, int] = {
+    "d_o": 0,
+    "d_oe": 0,
+    "wrq_n": 1,
+    "irq_n": 1,
+    "txd": 1,
+    "snd": 0,
+    "auxo_n": 0x3F,
+    "exon_n": 1,
+    "cclr_n": 1,
+    "aclr_n": 1,
+    "zclmp_n": 1,
+    "cd_n": 1,
+    "pout": 0,
+    "dir": 0,
+    "intlk_n": 1,
+    "out_oe": 0,
+}
+WIDTHS: dict[str, int] = {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8, "d_o": 8, "auxo_n": 6}
+HOST_PINS = ("d_i", "rs", "cs_n", "we_n", "oe_n")
+SERIAL_PINS = ("rxd",)
+
+
+# The event queue of the PPMC-312 as its blocks see it: a software reset drops what they wait for.
+
+
+class _Asked(Event):
+    """What a block has asked for; only the present blocks have any in the queue."""
+
+    __slots__ = ()
+
+
+class Scope(Scheduler):
+    """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
+
+    def __init__(self, queue: Scheduler) -> None:
+        super().__init__()
+        self._queue = queue
+        self._alive = True
+
+    def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _Asked) -> Event:
+        """Call `action(t)` unless the blocks have been replaced by then."""
+        event = self._queue.at(t, phase, action, kind)
+        if not self._alive:
+            event.cancel()
+        return event
+
+    def close(self) -> None:
+        """The blocks are replaced."""
+        self._alive = False
+        self._queue.cancel(_Asked)

@@ -8,20 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..common.blocks import Context, Phase
+from ..common.chip import Context, Phase
 from .codes import Alarm, Answer, Cause, Source, State, Trigger
 from .front import responses
 from .front.responses import ENCODE, POSITION, Report, Responses
-from .front.side import HostSide
+from .front.station import HostSide
 from .instructions.overrides import EventBuffer, Fifo
 from .instructions.unit import Unit
-from .motion.inputs import EVENT_PINS, Filters, InputChange
+from .motion.inputs import EVENT_PINS, Filters, InputChange, Outputs
 from .motion.operation import Operation
-from .motion.outputs import Outputs
 from .motion.position import Counters, Interlock, Monitor, Watch
 from .pace import Pace
-from .stages.curve import FreeCurve
-from .stages.tables import Table
+from .stages.tables import FreeCurve, Table
 
 
 class Core:

@@ -9,20 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ..common.blocks import Context, Phase, PinRegister
-from ..common.chip import Chip
+from ..common.chip import Chip, Context, Phase, PinRegister
 from ..common.timebase import Latency, QuantumCounter
-from .codes import Source, State
+from .codes import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS, Scope, Source, State
 from .core import Core
-from .front.bus import IDLE, Strobes
-from .front.mailbox import Mailbox
+from .front.mailbox import IDLE, Mailbox, Strobes
 from .front.serial import bit_time
-from .front.side import HostSide
-from .front.station import Driver, Log, Station
+from .front.station import Driver, HostSide, Log, Station
 from .motion.motion import Motion
 from .pace import READY, Pace
-from .pins import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS
-from .scope import Scope
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}

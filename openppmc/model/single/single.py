@@ -10,17 +10,13 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar
 
-from ..common.blocks import Context, Phase, PinRegister
-from ..common.chip import Chip
+from ..common.chip import Chip, Context, Phase, PinRegister
 from ..common.timebase import Latency, QuantumCounter
-from ..motion.chopper import Chopper
-from ..motion.codes import IBF, OBF
-from ..motion.excitation import ALL_PHASES, Excitation
-from ..motion.guard import GuardPins
+from ..motion.codes import IBF, OBF, GuardPins
+from ..motion.excitation import ALL_PHASES, Chopper, Excitation
 from ..motion.motion import Interval
-from .commands import ByteUnit
+from .commands import ByteUnit, TimedMotion
 from .hostport import HostPort
-from .timed_motion import TimedMotion
 
 
 class SingleAxis(Chip):

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ..carrier import carrier
-from ..carrier.plant import SWITCHES, Plant
-from ..common.edges import Edge
+from ..carrier.carrier import SWITCHES, Plant
+from ..common.timebase import Edge, Timebase
 from ..motion.excitation import ALL_PHASES, step_directions
-from .codes import BOARD_CLOCK_HZ
+from ..motion.ramp import BaseClock
+from ..single.predict import Limits, RampMove, run
+from .codes import BOARD_CLOCK_HZ, TICK_XT
+from .commands import profile
 from .part import Stmc
 
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), strict=True))
@@ -68,3 +71,18 @@ class Carrier(carrier.Carrier[Stmc]):
             self._phases = edge.value
             if step is not None:
                 self._step(0, step)
+
+
+# Prediction of one motion of an STMC (STMC-INI-02); its rates are divisors of the internal step clock.
+
+_LIMITS = Limits(slower=0, least=1, shortest=0, longest=65_535)
+
+
+def predict(
+    init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
+) -> RampMove:
+    """See `single.predict.predict_move`; csel and vsel, which the part has not, are not looked at."""
+    ramp = profile(*_LIMITS.check(init, n, rate))
+    timebase = timebase or Timebase()
+    # A divisor counts its base clocks, a rate those beyond the first.
+    return run(timebase, BaseClock(TICK_XT // timebase.quantum), ramp, n, rate, beyond=1)

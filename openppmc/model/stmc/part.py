@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..common.blocks import Context
+from ..common.chip import Context
 from ..common.timebase import Latency
-from ..motion.chopper import Chopper
-from ..single.hostport import HostPort
+from ..motion.excitation import Chopper
+from ..single.hostport import HostPort, strobes
 from ..single.single import SingleAxis
-from ..single.strobes import strobes
 from .codes import READ_MAPS
-from .commands import CommandUnit
-from .motion import Motion
+from .commands import CommandUnit, Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
 # The table of 16-bit thresholds takes longer to build than that of the sister parts.

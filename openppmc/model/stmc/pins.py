@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from ..motion.guard import GuardPins
+from ..motion.codes import GuardPins
 
 INPUTS: dict[str, int] = {
     "rst_n": 1,

@@ -12,8 +12,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 
 from ... import parts
-from ...model.carrier.carrier import Carrier
-from ...model.carrier.plant import FARTHEST, Plant
+from ...model.carrier.carrier import FARTHEST, Carrier, Plant
 from ...model.common.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")

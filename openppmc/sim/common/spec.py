@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
-from ...model.carrier.plant import Plant
+from ...model.carrier.carrier import Plant
 from .machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
 
 OPTIONS = ("part", "speed", "clk", "xtal", "timing", "record")

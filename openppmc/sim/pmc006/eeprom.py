@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from ...model.carrier.eeprom import BLANK, PAGE, SIZE
-from ...model.pmc006.memory.i2c import Bus, BusError, Course
+from ...model.pmc006.memory.eeprom import Bus, BusError, Course
 from ...model.pmc006.pins import Shared
 
 

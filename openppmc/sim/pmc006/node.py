@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from ...model.carrier.carrier import Carrier
 from ...model.carrier.eeprom import BLANK, SIZE
-from ...model.common.edges import Edge
-from ...model.pmc006.memory.eeprom import PROGRAM
-from ...model.pmc006.memory.i2c import Bus
+from ...model.common.timebase import Edge
+from ...model.pmc006.memory.eeprom import PROGRAM, Bus
 from ...model.pmc006.part import Pmc006
 from ...model.pmc006.pins import Shared
 from ...model.pmc006.program import assemble

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...model.carrier.plant import Plant
+from ...model.carrier.carrier import Plant
 from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation

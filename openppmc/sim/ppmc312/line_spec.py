@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...model.carrier.plant import Plant
+from ...model.carrier.carrier import Plant
 from ..common.line_words import one_of, pace, positive, split_words, whole
 from ..common.machine import PLANT_WORDS, parse_machine
 

@@ -4,7 +4,7 @@ zero return wants it.
 
 from __future__ import annotations
 
-from ...model.carrier.plant import Plant
+from ...model.carrier.carrier import Plant
 from ...model.ppmc312.carrier import Carrier
 from ..common.machine import MachineKind, Setup
 

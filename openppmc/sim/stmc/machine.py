@@ -6,7 +6,7 @@ them.
 
 from __future__ import annotations
 
-from ...model.carrier.plant import Plant
+from ...model.carrier.carrier import Plant
 from ...model.stmc.carrier import Carrier
 from ...model.stmc.codes import READ_MAPS
 from ...model.stmc.part import Stmc

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openppmc.host.ppmc312 import blocks
-from openppmc.model.pmc006.front.frames import command
+from openppmc.model.pmc006.front.line import command
 from openppmc.model.pmc006.part import Pmc006
 from openppmc.model.ppmc104.part import Ppmc104
-from openppmc.model.ppmc312.front.frames import INSTRUCTION, POLL, frame
+from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL, frame
 from openppmc.model.ppmc312.part import Ppmc312
 from openppmc.model.ppmc2104.part import Ppmc2104
 from openppmc.model.stmc.part import Stmc

@@ -12,7 +12,7 @@ from cocotb_tests.ppmc312.line.master import Master, NoFrameError, Reply, at_onc
 from cocotb_tests.ppmc312.line.models import ModelLine, heard
 from cocotb_tests.ppmc312.line.setting import ALL, LINE, STATIONS
 from cocotb_tests.ppmc312.line.wave import merged, wave
-from openppmc.model.ppmc312.front.frames import frame
+from openppmc.model.ppmc312.front.serial import frame
 from scripts.demo.__main__ import chosen, part_of
 from scripts.ppmc312.line import bench as line_bench
 from scripts.ppmc312.line.talk import exchanges

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from openppmc.model.carrier.bridge import Bridge
-from openppmc.model.carrier.bridge_line import frame
-from openppmc.model.carrier.plant import Plant
-from openppmc.model.ppmc104.carrier import Carrier
+from openppmc.model.carrier.bridge import Bridge, frame
+from openppmc.model.carrier.carrier import Plant
+from openppmc.model.ppmc104.part import Carrier
 
 NAK = {code: frame(bytes([0x81, code])) for code in range(1, 9)}
 

@@ -16,7 +16,7 @@ from openppmc.host.bridge.frames import (
     crc16,
     encode,
 )
-from openppmc.model.carrier.bridge_line import Receiver, Request, crc, frame
+from openppmc.model.carrier.bridge import Receiver, Request, crc, frame
 
 payloads = st.binary(min_size=1, max_size=REQUEST_LIMIT - 2)
 spiky = st.lists(st.sampled_from([0x7E, 0x7D, 0x5E, 0x5D, 0x20, 0x00, 0xFF]), min_size=1, max_size=40)

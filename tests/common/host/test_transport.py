@@ -11,7 +11,7 @@ import pytest
 from openppmc.host import Disconnected, Link, NoAnswer, PortError, WrongDevice, open_port
 from openppmc.host.bridge.frames import Deframer, Frame, encode
 from openppmc.host.bridge.script import Script
-from openppmc.model.carrier.plant import Plant
+from openppmc.model.carrier.carrier import Plant
 from openppmc.sim.common.machine import parse_machine
 
 

@@ -11,9 +11,15 @@ from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model import Ppmc104, predict_move
-from openppmc.model.common.edges import Edge, EdgeLog, low_times
-from openppmc.model.common.scheduler import Scheduler
-from openppmc.model.common.timebase import Latency, QuantumCounter, Timebase
+from openppmc.model.common.timebase import (
+    Edge,
+    EdgeLog,
+    Latency,
+    QuantumCounter,
+    Scheduler,
+    Timebase,
+    low_times,
+)
 from openppmc.model.motion.excitation import Excitation, step_list
 from openppmc.model.single.codes import Kind, decode
 

@@ -40,7 +40,7 @@ def foreign(code: str, *flags: str) -> list[str]:
 PURE = {
     "models": "import openppmc.model, openppmc.parts",
     "predict": "from openppmc.model import predict_move; assert predict_move(bytes((9, 4, 4, 0)), 14)",
-    "predict of the PPMC-312": "import openppmc.model.ppmc312.predict",
+    "predict of the PPMC-312": "import openppmc.model.ppmc312.carrier",
     "host": "import openppmc.host, openppmc.host.selftest.run, openppmc.check",
     "decode": "import openppmc.capture.common.files, openppmc.capture.common.beside",
     "every driver": "from openppmc.parts import PARTS, LAYER_OF\n"

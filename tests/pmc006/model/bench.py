@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from openppmc.model.common.blocks import Phase
-from openppmc.model.common.edges import EdgeLog
-from openppmc.model.common.scheduler import Scheduler
+from openppmc.model.common.chip import Phase
+from openppmc.model.common.timebase import EdgeLog, Scheduler
 from openppmc.model.pmc006.drive.drive import Drive
 from openppmc.model.pmc006.motion.engine import UPDATE, Engine, Live, Order, Stage
 from openppmc.model.pmc006.motion.motion import Motion
-from openppmc.model.pmc006.pace import Pace
-from openppmc.model.pmc006.pins import OUTPUTS, Shared, Ticks
+from openppmc.model.pmc006.pins import OUTPUTS, Pace, Shared, Ticks
 from openppmc.model.pmc006.settings import Settings
 
 SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}

@@ -5,8 +5,16 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.pmc006.motion.engine import Live, Order, Stage
-from openppmc.model.pmc006.motion.plan import by_coefficient, by_distance, plan, reach, way
+from openppmc.model.pmc006.motion.engine import (
+    Live,
+    Order,
+    Stage,
+    by_coefficient,
+    by_distance,
+    plan,
+    reach,
+    way,
+)
 from tests.pmc006.model.bench import Made, make
 
 # N, VSTART, VSTOP, VMAX, coefficients set and in force, goal, highest speed, us and steps left at the final

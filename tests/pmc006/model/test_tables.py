@@ -8,8 +8,7 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.codes import LETTERS, TABLE, UNKNOWN
-from openppmc.model.pmc006.front.frames import Assembler, Command, command, reply
-from openppmc.model.pmc006.front.line import changes_of
+from openppmc.model.pmc006.front.line import Assembler, Command, changes_of, command, reply
 from openppmc.model.pmc006.instructions.operations import END, decode
 from openppmc.model.pmc006.instructions.operations import TABLE as OPERATIONS
 from openppmc.model.pmc006.memory.boot import program_of

@@ -26,8 +26,8 @@ from openppmc.host.ppmc312.kind import KIND as PPMC312
 from openppmc.host.ppmc312.profile import base_clocks, plan_setup
 from openppmc.host.ppmc312.registers import EventBuffer, Inputs, Status
 from openppmc.model import Timebase, predict_move
+from openppmc.model.ppmc312.carrier import TableMove
 from openppmc.model.ppmc312.codes import Cause, State
-from openppmc.model.ppmc312.predict import TableMove
 from openppmc.model.ppmc312.stages import tables
 
 XTAL = 16_000_000

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from itertools import groupby
 
-from openppmc.model.ppmc312.stages.curve import curve
-from openppmc.model.ppmc312.stages.plan import Step
-from openppmc.model.ppmc312.stages.tables import build
+from openppmc.model.ppmc312.stages.tables import Step, build, curve
 
 T1 = build(1000, 0, 200, 2000, 0, separate=False)
 T2 = build(1000, 0, 200, 2000, 0, sigmoid=True, separate=False)

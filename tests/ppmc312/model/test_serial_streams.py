@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.serial_frames import summed
 from cocotb_tests.ppmc312.serial_streams import Line, campaign
-from openppmc.model.ppmc312.front.frames import Outcome, Parser
-from openppmc.model.ppmc312.front.serial import LENGTHS
+from openppmc.model.ppmc312.front.serial import LENGTHS, Outcome, Parser
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
 RESET = summed(0x91, b"\xff")

@@ -9,8 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.ppmc312.stages.curve import FreeCurve, curve
-from openppmc.model.ppmc312.stages.tables import SettingError, Table, build, read_back, sigmoid_weights
+from openppmc.model.ppmc312.stages.tables import (
+    FreeCurve,
+    SettingError,
+    Table,
+    build,
+    curve,
+    read_back,
+    sigmoid_weights,
+)
 from tests.ppmc312.model.reference import T1, T2, T3, T4, T5, TF, TG, TH
 
 ROM = [

@@ -38,7 +38,7 @@ from openppmc.host.bridge.script import Script
 from openppmc.host.stmc import clock
 from openppmc.host.stmc.errors import refused as refused_stmc
 from openppmc.host.stmc.kind import KIND as STMC
-from openppmc.model.carrier.plant import Plant
+from openppmc.model.carrier.carrier import Plant
 from openppmc.model.stmc.carrier import Carrier
 
 XTAL = 16_000_000

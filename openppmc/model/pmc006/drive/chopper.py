@@ -10,8 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from ...common.blocks import Phase
-from ...common.scheduler import Event, Scheduler
+from ...common.chip import Phase
+from ...common.timebase import Event, Scheduler
 
 
 class State(Enum):

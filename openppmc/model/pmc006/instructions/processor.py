@@ -5,9 +5,8 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import Protocol
 
-from ...common.blocks import Phase
-from ..desk import Desk
-from ..effects import Effect
+from ...common.chip import Phase
+from ..desk import Desk, Effect
 from .operations import COUNT, Operation, Outcome, Then, decode, waited
 
 WORDS = 2 * COUNT

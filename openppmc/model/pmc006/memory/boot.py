@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ...common.blocks import Phase
+from ...common.chip import Phase
 from ..desk import Desk
 from ..settings import PAGE, Settings, framed, values_of
-from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Engine
-from .i2c import Bus, Course
+from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, Course, Engine
 
 
 def program_of(block: bytes) -> list[int] | None:

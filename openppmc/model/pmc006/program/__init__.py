@@ -7,8 +7,7 @@
 `instructions` has the table of instructions, `assembler` and `disassembler` the text.
 """
 
-from .assembler import AssemblyError, assemble
-from .disassembler import disassemble
+from .assembler import AssemblyError, assemble, disassemble
 from .instructions import Instruction, harmless
 from .program import INSTRUCTIONS, WORDS, BadImage, Program
 

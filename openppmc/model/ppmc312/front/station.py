@@ -10,14 +10,52 @@ from fractions import Fraction
 from math import ceil
 from typing import NamedTuple, Protocol
 
-from ...common.blocks import Context, Phase
-from ...common.scheduler import Event
+from ...common.chip import Context, Phase
+from ...common.timebase import Event
 from ...common.uart import Receiver, Transmitter
 from ..codes import Answer, Cause, Source, State
 from ..pace import SILENCE, Pace
-from .frames import BUSY, DATA, READY, SPECIFIC, Frame, Outcome, Parser, addressed, frame
 from .responses import Responses
-from .serial import END_CODES, LENGTHS, Local, Note, block_of, news_of, reply_of
+from .serial import (
+    BUSY,
+    DATA,
+    END_CODES,
+    LENGTHS,
+    READY,
+    SPECIFIC,
+    Frame,
+    Local,
+    Note,
+    Outcome,
+    Parser,
+    addressed,
+    block_of,
+    frame,
+    news_of,
+    reply_of,
+)
+
+# What the part needs of the side that the host sees: parallel bus (`mailbox`) or line (`station`).
+
+
+class HostSide(Protocol):
+    """One of the two."""
+
+    def levels(self) -> dict[str, int]:
+        """Internal levels behind the pins of this side."""
+
+    def offer(self, t: int) -> None:
+        """A response may wait in the store."""
+
+    def done(self, t: int) -> None:
+        """The host's instruction has been processed and its answer stored."""
+
+    def ready(self, t: int) -> None:
+        """The interface may be used."""
+
+    def answer(self, t: int, source: Source, block: bytes) -> None:
+        """Serial mode only: the answer to an instruction, which no store keeps."""
+
 
 _MOST = 255
 _KEPT = (Note.PARAMETER, Note.STATUS, Note.LIMIT, Note.UNKNOWN, Note.SIZE, Note.REGISTRATION)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from ...common.blocks import Phase
+from ...common.chip import Phase
 from .. import pace
 from ..codes import FO, LE, Answer
-from ..stages.curve import FreeCurve
-from ..stages.tables import SettingError, build
-from .core import Core
+from ..stages.tables import FreeCurve, SettingError, build
+from .overrides import Core
 from .work import Refusal, Work
 
 LENGTH, BAD_RATE, BAD_VALUE, BAD_RANGE = 0x00, 0x20, 0x23, {0x02: 0x26, 0x03: 0x27}

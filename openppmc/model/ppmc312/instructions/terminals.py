@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ...common.blocks import Phase
+from ...common.chip import Phase
 from .. import pace
 from ..codes import Answer, Code, Trigger
 from ..front.responses import INPUT
 from ..stages.tables import read_back
-from .core import Core
+from .overrides import Core
 from .work import Refusal, Work
 
 BAD_VALUE, NO_BUFFER, BAD_EVENT = 0x23, 0x24, 0x25

@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ...common.blocks import Phase
+from ...common.chip import Phase
 from ..codes import Alarm, Code, Source, Trigger
 from ..front.responses import ANSWER, Report
 from ..pace import WIDTH
-from .checks import check, is_reset
-from .core import Core
+from .overrides import Core
+from .starts import check, is_reset
 from .work import Refusal, Work, refusal_block
 
 

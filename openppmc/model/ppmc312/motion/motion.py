@@ -8,12 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from ...common.blocks import Context, Phase
-from ...common.scheduler import Event
+from ...common.chip import Context, Phase
+from ...common.timebase import Event
 from ..codes import IMMEDIATE, Cause
 from ..pace import Pace
-from ..stages.plan import Plan
-from ..stages.tables import DIVIDERS
+from ..stages.tables import DIVIDERS, Plan
 from .sequence import Change, Sequence
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")

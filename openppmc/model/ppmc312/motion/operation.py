@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ...common.blocks import Context, Phase
+from ...common.chip import Context, Phase
 from ..codes import Alarm, Answer, Cause, State
 from ..front import responses as responses312
 from ..front.responses import Responses
 from ..pace import Pace
-from ..stages.plan import constant
+from ..stages.tables import constant
+from .inputs import Outputs
 from .motion import LIMITS, SLOW_LIMITS, Motion, Order
-from .outputs import Outputs
 from .position import Counters
 from .sequence import Change
 

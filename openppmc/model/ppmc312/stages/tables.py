@@ -6,6 +6,7 @@ the raised cosine comes from its power series: nothing here divides step by step
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal, localcontext
@@ -13,6 +14,9 @@ from fractions import Fraction
 from functools import cache, cached_property
 from itertools import accumulate
 from math import floor
+from typing import NamedTuple
+
+from ..codes import LE
 
 STAGES = 127
 LAST = STAGES - 1
@@ -197,3 +201,168 @@ def read_back(table: Table) -> list[tuple[int, bytes]]:
             blocks.append((0x00, bytes([item]) + b"".join(chosen[k : k + most])))
     blocks[-1] = (0x01, blocks[-1][1])
     return blocks
+
+
+# Free-curve transfer of the PPMC-312: P312-CMD-01, P312-CMD-FC-1..10.
+
+CODE_HEADER, MORE, LAST_BLOCK = 0x02, 0x00, 0x01
+RATES, ACCELERATION, DECELERATION = range(3)
+_WIDTH = (2, 3, 3)
+_MOST_PULSES = 0xFFFFFF
+
+
+class FreeCurve:
+    """One transfer, opened by the code block. Every error raises SettingError and ends the transfer.
+
+    table: the finished one, None until the last block is in.
+    """
+
+    def __init__(self, header: int, parameters: bytes) -> None:
+        """Code block: parameters after the code. Errors 0x10, 0x11."""
+        if header != CODE_HEADER:
+            raise SettingError(0x10)
+        if len(parameters) not in (2, 3) or (len(parameters) == 2 and parameters[0] & LE):
+            raise SettingError(0x11)
+        flags, n_a = parameters[0], parameters[1]
+        self._separate, self._clk = bool(flags & LE), flags & 7
+        n_d = parameters[2] if self._separate else n_a
+        if not (2 <= n_a <= STAGES and 2 <= n_d <= STAGES):
+            raise SettingError(0x11)
+        self._needs = [max(n_a, n_d), n_a, n_d if self._separate else 0]
+        self._lists: list[list[int]] = [[], [], []]
+        self.table: Table | None = None
+
+    def _expected(self) -> int | None:
+        """List that the next block belongs to; None if nothing is missing."""
+        for item, (need, values) in enumerate(zip(self._needs, self._lists, strict=True)):
+            if len(values) < need:
+                return item
+        return None
+
+    def answer(self) -> bytes:
+        """Parameters of the answer to the last block (P312-CMD-FC-1..3)."""
+        if self.table:
+            return b"\x0f" + self.table.na.to_bytes(3, "big") + self.table.nd.to_bytes(3, "big")
+        item = self._expected()
+        assert item is not None
+        return bytes([item, self._needs[item] - len(self._lists[item])])
+
+    def add(self, header: int, data: bytes) -> None:
+        """Data block. Errors 0x16..0x1A in the order of P312-CMD-FC-4."""
+        item = self._expected()
+        assert item is not None
+        width, values = _WIDTH[item], self._lists[item]
+        count, rest = divmod(len(data), width)
+        if rest or not count or len(values) + count > self._needs[item]:
+            raise SettingError(0x16)
+        fresh = [int.from_bytes(data[k : k + width], "big") for k in range(0, len(data), width)]
+        if min(fresh) <= 1:
+            raise SettingError(0x18 if item == RATES else 0x19)
+        values += fresh
+        if item != RATES and sum(values) > _MOST_PULSES:
+            raise SettingError(0x1A)
+        if (header == LAST_BLOCK) != (self._expected() is None):
+            raise SettingError(0x17)
+        if header == LAST_BLOCK:
+            self.table = self._finish()
+
+    def _finish(self) -> Table:
+        def slow_first(values: list[int]) -> tuple[int, ...]:
+            return (0,) * (STAGES - len(values)) + tuple(reversed(values))
+
+        rates, pa, pd = self._lists
+        pd = pd if self._separate else pa
+        return Table(
+            slow_first(rates),
+            slow_first(pa),
+            slow_first(pd),
+            LAST + 1 - len(pa),
+            LAST + 1 - len(pd),
+            self._clk,
+            self._separate,
+        )
+
+
+def curve(rates: list[int], pa: list[int], pd: list[int] | None = None, clk: int = 1) -> Table:
+    """Table of a free curve given at once, fastest stage first. Raises SettingError."""
+    stages = [len(pa), len(pd)] if pd else [len(pa)]
+    transfer = FreeCurve(CODE_HEADER, bytes([clk | (LE if pd else 0), *stages]))
+    for item, values in ((RATES, rates), (ACCELERATION, pa), (DECELERATION, pd or [])):
+        for k in range(0, len(values), 10):
+            data = b"".join(v.to_bytes(_WIDTH[item], "big") for v in values[k : k + 10])
+            final = item == (DECELERATION if pd else ACCELERATION) and k + 10 >= len(values)
+            transfer.add(LAST_BLOCK if final else MORE, data)
+    assert transfer.table is not None
+    return transfer.table
+
+
+# Plan of an operation of the PPMC-312: where it accelerates and decelerates (P312-MOT-10..13).
+
+TRAPEZOID, TRIANGLE, RIGHT_DOWN, RIGHT_UP = 0x00, 0x10, 0x20, 0x40
+
+
+class Step(NamedTuple):
+    """One pulse and the interval after it: rate in ticks, table stage (None: constant speed), and whether it
+    belongs to a planned final deceleration."""
+
+    rate: int
+    stage: int | None = None
+    planned: bool = False
+
+
+@dataclass(frozen=True)
+class Plan:
+    """n pulses (None: endless), the first `up` of them accelerating, the last `down` decelerating, between
+    them constant at `rate`. kind: status bits of the answer."""
+
+    table: Table
+    rate: int
+    n: int | None = None
+    up: int = 0
+    down: int = 0
+    kind: int = TRAPEZOID
+
+    def step(self, number: int) -> Step:
+        """Pulse `number`, 1 .. n (P312-MOT-12)."""
+        table = self.table
+        if number <= self.up:
+            stage = bisect_left(table.sums_up, number)
+            return Step(table.rates[stage], stage)
+        if self.n is not None and number > self.n - self.down:
+            stage = bisect_left(table.sums_down, self.n - number + 1)
+            return Step(table.rates[stage], stage, True)
+        return Step(self.rate)
+
+    def steps(self) -> list[Step]:
+        """All pulses of an undisturbed operation. Raises ValueError for an endless one."""
+        if self.n is None:
+            raise ValueError("endless operation")
+        return [self.step(number) for number in range(1, self.n + 1)]
+
+
+def constant(table: Table, rate: int, n: int | None = None) -> Plan:
+    """Constant speed: 83, 84, 86, 10."""
+    return Plan(table, rate, n)
+
+
+def ramped(table: Table, rate: int, n: int | None) -> Plan:
+    """82 with n pulses, 85 and phase 1 of 11 without; `rate` is the speed aimed at."""
+    top, sa, sd = table.stage(rate), table.sa, table.sd
+    if top <= sa:
+        down = 0 if n is None else min(n, sum(table.pd[sd : top + 1]))
+        return Plan(table, rate, n, 0, down, RIGHT_DOWN)
+    up, down = sum(table.pa[sa : top + 1]), sum(table.pd[sd : top + 1])
+    if n is None:
+        return Plan(table, rate, None, up)
+    if n >= up + down:
+        return Plan(table, rate, n, up, down)
+    only_up = sum(table.pa[sa : min(sd, top + 1)])
+    only_down = sum(table.pd[sd:sa])
+    difference = only_up + only_down
+    if difference and n <= difference:
+        if only_up:
+            return Plan(table, rate, n, n, 0, RIGHT_UP)
+        return Plan(table, rate, n, 0, n, RIGHT_DOWN)
+    common = up - only_up
+    first = only_up + (n - difference) * common // (common + down - only_down)
+    return Plan(table, rate, n, first, n - first, TRIANGLE)
