@@ -1,4 +1,4 @@
-"""`make test WITH=versions`: the package with its oldest and newest dependencies, each in its own environment.
+"""`make test WITH=versions`: the package with oldest and newest dependencies, each in its own environment.
 
 The lowest version of each dependency of pyproject.toml is tried on the oldest Python that is found (3.10 or
 newer), the newest versions on the newest Python.

@@ -28,8 +28,7 @@ else:
     __getattr__, __dir__ = lazy(
         __name__,
         """
-        .common.edges Edge
-        .common.timebase Latency Timebase
+        .common.timebase Edge Latency Timebase
         .pmc006.part Pmc006
         .ppmc104.part Ppmc104
         .ppmc312.part Ppmc312
