@@ -27,7 +27,8 @@ from .codes import (
     inspect,
 )
 from .excitation import Chopper, Excitation
-from .ramp import BaseClock, ExternalInterval, Ramp, natural_deceleration, next_index
+from .external import ExternalInterval
+from .ramp import BaseClock, Ramp, natural_deceleration, next_index
 
 OnEnd = Callable[[int, bool], None]
 
