@@ -11,7 +11,7 @@ from ..basis.errors import Disconnected, PpmcError
 from ..basis.kind import Kind
 from .motion import AnyMotion
 
-Self = TypeVar("Self", bound="Device")
+DeviceT = TypeVar("DeviceT", bound="Device")
 
 
 class Way(Protocol):
@@ -58,7 +58,7 @@ class Device(Checked):
         """Close the port; a motion goes on."""
         self.link.close()
 
-    def __enter__(self: Self) -> Self:
+    def __enter__(self: DeviceT) -> DeviceT:
         return self
 
     def __exit__(

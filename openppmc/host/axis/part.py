@@ -13,7 +13,7 @@ from .device import Device, Turning
 from .motion import AnyMotion
 from .moves import OnProgress
 
-Self = TypeVar("Self", bound="Part")
+PartT = TypeVar("PartT", bound="Part")
 
 
 class AnyInputs(Protocol):
@@ -82,12 +82,12 @@ class Part(Device):
         raise NotImplementedError
 
     @classmethod
-    def open(cls: type[Self], spec: str | Port, baud: int = DEFAULT_BAUD) -> Self:
+    def open(cls: type[PartT], spec: str | Port, baud: int = DEFAULT_BAUD) -> PartT:
         """Open a port (`/dev/ttyUSB0`, `COM3`, `sim:…`, `model:…`) and check what is there."""
         return cls.on(Link(spec, baud, cls.kind.number))
 
     @classmethod
-    def on(cls: type[Self], link: Link) -> Self:
+    def on(cls: type[PartT], link: Link) -> PartT:
         """On an open link, which is closed if that fails."""
         try:
             return cls(link)

@@ -31,7 +31,7 @@ class Asking(Protocol):
     def collect(self) -> None: ...
 
 
-class Station(Protocol):
+class Reporting(Protocol):
     """What is known of a station, which is a `station.Station312`."""
 
     @property
@@ -47,7 +47,7 @@ class Station(Protocol):
 class Doubt:
     """One instruction block to a station. repeated: a reply to it was lost."""
 
-    def __init__(self, station: Station, block: bytes) -> None:
+    def __init__(self, station: Reporting, block: bytes) -> None:
         self._station = station
         self._block = block
         self.repeated = False

@@ -52,7 +52,7 @@ _CHECK = "is it there and powered, are speed (MOD), address and the two wires ri
 _OTHERS = "noise, another speed or checksum rule, or two stations with this address"
 
 
-class Station(doubt.Station, Protocol):
+class Station(doubt.Reporting, Protocol):
     """What the talk with a station needs of it, which is a `station.Station312`."""
 
     @property
